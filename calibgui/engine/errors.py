@@ -1,0 +1,32 @@
+"""The failures that the engine names."""
+
+from __future__ import annotations
+
+
+class CalibrationError(Exception):
+    """An operation that cannot be done, said so that its reader can act.
+
+    Args:
+        message: what is wrong, naming the file or view concerned.
+        hint: what to do about it.
+    """
+
+    def __init__(self, message: str, hint: str = "") -> None:
+        super().__init__(message)
+        self.message = message
+        self.hint = hint
+
+    def __str__(self) -> str:
+        return f"{self.message} {self.hint}".rstrip()
+
+
+class NoBoardError(CalibrationError):
+    """No acceptable checkerboard was found in an image."""
+
+
+class DegenerateError(CalibrationError):
+    """The views do not determine the camera, whatever their accuracy."""
+
+
+class Cancelled(Exception):  # noqa: N818 - a request, not an error
+    """Raised by a progress callback to abandon the work and discard its result."""

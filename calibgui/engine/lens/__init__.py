@@ -1,0 +1,17 @@
+"""Lens models: the map between the measured and the ideal image, in dimensionless coordinates.
+
+A model is closed-form in one direction only; ``inverse`` supplies the other, derivatives
+included. To add a model, write one module with a class that satisfies `Lens`, derive its
+Jacobians in the docstring, and name it in `MODELS`: solver, maps, renderer and tests take
+it from there.
+"""
+
+from __future__ import annotations
+
+from calibgui.engine.lens.base import Lens
+from calibgui.engine.lens.brown import Brown
+from calibgui.engine.lens.lucchese import Lucchese
+
+MODELS: dict[str, Lens] = {"lucchese": Lucchese(), "opencv": Brown()}
+
+__all__ = ["MODELS", "Brown", "Lens", "Lucchese"]

@@ -1,0 +1,43 @@
+"""What every lens model provides.
+
+Frames: `d` is a measured (distorted) and `n` an ideal (undistorted) image point, both
+(..., 2) dimensionless: d = ((u - cx) / fx, (v - cy) / fy), and n = (X/Z, Y/Z) for a scene
+point in the camera frame. `k` are the model's coefficients.
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple, Protocol
+
+from calibgui.engine.types import Array
+
+
+class Mapped(NamedTuple):
+    """Image of points under a lens map, with its derivatives."""
+
+    points: Array
+    """(..., 2)."""
+    by_point: Array
+    """(..., 2, 2) derivative with respect to the argument."""
+    by_coefficients: Array
+    """(..., 2, C) derivative with respect to k."""
+
+
+class Lens(Protocol):
+    """A lens model: two maps, inverse to each other wherever the lens is invertible."""
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        """Names of the coefficients k."""
+        ...
+
+    def correct(self, d: Array, k: Array) -> Mapped:
+        """Measured to ideal. NaN where the model has no ideal point."""
+        ...
+
+    def distort(self, n: Array, k: Array, start: Array | None = None) -> Mapped:
+        """Ideal to measured. NaN where the model has no measured point.
+
+        `start` (..., 2) is a guess of the answer for models that iterate.
+        """
+        ...

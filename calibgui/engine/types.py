@@ -1,0 +1,290 @@
+"""The records that the engine takes and returns.
+
+All are frozen; their arrays are read-only, C-contiguous float64 (or int64 where said).
+Unless a field says otherwise lengths on the plate are millimetres, angles radians and
+image coordinates pixels in the array frame (``frames.py``).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
+from enum import StrEnum
+from typing import Any, NamedTuple
+
+import numpy as np
+import numpy.typing as npt
+
+Array = npt.NDArray[np.float64]
+IntArray = npt.NDArray[np.int64]
+BoolArray = npt.NDArray[np.bool_]
+
+Size = tuple[int, int]
+"""Width and height of an image, pixels."""
+
+
+def frozen(values: npt.ArrayLike) -> Array:
+    """A read-only float64 copy of `values`."""
+    array = np.array(values, dtype=np.float64, order="C")
+    array.flags.writeable = False
+    return array
+
+
+def frozen_int(values: npt.ArrayLike) -> IntArray:
+    """A read-only int64 copy of `values`."""
+    array = np.array(values, dtype=np.int64, order="C")
+    array.flags.writeable = False
+    return array
+
+
+@dataclass(frozen=True, slots=True)
+class Target:
+    """A flat checkerboard with rows x cols inner corners (the paper's M x N).
+
+    Plate frame: origin at corner (0, 0), X along a row (increasing column), Y down the
+    rows, both in mm, so that an upright board seen from its front has R close to identity.
+    """
+
+    rows: int
+    cols: int
+    square: float
+    """Side of a square, mm (the paper's D_o)."""
+
+    def points(self, grid: npt.ArrayLike | None = None) -> Array:
+        """Plate coordinates (n, 2) mm of the corners `grid` (n, 2) = (row, column); all by default."""
+        if grid is None:
+            grid = np.indices((self.rows, self.cols)).reshape(2, -1).T
+        return np.asarray(grid, dtype=np.float64)[:, ::-1] * self.square
+
+
+class Ambiguity(StrEnum):
+    """Turns of the board that leave its pattern unchanged: its origin cannot be told from the image."""
+
+    NONE = "none"
+    HALF_TURN = "180"
+    QUARTER_TURN = "90"
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class Corners:
+    """The X-junctions located in one image, with their places on the board."""
+
+    shape: tuple[int, int]
+    """Rows and columns of inner corners of the board (M, N)."""
+    grid: IntArray
+    """(n, 2) row and column of each corner."""
+    uv: Array
+    """(n, 2) refined positions, px."""
+    estimate: Array
+    """(n, 2) first estimates (Harris), px: the paper's red marks."""
+    cov: Array | None = None
+    """(n, 2, 2) covariance of uv, px^2, where the method delivers one."""
+    ambiguity: Ambiguity = Ambiguity.NONE
+    roi: Array | None = None
+    """(4, 2) region of interest that was searched, px: the board's outline."""
+    method: str = "saddle"
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "grid", frozen_int(self.grid))
+        for name in ("uv", "estimate", "cov", "roi"):
+            value = getattr(self, name)
+            if value is not None:
+                object.__setattr__(self, name, frozen(value))
+
+    def __len__(self) -> int:
+        return len(self.uv)
+
+    @property
+    def complete(self) -> bool:
+        """Whether every corner of the board was located."""
+        return len(self) == self.shape[0] * self.shape[1]
+
+
+class Observation(NamedTuple):
+    """What one view contributes to a calibration. A plain tuple (uv, xy) serves as well."""
+
+    uv: Array
+    """(n, 2) measured corners, px."""
+    xy: Array
+    """(n, 2) the same corners on the plate, mm."""
+    cov: Array | None = None
+    """(n, 2, 2) covariance of uv up to a common factor, px^2; equal and isotropic if None."""
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class Pose:
+    """cam_from_plate: X_cam = R X_plate + tvec, with R = exp(rvec)."""
+
+    rvec: Array
+    """(3,) rotation vector, rad."""
+    tvec: Array
+    """(3,) translation, mm."""
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "rvec", frozen(self.rvec))
+        object.__setattr__(self, "tvec", frozen(self.tvec))
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class Camera:
+    """Intrinsics in the array frame: a lens model's name and its parameters.
+
+    `params` holds fx, fy, cx, cy (px) and the model's dimensionless coefficients, in the
+    order of `names`.
+    """
+
+    size: Size
+    params: Array
+    model: str = "lucchese"
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "params", frozen(self.params))
+
+    @property
+    def focal(self) -> Array:
+        """(2,) fx, fy, px."""
+        return self.params[0:2]
+
+    @property
+    def centre(self) -> Array:
+        """(2,) cx, cy, px."""
+        return self.params[2:4]
+
+    @property
+    def coefficients(self) -> Array:
+        """The lens coefficients, dimensionless."""
+        return self.params[4:]
+
+    @property
+    def matrix(self) -> Array:
+        """(3, 3) the camera matrix K."""
+        fx, fy, cx, cy = self.params[:4]
+        return np.array([[fx, 0.0, cx], [0.0, fy, cy], [0.0, 0.0, 1.0]])
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class StageOne:
+    """One view's result of Stage I (paper 4.2, a row of Table 1) and of the cosines' equation.
+
+    Centre and k1 are the paper's: pixels, centred frame, y up. Quantities that the view
+    does not determine (aspect and focal lengths near fronto-parallel) are NaN.
+    """
+
+    xp: float
+    yp: float
+    k1: float
+    aspect: float
+    """fy / fx, the root of the cosines' equation (eq. 27)."""
+    fx: float
+    fy: float
+    iterations: int
+    rms: float
+    """Residual on the reference plane, reference px."""
+    backward: Array
+    """(3, 3) backward homography, reference plane to corrected image (eq. 17), paper's frame."""
+    converged: bool
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "backward", frozen(self.backward))
+
+
+@dataclass(frozen=True, slots=True)
+class Iteration:
+    """One accepted step of Levenberg-Marquardt."""
+
+    index: int
+    cost: float
+    """Sum of squared (whitened) residuals: px^2, reference px^2 or dimensionless."""
+    rms: float
+    """Root mean square length of the 2-D residual, in the residual's unit."""
+    gradient: float
+    """Largest entry of the gradient with respect to the scaled unknowns."""
+    step: float
+    """Length of the step over the length of the unknowns, scaled."""
+    damping: float
+    seconds: float
+    """Since the start of the solve."""
+
+
+Report = Callable[[Iteration], bool]
+"""Told of each iteration: False stops and keeps the best so far; raising Cancelled discards."""
+
+
+class Status(StrEnum):
+    """How a solve ended."""
+
+    CONVERGED = "converged"
+    MAX_ITERATIONS = "max-iterations"
+    STOPPED = "stopped"
+
+
+class Cost(StrEnum):
+    """What Stage II minimises."""
+
+    IMAGE = "image"
+    """Reprojection error in the image (the default)."""
+    REFERENCE = "reference"
+    """Registration error on the virtual reference image (eq. 41), isotropic plate."""
+    PAPER = "paper"
+    """Eq. 41 to the letter: the same reference grid in px along x and y, radius in pixels."""
+
+
+@dataclass(frozen=True, slots=True)
+class Undetermined:
+    """A parameter that the data do not determine, and why."""
+
+    name: str
+    reason: str
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class ViewResiduals:
+    """What the calibration leaves unexplained in one view."""
+
+    image: Array
+    """(n, 2) measured minus predicted corner, px, array frame."""
+    reference: Array
+    """(n, 2) Dx', Dy' of eq. 38 on the reference plane, reference px."""
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "image", frozen(self.image))
+        object.__setattr__(self, "reference", frozen(self.reference))
+
+    @property
+    def rms(self) -> float:
+        """Root mean square length of the residual in the image, px."""
+        return float(np.sqrt(np.mean(np.sum(self.image**2, axis=1))))
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class Calibration:
+    """A calibrated camera, the views' poses and everything needed to judge them."""
+
+    camera: Camera
+    sigma: Array
+    """One standard deviation of each of `camera.params`; 0 where held, NaN where undetermined."""
+    covariance: Array
+    """Covariance of `camera.params`."""
+    poses: tuple[Pose, ...]
+    pose_covariances: Array
+    """(K, 6, 6) covariance of (rvec, tvec) of each view, rad and mm."""
+    residuals: tuple[ViewResiduals, ...]
+    noise: float
+    """Estimated standard deviation of a residual coordinate (sigma of the covariance), its unit."""
+    reference_scale: float
+    """Reference px per mm on the plate."""
+    stage_one: tuple[StageOne, ...]
+    history: tuple[Iteration, ...]
+    status: Status
+    cost: Cost
+    fixed: tuple[str, ...]
+    """Names of the intrinsics that were held."""
+    undetermined: tuple[Undetermined, ...] = ()
+    warnings: tuple[str, ...] = ()
+    settings: Mapping[str, Any] = field(default_factory=dict)
+    digest: str = ""
+    """SHA-256 of the observations and settings that this answers."""
+
+    def __post_init__(self) -> None:
+        for name in ("sigma", "covariance", "pose_covariances"):
+            object.__setattr__(self, name, frozen(getattr(self, name)))
