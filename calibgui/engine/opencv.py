@@ -5,6 +5,53 @@ Points come back as (n, 2) float64 whatever the version.
 
 from __future__ import annotations
 
+from typing import Any
+
 import cv2
+import numpy as np
+import numpy.typing as npt
+
+from calibgui.engine.types import Array
 
 VERSION: str = cv2.__version__
+
+Image = npt.NDArray[Any]
+Image32 = npt.NDArray[np.float32]
+
+
+def half(image: Image) -> Image:
+    """Every second pixel of `image` (h, w), each the mean of its 2 x 2 block; odd edges are dropped.
+
+    An odd size would make the blocks unequal, and corners drift by whole pixels.
+    """
+    height, width = image.shape[0] // 2, image.shape[1] // 2
+    even = image[: 2 * height, : 2 * width]
+    return np.asarray(cv2.resize(even, (width, height), interpolation=cv2.INTER_AREA))
+
+
+def smooth(image: Image, sigma: float) -> Image32:
+    """`image` (h, w) blurred by a Gaussian of standard deviation `sigma` px, as float32."""
+    return np.asarray(cv2.GaussianBlur(image.astype(np.float32), (0, 0), sigma))
+
+
+def separable(image: Image32, along_u: npt.ArrayLike, along_v: npt.ArrayLike) -> Image32:
+    """Correlation of `image` (h, w) with the outer product of two odd kernels, edges reflected."""
+    ku, kv = (np.asarray(kernel, dtype=np.float32) for kernel in (along_u, along_v))
+    return np.asarray(cv2.sepFilter2D(image, cv2.CV_32F, ku, kv))
+
+
+def dilate(image: Image32, size: int) -> Image32:
+    """Greatest value of `image` (h, w) in the square of odd side `size` px around each pixel."""
+    return np.asarray(cv2.dilate(image, np.ones((size, size), np.uint8)))
+
+
+def sample(image: Image32, uv: Array) -> Array:
+    """Bilinear values of `image` (h, w) float32 at `uv` (..., 2) px, the border replicated."""
+    points = np.ascontiguousarray(uv, dtype=np.float32).reshape(-1, 1, 2)
+    rows = 30_000  # remap holds at most 32767 rows
+    parts = [
+        cv2.remap(image, points[i : i + rows], None, cv2.INTER_LINEAR, None, cv2.BORDER_REPLICATE)
+        for i in range(0, len(points), rows)
+    ]
+    values = np.concatenate(parts) if parts else np.empty(0, np.float32)
+    return np.asarray(values, dtype=np.float64).reshape(uv.shape[:-1])
