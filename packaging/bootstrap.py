@@ -1,0 +1,354 @@
+"""Set up calibgui on a machine that has only Python 3.11 or newer, then run it or its tests.
+
+    python3 packaging/bootstrap.py run     the main job on the bundled sample
+    python3 packaging/bootstrap.py test    the whole test suite; further arguments go to pytest
+    python3 packaging/bootstrap.py setup   only the set-up, with the developers' tools
+
+Everything lands in a virtual environment, `.venv` in the checkout (in the user's cache where the
+checkout is read-only, or the folder that CALIBGUI_VENV names); the Python that runs this file is
+left as it is. A second call finds the environment ready and starts at once.
+
+Debian packages that are missing are installed where the user may (root, or sudo without a
+password), otherwise unpacked inside the environment, which needs no rights; where neither can
+be done the command to give is printed. Only this file's syntax must suit older Pythons, so that
+they reach the message that says so.
+"""
+
+from __future__ import annotations
+
+import argparse
+import hashlib
+import json
+import os
+import shlex
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parents[1]
+OLDEST = (3, 11)
+WINDOWS = os.name == "nt"
+LINUX = sys.platform.startswith("linux")
+WINDOW = ROOT / "calibgui" / "gui" / "__main__.py"
+SYSTEM_CERTIFICATES = Path("/etc/ssl/certs/ca-certificates.crt")
+
+LACKING = """
+import ctypes, sys
+for name in sys.argv[1:]:
+    try:
+        ctypes.CDLL(name)
+    except OSError:
+        print(name)
+"""
+COMPLETE = """
+import re, sys
+from importlib.metadata import requires, version
+for line in requires("calibgui"):
+    if "extra ==" not in line or sys.argv[1] == "dev":
+        version(re.match(r"[\\w.-]+", line)[0])
+"""
+OPENS_WINDOW = "from PySide6.QtGui import QGuiApplication; QGuiApplication([])"
+
+
+class SetupError(Exception):
+    """The set-up cannot go on; the text says why and what to do."""
+
+
+def say(text: str) -> None:
+    print("calibgui: " + text, flush=True)
+
+
+def succeeds(*command: str | Path, env: dict[str, str] | None = None) -> bool:
+    """Whether `command` can be started and ends well; its output is dropped."""
+    try:
+        return subprocess.run(command, env=env, capture_output=True, check=False).returncode == 0
+    except OSError:
+        return False
+
+
+def output(*command: str | Path, env: dict[str, str] | None = None) -> str:
+    """What `command` prints."""
+    return subprocess.run(command, env=env, capture_output=True, text=True, check=False).stdout
+
+
+# --- Python -------------------------------------------------------------------------------------
+
+
+def hand_over_to_newer_python() -> None:
+    """Start again under a Python that is new enough; return if this one is."""
+    if sys.version_info >= OLDEST:
+        return
+    found = f"{sys.version_info[0]}.{sys.version_info[1]}"
+    for minor in range(20, OLDEST[1] - 1, -1):
+        newer = shutil.which(f"python3.{minor}")
+        if newer and succeeds(newer, "-c", ""):
+            say(f"this is Python {found}; going on with {newer}")
+            sys.exit(subprocess.call([newer, *sys.argv]))
+    sys.exit(
+        f"calibgui: needs Python 3.11 or newer and this is {found}. Install a newer one, for "
+        "example with\n    sudo apt-get install python3.11 python3.11-venv"
+    )
+
+
+def base_python() -> str:
+    """The Python outside any virtual environment, so that ours can be rebuilt from within."""
+    return getattr(sys, "_base_executable", None) or sys.executable
+
+
+def venv_package() -> list[str]:
+    """The Debian package that `python -m venv` lacks, if it does."""
+    if not LINUX or succeeds(base_python(), "-c", "import venv, ensurepip"):
+        return []
+    return [f"python3.{sys.version_info[1]}-venv"]
+
+
+# --- the virtual environment ----------------------------------------------------------------------
+
+
+def place() -> Path:
+    """Where the virtual environment is, or is to be."""
+    if "CALIBGUI_VENV" in os.environ:
+        return Path(os.environ["CALIBGUI_VENV"]).absolute()
+    here = ROOT / ".venv"
+    if os.access(here if here.exists() else ROOT, os.W_OK):
+        return here
+    cache = Path(os.environ.get("XDG_CACHE_HOME") or Path.home() / ".cache")
+    return cache / "calibgui" / hashlib.sha256(os.fsencode(ROOT)).hexdigest()[:12]
+
+
+class Environment:
+    """The virtual environment and the record of what it was built from."""
+
+    def __init__(self, folder: Path) -> None:
+        self.folder = folder
+        self.python = folder / ("Scripts/python.exe" if WINDOWS else "bin/python")
+        self.stamp = folder / "calibgui-bootstrap.json"
+        """Present: this script made the folder. Empty: it was interrupted."""
+        self.debian = folder / "debian"
+        """Debian packages unpacked for a user who may not install them."""
+
+    def variables(self) -> dict[str, str]:
+        """The caller's variables without what would lead Python or pip astray, in UTF-8.
+
+        pip's own settings, and so the package index chosen for the machine, stay.
+        """
+        env = {k: v for k, v in os.environ.items() if k not in ("PYTHONHOME", "PYTHONPATH")}
+        env.update(PYTHONUTF8="1", PIP_USER="0", PIP_DISABLE_PIP_VERSION_CHECK="1")
+        if self.debian.is_dir():
+            libraries = self.debian.glob("**/lib/*-linux-gnu*")
+            inherited = [env["LD_LIBRARY_PATH"]] if env.get("LD_LIBRARY_PATH") else []
+            env["LD_LIBRARY_PATH"] = os.pathsep.join([*map(str, libraries), *inherited])
+            if not Path("/etc/fonts/fonts.conf").exists():
+                env["FONTCONFIG_SYSROOT"] = str(self.debian)
+            if not Path("/usr/share/X11/xkb").exists():
+                env["XKB_CONFIG_ROOT"] = str(self.debian / "usr/share/X11/xkb")
+        return env
+
+    def source(self) -> str:
+        """Digest of what the environment is built from: another one asks for a new environment."""
+        digest = hashlib.sha256(f"{sys.version}\n{base_python()}\n{ROOT}\n".encode())
+        for name in ("pyproject.toml", "calibgui/__init__.py"):
+            digest.update((ROOT / name).read_bytes())
+        return digest.hexdigest()
+
+    def holds(self) -> str | None:
+        """What is installed: "dev", "" (the dependencies alone), or None if nothing of use."""
+        try:
+            stamp = json.loads(self.stamp.read_text(encoding="utf-8"))
+        except (OSError, ValueError):
+            return None
+        if stamp["source"] != self.source():
+            return None
+        extra: str = stamp["extra"]
+        complete = succeeds(self.python, "-c", COMPLETE, extra, env=self.variables())
+        return extra if complete else None
+
+    def begin(self) -> None:
+        """An empty folder marked as this script's and not yet usable."""
+        if self.folder.exists() and any(self.folder.iterdir()) and not self.stamp.exists():
+            raise SetupError(
+                f"{self.folder} was made by something else and is left alone. Move it away, or "
+                "name another folder in the environment variable CALIBGUI_VENV."
+            )
+        say(f"making a virtual environment in {self.folder}")
+        shutil.rmtree(self.folder, ignore_errors=True)
+        self.folder.mkdir(parents=True, exist_ok=True)
+        self.stamp.touch()
+
+    def create(self) -> None:
+        """Python and pip, in the folder that `begin` left."""
+        wheel = next(self.debian.glob("usr/share/python-wheels/pip-*.whl"), None)
+        options = ["--without-pip"] if wheel else []
+        command = [base_python(), "-m", "venv", *options, str(self.folder)]
+        made = subprocess.run(
+            command, env=self.variables(), capture_output=True, text=True, check=False
+        )
+        if made.returncode:
+            raise SetupError(f"no virtual environment could be made:\n{made.stdout}{made.stderr}")
+        if wheel:
+            self.pip_from(wheel)
+
+    def pip_from(self, wheel: Path) -> None:
+        """Install pip by its copy in Debian's `wheel`, which looks for Debian's certificates."""
+        env = self.variables()
+        configured = "cert=" in output(self.python, wheel / "pip", "config", "list", env=env)
+        if not SYSTEM_CERTIFICATES.exists() and not configured:
+            bundle = self.debian / "certificates.crt"
+            folder = self.debian / "usr/share/ca-certificates"
+            bundle.write_bytes(b"".join(f.read_bytes() for f in sorted(folder.rglob("*.crt"))))
+            env["PIP_CERT"] = str(bundle)
+        self.pip(str(wheel / "pip"), "install", "pip", env=env)
+
+    def install(self, extra: str) -> None:
+        """The project, editable, with its dependencies."""
+        say("installing calibgui and what it needs (some 300 MB the first time)")
+        project = f"{ROOT}[{extra}]" if extra else str(ROOT)
+        self.pip("-m", "pip", "install", "--editable", project, env=self.variables())
+        stamp = {"source": self.source(), "extra": extra}
+        self.stamp.write_text(json.dumps(stamp), encoding="utf-8")
+
+    def pip(self, *arguments: str, env: dict[str, str]) -> None:
+        quiet = [] if sys.stdout.isatty() else ["--quiet"]
+        if subprocess.call([self.python, *arguments, *quiet], cwd=ROOT, env=env):
+            raise SetupError(
+                "pip could not install what is needed; its messages above say why. Without a "
+                "network, point pip at an index that can be reached (PIP_INDEX_URL, or "
+                "PIP_NO_INDEX and PIP_FIND_LINKS for a folder of wheels) and try again."
+            )
+
+
+# --- Debian packages ------------------------------------------------------------------------------
+
+
+def missing_libraries(environment: Environment, purposes: set[str]) -> list[str]:
+    """Debian packages of the shared libraries that cannot be loaded, of those for `purposes`."""
+    if not LINUX or not purposes:
+        return []
+    text = (ROOT / "packaging" / "debian-packages.txt").read_text(encoding="utf-8")
+    rows = [line.split() for line in text.splitlines() if line and not line.startswith("#")]
+    packages = {library: package for package, library, purpose in rows if purpose in purposes}
+    lacking = output(base_python(), "-c", LACKING, *packages, env=environment.variables())
+    return list(dict.fromkeys(packages[library] for library in lacking.split()))
+
+
+def administrator() -> list[str] | None:
+    """What to put before a command to give it root's rights; None where they are not to be had."""
+    if os.geteuid() == 0:
+        return []
+    return ["sudo", "-n"] if succeeds("sudo", "-n", "apt-get", "--version") else None
+
+
+def provide(environment: Environment, packages: list[str]) -> None:
+    """Install Debian packages, or unpack them inside the environment."""
+    if not packages:
+        return
+    command = ["apt-get", "install", "-y", "--no-install-recommends", *packages]
+    by_hand = "sudo " + shlex.join(command)
+    if not shutil.which("apt-get"):
+        raise SetupError(
+            f"please install your system's counterparts of the Debian packages {packages}"
+        )
+    prefix = administrator()
+    if prefix is not None:
+        say(f"installing Debian packages: {' '.join(packages)}")
+        settings = ["env", "DEBIAN_FRONTEND=noninteractive", "LC_ALL=C.UTF-8"]
+        patience = ["-qq", "-o", "DPkg::Lock::Timeout=300"]
+        for step in (["apt-get", "update"], command):
+            done = subprocess.call([*prefix, *settings, *step, *patience], stdin=subprocess.DEVNULL)
+        if done == 0:
+            return
+    elif unpack(environment, packages):
+        say(f"unpacked in the environment for want of rights. To install for good:\n    {by_hand}")
+        return
+    raise SetupError(
+        f"missing Debian packages. Please give this command, then this one again:\n    {by_hand}"
+    )
+
+
+def unpack(environment: Environment, packages: list[str]) -> bool:
+    """Unpack Debian packages and what they depend on inside the environment, with no rights."""
+    say(f"unpacking Debian packages: {' '.join(packages)}")
+    store = environment.debian / "apt"
+    for folder in ("lists/partial", "cache/archives/partial"):
+        (store / folder).mkdir(parents=True, exist_ok=True)
+    private = ["-o", f"Dir::State::Lists={store / 'lists'}", "-o", f"Dir::Cache={store / 'cache'}"]
+    options = [*private, "-o", "Debug::NoLocking=1", "-qq", "-y", "--no-install-recommends"]
+    done = (
+        succeeds("apt-get", *options, "update")
+        and succeeds("apt-get", *options, "--download-only", "install", *packages)
+        and all(
+            succeeds("dpkg-deb", "-x", archive, environment.debian)
+            for archive in (store / "cache/archives").glob("*.deb")
+        )
+    )
+    shutil.rmtree(store)
+    return done
+
+
+# --- the commands ---------------------------------------------------------------------------------
+
+
+def set_up(extra: str, purposes: set[str]) -> Environment:
+    """The environment with `extra` installed and the shared libraries for `purposes`."""
+    environment = Environment(place())
+    held = environment.holds()
+    if held is None:
+        environment.begin()
+        provide(environment, venv_package() + missing_libraries(environment, purposes))
+        environment.create()
+        environment.install(extra)
+        return environment
+    provide(environment, missing_libraries(environment, purposes))
+    if extra and not held:
+        environment.install(extra)
+    return environment
+
+
+def has_display() -> bool:
+    return not LINUX or bool(os.environ.get("DISPLAY") or os.environ.get("WAYLAND_DISPLAY"))
+
+
+def run() -> int:
+    """Open the window on the bundled sample, or calibrate the sample where there is none."""
+    window = WINDOW.exists() and has_display()
+    environment = set_up("", {"qt", "window"} if window else set())
+    env = environment.variables()
+    if window and succeeds(environment.python, "-c", OPENS_WINDOW, env=env):
+        sample = str(ROOT / "resources" / "sample")
+        return subprocess.call([environment.python, "-m", "calibgui.gui", sample], env=env)
+    return subprocess.call([environment.python, "-m", "calibgui", "demo"], env=env)
+
+
+def test(arguments: list[str]) -> int:
+    """Run the test suite; pytest's exit code."""
+    environment = set_up("dev", {"qt"})
+    env = {"QT_QPA_PLATFORM": "offscreen", **environment.variables()}
+    cache = [] if os.access(ROOT, os.W_OK) else ["-p", "no:cacheprovider"]
+    command = [environment.python, "-m", "pytest", *cache, *arguments]
+    return subprocess.call(command, cwd=ROOT, env=env)
+
+
+def main() -> int:
+    hand_over_to_newer_python()
+    parser = argparse.ArgumentParser(description=__doc__.partition("\n")[0])
+    parser.add_argument("command", choices=["run", "test", "setup"])
+    options, rest = parser.parse_known_args()
+    if rest and options.command != "test":
+        parser.error(f"{options.command} takes no further arguments")
+    try:
+        if options.command == "run":
+            return run()
+        if options.command == "test":
+            return test(rest)
+        set_up("dev", {"qt"})
+    except (SetupError, OSError) as reason:
+        print(f"calibgui: {reason}", file=sys.stderr)
+        return 1
+    except KeyboardInterrupt:
+        return 130
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
