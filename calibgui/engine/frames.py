@@ -84,7 +84,7 @@ def array_intrinsics(values: Array, size: Size) -> Array:
 
 
 def rotation(rvec: Array) -> Array:
-    """(..., 3, 3) rotation matrices exp(rvec) of rotation vectors (..., 3), by Rodrigues' formula."""
+    """(..., 3, 3) rotations exp(rvec) of rotation vectors (..., 3), by Rodrigues' formula."""
     angle = np.linalg.norm(rvec, axis=-1)[..., None, None]
     W = cross_matrix(rvec)
     # np.sinc is sin(pi x) / (pi x), finite at 0.
@@ -105,7 +105,7 @@ def rotation_vector(R: Array) -> Array:
     nn = (R + R.T) / 2 - cosine * np.eye(3)
     axis = nn[np.argmax(np.diag(nn))]
     axis = axis / np.linalg.norm(axis)
-    return np.asarray(angle * axis * (1.0 if axis @ skew >= 0 else -1.0))
+    return angle * axis * (1.0 if axis @ skew >= 0 else -1.0)
 
 
 def cross_matrix(w: Array) -> Array:
@@ -198,7 +198,7 @@ def paper_from_pose(pose: Pose, centre: Array, distance: float) -> PaperPose:
     paper_R = _FLIP[:, None] * R * axes
     planar = _FLIP * (R[:, :2] @ centre + pose.tvec)
     t = planar / distance - paper_R[:, 2]
-    return PaperPose(*paper_angles(paper_R), *map(float, t), float(distance))
+    return PaperPose(*paper_angles(paper_R), float(t[0]), float(t[1]), float(t[2]), distance)
 
 
 def pose_from_paper(paper: PaperPose, centre: Array, y_up: bool = False) -> Pose:

@@ -55,3 +55,16 @@ def sample(image: Image32, uv: Array) -> Array:
     ]
     values = np.concatenate(parts) if parts else np.empty(0, np.float32)
     return np.asarray(values, dtype=np.float64).reshape(uv.shape[:-1])
+
+
+def tiles(image: Image, uv: Array, half: int) -> tuple[Image, Array]:
+    """Squares of (2 half + 1)^2 pixels of `image` (h, w) around the pixels nearest to `uv` (n, 2).
+
+    Returns:
+        Tiles (n, side, side), the border replicated, and the pixel (n, 2) of their first entry.
+    """
+    origin = np.rint(uv).astype(np.int64) - half
+    offset = np.arange(2 * half + 1)
+    u = np.clip(origin[:, :1] + offset, 0, image.shape[1] - 1)
+    v = np.clip(origin[:, 1:] + offset, 0, image.shape[0] - 1)
+    return image[v[:, :, None], u[:, None, :]], origin.astype(np.float64)

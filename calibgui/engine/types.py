@@ -51,14 +51,14 @@ class Target:
     """Side of a square, mm (the paper's D_o)."""
 
     def points(self, grid: npt.ArrayLike | None = None) -> Array:
-        """Plate coordinates (n, 2) mm of the corners `grid` (n, 2) = (row, column); all by default."""
+        """(n, 2) plate coordinates, mm, of corners (n, 2) = (row, column); all by default."""
         if grid is None:
             grid = np.indices((self.rows, self.cols)).reshape(2, -1).T
         return np.asarray(grid, dtype=np.float64)[:, ::-1] * self.square
 
 
 class Ambiguity(StrEnum):
-    """Turns of the board that leave its pattern unchanged: its origin cannot be told from the image."""
+    """Turns of the board that its pattern does not tell apart."""
 
     NONE = "none"
     HALF_TURN = "180"

@@ -12,6 +12,10 @@ from calibgui.engine.lens.base import Lens
 from calibgui.engine.lens.brown import Brown
 from calibgui.engine.lens.lucchese import Lucchese
 
-MODELS: dict[str, Lens] = {"lucchese": Lucchese(), "opencv": Brown()}
+MODELS: dict[str, Lens] = {
+    "lucchese": Lucchese(),
+    "lucchese-pixels": Lucchese(radius_in_pixels=True),
+    "opencv": Brown(),
+}
 
 __all__ = ["MODELS", "Brown", "Lens", "Lucchese"]

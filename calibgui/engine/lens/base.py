@@ -31,6 +31,11 @@ class Lens(Protocol):
         """Names of the coefficients k."""
         ...
 
+    @property
+    def radius_in_pixels(self) -> bool:
+        """Whether d is in units of fx along both axes (the paper's radius) instead of fx and fy."""
+        ...
+
     def correct(self, d: Array, k: Array) -> Mapped:
         """Measured to ideal. NaN where the model has no ideal point."""
         ...

@@ -27,6 +27,7 @@ class Brown:
     """Distortion model with coefficients in OpenCV's order: k1, k2, p1, p2, k3."""
 
     names = ("k1", "k2", "p1", "p2", "k3")
+    radius_in_pixels = False
 
     def distort(self, n: Array, k: Array, start: Array | None = None) -> Mapped:  # noqa: ARG002
         """Ideal to measured."""

@@ -62,9 +62,7 @@ def invert(forward: Callable[[Array], Mapped], b: Array, start: Array | None) ->
         inverse[bad] = np.nan
     by_k = -inverse @ mapped.by_coefficients
     count = by_k.shape[-1]
-    return Mapped(
-        a.reshape(b.shape), inverse.reshape(*b.shape, 2), by_k.reshape(*b.shape, count)
-    )
+    return Mapped(a.reshape(b.shape), inverse.reshape(*b.shape, 2), by_k.reshape(*b.shape, count))
 
 
 def _solve(J: Array, miss: Array) -> Array:

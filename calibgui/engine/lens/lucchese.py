@@ -23,7 +23,8 @@ with rho' = d rho / d r2 = k1 + 2 k2 r2 + 3 k3 r2^2,
     d psi/dp1 = q (r2 + 2 x^2, 2 x y)      d psi/dp2 = q (2 x y, r2 + 2 y^2)
 
 Measuring the radius in dimensionless instead of pixel units keeps the distortion radial in
-the scene where pixels are not square; for fx = fy it is the paper's model.
+the scene where pixels are not square; for fx = fy it is the paper's model. `radius_in_pixels`
+gives the printed one, in units of fx along both axes.
 """
 
 from __future__ import annotations
@@ -39,6 +40,9 @@ class Lucchese:
     """Correction model with coefficients k1, k2, k3, p1, p2, p3; `distort` by Newton's method."""
 
     names = ("k1", "k2", "k3", "p1", "p2", "p3")
+
+    def __init__(self, radius_in_pixels: bool = False) -> None:
+        self.radius_in_pixels = radius_in_pixels
 
     def correct(self, d: Array, k: Array) -> Mapped:
         """Measured to ideal, eq. 9."""
@@ -56,10 +60,14 @@ class Lucchese:
 
         by_point = np.empty((*d.shape, 2))
         cross = 2 * xy * slope + 2 * q * (p1 * y + p2 * x)
-        by_point[..., 0, 0] = 1 + rho + 2 * xx * slope + 2 * x * p3 * lx + q * (6 * p1 * x + 2 * p2 * y)
+        by_point[..., 0, 0] = (
+            1 + rho + 2 * xx * slope + 2 * x * p3 * lx + q * (6 * p1 * x + 2 * p2 * y)
+        )
         by_point[..., 0, 1] = cross + 2 * y * p3 * lx
         by_point[..., 1, 0] = cross + 2 * x * p3 * ly
-        by_point[..., 1, 1] = 1 + rho + 2 * yy * slope + 2 * y * p3 * ly + q * (2 * p1 * x + 6 * p2 * y)
+        by_point[..., 1, 1] = (
+            1 + rho + 2 * yy * slope + 2 * y * p3 * ly + q * (2 * p1 * x + 6 * p2 * y)
+        )
 
         by_k = np.empty((*d.shape, 6))
         power = r2[..., None] * d

@@ -1,0 +1,153 @@
+"""The cosines' equation: one view's pose, aspect ratio and focal lengths (paper 3.5).
+
+With D = r33 + tZ the backward homography of an isotropic metric plate is (eq. 21, both plate
+axes in units of fx)
+
+    alpha1j = r1j / D      alpha2j = r r2j / D      gammaj = r3j / (fx D),     r = fy / fx,
+
+so that theta = atan2(alpha12, alpha11) and, with eta1 = atan(alpha21 / alpha22) and
+eta2 = atan2(gamma2, gamma1) (eq. 24),
+
+    tan(theta + eta1) = sin(phi) tan(omega)      tan(theta - eta2) = tan(omega) / sin(phi),
+
+whose product and quotient give omega and phi up to their signs (eq. 25). From
+det A = r cos(phi) cos(omega) / D^2 and alpha11 = cos(theta) cos(phi) / D follows the
+cosines' equation (eq. 27),
+
+    g(r) = det A cos(phi) cos^2(theta) - r alpha11^2 cos(omega) = 0,
+
+linear in r because no angle depends on r. The paper's own grid, equal in pixels along x'
+and y' (`literal`), replaces alpha12, alpha21 and gamma2 by r alpha12, alpha21 / r and
+r gamma2 in the angles, and g(r) = det A cos(phi) cos^2(theta) - alpha11^2 cos(omega) then
+has its root at r only if fy = fx holds; it is kept for figures 4 and 5.
+
+Near fronto-parallel views and views tilted about one axis leave omega and phi undetermined:
+the square roots turn imaginary with the noise. Every function then returns NaN, and no
+result of the engine depends on a single view's value.
+"""
+
+from __future__ import annotations
+
+from itertools import product
+from typing import NamedTuple
+
+import numpy as np
+from scipy.optimize import brentq
+
+from calibgui.engine.frames import paper_rotation
+from calibgui.engine.types import Array
+
+_SEARCH = np.linspace(0.5, 2.0, 1501)
+"""Aspect ratios among which the zero of g(r) closest to 1 is sought."""
+
+
+class ViewGeometry(NamedTuple):
+    """What one backward homography says of pose and focal lengths (eq. 25, 28)."""
+
+    omega: float
+    phi: float
+    theta: float
+    t: Array
+    """(3,) normalised translation."""
+    aspect: float
+    fx: float
+    fy: float
+
+
+def _normalised(backward: Array, r: float | Array, literal: bool) -> tuple[Array, ...]:
+    """alpha11, alpha12, alpha21, alpha22, gamma1, gamma2 with the grid's anisotropy taken out."""
+    s = r if literal else np.ones_like(r)
+    (a11, a12, _), (a21, a22, _), (g1, g2, _) = backward
+    return a11 + 0 * s, s * a12, a21 / s, a22 + 0 * s, g1 + 0 * s, s * g2
+
+
+def _angles(backward: Array, r: float | Array, literal: bool) -> tuple[Array, Array, Array]:
+    """|omega|, |phi| and theta (eq. 25), NaN where the square roots are imaginary."""
+    a11, a12, a21, a22, g1, g2 = _normalised(backward, r, literal)
+    theta = np.arctan2(a12, a11)
+    with np.errstate(invalid="ignore", divide="ignore"):
+        first = np.tan(theta + np.arctan(a21 / a22))
+        second = np.tan(theta - np.arctan2(g2, g1))
+        omega = np.arctan(np.sqrt(first * second))
+        phi = np.arcsin(np.sqrt(first / second))
+    return omega, phi, theta
+
+
+def cosines_equation(backward: Array, r: Array, literal: bool = False) -> Array:
+    """g(r) of eq. 27.
+
+    Args:
+        backward: (3, 3) backward homography in the paper's frame, principal point at zero.
+        r: (n,) aspect ratios.
+        literal: the paper's grid, equal in pixels along both axes, instead of the metric plate.
+
+    Returns:
+        (n,) NaN where the angles are undefined.
+    """
+    omega, phi, theta = _angles(backward, r, literal)
+    determinant = backward[0, 0] * backward[1, 1] - backward[0, 1] * backward[1, 0]
+    weight = np.ones_like(r) if literal else r
+    return determinant * np.cos(phi) * np.cos(theta) ** 2 - weight * backward[0, 0] ** 2 * np.cos(
+        omega
+    )
+
+
+def aspect_ratio(backward: Array, literal: bool = False) -> float:
+    """The root of the cosines' equation closest to 1; NaN if there is none in [0.5, 2]."""
+
+    def g(r: float) -> float:
+        return float(cosines_equation(backward, np.array([r]), literal)[0])
+
+    values = cosines_equation(backward, _SEARCH, literal)
+    with np.errstate(invalid="ignore"):
+        changes = np.flatnonzero(values[:-1] * values[1:] <= 0)
+    roots = [float(brentq(g, _SEARCH[i], _SEARCH[i + 1])) for i in changes]
+    return min(roots, key=lambda r: abs(r - 1), default=float("nan"))
+
+
+def view_geometry(backward: Array, literal: bool = False) -> ViewGeometry:
+    """Angles with their signs, normalised translation and focal lengths of one view (eq. 25, 28).
+
+    Args:
+        backward: (3, 3) backward homography in the paper's frame, principal point at zero,
+            from reference coordinates in units that make the plate's sides alike.
+        literal: as for `cosines_equation`.
+
+    Returns:
+        All NaN where the view does not determine its aspect ratio. Of the four combinations
+        of signs the one whose homography is closest to the given one is taken.
+    """
+    r = aspect_ratio(backward, literal)
+    sizes = _angles(backward, np.float64(r), literal)
+    if not np.isfinite(np.array([r, *sizes])).all():
+        nan = float("nan")
+        return ViewGeometry(nan, nan, nan, np.full(3, np.nan), nan, nan, nan)
+    omega, phi, theta = map(float, sizes)
+    candidates = [
+        _with_angles(backward, r, literal, so * omega, sp * phi, theta)
+        for so, sp in product((1, -1), repeat=2)
+    ]
+    return min(candidates, key=lambda c: c[0])[1]
+
+
+def _with_angles(
+    backward: Array, r: float, literal: bool, omega: float, phi: float, theta: float
+) -> tuple[float, ViewGeometry]:
+    """The view's geometry under given angles (eq. 28), and how badly it explains the homography."""
+    a11, a12, a21, a22, g1, g2 = map(float, _normalised(backward, np.float64(r), literal))
+    R = paper_rotation(omega, phi, theta)
+    D = R[0, 0] / a11
+    # Eq. 28 takes fx from gamma1 alone, which can vanish; its length is the stabler choice.
+    fx = float(np.hypot(R[2, 0], R[2, 1]) / (np.hypot(g1, g2) * D))
+    t = np.array(
+        [
+            backward[0, 2] * D / fx - R[0, 2],
+            backward[1, 2] * D / (r * fx) - R[1, 2],
+            D - R[2, 2],
+        ]
+    )
+    s = 1.0 if literal else r
+    given = np.array([a11, a12, a21 / s, a22 / s, g1 * fx, g2 * fx])
+    implied = np.array([R[0, 0], R[0, 1], R[1, 0], R[1, 1], R[2, 0], R[2, 1]]) / D
+    miss = float(np.sum((given - implied) ** 2))
+    return miss, ViewGeometry(omega, phi, theta, t, r, fx, r * fx)

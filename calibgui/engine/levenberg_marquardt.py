@@ -1,0 +1,202 @@
+"""Levenberg-Marquardt for arrow-shaped normal equations.
+
+Every residual depends on the shared parameters and on one view's pose only, so that
+
+              [ U    W1 .. WK ]                U  = sum_k Jc_k^T Jc_k     (P, P)
+    J^T J  =  [ W1^T V1       ]                Wk = Jc_k^T Jp_k           (P, 6)
+              [ ..       ..   ]                Vk = Jp_k^T Jp_k           (6, 6)
+              [ WK^T       VK ]
+
+Eliminating the poses leaves the Schur complement
+
+    S = U - sum_k Wk Vk^-1 Wk^T,      S dc = -(gc - sum_k Wk Vk^-1 gk),
+    dk = -Vk^-1 (gk + Wk^T dc),
+
+a cost linear in the number of views. Marquardt's damping lambda diag(J^T J) makes the steps
+independent of the parameters' units; the matrices are further scaled to a unit diagonal
+before they are factorised.
+
+The iteration has converged when the decrease that the linear model still predicts is below
+1e-12 of the cost: the unknowns are then within about 1e-6 sqrt(2N) of their standard
+deviations of the minimum. The views are linearised in chunks, so that memory does not grow
+with their number.
+"""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable
+from typing import NamedTuple
+
+import numpy as np
+
+from calibgui.engine.errors import CalibrationError
+from calibgui.engine.stage_two import Linearised, State
+from calibgui.engine.types import Array, IntArray, Iteration, Report, Status
+
+CHUNK = 64
+"""Views linearised together: their arrays still fit the processor's cache."""
+_CONVERGED = 1e-12
+_ROUNDING = 1e-26
+"""Cost below which the residuals are rounding errors, relative to the squared data."""
+_DAMPING = 1e-4
+_MAX_DAMPING = 1e12
+
+Linearise = Callable[[State, slice], Linearised]
+"""Whitened residuals of a slice of the views, zero (with zero derivatives) for padding."""
+
+
+class NormalEquations(NamedTuple):
+    """The blocks of J^T J and J^T r, for the free shared parameters."""
+
+    U: Array
+    W: Array
+    V: Array
+    shared: Array
+    """(P,) gradient."""
+    pose: Array
+    """(K, 6) gradient."""
+    cost: float
+    """r^T r."""
+
+
+class Solution(NamedTuple):
+    """Where the iteration ended."""
+
+    state: State
+    normal: NormalEquations
+    """At `state`, undamped."""
+    history: tuple[Iteration, ...]
+    status: Status
+
+
+def minimise(
+    linearise: Linearise,
+    start: State,
+    free: IntArray,
+    count: int,
+    data_square: float,
+    report: Report | None = None,
+    max_iterations: int = 100,
+) -> Solution:
+    """Minimise the sum of squared residuals.
+
+    Args:
+        linearise: the residuals.
+        start: where to begin.
+        free: (P,) indices of the shared parameters that may move.
+        count: number of corners, for the RMS of the iteration records.
+        data_square: sum of the squared data, which sets the level of rounding errors.
+        report: told of each iteration; may stop it.
+        max_iterations: accepted and rejected steps together.
+
+    Raises:
+        CalibrationError: if the residuals at the start are not finite.
+        Cancelled: from `report`.
+    """
+    began = time.perf_counter()
+    state, damping = start, _DAMPING
+    normal = normal_equations(linearise, state, free)
+    if not np.isfinite(normal.cost):
+        raise CalibrationError(
+            "The closed-form start does not reproject the corners.",
+            "Check that the views number their corners alike and come from one camera.",
+        )
+    history: list[Iteration] = []
+
+    def record(step: float) -> bool:
+        iteration = Iteration(
+            index=len(history),
+            cost=normal.cost,
+            rms=float(np.sqrt(normal.cost / count)),
+            gradient=_scaled_gradient(normal),
+            step=step,
+            damping=damping,
+            seconds=time.perf_counter() - began,
+        )
+        history.append(iteration)
+        return report is None or report(iteration)
+
+    def ended(status: Status) -> Solution:
+        return Solution(state, normal, tuple(history), status)
+
+    if not record(0.0):
+        return ended(Status.STOPPED)
+    for _ in range(max_iterations):
+        by_shared, by_pose = solve(normal, damping)
+        predicted = -float(by_shared @ normal.shared + np.sum(by_pose * normal.pose))
+        if predicted <= _CONVERGED * normal.cost or normal.cost <= _ROUNDING * data_square:
+            return ended(Status.CONVERGED)
+        full = np.zeros(len(state.params))
+        full[free] = by_shared
+        trial = state.moved(full, by_pose)
+        trial_normal = normal_equations(linearise, trial, free)
+        if trial_normal.cost < normal.cost:
+            length = _scaled_length(normal, by_shared, by_pose)
+            state, normal = trial, trial_normal
+            damping = max(damping / 10, 1e-12)
+            if not record(length):
+                return ended(Status.STOPPED)
+        else:
+            damping *= 10
+            if damping > _MAX_DAMPING:  # no downhill step is left within rounding
+                return ended(Status.CONVERGED)
+    return ended(Status.MAX_ITERATIONS)
+
+
+def normal_equations(linearise: Linearise, state: State, free: IntArray) -> NormalEquations:
+    """Accumulate J^T J and J^T r over the views, chunk by chunk."""
+    K, P = len(state.R), len(free)
+    U, W, V = np.zeros((P, P)), np.empty((K, P, 6)), np.empty((K, 6, 6))
+    shared, pose, cost = np.zeros(P), np.empty((K, 6)), 0.0
+    for begin in range(0, K, CHUNK):
+        views = slice(begin, min(begin + CHUNK, K))
+        with np.errstate(all="ignore"):  # a wild trial overflows; its cost says so
+            r, by_params, by_pose = linearise(state, views)
+            k = len(r)
+            r = r.reshape(k, -1, 1)
+            Jc = by_params.reshape(k, -1, by_params.shape[-1])[..., free]
+            Jp = by_pose.reshape(k, -1, 6)
+            cost += float(np.sum(r * r))
+            if not np.isfinite(cost):
+                return NormalEquations(U, W, V, shared, pose, float("inf"))
+            JcT, JpT = np.swapaxes(Jc, 1, 2), np.swapaxes(Jp, 1, 2)
+            U += (JcT @ Jc).sum(axis=0)
+            W[views], V[views] = JcT @ Jp, JpT @ Jp
+            shared += (JcT @ r)[..., 0].sum(axis=0)
+            pose[views] = (JpT @ r)[..., 0]
+    return NormalEquations(U, W, V, shared, pose, cost)
+
+
+def schur(normal: NormalEquations, damping: float = 0.0) -> tuple[Array, Array, Array]:
+    """S, its right-hand side gc - sum Wk Vk^-1 gk, and Vk^-1 [Wk^T gk] (K, 6, P + 1)."""
+    diagonal = np.diagonal(normal.V, axis1=1, axis2=2)
+    unit = 1 / np.sqrt(diagonal)
+    scaled = normal.V * unit[:, :, None] * unit[:, None, :] + damping * np.eye(6)
+    right = np.concatenate([np.swapaxes(normal.W, 1, 2), normal.pose[..., None]], axis=-1)
+    eliminated = unit[..., None] * np.linalg.solve(scaled, unit[..., None] * right)
+    reduction = (normal.W @ eliminated).sum(axis=0)
+    S = normal.U + damping * np.diag(np.diag(normal.U)) - reduction[:, :-1]
+    return (S + S.T) / 2, normal.shared - reduction[:, -1], eliminated
+
+
+def solve(normal: NormalEquations, damping: float) -> tuple[Array, Array]:
+    """The damped step: (P,) shared and (K, 6) poses."""
+    S, gradient, eliminated = schur(normal, damping)
+    unit = 1 / np.sqrt(np.maximum(np.diag(normal.U), 1e-300))
+    shared = -unit * np.linalg.lstsq(S * np.outer(unit, unit), unit * gradient, rcond=1e-15)[0]
+    return shared, -(eliminated @ np.append(shared, 1.0))
+
+
+def _scaled_gradient(normal: NormalEquations) -> float:
+    """Largest gradient entry, unknowns scaled to a unit diagonal of J^T J."""
+    shared = np.abs(normal.shared) / np.sqrt(np.maximum(np.diag(normal.U), 1e-300))
+    poses = np.abs(normal.pose) / np.sqrt(np.diagonal(normal.V, axis1=1, axis2=2))
+    return float(max(shared.max(initial=0.0), poses.max(initial=0.0)))
+
+
+def _scaled_length(normal: NormalEquations, by_shared: Array, by_pose: Array) -> float:
+    """Root mean square change of the residuals' scale that a step makes, unknowns scaled alike."""
+    square = np.sum(np.diag(normal.U) * by_shared**2)
+    square += np.sum(np.diagonal(normal.V, axis1=1, axis2=2) * by_pose**2)
+    return float(np.sqrt(square))

@@ -1,0 +1,140 @@
+"""The views' corners as arrays that all the solvers share.
+
+Views may be partial, so their corner counts differ. They are padded to the longest with
+copies of their own first corner and a mask of 0, which costs some arithmetic on zeros and
+buys dense linear algebra over all views at once.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.spatial import cKDTree
+
+from calibgui.engine.errors import CalibrationError
+from calibgui.engine.types import Array, Observation
+
+REFERENCE_PITCH = 30.0
+"""Side dx' of a square on the virtual reference image, reference px (the paper's choice)."""
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class Observations:
+    """K views of up to N corners each."""
+
+    uv: Array
+    """(K, N, 2) measured corners, px."""
+    xy: Array
+    """(K, N, 2) corners on the plate, mm."""
+    mask: Array
+    """(K, N) 1 for a corner, 0 for padding."""
+    whitening: Array | None
+    """(K, N, 2, 2) W with W^T W = cov^-1, where covariances are given."""
+
+    @property
+    def count(self) -> int:
+        """Number of corners in all views."""
+        return int(self.mask.sum())
+
+    def part(self, views: slice) -> Observations:
+        """Some of the views."""
+        whitening = None if self.whitening is None else self.whitening[views]
+        return Observations(self.uv[views], self.xy[views], self.mask[views], whitening)
+
+    def view(self, k: int) -> slice:
+        """The places of view k's corners along the second axis."""
+        return slice(0, int(self.mask[k].sum()))
+
+
+def pack(views: Sequence[Observation | tuple[Array, Array]]) -> Observations:
+    """Check the views and bring them into arrays.
+
+    Raises:
+        CalibrationError: naming the view, if shapes disagree, a number is not finite, corners
+            repeat, are fewer than four or lie on one line, or a covariance is not positive.
+    """
+    if not views:
+        raise CalibrationError(
+            "There are no views to calibrate from.",
+            "Photograph the board at least 3 times from different directions.",
+        )
+    checked = [_checked(Observation(*view), k) for k, view in enumerate(views)]
+    longest = max(len(view.uv) for view in checked)
+    # All or nothing: a mixture of weighted and unweighted views has no common noise level.
+    weighted = [view.cov is not None for view in checked]
+    if any(weighted) and not all(weighted):
+        raise CalibrationError(
+            f"View {weighted.index(False) + 1} has no corner covariances but others do.",
+            "Give covariances for every view or for none.",
+        )
+    return Observations(
+        uv=np.stack([_padded(view.uv, longest) for view in checked]),
+        xy=np.stack([_padded(view.xy, longest) for view in checked]),
+        mask=np.stack([np.arange(longest) < len(view.uv) for view in checked]).astype(np.float64),
+        whitening=_whitening(checked, longest) if all(weighted) else None,
+    )
+
+
+def pitch(xy: Array) -> float:
+    """Side of the target's squares, mm: the median distance between neighbouring corners (n, 2)."""
+    unique = np.unique(np.round(xy, 9), axis=0)
+    distances = np.asarray(cKDTree(unique).query(unique, k=2)[0])
+    return float(np.median(distances[:, 1]))
+
+
+def _checked(view: Observation, k: int) -> Observation:
+    name = f"View {k + 1}"
+    uv, xy = np.asarray(view.uv, np.float64), np.asarray(view.xy, np.float64)
+    if uv.ndim != 2 or uv.shape[1:] != (2,) or xy.shape != uv.shape:
+        raise CalibrationError(
+            f"{name}: corners of shape {uv.shape} do not match plate points of shape {xy.shape}.",
+            "Both must be (n, 2), one row a corner.",
+        )
+    cov = None if view.cov is None else np.asarray(view.cov, np.float64)
+    if cov is not None and cov.shape != (*uv.shape, 2):
+        raise CalibrationError(
+            f"{name}: covariances of shape {cov.shape} do not match {len(uv)} corners.",
+            "They must be (n, 2, 2), px^2.",
+        )
+    arrays = [uv, xy] if cov is None else [uv, xy, cov]
+    if not all(np.isfinite(array).all() for array in arrays):
+        raise CalibrationError(
+            f"{name} holds a corner that is not a finite number.",
+            "Remove that corner or the view.",
+        )
+    if len(uv) < 4:
+        raise CalibrationError(
+            f"{name} has {len(uv)} corners; a view needs at least 4.", "Remove it."
+        )
+    if len(np.unique(xy, axis=0)) < len(xy):
+        raise CalibrationError(
+            f"{name} names the same plate point twice.", "Give each corner of the board once."
+        )
+    for points, what in ((uv, "corners"), (xy, "plate points")):
+        spread = np.linalg.svd(points - points.mean(axis=0), compute_uv=False)
+        if spread[1] <= 1e-6 * spread[0]:
+            raise CalibrationError(
+                f"{name}: all {what} lie on one line.", "Use corners from at least two rows."
+            )
+    if cov is not None and not (np.linalg.eigvalsh(cov)[:, 0] > 0).all():
+        raise CalibrationError(
+            f"{name} has a corner covariance that is not positive definite.",
+            "Leave the covariances out or correct them.",
+        )
+    return Observation(uv, xy, cov)
+
+
+def _whitening(views: list[Observation], length: int) -> Array:
+    """(K, length, 2, 2) upper triangular W with W^T W = cov^-1; zero for padding."""
+    W = np.zeros((len(views), length, 2, 2))
+    for k, view in enumerate(views):
+        assert view.cov is not None
+        W[k, : len(view.uv)] = np.swapaxes(np.linalg.cholesky(np.linalg.inv(view.cov)), -1, -2)
+    return W
+
+
+def _padded(rows: Array, length: int) -> Array:
+    """`rows` continued to `length` with copies of the first row."""
+    return np.concatenate([rows, np.repeat(rows[:1], length - len(rows), axis=0)])

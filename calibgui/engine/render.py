@@ -1,0 +1,195 @@
+"""Synthetic views of a checkerboard (paper 5.2), area-sampled.
+
+A pixel integrates the light that falls on its unit square. In plate coordinates counted in
+squares, (X, Y) = plate point / side, the board is made of products of functions of X and of
+Y alone. With H the unit step, q, b the boxes that hold the sheet and the squares, and
+c(X) = (-1)^floor(X) on the squares, 0 beside them, its colour is
+
+    background + (white - background) q(X) q(Y) - (white - black) (b(X) b(Y) + c(X) c(Y)) / 2,
+
+so that square (-1, -1), outside corner (0, 0), is black. Within a pixel X is affine:
+X + g . e, e in [-1/2, 1/2]^2. A step's mean over the pixel is the distribution function of
+the sum of two uniform variables of widths A = |g_u|, B = |g_v|,
+
+    step(X) = [ (X + s)_+^2 - (X + m)_+^2 - (X - m)_+^2 + (X - s)_+^2 ] / (2 A B),
+
+with s = (A + B) / 2, m = |A - B| / 2 and (z)_+ = max(z, 0). It is exact for a straight edge
+at any angle. Where edges of X and of Y meet within one pixel the mean of the product is not
+the product of the means: those few pixels, and those that see more than half a square, are
+divided into `_FINE`^2 parts.
+
+The map from pixel to plate is direct for the paper's model: measured pixel, psi (eq. 9),
+ray, plate. Blur is a Gaussian on light, before the gamma curve and the noise.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+import numpy.typing as npt
+from scipy.ndimage import gaussian_filter
+
+from calibgui.engine.frames import centre_of_array, rotation
+from calibgui.engine.lens import MODELS
+from calibgui.engine.projection import normalise
+from calibgui.engine.types import Array, Camera, Pose, Target
+
+_FINE = 16
+"""Divisions along each side of a pixel where edges cross."""
+_CHUNK = 1 << 17
+"""Pixels mapped at once: bounds the memory for the derivatives."""
+
+
+@dataclass(frozen=True, slots=True)
+class Appearance:
+    """Light and board of a synthetic view; grey levels are linear, from 0 to 255."""
+
+    black: float = 30.0
+    white: float = 220.0
+    background: float = 120.0
+    quiet_zone: float = 1.0
+    """White margin around the squares, in squares."""
+    shading: tuple[float, float] = (0.0, 0.0)
+    """Relative change of the light from the left to the right edge, and from top to bottom."""
+    gamma: float = 1.0
+    """Levels are recorded as 255 (level / 255)^(1 / gamma)."""
+
+
+def render(
+    camera: Camera,
+    pose: Pose,
+    target: Target,
+    *,
+    blur: float = 0.0,
+    noise: float = 0.0,
+    seed: int = 0,
+    appearance: Appearance | None = None,
+) -> npt.NDArray[np.uint8]:
+    """The view (h, w) that `camera` has of a checkerboard.
+
+    Args:
+        camera: intrinsics, any lens model; its size is the image's.
+        pose: cam_from_plate, mm. A board seen from behind shows its pattern mirrored.
+        target: the board.
+        blur: standard deviation of the Gaussian blur, px.
+        noise: standard deviation of the Gaussian noise, grey levels.
+        seed: of the noise; the same seed gives the same image.
+        appearance: grey levels, margin and light.
+    """
+    levels = irradiance(camera, pose, target, blur=blur, appearance=appearance)
+    if noise > 0:
+        levels = levels + noise * np.random.default_rng(seed).standard_normal(levels.shape)
+    return np.clip(np.rint(levels), 0, 255).astype(np.uint8)
+
+
+def irradiance(
+    camera: Camera,
+    pose: Pose,
+    target: Target,
+    *,
+    blur: float = 0.0,
+    appearance: Appearance | None = None,
+) -> Array:
+    """The levels (h, w) of `render` before noise and rounding."""
+    look = appearance or Appearance()
+    (w, h), margin = camera.size, int(np.ceil(4 * blur))
+    u, v = np.arange(-margin, w + margin), np.arange(-margin, h + margin)
+    rows = max(1, _CHUNK // len(u))
+    scene = _Scene(camera, pose, target, look)
+    levels = np.concatenate(
+        [scene.levels(_grid(u, v[i : i + rows])) for i in range(0, len(v), rows)]
+    )
+    if blur > 0:
+        levels = gaussian_filter(levels, blur, truncate=4.0)
+    levels = levels[margin : margin + h, margin : margin + w]
+    centre = centre_of_array(camera.size)
+    light = 1 + look.shading[0] * (np.arange(w) - centre[0]) / w
+    light = light + (look.shading[1] * (np.arange(h) - centre[1]) / h)[:, None]
+    levels = np.clip(levels * light, 0, 255)
+    return np.asarray(255 * (levels / 255) ** (1 / look.gamma))
+
+
+def _grid(u: Array, v: Array) -> Array:
+    """(len(v), len(u), 2) points (u, v)."""
+    return np.stack(np.meshgrid(u, v), axis=-1).astype(np.float64)
+
+
+@dataclass(frozen=True, slots=True)
+class _Scene:
+    camera: Camera
+    pose: Pose
+    target: Target
+    look: Appearance
+
+    def levels(self, uv: Array) -> Array:
+        """Levels (...) of the pixels centred at `uv` (..., 2)."""
+        flat = uv.reshape(-1, 2)
+        values, crossed = self._sample(flat, 1.0)
+        parts = (np.arange(_FINE) + 0.5) / _FINE - 0.5
+        offsets = _grid(parts, parts).reshape(-1, 2)
+        which = np.flatnonzero(crossed)
+        step = _CHUNK // len(offsets)
+        for i in range(0, len(which), step):
+            some = which[i : i + step]
+            fine, _ = self._sample(flat[some, None] + offsets, 1 / _FINE)
+            values[some] = fine.mean(axis=1)
+        return values.reshape(uv.shape[:-1])
+
+    def _sample(self, uv: Array, width: float) -> tuple[Array, npt.NDArray[np.bool_]]:
+        """Mean levels of squares of side `width` px at `uv`, and which of them are inexact."""
+        XY, gradient, visible = self._plate(uv)
+        A, B = np.moveaxis(np.abs(gradient) * width, -1, 0)
+        shape = (self.target.cols, self.target.rows)
+        sheet, board, checks, edges = zip(
+            *(self._profile(XY[..., i], A[..., i], B[..., i], shape[i]) for i in (0, 1)),
+            strict=True,
+        )
+        look = self.look
+        levels = look.background + (look.white - look.background) * sheet[0] * sheet[1]
+        ink = (board[0] * board[1] + checks[0] * checks[1]) / 2
+        levels = np.where(visible, levels - (look.white - look.black) * ink, look.background)
+        coarse = (np.max(A + B, axis=-1) > 0.5) & (sheet[0] * sheet[1] > 0)
+        return levels, visible & (edges[0] & edges[1] | coarse)
+
+    def _plate(self, uv: Array) -> tuple[Array, Array, npt.NDArray[np.bool_]]:
+        """Plate points (..., 2) in squares, their gradient (..., 2, 2), and where there are any."""
+        n, by_uv, _ = normalise(uv, self.camera.params, MODELS[self.camera.model])
+        R = rotation(self.pose.rvec)
+        # Scaled by the depth, plate = G (n, 1): the inverse of the planar pose's homography.
+        G = np.linalg.inv(np.column_stack([R[:, :2] * self.target.square, self.pose.tvec]))
+        with np.errstate(all="ignore"):  # points at infinity are not visible
+            scaled = n @ G[:, :2].T + G[:, 2]
+            inverse_depth = scaled[..., 2:]
+            XY = scaled[..., :2] / inverse_depth
+            by_n = (G[:2, :2] - XY[..., None] * G[2, :2]) / inverse_depth[..., None]
+            gradient = by_n @ by_uv
+            one_to_one = np.linalg.det(by_uv) > 0
+        visible = np.isfinite(gradient).all(axis=(-1, -2)) & (inverse_depth[..., 0] > 0)
+        visible &= one_to_one
+        XY[~visible], gradient[~visible] = 0.0, 1.0
+        return XY, gradient, visible
+
+    def _profile(
+        self, X: Array, A: Array, B: Array, count: int
+    ) -> tuple[Array, Array, Array, npt.NDArray[np.bool_]]:
+        """Means of q, b and c over widths A and B along one axis, and where an edge is within."""
+        margin = 1 + self.look.quiet_zone
+        sheet = _step(X + margin, A, B) - _step(X - (count - 1 + margin), A, B)
+        board = _step(X + 1, A, B) - _step(X - count, A, B)
+        k = np.clip(np.rint(X), -1, count)
+        sign = 1 - 2 * np.mod(k, 2)
+        before, after = np.where(k > -1, -sign, 0.0), np.where(k < count, sign, 0.0)
+        passed = _step(X - k, A, B)
+        checks = before + (after - before) * passed
+        return sheet, board, checks, np.abs(X - k) < (A + B) / 2
+
+
+def _step(X: Array, A: Array, B: Array) -> Array:
+    """Mean of H(X + A e1 + B e2) over e in [-1/2, 1/2]^2."""
+    s = (A + B) / 2
+    # A width of a millionth of the other changes nothing and keeps the quotient defined.
+    m = np.minimum(np.abs(A - B) / 2, s * (1 - 1e-6))
+    inside = np.clip(X, -s, s)
+    corner = np.maximum(inside - m, 0) ** 2 + np.maximum(inside + m, 0) ** 2
+    return np.asarray(np.clip(((inside + s) ** 2 - corner) / (2 * (s * s - m * m)), 0.0, 1.0))

@@ -1,0 +1,110 @@
+"""Covariances of the estimates, and what the data leave undetermined.
+
+With independent residuals of standard deviation sigma, estimated by
+sigma^2 = r^T r / (2N - P - 6K), the covariance of all unknowns is sigma^2 (J^T J)^-1. In the
+blocks of ``levenberg_marquardt.py``
+
+    cov(shared)  = sigma^2 S^-1
+    cov(pose k)  = sigma^2 (Vk^-1 + Vk^-1 Wk^T S^-1 Wk Vk^-1).
+
+The paper's own standard deviations (Tables 2 and 3) are sqrt(diag((2 J^T J)^-1)), without
+sigma: they answer how well the reference grid, not the corners' noise, determines a value.
+
+Rank. S scaled by the parameters' own diagonal, U^-1/2 S U^-1/2, has eigenvalues between 0
+and 1: the part of the information on a combination of parameters that is left once the
+poses have been fitted as well. Its smallest eigenvalue is about 1e-5 for useful sets of
+views and drops to rounding where a combination of parameters can be traded for a motion of
+the boards; the parameters in that combination are undetermined.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from calibgui.engine import frames
+from calibgui.engine.levenberg_marquardt import NormalEquations, schur
+from calibgui.engine.types import Array, Calibration, Undetermined
+
+_RANK = 3e-7
+"""Information left after fitting the poses below which a combination counts as undetermined."""
+_SHARE = 0.2
+"""Of the undetermined combination's length that a parameter must contribute to be named."""
+
+
+def variance(cost: float, corners: int, unknowns: int) -> float:
+    """sigma^2, the variance of one residual coordinate; NaN without redundancy."""
+    freedom = 2 * corners - unknowns
+    return cost / freedom if freedom > 0 else float("nan")
+
+
+def information_left(normal: NormalEquations) -> tuple[Array, Array]:
+    """Eigenvalues (P,), ascending, and eigenvectors (P, P) of the scaled Schur complement."""
+    unit = 1 / np.sqrt(np.maximum(np.diag(normal.U), 1e-300))
+    values, vectors = np.linalg.eigh(schur(normal)[0] * np.outer(unit, unit))
+    return values, vectors
+
+
+def undetermined(normal: NormalEquations, names: tuple[str, ...]) -> tuple[Undetermined, ...]:
+    """The free parameters that the views do not determine, by rank.
+
+    Args:
+        normal: at the solution.
+        names: (P,) of the free parameters.
+    """
+    values, vectors = information_left(normal)
+    null = vectors[:, values < _RANK]
+    involved = np.sqrt((null**2).sum(axis=1)) if null.size else np.zeros(len(names))
+    blank = np.diag(normal.U) <= 0
+    found = []
+    for name, share, nothing in zip(names, involved, blank, strict=True):
+        if nothing:
+            found.append(Undetermined(name, "no corner depends on it"))
+        elif share > _SHARE:
+            found.append(Undetermined(name, "it can be traded for the boards' poses"))
+    return tuple(found)
+
+
+def shared_covariance(normal: NormalEquations, sigma2: float) -> Array:
+    """(P, P) covariance of the free shared parameters."""
+    unit = 1 / np.sqrt(np.maximum(np.diag(normal.U), 1e-300))
+    scaled = schur(normal)[0] * np.outer(unit, unit)
+    inverse = np.linalg.pinv(scaled, rcond=1e-14, hermitian=True)
+    return np.asarray(sigma2 * inverse * np.outer(unit, unit))
+
+
+def pose_covariances(normal: NormalEquations, shared: Array, rvecs: Array, sigma2: float) -> Array:
+    """(K, 6, 6) covariances of (rvec, tvec), rad and mm.
+
+    Args:
+        normal: at the solution.
+        shared: (P, P) covariance of the free shared parameters.
+        rvecs: (K, 3) rotation vectors of the poses.
+        sigma2: variance of one residual coordinate.
+    """
+    inverse = np.linalg.inv(normal.V)
+    G = inverse @ np.swapaxes(normal.W, 1, 2)
+    local = sigma2 * inverse + G @ shared @ np.swapaxes(G, 1, 2)
+    J = np.zeros((len(rvecs), 6, 6))
+    J[:, :3, :3] = frames.rvec_by_local(rvecs)
+    J[:, 3:, 3:] = np.eye(3)
+    return J @ local @ np.swapaxes(J, 1, 2)
+
+
+def correlations(covariance: Array) -> Array:
+    """Correlation matrix; NaN in rows of parameters that were held."""
+    sd = np.sqrt(np.diag(covariance))
+    with np.errstate(invalid="ignore", divide="ignore"):
+        return np.asarray(covariance / np.outer(sd, sd))
+
+
+def paper_table(calibration: Calibration) -> tuple[Array, Array, Array]:
+    """Table 2: the ten intrinsics in the paper's units, their one-sigma values and its SDs.
+
+    Returns:
+        Values, honest standard deviations sigma sqrt(diag((J^T J)^-1)) and the paper's
+        sqrt(diag((2 J^T J)^-1)), each (10,) in the order of ``frames.PAPER_NAMES``.
+    """
+    camera = calibration.camera
+    values, J = frames.paper_intrinsics(camera.params, camera.size)
+    honest = np.sqrt(np.diag(J @ calibration.covariance @ J.T))
+    return values, honest, honest / (np.sqrt(2) * calibration.noise)
