@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from calibgui.engine.calibrate import calibrate
 from calibgui.engine.errors import CalibrationError, Cancelled, DegenerateError, NoBoardError
+from calibgui.engine.refit import Refit, refit
+from calibgui.engine.statistics import Summary, summarise
 from calibgui.engine.types import (
     Ambiguity,
     Calibration,
@@ -15,6 +17,8 @@ from calibgui.engine.types import (
     Pose,
     Status,
     Target,
+    View,
+    ViewStatus,
 )
 
 __all__ = [
@@ -30,7 +34,13 @@ __all__ = [
     "NoBoardError",
     "Observation",
     "Pose",
+    "Refit",
     "Status",
+    "Summary",
     "Target",
+    "View",
+    "ViewStatus",
     "calibrate",
+    "refit",
+    "summarise",
 ]
