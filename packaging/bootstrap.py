@@ -48,6 +48,15 @@ for line in requires("calibgui"):
     if "extra ==" not in line or sys.argv[1] == "dev":
         version(re.match(r"[\\w.-]+", line)[0])
 """
+PIP_IN_WHEEL = """
+import runpy, sys
+wheel, certificates, *arguments = sys.argv[1:]
+sys.path.insert(0, wheel)
+from pip._vendor import certifi
+certifi.where = lambda: certificates
+sys.argv[1:] = arguments
+runpy.run_module("pip", run_name="__main__", alter_sys=True)
+"""
 OPENS_WINDOW = "from PySide6.QtGui import QGuiApplication; QGuiApplication([])"
 
 
@@ -62,7 +71,12 @@ def say(text: str) -> None:
 def succeeds(*command: str | Path, env: dict[str, str] | None = None) -> bool:
     """Whether `command` can be started and ends well; its output is dropped."""
     try:
-        return subprocess.run(command, env=env, capture_output=True, check=False).returncode == 0
+        return (
+            subprocess.run(
+                command, env=env, capture_output=True, check=False, stdin=subprocess.DEVNULL
+            ).returncode
+            == 0
+        )
     except OSError:
         return False
 
@@ -147,7 +161,8 @@ class Environment:
 
     def source(self) -> str:
         """Digest of what the environment is built from: another one asks for a new environment."""
-        digest = hashlib.sha256(f"{sys.version}\n{base_python()}\n{ROOT}\n".encode())
+        python = Path(base_python()).resolve()
+        digest = hashlib.sha256(f"{sys.version}\n{python}\n{ROOT}\n".encode())
         for name in ("pyproject.toml", "calibgui/__init__.py"):
             digest.update((ROOT / name).read_bytes())
         return digest.hexdigest()
@@ -190,27 +205,36 @@ class Environment:
             self.pip_from(wheel)
 
     def pip_from(self, wheel: Path) -> None:
-        """Install pip by its copy in Debian's `wheel`, which looks for Debian's certificates."""
-        env = self.variables()
-        configured = "cert=" in output(self.python, wheel / "pip", "config", "list", env=env)
-        if not SYSTEM_CERTIFICATES.exists() and not configured:
-            bundle = self.debian / "certificates.crt"
-            folder = self.debian / "usr/share/ca-certificates"
-            bundle.write_bytes(b"".join(f.read_bytes() for f in sorted(folder.rglob("*.crt"))))
-            env["PIP_CERT"] = str(bundle)
-        self.pip(str(wheel / "pip"), "install", "pip", env=env)
+        """Install pip by its copy in Debian's `wheel`, which insists on Debian's certificates."""
+        certificates = SYSTEM_CERTIFICATES
+        if not certificates.exists():
+            certificates = self.debian / "certificates.crt"
+            each = sorted((self.debian / "usr/share/ca-certificates").rglob("*.crt"))
+            certificates.write_bytes(b"".join(file.read_bytes() for file in each))
+        self.pip("-c", PIP_IN_WHEEL, str(wheel), str(certificates), "install", "pip")
 
     def install(self, extra: str) -> None:
         """The project, editable, with its dependencies."""
         say("installing calibgui and what it needs (some 300 MB the first time)")
         project = f"{ROOT}[{extra}]" if extra else str(ROOT)
-        self.pip("-m", "pip", "install", "--editable", project, env=self.variables())
+        self.pip("-m", "pip", "install", "--editable", project)
         stamp = {"source": self.source(), "extra": extra}
         self.stamp.write_text(json.dumps(stamp), encoding="utf-8")
 
-    def pip(self, *arguments: str, env: dict[str, str]) -> None:
-        quiet = [] if sys.stdout.isatty() else ["--quiet"]
-        if subprocess.call([self.python, *arguments, *quiet], cwd=ROOT, env=env):
+    def pip(self, *arguments: str) -> None:
+        """Run pip; where nobody watches it work, only what it says of a failure is shown."""
+        watched = sys.stdout.isatty()
+        command = [str(self.python), *arguments, *([] if watched else ["--quiet"])]
+        done = subprocess.run(
+            command,
+            cwd=ROOT,
+            env=self.variables(),
+            stderr=None if watched else subprocess.PIPE,
+            text=True,
+            check=False,
+        )
+        if done.returncode:
+            print(done.stderr or "", end="", file=sys.stderr)
             raise SetupError(
                 "pip could not install what is needed; its messages above say why. Without a "
                 "network, point pip at an index that can be reached (PIP_INDEX_URL, or "
@@ -254,9 +278,8 @@ def provide(environment: Environment, packages: list[str]) -> None:
         say(f"installing Debian packages: {' '.join(packages)}")
         settings = ["env", "DEBIAN_FRONTEND=noninteractive", "LC_ALL=C.UTF-8"]
         patience = ["-qq", "-o", "DPkg::Lock::Timeout=300"]
-        for step in (["apt-get", "update"], command):
-            done = subprocess.call([*prefix, *settings, *step, *patience], stdin=subprocess.DEVNULL)
-        if done == 0:
+        succeeds(*prefix, *settings, "apt-get", "update", *patience)
+        if succeeds(*prefix, *settings, *command, *patience):
             return
     elif unpack(environment, packages):
         say(f"unpacked in the environment for want of rights. To install for good:\n    {by_hand}")
@@ -325,7 +348,7 @@ def test(arguments: list[str]) -> int:
     environment = set_up("dev", {"qt"})
     env = {"QT_QPA_PLATFORM": "offscreen", **environment.variables()}
     cache = [] if os.access(ROOT, os.W_OK) else ["-p", "no:cacheprovider"]
-    command = [environment.python, "-m", "pytest", *cache, *arguments]
+    command: list[str | Path] = [environment.python, "-m", "pytest", *cache, *arguments]
     return subprocess.call(command, cwd=ROOT, env=env)
 
 
