@@ -1,0 +1,144 @@
+"""Synthetic scenes with known truth: a camera, poses of a board, and what the camera sees."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Sequence
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+from scipy.spatial.transform import Rotation
+
+from calibgui.engine.projection import pixels
+from calibgui.engine.types import Array, Camera, Observation, Pose, Size, Target
+
+VGA: Size = (640, 480)
+BOARD = Target(rows=9, cols=12, square=30.0)
+
+
+@dataclass(frozen=True, eq=False)
+class Scene:
+    """The truth, and the exact corners of every view."""
+
+    camera: Camera
+    poses: tuple[Pose, ...]
+    views: tuple[Observation, ...]
+
+    @property
+    def size(self) -> Size:
+        return self.camera.size
+
+    def noisy(self, sigma: float, rng: np.random.Generator) -> list[Observation]:
+        """The views with Gaussian noise of `sigma` px on every coordinate."""
+        return [
+            Observation(view.uv + rng.normal(scale=sigma, size=view.uv.shape), view.xy)
+            for view in self.views
+        ]
+
+
+def barrel(aspect: float = 1.0, focal: float = 650.0, size: Size = VGA) -> Camera:
+    """A lens like that of the paper's camera, pixels `aspect` as wide as high."""
+    w, h = size
+    params = [focal, focal * aspect, 0.47 * w, 0.52 * h]
+    return Camera(size, [*params, 0.25, 0.1, -0.04, 4e-4, -7e-4, 0.0])
+
+
+def brown(aspect: float = 1.0, size: Size = VGA) -> Camera:
+    """The same kind of camera in OpenCV's model."""
+    params = [650.0, 650.0 * aspect, 303.0, 243.0]
+    return Camera(size, [*params, -0.25, 0.12, 3e-4, -5e-4, -0.03], "opencv")
+
+
+def imaged(camera: Camera, pose: Pose, xy: Array) -> Array:
+    """(n, 2) where the camera sees plate points (n, 2), px; NaN behind it or beyond the lens."""
+    point = xy @ Rotation.from_rotvec(np.array(pose.rvec)).as_matrix()[:, :2].T + pose.tvec
+    depth = np.where(point[:, 2:] > 0, point[:, 2:], np.nan)
+    return pixels(point[:, :2] / depth, camera)
+
+
+def looking(
+    camera: Camera,
+    rng: np.random.Generator,
+    tilt: tuple[float, float] = (15.0, 45.0),
+    fill: tuple[float, float] = (0.5, 0.9),
+    roll: float = 20.0,
+    towards: float | None = None,
+    board: Target = BOARD,
+) -> Pose:
+    """A random pose of the board in front of the camera.
+
+    Args:
+        camera: that looks.
+        rng: source of the choice.
+        tilt: range of the angle between plate and sensor, degrees.
+        fill: range of the board's width over the image's.
+        roll: largest turn about the board's normal, degrees.
+        towards: direction of the tilt, degrees; any if None.
+        board: the target.
+    """
+    direction = np.deg2rad(rng.uniform(0, 360) if towards is None else towards)
+    angle = np.deg2rad(rng.uniform(*tilt))
+    tilting = Rotation.from_rotvec(angle * np.array([np.cos(direction), np.sin(direction), 0.0]))
+    turn = Rotation.from_euler("z", rng.uniform(-roll, roll), degrees=True)
+    R = (tilting * turn).as_matrix()
+    corners = board.points()
+    centre = (corners.min(axis=0) + corners.max(axis=0)) / 2
+    width = np.ptp(corners[:, 0])
+    w, h = camera.size
+    depth = width / w * camera.focal[0] / rng.uniform(*fill)
+    aim = (np.array([w, h]) * rng.uniform(0.38, 0.62, size=2) - camera.centre) / camera.focal
+    return Pose(
+        Rotation.from_matrix(R).as_rotvec(), depth * np.append(aim, 1.0) - R[:, :2] @ centre
+    )
+
+
+def seen(
+    camera: Camera, poses: Sequence[Pose], board: Target = BOARD, partial: bool = False
+) -> Scene:
+    """What the camera sees of the board in each pose; partial boards lose what the image cuts."""
+    xy = board.points()
+    views = []
+    for pose in poses:
+        uv = imaged(camera, pose, xy)
+        inside = np.isfinite(uv).all(axis=1)
+        if partial:
+            inside &= ((uv >= 0) & (uv <= np.array(camera.size) - 1)).all(axis=1)
+        assert partial or inside.all(), "the lens folds over before the board ends"
+        views.append(Observation(uv[inside], xy[inside]))
+    return Scene(camera, tuple(poses), tuple(views))
+
+
+def scene(
+    camera: Camera, count: int = 10, seed: int = 0, tilt: tuple[float, float] = (15.0, 45.0)
+) -> Scene:
+    """`count` random views of the whole board."""
+    rng = np.random.default_rng(seed)
+    return seen(camera, [looking(camera, rng, tilt) for _ in range(count)])
+
+
+def stored(file: Path) -> tuple[list[Observation], Size]:
+    """The corners of one of the real data sets, and the size of its images."""
+    content = json.loads(file.read_text())
+    views = [
+        Observation(np.array(view["image_points"]), np.array(view["object_points"])[:, :2])
+        for view in content["views"]
+    ]
+    width, height = content["image_size"]
+    return views, (width, height)
+
+
+def relative(a: Array, b: Array, floor: float = 1e-12) -> float:
+    """Largest difference relative to the largest entry of `b`."""
+    return float(np.abs(a - b).max() / max(np.abs(b).max(), floor))
+
+
+def central_differences(f: object, x: Array, step: Array | float) -> Array:
+    """(..., n) derivative of f (returning any shape) by each of x (n,)."""
+    assert callable(f)
+    columns = []
+    for i, h in enumerate(np.broadcast_to(step, x.shape)):
+        e = np.zeros_like(x)
+        e[i] = h
+        columns.append((f(x + e) - f(x - e)) / (2 * h))
+    return np.stack(columns, axis=-1)
