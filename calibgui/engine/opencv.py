@@ -45,15 +45,15 @@ def dilate(image: Image32, size: int) -> Image32:
     return np.asarray(cv2.dilate(image, np.ones((size, size), np.uint8)))
 
 
-def sample(image: Image32, uv: Array) -> Array:
-    """Bilinear values of `image` (h, w) float32 at `uv` (..., 2) px, the border replicated."""
+def sample(image: Image, uv: Array) -> Array:
+    """Bilinear values of `image` (h, w) at `uv` (..., 2) px, the border replicated."""
     points = np.ascontiguousarray(uv, dtype=np.float32).reshape(-1, 1, 2)
     rows = 30_000  # remap holds at most 32767 rows
     parts = [
         cv2.remap(image, points[i : i + rows], None, cv2.INTER_LINEAR, None, cv2.BORDER_REPLICATE)
         for i in range(0, len(points), rows)
     ]
-    values = np.concatenate(parts) if parts else np.empty(0, np.float32)
+    values = np.concatenate(parts) if parts else np.empty(0)
     return np.asarray(values, dtype=np.float64).reshape(uv.shape[:-1])
 
 
@@ -68,3 +68,31 @@ def tiles(image: Image, uv: Array, half: int) -> tuple[Image, Array]:
     u = np.clip(origin[:, :1] + offset, 0, image.shape[1] - 1)
     v = np.clip(origin[:, 1:] + offset, 0, image.shape[0] - 1)
     return image[v[:, :, None], u[:, None, :]], origin.astype(np.float64)
+
+
+def decode(data: bytes, colour: bool) -> Image | None:
+    """Pixels of an image file as stored, EXIF orientation ignored (but a TIFF's); None if damaged.
+
+    Grey (h, w), or with `colour` RGB (h, w, 3) unless the file is grey; 16 bits are kept.
+    """
+    flags = cv2.IMREAD_ANYDEPTH | cv2.IMREAD_IGNORE_ORIENTATION
+    if colour:
+        flags |= cv2.IMREAD_ANYCOLOR
+    try:
+        image = cv2.imdecode(np.frombuffer(data, np.uint8), flags)
+    except cv2.error:
+        return None
+    if image is None or image.ndim == 2:
+        return image
+    return np.asarray(cv2.cvtColor(image, cv2.COLOR_BGR2RGB))
+
+
+def encode(suffix: str, image: Image) -> bytes | None:
+    """`image`, (h, w) or RGB (h, w, 3), in the file format of `suffix`; None if it cannot be."""
+    bgr = cv2.cvtColor(image, cv2.COLOR_RGB2BGR) if image.ndim == 3 else image
+    lossless_webp = [cv2.IMWRITE_WEBP_QUALITY, 101] if suffix == ".webp" else []
+    try:
+        ok, data = cv2.imencode(suffix, bgr, lossless_webp)
+    except cv2.error:
+        return None
+    return bytes(data) if ok else None
