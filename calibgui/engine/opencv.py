@@ -19,6 +19,11 @@ Image = npt.NDArray[Any]
 Image32 = npt.NDArray[np.float32]
 
 
+def use_threads(count: int) -> None:
+    """Let OpenCV use `count` threads in this process."""
+    cv2.setNumThreads(count)
+
+
 def half(image: Image) -> Image:
     """Every second pixel of `image` (h, w), each the mean of its 2 x 2 block; odd edges are dropped.
 
