@@ -1,0 +1,86 @@
+"""corners.json: located corners with their places on the plate, from this or any program.
+
+    {"size": [w, h], "views": [{"image", "uv": [[u, v], ...], "board": [[x, y], ...], "cov"}]}
+
+Reader: `read_corners`, and any JSON reader. Positions are pixels in the array frame (0-based,
+integer at pixel centres, v down), `board` millimetres on the plate, `cov` (optional) 2 x 2
+covariances in px^2. This program adds the board as `target` and per view what
+``views_json.py`` lists; a reader may ignore all of it. Views without corners have empty lists.
+Cannot hold: a calibration (see ``result_json.py``).
+"""
+
+from __future__ import annotations
+
+import os
+from dataclasses import dataclass
+from typing import Any
+
+from calibgui.engine.types import Size, Target, View
+from calibgui.formats.json_document import Node, read, write
+from calibgui.formats.views_json import read_views, view_record
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class CornerSet:
+    """Views of one camera and the board that they show."""
+
+    size: Size
+    """Of the images, px."""
+    views: tuple[View, ...]
+    target: Target | None = None
+    """The board, where the corners are of one of known layout."""
+
+
+def write_corners(corner_set: CornerSet, path: str | os.PathLike[str]) -> None:
+    """Write corners.json.
+
+    Raises:
+        CalibrationError: if the file cannot be written.
+    """
+    write(path, corners_record(corner_set))
+
+
+def corners_record(corner_set: CornerSet) -> dict[str, Any]:
+    """The content of corners.json."""
+    record: dict[str, Any] = {"size": corner_set.size}
+    if corner_set.target is not None:
+        record["target"] = target_record(corner_set.target)
+    return record | {"views": [view_record(view, corner_set.target) for view in corner_set.views]}
+
+
+def read_corners(path: str | os.PathLike[str]) -> CornerSet:
+    """Read corners.json.
+
+    Raises:
+        CalibrationError: if the file cannot be read or something in it is wrong, naming view
+            and entry.
+    """
+    node = read(path)
+    target = read_target(node.get("target"))
+    return CornerSet(read_size(node["size"]), read_views(node["views"], target), target)
+
+
+def target_record(target: Target) -> dict[str, Any]:
+    """The JSON object of a board."""
+    return {"rows": target.rows, "cols": target.cols, "square_mm": target.square}
+
+
+def read_target(node: Node | None) -> Target | None:
+    """The board of a JSON object."""
+    if node is None:
+        return None
+    rows, cols, square = node["rows"], node["cols"], node["square_mm"]
+    if not square.number() > 0:
+        square.fail("a length above 0")
+    for side in (rows, cols):
+        if not side.integer() >= 2:
+            side.fail("a number of corners above 1")
+    return Target(rows.integer(), cols.integer(), square.number())
+
+
+def read_size(node: Node) -> Size:
+    """Width and height of an image."""
+    width, height = (int(n) for n in node.integers(2))
+    if width < 1 or height < 1:
+        node.fail("the width and height of an image")
+    return width, height

@@ -1,0 +1,219 @@
+"""JSON as this program writes it, and a cursor that reads it with errors that say where.
+
+Written: numbers in the shortest form that reads back as the same float64; numbers that are
+not finite as null; points, and rows of matrices, on a line each, so that two files compare
+line by line.
+
+Read: `Node` is a value with its place in the file ("views[2].uv[17]"). Each of its readers
+returns a checked value or raises a CalibrationError with file, place and what was expected.
+"""
+
+from __future__ import annotations
+
+import json
+import math
+import os
+import sys
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any, NoReturn
+
+import numpy as np
+
+from calibgui.engine.errors import CalibrationError
+from calibgui.engine.files import write_atomically
+from calibgui.engine.types import Array, IntArray, frozen, frozen_int
+
+_LINE = 100
+"""Length up to which a list of lists is kept on one line."""
+
+
+def dumps(value: Any, depth: int = 0) -> str:
+    """`value` as JSON: mappings, sequences, numpy arrays, text, numbers, True, False and None."""
+    if isinstance(value, np.ndarray):
+        value = value.tolist()
+    if isinstance(value, Mapping):
+        members = [f"{dumps(str(key))}: {dumps(item, depth + 1)}" for key, item in value.items()]
+        return _block("{", members, "}", depth)
+    if isinstance(value, Sequence) and not isinstance(value, str):
+        items = [dumps(item, depth + 1) for item in value]
+        nested = any(item[0] in "[{" for item in items)
+        line = f"[{', '.join(items)}]"
+        if not nested or (len(line) <= _LINE and "\n" not in line):
+            return line
+        return _block("[", items, "]", depth)
+    if isinstance(value, float) and not math.isfinite(value):
+        return "null"
+    # A file name that is not valid Unicode holds surrogates, which only \u can write.
+    return json.dumps(value, ensure_ascii=isinstance(value, str) and not value.isprintable())
+
+
+def _block(opening: str, lines: list[str], closing: str, depth: int) -> str:
+    if not lines:
+        return opening + closing
+    inner, outer = "\n" + " " * (depth + 1), "\n" + " " * depth
+    return opening + inner + f",{inner}".join(lines) + outer + closing
+
+
+def write(path: str | os.PathLike[str], value: Any) -> None:
+    """Write `value` as the file `path`, completely or not at all.
+
+    Raises:
+        CalibrationError: if it cannot be written.
+    """
+    write_atomically(path, (dumps(value) + "\n").encode())
+
+
+@dataclass(frozen=True, slots=True)
+class Node:
+    """A value in a JSON file."""
+
+    value: Any
+    where: str
+    """Its place in the file, for messages; empty at the top."""
+    file: str
+
+    def fail(self, expected: str) -> NoReturn:
+        """Raise the error that this value is not `expected`."""
+        place = self.where or "the content"
+        raise CalibrationError(
+            f"{self.file}: {place} is not {expected}.", "Correct the file or write it again."
+        )
+
+    def get(self, key: str) -> Node | None:
+        """A member of this object; None if it is absent or null."""
+        if not isinstance(self.value, dict):
+            self.fail("an object")
+        value = self.value.get(key)
+        return None if value is None else Node(value, self._place(key), self.file)
+
+    def __getitem__(self, key: str) -> Node:
+        """A member of this object that must be there."""
+        if not isinstance(self.value, dict):
+            self.fail("an object")
+        if key not in self.value:
+            raise CalibrationError(
+                f"{self.file}: {self._place(key)} is missing.",
+                "Correct the file or write it again.",
+            )
+        return Node(self.value[key], self._place(key), self.file)
+
+    def _place(self, key: str) -> str:
+        return f"{self.where}.{key}" if self.where else key
+
+    def named(self, where: str) -> Node:
+        """The same value under a name that says more than its place."""
+        return Node(self.value, where, self.file)
+
+    def items(self) -> list[Node]:
+        """The entries of this list."""
+        if not isinstance(self.value, list):
+            self.fail("a list")
+        return [Node(v, f"{self.where}[{i}]", self.file) for i, v in enumerate(self.value)]
+
+    def text(self) -> str:
+        """This text."""
+        if not isinstance(self.value, str):
+            self.fail("text")
+        return self.value
+
+    def flag(self) -> bool:
+        """This truth value."""
+        if not isinstance(self.value, bool):
+            self.fail("true or false")
+        return self.value
+
+    def choice(self, allowed: Sequence[str]) -> str:
+        """This text, one of `allowed`."""
+        if self.value not in allowed:
+            self.fail(f"one of {', '.join(allowed)}")
+        return str(self.value)
+
+    def number(self, nullable: bool = False) -> float:
+        """This finite number; NaN for null if `nullable`."""
+        if nullable and self.value is None:
+            return math.nan
+        if (
+            not isinstance(self.value, (int, float))
+            or isinstance(self.value, bool)
+            or not abs(self.value) <= sys.float_info.max
+        ):
+            self.fail("a finite number")
+        return float(self.value)
+
+    def integer(self) -> int:
+        """This integer."""
+        number = self.number()
+        if not number.is_integer():
+            self.fail("an integer")
+        return int(number)
+
+    def numbers(self, *shape: int | None, nullable: bool = False) -> Array:
+        """This array of finite numbers; `shape` may begin with None for any length."""
+        nested = self._nested(shape, nullable)
+        # An empty list hides the lengths of its entries.
+        return frozen(np.reshape(nested, [len(nested) if n is None else n for n in shape]))
+
+    def integers(self, *shape: int | None) -> IntArray:
+        """This array of integers; `shape` may begin with None for any length."""
+        numbers = self.numbers(*shape)
+        if (numbers != np.rint(numbers)).any():
+            self.fail("an array of integers")
+        return frozen_int(numbers)
+
+    def _nested(self, shape: tuple[int | None, ...], nullable: bool) -> Any:
+        if not shape:
+            return self.number(nullable)
+        items = self.items()
+        if shape[0] is not None and len(items) != shape[0]:
+            self.fail(f"a list of {shape[0]} entries (it has {len(items)})")
+        return [item._nested(shape[1:], nullable) for item in items]
+
+
+def read(path: str | os.PathLike[str]) -> Node:
+    """The content of the JSON file `path`.
+
+    Raises:
+        CalibrationError: if it cannot be read, is cut short or is not JSON.
+    """
+    file = os.fspath(path)
+    try:
+        text = Path(path).read_text(encoding="utf-8-sig")
+        return Node(json.loads(text), "", file)
+    except OSError as error:
+        raise CalibrationError(
+            f"{file} cannot be read: {error.strerror or error}.", "Check its name and permissions."
+        ) from error
+    except json.JSONDecodeError as error:
+        if error.pos >= len(error.doc.rstrip()) or error.msg.startswith("Unterminated string"):
+            raise CalibrationError(
+                f"{file} is cut short in line {error.lineno}.", "Copy or write it again."
+            ) from error
+        raise _not_json(file, f"{error.msg} in line {error.lineno}") from error
+    except (ValueError, RecursionError) as error:  # not UTF-8, or absurd numbers or nesting
+        raise _not_json(file, "it is not text in UTF-8") from error
+
+
+def _not_json(file: str, reason: str) -> CalibrationError:
+    return CalibrationError(f"{file} is not a JSON file: {reason}.", "Choose another file.")
+
+
+def check_format(node: Node, name: str, version: int) -> None:
+    """Refuse a file of another format, or of a version that this program does not know.
+
+    Raises:
+        CalibrationError: with what to do instead.
+    """
+    found = node.get("format")
+    if found is None or found.value != name:
+        raise CalibrationError(
+            f"{node.file} is not a file of the format {name!r}.", "Choose another file."
+        )
+    number = node["version"].integer()
+    if not 1 <= number <= version:
+        raise CalibrationError(
+            f"{node.file} has version {number} of the format {name!r}; "
+            f"this program knows versions up to {version}.",
+            "Install a newer calibgui to read it.",
+        )

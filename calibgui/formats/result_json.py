@@ -1,0 +1,244 @@
+"""result.json: a calibration with everything needed to use, judge and repeat it.
+
+Reader: `read_result`, and any JSON reader; described by resources/schema/result-1.schema.json.
+Pixels are in the array frame (0-based, integer at pixel centres, v down; OpenCV's), lengths
+millimetres, angles radians; `paper` is in the paper's centred frame, y up, and pixel units.
+A standard deviation is one sigma: 0 for a parameter that was held, null for one that the
+data do not determine. Unused views have null poses. `covariance.matrix` and a view's
+`pose_covariance` (of rvec, tvec) complete the standard deviations.
+Cannot hold: the images; settings other than JSON's types.
+
+A change that old programs could misread takes a new version: raise `VERSION`, write a schema
+beside the old one, and turn the old record into the new one in `read_result`.
+"""
+
+from __future__ import annotations
+
+import os
+from typing import Any
+
+import numpy as np
+
+from calibgui.engine import frames, uncertainty
+from calibgui.engine.calibrate import parameter_names
+from calibgui.engine.lens import MODELS, Lucchese
+from calibgui.engine.statistics import summarise
+from calibgui.engine.types import (
+    Array,
+    Calibration,
+    Camera,
+    Cost,
+    Iteration,
+    Pose,
+    StageOne,
+    Status,
+    Undetermined,
+    View,
+    ViewResiduals,
+)
+from calibgui.formats.corners_json import read_size, read_target, target_record
+from calibgui.formats.json_document import Node, check_format, read, write
+from calibgui.formats.result import Result
+from calibgui.formats.views_json import read_views, view_record
+
+FORMAT = "calibgui-result"
+VERSION = 1
+
+_STAGE_ONE = ("xp", "yp", "k1", "aspect", "fx", "fy", "iterations", "rms", "converged")
+_ITERATION = ("index", "cost", "rms", "gradient", "step", "damping", "seconds")
+_PAPER_POSE = ("omega", "phi", "theta", "tx", "ty", "tz")
+
+
+def write_result(result: Result, path: str | os.PathLike[str]) -> None:
+    """Write result.json.
+
+    Raises:
+        CalibrationError: if the file cannot be written.
+    """
+    write(path, result_record(result))
+
+
+def result_record(result: Result) -> dict[str, Any]:
+    """The content of result.json."""
+    calibration = result.calibration
+    names = parameter_names(calibration.camera.model)
+    summary = summarise(calibration.residuals)
+    return {
+        "format": FORMAT,
+        "version": VERSION,
+        "status": calibration.status,
+        "camera": {
+            "model": calibration.camera.model,
+            "size": calibration.camera.size,
+            "params": dict(zip(names, calibration.camera.params, strict=True)),
+            "sigma": dict(zip(names, calibration.sigma, strict=True)),
+            "fixed": calibration.fixed,
+        },
+        "paper": _paper_record(calibration),
+        "residuals": {
+            "rms_px": summary.rms,
+            "sigma_x_px": summary.sigma_x,
+            "sigma_y_px": summary.sigma_y,
+            "reference_mean_px": summary.reference_mean,
+            "reference_sd_px": summary.reference_sd,
+            "count": summary.count,
+            "noise": calibration.noise,
+            "reference_px_per_mm": calibration.reference_scale,
+        },
+        "undetermined": [{"name": u.name, "reason": u.reason} for u in calibration.undetermined],
+        "warnings": calibration.warnings,
+        "covariance": {"parameters": names, "matrix": calibration.covariance},
+        "settings": dict(calibration.settings) | {"cost": calibration.cost},
+        "versions": result.versions,
+        "inputs_sha256": calibration.digest,
+        "target": None if result.target is None else target_record(result.target),
+        "stage_one": _stage_one_records(result),
+        "history": [{k: getattr(i, k) for k in _ITERATION} for i in calibration.history],
+        "views": _view_records(result),
+    }
+
+
+def _paper_record(calibration: Calibration) -> dict[str, Any] | None:
+    """The ten intrinsics of Table 2, or None for a lens model that has not got them."""
+    if not isinstance(MODELS[calibration.camera.model], Lucchese):
+        return None
+    values, sigma, printed = (
+        dict(zip(frames.PAPER_NAMES, column, strict=True))
+        for column in uncertainty.paper_table(calibration)
+    )
+    return values | {"sigma": sigma, "sd_as_printed": printed}
+
+
+def _stage_one_records(result: Result) -> list[dict[str, Any]]:
+    rows = zip(result.used, result.calibration.stage_one, strict=True)
+    return [
+        {"image": view.image, **{k: getattr(row, k) for k in _STAGE_ONE}, "backward": row.backward}
+        for view, row in rows
+    ]
+
+
+def _view_records(result: Result) -> list[dict[str, Any]]:
+    estimates = iter(_estimate_records(result))
+    return [
+        view_record(view, result.target) | (next(estimates) if view.usable else _no_estimate(view))
+        for view in result.views
+    ]
+
+
+def _estimate_records(result: Result) -> list[dict[str, Any]]:
+    """What the calibration says of each used view."""
+    calibration = result.calibration
+    records = []
+    for pose, covariance, residuals, paper in zip(
+        calibration.poses,
+        calibration.pose_covariances,
+        calibration.residuals,
+        result.paper_poses(),
+        strict=True,
+    ):
+        sigma = np.sqrt(np.diag(covariance))
+        records.append(
+            {
+                "corners": len(residuals.image),
+                "rms_px": residuals.rms,
+                "rvec": pose.rvec,
+                "tvec_mm": pose.tvec,
+                "sigma_rvec": sigma[:3],
+                "sigma_tvec_mm": sigma[3:],
+                "paper": {k: getattr(paper, k) for k in _PAPER_POSE}
+                | {"distance_mm": paper.distance},
+                "pose_covariance": covariance,
+                "residuals_px": residuals.image,
+                "residuals_reference_px": residuals.reference,
+            }
+        )
+    return records
+
+
+def _no_estimate(view: View) -> dict[str, Any]:
+    found = view.points or view.corners
+    empty = ("rms_px", "rvec", "tvec_mm", "sigma_rvec", "sigma_tvec_mm", "paper")
+    return {"corners": len(found.uv) if found else 0, **dict.fromkeys(empty)}
+
+
+def read_result(path: str | os.PathLike[str]) -> Result:
+    """Read result.json.
+
+    Raises:
+        CalibrationError: if the file cannot be read, is of another format or a newer version,
+            or something in it is wrong, naming the place.
+    """
+    node = read(path)
+    check_format(node, FORMAT, VERSION)
+    target = read_target(node.get("target"))
+    views = read_views(node["views"], target)
+    used = [n for n, view in zip(node["views"].items(), views, strict=True) if view.usable]
+    if not used:
+        node["views"].fail("a list with usable views")
+    return Result(
+        _read_calibration(node, used),
+        views,
+        target,
+        {key: node["versions"][key].text() for key in node["versions"].value},
+    )
+
+
+def _read_calibration(node: Node, used: list[Node]) -> Calibration:
+    camera = node["camera"]
+    model = camera["model"].choice(list(MODELS))
+    names = parameter_names(model)
+    residuals, settings = node["residuals"], node["settings"]
+    return Calibration(
+        camera=Camera(read_size(camera["size"]), _by_name(camera["params"], names), model),
+        sigma=_by_name(camera["sigma"], names),
+        covariance=node["covariance"]["matrix"].numbers(len(names), len(names), nullable=True),
+        poses=tuple(Pose(v["rvec"].numbers(3), v["tvec_mm"].numbers(3)) for v in used),
+        pose_covariances=np.stack(
+            [v["pose_covariance"].numbers(6, 6, nullable=True) for v in used]
+        ),
+        residuals=tuple(_read_residuals(v) for v in used),
+        noise=residuals["noise"].number(nullable=True),
+        reference_scale=residuals["reference_px_per_mm"].number(),
+        stage_one=tuple(_read_stage_one(n) for n in node["stage_one"].items()),
+        history=tuple(_read_iteration(n) for n in node["history"].items()),
+        status=Status(node["status"].choice(list(Status))),
+        cost=Cost(settings["cost"].choice(list(Cost))),
+        fixed=tuple(n.choice(names) for n in camera["fixed"].items()),
+        undetermined=tuple(
+            Undetermined(n["name"].choice(names), n["reason"].text())
+            for n in node["undetermined"].items()
+        ),
+        warnings=tuple(n.text() for n in node["warnings"].items()),
+        settings=dict(settings.value),
+        digest=node["inputs_sha256"].text(),
+    )
+
+
+def _by_name(node: Node, names: tuple[str, ...]) -> Array:
+    return np.array([node[name].number(nullable=True) for name in names])
+
+
+def _read_residuals(view: Node) -> ViewResiduals:
+    n = len(view["uv"].value)
+    return ViewResiduals(
+        view["residuals_px"].numbers(n, 2), view["residuals_reference_px"].numbers(n, 2)
+    )
+
+
+def _read_stage_one(node: Node) -> StageOne:
+    return StageOne(
+        xp=node["xp"].number(nullable=True),
+        yp=node["yp"].number(nullable=True),
+        k1=node["k1"].number(nullable=True),
+        aspect=node["aspect"].number(nullable=True),
+        fx=node["fx"].number(nullable=True),
+        fy=node["fy"].number(nullable=True),
+        iterations=node["iterations"].integer(),
+        rms=node["rms"].number(nullable=True),
+        backward=node["backward"].numbers(3, 3, nullable=True),
+        converged=node["converged"].flag(),
+    )
+
+
+def _read_iteration(node: Node) -> Iteration:
+    return Iteration(node["index"].integer(), *(node[k].number() for k in _ITERATION[1:]))

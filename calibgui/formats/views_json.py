@@ -1,0 +1,126 @@
+"""A view as a JSON object, the same in corners.json, result.json and whatever holds views.
+
+    image    name or path                       uv      (n, 2) px, array frame; [] if none
+    status   see ViewStatus                     board   (n, 2) mm on the plate
+    reason   why it cannot be used              cov     (n, 2, 2) px^2, where known
+    enabled  whether the user wants it          roi     (4, 2) px, where given by the user
+
+and for corners found on a board of known layout their `grid` (row, column), the board's
+`shape`, first `estimate`, `ambiguity`, `relative`, `method` and the searched `outline`.
+`image`, `uv` and `board` suffice: the others have defaults.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from calibgui.engine.types import (
+    Ambiguity,
+    Corners,
+    Observation,
+    Target,
+    View,
+    ViewStatus,
+)
+from calibgui.formats.json_document import Node
+
+
+def view_record(view: View, target: Target | None) -> dict[str, Any]:
+    """The JSON object of a view; `target` gives found corners their places on the plate."""
+    record: dict[str, Any] = {
+        "image": view.image,
+        "status": view.status,
+        "reason": view.reason,
+        "enabled": view.enabled,
+    }
+    if view.roi is not None:
+        record["roi"] = view.roi
+    if view.points is None and view.corners is None:
+        return record | {"uv": [], "board": []}
+    uv, board, cov = view.observation(target)
+    record |= {"uv": uv, "board": board}
+    if cov is not None:
+        record["cov"] = cov
+    if view.corners is not None:
+        record |= _corners_record(view.corners)
+    return record
+
+
+def _corners_record(corners: Corners) -> dict[str, Any]:
+    record: dict[str, Any] = {
+        "shape": corners.shape,
+        "grid": corners.grid,
+        "estimate": corners.estimate,
+        "ambiguity": corners.ambiguity,
+        "relative": corners.relative,
+        "method": corners.method,
+    }
+    if corners.roi is not None:
+        record["outline"] = corners.roi
+    return record
+
+
+def read_views(node: Node, target: Target | None) -> tuple[View, ...]:
+    """The views of a list of JSON objects.
+
+    Raises:
+        CalibrationError: naming file, view and entry.
+    """
+    return tuple(_read_view(item, k, target) for k, item in enumerate(node.items()))
+
+
+def _read_view(node: Node, k: int, target: Target | None) -> View:
+    image = node.named(f"view {k + 1}")["image"].text()
+    node = node.named(f"view {k + 1} ({image})")
+    uv = node["uv"].numbers(None, 2)
+    board = node["board"].numbers(len(uv), 2)
+    cov = node.get("cov")
+    points = Observation(uv, board, cov.numbers(len(uv), 2, 2) if cov else None)
+    corners = _read_corners(node, points) if len(uv) else None
+    # Found corners take their places on the plate from the target, unless the file differs.
+    on_target = corners and target and np.array_equal(target.points(corners.grid), board)
+    return View(
+        image=image,
+        status=_read_status(node, found=len(uv) > 0),
+        reason=reason.text() if (reason := node.get("reason")) else "",
+        corners=corners,
+        points=points if len(uv) and not on_target else None,
+        roi=roi.numbers(4, 2) if (roi := node.get("roi")) else None,
+        enabled=enabled.flag() if (enabled := node.get("enabled")) else True,
+    )
+
+
+def _read_status(node: Node, found: bool) -> ViewStatus:
+    stated = node.get("status")
+    if stated is None:
+        return ViewStatus.FOUND if found else ViewStatus.NO_BOARD
+    status = ViewStatus(stated.choice(list(ViewStatus)))
+    if found and status is not ViewStatus.FOUND:
+        stated.fail("'found' although the view has corners")
+    if status is ViewStatus.FOUND and not found:
+        node["uv"].fail("a list of corners although the status is 'found'")
+    return status
+
+
+def _read_corners(node: Node, points: Observation) -> Corners | None:
+    """The corners with their places on a board, if the file tells them."""
+    grid, shape = node.get("grid"), node.get("shape")
+    if grid is None or shape is None:
+        return None
+    rows, cols = shape.integers(2)
+    estimate, outline = node.get("estimate"), node.get("outline")
+    ambiguity, relative = node.get("ambiguity"), node.get("relative")
+    n = len(points.uv)
+    return Corners(
+        shape=(int(rows), int(cols)),
+        grid=grid.integers(n, 2),
+        uv=points.uv,
+        estimate=estimate.numbers(n, 2) if estimate else points.uv,
+        cov=points.cov,
+        ambiguity=Ambiguity(ambiguity.choice(list(Ambiguity))) if ambiguity else Ambiguity.NONE,
+        roi=outline.numbers(4, 2) if outline else None,
+        method=method.text() if (method := node.get("method")) else "",
+        relative=relative.flag() if relative else False,
+    )
