@@ -1,0 +1,1 @@
+"""What the command line and the window both do, free of Qt: find images, search, solve, write."""

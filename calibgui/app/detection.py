@@ -1,0 +1,140 @@
+"""From photographs to views: read each image and search it for the board.
+
+What goes wrong with one image is recorded in its view and stops nothing. One camera has one
+image size: the most frequent one counts, images of another are left out unread. If the
+board's size is not given, the most frequent one among the boards seen whole is taken to be
+it, and images in which something else was counted are searched again for that size.
+"""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from dataclasses import dataclass, replace
+from functools import partial
+from pathlib import Path
+from threading import Event
+
+from calibgui.app.workers import Crashed, spread
+from calibgui.engine.corners import find_corners
+from calibgui.engine.errors import CalibrationError, NoBoardError
+from calibgui.engine.images import image_size, read_image
+from calibgui.engine.types import Array, Size, View, ViewStatus
+
+Board = tuple[int, int]
+"""Rows and columns of inner corners."""
+
+Progress = Callable[[int, int, View], None]
+"""Told of each image done: how many are, of how many, and its view."""
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class Detection:
+    """The views of a set of images, with what they have in common."""
+
+    views: tuple[View, ...]
+    """One per image, in the images' order."""
+    size: Size | None
+    """Of the images, px; None if none could be read."""
+    board: Board | None
+    """As given, or as most frequently seen; None if no board was seen whole."""
+
+
+def find_views(
+    images: Sequence[Path],
+    board: Board | None = None,
+    rois: Mapping[Path, Array] | None = None,
+    progress: Progress | None = None,
+    stop: Event | None = None,
+) -> Detection:
+    """Search all images for the board, on all processors.
+
+    Args:
+        images: files; their order is the views'.
+        board: rows and columns of inner corners; inferred over the whole set if None.
+        rois: (4, 2) px, the region to search in some of the images.
+        progress: told of each image searched; those searched again add to the total.
+        stop: abandons the search within 0.2 s when set.
+
+    Raises:
+        Cancelled: if `stop` was set.
+    """
+    rois = rois or {}
+    waiting = [View(str(path), roi=rois.get(path)) for path in images]
+    views, size = _sized(waiting)
+
+    def search(which: Sequence[int], board: Board | None, before: int = 0) -> None:
+        items = [views[k] for k in which]
+        results = spread(partial(search_view, board=board), items, stop)
+        for done, (i, view) in enumerate(results, start=before + 1):
+            views[which[i]] = _crashed(items[i]) if isinstance(view, Crashed) else view
+            if progress is not None:
+                progress(done, before + len(which), views[which[i]])
+
+    readable = [k for k, view in enumerate(views) if view.status is ViewStatus.WAITING]
+    search(readable, board)
+    if board is None and (board := usual_board(views)) is not None:
+        again = [k for k, view in enumerate(views) if _worth_another_look(view, board)]
+        search(again, board, before=len(readable))
+    return Detection(tuple(views), size, board)
+
+
+def search_view(view: View, board: Board | None = None) -> View:
+    """The view with the corners found in its image, or with the reason why there are none."""
+    try:
+        pixels = read_image(view.image).pixels
+    except CalibrationError as error:
+        return _without_corners(view, ViewStatus.UNREADABLE, str(error))
+    try:
+        corners = find_corners(pixels, board, view.roi)
+    except NoBoardError as error:
+        return _without_corners(view, ViewStatus.NO_BOARD, str(error))
+    return replace(view, status=ViewStatus.FOUND, reason="", corners=corners)
+
+
+def usual_board(views: Iterable[View]) -> Board | None:
+    """The most frequent size of boards seen whole, of equally frequent ones the largest."""
+    found = [view.corners for view in views if view.corners is not None]
+    seen = Counter(corners.shape for corners in found if corners.complete)
+    return max(seen, key=lambda shape: (seen[shape], shape[0] * shape[1]), default=None)
+
+
+def _worth_another_look(view: View, board: Board) -> bool:
+    """Whether knowing the board can give a view other corners: fewer, more or renumbered."""
+    if view.corners is not None:
+        return view.corners.shape != board
+    return view.status is ViewStatus.NO_BOARD and view.roi is not None
+
+
+def _sized(views: Iterable[View]) -> tuple[list[View], Size | None]:
+    """The views, without those whose image is unreadable or not of the most frequent size."""
+    sizes: dict[int, Size] = {}
+    result = list(views)
+    for k, view in enumerate(result):
+        try:
+            sizes[k] = image_size(view.image)
+        except CalibrationError as error:
+            result[k] = _without_corners(view, ViewStatus.UNREADABLE, str(error))
+    count = Counter(sizes.values())
+    usual = max(count, key=lambda size: (count[size], size[0] * size[1]), default=None)
+    for k, size in sizes.items():
+        if size != usual:
+            result[k] = _without_corners(result[k], ViewStatus.WRONG_SIZE, _wrong(size, usual))
+    return result, usual
+
+
+def _wrong(size: Size, usual: Size | None) -> str:
+    remedy = "Leave it out, or calibrate images of each size by themselves."
+    if usual == size[::-1]:
+        remedy = "Turn it like the others (without EXIF rotation), or leave it out."
+    width, height = usual or (0, 0)
+    return f"It has {size[0]} x {size[1]} pixels, most have {width} x {height}. {remedy}"
+
+
+def _crashed(view: View) -> View:
+    reason = "Searching it ended the process that did. Leave it out."
+    return _without_corners(view, ViewStatus.UNREADABLE, reason)
+
+
+def _without_corners(view: View, status: ViewStatus, reason: str) -> View:
+    return replace(view, status=status, reason=reason, corners=None)

@@ -1,0 +1,131 @@
+"""Independent pieces of work on all processors, in processes that can be stopped at once.
+
+Processes rather than threads: the corner search is many short numpy calls, which hold the
+interpreter's lock, so that two threads take as long as one; a process can be ended in the
+middle of an image that takes too long; and one that crashes takes only its own image along.
+Workers are spawned, not forked, because the window's threads must not be copied.
+"""
+
+from __future__ import annotations
+
+import contextlib
+import multiprocessing
+import os
+import signal
+import traceback
+from collections.abc import Callable, Generator, Iterator, Sequence
+from multiprocessing.connection import Connection, wait
+from multiprocessing.context import SpawnProcess
+from threading import Event
+from typing import Any, TypeVar
+
+from threadpoolctl import threadpool_limits
+
+from calibgui.engine import opencv
+from calibgui.engine.errors import Cancelled
+
+T = TypeVar("T")
+R = TypeVar("R")
+
+_POLL = 0.05
+"""Seconds between looks at `stop`."""
+_CONTEXT = multiprocessing.get_context("spawn")
+
+
+class Crashed(Exception):  # noqa: N818 - a value, never raised
+    """Stands for the result of a piece of work whose process died."""
+
+
+def spread(
+    task: Callable[[T], R], items: Sequence[T], stop: Event | None = None
+) -> Generator[tuple[int, R | Crashed], None, None]:
+    """Index and task(item) of each item, as they are completed; closing it ends the work.
+
+    Args:
+        task: a module's function, or a partial of one: it is sent to other processes.
+        items: what to do it to.
+        stop: ends the work at once when set.
+
+    Raises:
+        Cancelled: if `stop` was set.
+        Exception: whatever `task` raised, with the worker's traceback as a note.
+    """
+    waiting = list(enumerate(items))[::-1]
+    busy: dict[Connection, tuple[SpawnProcess, int]] = {}
+    team: list[SpawnProcess] = []
+
+    def give(connection: Connection, process: SpawnProcess) -> None:
+        index, item = waiting.pop()
+        connection.send(item)
+        busy[connection] = (process, index)
+
+    def hire() -> None:
+        connection, process = _start(task)
+        team.append(process)
+        give(connection, process)
+
+    try:
+        for _ in range(min(len(items), os.cpu_count() or 1)):
+            hire()
+        while busy:
+            ready = wait(list(busy), _POLL)
+            if stop is not None and stop.is_set():
+                raise Cancelled
+            for connection in ready:
+                assert isinstance(connection, Connection)
+                process, index = busy.pop(connection)
+                try:
+                    error, result = connection.recv()
+                except (EOFError, ConnectionError):
+                    yield index, Crashed()
+                    if waiting:
+                        hire()
+                    continue
+                if error is not None:
+                    raise error
+                if waiting:
+                    give(connection, process)
+                yield index, result
+    finally:
+        for process in team:
+            process.kill()
+        for process in team:
+            process.join()
+
+
+def _start(task: Callable[[Any], Any]) -> tuple[Connection, SpawnProcess]:
+    """A worker and the connection on which it takes items and returns results."""
+    ours, theirs = _CONTEXT.Pipe()
+    process = _CONTEXT.Process(target=_work, args=(task, theirs), daemon=True)
+    with _interrupts_kept_off():
+        process.start()
+    theirs.close()
+    return ours, process
+
+
+def _work(task: Callable[[Any], Any], connection: Connection) -> None:
+    """Do `task` to what arrives until the other end is closed."""
+    signal.signal(signal.SIGINT, signal.SIG_IGN)
+    opencv.use_threads(1)
+    with threadpool_limits(1), contextlib.suppress(EOFError, ConnectionError):
+        while True:
+            item = connection.recv()
+            try:
+                answer: tuple[Exception | None, Any] = (None, task(item))
+            except Exception as error:
+                error.add_note(traceback.format_exc())
+                answer = (error, None)
+            connection.send(answer)
+
+
+@contextlib.contextmanager
+def _interrupts_kept_off() -> Iterator[None]:
+    """Block Ctrl-C in processes started within: it is for their parent, which ends them."""
+    if not hasattr(signal, "pthread_sigmask"):  # Windows
+        yield
+        return
+    before = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
+    try:
+        yield
+    finally:
+        signal.pthread_sigmask(signal.SIG_SETMASK, before)
