@@ -1,0 +1,1 @@
+"""Views of a result: one file, one widget, one setter each."""

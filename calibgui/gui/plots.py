@@ -1,0 +1,133 @@
+"""Plots alike: labelled axes with units, the theme's colours, and a menu to save them."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pyqtgraph as pg
+from PySide6.QtCore import QCoreApplication, QEvent, QPoint, Qt
+from PySide6.QtGui import (
+    QAction,
+    QContextMenuEvent,
+    QGuiApplication,
+    QImage,
+    QKeySequence,
+    QPainter,
+)
+from PySide6.QtSvg import QSvgGenerator
+from PySide6.QtWidgets import QFileDialog, QMenu, QWidget
+
+from calibgui.gui import theme
+
+
+class Plot(pg.PlotWidget):  # type: ignore[misc]  # pyqtgraph is not typed
+    """A plot whose axes say what they show.
+
+    Args:
+        x, y: what the axes show.
+        x_unit, y_unit: their units; empty for a count or a ratio.
+        square: whether a unit is as long on either axis.
+    """
+
+    def __init__(
+        self,
+        x: str,
+        y: str,
+        x_unit: str = "",
+        y_unit: str = "",
+        *,
+        square: bool = False,
+        parent: QWidget | None = None,
+    ) -> None:
+        super().__init__(parent)
+        self._labels = {"bottom": _with_unit(x, x_unit), "left": _with_unit(y, y_unit)}
+        item = self.getPlotItem()
+        item.setMenuEnabled(False)
+        item.hideButtons()
+        item.showGrid(x=True, y=True, alpha=0.15)
+        item.getViewBox().setAspectLocked(square)
+        for axis in ("left", "bottom"):
+            item.getAxis(axis).enableAutoSIPrefix(False)
+        self._menu = QMenu(self)
+        for text, shortcut, does in (
+            (self.tr("Show all"), None, lambda: item.autoRange()),
+            (self.tr("Copy as image"), QKeySequence.StandardKey.Copy, self.copy),
+            (self.tr("Save plot…"), None, self.ask_and_save),
+        ):
+            action = QAction(text, self)
+            if shortcut is not None:
+                action.setShortcut(shortcut)
+                action.setShortcutContext(Qt.ShortcutContext.WidgetShortcut)
+            action.triggered.connect(does)
+            self.addAction(action)
+            self._menu.addAction(action)
+        self._restyle()
+
+    def save(self, path: str | Path) -> None:
+        """Write the plot as PNG or SVG, by the name's ending."""
+        save_picture(self, path)
+
+    def copy(self) -> None:
+        """Put a picture of the plot on the clipboard."""
+        QGuiApplication.clipboard().setPixmap(self.grab())
+
+    def ask_and_save(self) -> None:
+        """Let the user choose a file, then `save`."""
+        ask_and_save_picture(self)
+
+    def contextMenuEvent(self, event: QContextMenuEvent) -> None:  # noqa: N802 - Qt's name
+        self._menu.popup(event.globalPos())
+        event.accept()
+
+    def changeEvent(self, event: QEvent) -> None:  # noqa: N802 - Qt's name
+        super().changeEvent(event)
+        if event.type() == QEvent.Type.PaletteChange and hasattr(self, "_menu"):
+            self._restyle()
+
+    def _restyle(self) -> None:
+        colours = theme.current()
+        self.setBackground(colours.base)
+        for name, text in self._labels.items():
+            axis = self.getPlotItem().getAxis(name)
+            axis.setPen(colours.line)
+            axis.setTextPen(colours.text)
+            axis.setLabel(text, color=colours.text)
+
+
+def save_picture(widget: QWidget, path: str | Path) -> None:
+    """Write what `widget` shows as SVG, or as PNG of twice its size, by the name's ending."""
+    if str(path).lower().endswith(".svg"):
+        drawing = QSvgGenerator()
+        drawing.setFileName(str(path))
+        drawing.setSize(widget.size())
+        drawing.setViewBox(widget.rect())
+        _render(widget, drawing)
+        return
+    image = QImage(widget.size() * 2, QImage.Format.Format_RGB32)
+    image.setDevicePixelRatio(2)
+    _render(widget, image)
+    image.save(str(path))
+
+
+def ask_and_save_picture(widget: QWidget) -> None:
+    """Let the user choose a file, then `save_picture`."""
+    translate = QCoreApplication.translate
+    path, chosen = QFileDialog.getSaveFileName(
+        widget,
+        translate("plots", "Save plot"),
+        "",
+        translate("plots", "PNG image (*.png);;SVG drawing (*.svg)"),
+    )
+    if path:
+        ending = ".svg" if "svg" in chosen else ".png"
+        save_picture(widget, path if Path(path).suffix else path + ending)
+
+
+def _render(widget: QWidget, device: QImage | QSvgGenerator) -> None:
+    painter = QPainter(device)
+    QWidget.render(widget, painter, QPoint())  # a view of a scene has a "render" of its own
+    painter.end()
+
+
+def _with_unit(name: str, unit: str) -> str:
+    return f"{name} [{unit}]" if unit else name

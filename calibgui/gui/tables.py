@@ -1,0 +1,208 @@
+"""Tables alike: sortable by value, copied and saved with every digit."""
+
+from __future__ import annotations
+
+import csv
+import io
+import math
+from collections.abc import Callable, Collection, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from PySide6.QtCore import (
+    QAbstractTableModel,
+    QItemSelectionModel,
+    QModelIndex,
+    QPersistentModelIndex,
+    QPoint,
+    QSortFilterProxyModel,
+    Qt,
+    Signal,
+)
+from PySide6.QtGui import QAction, QColor, QGuiApplication, QKeySequence
+from PySide6.QtWidgets import (
+    QAbstractItemView,
+    QFileDialog,
+    QHeaderView,
+    QMenu,
+    QTableView,
+    QWidget,
+)
+
+from calibgui.gui import theme
+
+Index = QModelIndex | QPersistentModelIndex
+_SORT_ROLE = Qt.ItemDataRole.UserRole
+
+
+@dataclass(frozen=True, slots=True)
+class Column:
+    """One column of a table.
+
+    `values` are what sorting and CSV use; `text` turns one into what is shown.
+    """
+
+    title: str
+    values: Sequence[Any]
+    text: Callable[[Any], str] = str
+    tip: str = ""
+    """What the column means, with its unit."""
+
+
+def number(digits: int) -> Callable[[float], str]:
+    """Text of a number with that many significant digits; a dash where there is none."""
+
+    def text(value: float) -> str:
+        return f"{value:.{digits}g}" if math.isfinite(value) else "–"
+
+    return text
+
+
+def fixed(decimals: int) -> Callable[[float], str]:
+    """Text of a number with that many decimals; a dash where there is none."""
+
+    def text(value: float) -> str:
+        return f"{value:.{decimals}f}" if math.isfinite(value) else "–"
+
+    return text
+
+
+class _Model(QAbstractTableModel):
+    def __init__(self, parent: QWidget) -> None:
+        super().__init__(parent)
+        self.columns: tuple[Column, ...] = ()
+        self.marked: dict[int, str] = {}
+
+    def show(self, columns: Sequence[Column], marked: dict[int, str]) -> None:
+        self.beginResetModel()
+        self.columns, self.marked = tuple(columns), marked
+        self.endResetModel()
+
+    def rowCount(self, parent: Index = QModelIndex()) -> int:  # noqa: N802, B008 - Qt's signature
+        return 0 if parent.isValid() or not self.columns else len(self.columns[0].values)
+
+    def columnCount(self, parent: Index = QModelIndex()) -> int:  # noqa: N802, B008
+        return 0 if parent.isValid() else len(self.columns)
+
+    def data(self, index: Index, role: int = Qt.ItemDataRole.DisplayRole) -> Any:
+        column = self.columns[index.column()]
+        value = column.values[index.row()]
+        if role == Qt.ItemDataRole.DisplayRole:
+            return column.text(value)
+        if role == _SORT_ROLE:
+            # NaN has no order: it goes to the end.
+            return math.inf if isinstance(value, float) and math.isnan(value) else value
+        if role == Qt.ItemDataRole.TextAlignmentRole:
+            side = Qt.AlignmentFlag.AlignLeft if isinstance(value, str) else _RIGHT
+            return int(side | Qt.AlignmentFlag.AlignVCenter)
+        if role == Qt.ItemDataRole.BackgroundRole and index.row() in self.marked:
+            return QColor(theme.current().bad_base)
+        if role == Qt.ItemDataRole.ToolTipRole:
+            return self.marked.get(index.row()) or column.tip or None
+        return None
+
+    def headerData(  # noqa: N802 - Qt's name
+        self, section: int, orientation: Qt.Orientation, role: int = Qt.ItemDataRole.DisplayRole
+    ) -> Any:
+        if orientation == Qt.Orientation.Horizontal and section < len(self.columns):
+            if role == Qt.ItemDataRole.DisplayRole:
+                return self.columns[section].title
+            if role == Qt.ItemDataRole.ToolTipRole:
+                return self.columns[section].tip or None
+        return None
+
+
+_RIGHT = Qt.AlignmentFlag.AlignRight
+
+
+class Table(QTableView):
+    """Rows of numbers, sorted by a click on a column's title."""
+
+    picked = Signal(int)
+    """The row that the user chose, counted as in `Column.values`."""
+
+    def __init__(self, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self._model = _Model(self)
+        self._order = QSortFilterProxyModel(self)
+        self._order.setSourceModel(self._model)
+        self._order.setSortRole(_SORT_ROLE)
+        self.setModel(self._order)
+        self.setSortingEnabled(True)
+        self.sortByColumn(-1, Qt.SortOrder.AscendingOrder)
+        self.setSelectionBehavior(QAbstractItemView.SelectionBehavior.SelectRows)
+        self.setAlternatingRowColors(True)
+        self.setWordWrap(False)
+        self.verticalHeader().hide()
+        self.verticalHeader().setDefaultSectionSize(self.fontMetrics().height() + theme.SPACING)
+        self.horizontalHeader().setSectionResizeMode(QHeaderView.ResizeMode.ResizeToContents)
+        self.setTabKeyNavigation(False)
+        self.selectionModel().currentRowChanged.connect(self._current_changed)
+        self._menu = QMenu(self)
+        for text, shortcut, does in (
+            (self.tr("Copy"), QKeySequence(QKeySequence.StandardKey.Copy), self.copy),
+            (self.tr("Save as CSV…"), QKeySequence(), self.ask_and_save),
+        ):
+            action = QAction(text, self, shortcut=shortcut)
+            action.setShortcutContext(Qt.ShortcutContext.WidgetShortcut)
+            action.triggered.connect(does)
+            self.addAction(action)
+            self._menu.addAction(action)
+        self.setContextMenuPolicy(Qt.ContextMenuPolicy.CustomContextMenu)
+        self.customContextMenuRequested.connect(self._show_menu)
+
+    def show_columns(
+        self, columns: Sequence[Column], marked: dict[int, str] | Collection[int] = ()
+    ) -> None:
+        """Show these columns; `marked` rows stand out, each with its reason as the tooltip."""
+        reasons = marked if isinstance(marked, dict) else dict.fromkeys(marked, "")
+        self._model.show(columns, reasons)
+
+    def select(self, row: int) -> None:
+        """Highlight a row, without announcing it; none if it is negative."""
+        selection = self.selectionModel()
+        index = self._order.mapFromSource(self._model.index(row, 0))
+        blocked = selection.blockSignals(True)
+        if index.isValid():
+            flags = QItemSelectionModel.SelectionFlag
+            selection.setCurrentIndex(index, flags.ClearAndSelect | flags.Rows)
+        else:
+            selection.clear()
+        selection.blockSignals(blocked)
+        self.viewport().update()
+        if index.isValid():
+            self.scrollTo(index)
+
+    def as_csv(self, separator: str = ",") -> str:
+        """The table in the order shown: titles, then values with every digit."""
+        out = io.StringIO()
+        writer = csv.writer(out, delimiter=separator, lineterminator="\n")
+        writer.writerow([column.title for column in self._model.columns])
+        for shown in range(self._order.rowCount()):
+            row = self._order.mapToSource(self._order.index(shown, 0)).row()
+            writer.writerow([column.values[row] for column in self._model.columns])
+        return out.getvalue()
+
+    def copy(self) -> None:
+        """Put the whole table on the clipboard, as a spreadsheet takes it."""
+        QGuiApplication.clipboard().setText(self.as_csv("\t"))
+
+    def save(self, path: str | Path) -> None:
+        """Write the table as CSV."""
+        Path(path).write_text(self.as_csv(), encoding="utf-8")
+
+    def ask_and_save(self) -> None:
+        """Let the user choose a file, then `save`."""
+        path, _ = QFileDialog.getSaveFileName(
+            self, self.tr("Save table"), "", self.tr("Comma-separated values (*.csv)")
+        )
+        if path:
+            self.save(path if Path(path).suffix else path + ".csv")
+
+    def _current_changed(self, current: QModelIndex) -> None:
+        if current.isValid():
+            self.picked.emit(self._order.mapToSource(current).row())
+
+    def _show_menu(self, position: QPoint) -> None:
+        self._menu.popup(self.viewport().mapToGlobal(position))

@@ -1,0 +1,189 @@
+"""How the program looks: colours, spacing and fonts, light or dark as the system is.
+
+The colours that carry meaning are Okabe and Ito's, which people with any common kind of colour
+blindness tell apart; views beyond the eighth repeat them with another symbol.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from enum import StrEnum
+
+import pyqtgraph as pg
+from PySide6.QtCore import Qt
+from PySide6.QtGui import QColor, QFont, QFontDatabase, QPalette
+from PySide6.QtWidgets import QApplication
+
+SPACING = 8
+"""Between widgets, and around a panel's content, device-independent px."""
+
+_OKABE_ITO = (
+    "#0072B2",
+    "#E69F00",
+    "#009E73",
+    "#D55E00",
+    "#CC79A7",
+    "#56B4E9",
+    "#B8A800",
+    "#888888",
+)
+_SYMBOLS = ("o", "s", "t1", "d", "+", "x", "star")
+
+
+class Scheme(StrEnum):
+    """Which colours the user asks for."""
+
+    SYSTEM = "system"
+    LIGHT = "light"
+    DARK = "dark"
+
+
+@dataclass(frozen=True, slots=True)
+class Theme:
+    """The colours of one scheme, as #rrggbb."""
+
+    window: str
+    """Behind controls."""
+    base: str
+    """Behind lists, tables and plots."""
+    canvas: str
+    """Around an image."""
+    text: str
+    muted: str
+    """Text of secondary importance."""
+    line: str
+    """Borders, axes and grids."""
+    accent: str
+    """Selection and the main action."""
+    on_accent: str
+    good: str
+    warning: str
+    bad: str
+    warning_base: str
+    """Behind a banner that warns."""
+    bad_base: str
+    """Behind a banner that reports a failure, and outlying rows of a table."""
+
+
+LIGHT = Theme(
+    window="#f4f5f7",
+    base="#ffffff",
+    canvas="#d9dce1",
+    text="#1c2026",
+    muted="#5b6470",
+    line="#c3c9d1",
+    accent="#0067b0",
+    on_accent="#ffffff",
+    good="#007a58",
+    warning="#8a5a00",
+    bad="#b3400a",
+    warning_base="#fff3d6",
+    bad_base="#fde5da",
+)
+DARK = Theme(
+    window="#23272d",
+    base="#1b1e23",
+    canvas="#121417",
+    text="#e7eaee",
+    muted="#a2abb7",
+    line="#454c56",
+    accent="#4aa3df",
+    on_accent="#0b1117",
+    good="#35c79a",
+    warning="#f0b429",
+    bad="#f38b57",
+    warning_base="#3d3215",
+    bad_base="#452a1e",
+)
+
+# Marks on images: the paper's colours, drawn over a dark halo so that they show on any grey.
+ESTIMATE = QColor("#ff3b30")
+REFINED = QColor("#ffe600")
+REGION = QColor("#ffe600")
+REPROJECTED = QColor("#56b4e9")
+RESIDUAL = QColor("#ff8c1a")
+PATH = QColor("#00d39b")
+HALO = QColor(0, 0, 0, 150)
+
+
+def current() -> Theme:
+    """The theme that the application shows."""
+    app = QApplication.instance()
+    dark = isinstance(app, QApplication) and _is_dark(app.palette())
+    return DARK if dark else LIGHT
+
+
+def apply(app: QApplication, scheme: Scheme = Scheme.SYSTEM) -> None:
+    """Give the application the look of `scheme`; `follow_system` repeats it when that changes."""
+    if scheme is Scheme.SYSTEM:
+        dark = app.styleHints().colorScheme() is Qt.ColorScheme.Dark
+    else:
+        dark = scheme is Scheme.DARK
+    theme = DARK if dark else LIGHT
+    app.setProperty("scheme", str(scheme))
+    if app.style().objectName() != "fusion":
+        app.setStyle("Fusion")
+    pg.setConfigOptions(background=theme.base, foreground=theme.text, antialias=True)
+    app.setPalette(_palette(theme))
+
+
+def follow_system(app: QApplication) -> None:
+    """Repeat `apply` whenever the system turns dark or light."""
+    app.styleHints().colorSchemeChanged.connect(
+        lambda: apply(app, Scheme(app.property("scheme") or Scheme.SYSTEM))
+    )
+
+
+def view_colour(view: int) -> QColor:
+    """The colour of a view's marks in every plot."""
+    return QColor(_OKABE_ITO[view % len(_OKABE_ITO)])
+
+
+def view_symbol(view: int) -> str:
+    """The pyqtgraph symbol of a view's marks: another one each time the colours repeat."""
+    return _SYMBOLS[view // len(_OKABE_ITO) % len(_SYMBOLS)]
+
+
+def fixed_font() -> QFont:
+    """A font whose digits align."""
+    return QFontDatabase.systemFont(QFontDatabase.SystemFont.FixedFont)
+
+
+def _is_dark(palette: QPalette) -> bool:
+    return palette.color(QPalette.ColorRole.Window).lightness() < 128
+
+
+def _palette(theme: Theme) -> QPalette:
+    role = QPalette.ColorRole
+    colours = {
+        role.Window: theme.window,
+        role.WindowText: theme.text,
+        role.Base: theme.base,
+        role.AlternateBase: theme.window,
+        role.ToolTipBase: theme.base,
+        role.ToolTipText: theme.text,
+        role.PlaceholderText: theme.muted,
+        role.Text: theme.text,
+        role.Button: theme.window,
+        role.ButtonText: theme.text,
+        role.BrightText: theme.bad,
+        role.Link: theme.accent,
+        role.LinkVisited: theme.accent,
+        role.Highlight: theme.accent,
+        role.HighlightedText: theme.on_accent,
+        role.Mid: theme.line,
+        role.Midlight: theme.window,
+        role.Light: theme.base,
+        role.Dark: theme.line,
+        role.Shadow: theme.line,
+        role.Accent: theme.accent,
+    }
+    palette = QPalette()
+    for name, colour in colours.items():
+        palette.setColor(name, QColor(colour))
+    faded = QColor(theme.muted)
+    faded.setAlpha(140)
+    for name in (role.WindowText, role.Text, role.ButtonText):
+        palette.setColor(QPalette.ColorGroup.Disabled, name, faded)
+    palette.setColor(QPalette.ColorGroup.Disabled, role.Highlight, QColor(theme.line))
+    return palette

@@ -1,0 +1,51 @@
+"""Widgets without a screen; a test fails on a Qt warning, a thread or a timer left behind."""
+
+from __future__ import annotations
+
+import os
+import threading
+from collections.abc import Iterator
+
+import pytest
+
+os.environ.setdefault("QT_QPA_PLATFORM", "offscreen")
+
+pytest.importorskip("PySide6.QtWidgets", reason="Qt's system libraries are missing")
+
+from PySide6.QtCore import QTimer
+from PySide6.QtWidgets import QApplication
+
+from calibgui.gui import theme
+
+
+@pytest.fixture(scope="session")
+def qapp_args() -> list[str]:
+    """The name that the window's settings are kept under while testing."""
+    return ["calibgui-test"]
+
+
+@pytest.fixture(autouse=True)
+def clean(
+    qapp: QApplication, qtlog: pytest.LogCaptureFixture, tmp_path_factory: pytest.TempPathFactory
+) -> Iterator[None]:
+    """The program's look, settings of its own, and nothing left behind."""
+    home = tmp_path_factory.mktemp("home")
+    with pytest.MonkeyPatch.context() as patch:
+        for name in ("XDG_CONFIG_HOME", "XDG_STATE_HOME", "XDG_CACHE_HOME", "XDG_DATA_HOME"):
+            patch.setenv(name, str(home))
+        theme.apply(qapp, theme.Scheme.LIGHT)
+        threads = set(threading.enumerate())
+        yield
+        for widget in qapp.topLevelWidgets():
+            widget.close()
+    left = [t.name for t in set(threading.enumerate()) - threads if t.is_alive() and not t.daemon]
+    assert not left, f"threads left behind: {left}"
+    running = [
+        timer
+        for widget in qapp.topLevelWidgets()
+        for timer in widget.findChildren(QTimer)
+        if timer.isActive()
+    ]
+    assert not running, f"timers left behind: {running}"
+    warnings = [record.message for record in qtlog.records]
+    assert not warnings, f"Qt warned: {warnings}"

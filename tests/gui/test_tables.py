@@ -1,0 +1,64 @@
+from __future__ import annotations
+
+import math
+from pathlib import Path
+
+from PySide6.QtCore import Qt
+from PySide6.QtGui import QGuiApplication
+from pytestqt.qtbot import QtBot
+
+from calibgui.gui.tables import Column, Table, fixed, number
+
+
+def shown(table: Table, column: int = 0) -> list[str]:
+    model = table.model()
+    return [model.index(row, column).data() for row in range(model.rowCount())]
+
+
+def example(qtbot: QtBot) -> Table:
+    table = Table()
+    qtbot.addWidget(table)
+    table.show_columns(
+        [
+            Column("view", ["a", "b", "c"]),
+            Column("RMS [px]", [0.25, math.nan, 1 / 3], fixed(2), "of the residual"),
+        ],
+        {2: "far off"},
+    )
+    return table
+
+
+def test_sorting_is_by_value_with_missing_ones_last(qtbot: QtBot) -> None:
+    table = example(qtbot)
+    assert shown(table) == ["a", "b", "c"]
+    assert shown(table, 1) == ["0.25", "–", "0.33"]
+    table.sortByColumn(1, Qt.SortOrder.AscendingOrder)
+    assert shown(table) == ["a", "c", "b"]
+
+
+def test_a_click_announces_the_original_row(qtbot: QtBot) -> None:
+    table = example(qtbot)
+    table.sortByColumn(0, Qt.SortOrder.DescendingOrder)
+    table.resize(300, 200)
+    table.show()
+    cell = table.visualRect(table.model().index(0, 0)).center()
+    with qtbot.waitSignal(table.picked) as picked:
+        qtbot.mouseClick(table.viewport(), Qt.MouseButton.LeftButton, pos=cell)
+    assert picked.args == [2]
+    with qtbot.assertNotEmitted(table.picked):
+        table.select(0)
+    assert table.currentIndex().data() == "a"
+
+
+def test_copy_and_csv_hold_every_digit(qtbot: QtBot, tmp_path: Path) -> None:
+    table = example(qtbot)
+    table.save(tmp_path / "table.csv")
+    lines = (tmp_path / "table.csv").read_text(encoding="utf-8").splitlines()
+    assert lines == ["view,RMS [px]", "a,0.25", "b,nan", f"c,{1 / 3!r}"]
+    table.copy()
+    assert f"c\t{1 / 3!r}" in QGuiApplication.clipboard().text()
+
+
+def test_number_formats() -> None:
+    assert number(3)(1234.5) == "1.23e+03"
+    assert number(3)(math.nan) == "–"
