@@ -13,7 +13,7 @@ from calibgui.engine.degeneracy import diagnose
 from calibgui.engine.errors import CalibrationError, DegenerateError
 from calibgui.engine.lens import MODELS, Lens
 from calibgui.engine.levenberg_marquardt import Solution, minimise
-from calibgui.engine.observations import REFERENCE_PITCH, Observations, pack, pitch
+from calibgui.engine.observations import REFERENCE_PITCH, Observations, pack, pitch, view_names
 from calibgui.engine.stage_one import Prealignment, prealign
 from calibgui.engine.stage_two import (
     Linearised,
@@ -55,6 +55,7 @@ def calibrate(
     model: str = "lucchese",
     report: Report | None = None,
     max_iterations: int = 100,
+    names: Sequence[str] | None = None,
 ) -> Calibration:
     """Calibrate a camera from views of a flat target.
 
@@ -71,6 +72,7 @@ def calibrate(
         model: the lens, a key of ``lens.MODELS``.
         report: told of each iteration of Stage II; returning False stops it.
         max_iterations: of Stage II.
+        names: of the views, for messages; numbers by default.
 
     Raises:
         CalibrationError: for views that cannot be used, naming them.
@@ -80,10 +82,11 @@ def calibrate(
     cost = Cost(cost)
     if cost is Cost.PAPER:
         model = "lucchese-pixels"
-    names = parameter_names(model)
-    held = _held(fix, free, model, names)
-    observations = pack(views)
-    _check_size(observations, size)
+    parameters = parameter_names(model)
+    held = _held(fix, free, model, parameters)
+    names = names or view_names(len(views))
+    observations = pack(views, names)
+    _check_size(observations, size, names)
     target_pitch = pitch(np.concatenate([xy for _, xy, *_ in views]))
     scale = REFERENCE_PITCH / target_pitch
 
@@ -92,9 +95,9 @@ def calibrate(
             "One view does not determine a camera.",
             "Add at least two more views with the board tilted in different directions.",
         )
-    first = prealign(*_in_paper_frame(observations, scale, size))
-    start, values = _start(observations, first, size, MODELS[model], names, held)
-    free_indices = np.flatnonzero([name not in held for name in names])
+    first = prealign(*_in_paper_frame(observations, scale, size, names))
+    start, values = _start(observations, first, size, MODELS[model], parameters, held)
+    free_indices = np.flatnonzero([name not in held for name in parameters])
     solution = minimise(
         _whitened(observations, MODELS[model], cost, scale),
         start,
@@ -104,7 +107,7 @@ def calibrate(
         report,
         max_iterations,
     )
-    diagnose(solution, tuple(names[i] for i in free_indices))
+    diagnose(solution, tuple(parameters[i] for i in free_indices))
     return _assembled(
         solution,
         observations,
@@ -140,13 +143,13 @@ def _held(
     return default | asked
 
 
-def _check_size(observations: Observations, size: Size) -> None:
+def _check_size(observations: Observations, size: Size, names: Sequence[str]) -> None:
     margin = 0.5 * max(size)
     outside = (observations.uv < -margin) | (observations.uv > np.array(size) + margin)
     if outside.any():
         k = int(np.flatnonzero(outside.any(axis=(1, 2)))[0])
         raise CalibrationError(
-            f"View {k + 1} has corners far outside an image of {size[0]} x {size[1]} pixels.",
+            f"{names[k]} has corners far outside an image of {size[0]} x {size[1]} pixels.",
             "Check the image size, given as width, height.",
         )
 
@@ -161,15 +164,15 @@ def _facing(observations: Observations) -> Array:
 
 
 def _in_paper_frame(
-    observations: Observations, scale: float, size: Size
+    observations: Observations, scale: float, size: Size, names: Sequence[str]
 ) -> tuple[Array, Array, Array]:
     """Measured corners, reference corners x', y' (from the plate's centre) and mask."""
     facing = _facing(observations)
     if not (facing == facing[0]).all():
         minority = facing != (1.0 if facing.sum() >= 0 else -1.0)
-        listed = ", ".join(str(k + 1) for k in np.flatnonzero(minority))
+        listed = ", ".join(names[k] for k in np.flatnonzero(minority).tolist())
         raise CalibrationError(
-            f"View(s) {listed} show the board mirrored against the others.",
+            f"The board is mirrored against the other views in {listed}.",
             "Number their corners in the same turning sense, or undo the image's mirroring.",
         )
     corners = observations.xy[observations.mask > 0]

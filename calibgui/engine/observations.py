@@ -48,8 +48,14 @@ class Observations:
         return slice(0, int(self.mask[k].sum()))
 
 
-def pack(views: Sequence[Observation | tuple[Array, Array]]) -> Observations:
+def pack(
+    views: Sequence[Observation | tuple[Array, Array]], names: Sequence[str] | None = None
+) -> Observations:
     """Check the views and bring them into arrays.
+
+    Args:
+        views: (uv, xy) or (uv, xy, cov) of each view.
+        names: of the views, for messages; numbers by default.
 
     Raises:
         CalibrationError: naming the view, if shapes disagree, a number is not finite, corners
@@ -60,13 +66,15 @@ def pack(views: Sequence[Observation | tuple[Array, Array]]) -> Observations:
             "There are no views to calibrate from.",
             "Photograph the board at least 3 times from different directions.",
         )
-    checked = [_checked(Observation(*view), k) for k, view in enumerate(views)]
+    names = names or view_names(len(views))
+    pairs = zip(views, names, strict=True)
+    checked = [_checked(Observation(*view), name) for view, name in pairs]
     longest = max(len(view.uv) for view in checked)
     # All or nothing: a mixture of weighted and unweighted views has no common noise level.
     weighted = [view.cov is not None for view in checked]
     if any(weighted) and not all(weighted):
         raise CalibrationError(
-            f"View {weighted.index(False) + 1} has no corner covariances but others do.",
+            f"{names[weighted.index(False)]} has no corner covariances but others do.",
             "Give covariances for every view or for none.",
         )
     return Observations(
@@ -77,6 +85,11 @@ def pack(views: Sequence[Observation | tuple[Array, Array]]) -> Observations:
     )
 
 
+def view_names(count: int) -> list[str]:
+    """What views are called that have no names."""
+    return [f"View {k + 1}" for k in range(count)]
+
+
 def pitch(xy: Array) -> float:
     """Side of the target's squares, mm: the median distance between neighbouring corners (n, 2)."""
     unique = np.unique(np.round(xy, 9), axis=0)
@@ -84,8 +97,7 @@ def pitch(xy: Array) -> float:
     return float(np.median(distances[:, 1]))
 
 
-def _checked(view: Observation, k: int) -> Observation:
-    name = f"View {k + 1}"
+def _checked(view: Observation, name: str) -> Observation:
     uv, xy = np.asarray(view.uv, np.float64), np.asarray(view.xy, np.float64)
     if uv.ndim != 2 or uv.shape[1:] != (2,) or xy.shape != uv.shape:
         raise CalibrationError(
