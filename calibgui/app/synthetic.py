@@ -1,0 +1,169 @@
+"""The synthetic check (paper 5.2): would the method find this camera again?
+
+Every view is rendered from its estimated pose through the estimated camera, the corners are
+located in the rendered images and the calibration is run on them with the same settings. What
+it returns can be compared with the values that went into the rendering, which are exact. The
+residuals that remain are the corner finder's; whatever the real residuals have beyond them
+comes from the real board, lens and sensor.
+
+A corner found in a rendered view takes the number of the real view's corner whose predicted
+place it is nearest to, so that both calibrations rest on the same corners of the board however
+the finder counts a symmetric or partly seen one.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from contextlib import closing
+from dataclasses import dataclass, replace
+from functools import partial
+from typing import Any
+
+import numpy as np
+from scipy.spatial import cKDTree
+
+from calibgui import engine
+from calibgui.app.workers import Crashed, spread
+from calibgui.engine import frames
+from calibgui.engine.calibrate import HELD
+from calibgui.engine.corners import find_corners
+from calibgui.engine.errors import CalibrationError, NoBoardError
+from calibgui.engine.projection import pixels
+from calibgui.engine.render import render
+from calibgui.engine.types import (
+    Array,
+    Calibration,
+    Camera,
+    Corners,
+    IntArray,
+    Pose,
+    Target,
+    View,
+    ViewStatus,
+)
+from calibgui.formats.result import Result
+
+BLUR = 1.0
+"""Standard deviation of the rendered images' blur, px: that of a well focused photograph."""
+
+_CRASHED = "The search for its board ended abnormally."
+
+Progress = Callable[[int, int], None]
+"""Told of views done and views in all; may raise ``Cancelled``."""
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class SyntheticCheck:
+    """A calibration beside the one of its own synthetic views."""
+
+    real: Result
+    synthetic: Result
+    """Its views are those of `real` that were calibrated, under the same names; corners are the
+    rendered images'. A view whose rendering was not found again says why."""
+
+    @property
+    def extrinsic_errors(self) -> Array:
+        """(K, 6) |(z_real - z_syn) / z_real| of omega, phi, theta, tX, tY, tZ (eq. 51).
+
+        One row for each view that was found again, in the order of the synthetic views.
+        """
+        before, after = (
+            np.array([pose.vector for pose in result.paper_poses()])
+            for result in (self.real, self.synthetic)
+        )
+        found = [view.usable for view in self.synthetic.views]
+        with np.errstate(divide="ignore"):
+            return np.asarray(np.abs(1 - after / before[found]))
+
+
+def synthetic_check(
+    result: Result,
+    *,
+    blur: float = BLUR,
+    noise: float = 0.0,
+    progress: Progress | None = None,
+) -> SyntheticCheck:
+    """Render the views of `result`, and calibrate from the rendered images.
+
+    Args:
+        result: of a checkerboard target.
+        blur: standard deviation of the images' blur, px.
+        noise: standard deviation of the images' noise, grey levels.
+        progress: told of each view.
+
+    Raises:
+        CalibrationError: if the target is not known, or too few rendered views are found again.
+        Cancelled: from `progress`.
+    """
+    target = result.target
+    if target is None:
+        raise CalibrationError(
+            "The views cannot be rendered: the target's pattern is not known.",
+            "Calibrate from images of a checkerboard, or state its rows, columns and square.",
+        )
+    camera, poses, views = result.calibration.camera, result.calibration.poses, [*result.used]
+    again = partial(_found_again, camera, target, blur, noise)
+    items = list(zip(range(len(views)), views, poses, strict=True))
+    with closing(spread(again, items)) as found:
+        for done, (k, view) in enumerate(found, start=1):
+            views[k] = _lost(views[k], _CRASHED) if isinstance(view, Crashed) else view
+            if progress is not None:
+                progress(done, len(views))
+    observations = [view.observation(target) for view in views if view.usable]
+    calibration = engine.calibrate(observations, camera.size, **_settings(result.calibration))
+    return SyntheticCheck(result, replace(result, calibration=calibration, views=tuple(views)))
+
+
+def _found_again(
+    camera: Camera, target: Target, blur: float, noise: float, item: tuple[int, View, Pose]
+) -> View:
+    """The view with the corners of its rendered image."""
+    k, real, pose = item
+    image = render(camera, pose, target, blur=blur, noise=noise, seed=k)
+    observed = real.observation(target)
+    plate = np.concatenate([observed.xy, np.zeros((len(observed.xy), 1))], axis=1)
+    X = plate @ frames.rotation(pose.rvec).T + pose.tvec
+    predicted = pixels(X[:, :2] / X[:, 2:], camera)
+    grid = np.rint(observed.xy[:, ::-1] / target.square).astype(np.int64)
+    try:
+        found = find_corners(image, (target.rows, target.cols))
+        return replace(real, corners=_numbered(found, grid, predicted), points=None)
+    except NoBoardError as error:
+        return _lost(real, str(error))
+
+
+def _lost(view: View, reason: str) -> View:
+    return replace(view, status=ViewStatus.NO_BOARD, reason=reason, corners=None, points=None)
+
+
+def _numbered(found: Corners, grid: IntArray, predicted: Array) -> Corners:
+    """The found corners nearest to `predicted` (n, 2), numbered by `grid` (n, 2)."""
+    nearest = cKDTree(predicted)
+    limit = np.asarray(nearest.query(predicted, k=2)[0])[:, 1] / 2
+    distance, which = map(np.asarray, nearest.query(found.uv))
+    good = distance < limit[which]
+    if np.count_nonzero(good) < len(predicted) / 2:
+        raise NoBoardError(
+            "The corners found in the rendered view are not where they were put.",
+            "Its pose is doubtful: look at this view's residuals.",
+        )
+    return replace(
+        found,
+        grid=grid[which[good]],
+        uv=found.uv[good],
+        estimate=found.estimate[good],
+        cov=None if found.cov is None else found.cov[good],
+    )
+
+
+def _settings(calibration: Calibration) -> Mapping[str, Any]:
+    """Arguments of ``calibrate`` that repeat a calibration's settings."""
+    settings = calibration.settings
+    fixed = settings["fixed"]
+    return {
+        "cost": settings["cost"],
+        "model": settings["model"],
+        "fix": fixed,
+        "free": [name for name in HELD.get(settings["model"], ()) if name not in fixed],
+        "max_iterations": settings["max_iterations"],
+    }

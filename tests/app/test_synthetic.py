@@ -1,0 +1,107 @@
+"""The synthetic check finds the camera that rendered the views."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from calibgui import engine
+from calibgui.app.synthetic import SyntheticCheck, synthetic_check
+from calibgui.engine.errors import CalibrationError, Cancelled
+from calibgui.engine.types import Camera, Corners, Pose, Target, View, ViewStatus
+from calibgui.formats.result import Result
+from tests.engine import scenes
+
+BOARD = Target(rows=6, cols=7, square=30.0)
+CAMERA = Camera((200, 150), [200.0, 204.0, 97.0, 76.0, 0.2, 0.05, 0.0, 1e-3, -1e-3, 0.0])
+
+
+@pytest.fixture(scope="module")
+def result() -> Result:
+    """Five small views of which one has lost corners, and an image without a board."""
+    rng = np.random.default_rng(3)
+    poses = [scenes.looking(CAMERA, rng, fill=(0.7, 0.8), board=BOARD) for _ in range(5)]
+    scene = scenes.seen(CAMERA, poses, BOARD)
+    grid = np.indices((BOARD.rows, BOARD.cols)).reshape(2, -1).T
+    views = [View("blank.png", ViewStatus.NO_BOARD, "No board.")]
+    for k, view in enumerate(scene.noisy(0.05, rng)):
+        kept = slice(7 if k == 1 else 0, None)
+        corners = Corners((6, 7), grid[kept], view.uv[kept], view.uv[kept])
+        views.append(View(f"{k}.png", ViewStatus.FOUND, corners=corners))
+    observations = [view.observation(BOARD) for view in views if view.usable]
+    calibration = engine.calibrate(observations, CAMERA.size, fix={"k3": 0.0, "k2": 0.05})
+    return Result(calibration, tuple(views), BOARD)
+
+
+@pytest.fixture(scope="module")
+def check(result: Result) -> SyntheticCheck:
+    return synthetic_check(result)
+
+
+def test_the_rendering_camera_is_found_again(check: SyntheticCheck) -> None:
+    real, synthetic = check.real.calibration, check.synthetic.calibration
+    free = synthetic.sigma > 0
+    miss = (synthetic.camera.params - real.camera.params)[free] / real.sigma[free]
+    assert np.abs(miss).max() < 2
+    # What is left is the finder's error, well below the noise of the real corners.
+    assert engine.summarise(synthetic.residuals).rms < 0.04
+    assert np.median(check.extrinsic_errors) < 1e-3
+
+
+def test_settings_are_repeated(check: SyntheticCheck) -> None:
+    assert check.synthetic.calibration.settings == check.real.calibration.settings
+
+
+def test_views_keep_their_names_and_corners(check: SyntheticCheck) -> None:
+    """Corners that the real view lacks are not used, and numbers are the real view's."""
+    assert [view.image for view in check.synthetic.views] == [f"{k}.png" for k in range(5)]
+    for real, synthetic in zip(
+        check.real.observations(), check.synthetic.observations(), strict=True
+    ):
+        places = {tuple(xy): uv for uv, xy in zip(*real[:2], strict=True)}
+        assert 0.9 * len(real.xy) < len(synthetic.xy) <= len(real.xy)
+        for uv, xy in zip(*synthetic[:2], strict=True):
+            np.testing.assert_allclose(uv, places[tuple(xy)], atol=0.4)
+
+
+def test_extrinsic_errors_compare_the_papers_parameters(check: SyntheticCheck) -> None:
+    real, synthetic = check.real.paper_poses(), check.synthetic.paper_poses()
+    assert check.extrinsic_errors.shape == (5, 6)
+    expected = abs((real[3].omega - synthetic[3].omega) / real[3].omega)
+    assert check.extrinsic_errors[3, 0] == pytest.approx(expected, rel=1e-9)
+
+
+def test_a_view_that_is_not_found_again_is_left_out(result: Result) -> None:
+    """A pose so far away that the rendered board is a few pixels wide."""
+    poses = list(result.calibration.poses)
+    poses[2] = Pose(poses[2].rvec, poses[2].tvec * [1, 1, 12])
+    distant = replace(result, calibration=replace(result.calibration, poses=tuple(poses)))
+    check = synthetic_check(distant)
+    lost = check.synthetic.views[2]
+    assert lost.status is ViewStatus.NO_BOARD and lost.reason
+    assert check.extrinsic_errors.shape == (4, 6)
+    assert np.median(check.extrinsic_errors[2]) < 2e-3  # the real view 3
+
+
+def test_progress_counts_views_and_may_cancel(result: Result) -> None:
+    told: list[tuple[int, int]] = []
+
+    def progress(done: int, total: int) -> None:
+        told.append((done, total))
+        if done == 2:
+            raise Cancelled
+
+    with pytest.raises(Cancelled):
+        synthetic_check(result, progress=progress)
+    assert told == [(1, 5), (2, 5)]
+
+
+def test_a_target_is_needed(result: Result) -> None:
+    points = tuple(
+        replace(view, points=view.observation(BOARD), corners=None) if view.usable else view
+        for view in result.views
+    )
+    with pytest.raises(CalibrationError, match="pattern is not known"):
+        synthetic_check(Result(result.calibration, points, None))
