@@ -24,11 +24,10 @@ from scipy.spatial import cKDTree
 
 from calibgui import engine
 from calibgui.app.workers import Crashed, spread
-from calibgui.engine import frames
 from calibgui.engine.calibrate import HELD
 from calibgui.engine.corners import find_corners
 from calibgui.engine.errors import CalibrationError, NoBoardError
-from calibgui.engine.projection import pixels
+from calibgui.engine.maps import project_points
 from calibgui.engine.render import render
 from calibgui.engine.types import (
     Array,
@@ -121,9 +120,7 @@ def _found_again(
     k, real, pose = item
     image = render(camera, pose, target, blur=blur, noise=noise, seed=k)
     observed = real.observation(target)
-    plate = np.concatenate([observed.xy, np.zeros((len(observed.xy), 1))], axis=1)
-    X = plate @ frames.rotation(pose.rvec).T + pose.tvec
-    predicted = pixels(X[:, :2] / X[:, 2:], camera)
+    predicted = project_points(observed.xy, camera, pose)
     grid = np.rint(observed.xy[:, ::-1] / target.square).astype(np.int64)
     try:
         found = find_corners(image, (target.rows, target.cols))

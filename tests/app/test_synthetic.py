@@ -23,12 +23,12 @@ def result() -> Result:
     """Five small views of which one has lost corners, and an image without a board."""
     rng = np.random.default_rng(3)
     poses = [scenes.looking(CAMERA, rng, fill=(0.7, 0.8), board=BOARD) for _ in range(5)]
-    scene = scenes.seen(CAMERA, poses, BOARD)
-    grid = np.indices((BOARD.rows, BOARD.cols)).reshape(2, -1).T
+    scene = scenes.seen(CAMERA, poses, BOARD, partial=True)
     views = [View("blank.png", ViewStatus.NO_BOARD, "No board.")]
     for k, view in enumerate(scene.noisy(0.05, rng)):
         kept = slice(7 if k == 1 else 0, None)
-        corners = Corners((6, 7), grid[kept], view.uv[kept], view.uv[kept])
+        grid = np.rint(view.xy[kept, ::-1] / BOARD.square)
+        corners = Corners((6, 7), grid, view.uv[kept], view.uv[kept])
         views.append(View(f"{k}.png", ViewStatus.FOUND, corners=corners))
     observations = [view.observation(BOARD) for view in views if view.usable]
     calibration = engine.calibrate(observations, CAMERA.size, fix={"k3": 0.0, "k2": 0.05})
