@@ -337,9 +337,11 @@ def run() -> int:
     window = WINDOW.exists() and has_display()
     environment = set_up("", {"qt", "window"} if window else set())
     env = environment.variables()
-    if window and succeeds(environment.python, "-c", OPENS_WINDOW, env=env):
-        sample = str(ROOT / "resources" / "sample")
-        return subprocess.call([environment.python, "-m", "calibgui.gui", sample], env=env)
+    if window:
+        if succeeds(environment.python, "-c", OPENS_WINDOW, env=env):
+            sample = str(ROOT / "resources" / "sample")
+            return subprocess.call([environment.python, "-m", "calibgui.gui", sample], env=env)
+        say("no window can be opened on this display; calibrating without one")
     return subprocess.call([environment.python, "-m", "calibgui", "demo"], env=env)
 
 
