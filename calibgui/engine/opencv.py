@@ -5,6 +5,7 @@ Points come back as (n, 2) float64 whatever the version.
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from typing import Any
 
 import cv2
@@ -101,3 +102,34 @@ def encode(suffix: str, image: Image) -> bytes | None:
     except cv2.error:
         return None
     return bytes(data) if ok else None
+
+
+def resample(image: Image, uv: Array) -> Image:
+    """`image` (h, w) or (h, w, c) at `uv` (H, W, 2) px, bilinear, its border replicated, its type.
+
+    No side may exceed `LONGEST_SIDE` px.
+    """
+    points = uv.astype(np.float32)
+    return np.asarray(
+        cv2.remap(image, points, None, cv2.INTER_LINEAR, None, cv2.BORDER_REPLICATE)
+    )
+
+
+LONGEST_SIDE = 32_766
+"""Of the images that `resample` takes and returns, px."""
+
+
+def storage(suffix: str, values: Mapping[str, int | float | str | Array], comment: str = "") -> str:
+    """The text of a cv2.FileStorage file holding `values`.
+
+    Args:
+        suffix: ".yml", ".yaml", ".xml" or ".json", which decides the format.
+        values: by name, in the order to be written.
+        comment: lines for the head of the file; JSON has no comments that others can read.
+    """
+    file = cv2.FileStorage(suffix, cv2.FILE_STORAGE_WRITE | cv2.FILE_STORAGE_MEMORY)
+    if comment:
+        file.writeComment(comment)
+    for name, value in values.items():
+        file.write(name, np.array(value) if isinstance(value, np.ndarray) else value)
+    return str(file.releaseAndGetString())

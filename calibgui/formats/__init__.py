@@ -1,1 +1,57 @@
-"""File formats: one file each; each names its reader, its convention and what it cannot hold."""
+"""File formats: one module each, which names its reader, its convention and what it cannot hold.
+
+To add an exporter, write a module with a function (result, path) -> ExportReport that writes
+through ``engine.files.write_atomically``, describe it in a constant `EXPORTER`, and list that
+below: command line and window take it from there. A format whose lens model distorts ideal
+points takes its camera from ``forward_model.py``. It is done when a test reads the file with
+the program that it is for and projects the same points to the same pixels.
+"""
+
+from __future__ import annotations
+
+import os
+from pathlib import Path
+
+from calibgui.engine.errors import CalibrationError
+from calibgui.formats import corners_csv, corners_json, opencv_file, result_json, ros_yaml
+from calibgui.formats.exporter import Exporter, ExportReport
+from calibgui.formats.result import Result
+
+EXPORTERS: dict[str, Exporter] = {
+    module.EXPORTER.name: module.EXPORTER
+    for module in (result_json, opencv_file, ros_yaml, corners_json, corners_csv)
+}
+"""By name, in the order of menus."""
+
+
+def export(result: Result, name: str, path: str | os.PathLike[str]) -> ExportReport:
+    """Write `result` as the file `path` in the format `name`.
+
+    Raises:
+        CalibrationError: for an unknown format, a suffix that is not the format's, or a file
+            that cannot be written.
+    """
+    exporter = find_exporter(name, path)
+    return exporter.write(result, Path(path))
+
+
+def find_exporter(name: str, path: str | os.PathLike[str]) -> Exporter:
+    """The exporter `name`, if it can write `path`: for a check before long work.
+
+    Raises:
+        CalibrationError: for an unknown format or a suffix that is not the format's.
+    """
+    if name not in EXPORTERS:
+        raise CalibrationError(
+            f"There is no export format {name!r}.", f"Choose from {', '.join(EXPORTERS)}."
+        )
+    exporter = EXPORTERS[name]
+    if Path(path).suffix.lower() not in exporter.suffixes:
+        raise CalibrationError(
+            f"{os.fspath(path)} is not named as a file of the format {name!r}.",
+            f"Give it the suffix {' or '.join(exporter.suffixes)}.",
+        )
+    return exporter
+
+
+__all__ = ["EXPORTERS", "ExportReport", "Exporter", "Result", "export", "find_exporter"]

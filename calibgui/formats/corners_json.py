@@ -13,10 +13,13 @@ from __future__ import annotations
 
 import os
 from dataclasses import dataclass
+from pathlib import Path
 from typing import Any
 
 from calibgui.engine.types import Size, Target, View
+from calibgui.formats.exporter import Exporter, ExportReport
 from calibgui.formats.json_document import Node, read, write
+from calibgui.formats.result import Result
 from calibgui.formats.views_json import read_views, view_record
 
 
@@ -84,3 +87,18 @@ def read_size(node: Node) -> Size:
     if width < 1 or height < 1:
         node.fail("the width and height of an image")
     return width, height
+
+
+def _export(result: Result, path: Path) -> ExportReport:
+    size = result.calibration.camera.size
+    write_corners(CornerSet(size, result.views, result.target), path)
+    return ExportReport(path, EXPORTER.limits)
+
+
+EXPORTER = Exporter(
+    name="corners",
+    title="Corners as JSON",
+    suffixes=(".json",),
+    limits="Corners of all images and their places on the plate; no calibration.",
+    write=_export,
+)

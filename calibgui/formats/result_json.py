@@ -15,6 +15,7 @@ beside the old one, and turn the old record into the new one in `read_result`.
 from __future__ import annotations
 
 import os
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -37,6 +38,7 @@ from calibgui.engine.types import (
     ViewResiduals,
 )
 from calibgui.formats.corners_json import read_size, read_target, target_record
+from calibgui.formats.exporter import Exporter, ExportReport
 from calibgui.formats.json_document import Node, check_format, read, write
 from calibgui.formats.result import Result
 from calibgui.formats.views_json import read_views, view_record
@@ -242,3 +244,17 @@ def _read_stage_one(node: Node) -> StageOne:
 
 def _read_iteration(node: Node) -> Iteration:
     return Iteration(node["index"].integer(), *(node[k].number() for k in _ITERATION[1:]))
+
+
+def _export(result: Result, path: Path) -> ExportReport:
+    write_result(result, path)
+    return ExportReport(path, EXPORTER.limits)
+
+
+EXPORTER = Exporter(
+    name="result",
+    title="Result as JSON",
+    suffixes=(".json",),
+    limits="Complete: camera, poses, residuals, corners, settings; can be solved again.",
+    write=_export,
+)

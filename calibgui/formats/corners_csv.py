@@ -1,0 +1,124 @@
+"""Corners as comma-separated values, one row a corner, for spreadsheets and statistics.
+
+    image,row,col,u_px,v_px,x_mm,y_mm[,cov_uu,cov_uv,cov_vv]
+
+Reader: `read_corners_csv`, and any reader of CSV. Positions are pixels in the array frame
+(0-based, integer at pixel centres, v down) and millimetres on the plate, covariances px^2.
+`row` and `col` are empty for corners that are not of a board of known layout.
+Cannot hold: the images' size, the board's, images without corners, first estimates.
+"""
+
+from __future__ import annotations
+
+import csv
+import io
+import math
+import os
+from collections.abc import Iterator, Sequence
+from pathlib import Path
+
+import numpy as np
+
+from calibgui.engine.errors import CalibrationError
+from calibgui.engine.files import write_atomically
+from calibgui.engine.types import Observation, Target, View, ViewStatus
+from calibgui.formats.exporter import Exporter, ExportReport
+from calibgui.formats.result import Result
+
+_POINT = ("u_px", "v_px", "x_mm", "y_mm")
+_COV = ("cov_uu", "cov_uv", "cov_vv")
+_HEADER = ("image", "row", "col", *_POINT)
+
+
+def write_corners_csv(
+    views: Sequence[View], target: Target | None, path: str | os.PathLike[str]
+) -> None:
+    """Write the corners of all views that have any.
+
+    Raises:
+        CalibrationError: if the file cannot be written.
+    """
+    text = io.StringIO()
+    writer = csv.writer(text, lineterminator="\n")
+    found = [view for view in views if view.status is ViewStatus.FOUND]
+    weighted = any(view.observation(target).cov is not None for view in found)
+    writer.writerow(_HEADER + _COV if weighted else _HEADER)
+    for view in found:
+        writer.writerows(_rows(view, view.observation(target)))
+    write_atomically(path, text.getvalue().encode())
+
+
+def _rows(view: View, points: Observation) -> Iterator[list[str | int | float]]:
+    for i in range(len(points.uv)):
+        place = ["", ""] if view.corners is None else view.corners.grid[i].tolist()
+        row = [view.image, *place, *points.uv[i].tolist(), *points.xy[i].tolist()]
+        if points.cov is not None:
+            row += points.cov[i][[0, 0, 1], [0, 1, 1]].tolist()
+        yield row
+
+
+def read_corners_csv(path: str | os.PathLike[str]) -> tuple[View, ...]:
+    """Read the views of such a file; `row` and `col` may be missing.
+
+    Raises:
+        CalibrationError: if the file cannot be read, lacks a column or holds what is not a
+            number, naming the line.
+    """
+    file = Path(path)
+    try:
+        rows = list(csv.DictReader(io.StringIO(file.read_text(encoding="utf-8-sig"), newline="")))
+    except OSError as error:
+        raise CalibrationError(
+            f"{file} cannot be read: {error.strerror or error}.", "Check its name and permissions."
+        ) from error
+    except (ValueError, csv.Error) as error:
+        raise CalibrationError(f"{file} is not a CSV file: {error}.", "Choose another.") from error
+    missing = [name for name in ("image", *_POINT) if rows and name not in rows[0]]
+    if missing or not rows:
+        raise CalibrationError(
+            f"{file} has no {', '.join(missing) if missing else 'corners'}.",
+            f"Its first line must name the columns {', '.join(_HEADER)}.",
+        )
+    views: dict[str, list[list[float]]] = {}
+    for line, row in enumerate(rows, start=2):
+        names = _POINT + _COV if row.get(_COV[0]) else _POINT
+        views.setdefault(row["image"], []).append([_number(row, n, file, line) for n in names])
+    return tuple(_view(image, numbers, file) for image, numbers in views.items())
+
+
+def _number(row: dict[str, str], name: str, file: Path, line: int) -> float:
+    try:
+        number = float(row[name])
+    except (TypeError, ValueError, KeyError):
+        number = math.nan
+    if not math.isfinite(number):
+        raise CalibrationError(
+            f"{file}: {name} of corner {line - 1} ({row['image']}) is not a finite number.",
+            "Correct or remove that line.",
+        )
+    return number
+
+
+def _view(image: str, numbers: list[list[float]], file: Path) -> View:
+    if len({len(row) for row in numbers}) > 1:
+        raise CalibrationError(
+            f"{file}: some corners of {image} have covariances and some have none.",
+            "Give them for all corners or for none.",
+        )
+    table = np.array(numbers)
+    cov = table[:, [4, 5, 5, 6]].reshape(-1, 2, 2) if table.shape[1] > 4 else None
+    return View(image, ViewStatus.FOUND, points=Observation(table[:, 0:2], table[:, 2:4], cov))
+
+
+def _export(result: Result, path: Path) -> ExportReport:
+    write_corners_csv(result.views, result.target, path)
+    return ExportReport(path, EXPORTER.limits)
+
+
+EXPORTER = Exporter(
+    name="corners-csv",
+    title="Corners as CSV",
+    suffixes=(".csv",),
+    limits="Corners and their places on the plate; no calibration, no images without corners.",
+    write=_export,
+)

@@ -1,0 +1,41 @@
+"""A result's camera in OpenCV's forward model, for the formats that hold no other.
+
+The paper corrects measured points, OpenCV and its relatives distort ideal ones; neither's
+coefficients express the other (``engine/refit.py``). How far the two are apart is said in
+the file itself.
+"""
+
+from __future__ import annotations
+
+import math
+
+from calibgui.engine.refit import Refit, refit
+from calibgui.formats.result import Result
+
+MODEL = "opencv"
+
+
+def forward(result: Result) -> Refit:
+    """The calibration in OpenCV's model; itself, if that is what was calibrated.
+
+    Raises:
+        CalibrationError: as ``calibrate``.
+    """
+    if result.calibration.camera.model == MODEL:
+        return Refit(result.calibration, 0.0, 0.0)
+    return refit(result.observations(), result.calibration, MODEL)
+
+
+def refit_note(result: Result, fitted: Refit) -> str:
+    """How the exported camera differs from the calibrated one."""
+    if fitted.calibration is result.calibration:
+        return "OpenCV's model (k1 k2 p1 p2 k3) as calibrated."
+    whole = (
+        f"{fitted.largest_error:.3g} px over the whole image"
+        if math.isfinite(fitted.largest_error)
+        else "an unlimited amount in parts of the image that no corner covers"
+    )
+    return (
+        f"OpenCV's model (k1 k2 p1 p2 k3) refitted on the same corners: it differs by at most "
+        f"{fitted.covered_error:.3g} px where corners were seen and {whole}."
+    )

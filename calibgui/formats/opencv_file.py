@@ -1,0 +1,66 @@
+"""OpenCV's camera files in YAML, XML or JSON, by the file's suffix.
+
+Reader: cv2.FileStorage, of OpenCV 4 and 5. Pixels are OpenCV's (0-based, integer at pixel
+centres), lengths millimetres, names those of OpenCV's own calibration sample:
+`camera_matrix`, `distortion_coefficients` (k1 k2 p1 p2 k3), `extrinsic_parameters` (a row
+rvec, tvec per used view), `avg_reprojection_error` (its RMS); standard deviations are one
+sigma, left out where the data leave one undetermined.
+Cannot hold: the paper's correction (its forward counterpart is refitted), correlations, corners.
+"""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+
+from calibgui.engine import opencv
+from calibgui.engine.files import write_atomically
+from calibgui.engine.statistics import summarise
+from calibgui.engine.types import Array, Calibration
+from calibgui.formats.exporter import Exporter, ExportReport
+from calibgui.formats.forward_model import forward, refit_note
+from calibgui.formats.result import Result
+
+_FRAME = (
+    "Pixels count from 0 at the centre of the first pixel, u right, v down; lengths in mm, "
+    "angles in rad."
+)
+
+
+def write_opencv(result: Result, path: Path) -> ExportReport:
+    """Write OpenCV's YAML, XML or JSON file."""
+    fitted = forward(result)
+    note = refit_note(result, fitted)
+    suffix = path.suffix.lower()
+    write_atomically(path, storage(fitted.calibration, suffix, note).encode())
+    return ExportReport(path, note, fitted.largest_error)
+
+
+def storage(calibration: Calibration, suffix: str, note: str) -> str:
+    """The text of the file; `calibration` is in OpenCV's model."""
+    camera = calibration.camera
+    values: dict[str, int | float | str | Array] = {
+        "image_width": camera.size[0],
+        "image_height": camera.size[1],
+        "nframes": len(calibration.poses),
+        "camera_matrix": camera.matrix,
+        "distortion_coefficients": camera.coefficients[None],
+        "avg_reprojection_error": summarise(calibration.residuals).rms,
+        "extrinsic_parameters": np.array([[*p.rvec, *p.tvec] for p in calibration.poses]),
+    }
+    if np.isfinite(calibration.sigma).all():
+        values["camera_matrix_std_dev"] = calibration.sigma[None, :4]
+        values["distortion_coefficients_std_dev"] = calibration.sigma[None, 4:]
+    if suffix == ".json":
+        return opencv.storage(suffix, {"note": f"{note} {_FRAME}"} | values)
+    return opencv.storage(suffix, values, f"{note}\n{_FRAME}")
+
+
+EXPORTER = Exporter(
+    name="opencv",
+    title="OpenCV YAML, XML or JSON",
+    suffixes=(".yaml", ".yml", ".xml", ".json"),
+    limits="Forward distortion model refitted; standard deviations but no correlations.",
+    write=write_opencv,
+)
