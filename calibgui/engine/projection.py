@@ -55,16 +55,12 @@ def normalise(uv: Array, params: Array, lens: Lens) -> Projected:
     return Projected(n, by_d / a, by_params)
 
 
-def project(n: Array, params: Array, lens: Lens, start: Array | None = None) -> Projected:
-    """Rays n (..., 2) to measured pixels; NaN where the lens has none.
-
-    `start` (..., 2) px is a guess of the answer, for lens models that iterate.
-    """
+def project(n: Array, params: Array, lens: Lens) -> Projected:
+    """Rays n (..., 2) to measured pixels; NaN where the lens has none."""
     f, c = params[:2], params[2:4]
     a, A = lens_scale(lens, f)
     psi = n * (f / a)
-    guess = None if start is None else (start - c) / a
-    d, d_psi, d_k = lens.distort(psi, params[4:], guess)
+    d, d_psi, d_k = lens.distort(psi, params[4:])
     stretched = a[:, None] * d_psi
     by_a = _diagonal(d) - stretched * (psi / a)[..., None, :]
     by_f = by_a @ A + stretched * (n / a)[..., None, :]

@@ -78,7 +78,7 @@ class Linearised(NamedTuple):
 def image_residual(state: State, views: Observations, lens: Lens) -> Linearised:
     """Predicted minus measured corners in the image, px; NaN where there is no prediction."""
     rotated, Z, n, Q = _seen(state, views.xy)
-    predicted = project(n, state.params, lens, start=views.uv)
+    predicted = project(n, state.params, lens)
     by_point = (predicted.by_point @ Q) / Z[..., None, None]
     return Linearised(predicted.points - views.uv, predicted.by_params, _by_pose(by_point, rotated))
 
@@ -122,7 +122,7 @@ def predicted_corners(state: State, views: Observations, lens: Lens, cost: Cost)
     """(K, N, 2) where the calibrated camera images the nominal plate, px."""
     stretch = state.params[0] / state.params[1] if cost is Cost.PAPER else 1.0
     _, _, n, _ = _seen(state, views.xy * np.array([1.0, stretch]))
-    return project(n, state.params, lens, start=views.uv).points
+    return project(n, state.params, lens).points
 
 
 def _seen(state: State, plate: Array) -> tuple[Array, Array, Array, Array]:

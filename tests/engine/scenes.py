@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -133,12 +133,16 @@ def relative(a: Array, b: Array, floor: float = 1e-12) -> float:
     return float(np.abs(a - b).max() / max(np.abs(b).max(), floor))
 
 
-def central_differences(f: object, x: Array, step: Array | float) -> Array:
-    """(..., n) derivative of f (returning any shape) by each of x (n,)."""
-    assert callable(f)
+def central_differences(f: Callable[[Array], Array], x: Array, step: Array | float) -> Array:
+    """(..., n) derivative of f (returning any shape) by each of x (n,), at x.
+
+    The five-point rule: with steps h of a thousandth of the scale on which f changes, its
+    truncation h^4 and its rounding 1e-16 / h are both about 1e-12 of the derivative.
+    """
     columns = []
     for i, h in enumerate(np.broadcast_to(step, x.shape)):
         e = np.zeros_like(x)
         e[i] = h
-        columns.append((f(x + e) - f(x - e)) / (2 * h))
+        near, far = f(x + e) - f(x - e), f(x + 2 * e) - f(x - 2 * e)
+        columns.append((8 * near - far) / (12 * h))
     return np.stack(columns, axis=-1)

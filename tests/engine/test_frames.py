@@ -68,9 +68,9 @@ def test_rvec_by_local_against_differences(size: float) -> None:
     def moved(w: Array) -> Array:
         return frames.rotation_vector(frames.rotation(w) @ frames.rotation(r))
 
-    numeric = central_differences(moved, np.zeros(3), 1e-5)
-    # h^2 truncation (1e-10) and 1e-16 / h rounding, both enlarged near the half turn.
-    np.testing.assert_allclose(frames.rvec_by_local(r), numeric, atol=3e-9)
+    numeric = central_differences(moved, np.zeros(3), 1e-3)
+    # Derivatives grow towards the half turn, and the differences' truncation with them.
+    np.testing.assert_allclose(frames.rvec_by_local(r), numeric, atol=1e-9 if size > 2 else 1e-11)
 
 
 @given(st.floats(-1.5, 1.5), st.floats(-1.5, 1.5), angle)
@@ -142,10 +142,10 @@ def test_paper_intrinsics_by_params() -> None:
         return frames.paper_intrinsics(p, SIZE)[0]
 
     # Each parameter at its own scale: the values span 1e-18 to 1e3.
-    numeric = central_differences(values, params, 1e-5 * np.abs(params))
+    numeric = central_differences(values, params, 1e-3 * np.abs(params))
     J = frames.paper_intrinsics(params, SIZE)[1]
     for row, expected in zip(J, numeric, strict=True):
-        assert relative(row, expected) < 1e-9
+        assert relative(row, expected) < 1e-10
 
 
 def test_paper_intrinsics_correct_the_same_point() -> None:

@@ -40,9 +40,6 @@ class Lens(Protocol):
         """Measured to ideal. NaN where the model has no ideal point."""
         ...
 
-    def distort(self, n: Array, k: Array, start: Array | None = None) -> Mapped:
-        """Ideal to measured. NaN where the model has no measured point.
-
-        `start` (..., 2) is a guess of the answer for models that iterate.
-        """
+    def distort(self, n: Array, k: Array) -> Mapped:
+        """Ideal to measured. NaN where the model has no measured point."""
         ...

@@ -15,7 +15,6 @@ from __future__ import annotations
 import numpy as np
 
 from calibgui.engine.lens.base import Mapped
-from calibgui.engine.lens.inverse import invert
 from calibgui.engine.lens.lucchese import Lucchese
 from calibgui.engine.types import Array
 
@@ -29,13 +28,21 @@ class Brown:
     names = ("k1", "k2", "p1", "p2", "k3")
     radius_in_pixels = False
 
-    def distort(self, n: Array, k: Array, start: Array | None = None) -> Mapped:  # noqa: ARG002
+    def distort(self, n: Array, k: Array) -> Mapped:
         """Ideal to measured."""
-        eq10 = np.zeros(6)
-        eq10[_FROM_LUCCHESE] = k
-        points, by_point, by_k = Lucchese().correct(n, eq10)
-        return Mapped(points, by_point, by_k[..., _FROM_LUCCHESE])
+        return _reordered(Lucchese().correct(n, _eq10(k)))
 
     def correct(self, d: Array, k: Array) -> Mapped:
         """Measured to ideal, by Newton's method."""
-        return invert(lambda n: self.distort(n, k), d, None)
+        return _reordered(Lucchese().distort(d, _eq10(k)))
+
+
+def _eq10(k: Array) -> Array:
+    """The coefficients of eq. 10."""
+    eq10 = np.zeros(6)
+    eq10[_FROM_LUCCHESE] = k
+    return eq10
+
+
+def _reordered(mapped: Mapped) -> Mapped:
+    return mapped._replace(by_coefficients=mapped.by_coefficients[..., _FROM_LUCCHESE])

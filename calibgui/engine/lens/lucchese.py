@@ -81,6 +81,6 @@ class Lucchese:
         by_k[..., 1, 5] = r2 * ly
         return Mapped(points, by_point, by_k)
 
-    def distort(self, n: Array, k: Array, start: Array | None = None) -> Mapped:
+    def distort(self, n: Array, k: Array) -> Mapped:
         """Ideal to measured, the inverse of eq. 9."""
-        return invert(lambda d: self.correct(d, k), n, start)
+        return invert(lambda d: self.correct(d, k), n, k[:3])
