@@ -1,0 +1,57 @@
+"""Two calibrations of one camera side by side, their differences in units of sigma.
+
+The unit is that of a difference of two independent estimates, sqrt(sigma_a^2 + sigma_b^2). Where
+both rest on the same images their errors are alike, and a difference of even one unit is large.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from calibgui.engine.calibrate import parameter_names
+from calibgui.engine.types import Calibration
+
+
+@dataclass(frozen=True, slots=True)
+class Difference:
+    """One parameter in two calibrations."""
+
+    name: str
+    a: float
+    sigma_a: float
+    b: float
+    sigma_b: float
+
+    @property
+    def change(self) -> float:
+        """b - a."""
+        return self.b - self.a
+
+    @property
+    def sigmas(self) -> float:
+        """b - a over the standard deviation of a difference; NaN where neither has one."""
+        unit = float(np.hypot(self.sigma_a, self.sigma_b))
+        return self.change / unit if unit > 0 else float("nan")
+
+
+def compare(a: Calibration, b: Calibration) -> tuple[Difference, ...]:
+    """The parameters that both cameras have, in the order of a's.
+
+    Coefficients of different lens models are not comparable, whatever their names; only
+    focal lengths and centres are listed then.
+    """
+    names = parameter_names(a.camera.model)
+    if a.camera.model != b.camera.model:
+        names = names[:4]
+    return tuple(
+        Difference(
+            name,
+            float(a.camera.params[i]),
+            float(a.sigma[i]),
+            float(b.camera.params[i]),
+            float(b.sigma[i]),
+        )
+        for i, name in enumerate(names)
+    )

@@ -1,0 +1,240 @@
+"""A calibration in plain sentences: what it rests on, how good it is, what would improve it.
+
+How well a parameter is determined is judged by what its standard deviation does to the image:
+a focal length or centre is good to 0.1 % of itself or of the image's width; a lens coefficient
+counts if it can be told from zero. What to photograph follows from what the views leave out:
+regions of the sensor, tilts and their directions, distances (``coverage``).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from enum import StrEnum
+from itertools import combinations
+
+import numpy as np
+
+from calibgui.engine.calibrate import parameter_names
+from calibgui.engine.statistics import summarise
+from calibgui.engine.types import Array, Calibration, Status
+from calibgui.engine.uncertainty import correlations
+from calibgui.formats.result import Result
+from calibgui.report.coverage import attitudes, density
+from calibgui.report.numbers import counted, with_sigma
+
+_GOOD = 1e-3
+_POOR = 5e-3
+"""Relative standard deviation below which a length counts as well, above which as badly known."""
+_TOLD_FROM_ZERO = 2.0
+"""Standard deviations that a lens coefficient must be away from zero."""
+_TRADED = 0.98
+"""Correlation above which two lens coefficients are said to stand in for each other."""
+_OUTLYING = 2.5
+"""A view's RMS over the median of all, above which it is named."""
+_TILTED = np.deg2rad(15)
+"""A board tilted less adds little to the focal length."""
+_FEW_VIEWS = 8
+_DISTANCES = 1.3
+"""Farthest over nearest board that counts as different distances."""
+_REGIONS = (
+    ("upper left", "top", "upper right"),
+    ("left", "middle", "right"),
+    ("lower left", "bottom", "lower right"),
+)
+
+
+class Tone(StrEnum):
+    """What a sentence is for."""
+
+    FACT = "fact"
+    GOOD = "good"
+    CAUTION = "caution"
+    ADVICE = "advice"
+
+
+@dataclass(frozen=True, slots=True)
+class Sentence:
+    """One statement about a calibration."""
+
+    tone: Tone
+    text: str
+
+
+def summary(result: Result) -> tuple[Sentence, ...]:
+    """The calibration in words, the most important first."""
+    return tuple(
+        sentence
+        for part in (_basis, _ending, _fit, _determined, _correlated, _outlying, _advice)
+        for sentence in part(result)
+    )
+
+
+def _basis(result: Result) -> Iterator[Sentence]:
+    used = len(result.used)
+    corners = sum(len(view.image) for view in result.calibration.residuals)
+    text = f"Calibrated from {counted(used, 'view')} with {counted(corners, 'corner')}"
+    left_out = len(result.views) - used
+    text += f"; {counted(left_out, 'image')} left out." if left_out else ", every image used."
+    yield Sentence(Tone.FACT, text)
+
+
+def _ending(result: Result) -> Iterator[Sentence]:
+    calibration = result.calibration
+    if calibration.status is Status.STOPPED:
+        yield Sentence(
+            Tone.CAUTION,
+            "The solve was stopped before it converged: these are the best values so far. "
+            "Calibrate again for final ones.",
+        )
+    elif calibration.status is Status.MAX_ITERATIONS:
+        yield Sentence(
+            Tone.CAUTION,
+            "The solve used up its iterations without converging. Allow more of them, or hold "
+            "the parameters that the views do not determine.",
+        )
+    for warning in calibration.warnings:
+        yield Sentence(Tone.CAUTION, warning)
+
+
+def _fit(result: Result) -> Iterator[Sentence]:
+    calibration = result.calibration
+    fit = summarise(calibration.residuals)
+    unknowns = int(np.count_nonzero(calibration.sigma)) + 6 * len(calibration.poses)
+    yield Sentence(
+        Tone.FACT,
+        f"Corners scatter about the fitted camera with σ = {fit.sigma_x:.3f} px across and "
+        f"{fit.sigma_y:.3f} px down (RMS distance {fit.rms:.3f} px; "
+        f"{2 * fit.count:,} measurements, {unknowns} unknowns). "
+        "A small scatter shows that the model fits; how far each value can be trusted is its ±.",
+    )
+
+
+def _determined(result: Result) -> Iterator[Sentence]:
+    """The parameters by how well they are known."""
+    calibration = result.calibration
+    camera, sigma = calibration.camera, calibration.sigma
+    names = parameter_names(camera.model)
+    texts = dict(zip(names, map(with_sigma, camera.params, sigma), strict=True))
+    scale = np.concatenate([camera.params[:2], [camera.size[0]] * 2])
+    relative = dict(zip(names[:4], sigma[:4] / scale, strict=True))
+    free = [n for n in names if n not in calibration.fixed]
+    missing = {u.name for u in calibration.undetermined}
+
+    def listed(chosen: list[str]) -> str:
+        return ", ".join(f"{name} = {texts[name]}" for name in chosen)
+
+    for lacking in calibration.undetermined:
+        yield Sentence(
+            Tone.CAUTION,
+            f"{lacking.name} is not determined by these views: {lacking.reason}. "
+            "Hold it, or add views that differ more from each other.",
+        )
+    lengths = [n for n in names[:4] if n in free and n not in missing]
+    if good := [n for n in lengths if relative[n] < _GOOD]:
+        yield Sentence(Tone.GOOD, f"Well determined: {listed(good)} px.")
+    if poor := [n for n in lengths if relative[n] > _POOR]:
+        yield Sentence(
+            Tone.CAUTION,
+            f"Badly determined: {listed(poor)} px. Add views with the board tilted by 30 to 45 "
+            "degrees in different directions.",
+        )
+    coefficients = [n for n in names[4:] if n in free and n not in missing]
+    away = np.abs(camera.params) / np.where(sigma > 0, sigma, np.inf)
+    if vague := [n for n in coefficients if away[names.index(n)] < _TOLD_FROM_ZERO]:
+        yield Sentence(
+            Tone.CAUTION,
+            f"Not told from zero: {listed(vague)}. They may be held at 0; to measure them, "
+            "bring corners closer to the image's edges.",
+        )
+
+
+def _correlated(result: Result) -> Iterator[Sentence]:
+    """Pairs of lens coefficients of which only a combination is known."""
+    calibration = result.calibration
+    names = parameter_names(calibration.camera.model)
+    matrix = correlations(calibration.covariance)
+    pairs = [
+        f"{names[i]} and {names[j]} ({matrix[i, j]:+.3f})"
+        for i, j in combinations(range(4, len(names)), 2)
+        if abs(matrix[i, j]) > _TRADED
+    ]
+    if pairs:
+        yield Sentence(
+            Tone.FACT,
+            f"Strongly correlated: {', '.join(pairs)}. Only their combination is known well, "
+            "so do not compare them one by one.",
+        )
+
+
+def _outlying(result: Result) -> Iterator[Sentence]:
+    for k in outlying_views(result.calibration):
+        name = result.used[k].image
+        yield Sentence(
+            Tone.CAUTION,
+            f"{name} fits much worse than the others ({result.calibration.residuals[k].rms:.3f} "
+            "px): look at its corners, or exclude it.",
+        )
+
+
+def outlying_views(calibration: Calibration) -> tuple[int, ...]:
+    """Indices of the calibrated views whose RMS is far above the median."""
+    rms = np.array([view.rms for view in calibration.residuals])
+    return tuple(int(k) for k in np.flatnonzero(rms > _OUTLYING * np.median(rms)))
+
+
+def _advice(result: Result) -> Iterator[Sentence]:
+    """What to photograph to improve the calibration."""
+    observations = result.observations()
+    attitude = attitudes(result.calibration, observations)
+    uv = np.concatenate([view.uv for view in observations])
+    wanted = [
+        *_empty_regions(uv, result),
+        *_missing_tilts(attitude.tilt, attitude.direction),
+    ]
+    if attitude.distance.max() < _DISTANCES * attitude.distance.min():
+        wanted.append("hold the board at different distances: all views have nearly the same")
+    if len(observations) < _FEW_VIEWS:
+        wanted.append(
+            f"take more views: {len(observations)} leave little to average and to check against"
+        )
+    for advice in wanted:
+        yield Sentence(Tone.ADVICE, f"To improve it, {advice}.")
+    if not wanted:
+        yield Sentence(
+            Tone.GOOD,
+            "The views cover sensor, tilts and distances; four times as many of the same kind "
+            "would halve every ±.",
+        )
+
+
+def _empty_regions(uv: Array, result: Result) -> Iterator[str]:
+    """Ninths of the sensor of which more than half saw no corner."""
+    cells = density(uv, result.calibration.camera.size) == 0
+    rows, cols = cells.shape
+    empty = cells.reshape(3, rows // 3, 3, cols // 3).mean(axis=(1, 3)) > 0.5
+    names = [_REGIONS[i][j] for i, j in np.argwhere(empty)]
+    if names:
+        yield (
+            f"bring the board into the image's {_joined(names)}, where few or no corners were "
+            "seen: the lens correction is extrapolated there"
+        )
+
+
+def _missing_tilts(tilt: Array, direction: Array) -> Iterator[str]:
+    tilted = direction[tilt > _TILTED]
+    if len(tilted) < 3:
+        yield (
+            "tilt the board by 30 to 45 degrees in at least three views: "
+            f"the largest tilt is {np.rad2deg(tilt.max()):.0f} degrees, and without tilt "
+            "focal length and distance cannot be told apart"
+        )
+        return
+    # Opposite tilts count as one axis: doubling the angle folds them together.
+    axes = np.abs(np.exp(2j * tilted).mean())
+    if axes > 0.9:
+        yield "tilt the board about another axis too: all tilts are about the same one"
+
+
+def _joined(names: list[str]) -> str:
+    return names[0] if len(names) == 1 else f"{', '.join(names[:-1])} and {names[-1]}"

@@ -1,0 +1,125 @@
+"""The sentences name what was put into the views, and stay silent about what was not."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from calibgui import engine
+from calibgui.engine.types import Observation, Pose, Status, View, ViewStatus
+from calibgui.formats.result import Result
+from calibgui.report.summary import Tone, outlying_views, summary
+from tests.engine import scenes
+
+CAMERA = scenes.barrel()
+
+
+def solved(views: Sequence[Observation], seed: int = 0, left_out: int = 0) -> Result:
+    rng = np.random.default_rng(seed)
+    noisy = [Observation(v.uv + rng.normal(scale=0.1, size=v.uv.shape), v.xy) for v in views]
+    made = [View(f"{k}.png", ViewStatus.FOUND, points=v) for k, v in enumerate(noisy)]
+    made += [View("dark.png", ViewStatus.NO_BOARD, "No board.")] * left_out
+    return Result(engine.calibrate(noisy, CAMERA.size), tuple(made))
+
+
+def texts(result: Result, tone: Tone) -> str:
+    return "\n".join(s.text for s in summary(result) if s.tone is tone)
+
+
+def everywhere(count: int = 20, seed: int = 5) -> list[Observation]:
+    """Views whose boards, partly cut off, reach into all parts of the image."""
+    rng = np.random.default_rng(seed)
+    poses = []
+    for k in range(count):
+        pose = scenes.looking(CAMERA, rng, fill=(0.5, 0.9))
+        aside = np.array([[-1, -1], [1, -1], [1, 1], [-1, 1], [0, 0]][k % 5]) * [0.2, 0.15]
+        poses.append(Pose(pose.rvec, pose.tvec + np.append(aside * pose.tvec[2], 0.0)))
+    return list(scenes.seen(CAMERA, poses, partial=True).views)
+
+
+@pytest.fixture(scope="module")
+def good() -> Result:
+    return solved(everywhere())
+
+
+def test_good_views_ask_for_nothing(good: Result) -> None:
+    assert not texts(good, Tone.ADVICE)
+    assert "would halve" in texts(good, Tone.GOOD)
+    corners = sum(len(v.image) for v in good.calibration.residuals)
+    assert f"20 views with {corners:,} corners, every image used." in texts(good, Tone.FACT)
+
+
+def test_focal_length_is_given_with_its_sigma(good: Result) -> None:
+    fx, sigma = good.calibration.camera.params[0], good.calibration.sigma[0]
+    assert f"fx = {fx:.2f} ± {sigma:.2f}" in texts(good, Tone.GOOD)
+
+
+def test_scatter_is_given_along_both_axes(good: Result) -> None:
+    fit = engine.summarise(good.calibration.residuals)
+    assert f"σ = {fit.sigma_x:.3f} px across and {fit.sigma_y:.3f} px down" in texts(
+        good, Tone.FACT
+    )
+
+
+def test_images_left_out_are_counted(good: Result) -> None:
+    lost = View("dark.png", ViewStatus.NO_BOARD, "No board.")
+    assert "; 2 images left out." in texts(
+        replace(good, views=(*good.views, lost, lost)), Tone.FACT
+    )
+
+
+def test_an_empty_part_of_the_image_is_named() -> None:
+    views = []
+    for uv, xy, _ in everywhere():
+        kept = (uv[:, 0] > 250) | (uv[:, 1] > 200)
+        if np.count_nonzero(kept) > 12:
+            views.append(Observation(uv[kept], xy[kept]))
+    assert "image's upper left, where" in texts(solved(views), Tone.ADVICE)
+
+
+def test_missing_tilt_is_named() -> None:
+    rng = np.random.default_rng(1)
+    poses = [scenes.looking(CAMERA, rng, tilt=(3.0, 9.0)) for _ in range(9)]
+    advice = texts(solved(scenes.seen(CAMERA, poses).views), Tone.ADVICE)
+    assert "tilt the board by 30 to 45 degrees" in advice
+
+
+def test_tilts_about_one_axis_are_named() -> None:
+    rng = np.random.default_rng(1)
+    poses = [scenes.looking(CAMERA, rng, towards=180.0 * (k % 2)) for k in range(9)]
+    advice = texts(solved(scenes.seen(CAMERA, poses).views), Tone.ADVICE)
+    assert "about another axis" in advice
+
+
+def test_few_views_at_one_distance_are_named() -> None:
+    rng = np.random.default_rng(4)
+    poses = [scenes.looking(CAMERA, rng, fill=(0.6, 0.62)) for _ in range(5)]
+    advice = texts(solved(scenes.seen(CAMERA, poses).views), Tone.ADVICE)
+    assert "take more views: 5" in advice
+    assert "different distances" in advice
+
+
+def test_one_bad_view_is_named() -> None:
+    views = everywhere(12)
+    rng = np.random.default_rng(8)
+    views[7] = Observation(views[7].uv + rng.normal(scale=1.0, size=views[7].uv.shape), views[7].xy)
+    result = solved(views)
+    assert outlying_views(result.calibration) == (7,)
+    assert "7.png fits much worse" in texts(result, Tone.CAUTION)
+
+
+def test_an_unfinished_solve_is_said_to_be(good: Result) -> None:
+    for status, words in ((Status.STOPPED, "was stopped"), (Status.MAX_ITERATIONS, "used up")):
+        unfinished = replace(good, calibration=replace(good.calibration, status=status))
+        assert words in texts(unfinished, Tone.CAUTION)
+
+
+def test_a_coefficient_near_zero_is_said_to_be(good: Result) -> None:
+    calibration = good.calibration
+    params = calibration.camera.params.copy()
+    params[6] = 0.5 * calibration.sigma[6]
+    near = replace(calibration, camera=replace(calibration.camera, params=params))
+    assert "Not told from zero: k3 = " in texts(replace(good, calibration=near), Tone.CAUTION)
