@@ -1,0 +1,102 @@
+"""The drawn scene against poses and perspective worked out directly."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from scipy.spatial.transform import Rotation
+
+from calibgui import engine
+from calibgui.engine.types import Corners, View, ViewStatus
+from calibgui.formats.result import Result
+from calibgui.report.scene3d import Centre, Kind, Observer, draw, project, scene, view_at
+from tests.engine import scenes
+
+observers = st.builds(Observer, st.floats(-3, 3), st.floats(-1.5, 1.5), st.floats(0.5, 2.0))
+
+
+@pytest.fixture(scope="module")
+def result() -> Result:
+    seen = scenes.scene(scenes.barrel(), 6, seed=2)
+    board = scenes.BOARD
+    grid = np.indices((board.rows, board.cols)).reshape(2, -1).T
+    shape = (board.rows, board.cols)
+    views = tuple(
+        View(f"{k}.png", ViewStatus.FOUND, corners=Corners(shape, grid, v.uv, v.uv))
+        for k, v in enumerate(seen.views)
+    )
+    return Result(engine.calibrate(seen.views, seen.size), views, board)
+
+
+def test_boards_stand_where_their_poses_say(result: Result) -> None:
+    boards = [p for p in scene(result, Centre.CAMERA) if p.kind is Kind.BOARD]
+    assert [p.view for p in boards] == list(range(6))
+    pose, side = result.calibration.poses[4], 30.0
+    R = Rotation.from_rotvec(np.array(pose.rvec)).as_matrix()
+    outer = np.array([12 * side, 9 * side, 0.0])
+    np.testing.assert_allclose(boards[4].points[0], R @ [-side, -side, 0] + pose.tvec)
+    np.testing.assert_allclose(boards[4].points[2], R @ outer + pose.tvec)
+
+
+def test_cameras_stand_at_their_centres(result: Result) -> None:
+    sides = [p for p in scene(result, Centre.BOARD) if p.kind is Kind.CAMERA]
+    assert {p.view for p in sides} == set(range(6))
+    pose = result.calibration.poses[3]
+    R = Rotation.from_rotvec(np.array(pose.rvec)).as_matrix()
+    apexes = [p.points[0] for p in sides if p.view == 3 and len(p.points) == 3]
+    np.testing.assert_allclose(apexes, np.tile(-R.T @ pose.tvec, (4, 1)), atol=1e-9)
+
+
+def test_unknown_target_is_outlined_by_its_corners(result: Result) -> None:
+    points = tuple(
+        View(v.image, v.status, points=v.observation(scenes.BOARD)) for v in result.views
+    )
+    board = scene(Result(result.calibration, points), Centre.BOARD)[0]
+    assert board.points.max(axis=0).tolist() == [330.0, 240.0, 0.0]
+    assert board.points.min(axis=0).tolist() == [0.0, 0.0, 0.0]
+
+
+@given(observer=observers)
+def test_everything_fits_and_is_painted_back_to_front(result: Result, observer: Observer) -> None:
+    polygons = scene(result, Centre.CAMERA)
+    drawn = draw(polygons, observer)
+    assert len(drawn) == len(polygons)
+    assert all(np.linalg.norm(d.points, axis=1).max() <= observer.zoom * (1 + 1e-9) for d in drawn)
+    depths = [d.depth for d in drawn]
+    assert depths == sorted(depths, reverse=True)
+
+
+def test_straight_ahead_is_the_cameras_own_view() -> None:
+    """From behind, unturned: x to the right, y down, the nearer the larger."""
+    points, depth = project(np.array([[0.5, 0, -0.5], [0.5, 0, 0.5], [0, 0.5, 0]]), Observer(0, 0))
+    assert points[0, 0] > points[1, 0] > 0 and depth[0] < depth[1]
+    assert points[2, 0] == 0 and points[2, 1] > 0
+
+
+def test_dragging_to_the_right_turns_the_near_side_to_the_right() -> None:
+    near = np.array([[0.0, 0.0, -1.0]])
+    before, _ = project(near, Observer(0, 0))
+    after, _ = project(near, Observer(0, 0).turned(0.3, 0.0))
+    assert after[0, 0] > before[0, 0]
+    lowered, _ = project(near, Observer(0, 0).turned(0.0, 0.3))
+    assert lowered[0, 1] > before[0, 1]
+
+
+def test_from_above_what_is_up_is_near() -> None:
+    """Positive elevation looks down on the scene: -Y is up in the camera's frame."""
+    _, depth = project(np.array([[0.0, -1.0, 0.0], [0.0, 1.0, 0.0]]), Observer(0, 0.5))
+    assert depth[0] < depth[1]
+
+
+def test_zoom_and_elevation_are_bounded() -> None:
+    assert Observer().zoomed(1e9).zoom == 20.0
+    assert Observer().turned(0.0, 100.0).elevation == pytest.approx(np.pi / 2)
+
+
+def test_the_nearest_board_under_a_point_is_found(result: Result) -> None:
+    drawn = draw(scene(result, Centre.CAMERA), Observer())
+    nearest = [d for d in drawn if d.polygon.view >= 0][-1]
+    assert view_at(drawn, nearest.points.mean(axis=0)) == nearest.polygon.view
+    assert view_at(drawn, np.array([5.0, 5.0])) == -1
