@@ -83,6 +83,8 @@ class Corners:
     roi: Array | None = None
     """(4, 2) region of interest that was searched, px: the board's outline."""
     method: str = "saddle"
+    relative: bool = False
+    """Whether a partly seen board's rows or columns could be counted otherwise."""
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "grid", frozen_int(self.grid))

@@ -1,0 +1,190 @@
+"""From an image to numbered, refined and verified corners."""
+
+from __future__ import annotations
+
+import numpy as np
+import numpy.typing as npt
+
+from calibgui.engine.corners import harris, saddle, verify
+from calibgui.engine.corners import roi as region
+from calibgui.engine.corners.finder import MIN_CORNERS, MIN_LINES, find_boards
+from calibgui.engine.corners.lattice import Lattice
+from calibgui.engine.corners.ordering import Board, Numbering, ambiguity, numberings, place
+from calibgui.engine.errors import NoBoardError
+from calibgui.engine.opencv import Image
+from calibgui.engine.types import Array, Corners
+
+METHODS = ("saddle",)
+_SPARSE = 0.5
+"""Filled share below which a line beyond the stated size is clutter."""
+_STATE_SIZE = "State the number of inner corners, rows x columns, or leave it out."
+
+
+def find_corners(
+    image: npt.ArrayLike,
+    board: Board | None = None,
+    roi: npt.ArrayLike | None = None,
+    method: str = "saddle",
+) -> Corners:
+    """Locate the inner corners of the checkerboard in an image.
+
+    Args:
+        image: (h, w) grey levels, uint8, uint16 or floating.
+        board: rows and columns of inner corners; inferred if None. A board of which only a part
+            is seen then counts as what is seen of it.
+        roi: (4, 2) px, points at or just outside the board's outermost corners, in order around
+            it: only corners inside count, and where the pattern leaves the origin open it is the
+            corner nearest to the first point.
+        method: "saddle", the paper's.
+
+    Returns:
+        The corners, right-handed in the image, from an origin whose outer square is dark. Of a
+        board that is only partly seen `complete` is false, and `relative` is true where its
+        rows or columns could be counted otherwise.
+
+    Raises:
+        NoBoardError: no acceptable board, why, and what was found instead.
+        ValueError: arguments that make no sense.
+    """
+    if method not in METHODS:
+        raise ValueError(f"method {method!r} is none of {', '.join(METHODS)}")
+    if board is not None and min(board) < MIN_LINES:
+        raise ValueError(f"a board needs {MIN_LINES} x {MIN_LINES} inner corners, not {board}")
+    grey = _grey(image)
+    outline = None if roi is None else region.outline(roi)
+    search = None if outline is None else region.enlarged(outline)
+    try:
+        numbered = _automatic(grey, board, search)
+    except NoBoardError:
+        if outline is None or board is None:
+            raise
+        numbered = _guided(grey, board, outline)
+    if outline is not None:
+        numbered.sort(key=lambda way: not region.starts_at(way.lattice, outline[0]))
+    return _corners(grey, numbered, outline, method)
+
+
+def _grey(image: npt.ArrayLike) -> Image:
+    grey = np.asarray(image)
+    if grey.ndim != 2 or min(grey.shape) < 16:
+        raise ValueError(f"an image of grey levels (h, w) is needed, not of shape {grey.shape}")
+    if grey.dtype in (np.uint8, np.uint16):
+        return np.ascontiguousarray(grey)
+    grey = np.ascontiguousarray(grey, dtype=np.float32)
+    if not np.isfinite(grey).all():
+        raise ValueError("the image has grey levels that are not finite")
+    return grey
+
+
+def _automatic(grey: Image, board: Board | None, search: Array | None) -> list[Numbering]:
+    """Numberings of the best verified board."""
+    candidates = find_boards(grey, search)
+    if not candidates:
+        raise NoBoardError(
+            "No checkerboard was found.",
+            "Mark its four outermost corners, or take the picture again: all of the board in"
+            " view, sharp and evenly lit.",
+        )
+    lattices = [x for x in (_verified(grey, lattice) for lattice in candidates) if x is not None]
+    if not lattices:
+        raise NoBoardError(
+            "What looks like a checkerboard is not regular enough to be trusted.",
+            "Mark its four outermost corners, or leave this picture out.",
+        )
+    if board is None:
+        return numberings(max(lattices, key=len), None)
+    fitting = [x for x in (_fitted(grey, lattice, board) for lattice in lattices) if x is not None]
+    if not fitting:
+        rows, cols = sorted(max(lattices, key=len).shape)
+        raise NoBoardError(
+            f"This board has {rows} x {cols} inner corners, not {board[0]} x {board[1]}.",
+            _STATE_SIZE,
+        )
+    return numberings(max(fitting, key=len), board)
+
+
+def _verified(grey: Image, lattice: Lattice) -> Lattice | None:
+    """The lattice refined, less the corners that fail, or None if it is no board."""
+    refined = _refined(grey, lattice)
+    good = verify.sound(refined, grey)
+    if not verify.credible(good, lattice.found) or np.count_nonzero(good) < MIN_CORNERS:
+        return None
+    refined = verify.without_strays(refined.under(good), grey.shape)
+    return refined if min(refined.shape) >= MIN_LINES else None
+
+
+def _refined(grey: Image, lattice: Lattice) -> Lattice:
+    """The lattice with every corner at its saddle point, less those that have none."""
+    found = lattice.found
+    spacing = lattice.spacing()[found]
+    uv = lattice.uv.copy()
+    uv[found], good = saddle.refine(grey, uv[found], saddle.window(spacing), spacing / 4)
+    found[found] = good
+    return Lattice(uv, lattice.dark).under(found)
+
+
+def _fitted(grey: Image, lattice: Lattice, board: Board) -> Lattice | None:
+    """The part of `lattice` that a board of the stated size explains, or None if none can.
+
+    A lattice may be smaller than its board only along an axis on which the board leaves the
+    image: otherwise its ends were seen, and its size with them.
+    """
+    for size in (board, board[::-1]):
+        part = _without_sparse_lines(lattice, size)
+        ends = verify.visible_ends(part, grey.shape)
+        if all(
+            have == want or (have < want and not (first and last))
+            for have, want, (first, last) in zip(part.shape, size, ends, strict=True)
+        ):
+            return part
+    return None
+
+
+def _without_sparse_lines(lattice: Lattice, size: Board) -> Lattice:
+    """The lattice less border lines beyond `size` that are mostly empty."""
+    uv, dark = lattice.uv, lattice.dark
+    for axis in (0, 1):
+        while uv.shape[axis] > size[axis]:
+            filled = np.isfinite(uv[..., 0]).mean(axis=1 - axis)
+            last = bool(filled[-1] < filled[0])
+            if filled[-1 if last else 0] > _SPARSE:
+                break
+            uv = np.delete(uv, -1 if last else 0, axis=axis)
+            dark ^= not last
+    return Lattice(uv, dark)
+
+
+def _guided(grey: Image, board: Board, outline: Array) -> list[Numbering]:
+    """Numberings of the board whose outermost corners were pointed at."""
+    parts = []
+    for guess in region.guesses(outline, board):
+        refined = _refined(grey, guess)
+        # Where nothing was found the guess stands in for the neighbours of what was.
+        filled = np.where(refined.found[..., None], refined.uv, guess.uv)
+        for dark in (True, False):
+            good = verify.sound(Lattice(filled, dark), grey) & refined.found
+            parts.append(Lattice(filled, dark).under(good))
+    best = max(parts, key=len)
+    if len(best) < max(MIN_CORNERS, best.found.size // 2):
+        raise NoBoardError(
+            f"No board of {board[0]} x {board[1]} inner corners fits the four marked points.",
+            "Mark the four outermost inner corners, in order around the board. " + _STATE_SIZE,
+        )
+    return numberings(best, board)
+
+
+def _corners(grey: Image, numbered: list[Numbering], outline: Array | None, method: str) -> Corners:
+    """The record of the preferred numbering."""
+    chosen = numbered[0]
+    grid, uv = place(chosen)
+    spacing = chosen.lattice.spacing()[chosen.lattice.found]
+    return Corners(
+        shape=chosen.board,
+        grid=grid,
+        uv=uv,
+        estimate=harris.first_estimates(grey, uv, spacing),
+        ambiguity=ambiguity(chosen.board),
+        roi=region.around(chosen.lattice) if outline is None else outline,
+        method=method,
+        relative=len({way.offset for way in numbered}) > 1,
+    )

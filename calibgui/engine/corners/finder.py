@@ -1,0 +1,99 @@
+"""Find the boards in an image, whatever their size and place, from coarse to fine.
+
+The image is halved until its short side is below 180 px. Each level, coarsest first, is searched
+for X-junctions and their lattices. Coarse levels are quick and average blur and noise away; a
+finer one is only needed while nothing was found or the squares are too small to be sure that
+none was missed. What is found is then carried down to full resolution, refined at each level.
+
+Pixel (u, v) of a level covers the block around (2u + 1/2, 2v + 1/2) of the next finer one.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import numpy as np
+
+from calibgui.engine import opencv
+from calibgui.engine.corners import saddle
+from calibgui.engine.corners.growth import grow
+from calibgui.engine.corners.junctions import classify, find_saddles
+from calibgui.engine.corners.lattice import Lattice, find_lattices
+from calibgui.engine.opencv import Image
+from calibgui.engine.types import Array, BoolArray
+
+_COARSEST = 180
+"""Short side below which an image is not halved further, px."""
+_SMALLEST = 6.0
+"""Squares of this side are found reliably, px."""
+_CONTRAST = 0.05
+"""Least contrast of a corner over the range of the image."""
+_GROWN = 4
+"""How many of the largest lattices of a level are grown."""
+MIN_CORNERS = 12
+MIN_LINES = 3
+
+
+def find_boards(image: Image, inside: Array | None = None) -> list[Lattice]:
+    """All lattices that may be boards, largest first, in full resolution but not yet verified.
+
+    Args:
+        image: (h, w) grey levels, uint8, uint16 or float32.
+        inside: (4, 2) convex outline, px, that the corners must not leave.
+    """
+    levels = [image]
+    while min(levels[-1].shape) > _COARSEST:
+        levels.append(opencv.half(levels[-1]))
+    low, high = np.percentile(levels[-1], (0.5, 99.5))
+    floor = _CONTRAST * float(high - low)
+    if floor <= 0:
+        return []
+    best: list[Lattice] = []
+    for depth in reversed(range(len(levels))):
+        outline = None if inside is None else (inside + 0.5) / 2**depth - 0.5
+        found = list(_search(levels[depth], floor, outline))
+        if sum(map(len, found[:1])) >= sum(map(len, best[:1])):
+            best = [_carried(lattice, levels[:depth]) for lattice in found]
+            if best and _surely_all(found[0]):
+                break
+    return best
+
+
+def _search(image: Image, floor: float, outline: Array | None) -> Iterator[Lattice]:
+    """Lattices large enough for a board in one level, largest first."""
+    saddles = find_saddles(image, floor)
+    if outline is not None:
+        saddles = saddles.under(contains(outline, saddles.uv))
+    _, junctions = classify(saddles.smooth, saddles.uv, floor)
+    grown = [grow(lattice, saddles) for lattice in find_lattices(saddles, junctions)[:_GROWN]]
+    for lattice in sorted(grown, key=len, reverse=True):
+        if len(lattice) >= MIN_CORNERS and min(lattice.shape) >= MIN_LINES:
+            yield lattice
+
+
+def _surely_all(lattice: Lattice) -> bool:
+    """Whether a finer level could hardly add to `lattice`: its squares are large, or very large
+    where it has gaps."""
+    enough = _SMALLEST if lattice.found.all() else 5 * _SMALLEST
+    return bool(np.nanpercentile(lattice.spacing(), 5) > enough)
+
+
+def _carried(lattice: Lattice, finer: list[Image]) -> Lattice:
+    """`lattice` in the coordinates of the first of the `finer` levels, refined at each."""
+    uv = lattice.uv
+    found = lattice.found
+    spacing = lattice.spacing()[found]
+    for image in reversed(finer):
+        spacing = 2 * spacing
+        uv = 2 * uv + 0.5
+        width = saddle.window(np.minimum(spacing, 24.0))
+        uv[found], _ = saddle.refine(image, uv[found], width, np.full(len(spacing), 2.0))
+    return Lattice(uv, lattice.dark)
+
+
+def contains(outline: Array, uv: Array) -> BoolArray:
+    """Which of the points `uv` (n, 2) lie inside the convex `outline` (m, 2)."""
+    edge = np.roll(outline, -1, axis=0) - outline
+    to = uv[:, None] - outline
+    side = edge[:, 0] * to[..., 1] - edge[:, 1] * to[..., 0]
+    return np.asarray((side >= 0).all(axis=1) | (side <= 0).all(axis=1))

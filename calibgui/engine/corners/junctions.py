@@ -1,0 +1,154 @@
+"""X-junctions: points where two edges cross and the grey levels alternate around.
+
+Near the crossing of two step edges the surface is a saddle, I ~ a sgn(d_1) sgn(d_2), so that
+after a little smoothing the Hessian has one positive and one negative eigenvalue. Candidates
+are the local maxima of its negated determinant
+
+    R = Ixy^2 - Ixx Iyy,
+
+which edges (one eigenvalue zero) and blobs (equal signs) leave at or below zero. A Newton step
+to the point of zero gradient, -H^-1 grad I, places them between pixels.
+
+Many textures have saddles. An X-junction is one whose grey levels on a circle around it change
+side exactly four times, symmetric under a half turn. With angles counted from u towards v the
+half circle crosses the mid level once downwards, at the angle A, and once upwards, at B: the
+sector from A to B is dark. Neighbours on a board see the same two edges with A and B exchanged.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from calibgui.engine import opencv
+from calibgui.engine.opencv import Image, Image32
+from calibgui.engine.types import Array, BoolArray
+
+MAX_CANDIDATES = 3000
+_RADII = (3.0, 4.5, 7.0)
+"""Circles tried in turn, px: small squares first, then those that blur has rounded."""
+_SAMPLES = 32
+_ASYMMETRY = 0.30
+"""Greatest rms difference of opposite samples over the circle's contrast."""
+_NARROWEST = np.radians(12.0)
+"""Least angle between the two edges."""
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class Saddles:
+    """Candidate saddle points of one image, strongest first."""
+
+    smooth: Image32
+    """(h, w) the image that they were found in, slightly blurred."""
+    uv: Array
+    """(n, 2) px."""
+    strength: Array
+    """(n,) R, squared grey levels per px^4."""
+
+    def under(self, mask: BoolArray) -> Saddles:
+        """The saddles under a mask (n,)."""
+        return Saddles(self.smooth, self.uv[mask], self.strength[mask])
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class Junctions:
+    """X-junctions of one image."""
+
+    uv: Array
+    """(n, 2) px."""
+    edges: Array
+    """(n, 2) angles A < B < A + pi of the edges, rad from u towards v; dark from A to B."""
+    contrast: Array
+    """(n,) bright minus dark, grey levels."""
+
+    def __len__(self) -> int:
+        return len(self.uv)
+
+
+def find_saddles(image: Image, floor: float) -> Saddles:
+    """The strongest saddle points of `image` (h, w).
+
+    Args:
+        image: grey levels.
+        floor: least contrast of a junction worth finding, grey levels.
+    """
+    g = opencv.smooth(image, 1.0)
+    delta, central, second = [0.0, 1.0, 0.0], [-0.5, 0.0, 0.5], [1.0, -2.0, 1.0]
+    Ixx = opencv.separable(g, second, delta)
+    Iyy = opencv.separable(g, delta, second)
+    Ixy = opencv.separable(g, central, central)
+    R = Ixy * Ixy - Ixx * Iyy
+    # A crossing of contrast c, smoothed by 1 px, has R = (c / pi)^2 where it is sharp.
+    peak = (opencv.dilate(R, 5) == R) & ((0.1 * floor) ** 2 < R)
+    peak[:2], peak[-2:], peak[:, :2], peak[:, -2:] = False, False, False, False
+    where = np.flatnonzero(peak)
+    if len(where) > MAX_CANDIDATES:
+        where = where[np.argpartition(R.ravel()[where], -MAX_CANDIDATES)[-MAX_CANDIDATES:]]
+    where = where[np.argsort(-R.ravel()[where], kind="stable")]
+    v, u = np.divmod(where, g.shape[1])
+
+    gu = (g[v, u + 1] - g[v, u - 1]) / 2
+    gv = (g[v + 1, u] - g[v - 1, u]) / 2
+    xx, yy, xy, det = (array[v, u].astype(np.float64) for array in (Ixx, Iyy, Ixy, R))
+    du = (yy * gu - xy * gv) / det
+    dv = (xx * gv - xy * gu) / det
+    inside = np.maximum(abs(du), abs(dv)) < 1.5
+    uv = np.column_stack([u + du, v + dv])
+    return Saddles(g, uv[inside], det[inside])
+
+
+def classify(smooth: Image32, uv: Array, floor: float) -> tuple[BoolArray, Junctions]:
+    """Which of the points `uv` (n, 2) of the image are X-junctions of contrast `floor` or more.
+
+    Returns:
+        A mask (n,) and the junctions under it.
+    """
+    passed = np.zeros(len(uv), dtype=np.bool_)
+    edges, contrast = np.zeros((len(uv), 2)), np.zeros(len(uv))
+    for radius in _RADII:
+        rest = np.flatnonzero(~passed)
+        ok, ring_edges, ring_contrast = _ring(smooth, uv[rest], radius, floor)
+        passed[rest[ok]] = True
+        edges[rest[ok]], contrast[rest[ok]] = ring_edges[ok], ring_contrast[ok]
+    return passed, Junctions(uv[passed], edges[passed], contrast[passed])
+
+
+def _ring(
+    smooth: Image32, uv: Array, radius: float, floor: float
+) -> tuple[BoolArray, Array, Array]:
+    """The test on one circle: passed (n,), edge angles (n, 2), contrast (n,)."""
+    angle = 2 * np.pi * np.arange(_SAMPLES) / _SAMPLES
+    circle = radius * np.column_stack([np.cos(angle), np.sin(angle)])
+    values = opencv.sample(smooth, uv[:, None] + circle)
+    near, far = values[:, : _SAMPLES // 2], values[:, _SAMPLES // 2 :]
+    half = (near + far) / 2
+    low, high = half.min(axis=1), half.max(axis=1)
+    contrast = high - low
+    asymmetry = np.sqrt(np.mean((near - far) ** 2, axis=1))
+    centre = opencv.sample(smooth, uv)
+    middle = (low + high) / 2
+    level = half - middle[:, None]
+    after = np.roll(level, -1, axis=1)
+    down, up = (level > 0) & (after <= 0), (level <= 0) & (after > 0)
+    edges = np.stack([_crossing(level, after, down), _crossing(level, after, up)], axis=1)
+    edges[:, 1] += np.pi * (edges[:, 1] < edges[:, 0])
+    width = edges[:, 1] - edges[:, 0]
+    passed = (
+        (np.sum(down, axis=1) == 1)
+        & (contrast > floor)
+        & (asymmetry < _ASYMMETRY * contrast)
+        & (abs(centre - middle) < 0.3 * contrast)
+        & (width > _NARROWEST)
+        & (width < np.pi - _NARROWEST)
+    )
+    return passed, edges, contrast
+
+
+def _crossing(level: Array, after: Array, where: BoolArray) -> Array:
+    """(n,) angle in [0, pi) at which each row crosses zero between a marked sample and the next."""
+    k = np.argmax(where, axis=1)
+    row = np.arange(len(level))
+    a, b = level[row, k], after[row, k]
+    step = np.divide(a, a - b, out=np.zeros_like(a), where=a != b)
+    return np.asarray((k + step) * 2 * np.pi / _SAMPLES)

@@ -1,0 +1,216 @@
+"""The whole line, from an image to numbered corners, against drawn and real boards."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from scipy.spatial import cKDTree
+
+from calibgui.engine.corners import find_corners
+from calibgui.engine.errors import NoBoardError
+from calibgui.engine.images import read_image
+from calibgui.engine.types import Ambiguity, Corners
+
+
+def truth_of(corners: Corners, uv: np.ndarray[Any, Any]) -> np.ndarray[Any, Any]:
+    return np.asarray(uv[corners.grid[:, 0], corners.grid[:, 1]])
+
+
+@pytest.mark.parametrize("given_size", [True, False])
+@pytest.mark.parametrize(
+    "scene",
+    [
+        {},
+        {"turn": 35.0, "tilt": (0.3, 0.2)},
+        {"step": 12.0, "turn": 10.0},
+        {"blur": 4.0},
+        {"noise": 12.0},
+        {"barrel": 0.5, "step": 60.0},
+        {"size": (1280, 960), "step": 80.0, "turn": -20.0},
+        {"levels": (100.0, 125.0), "noise": 1.0},
+    ],
+)
+def test_finds_every_corner_in_its_place(
+    draw: Any, scene: dict[str, Any], given_size: bool
+) -> None:
+    drawn = draw(**scene)
+    corners = find_corners(drawn.image, (6, 9) if given_size else None)
+    assert corners.shape == (6, 9)
+    assert corners.complete
+    assert not corners.relative
+    assert corners.ambiguity is Ambiguity.NONE
+    error = corners.uv - truth_of(corners, drawn.uv)
+    noise = scene.get("noise", 0.0) / (np.diff(scene.get("levels", (40.0, 210.0)))[0])
+    assert np.abs(error).max() < 0.15 + 5 * noise
+    assert np.abs(corners.estimate - corners.uv).max() < 4
+
+
+@settings(max_examples=25)
+@given(
+    turn=st.floats(-180, 180),
+    tilt=st.tuples(st.floats(-0.25, 0.25), st.floats(-0.25, 0.25)),
+    rows=st.integers(3, 6),
+    more=st.integers(0, 2),
+)
+def test_numbering_is_right_handed_from_a_dark_square(
+    draw: Any, turn: float, tilt: tuple[float, float], rows: int, more: int
+) -> None:
+    cols = max(rows + more, 4)
+    drawn = draw((rows, cols), (320, 240), step=26.0, turn=turn, tilt=tilt)
+    corners = find_corners(drawn.image)
+    assert corners.complete
+    assert corners.shape == (rows, cols)
+    uv = corners.uv.reshape(*corners.shape, 2)
+    right, down = uv[0, 1] - uv[0, 0], uv[1, 0] - uv[0, 0]
+    assert right[0] * down[1] - right[1] * down[0] > 0
+    u, v = np.rint(uv[0, 0] - (right + down) / 3).astype(int)
+    assert drawn.image[v, u] < 100
+    if (rows + cols) % 2:
+        np.testing.assert_allclose(corners.uv, truth_of(corners, drawn.uv), atol=0.3)
+
+
+@pytest.mark.parametrize(
+    ("board", "expected"),
+    [
+        ((6, 9), Ambiguity.NONE),
+        ((5, 7), Ambiguity.HALF_TURN),
+        ((6, 8), Ambiguity.HALF_TURN),
+        ((5, 5), Ambiguity.HALF_TURN),
+        ((6, 6), Ambiguity.QUARTER_TURN),
+    ],
+)
+def test_says_when_the_pattern_hides_its_origin(
+    draw: Any, board: tuple[int, int], expected: Ambiguity
+) -> None:
+    assert find_corners(draw(board).image).ambiguity is expected
+
+
+def test_a_turned_board_takes_the_stated_layout(draw: Any) -> None:
+    drawn = draw((6, 9), turn=90.0, step=36.0)
+    assert find_corners(drawn.image, (6, 9)).shape == (6, 9)
+    assert find_corners(drawn.image, (9, 6)).shape == (9, 6)
+
+
+def test_a_wrong_size_is_answered_with_the_right_one(draw: Any) -> None:
+    image = draw((6, 8)).image
+    for wrong in ((5, 8), (7, 9), (6, 7), (8, 8)):
+        with pytest.raises(NoBoardError, match="6 x 8 inner corners"):
+            find_corners(image, wrong)
+
+
+def test_part_of_a_board_is_returned_as_part(draw: Any) -> None:
+    drawn = draw((6, 9), shift=(190.0, 0.0))
+    visible = (drawn.uv[..., 0] < 634).sum()
+    corners = find_corners(drawn.image, (6, 9))
+    assert not corners.complete
+    assert len(corners) == visible
+    np.testing.assert_allclose(corners.uv, truth_of(corners, drawn.uv), atol=0.3)
+
+
+@pytest.mark.parametrize("kind", ["black", "noise", "ramp", "stripes", "fine checkers", "discs"])
+def test_no_board_is_said_not_imagined(kind: str) -> None:
+    rng = np.random.default_rng(5)
+    v, u = np.mgrid[:240, :320]
+    image = {
+        "black": np.zeros((240, 320)),
+        "noise": rng.uniform(0, 255, (240, 320)),
+        "ramp": (u + v) / 3.0,
+        "stripes": 255.0 * (u // 8 % 2),
+        "fine checkers": 255.0 * ((u + v) % 2),
+        "discs": 255.0 * (np.hypot(u % 40 - 20, v % 40 - 20) < 12),
+    }[kind]
+    with pytest.raises(NoBoardError) as caught:
+        find_corners(image.astype(np.uint8))
+    assert caught.value.hint
+
+
+@pytest.mark.parametrize("dtype", [np.uint16, np.float32, np.float64])
+def test_grey_levels_of_any_depth(draw: Any, dtype: Any) -> None:
+    drawn = draw()
+    scale = 200 if dtype is np.uint16 else 1 / 255
+    deep = (drawn.image * np.float64(scale)).astype(dtype)
+    np.testing.assert_allclose(find_corners(deep).uv, find_corners(drawn.image).uv, atol=2e-3)
+
+
+def test_marked_points_choose_between_boards_and_origins(draw: Any) -> None:
+    left, right = draw((5, 7), (400, 400), turn=4.0), draw((4, 6), (400, 400))
+    image = np.hstack([left.image, right.image])
+    ends = right.uv[[0, 0, -1, -1], [0, -1, -1, 0]] + np.array([400.0, 0.0])
+    for first in (0, 2):
+        roi = np.roll(ends, -first, axis=0) + np.array([3.0, -4.0])
+        corners = find_corners(image, roi=roi)
+        assert corners.shape == (4, 6)
+        assert np.linalg.norm(corners.uv[0] - ends[first]) < 1
+    assert find_corners(image).shape == (5, 7)
+
+
+def test_marked_points_guide_to_a_board_too_damaged_to_find(draw: Any) -> None:
+    drawn = draw((6, 9), tilt=(0.1, 0.05), noise=3.0)
+    image = drawn.image.copy()
+    for col in (1, 3, 5, 7):  # broad strips hide every other column of corners
+        u = int(drawn.uv[:, col, 0].mean())
+        image[:, u - 16 : u + 17] = 128
+    with pytest.raises(NoBoardError):
+        find_corners(image, (6, 9))
+    ends = drawn.uv[[0, 0, -1, -1], [0, -1, -1, 0]]
+    corners = find_corners(image, (6, 9), roi=ends)
+    assert set(corners.grid[:, 1]) == {0, 2, 4, 6, 8}
+    np.testing.assert_allclose(corners.uv, truth_of(corners, drawn.uv), atol=0.5)
+
+
+def test_arguments_without_sense_are_refused(draw: Any) -> None:
+    image = draw().image
+    with pytest.raises(ValueError, match="method"):
+        find_corners(image, method="magic")
+    with pytest.raises(ValueError, match="grey levels"):
+        find_corners(np.zeros((40, 40, 3)))
+    with pytest.raises(ValueError, match="inner corners"):
+        find_corners(image, (1, 9))
+    with pytest.raises(ValueError, match="convex"):
+        find_corners(image, roi=[(0, 0), (9, 9), (0, 9), (9, 0)])
+    with pytest.raises(ValueError, match="finite"):
+        find_corners(np.full((40, 40), np.nan))
+
+
+@pytest.mark.data
+@pytest.mark.parametrize("board", [(12, 13), None])
+def test_bouguets_25_images(bouguet: Path, board: tuple[int, int] | None) -> None:
+    stored = bouguet / "corners_and_results" / "corners_25img__benJephunneh.json"
+    distances, plates = [], []
+    for view in json.loads(stored.read_text())["views"]:
+        image = read_image(bouguet / f"Image{view['index']}.tif").pixels
+        corners = find_corners(image, board)
+        assert corners.shape == (12, 13)
+        assert corners.complete
+        distance, order = cKDTree(view["image_points"]).query(corners.uv)
+        distances.append(distance)
+        plates.append(np.array(view["object_points"])[order])
+    assert np.max(distances) < 1.0
+    assert np.median(distances) < 0.2
+    # One numbering for all views: what our grid calls (m, n) is the same point of the plate.
+    assert np.ptp(plates, axis=0).max() == 0
+
+
+@pytest.mark.data
+@pytest.mark.parametrize(
+    ("folder", "pattern", "board", "least"),
+    [
+        ("gopro_udacity_wide", "GOPR*.jpg", (6, 8), 35),
+        ("udacity_carnd_9x6_partial", "*.jpg", (6, 9), 18),
+        ("phone_iphonex", "*.jpg", (6, 8), 6),
+    ],
+)
+def test_other_cameras(
+    data_dir: Path, folder: str, pattern: str, board: tuple[int, int], least: int
+) -> None:
+    full = 0
+    for path in sorted((data_dir / folder).glob(pattern)):
+        corners = find_corners(read_image(path).pixels)
+        full += corners.shape == board and corners.complete
+    assert full >= least
