@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import hashlib
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from typing import Any
 
 import numpy as np
@@ -14,14 +14,9 @@ from calibgui.engine.errors import CalibrationError, DegenerateError
 from calibgui.engine.lens import MODELS, Lens
 from calibgui.engine.levenberg_marquardt import Solution, minimise
 from calibgui.engine.observations import REFERENCE_PITCH, Observations, pack, pitch, view_names
+from calibgui.engine.problem import stage_two
 from calibgui.engine.stage_one import Prealignment, prealign
-from calibgui.engine.stage_two import (
-    Linearised,
-    State,
-    image_residual,
-    predicted_corners,
-    reference_residual,
-)
+from calibgui.engine.stage_two import State, predicted_corners, reference_residual
 from calibgui.engine.types import (
     Array,
     Calibration,
@@ -99,7 +94,7 @@ def calibrate(
     start, values = _start(observations, first, size, MODELS[model], parameters, held)
     free_indices = np.flatnonzero([name not in held for name in parameters])
     solution = minimise(
-        _whitened(observations, MODELS[model], cost, scale),
+        stage_two(observations, model, cost, scale, free_indices),
         start,
         free_indices,
         observations.count,
@@ -222,29 +217,6 @@ def _coefficients(lens: Lens, d: Array, k1: float) -> Array:
     slope = lens.correct(d, k).by_coefficients[..., 0]
     k[0] = k1 * np.sum(slope * radial) / np.sum(slope**2)
     return k
-
-
-def _whitened(
-    observations: Observations, lens: Lens, cost: Cost, scale: float
-) -> Callable[[State, slice], Linearised]:
-    """The residuals that Stage II minimises, ready for the solver."""
-
-    def linearise(state: State, views: slice) -> Linearised:
-        part = observations.part(views)
-        if cost is Cost.IMAGE:
-            result = image_residual(state.part(views), part, lens)
-        else:
-            result = reference_residual(state.part(views), part, lens, scale, cost is Cost.PAPER)
-        weight = part.whitening
-        if weight is None:
-            weight = part.mask[..., None, None] * np.eye(2)
-        return Linearised(
-            (weight @ result.residual[..., None])[..., 0],
-            weight @ result.by_params,
-            weight @ result.by_pose,
-        )
-
-    return linearise
 
 
 def _assembled(

@@ -18,8 +18,11 @@ before they are factorised.
 
 The iteration has converged when the decrease that the linear model still predicts is below
 1e-12 of the cost: the unknowns are then within about 1e-6 sqrt(2N) of their standard
-deviations of the minimum. The views are linearised in chunks, so that memory does not grow
-with their number.
+deviations of the minimum.
+
+Where the sums come from is the caller's choice: `normal_equations` below adds them up from
+residuals and derivatives, in chunks of views so that memory does not grow with their number;
+``kernel.py`` does the same compiled.
 """
 
 from __future__ import annotations
@@ -44,6 +47,8 @@ _MAX_DAMPING = 1e12
 
 Linearise = Callable[[State, slice], Linearised]
 """Whitened residuals of a slice of the views, zero (with zero derivatives) for padding."""
+NormalAt = Callable[[State], "NormalEquations"]
+"""The normal equations of the free parameters; infinite cost where a corner has no prediction."""
 
 
 class NormalEquations(NamedTuple):
@@ -71,7 +76,7 @@ class Solution(NamedTuple):
 
 
 def minimise(
-    linearise: Linearise,
+    normal_at: NormalAt,
     start: State,
     free: IntArray,
     count: int,
@@ -82,7 +87,7 @@ def minimise(
     """Minimise the sum of squared residuals.
 
     Args:
-        linearise: the residuals.
+        normal_at: the problem.
         start: where to begin.
         free: (P,) indices of the shared parameters that may move.
         count: number of corners, for the RMS of the iteration records.
@@ -96,7 +101,7 @@ def minimise(
     """
     began = time.perf_counter()
     state, damping = start, _DAMPING
-    normal = normal_equations(linearise, state, free)
+    normal = normal_at(state)
     if not np.isfinite(normal.cost):
         raise CalibrationError(
             "The closed-form start does not reproject the corners.",
@@ -130,7 +135,7 @@ def minimise(
         full = np.zeros(len(state.params))
         full[free] = by_shared
         trial = state.moved(full, by_pose)
-        trial_normal = normal_equations(linearise, trial, free)
+        trial_normal = normal_at(trial)
         if trial_normal.cost < normal.cost:
             length = _scaled_length(normal, by_shared, by_pose)
             state, normal = trial, trial_normal

@@ -1,0 +1,273 @@
+"""Stage II's normal equations with the image cost, compiled.
+
+The same sums as ``levenberg_marquardt.normal_equations`` over
+``stage_two.image_residual``, which stay as the readable reference that this file is tested
+against. What makes it fast is the layout: the Jacobian of one view is kept transposed, one
+parameter a row, so that every loop runs over the corners without a branch and the compiler
+turns it into vector instructions, and the products of the rows are formed four at a time
+while they are in the processor's first cache.
+
+Both lens models are the polynomial of eq. 10, with the coefficients ordered as
+k1, k2, k3, p1, p2, p3: the paper's corrects, and is inverted here by Newton's method from the
+measured corner; the other distorts. With M = d(measured) / d(ideal) the derivatives by the
+coefficients are -M basis(measured) for the first and basis(ideal) for the second.
+
+Each view's sums are independent of every other's and are added in a fixed order, so that the
+result does not depend on the number of threads. Padded corners carry zero weight.
+"""
+
+from __future__ import annotations
+
+from concurrent.futures import ThreadPoolExecutor
+from typing import Any
+
+import numpy as np
+from numba import njit
+
+from calibgui.engine.types import Array, IntArray
+
+_MATHS = {"contract", "nsz", "arcp", "reassoc"}
+"""Freedoms that the compiler needs to vectorise sums; infinities and NaN stay as they are."""
+_THREADS = 2
+_BLOCK = 64
+"""Views that one thread takes at a time."""
+_compiled: Any = njit(cache=True, fastmath=_MATHS, error_model="numpy", nogil=True)
+
+
+@_compiled
+def _eq10(x, y, k1, k2, k3, p1, p2, p3):  # type: ignore[no-untyped-def]
+    """psi1, psi2 and their derivatives by x and y, as ``lens.lucchese``."""
+    xx, yy, xy = x * x, y * y, x * y
+    r2 = xx + yy
+    rho = r2 * (k1 + r2 * (k2 + r2 * k3))
+    slope = k1 + r2 * (2 * k2 + 3 * r2 * k3)
+    lx = p1 * (r2 + 2 * xx) + 2 * p2 * xy
+    ly = 2 * p1 * xy + p2 * (r2 + 2 * yy)
+    q = 1 + p3 * r2
+    cross = 2 * xy * slope + 2 * q * (p1 * y + p2 * x)
+    return (
+        x + x * rho + q * lx,
+        y + y * rho + q * ly,
+        1 + rho + 2 * xx * slope + 2 * x * p3 * lx + q * (6 * p1 * x + 2 * p2 * y),
+        cross + 2 * y * p3 * lx,
+        cross + 2 * x * p3 * ly,
+        1 + rho + 2 * yy * slope + 2 * y * p3 * ly + q * (2 * p1 * x + 6 * p2 * y),
+    )
+
+
+@_compiled
+def _distort(n, k, d, M):  # type: ignore[no-untyped-def]
+    """d = eq10(n) and M = dd/dn, all (2 or 4, N)."""
+    k1, k2, k3, p1, p2, p3 = k
+    for i in range(n.shape[1]):
+        d[0, i], d[1, i], M[0, i], M[1, i], M[2, i], M[3, i] = _eq10(
+            n[0, i], n[1, i], k1, k2, k3, p1, p2, p3
+        )
+
+
+@_compiled
+def _invert(n, k, d, M):  # type: ignore[no-untyped-def]
+    """Solve eq10(d) = n from the given d; M = dd/dn. Returns whether all points converged.
+
+    The last step is at most 1e-8, after which the error is its square.
+    """
+    k1, k2, k3, p1, p2, p3 = k
+    for _ in range(20):
+        worst = 0.0
+        for i in range(n.shape[1]):
+            e0, e1, j00, j01, j10, j11 = _eq10(d[0, i], d[1, i], k1, k2, k3, p1, p2, p3)
+            det = 1 / (j00 * j11 - j01 * j10)
+            m00, m01, m10, m11 = j11 * det, -j01 * det, -j10 * det, j00 * det
+            e0 -= n[0, i]
+            e1 -= n[1, i]
+            s0, s1 = m00 * e0 + m01 * e1, m10 * e0 + m11 * e1
+            d[0, i] -= s0
+            d[1, i] -= s1
+            M[0, i], M[1, i], M[2, i], M[3, i] = m00, m01, m10, m11
+            worst = max(worst, s0 * s0 + s1 * s1)
+        if worst < 1e-16:
+            return True
+    return False
+
+
+@_compiled
+def _gram(J, out):  # type: ignore[no-untyped-def]
+    """out = J J^T for J (M, n), four products at a time."""
+    M, n = J.shape
+    for a in range(M):
+        ja = J[a]
+        b = a
+        while b + 3 < M:
+            j0, j1, j2, j3 = J[b], J[b + 1], J[b + 2], J[b + 3]
+            s0 = s1 = s2 = s3 = 0.0
+            for i in range(n):
+                v = ja[i]
+                s0 += v * j0[i]
+                s1 += v * j1[i]
+                s2 += v * j2[i]
+                s3 += v * j3[i]
+            out[a, b] = out[b, a] = s0
+            out[a, b + 1] = out[b + 1, a] = s1
+            out[a, b + 2] = out[b + 2, a] = s2
+            out[a, b + 3] = out[b + 3, a] = s3
+            b += 4
+        while b < M:
+            jb = J[b]
+            s0 = 0.0
+            for i in range(n):
+                s0 += ja[i] * jb[i]
+            out[a, b] = out[b, a] = s0
+            b += 1
+
+
+@_compiled
+def _by_params(fc, base, lead, d, F):  # type: ignore[no-untyped-def]
+    """Rows of F (10, 2N): derivatives of u (first N) and v by fx, fy, cx, cy and eq. 10's k.
+
+    `base` (2, N) is where the basis is evaluated, `lead` (4, N) what multiplies it.
+    """
+    fx, fy, p1, p2, p3 = fc
+    n = d.shape[1]
+    for i in range(n):
+        x, y = base[0, i], base[1, i]
+        xx, yy, xy = x * x, y * y, x * y
+        r2 = xx + yy
+        q = 1 + p3 * r2
+        c, e = fx * lead[0, i], fx * lead[1, i]
+        g, h = fy * lead[2, i], fy * lead[3, i]
+        F[0, i], F[1, n + i] = d[0, i], d[1, i]
+        b0, b1 = r2 * (c * x + e * y), r2 * (g * x + h * y)
+        F[4, i], F[4, n + i] = b0, b1
+        F[5, i], F[5, n + i] = r2 * b0, r2 * b1
+        F[6, i], F[6, n + i] = r2 * r2 * b0, r2 * r2 * b1
+        g0, g1, g2 = q * (r2 + 2 * xx), 2 * q * xy, q * (r2 + 2 * yy)
+        F[7, i], F[7, n + i] = c * g0 + e * g1, g * g0 + h * g1
+        F[8, i], F[8, n + i] = c * g1 + e * g2, g * g1 + h * g2
+        lx = r2 * (p1 * (r2 + 2 * xx) + 2 * p2 * xy)
+        ly = r2 * (2 * p1 * xy + p2 * (r2 + 2 * yy))
+        F[9, i], F[9, n + i] = c * lx + e * ly, g * lx + h * ly
+
+
+@_compiled
+def _by_pose(fx, fy, rotated, n, M, inverse_depth, J):  # type: ignore[no-untyped-def]
+    """Rows of J (6, 2N): derivatives by (w, tau), the cross product of R X and d(u, v)/dX_cam."""
+    N = n.shape[1]
+    for i in range(N):
+        a0, a1, a2 = rotated[0, i], rotated[1, i], rotated[2, i]
+        for row in range(2):
+            f = (fx if row == 0 else fy) * inverse_depth[i]
+            c0, c1 = f * M[2 * row, i], f * M[2 * row + 1, i]
+            c2 = -(c0 * n[0, i] + c1 * n[1, i])
+            j = i + row * N
+            J[0, j], J[1, j], J[2, j] = a1 * c2 - a2 * c1, a2 * c0 - a0 * c2, a0 * c1 - a1 * c0
+            J[3, j], J[4, j], J[5, j] = c0, c1, c2
+
+
+@_compiled
+def _whiten(weight, J):  # type: ignore[no-untyped-def]
+    """J (M, 2N) times the corners' whitening (4, N): w00, w01, w10, w11."""
+    N = weight.shape[1]
+    for m in range(J.shape[0]):
+        for i in range(N):
+            u, v = J[m, i], J[m, N + i]
+            J[m, i] = weight[0, i] * u + weight[1, i] * v
+            J[m, N + i] = weight[2, i] * u + weight[3, i] * v
+
+
+@_compiled
+def _views(params, backward, R, T, uv, xy, weight, whitened, rows, out):  # type: ignore[no-untyped-def]
+    """Fill out (K, M, M) with the products of [J_free J_pose r] of each view."""
+    K, _, N = uv.shape
+    P = rows.shape[0]
+    fx, fy, cx, cy = params[0], params[1], params[2], params[3]
+    k = (params[4], params[5], params[6], params[7], params[8], params[9])
+    fc = (fx, fy, params[7], params[8], params[9])
+    F, J = np.zeros((10, 2 * N)), np.empty((P + 7, 2 * N))
+    F[2, :N] = 1.0
+    F[3, N:] = 1.0
+    rotated, n, d = np.empty((3, N)), np.empty((2, N)), np.empty((2, N))
+    M, lead, inverse_depth = np.empty((4, N)), np.zeros((4, N)), np.empty(N)
+    lead[0, :] = 1.0
+    lead[3, :] = 1.0
+    for view in range(K):
+        X, Y, u, v = xy[view, 0], xy[view, 1], uv[view, 0], uv[view, 1]
+        for row in range(3):
+            r0, r1 = R[view, row, 0], R[view, row, 1]
+            for i in range(N):
+                rotated[row, i] = r0 * X[i] + r1 * Y[i]
+        behind = False
+        for i in range(N):
+            Z = rotated[2, i] + T[view, 2]
+            behind |= not Z > 0
+            inverse_depth[i] = 1 / Z
+            n[0, i] = (rotated[0, i] + T[view, 0]) * inverse_depth[i]
+            n[1, i] = (rotated[1, i] + T[view, 1]) * inverse_depth[i]
+        failed = behind
+        if backward:
+            for i in range(N):
+                d[0, i] = (u[i] - cx) / fx
+                d[1, i] = (v[i] - cy) / fy
+            failed |= not _invert(n, k, d, M)
+            for j in range(4):
+                for i in range(N):
+                    lead[j, i] = -M[j, i]
+            _by_params(fc, d, lead, d, F)
+        else:
+            _distort(n, k, d, M)
+            _by_params(fc, n, lead, d, F)
+        for j in range(P):
+            J[j] = F[rows[j]]
+        _by_pose(fx, fy, rotated, n, M, inverse_depth, J[P : P + 6])
+        for i in range(N):
+            J[P + 6, i] = cx + fx * d[0, i] - u[i]
+            J[P + 6, N + i] = cy + fy * d[1, i] - v[i]
+        if whitened:
+            _whiten(weight[view], J)
+        _gram(J, out[view])
+        if failed:
+            out[view, P + 6, P + 6] = np.inf
+
+
+def products(
+    params: Array,
+    backward: bool,
+    R: Array,
+    T: Array,
+    uv: Array,
+    xy: Array,
+    weight: Array | None,
+    rows: IntArray,
+) -> Array:
+    """(K, P + 7, P + 7) products of the columns [J_free J_pose r] of each view.
+
+    Args:
+        params: (10,) fx, fy, cx, cy, k1, k2, k3, p1, p2, p3 of eq. 10.
+        backward: whether eq. 10 corrects (the paper) rather than distorts.
+        R: (K, 3, 3) rotations.
+        T: (K, 3) translations, mm.
+        uv: (K, 2, N) measured corners, px.
+        xy: (K, 2, N) plate points, mm.
+        weight: (K, 4, N) whitening of the corners, 0 for padding; None if all weigh 1.
+        rows: (P,) places of the free parameters among `params`.
+
+    Returns:
+        The squared residual, the last entry, is infinite for views with no prediction.
+    """
+    K, M = len(R), len(rows) + 7
+    out = np.empty((K, M, M))
+    whitened = weight is not None
+    weights = np.empty((K, 4, 0)) if weight is None else weight
+
+    def run(views: slice) -> None:
+        _views(
+            params, backward, R[views], T[views], uv[views], xy[views], weights[views],
+            whitened, rows, out[views],
+        )  # fmt: skip
+
+    blocks = [slice(begin, begin + _BLOCK) for begin in range(0, K, _BLOCK)]
+    if len(blocks) == 1:
+        run(blocks[0])
+    else:
+        with ThreadPoolExecutor(_THREADS) as pool:
+            list(pool.map(run, blocks))
+    return out

@@ -1,0 +1,79 @@
+"""The compiled normal equations against the readable ones."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from calibgui.engine import problem
+from calibgui.engine.calibrate import parameter_names
+from calibgui.engine.frames import rotation
+from calibgui.engine.observations import pack
+from calibgui.engine.projection import pixels
+from calibgui.engine.stage_two import State
+from calibgui.engine.types import Camera, Cost, Observation, Target
+
+pytestmark = pytest.mark.skipif(not problem.COMPILED, reason="numba is not installed")
+
+CAMERAS = {
+    "lucchese": Camera((640, 480), [650, 600, 310, 250, 0.25, 0.06, -0.05, 1e-3, -2e-3, 0.4]),
+    "opencv": Camera((640, 480), [650, 600, 310, 250, -0.25, 0.1, 1e-3, -2e-3, -0.05], "opencv"),
+}
+
+
+def scene(model: str, weighted: bool) -> tuple[State, list[Observation]]:
+    """Five partial views with 0.5 px of noise, and the state they were made with."""
+    rng = np.random.default_rng(3)
+    camera, plate = CAMERAS[model], Target(6, 7, 30.0).points()
+    R = rotation(rng.uniform(-0.5, 0.5, (5, 3)))
+    T = np.array([0.0, 0.0, 700.0]) + rng.uniform(-20, 20, (5, 3)) - R[..., :2] @ plate.mean(axis=0)
+    views = []
+    for k in range(5):
+        xy = plate[rng.permutation(len(plate))[: 20 + 4 * k]]
+        point = xy @ R[k, :, :2].T + T[k]
+        uv = pixels(point[:, :2] / point[:, 2:], camera) + rng.normal(0, 0.5, xy.shape)
+        root = rng.normal(size=(len(xy), 2, 2))
+        cov = root @ np.swapaxes(root, 1, 2) + 0.1 * np.eye(2) if weighted else None
+        views.append(Observation(uv, xy, cov))
+    return State(np.array(camera.params), R, T), views
+
+
+@pytest.mark.parametrize("model", CAMERAS)
+@pytest.mark.parametrize("weighted", [False, True])
+def test_the_compiled_sums_are_the_readable_ones(
+    model: str, weighted: bool, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    state, views = scene(model, weighted)
+    free = np.array([i for i in range(len(parameter_names(model))) if i not in (3, 5)])
+    arguments = (pack(views), model, Cost.IMAGE, 1.0, free)
+    compiled = problem.stage_two(*arguments)(state)
+    monkeypatch.setattr(problem, "COMPILED", False)
+    readable = problem.stage_two(*arguments)(state)
+    for name in ("U", "W", "V", "shared", "pose", "cost"):
+        ours, truth = getattr(compiled, name), getattr(readable, name)
+        # Newton's last step leaves the derivatives 1e-8 from the solution, the sums less.
+        np.testing.assert_allclose(ours, truth, rtol=1e-7, atol=1e-9 * np.abs(truth).max())
+
+
+@pytest.mark.parametrize("model", CAMERAS)
+def test_a_board_behind_the_camera_costs_infinitely_much(model: str) -> None:
+    state, views = scene(model, weighted=False)
+    behind = state._replace(T=state.T * np.array([1.0, 1.0, -1.0]))
+    normal = problem.stage_two(pack(views), model, Cost.IMAGE, 1.0, np.arange(4))(behind)
+    assert normal.cost == np.inf
+
+
+def test_the_sums_do_not_depend_on_the_number_of_threads(monkeypatch: pytest.MonkeyPatch) -> None:
+    from calibgui.engine import kernel
+
+    state, views = scene("lucchese", weighted=False)
+    many = 30 * views
+    wide = State(state.params, np.tile(state.R, (30, 1, 1)), np.tile(state.T, (30, 1)))
+    normal_at = problem.stage_two(pack(many), "lucchese", Cost.IMAGE, 1.0, np.arange(9))
+    results = []
+    for threads in (1, 2, 5):
+        monkeypatch.setattr(kernel, "_THREADS", threads)
+        results.append(normal_at(wide))
+    for other in results[1:]:
+        for ours, theirs in zip(results[0], other, strict=True):
+            np.testing.assert_array_equal(ours, theirs)
