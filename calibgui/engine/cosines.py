@@ -93,7 +93,14 @@ def cosines_equation(backward: Array, r: Array, literal: bool = False) -> Array:
 
 
 def aspect_ratio(backward: Array, literal: bool = False) -> float:
-    """The root of the cosines' equation closest to 1; NaN if there is none in [0.5, 2]."""
+    """The root of the cosines' equation; NaN if the angles are undefined.
+
+    Closed-form on the metric plate; on the literal grid the zero closest to 1 in [0.5, 2].
+    """
+    if not literal:
+        omega, phi, theta = _angles(backward, 1.0, literal)
+        cosines = np.cos(phi) * np.cos(theta) ** 2 / np.cos(omega)
+        return float(np.linalg.det(backward[:2, :2]) * cosines / backward[0, 0] ** 2)
 
     def g(r: float) -> float:
         return float(cosines_equation(backward, np.array([r]), literal)[0])
