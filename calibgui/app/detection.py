@@ -19,7 +19,8 @@ from calibgui.app.workers import Crashed, spread
 from calibgui.engine.corners import find_corners
 from calibgui.engine.errors import CalibrationError, NoBoardError
 from calibgui.engine.images import image_size, read_image
-from calibgui.engine.types import Array, Size, View, ViewStatus
+from calibgui.engine.types import Array, Size, Target, View, ViewStatus
+from calibgui.formats.corners_json import CornerSet
 
 Board = tuple[int, int]
 """Rows and columns of inner corners."""
@@ -38,6 +39,20 @@ class Detection:
     """Of the images, px; None if none could be read."""
     board: Board | None
     """As given, or as most frequently seen; None if no board was seen whole."""
+
+    def corner_set(self, square: float) -> CornerSet:
+        """The views as a calibration takes them, on a board of squares of side `square` mm.
+
+        Raises:
+            CalibrationError: if no image could be read.
+        """
+        if self.size is None:
+            raise CalibrationError(
+                f"None of the {len(self.views)} files can be read as an image.",
+                f"The first: {self.views[0].reason}",
+            )
+        target = None if self.board is None else Target(*self.board, square)
+        return CornerSet(self.size, self.views, target)
 
 
 def find_views(

@@ -1,0 +1,196 @@
+"""Many photographs undistorted, or rectified to the plate, into a folder of their own.
+
+The work is decoding, resampling and encoding, which leave the interpreter to other threads;
+threads also finish the file that they are writing when the work is abandoned.
+"""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Callable, Iterable, Sequence
+from concurrent.futures import ThreadPoolExecutor, as_completed
+from dataclasses import dataclass
+from pathlib import Path
+from typing import cast
+
+import numpy as np
+
+from calibgui.app.paths import natural_key
+from calibgui.engine.errors import CalibrationError
+from calibgui.engine.images import Pixels, read_colour, write_image
+from calibgui.engine.types import Array, Camera, Pose, Size
+from calibgui.engine.undistort import (
+    Extent,
+    FieldOfView,
+    Resampled,
+    board_extent,
+    rectify_image,
+    undistort_image,
+)
+from calibgui.formats.resampled_json import write_resampled
+from calibgui.formats.result import Result
+from calibgui.report.coverage import attitudes
+
+GEOMETRY = "resampled.json"
+"""Name of the file that says what the new images' pixels are."""
+
+
+@dataclass(frozen=True, slots=True)
+class Written:
+    """What became of one photograph."""
+
+    source: Path
+    path: Path | None
+    """The new image, or None."""
+    reason: str = ""
+    """Why there is none."""
+
+
+Progress = Callable[[int, int, Written], None]
+"""Told of each image done: how many are, of how many, and its outcome; may raise Cancelled."""
+
+_Change = Callable[[Path, Pixels], Resampled]
+_Geometry = tuple[Size, Array]
+"""Size and matrix, the same for all new images."""
+
+
+def undistort_files(
+    camera: Camera,
+    images: Sequence[Path],
+    folder: Path,
+    view: FieldOfView = FieldOfView.ALL,
+    progress: Progress | None = None,
+) -> tuple[Written, ...]:
+    """Write every image without distortion into `folder`, with the new camera matrix.
+
+    Raises:
+        CalibrationError: if `folder` cannot be used, or two images would have one name in it.
+        Cancelled: from `progress`.
+    """
+
+    def change(_: Path, pixels: Pixels) -> Resampled:
+        return undistort_image(pixels, camera, view)
+
+    return _write_all("undistorted", change, images, folder, progress)
+
+
+def rectify_files(
+    result: Result,
+    images: Sequence[Path],
+    folder: Path,
+    pixels_per_mm: float | None = None,
+    progress: Progress | None = None,
+) -> tuple[Written, ...]:
+    """Write the board of every calibrated image as seen from straight above into `folder`.
+
+    Args:
+        result: the calibration; images are matched to its views by path, or else by name.
+        images: to rectify.
+        folder: to write to, created if missing.
+        pixels_per_mm: scale; that of the original images in the middle of the boards if None.
+        progress: see `Progress`.
+
+    Raises:
+        CalibrationError: if `folder` cannot be used, or two images would have one name in it.
+        Cancelled: from `progress`.
+    """
+    camera = result.calibration.camera
+    scale = pixels_per_mm or _natural_scale(result)
+    extent = _extent(result)
+    poses = _poses(result)
+
+    def change(path: Path, pixels: Pixels) -> Resampled:
+        pose = poses.get(str(path)) or poses.get(path.name)
+        if pose is None:
+            raise CalibrationError(
+                f"{path} is not one of the calibrated views.",
+                "Calibrate with it, or rectify the images that were calibrated.",
+            )
+        return rectify_image(pixels, camera, pose, extent, scale)
+
+    return _write_all("rectified", change, images, folder, progress)
+
+
+def _poses(result: Result) -> dict[str, Pose]:
+    """The poses by the images' paths and, where they are unique, names."""
+    pairs = list(zip(result.used, result.calibration.poses, strict=True))
+    names = [Path(view.image).name for view, _ in pairs]
+    poses = {n: pose for n, (_, pose) in zip(names, pairs, strict=True) if names.count(n) == 1}
+    return poses | {view.image: pose for view, pose in pairs}
+
+
+def _extent(result: Result) -> Extent:
+    """The part of the plate to show, mm."""
+    if result.target is not None:
+        return board_extent(result.target)
+    xy = np.concatenate([view.xy for view in result.observations()])
+    low, high = xy.min(axis=0), xy.max(axis=0)
+    return float(low[0]), float(low[1]), float(high[0]), float(high[1])
+
+
+def _natural_scale(result: Result) -> float:
+    """Pixels per mm with which the median view shows the board."""
+    distance = attitudes(result.calibration, result.observations()).distance
+    return float(result.calibration.camera.focal.mean() / np.median(distance))
+
+
+def _write_all(
+    kind: str,
+    change: _Change,
+    images: Sequence[Path],
+    folder: Path,
+    progress: Progress | None,
+) -> tuple[Written, ...]:
+    """Read, `change` and write every image, under its own name, and the geometry file."""
+    targets = _targets(images, folder)
+    outcomes: dict[Path, Written] = {}
+    geometry: _Geometry | None = None
+    executor = ThreadPoolExecutor(os.cpu_count())
+    try:
+        jobs = [executor.submit(_write_one, change, path, targets[path]) for path in images]
+        for done, job in enumerate(as_completed(jobs), start=1):
+            outcome, made = job.result()
+            outcomes[outcome.source] = outcome
+            geometry = geometry or made
+            if progress is not None:
+                progress(done, len(images), outcome)
+    finally:
+        executor.shutdown(cancel_futures=True)
+    written = tuple(outcomes[path] for path in images)
+    if geometry is not None:
+        names = {w.path.name: str(w.source) for w in written if w.path is not None}
+        write_resampled(folder / GEOMETRY, kind, *geometry, names)
+    return written
+
+
+def _write_one(change: _Change, source: Path, target: Path) -> tuple[Written, _Geometry | None]:
+    try:
+        made = change(source, read_colour(source))
+        write_image(target, cast(Pixels, made.image))  # of the source's type
+    except CalibrationError as error:
+        return Written(source, None, str(error)), None
+    height, width = made.image.shape[:2]
+    return Written(source, target), ((width, height), made.matrix)
+
+
+def _targets(images: Iterable[Path], folder: Path) -> dict[Path, Path]:
+    """Where each image goes: its name in `folder`, which is created if missing."""
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        raise CalibrationError(
+            f"The folder {folder} cannot be made: {error.strerror or error}.",
+            "Choose another folder that you may write to.",
+        ) from error
+    taken: dict[str, Path] = {}
+    for path in sorted(images, key=natural_key):
+        if path.resolve().parent == folder.resolve():
+            raise CalibrationError(
+                f"{path} would be overwritten.", "Choose another folder for the new images."
+            )
+        if (other := taken.setdefault(path.name.casefold(), path)) != path:
+            raise CalibrationError(
+                f"{other} and {path} would have the same name in {folder}.",
+                "Do their folders one by one.",
+            )
+    return {path: folder / path.name for path in taken.values()}

@@ -1,0 +1,91 @@
+"""Arguments that several subcommands share, and what they stand for."""
+
+from __future__ import annotations
+
+import argparse
+import os
+import re
+from pathlib import Path
+
+from calibgui.app.detection import Detection, find_views
+from calibgui.app.paths import find_images
+from calibgui.app.regions import read_regions
+from calibgui.cli.console import Console
+from calibgui.engine.corners.finder import MIN_LINES
+from calibgui.engine.errors import CalibrationError
+
+Board = tuple[int, int]
+
+
+def board(text: str) -> Board:
+    """Rows and columns of inner corners from "12x13"."""
+    match = re.fullmatch(r"(\d+)[x×*,](\d+)", text.strip())
+    if match is None:
+        raise argparse.ArgumentTypeError(f"{text!r} is not ROWSxCOLS, as 12x13")
+    size = int(match[1]), int(match[2])
+    if min(size) < MIN_LINES:
+        raise argparse.ArgumentTypeError(
+            f"a board needs at least {MIN_LINES}x{MIN_LINES} inner corners"
+        )
+    return size
+
+
+def positive(text: str) -> float:
+    """A positive, finite number."""
+    try:
+        value = float(text)
+    except ValueError:
+        value = 0.0
+    if not 0 < value < float("inf"):
+        raise argparse.ArgumentTypeError(f"{text!r} is not a number above 0")
+    return value
+
+
+def add_images(parser: argparse.ArgumentParser, nargs: str = "+") -> None:
+    """The images to work on."""
+    parser.add_argument(
+        "paths", nargs=nargs, metavar="PATH", help="image, folder of images or pattern"
+    )
+
+
+def add_search(parser: argparse.ArgumentParser) -> None:
+    """How the board is to be searched."""
+    parser.add_argument(
+        "--board",
+        type=board,
+        metavar="ROWSxCOLS",
+        help="inner corners of the board (squares minus one each way); inferred if left out",
+    )
+    parser.add_argument(
+        "--roi",
+        type=Path,
+        metavar="FILE",
+        help="JSON file {image name: [[u, v] x 4]}: the board's four outermost corners, px",
+    )
+
+
+def search(options: argparse.Namespace, console: Console) -> Detection:
+    """Find the images that `add_images` and `add_search` describe and search them.
+
+    Raises:
+        CalibrationError: if there are no images, or none can be read.
+    """
+    images = find_images(options.paths)
+    rois = read_regions(options.roi, images) if options.roi else {}
+    with console.progress("searching") as advance:
+        return find_views(
+            images, options.board, rois, progress=lambda done, total, _: advance(done, total)
+        )
+
+
+def check_writable(path: Path) -> None:
+    """Refuse, before any long work, an output file that could not be written after it."""
+    folder = path.parent
+    if path.is_dir():
+        raise CalibrationError(f"{path} is a folder.", "Name a file in it.")
+    if not folder.is_dir():
+        raise CalibrationError(f"The folder {folder} does not exist.", "Create it first.")
+    if not os.access(folder, os.W_OK):
+        raise CalibrationError(
+            f"{path} cannot be written: you may not write to {folder}.", "Choose another folder."
+        )

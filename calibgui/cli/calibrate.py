@@ -1,0 +1,144 @@
+"""Calibrate a camera from photographs of a checkerboard, or from a corners.json file."""
+
+from __future__ import annotations
+
+import argparse
+from dataclasses import replace
+from pathlib import Path
+
+from calibgui.app.calibration import calibrate_views
+from calibgui.cli.arguments import add_images, add_search, check_writable, positive, search
+from calibgui.cli.console import Console
+from calibgui.engine.calibrate import HELD, parameter_names
+from calibgui.engine.errors import CalibrationError
+from calibgui.engine.types import Cost
+from calibgui.formats import EXPORTERS, export, find_exporter
+from calibgui.formats.corners_json import CornerSet, read_corners
+from calibgui.formats.result_json import result_record, write_result
+from calibgui.report import tables
+
+NAMES = parameter_names("lucchese")
+
+
+def configure(parser: argparse.ArgumentParser) -> None:
+    """Describe the arguments."""
+    parser.set_defaults(usage_error=parser.error)
+    add_images(parser)
+    add_search(parser)
+    parser.add_argument(
+        "--square",
+        type=positive,
+        metavar="MM",
+        help="side of a square, mm; needed for photographs",
+    )
+    parser.add_argument(
+        "--cost",
+        type=Cost,
+        choices=list(Cost),
+        default=Cost.IMAGE,
+        help="minimise the reprojection error in the image (default), the registration error on "
+        "the reference plane, or the paper's formulation to the letter",
+    )
+    parser.add_argument(
+        "--fix",
+        type=_fixed,
+        default={},
+        metavar="NAMES",
+        help="intrinsics to hold, as k3,p1=0,fx=650; coefficients at 0, the centre at the "
+        f"image's and focal lengths at the closed form unless given. Names: {' '.join(NAMES)}",
+    )
+    parser.add_argument(
+        "--free",
+        type=_names,
+        default=(),
+        metavar="NAMES",
+        help=f"intrinsics to estimate that are held by default ({', '.join(HELD['lucchese'])})",
+    )
+    parser.add_argument("-o", "--output", type=Path, metavar="FILE", help="write result.json")
+    parser.add_argument(
+        "--export",
+        type=_export,
+        action="append",
+        default=[],
+        metavar="FORMAT=FILE",
+        help=f"write another format as well, may be repeated: {', '.join(EXPORTERS)}",
+    )
+
+
+def run(options: argparse.Namespace, console: Console) -> None:
+    """Search, calibrate, write and print."""
+    for path in [*(path for _, path in options.export), *filter(None, [options.output])]:
+        check_writable(path)
+    corner_set = _corner_set(options, console)
+    try:
+        result = calibrate_views(corner_set, cost=options.cost, fix=options.fix, free=options.free)
+    except CalibrationError:
+        console.problem(tables.unused(corner_set.views))
+        raise
+    written = []
+    if options.output:
+        write_result(result, options.output)
+        written.append(f"Wrote {options.output}.")
+    for name, path in options.export:
+        written.append(f"Wrote {path}. {export(result, name, path).note}")
+    console.answer(result_record(result))
+    console.say(tables.report(result))
+    console.say("\n" + "\n".join(map(tables.bullet, written)))
+
+
+def _corner_set(options: argparse.Namespace, console: Console) -> CornerSet:
+    """The views to calibrate from, searched or read."""
+    if [Path(path).suffix.lower() for path in options.paths] == [".json"]:
+        return _from_corners_file(options)
+    if options.square is None:
+        options.usage_error("--square MM, the side of the board's squares, is needed")
+    detection = search(options, console)
+    return detection.corner_set(options.square)
+
+
+def _from_corners_file(options: argparse.Namespace) -> CornerSet:
+    """The views of a corners.json; with --square, of a board of squares of that side."""
+    if options.board or options.roi:
+        options.usage_error("--board and --roi are for photographs, not for a corners file")
+    corner_set = read_corners(options.paths[0])
+    if options.square is None:
+        return corner_set
+    if corner_set.target is None:
+        raise CalibrationError(
+            f"{options.paths[0]} states its own millimetres.", "Leave out --square."
+        )
+    return replace(corner_set, target=replace(corner_set.target, square=options.square))
+
+
+def _fixed(text: str) -> dict[str, float | None]:
+    """Names to hold, with values where given, from "k3,p1=0"."""
+    held: dict[str, float | None] = {}
+    for part in text.split(","):
+        name, equals, value = part.partition("=")
+        try:
+            held[_name(name)] = float(value) if equals else None
+        except ValueError as error:
+            raise argparse.ArgumentTypeError(f"{value!r} is not a number") from error
+    return held
+
+
+def _names(text: str) -> tuple[str, ...]:
+    return tuple(_name(part) for part in text.split(","))
+
+
+def _name(text: str) -> str:
+    name = text.strip()
+    if name not in NAMES:
+        raise argparse.ArgumentTypeError(f"{name!r} is none of {', '.join(NAMES)}")
+    return name
+
+
+def _export(text: str) -> tuple[str, Path]:
+    name, equals, file = text.partition("=")
+    if not equals:
+        raise argparse.ArgumentTypeError(f"{text!r} is not FORMAT=FILE")
+    try:
+        find_exporter(name, file)
+    except CalibrationError as error:
+        raise argparse.ArgumentTypeError(str(error)) from error
+    return name, Path(file)

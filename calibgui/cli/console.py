@@ -1,0 +1,58 @@
+"""What a subcommand prints, and where: tables to stdout, progress and problems to stderr."""
+
+from __future__ import annotations
+
+import argparse
+import contextlib
+import sys
+from collections.abc import Callable, Iterator
+from typing import Any
+
+from tqdm import tqdm
+
+from calibgui.formats.json_document import dumps
+
+Advance = Callable[[int, int], None]
+"""Told how many are done, of how many."""
+
+
+def configure(parser: argparse.ArgumentParser) -> None:
+    """Add the options that every subcommand has."""
+    parser.add_argument("-q", "--quiet", action="store_true", help="print problems only")
+    parser.add_argument(
+        "--json", action="store_true", help="print the result as JSON, and nothing else, on stdout"
+    )
+
+
+class Console:
+    """Prints as the user asked: tables, JSON or nothing."""
+
+    def __init__(self, quiet: bool = False, json: bool = False) -> None:
+        self.quiet = quiet
+        self.json = json
+
+    def say(self, text: str) -> None:
+        """Print text for people."""
+        if not (self.quiet or self.json):
+            print(text, flush=True)
+
+    def answer(self, value: Any) -> None:
+        """Print the result for programs, if they asked."""
+        if self.json:
+            print(dumps(value))
+
+    def problem(self, text: str) -> None:
+        """Print what went wrong but ends nothing."""
+        print(text, file=sys.stderr)
+
+    @contextlib.contextmanager
+    def progress(self, what: str) -> Iterator[Advance]:
+        """A bar on stderr while images are worked on; nothing if quiet or no terminal."""
+        hidden = self.quiet or not sys.stderr.isatty()
+        with tqdm(desc=what, unit="image", disable=hidden, leave=False, file=sys.stderr) as bar:
+
+            def advance(done: int, total: int) -> None:
+                bar.total = total
+                bar.update(done - bar.n)
+
+            yield advance

@@ -1,0 +1,101 @@
+"""Entry point: choose the subcommand, run it, and turn every ending into an exit code.
+
+0 it is done; 1 it cannot be done, for the reason on stderr; 2 wrong usage; 70 a bug;
+130 interrupted (Ctrl-C); 141 the reader of our output went away.
+
+To add a subcommand, write a module in this folder with `configure(parser)` and
+`run(options, console)`, and name it in `COMMANDS`.
+"""
+
+from __future__ import annotations
+
+import argparse
+import contextlib
+import os
+import sys
+import traceback
+from collections.abc import Sequence
+from importlib import import_module
+
+from calibgui import __version__
+
+COMMANDS = {
+    "calibrate": "calibrate a camera from photographs of a checkerboard",
+    "detect": "locate the board's corners in photographs",
+    "undistort": "write photographs without lens distortion",
+    "rectify": "write the board as seen from straight above",
+    "demo": "calibrate the bundled sample and show everything there is",
+}
+"""Subcommands, each with its module's name and what it does; imported only when chosen."""
+
+_CANNOT, _USAGE, _BUG, _INTERRUPTED, _NO_READER = 1, 2, 70, 130, 141
+
+
+def main(argv: Sequence[str] | None = None) -> int:
+    """Run the command line `argv` (``sys.argv`` by default) and return the exit code.
+
+    Raises:
+        SystemExit: from argparse, for --help, --version and wrong usage.
+    """
+    arguments = list(sys.argv[1:] if argv is None else argv)
+    for stream in (sys.stdout, sys.stderr):
+        # No file name or sign may fail on a terminal that cannot show it.
+        if hasattr(stream, "reconfigure"):
+            stream.reconfigure(errors="backslashreplace")
+    try:
+        code = _run(arguments)
+        sys.stdout.flush()
+        return code
+    except KeyboardInterrupt:
+        print("calibgui: interrupted.", file=sys.stderr)
+        return _INTERRUPTED
+    except BrokenPipeError:
+        # Python flushes stdout once more when it exits.
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        return _NO_READER
+    except Exception:
+        _report_bug()
+        return _BUG
+
+
+def _run(arguments: list[str]) -> int:
+    parser = argparse.ArgumentParser(
+        prog="calibgui",
+        description="Geometric camera calibration from photographs of a checkerboard.",
+        epilog="calibgui COMMAND --help describes a command.",
+    )
+    parser.add_argument("--version", action="version", version=f"calibgui {__version__}")
+    choices = parser.add_subparsers(title="commands", metavar="COMMAND", dest="command")
+    parsers = {name: choices.add_parser(name, help=text) for name, text in COMMANDS.items()}
+    chosen = next((name for name in arguments[:1] if name in COMMANDS), None)
+    if chosen is None:
+        parser.parse_args(arguments)
+        parser.print_help()
+        return _USAGE
+
+    command = import_module(f"calibgui.cli.{chosen}")
+    console = import_module("calibgui.cli.console")
+    errors = import_module("calibgui.engine.errors")
+    parsers[chosen].description = command.__doc__
+    console.configure(parsers[chosen])
+    command.configure(parsers[chosen])
+    options = parser.parse_args(arguments)
+    try:
+        command.run(options, console.Console(options.quiet, options.json))
+    except errors.CalibrationError as error:
+        print(f"calibgui: {error}", file=sys.stderr)
+        return _CANNOT
+    return 0
+
+
+def _report_bug() -> None:
+    """The traceback with all versions, for a report."""
+    traceback.print_exc()
+    with contextlib.suppress(Exception):
+        from calibgui.formats.result import installed_versions
+
+        versions = ", ".join(f"{name} {v}" for name, v in installed_versions().items())
+        print(
+            f"calibgui: this is a bug; please report the lines above. {versions}, {sys.platform}.",
+            file=sys.stderr,
+        )

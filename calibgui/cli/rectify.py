@@ -1,0 +1,43 @@
+"""Write the board of calibrated photographs as seen from straight above."""
+
+from __future__ import annotations
+
+import argparse
+from pathlib import Path
+
+from calibgui.app.paths import find_images
+from calibgui.app.resampling import rectify_files
+from calibgui.cli.arguments import add_images, positive
+from calibgui.cli.console import Console
+from calibgui.cli.resampled import add_output, show_written
+from calibgui.formats.result_json import read_result
+
+
+def configure(parser: argparse.ArgumentParser) -> None:
+    """Describe the arguments."""
+    parser.add_argument(
+        "result", type=Path, metavar="RESULT", help="result.json with the photographs' poses"
+    )
+    add_images(parser, nargs="*")
+    add_output(parser)
+    parser.add_argument(
+        "--scale",
+        type=positive,
+        metavar="PX_PER_MM",
+        help="pixels per millimetre on the board; about that of the photographs if left out",
+    )
+
+
+def run(options: argparse.Namespace, console: Console) -> None:
+    """Read, rectify and write."""
+    result = read_result(options.result)
+    images = find_images(options.paths or [view.image for view in result.used])
+    with console.progress("rectifying") as advance:
+        written = rectify_files(
+            result,
+            images,
+            options.output,
+            options.scale,
+            progress=lambda done, total, _: advance(done, total),
+        )
+    show_written(written, options.output, console)

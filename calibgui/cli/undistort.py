@@ -1,0 +1,44 @@
+"""Write photographs as an ideal camera would have taken them, without lens distortion."""
+
+from __future__ import annotations
+
+import argparse
+from pathlib import Path
+
+from calibgui.app.paths import find_images
+from calibgui.app.resampling import undistort_files
+from calibgui.cli.arguments import add_images
+from calibgui.cli.console import Console
+from calibgui.cli.resampled import add_output, show_written
+from calibgui.engine.undistort import FieldOfView
+from calibgui.formats.result_json import read_result
+
+
+def configure(parser: argparse.ArgumentParser) -> None:
+    """Describe the arguments."""
+    parser.add_argument("result", type=Path, metavar="RESULT", help="result.json of the camera")
+    add_images(parser)
+    add_output(parser)
+    parser.add_argument(
+        "--view",
+        type=FieldOfView,
+        choices=list(FieldOfView),
+        default=FieldOfView.ALL,
+        help="show all of the photograph with some border (default), as much as fits without a "
+        "border, or keep the scale in the middle",
+    )
+
+
+def run(options: argparse.Namespace, console: Console) -> None:
+    """Read, undistort and write."""
+    camera = read_result(options.result).calibration.camera
+    images = find_images(options.paths)
+    with console.progress("undistorting") as advance:
+        written = undistort_files(
+            camera,
+            images,
+            options.output,
+            options.view,
+            progress=lambda done, total, _: advance(done, total),
+        )
+    show_written(written, options.output, console)
