@@ -9,19 +9,23 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 import numpy as np
+import numpy.typing as npt
 from matplotlib import colormaps
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.ticker import MaxNLocator
 
-from calibgui.engine import cosines
+from calibgui.engine import cosines, frames, maps
 from calibgui.engine.statistics import (
     Histogram,
     component_histogram,
     length_histogram,
     stacked,
 )
-from calibgui.engine.types import Array, Calibration, Corners, Iteration, StageOne
+from calibgui.engine.types import Array, Calibration, Camera, Corners, Iteration, StageOne
+
+Picture = npt.NDArray[np.generic]
+"""(h, w) grey or (h, w, 3) colour image of any sample type."""
 
 _WIDTH = 6.4
 _SEARCHED = np.linspace(0.6, 1.4, 801)
@@ -64,7 +68,7 @@ def aspect_ratios(stage_one: Sequence[StageOne]) -> Figure:
     return figure
 
 
-def corners(image: Array, found: Corners) -> Figure:
+def corners(image: Picture, found: Corners) -> Figure:
     """Figure 6: region of interest with first estimates (a) and refined corners (b)."""
     figure = Figure(figsize=(2 * _WIDTH, 5.2), layout="constrained")
     for axes, points, colour, title in zip(
@@ -92,7 +96,34 @@ def convergence(history: Sequence[Iteration], unit: str) -> Figure:
     return figure
 
 
-def image_pair(left: Array, right: Array, titles: tuple[str, str]) -> Figure:
+def distortion(camera: Camera) -> Figure:
+    """Figure 8: net corrective displacement, complete (a), radial (b) and decentering (c)."""
+    figure = Figure(figsize=(2.6 * _WIDTH, 4.6), layout="constrained")
+    w, h = camera.size
+    u, v = np.linspace(0, w - 1, 161), np.linspace(0, h - 1, 121)
+    uv = np.stack(np.meshgrid(u, v), axis=-1)
+    sparse = uv[10:-1:20, 10:-1:20]
+    for axes, part, letter in zip(figure.subplots(1, 3), maps.Part, "abc", strict=True):
+        length = maps.displacement(uv, camera, part).length
+        shown = axes.imshow(length, extent=(-0.5, w - 0.5, h - 0.5, -0.5), cmap="gray")
+        if np.ptp(length) > 0:
+            levels = axes.contour(u, v, length, colors="tab:blue", linewidths=0.6)
+            axes.clabel(levels, fontsize=7)
+        gradient = maps.displacement(sparse, camera, part).gradient
+        axes.quiver(
+            *np.moveaxis(sparse, -1, 0),
+            *np.moveaxis(gradient, -1, 0),
+            angles="xy",
+            color="tab:green",
+        )
+        axes.plot(*frames.centre_of_array(camera.size), "+", color="yellow", markersize=12)
+        axes.plot(*camera.centre, "x", color="red", markersize=9)
+        axes.set(title=f"({letter}) {part}", xlabel="u, px", ylabel="v, px")
+        figure.colorbar(shown, ax=axes, label="displacement d, px", shrink=0.75)
+    return figure
+
+
+def image_pair(left: Picture, right: Picture, titles: tuple[str, str]) -> Figure:
     """Figures 9 and 13: two grey images side by side."""
     figure = Figure(figsize=(2 * _WIDTH, 5.2), layout="constrained")
     for axes, image, title in zip(figure.subplots(1, 2), (left, right), titles, strict=True):
@@ -101,7 +132,7 @@ def image_pair(left: Array, right: Array, titles: tuple[str, str]) -> Figure:
     return figure
 
 
-def superposed(real: Array, synthetic: Array) -> Array:
+def superposed(real: Picture, synthetic: Picture) -> Picture:
     """(H, W, 3) the real image in green over the synthetic in magenta: grey where they agree."""
     return np.stack([synthetic, real, synthetic], axis=-1)
 
@@ -151,7 +182,7 @@ def extrinsic_errors(errors: Array) -> Figure:
     return figure
 
 
-def _show_image(axes: Axes, image: Array) -> None:
+def _show_image(axes: Axes, image: Picture) -> None:
     axes.imshow(image, cmap="gray", interpolation="nearest")
     axes.set(xlabel="u, px", ylabel="v, px")
 
