@@ -63,6 +63,10 @@ class Plot(pg.PlotWidget):  # type: ignore[misc]  # pyqtgraph is not typed
             self._menu.addAction(action)
         self._restyle()
 
+    def set_title(self, text: str) -> None:
+        """Say above the plot what it shows at present."""
+        self.getPlotItem().setTitle(text, color=theme.current().text, size="10pt")
+
     def save(self, path: str | Path) -> None:
         """Write the plot as PNG or SVG, by the name's ending."""
         save_picture(self, path)

@@ -1,0 +1,91 @@
+"""Stage II as it runs: the cost against its iterations (figure 7)."""
+
+from __future__ import annotations
+
+import numpy as np
+import pyqtgraph as pg
+from PySide6.QtCore import QT_TRANSLATE_NOOP
+from PySide6.QtWidgets import QLabel, QVBoxLayout
+
+from calibgui.engine.types import Cost, Iteration, Status
+from calibgui.formats.result import Result
+from calibgui.gui import theme
+from calibgui.gui.panels.panel import Panel
+from calibgui.gui.plots import Plot
+
+
+class ConvergencePanel(Panel):
+    """The cost of every iteration; grows while a calibration runs."""
+
+    title = str(QT_TRANSLATE_NOOP("ConvergencePanel", "Convergence"))
+    icon = "convergence"
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.words = QLabel()
+        self.words.setWordWrap(True)
+        self.plot = Plot(self.tr("iteration"), self.tr("cost c"))
+        self.plot.getPlotItem().setLogMode(y=True)
+        self.plot.setToolTip(
+            self.tr("The sum of squared residuals that Stage II minimises, after each step.")
+        )
+        self._curve = self.plot.plot(symbol="o", symbolSize=7)
+        self._iterations: list[Iteration] = []
+        layout = QVBoxLayout(self.body)
+        layout.addWidget(self.words)
+        layout.addWidget(self.plot, 1)
+
+    def start(self) -> None:
+        """A calibration begins: forget the last one's iterations."""
+        self._iterations = []
+        self._result = None
+        self._draw()
+        self.words.setText(self.tr("Calibrating…"))
+        self._stack.setCurrentWidget(self.body)
+
+    def add(self, iteration: Iteration) -> None:
+        """One more iteration of the running calibration."""
+        self._iterations.append(iteration)
+        self._draw()
+        self.words.setText(
+            self.tr("Calibrating: iteration {0}, RMS {1:.4f}").format(
+                iteration.index, iteration.rms
+            )
+        )
+
+    def _refresh(self, result: Result) -> None:
+        calibration = result.calibration
+        self._iterations = [*calibration.history]
+        self._draw()
+        last = calibration.history[-1]
+        unit = {Cost.IMAGE: self.tr("px")}.get(calibration.cost, self.tr("reference px"))
+        self.words.setText(
+            self._ending(calibration.status).format(last.index)
+            + " "
+            + self.tr("RMS residual {0:.4f} {1}; {2:.0f} ms.").format(
+                last.rms, unit, 1e3 * last.seconds
+            )
+        )
+
+    def _ending(self, status: Status) -> str:
+        return {
+            Status.CONVERGED: self.tr("Converged after {0} iterations."),
+            Status.STOPPED: self.tr(
+                "Stopped after {0} iterations: the best so far is kept, but it is not the optimum."
+            ),
+            Status.MAX_ITERATIONS: self.tr(
+                "Not converged: all {0} iterations were used. Allow more, or hold parameters that "
+                "the views do not determine."
+            ),
+        }[status]
+
+    def _draw(self) -> None:
+        colours = theme.current()
+        self._curve.setPen(pg.mkPen(colours.accent, width=2))
+        self._curve.setSymbolBrush(colours.accent)
+        self._curve.setSymbolPen(None)
+        self._curve.setData(
+            [i.index for i in self._iterations],
+            # A perfect fit has no logarithm.
+            np.maximum([i.cost for i in self._iterations], np.finfo(float).tiny),
+        )

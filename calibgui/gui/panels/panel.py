@@ -1,0 +1,93 @@
+"""What all panels share: a result or a sentence that says how to get one."""
+
+from __future__ import annotations
+
+from typing import ClassVar
+
+from PySide6.QtCore import QT_TRANSLATE_NOOP, QEvent, Qt, Signal
+from PySide6.QtGui import QShowEvent
+from PySide6.QtWidgets import QLabel, QStackedLayout, QWidget
+
+from calibgui.formats.result import Result
+from calibgui.gui import theme
+
+
+class Panel(QWidget):
+    """A view of a result. A subclass fills `body` and implements `_refresh` and `_select`.
+
+    Panels that are not on screen do no work: what they were given last is drawn when they are
+    shown. Indices of views in signals and in `select` are those of `Result.views`; within a
+    panel they are those of the calibration, which lacks the views that were not used.
+    """
+
+    picked = Signal(int, int)
+    """Index of the view in `Result.views` and of its corner, or -1: "show me that"."""
+
+    title: ClassVar[str] = ""
+    icon: ClassVar[str] = ""
+    hint: ClassVar[str] = str(
+        QT_TRANSLATE_NOOP(
+            "Panel", "Nothing is calibrated yet. Add images of a checkerboard and press Calibrate."
+        )
+    )
+    """Shown while there is no result."""
+
+    def __init__(self, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self.setWindowTitle(self.tr(self.title))
+        self.body = QWidget()
+        self._result: Result | None = None
+        self._indices: tuple[int, ...] = ()
+        self._selected = (-1, -1)
+        self._stale = False
+        self._empty = QLabel(self.tr(self.hint))
+        self._empty.setAlignment(Qt.AlignmentFlag.AlignCenter)
+        self._empty.setWordWrap(True)
+        self._empty.setMargin(3 * theme.SPACING)
+        self._stack = QStackedLayout(self)
+        self._stack.addWidget(self._empty)
+        self._stack.addWidget(self.body)
+
+    def show_result(self, result: Result | None) -> None:
+        """Show this result; None for none."""
+        self._result = result
+        self._selected = (-1, -1)
+        views = () if result is None else result.views
+        self._indices = tuple(i for i, view in enumerate(views) if view.usable)
+        self._stack.setCurrentIndex(0 if result is None else 1)
+        self._stale = True
+        self._update()
+
+    def select(self, view: int, corner: int = -1) -> None:
+        """Highlight a view, and one of its corners, without announcing it."""
+        k = self._indices.index(view) if view in self._indices else -1
+        self._selected = (k, corner if k >= 0 else -1)
+        if self._result is not None and not self._stale:
+            self._select(*self._selected)
+
+    def showEvent(self, event: QShowEvent) -> None:  # noqa: N802 - Qt's name
+        super().showEvent(event)
+        self._update()
+
+    def changeEvent(self, event: QEvent) -> None:  # noqa: N802 - Qt's name
+        super().changeEvent(event)
+        if event.type() == QEvent.Type.PaletteChange:
+            self._stale = True
+            self._update()
+
+    def _update(self) -> None:
+        if self._stale and self._result is not None and self.isVisible():
+            self._stale = False
+            self._refresh(self._result)
+            self._select(*self._selected)
+
+    def _pick(self, k: int, corner: int = -1) -> None:
+        """Announce what the user pointed at: calibrated view k and a corner."""
+        self.picked.emit(self._indices[k], corner)
+
+    def _refresh(self, result: Result) -> None:
+        """Show `result`, in the present colours."""
+        raise NotImplementedError
+
+    def _select(self, k: int, corner: int) -> None:
+        """Highlight calibrated view k (-1 for none) and a corner; nothing by default."""

@@ -1,0 +1,132 @@
+"""Stage I: Table 1 of all views, with figures 4 and 5 beside it."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from typing import Any
+
+import numpy as np
+import pyqtgraph as pg
+from PySide6.QtCore import QT_TRANSLATE_NOOP
+from PySide6.QtWidgets import QVBoxLayout
+
+from calibgui.app.calibration import short_names
+from calibgui.engine.cosines import cosines_equation
+from calibgui.engine.types import Array, BoolArray, Cost, StageOne
+from calibgui.formats.result import Result
+from calibgui.gui import theme
+from calibgui.gui.panels.panel import Panel
+from calibgui.gui.panels.split import Split
+from calibgui.gui.plots import Plot
+from calibgui.gui.tables import Column, Table, fixed
+
+_OUTLYING = 5.0
+"""Median absolute deviations from the median that mark a view."""
+_SEARCHED = np.linspace(0.6, 1.4, 401)
+"""Aspect ratios over which g(r) is drawn."""
+
+
+class StageOnePanel(Panel):
+    """What each view says of the camera by itself."""
+
+    title = str(QT_TRANSLATE_NOOP("StageOnePanel", "Stage I"))
+    icon = "stage-one"
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.table = Table()
+        self.table.picked.connect(self._pick)
+        self.equation = Plot(self.tr("aspect ratio r"), self.tr("g(r)"))
+        self.equation.setToolTip(
+            self.tr(
+                "The cosines' equation of the selected view: where it is zero, r = fy / fx.\n"
+                "It has no value where the view's tilt does not determine it."
+            )
+        )
+        self._curve = self.equation.plot()
+        self._root = self.equation.plot(symbol="o", symbolSize=11, symbolBrush=None)
+        self.aspects = Plot(self.tr("view"), self.tr("aspect ratio fy / fx"))
+        self.aspects.setToolTip(
+            self.tr(
+                "The root of each view. Views near fronto-parallel, or tilted about one axis,\n"
+                "give none or a poor one: Stage II does not depend on them."
+            )
+        )
+        self._line = self.aspects.plot(symbolSize=7)
+        self._line.sigPointsClicked.connect(
+            lambda _, points: self._pick(round(points[0].pos().x()) - 1)
+        )
+        self._current = self.aspects.plot(pen=None, symbol="o", symbolSize=13, symbolBrush=None)
+        plots = Split(560, (self.equation, 1), (self.aspects, 1))
+        layout = QVBoxLayout(self.body)
+        layout.addWidget(Split(900, (self.table, 1), (plots, 1)))
+
+    def _refresh(self, result: Result) -> None:
+        rows = result.calibration.stage_one
+        colours = theme.current()
+        self.table.show_columns(self._columns(result), self._outlying(rows))
+        self._curve.setPen(pg.mkPen(colours.accent, width=2))
+        self._line.setPen(pg.mkPen(colours.line))
+        self._line.setSymbolBrush(colours.accent)
+        self._line.setSymbolPen(None)
+        for marks in (self._root, self._current):
+            marks.setSymbolPen(pg.mkPen(colours.bad, width=2))
+        self._line.setData(np.arange(1, len(rows) + 1), [row.aspect for row in rows])
+
+    def _select(self, k: int, corner: int) -> None:  # noqa: ARG002 - a view has one row
+        assert self._result is not None
+        calibration = self._result.calibration
+        self.table.select(k)
+        row = calibration.stage_one[max(k, 0)]
+        g = cosines_equation(row.backward, _SEARCHED, calibration.cost is Cost.PAPER)
+        self._curve.setData(_SEARCHED, g, connect="finite")
+        known = np.isfinite(row.aspect)
+        self._root.setData([row.aspect] if known else [], [0.0] if known else [])
+        self._current.setData([max(k, 0) + 1] if known else [], [row.aspect] if known else [])
+        name = short_names(self._result.used)[max(k, 0)]
+        self.equation.set_title(
+            self.tr("{0}: r = {1:.4f}").format(name, row.aspect)
+            if known
+            else self.tr("{0}: aspect ratio not determined").format(name)
+        )
+
+    def _columns(self, result: Result) -> list[Column]:
+        shown: tuple[tuple[str, str, Callable[[Any], str], str], ...] = (
+            ("xp", "xp", fixed(2), self.tr("Principal point right of the array's centre, px")),
+            ("yp", "yp", fixed(2), self.tr("Principal point above the array's centre, px")),
+            ("k1", "k1", "{:.3e}".format, self.tr("First radial coefficient, 1/px²")),
+            ("fy / fx", "aspect", fixed(4), self.tr("Aspect ratio: root of the cosines' equation")),
+            ("fx", "fx", fixed(1), self.tr("Focal length, px")),
+            ("fy", "fy", fixed(1), self.tr("Focal length, px")),
+            (self.tr("Steps"), "iterations", str, self.tr("Iterations of Levenberg-Marquardt")),
+            ("RMS", "rms", fixed(3), self.tr("Residual on the reference plane, reference px")),
+        )
+        rows = result.calibration.stage_one
+        return [
+            Column(self.tr("View"), short_names(result.used)),
+            *(
+                Column(t, [getattr(r, name) for r in rows], text, tip)
+                for t, name, text, tip in shown
+            ),
+        ]
+
+    def _outlying(self, rows: Sequence[StageOne]) -> dict[int, str]:
+        """Rows that differ much from the others, and in what."""
+        marked: dict[int, list[str]] = {}
+        for name in ("xp", "yp", "k1", "fx", "rms"):
+            values = np.array([getattr(row, name) for row in rows])
+            for k in np.flatnonzero(_far(values)).tolist() if np.isfinite(values).any() else ():
+                marked.setdefault(k, []).append(name)
+        for k, row in enumerate(rows):
+            if not row.converged:
+                marked.setdefault(k, []).append(self.tr("no convergence"))
+        return {
+            k: self.tr("Far from the other views: {0}").format(", ".join(names))
+            for k, names in marked.items()
+        }
+
+
+def _far(values: Array) -> BoolArray:
+    """Which values are far from the median, in median absolute deviations."""
+    distance = np.abs(values - np.nanmedian(values))
+    return np.asarray(distance > _OUTLYING * np.nanmedian(distance))

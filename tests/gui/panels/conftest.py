@@ -1,0 +1,79 @@
+"""A result without images, and a hand that clicks on plots."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import TypeVar
+
+import numpy as np
+import pytest
+from PySide6.QtCore import QPoint, QPointF, Qt
+from PySide6.QtWidgets import QApplication
+from pytestqt.qtbot import QtBot
+
+from calibgui import engine
+from calibgui.engine.types import Corners, View, ViewStatus
+from calibgui.formats.result import Result
+from calibgui.gui.panels.panel import Panel
+from calibgui.gui.plots import Plot
+from tests.engine import scenes
+
+P = TypeVar("P", bound=Panel)
+
+
+def made(seed: int = 4, count: int = 9, noise: float = 0.1, **settings: object) -> Result:
+    """A calibration of synthetic corners; the second image has no board."""
+    board = scenes.BOARD
+    scene = scenes.scene(scenes.barrel(), count, seed)
+    grid = np.indices((board.rows, board.cols)).reshape(2, -1).T
+    views = [
+        View(f"view{k + 1}.png", ViewStatus.FOUND, corners=Corners((9, 12), grid, view.uv, view.uv))
+        for k, view in enumerate(scene.noisy(noise, np.random.default_rng(seed)))
+    ]
+    views.insert(1, View("blank.png", ViewStatus.NO_BOARD, "No checkerboard was found."))
+    observations = [view.observation(board) for view in views if view.usable]
+    calibration = engine.calibrate(observations, scene.size, **settings)  # type: ignore[arg-type]
+    return Result(calibration, tuple(views), board)
+
+
+@pytest.fixture(scope="session")
+def result() -> Result:
+    return made()
+
+
+@pytest.fixture(scope="session")
+def other() -> Result:
+    """The same camera from other views."""
+    return made(seed=7)
+
+
+Shown = Callable[[type[P], Result | None], P]
+
+
+@pytest.fixture
+def shown(qtbot: QtBot) -> Shown[P]:
+    """Makes a panel, gives it a result and brings it on screen."""
+
+    def show(kind: type[P], result: Result | None) -> P:
+        panel = kind()
+        qtbot.addWidget(panel)
+        panel.resize(900, 650)
+        panel.show_result(result)
+        panel.show()
+        qtbot.waitExposed(panel)
+        QApplication.processEvents()
+        return panel
+
+    return show
+
+
+def click(qtbot: QtBot, plot: Plot, x: float, y: float) -> None:
+    """A left click at a plot's coordinates."""
+    QApplication.processEvents()
+    qtbot.mouseClick(plot.viewport(), Qt.MouseButton.LeftButton, pos=place(plot, x, y))
+
+
+def place(plot: Plot, x: float, y: float) -> QPoint:
+    """The pixel of a plot's viewport at the plot's coordinates."""
+    scene = plot.getPlotItem().getViewBox().mapViewToScene(QPointF(x, y))
+    return plot.mapFromScene(scene)

@@ -1,0 +1,52 @@
+"""The convergence plot while it grows, and when it has ended."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from calibgui.engine.types import Status
+from calibgui.formats.result import Result
+from calibgui.gui.panels.convergence import ConvergencePanel
+from tests.gui.panels.conftest import Shown
+
+
+def test_plot_holds_the_history(shown: Shown[ConvergencePanel], result: Result) -> None:
+    panel = shown(ConvergencePanel, result)
+    x, y = panel._curve.getOriginalDataset()
+    np.testing.assert_array_equal(x, [i.index for i in result.calibration.history])
+    np.testing.assert_array_equal(y, [i.cost for i in result.calibration.history])
+    assert panel.plot.getPlotItem().getAxis("left").logMode
+
+
+def test_grows_while_it_runs(shown: Shown[ConvergencePanel], result: Result) -> None:
+    panel = shown(ConvergencePanel, None)
+    panel.start()
+    assert panel.plot.isVisible() and "Calibrating" in panel.words.text()
+    for n, iteration in enumerate(result.calibration.history, start=1):
+        panel.add(iteration)
+        assert len(panel._curve.getData()[0]) == n
+    assert f"iteration {iteration.index}" in panel.words.text()
+    panel.show_result(result)
+    assert panel.words.text().startswith("Converged after")
+    panel.start()
+    assert panel._curve.getOriginalDataset()[0] is None
+
+
+@pytest.mark.parametrize(
+    ("status", "words"),
+    [
+        (Status.CONVERGED, "Converged after"),
+        (Status.STOPPED, "best so far is kept"),
+        (Status.MAX_ITERATIONS, "Not converged"),
+    ],
+)
+def test_says_how_it_ended(
+    shown: Shown[ConvergencePanel], result: Result, status: Status, words: str
+) -> None:
+    ended = replace(result, calibration=replace(result.calibration, status=status))
+    panel = shown(ConvergencePanel, ended)
+    assert words in panel.words.text()
+    assert f"{result.calibration.history[-1].rms:.4f} px" in panel.words.text()
