@@ -40,7 +40,7 @@ class Plot(pg.PlotWidget):  # type: ignore[misc]  # pyqtgraph is not typed
         parent: QWidget | None = None,
     ) -> None:
         super().__init__(parent)
-        self._labels = {"bottom": _with_unit(x, x_unit), "left": _with_unit(y, y_unit)}
+        self._labels = _labels(x, y, x_unit, y_unit)
         item = self.getPlotItem()
         item.setMenuEnabled(False)
         item.hideButtons()
@@ -61,6 +61,11 @@ class Plot(pg.PlotWidget):  # type: ignore[misc]  # pyqtgraph is not typed
             action.triggered.connect(does)
             self.addAction(action)
             self._menu.addAction(action)
+        self._restyle()
+
+    def set_labels(self, x: str, y: str, x_unit: str = "", y_unit: str = "") -> None:
+        """Say anew what the axes show."""
+        self._labels = _labels(x, y, x_unit, y_unit)
         self._restyle()
 
     def set_title(self, text: str) -> None:
@@ -131,6 +136,10 @@ def _render(widget: QWidget, device: QImage | QSvgGenerator) -> None:
     painter = QPainter(device)
     QWidget.render(widget, painter, QPoint())  # a view of a scene has a "render" of its own
     painter.end()
+
+
+def _labels(x: str, y: str, x_unit: str, y_unit: str) -> dict[str, str]:
+    return {"bottom": _with_unit(x, x_unit), "left": _with_unit(y, y_unit)}
 
 
 def _with_unit(name: str, unit: str) -> str:

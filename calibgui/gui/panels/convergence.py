@@ -58,7 +58,8 @@ class ConvergencePanel(Panel):
         self._iterations = [*calibration.history]
         self._draw()
         last = calibration.history[-1]
-        unit = {Cost.IMAGE: self.tr("px")}.get(calibration.cost, self.tr("reference px"))
+        unit = self.tr("px") if calibration.cost is Cost.IMAGE else self.tr("reference px")
+        self.plot.set_labels(self.tr("iteration"), self.tr("cost c"), y_unit=f"{unit}²")
         self.words.setText(
             self._ending(calibration.status).format(last.index)
             + " "

@@ -1,0 +1,172 @@
+"""The result: intrinsics with their standard deviations, and what they are worth."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from html import escape
+
+import numpy as np
+from PySide6.QtCore import QT_TRANSLATE_NOOP
+from PySide6.QtWidgets import QTabWidget, QTextBrowser, QVBoxLayout
+
+from calibgui.engine.calibrate import parameter_names
+from calibgui.engine.frames import PAPER_NAMES
+from calibgui.engine.uncertainty import correlations, paper_table
+from calibgui.formats.result import Result
+from calibgui.gui import theme
+from calibgui.gui.panels.matrix import Matrix
+from calibgui.gui.panels.panel import Panel
+from calibgui.gui.panels.split import Split
+from calibgui.gui.tables import Column, Table, fixed, number
+from calibgui.report.comparison import compare
+from calibgui.report.numbers import with_sigma
+from calibgui.report.summary import Sentence, Tone, summary
+
+_PAPER_UNITS = ("px", "px", "px⁻²", "px⁻⁴", "px⁻⁶", "px⁻¹", "px⁻¹", "px⁻²", "px", "px")
+_MARKS = {Tone.FACT: "•", Tone.GOOD: "✓", Tone.CAUTION: "!", Tone.ADVICE: "→"}
+
+
+class ResultPanel(Panel):
+    """The estimates in words, in the array frame and in the paper's units."""
+
+    title = str(QT_TRANSLATE_NOOP("ResultPanel", "Result"))
+    icon = "result"
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.words = QTextBrowser()
+        self.array_frame, self.paper_units, self.differences = Table(), Table(), Table()
+        self.correlations = Matrix()
+        self.correlations.setToolTip(
+            self.tr("Estimates near ±1 can stand in for each other: only a combination is known.")
+        )
+        self.tabs = QTabWidget(documentMode=True)
+        for widget, name in (
+            (Split(820, (self.words, 1), (self.array_frame, 1)), self.tr("Summary")),
+            (self.paper_units, self.tr("The paper's units")),
+            (self.correlations, self.tr("Correlations")),
+            (self.differences, self.tr("Comparison")),
+        ):
+            self.tabs.addTab(widget, name)
+        self.tabs.setTabVisible(3, False)
+        layout = QVBoxLayout(self.body)
+        layout.addWidget(self.tabs)
+
+    def show_comparison(self, a: Result, b: Result, names: tuple[str, str] = ("A", "B")) -> None:
+        """Set two results side by side, with their differences in units of sigma."""
+        rows = compare(a.calibration, b.calibration)
+        self.differences.show_columns(
+            [
+                Column(self.tr("Parameter"), [row.name for row in rows]),
+                *_estimates(names[0], [r.a for r in rows], [r.sigma_a for r in rows]),
+                *_estimates(names[1], [r.b for r in rows], [r.sigma_b for r in rows]),
+                Column(
+                    self.tr("Difference"),
+                    [row.change for row in rows],
+                    number(3),
+                    self.tr("{1} less {0}").format(*names),
+                ),
+                Column(
+                    self.tr("in σ"),
+                    [row.sigmas for row in rows],
+                    fixed(2),
+                    self.tr(
+                        "Over the standard deviation of a difference of independent estimates.\n"
+                        "Results from the same images share their errors: even 1 is much then."
+                    ),
+                ),
+            ],
+            {
+                k: self.tr("differs by more than 3 σ")
+                for k, r in enumerate(rows)
+                if abs(r.sigmas) > 3
+            },
+        )
+        self.tabs.setTabVisible(3, True)
+        self.tabs.setCurrentIndex(3)
+
+    def _refresh(self, result: Result) -> None:
+        calibration = result.calibration
+        names = parameter_names(calibration.camera.model)
+        self.words.setHtml(_html(summary(result)))
+        self.array_frame.show_columns(
+            [
+                Column(self.tr("Parameter"), names),
+                *_estimates(self.tr("Value"), calibration.camera.params, calibration.sigma),
+                Column(self.tr("Unit"), ["px"] * 4 + [""] * (len(names) - 4)),
+                Column(self.tr("Remark"), self._remarks(result, names)),
+            ],
+            {names.index(u.name): u.reason for u in calibration.undetermined},
+        )
+        has_paper = calibration.camera.model.startswith("lucchese")
+        self.tabs.setTabVisible(1, has_paper)
+        if has_paper:
+            values, sigma, sd = paper_table(calibration)
+            self.paper_units.show_columns(
+                [
+                    Column(self.tr("Parameter"), PAPER_NAMES),
+                    *_estimates(self.tr("Value"), values, sigma),
+                    Column(self.tr("Unit"), _PAPER_UNITS),
+                    Column(
+                        self.tr("SD of Table 2"),
+                        sd.tolist(),
+                        number(3),
+                        self.tr(
+                            "The paper's sqrt(diag((2 JᵀJ)⁻¹)), which leaves the residuals out.\n"
+                            "1σ is what the residuals support."
+                        ),
+                    ),
+                ]
+            )
+        free = [i for i, name in enumerate(names) if name not in calibration.fixed]
+        matrix = correlations(calibration.covariance)[np.ix_(free, free)]
+        self.correlations.show_matrix([names[i] for i in free], matrix)
+
+    def _remarks(self, result: Result, names: Sequence[str]) -> list[str]:
+        """What there is to say of each parameter beside its value."""
+        calibration = result.calibration
+        missing = {u.name for u in calibration.undetermined}
+        remarks = []
+        for name, value, sigma in zip(
+            names, calibration.camera.params, calibration.sigma, strict=True
+        ):
+            if name in calibration.fixed:
+                remarks.append(self.tr("held"))
+            elif name in missing:
+                remarks.append(self.tr("not determined"))
+            elif name not in names[:4] and abs(value) < 2 * sigma:
+                remarks.append(self.tr("not told from 0"))
+            else:
+                remarks.append("")
+        return remarks
+
+
+def _estimates(title: str, values: Iterable[float], sigma: Iterable[float]) -> tuple[Column, ...]:
+    """A column of values ± 1σ, and one of σ alone for sorting and CSV."""
+    values, sigma = [float(v) for v in values], [float(s) for s in sigma]
+    texts = dict(zip(values, map(with_sigma, values, sigma), strict=True))
+    return Column(f"{title} ± 1σ", values, texts.__getitem__), Column("1σ", sigma, number(2))
+
+
+def _html(sentences: Sequence[Sentence]) -> str:
+    """The sentences as a list whose marks and colours tell what each is for."""
+    colours = theme.current()
+    colour = {
+        Tone.FACT: colours.muted,
+        Tone.GOOD: colours.good,
+        Tone.CAUTION: colours.warning,
+        Tone.ADVICE: colours.accent,
+    }
+    rows = "".join(
+        f'<tr><td style="color:{colour[s.tone]}; padding:3px 8px"><b>{_MARKS[s.tone]}</b></td>'
+        f'<td style="padding:3px 0">{_unbroken(escape(s.text))}</td></tr>'
+        for s in sentences
+    )
+    return f"<table>{rows}</table>"
+
+
+def _unbroken(text: str) -> str:
+    """The text with its values kept on one line each."""
+    for sign in (" = ", " ± "):
+        text = text.replace(sign, sign.replace(" ", "&nbsp;"))
+    return text

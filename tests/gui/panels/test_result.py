@@ -1,0 +1,106 @@
+"""The result panel's tables, matrix and words are the engine's."""
+
+from __future__ import annotations
+
+import csv
+import io
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from PySide6.QtCore import QPoint, Qt
+from pytestqt.qtbot import QtBot
+
+from calibgui.engine.types import Undetermined
+from calibgui.engine.uncertainty import correlations, paper_table
+from calibgui.formats.result import Result
+from calibgui.gui.panels.result import ResultPanel
+from calibgui.gui.tables import Table
+from calibgui.report.comparison import compare
+from calibgui.report.summary import summary
+from tests.gui.panels.conftest import Shown, made
+
+NAMES = ["fx", "fy", "cx", "cy", "k1", "k2", "k3", "p1", "p2", "p3"]
+
+
+def rows(table: Table) -> list[list[str]]:
+    return list(csv.reader(io.StringIO(table.as_csv())))[1:]
+
+
+def test_intrinsics_with_their_sigma(shown: Shown[ResultPanel], result: Result) -> None:
+    panel = shown(ResultPanel, result)
+    table = rows(panel.array_frame)
+    assert [row[0] for row in table] == NAMES
+    values, sigma = (np.array([float(row[i]) for row in table]) for i in (1, 2))
+    np.testing.assert_array_equal(values, result.calibration.camera.params)
+    np.testing.assert_array_equal(sigma, result.calibration.sigma)
+    fx = panel.array_frame.model().index(0, 1).data()
+    assert fx == f"{values[0]:.2f} ± {sigma[0]:.2f}"
+    assert table[-1][4] == "held"
+
+
+def test_the_papers_units(shown: Shown[ResultPanel], result: Result) -> None:
+    panel = shown(ResultPanel, result)
+    table = rows(panel.paper_units)
+    shown_numbers = np.array([[float(row[i]) for i in (1, 2, 4)] for row in table]).T
+    np.testing.assert_array_equal(shown_numbers, paper_table(result.calibration))
+
+
+def test_other_models_have_no_papers_units(shown: Shown[ResultPanel]) -> None:
+    panel = shown(ResultPanel, made(model="opencv"))
+    assert not panel.tabs.isTabVisible(1)
+    assert [row[0] for row in rows(panel.array_frame)][4:] == ["k1", "k2", "p1", "p2", "k3"]
+
+
+def test_correlations_leave_out_what_is_held(
+    shown: Shown[ResultPanel], result: Result, qtbot: QtBot
+) -> None:
+    panel = shown(ResultPanel, result)
+    bar = panel.tabs.tabBar()
+    qtbot.mouseClick(bar, Qt.MouseButton.LeftButton, pos=bar.tabRect(2).center())
+    matrix = panel.correlations
+    assert matrix.isVisible()
+    assert matrix._names == tuple(NAMES[:-1])
+    np.testing.assert_array_equal(
+        matrix._values, correlations(result.calibration.covariance)[:9, :9]
+    )
+    assert matrix.text(4, 5) == f"{matrix._values[4, 5]:.2f}"
+    # k1 and k2 are strongly and negatively correlated: their cell is blue.
+    corner = matrix.cell(4, 5).topLeft().toPoint() + QPoint(4, 4)
+    pixel = matrix.grab().toImage().pixelColor(corner)
+    assert pixel.blue() > pixel.red() + 80
+
+
+def test_words_are_the_summary(shown: Shown[ResultPanel], result: Result) -> None:
+    panel = shown(ResultPanel, result)
+    text = panel.words.toPlainText().replace("\xa0", " ")
+    for sentence in summary(result):
+        assert sentence.text in text
+
+
+def test_what_is_not_determined_is_marked(shown: Shown[ResultPanel], result: Result) -> None:
+    sigma = result.calibration.sigma.copy()
+    sigma[2] = np.nan
+    calibration = replace(
+        result.calibration, sigma=sigma, undetermined=(Undetermined("cx", "no tilt"),)
+    )
+    panel = shown(ResultPanel, replace(result, calibration=calibration))
+    model = panel.array_frame.model()
+    assert model.index(2, 4).data() == "not determined"
+    assert model.index(2, 0).data(Qt.ItemDataRole.ToolTipRole) == "no tilt"
+    assert "cx is not determined" in panel.words.toPlainText()
+
+
+def test_comparison_in_units_of_sigma(
+    shown: Shown[ResultPanel], result: Result, other: Result
+) -> None:
+    panel = shown(ResultPanel, result)
+    assert not panel.tabs.isTabVisible(3)
+    panel.show_comparison(result, other, ("all", "again"))
+    assert panel.differences.isVisible()
+    table = rows(panel.differences)
+    for row, difference in zip(table, compare(result.calibration, other.calibration), strict=True):
+        assert float(row[5]) == difference.change
+        assert float(row[6]) == pytest.approx(difference.sigmas, nan_ok=True)
+    headers = [panel.differences.model().headerData(c, Qt.Orientation.Horizontal) for c in (1, 3)]
+    assert headers == ["all ± 1σ", "again ± 1σ"]
