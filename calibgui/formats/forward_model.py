@@ -27,15 +27,18 @@ def forward(result: Result) -> Refit:
 
 
 def refit_note(result: Result, fitted: Refit) -> str:
-    """How the exported camera differs from the calibrated one."""
+    """How the exported camera differs from the calibrated one.
+
+    Without apostrophes: OpenCV writes them into JSON in a way that only OpenCV reads.
+    """
     if fitted.calibration is result.calibration:
-        return "OpenCV's model (k1 k2 p1 p2 k3) as calibrated."
+        return "Forward distortion model (k1 k2 p1 p2 k3) as calibrated."
     whole = (
         f"{fitted.largest_error:.3g} px over the whole image"
         if math.isfinite(fitted.largest_error)
         else "an unlimited amount in parts of the image that no corner covers"
     )
     return (
-        f"OpenCV's model (k1 k2 p1 p2 k3) refitted on the same corners: it differs by at most "
-        f"{fitted.covered_error:.3g} px where corners were seen and {whole}."
+        f"Forward distortion model (k1 k2 p1 p2 k3), refitted on the same corners; differs by "
+        f"at most {fitted.covered_error:.3g} px where corners were seen and {whole}."
     )

@@ -112,6 +112,12 @@ class Node:
             self.fail("a list")
         return [Node(v, f"{self.where}[{i}]", self.file) for i, v in enumerate(self.value)]
 
+    def members(self) -> dict[str, Node]:
+        """The members of this object."""
+        if not isinstance(self.value, dict):
+            self.fail("an object")
+        return {key: self[key] for key in self.value}
+
     def text(self) -> str:
         """This text."""
         if not isinstance(self.value, str):
@@ -180,7 +186,8 @@ def read(path: str | os.PathLike[str]) -> Node:
     file = os.fspath(path)
     try:
         text = Path(path).read_text(encoding="utf-8-sig")
-        return Node(json.loads(text), "", file)
+        # The hook lets other threads run between objects; the parser itself holds them all up.
+        return Node(json.loads(text, object_hook=lambda members: members), "", file)
     except OSError as error:
         raise CalibrationError(
             f"{file} cannot be read: {error.strerror or error}.", "Check its name and permissions."

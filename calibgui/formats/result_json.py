@@ -90,7 +90,7 @@ def result_record(result: Result) -> dict[str, Any]:
         "undetermined": [{"name": u.name, "reason": u.reason} for u in calibration.undetermined],
         "warnings": calibration.warnings,
         "covariance": {"parameters": names, "matrix": calibration.covariance},
-        "settings": dict(calibration.settings) | {"cost": calibration.cost},
+        "settings": calibration.settings,
         "versions": result.versions,
         "inputs_sha256": calibration.digest,
         "target": None if result.target is None else target_record(result.target),
@@ -172,6 +172,11 @@ def read_result(path: str | os.PathLike[str]) -> Result:
     """
     node = read(path)
     check_format(node, FORMAT, VERSION)
+    return result_from(node)
+
+
+def result_from(node: Node) -> Result:
+    """The result in the content of a result.json. Raises as `read_result`."""
     target = read_target(node.get("target"))
     views = read_views(node["views"], target)
     used = [n for n, view in zip(node["views"].items(), views, strict=True) if view.usable]
@@ -181,7 +186,7 @@ def read_result(path: str | os.PathLike[str]) -> Result:
         _read_calibration(node, used),
         views,
         target,
-        {key: node["versions"][key].text() for key in node["versions"].value},
+        {name: version.text() for name, version in node["versions"].members().items()},
     )
 
 
@@ -189,7 +194,7 @@ def _read_calibration(node: Node, used: list[Node]) -> Calibration:
     camera = node["camera"]
     model = camera["model"].choice(list(MODELS))
     names = parameter_names(model)
-    residuals, settings = node["residuals"], node["settings"]
+    residuals = node["residuals"]
     return Calibration(
         camera=Camera(read_size(camera["size"]), _by_name(camera["params"], names), model),
         sigma=_by_name(camera["sigma"], names),
@@ -204,16 +209,21 @@ def _read_calibration(node: Node, used: list[Node]) -> Calibration:
         stage_one=tuple(_read_stage_one(n) for n in node["stage_one"].items()),
         history=tuple(_read_iteration(n) for n in node["history"].items()),
         status=Status(node["status"].choice(list(Status))),
-        cost=Cost(settings["cost"].choice(list(Cost))),
+        cost=Cost(node["settings"]["cost"].choice(list(Cost))),
         fixed=tuple(n.choice(names) for n in camera["fixed"].items()),
         undetermined=tuple(
             Undetermined(n["name"].choice(names), n["reason"].text())
             for n in node["undetermined"].items()
         ),
         warnings=tuple(n.text() for n in node["warnings"].items()),
-        settings=dict(settings.value),
+        settings=_read_settings(node["settings"]),
         digest=node["inputs_sha256"].text(),
     )
+
+
+def _read_settings(node: Node) -> dict[str, Any]:
+    held = {name: value.number() for name, value in node["fixed"].members().items()}
+    return {**node.value, "fixed": held}
 
 
 def _by_name(node: Node, names: tuple[str, ...]) -> Array:

@@ -1,0 +1,143 @@
+"""corners.json: the exact public format, this program's additions, and every way to be wrong."""
+
+from __future__ import annotations
+
+import copy
+import json
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from calibgui.engine.errors import CalibrationError
+from calibgui.engine.types import Target, ViewStatus
+from calibgui.formats.corners_json import CornerSet, corners_record, read_corners, write_corners
+from calibgui.formats.json_document import dumps
+from calibgui.formats.result import Result
+from tests.formats.mutations import mutated
+from tests.formats.records import same
+
+_FOREIGN: dict[str, Any] = {
+    "size": [640, 480],
+    "views": [
+        {"image": "a.png", "uv": [[1, 2], [3.5, 4]], "board": [[0, 0], [30, 0]]},
+        {
+            "image": "b.png",
+            "uv": [[1, 2]],
+            "board": [[0, 0]],
+            "cov": [[[0.01, 0], [0, 0.02]]],
+            "camera": "left",
+        },
+        {"image": "c.png", "uv": [], "board": []},
+    ],
+    "comment": "from elsewhere",
+}
+
+
+def _read(tmp_path: Path, content: Any) -> CornerSet:
+    file = tmp_path / "corners.json"
+    file.write_text(json.dumps(content))
+    return read_corners(file)
+
+
+def test_the_bare_format_of_any_program_is_read(tmp_path: Path) -> None:
+    corners = _read(tmp_path, _FOREIGN)
+    assert corners.size == (640, 480)
+    assert corners.target is None
+    a, b, c = corners.views
+    assert (a.image, a.status, a.usable) == ("a.png", ViewStatus.FOUND, True)
+    assert np.array_equal(a.observation(None).uv, [[1, 2], [3.5, 4]])
+    assert np.array_equal(a.observation(None).xy, [[0, 0], [30, 0]])
+    assert a.observation(None).cov is None
+    assert np.array_equal(b.observation(None).cov, [[[0.01, 0], [0, 0.02]]])
+    assert (c.status, c.usable) == (ViewStatus.NO_BOARD, False)
+
+
+def test_what_is_written_has_the_bare_format(tmp_path: Path, result: Result) -> None:
+    """Read as a stranger would: nothing but the four public keys of each view."""
+    file = tmp_path / "corners.json"
+    write_corners(CornerSet((640, 480), result.views, result.target), file)
+    content = json.loads(file.read_text(encoding="utf-8"))
+    assert content["size"] == [640, 480]
+    assert [view["image"] for view in content["views"]] == [view.image for view in result.views]
+    for view, written in zip(result.views, content["views"], strict=True):
+        if view.status is ViewStatus.FOUND:
+            points = view.observation(result.target)
+            assert np.array_equal(written["uv"], points.uv)
+            assert np.array_equal(written["board"], points.xy)
+        else:
+            assert written["uv"] == written["board"] == []
+
+
+@pytest.mark.parametrize("name", ["result", "weighted"])
+def test_everything_this_program_knows_reads_back(
+    tmp_path: Path, name: str, request: pytest.FixtureRequest
+) -> None:
+    result = request.getfixturevalue(name)
+    corners = CornerSet((640, 480), result.views, result.target)
+    write_corners(corners, tmp_path / "corners.json")
+    assert same(read_corners(tmp_path / "corners.json"), corners)
+
+
+def test_edited_plate_points_count_for_more_than_the_grid(tmp_path: Path, result: Result) -> None:
+    """A measured plate: the corners keep their grid, the calibration gets the file's points."""
+    content = json.loads(dumps(corners_record(CornerSet((640, 480), result.views, result.target))))
+    content["views"][1]["board"][3] = [90.25, 0.5]
+    view = _read(tmp_path, content).views[1]
+    assert view.corners is not None
+    assert np.array_equal(view.observation(result.target).xy[3], [90.25, 0.5])
+
+
+def test_found_corners_follow_another_square_size(tmp_path: Path, result: Result) -> None:
+    content = corners_record(CornerSet((640, 480), result.views, result.target))
+    (tmp_path / "corners.json").write_text(dumps(content))
+    view = read_corners(tmp_path / "corners.json").views[1]
+    assert view.observation(Target(6, 8, 60.0)).xy.max() == 7 * 60.0
+
+
+@pytest.mark.parametrize(
+    ("place", "value", "message"),
+    [
+        (["size"], [640], "size is not a list of 2 entries"),
+        (["size"], [640, 0], "size is not the width and height"),
+        (["size"], [640.5, 480], "size is not an array of integers"),
+        (["views"], {}, "views is not a list"),
+        (["views", 1], 7, "view 2 is not an object"),
+        (["views", 1, "image"], 7, "view 2.image is not text"),
+        (["views", 0, "uv", 1], [1, None], r"view 1 \(a.png\).uv\[1\]\[1\] is not a finite"),
+        (["views", 0, "uv", 1], [1, 2, 3], r"view 1 \(a.png\).uv\[1\] is not a list of 2"),
+        (["views", 0, "board"], [[0, 0]], r"view 1 \(a.png\).board is not a list of 2 entries"),
+        (["views", 0, "uv", 0, 0], float("nan"), r"uv\[0\]\[0\] is not a finite number"),
+        (["views", 1, "cov"], [[0.1, 0.1]], r"view 2 \(b.png\).cov\[0\]\[0\] is not a list"),
+        (["views", 0, "status"], "seen", r"view 1 \(a.png\).status is not one of waiting, found"),
+        (["views", 0, "status"], "no-board", "although the view has corners"),
+        (["views", 2, "status"], "found", "although the status is 'found'"),
+        (["target"], {"rows": 1, "cols": 4, "square_mm": 30}, "rows is not a number of corners"),
+        (["target"], {"rows": 4, "cols": 4, "square_mm": 0}, "square_mm is not a length above 0"),
+    ],
+)
+def test_what_is_wrong_is_named(tmp_path: Path, place: list[Any], value: Any, message: str) -> None:
+    content = copy.deepcopy(_FOREIGN)
+    node = content
+    for key in place[:-1]:
+        node = node[key]
+    node[place[-1]] = value
+    with pytest.raises(CalibrationError, match=message):
+        _read(tmp_path, content)
+
+
+@given(st.data())
+def test_no_damage_ends_in_anything_but_a_named_error(
+    tmp_path_factory: pytest.TempPathFactory, result: Result, data: st.DataObject
+) -> None:
+    record = corners_record(CornerSet((640, 480), result.views[:3], result.target))
+    content = mutated(json.loads(dumps(record)), data)
+    file = tmp_path_factory.getbasetemp() / "damaged.json"
+    file.write_text(json.dumps(content))
+    try:
+        read_corners(file)
+    except CalibrationError as error:
+        assert str(file) in error.message

@@ -1,0 +1,91 @@
+"""The table of exporters, and the exact text of each format."""
+
+from __future__ import annotations
+
+import importlib
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from calibgui.engine.errors import CalibrationError
+from calibgui.engine.types import Calibration, Camera
+from calibgui.formats import EXPORTERS, export, find_exporter
+from calibgui.formats.opencv_file import storage
+from calibgui.formats.result import Result
+from calibgui.formats.result_json import read_result
+from calibgui.formats.ros_yaml import camera_info
+
+_GOLDEN = Path(__file__).parents[1] / "golden"
+
+
+@pytest.mark.parametrize("name", EXPORTERS)
+def test_every_exporter_writes_what_it_lists(tmp_path: Path, name: str, result: Result) -> None:
+    exporter = EXPORTERS[name]
+    assert exporter.name == name
+    for suffix in exporter.suffixes:
+        report = export(result, name, tmp_path / f"file{suffix.upper()}")
+        assert report.path.stat().st_size > 500
+        assert report.note
+        if report.largest_error_px is not None:
+            assert 0 < report.largest_error_px < 1
+
+
+@pytest.mark.parametrize("name", EXPORTERS)
+def test_every_format_names_reader_convention_and_limits(name: str) -> None:
+    module = importlib.import_module(EXPORTERS[name].write.__module__)
+    assert all(word in (module.__doc__ or "") for word in ("Reader:", "ixels", "Cannot hold:"))
+
+
+def test_what_cannot_be_exported_is_refused_beforehand() -> None:
+    with pytest.raises(CalibrationError, match=r"no export format 'bouguet'.*Choose from result"):
+        find_exporter("bouguet", "a.mat")
+    with pytest.raises(CalibrationError, match=r"a\.txt is not named as .*\.yaml or \.yml"):
+        find_exporter("ros", "a.txt")
+
+
+@pytest.mark.parametrize("name", EXPORTERS)
+def test_a_file_that_cannot_be_written_is_named_and_nothing_is_left(
+    tmp_path: Path, name: str, result: Result
+) -> None:
+    file = (tmp_path / "camera").with_suffix(EXPORTERS[name].suffixes[0])
+    file.mkdir()
+    with pytest.raises(CalibrationError, match="cannot be written") as caught:
+        export(result, name, file)
+    assert str(file) in caught.value.message
+    assert list(tmp_path.iterdir()) == [file]
+
+
+@pytest.fixture(scope="module")
+def golden() -> Result:
+    """The first result file ever released: it stays readable."""
+    return read_result(_GOLDEN / "result-1.json")
+
+
+def _forward(calibration: Calibration) -> Calibration:
+    """A camera in OpenCV's model with awkward numbers."""
+    params = [650.25, 649.5, 303.0, 243.125, -0.25, 0.12, 1e-05, -5e-4, 1e-17]
+    return replace(
+        calibration,
+        camera=Camera((640, 480), params, "opencv"),
+        sigma=np.full(9, 0.5),
+        covariance=np.eye(9),
+    )
+
+
+@pytest.mark.parametrize("name", ["result", "corners", "corners-csv"])
+def test_files_are_written_as_they_always_were(tmp_path: Path, name: str, golden: Result) -> None:
+    """A change here changes what other programs read: it needs a reason and a changelog entry."""
+    kept = {"result": "result-1.json", "corners": "corners.json", "corners-csv": "corners.csv"}
+    file = tmp_path / kept[name]
+    export(golden, name, file)
+    assert file.read_text(encoding="utf-8") == (_GOLDEN / kept[name]).read_text(encoding="utf-8")
+
+
+def test_other_programs_files_are_written_as_they_always_were(golden: Result) -> None:
+    calibration = _forward(golden.calibration)
+    xml = storage(calibration, ".xml", "How it was refitted.")
+    assert xml == (_GOLDEN / "opencv.xml").read_text()
+    info = camera_info(calibration.camera, "camera", "How it was refitted.")
+    assert info == (_GOLDEN / "camera_info.yaml").read_text()

@@ -1,0 +1,147 @@
+"""JSON written and read: exact numbers, stable lines, and errors that say where."""
+
+from __future__ import annotations
+
+import json
+import math
+from pathlib import Path
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from calibgui.engine.errors import CalibrationError
+from calibgui.formats.json_document import Node, check_format, dumps, read
+
+_SCALARS = (
+    st.none()
+    | st.booleans()
+    | st.integers()
+    | st.floats(allow_nan=False, allow_infinity=False)
+    | st.text()
+)
+_VALUES = st.recursive(
+    _SCALARS,
+    lambda inner: st.lists(inner, max_size=4) | st.dictionaries(st.text(), inner, max_size=4),
+    max_leaves=30,
+)
+
+
+@given(_VALUES)
+def test_any_value_reads_back_with_the_standard_reader(value: object) -> None:
+    assert json.loads(dumps(value)) == value
+
+
+@given(st.lists(st.floats(), min_size=1))
+def test_numbers_keep_every_bit_and_those_that_are_not_finite_become_null(
+    numbers: list[float],
+) -> None:
+    expected = [x if math.isfinite(x) else None for x in numbers]
+    assert json.loads(dumps(np.array(numbers))) == expected
+
+
+def test_points_stand_on_a_line_each() -> None:
+    text = dumps({"uv": np.array([[1.5, 2.0], [3.0, 0.1]]), "empty": [], "size": (640, 480)})
+    assert text == '{\n "uv": [[1.5, 2.0], [3.0, 0.1]],\n "empty": [],\n "size": [640, 480]\n}'
+    many = dumps({"uv": np.full((20, 2), 0.25)})
+    assert many.splitlines()[2:4] == ["  [0.25, 0.25],", "  [0.25, 0.25],"]
+
+
+def test_file_names_of_any_kind_survive(tmp_path: Path) -> None:
+    """A name that is not valid Unicode arrives from the system with surrogates."""
+    names = ["Büro 日本.png", 'a"b\\c\n.png', "\udcff.png"]
+    file = tmp_path / "names.json"
+    file.write_text(dumps(names), encoding="utf-8")
+    assert [node.text() for node in read(file).items()] == names
+    assert "日本" in file.read_text(encoding="utf-8")
+
+
+def _node(value: object) -> Node:
+    return Node(value, "views[2]", "a.json")
+
+
+@pytest.mark.parametrize(
+    ("ask", "message"),
+    [
+        (lambda: _node({})["uv"], "a.json: views[2].uv is missing"),
+        (lambda: _node([])["uv"], "views[2] is not an object"),
+        (lambda: _node({}).items(), "views[2] is not a list"),
+        (lambda: _node(3).text(), "views[2] is not text"),
+        (lambda: _node(1).flag(), "views[2] is not true or false"),
+        (lambda: _node("x").choice(["y", "z"]), "views[2] is not one of y, z"),
+        (lambda: _node(True).number(), "views[2] is not a finite number"),
+        (lambda: _node("1").number(), "views[2] is not a finite number"),
+        (lambda: _node(math.nan).number(nullable=True), "views[2] is not a finite number"),
+        (lambda: _node(10**400).number(), "views[2] is not a finite number"),
+        (lambda: _node(1.5).integer(), "views[2] is not an integer"),
+        (lambda: _node([[1, 2], [3]]).numbers(None, 2), "views[2][1] is not a list of 2 entries"),
+        (lambda: _node([[1, 2], [3, None]]).numbers(None, 2), "views[2][1][1] is not a finite"),
+        (lambda: _node([[1]]).numbers(2, 1), "views[2] is not a list of 2 entries (it has 1)"),
+        (lambda: _node([1, 2.5]).integers(2), "views[2] is not an array of integers"),
+    ],
+)
+def test_errors_say_where_and_what_was_expected(ask: object, message: str) -> None:
+    with pytest.raises(CalibrationError) as caught:
+        ask()  # type: ignore[operator]
+    assert message in caught.value.message
+    assert caught.value.hint
+
+
+def test_values_are_read() -> None:
+    node = _node({"a": 2, "b": None, "c": [[1, None]], "d": [], "e": True, "f": "x"})
+    assert node["a"].integer() == 2
+    assert node.get("b") is None
+    assert node.get("absent") is None
+    assert math.isnan(node["b"].number(nullable=True))
+    assert np.array_equal(node["c"].numbers(1, 2, nullable=True), [[1, np.nan]], equal_nan=True)
+    assert node["d"].numbers(None, 2).shape == (0, 2)
+    assert node["e"].flag() and node["f"].choice(["x"]) == "x"
+
+
+def test_a_byte_order_mark_is_no_error(tmp_path: Path) -> None:
+    file = tmp_path / "bom.json"
+    file.write_bytes(b"\xef\xbb\xbf[1]")
+    assert read(file).numbers(1) == [1.0]
+
+
+@pytest.mark.parametrize(
+    ("content", "message"),
+    [
+        (b'{"a": [1, 2', "is cut short in line 1"),
+        (b'{"a": "x', "is cut short in line 1"),
+        (b"", "is cut short"),
+        (b"%YAML 1.2\n---\n", "is not a JSON file"),
+        (b"\x89PNG\r\n\x1a\n\xff", "is not a JSON file"),
+        (b"[" * 100_000, "is not a JSON file"),
+    ],
+)
+def test_files_that_are_not_json_are_named(tmp_path: Path, content: bytes, message: str) -> None:
+    file = tmp_path / "a.json"
+    file.write_bytes(content)
+    with pytest.raises(CalibrationError, match=message) as caught:
+        read(file)
+    assert str(file) in caught.value.message
+
+
+def test_a_missing_file_and_a_folder_are_named(tmp_path: Path) -> None:
+    for path in (tmp_path / "absent.json", tmp_path):
+        with pytest.raises(CalibrationError, match="cannot be read") as caught:
+            read(path)
+        assert str(path) in caught.value.message
+
+
+@pytest.mark.parametrize(
+    ("content", "message"),
+    [
+        ({}, "not a file of the format 'x'"),
+        ({"format": "y", "version": 1}, "not a file of the format 'x'"),
+        ({"format": "x", "version": 3}, "knows versions up to 2"),
+        ({"format": "x", "version": 0}, "knows versions up to 2"),
+        ({"format": "x", "version": "2"}, "version is not a finite number"),
+    ],
+)
+def test_other_formats_and_newer_versions_are_refused(content: object, message: str) -> None:
+    with pytest.raises(CalibrationError, match=message):
+        check_format(Node(content, "", "a.json"), "x", 2)
+    check_format(Node({"format": "x", "version": 2}, "", "a.json"), "x", 2)

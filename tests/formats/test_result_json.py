@@ -1,0 +1,211 @@
+"""result.json: complete, exact, described by its schema, and safe to read."""
+
+from __future__ import annotations
+
+import copy
+import functools
+import json
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+import jsonschema
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from calibgui import engine
+from calibgui.engine.errors import CalibrationError
+from calibgui.engine.types import Cost, Undetermined, View, ViewStatus
+from calibgui.formats.json_document import dumps
+from calibgui.formats.result import Result
+from calibgui.formats.result_json import read_result, result_record, write_result
+from tests.engine import scenes
+from tests.formats.conftest import solved
+from tests.formats.mutations import mutated
+from tests.formats.records import same
+
+_SCHEMA = Path(__file__).parents[2] / "resources" / "schema" / "result-1.schema.json"
+_ALL = pytest.mark.parametrize("name", ["result", "weighted", "forward_result", "paper_result"])
+
+
+@functools.cache
+def _validator() -> jsonschema.Draft202012Validator:
+    schema = json.loads(_SCHEMA.read_text())
+    jsonschema.Draft202012Validator.check_schema(schema)
+    return jsonschema.Draft202012Validator(schema)
+
+
+def _content(result: Result) -> Any:
+    return json.loads(dumps(result_record(result)))
+
+
+@pytest.fixture(scope="module")
+def paper_result() -> Result:
+    """The printed method, on its literal grid."""
+    return solved(scenes.barrel(), cost=Cost.PAPER)
+
+
+@_ALL
+def test_every_bit_reads_back(tmp_path: Path, name: str, request: pytest.FixtureRequest) -> None:
+    result = request.getfixturevalue(name)
+    write_result(result, tmp_path / "result.json")
+    assert same(read_result(tmp_path / "result.json"), result)
+
+
+def test_what_is_undetermined_reads_back_as_such(tmp_path: Path, result: Result) -> None:
+    sigma, covariance = result.calibration.sigma.copy(), result.calibration.covariance.copy()
+    sigma[6] = np.nan
+    covariance[6] = covariance[:, 6] = np.nan
+    calibration = replace(
+        result.calibration,
+        sigma=sigma,
+        covariance=covariance,
+        undetermined=(Undetermined("k3", "no corner depends on it"),),
+        warnings=("The views cover half of the image.",),
+    )
+    partly = replace(result, calibration=calibration)
+    write_result(partly, tmp_path / "result.json")
+    assert same(read_result(tmp_path / "result.json"), partly)
+    _validator().validate(_content(partly))
+
+
+@_ALL
+def test_results_follow_the_schema(name: str, request: pytest.FixtureRequest) -> None:
+    _validator().validate(_content(request.getfixturevalue(name)))
+
+
+@pytest.mark.data
+def test_a_real_result_follows_the_schema_and_reads_back(bouguet: Path, tmp_path: Path) -> None:
+    points, size = scenes.stored(
+        bouguet / "corners_and_results" / "corners_25img__benJephunneh.json"
+    )
+    views = [View(f"{k}", ViewStatus.FOUND, points=p) for k, p in enumerate(points)]
+    result = Result(engine.calibrate(points, size), tuple(views))
+    _validator().validate(_content(result))
+    write_result(result, tmp_path / "result.json")
+    assert same(read_result(tmp_path / "result.json"), result)
+
+
+def _places(schema: Any, content: Any, place: tuple[Any, ...] = ()) -> list[tuple[Any, ...]]:
+    """Where in `content` an object must hold certain members: (..., member)."""
+    found = [(*place, key) for key in schema.get("required", ())]
+    for key, inner in schema.get("properties", {}).items():
+        if isinstance(content.get(key), dict):
+            found += _places(inner, content[key], (*place, key))
+    return found
+
+
+def test_the_schema_refuses_what_is_missing_or_unknown(result: Result) -> None:
+    content = _content(result)
+    places = _places(_validator().schema, content)
+    assert len(places) > 30
+    for place in places:
+        damaged = copy.deepcopy(content)
+        holder = functools.reduce(lambda node, key: node[key], place[:-1], damaged)
+        del holder[place[-1]]
+        assert not _validator().is_valid(damaged), place
+    strict: list[list[Any]] = [[], ["camera"], ["paper"], ["residuals"], ["views", 0], ["target"]]
+    for path in strict:
+        damaged = copy.deepcopy(content)
+        functools.reduce(lambda node, key: node[key], path, damaged)["typo"] = 1
+        assert not _validator().is_valid(damaged), path
+    for path in (["camera", "params", "p3"], ["views", 1, "residuals_px"], ["stage_one", 0, "k1"]):
+        damaged = copy.deepcopy(content)
+        del functools.reduce(lambda node, key: node[key], path[:-1], damaged)[path[-1]]
+        assert not _validator().is_valid(damaged), path
+
+
+def test_the_figures_are_those_of_the_calibration(result: Result) -> None:
+    """Each public figure against its definition, from the raw numbers."""
+    content = _content(result)
+    camera, paper = content["camera"], content["paper"]
+    params, sigma = camera["params"], camera["sigma"]
+    assert camera["size"] == [640, 480]
+    assert list(params) == ["fx", "fy", "cx", "cy", "k1", "k2", "k3", "p1", "p2", "p3"]
+    assert list(params.values()) == result.calibration.camera.params.tolist()
+    assert sigma["p3"] == params["p3"] == 0.0 and camera["fixed"] == ["p3"]
+    assert paper["xp"] == params["cx"] - 319.5 and paper["yp"] == 239.5 - params["cy"]
+    assert paper["k2"] == pytest.approx(params["k2"] / params["fx"] ** 4, rel=1e-12)
+    assert paper["sigma"]["xp"] == pytest.approx(sigma["cx"], rel=1e-12)
+
+    residuals = np.concatenate([view.image for view in result.calibration.residuals])
+    assert content["residuals"]["count"] == len(residuals) == 5 * 48 - 5
+    rms = np.sqrt(np.mean(residuals[:, 0] ** 2 + residuals[:, 1] ** 2))
+    assert content["residuals"]["rms_px"] == pytest.approx(rms, rel=1e-12)
+    assert content["residuals"]["sigma_x_px"] == pytest.approx(residuals[:, 0].std(), rel=1e-12)
+
+    views = content["views"]
+    assert [view["corners"] for view in views] == [0, 48, 43, 48, 48, 48, 48, 0]
+    assert [view["rvec"] is None for view in views] == [1, 0, 0, 0, 1, 0, 0, 1]
+    assert views[0]["reason"] == "No board: the image is dark."
+    assert views[5]["tvec_mm"] == result.calibration.poses[3].tvec.tolist()
+    assert views[5]["sigma_tvec_mm"][2] == np.sqrt(result.calibration.pose_covariances[3, 5, 5])
+    assert [row["image"] for row in content["stage_one"]] == [view.image for view in result.used]
+    assert content["versions"].keys() == {"calibgui", "numpy", "scipy", "opencv", "python"}
+
+
+@pytest.mark.parametrize("name", ["result", "weighted"])
+def test_a_result_can_be_solved_again_from_its_own_file(
+    tmp_path: Path, name: str, request: pytest.FixtureRequest
+) -> None:
+    result = request.getfixturevalue(name)
+    write_result(result, tmp_path / "result.json")
+    kept = read_result(tmp_path / "result.json")
+    settings = kept.calibration.settings
+    again = engine.calibrate(
+        kept.observations(),
+        kept.calibration.camera.size,
+        cost=settings["cost"],
+        model=settings["model"],
+        fix=settings["fixed"],
+        free={"p3"} - settings["fixed"].keys(),
+    )
+    assert again.digest == result.calibration.digest
+    assert np.array_equal(again.camera.params, result.calibration.camera.params)
+
+
+@pytest.mark.parametrize(
+    ("change", "message"),
+    [
+        ({"version": 2}, "version 2 .* knows versions up to 1"),
+        ({"format": "calibgui-project"}, "is not a file of the format 'calibgui-result'"),
+        ({"views": []}, "views is not a list with usable views"),
+        (
+            {"settings": {"cost": "image", "fixed": {"p3": "0"}}},
+            "settings.fixed.p3 is not a finite",
+        ),
+        ({"stage_one": None}, "stage_one is not a list"),
+    ],
+)
+def test_files_that_cannot_be_used_say_why(
+    tmp_path: Path, result: Result, change: dict[str, Any], message: str
+) -> None:
+    file = tmp_path / "result.json"
+    file.write_text(json.dumps(_content(result) | change))
+    with pytest.raises(CalibrationError, match=message) as caught:
+        read_result(file)
+    assert str(file) in caught.value.message
+    assert caught.value.hint
+
+
+def test_a_file_cut_anywhere_is_refused(tmp_path: Path, result: Result) -> None:
+    text = dumps(result_record(result))
+    for length in np.linspace(0, len(text) - 1, 60).astype(int):
+        (tmp_path / "cut.json").write_text(text[:length], encoding="utf-8")
+        with pytest.raises(CalibrationError, match=r"cut\.json is (cut short|not a JSON file)"):
+            read_result(tmp_path / "cut.json")
+
+
+@given(st.data())
+def test_no_damage_ends_in_anything_but_a_named_error(
+    tmp_path_factory: pytest.TempPathFactory, result: Result, data: st.DataObject
+) -> None:
+    content = mutated(_content(result), data)
+    file = tmp_path_factory.getbasetemp() / "damaged.json"
+    file.write_text(json.dumps(content))
+    try:
+        read_result(file)
+    except CalibrationError as error:
+        assert str(file) in error.message
