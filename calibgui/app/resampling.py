@@ -15,6 +15,7 @@ from typing import cast
 
 import numpy as np
 
+from calibgui.app.outputs import make_folder
 from calibgui.app.paths import natural_key
 from calibgui.engine.errors import CalibrationError
 from calibgui.engine.images import Pixels, read_colour, write_image
@@ -175,13 +176,7 @@ def _write_one(change: _Change, source: Path, target: Path) -> tuple[Written, _G
 
 def _targets(images: Iterable[Path], folder: Path) -> dict[Path, Path]:
     """Where each image goes: its name in `folder`, which is created if missing."""
-    try:
-        folder.mkdir(parents=True, exist_ok=True)
-    except OSError as error:
-        raise CalibrationError(
-            f"The folder {folder} cannot be made: {error.strerror or error}.",
-            "Choose another folder that you may write to.",
-        ) from error
+    make_folder(folder)
     taken: dict[str, Path] = {}
     for path in sorted(images, key=natural_key):
         if path.resolve().parent == folder.resolve():

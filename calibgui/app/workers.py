@@ -17,7 +17,7 @@ from collections.abc import Callable, Generator, Iterator, Sequence
 from multiprocessing.connection import Connection, wait
 from multiprocessing.context import SpawnProcess
 from threading import Event
-from typing import Any, TypeVar
+from typing import Any, TypeVar, cast
 
 from threadpoolctl import threadpool_limits
 
@@ -51,46 +51,34 @@ def spread(
         Exception: whatever `task` raised, with the worker's traceback as a note.
     """
     waiting = list(enumerate(items))[::-1]
-    busy: dict[Connection, tuple[SpawnProcess, int]] = {}
-    team: list[SpawnProcess] = []
-
-    def give(connection: Connection, process: SpawnProcess) -> None:
-        index, item = waiting.pop()
-        connection.send(item)
-        busy[connection] = (process, index)
-
-    def hire() -> None:
-        connection, process = _start(task)
-        team.append(process)
-        give(connection, process)
-
+    team = [_start(task) for _ in range(min(len(items), os.cpu_count() or 1))]
+    # What each worker is busy with: an item's index, or None until it has reported for work.
+    busy: dict[Connection, int | None] = {connection: None for connection, _ in team}
     try:
-        for _ in range(min(len(items), os.cpu_count() or 1)):
-            hire()
         while busy:
-            ready = wait(list(busy), _POLL)
+            ready = cast(list[Connection], wait(list(busy), _POLL))
             if stop is not None and stop.is_set():
                 raise Cancelled
             for connection in ready:
-                assert isinstance(connection, Connection)
-                process, index = busy.pop(connection)
-                try:
-                    error, result = connection.recv()
-                except (EOFError, ConnectionError):
-                    yield index, Crashed()
-                    if waiting:
-                        hire()
-                    continue
-                if error is not None:
-                    raise error
-                if waiting:
-                    give(connection, process)
-                yield index, result
+                index = busy.pop(connection)
+                result, lost = _receive(connection)
+                if lost and index is None:
+                    raise RuntimeError("A worker process could not be started.")
+                if lost and waiting:
+                    team.append(_start(task))
+                    busy[team[-1][0]] = None
+                elif waiting:
+                    busy[connection], item = waiting.pop()
+                    with contextlib.suppress(ConnectionError):  # receiving will tell
+                        connection.send(item)
+                if index is not None:
+                    yield index, result
     finally:
-        for process in team:
+        for _, process in team:
             process.kill()
-        for process in team:
+        for connection, process in team:
             process.join()
+            connection.close()
 
 
 def _start(task: Callable[[Any], Any]) -> tuple[Connection, SpawnProcess]:
@@ -103,11 +91,23 @@ def _start(task: Callable[[Any], Any]) -> tuple[Connection, SpawnProcess]:
     return ours, process
 
 
+def _receive(connection: Connection) -> tuple[Any, bool]:
+    """What a worker answers, and whether it died instead. Raises what its task raised."""
+    try:
+        error, result = connection.recv()
+    except (EOFError, ConnectionError):
+        return Crashed(), True
+    if error is not None:
+        raise error
+    return result, False
+
+
 def _work(task: Callable[[Any], Any], connection: Connection) -> None:
-    """Do `task` to what arrives until the other end is closed."""
+    """Report for work, then do `task` to what arrives until the other end is closed."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     opencv.use_threads(1)
     with threadpool_limits(1), contextlib.suppress(EOFError, ConnectionError):
+        connection.send((None, None))
         while True:
             item = connection.recv()
             try:

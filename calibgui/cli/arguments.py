@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import argparse
-import os
 import re
 from pathlib import Path
 
@@ -12,7 +11,6 @@ from calibgui.app.paths import find_images
 from calibgui.app.regions import read_regions
 from calibgui.cli.console import Console
 from calibgui.engine.corners.finder import MIN_LINES
-from calibgui.engine.errors import CalibrationError
 
 Board = tuple[int, int]
 
@@ -75,17 +73,4 @@ def search(options: argparse.Namespace, console: Console) -> Detection:
     with console.progress("searching") as advance:
         return find_views(
             images, options.board, rois, progress=lambda done, total, _: advance(done, total)
-        )
-
-
-def check_writable(path: Path) -> None:
-    """Refuse, before any long work, an output file that could not be written after it."""
-    folder = path.parent
-    if path.is_dir():
-        raise CalibrationError(f"{path} is a folder.", "Name a file in it.")
-    if not folder.is_dir():
-        raise CalibrationError(f"The folder {folder} does not exist.", "Create it first.")
-    if not os.access(folder, os.W_OK):
-        raise CalibrationError(
-            f"{path} cannot be written: you may not write to {folder}.", "Choose another folder."
         )

@@ -7,7 +7,8 @@ from dataclasses import replace
 from pathlib import Path
 
 from calibgui.app.calibration import calibrate_views
-from calibgui.cli.arguments import add_images, add_search, check_writable, positive, search
+from calibgui.app.outputs import check_writable
+from calibgui.cli.arguments import add_images, add_search, positive, search
 from calibgui.cli.console import Console
 from calibgui.engine.calibrate import HELD, parameter_names
 from calibgui.engine.errors import CalibrationError
@@ -83,7 +84,8 @@ def run(options: argparse.Namespace, console: Console) -> None:
         written.append(f"Wrote {path}. {export(result, name, path).note}")
     console.answer(result_record(result))
     console.say(tables.report(result))
-    console.say("\n" + "\n".join(map(tables.bullet, written)))
+    if written:
+        console.say("\n" + "\n".join(map(tables.bullet, written)))
 
 
 def _corner_set(options: argparse.Namespace, console: Console) -> CornerSet:

@@ -5,7 +5,8 @@ from __future__ import annotations
 import argparse
 from pathlib import Path
 
-from calibgui.cli.arguments import add_images, add_search, check_writable, positive, search
+from calibgui.app.outputs import check_writable
+from calibgui.cli.arguments import add_images, add_search, positive, search
 from calibgui.cli.console import Console
 from calibgui.engine.errors import CalibrationError
 from calibgui.formats.corners_json import corners_record, write_corners

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import math
 import textwrap
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from pathlib import PurePath
 
 import numpy as np
@@ -166,16 +166,40 @@ def residuals(calibration: Calibration) -> str:
 
 def notes(result: Result) -> str:
     """In words: what is determined and what is not, warnings, and what would improve it."""
-    texts = [sentence.text for sentence in summary(result)]
-    kinds = {view.corners.ambiguity for view in result.used if view.corners is not None}
-    if Ambiguity.HALF_TURN in kinds or Ambiguity.QUARTER_TURN in kinds:
-        turn = "quarter" if Ambiguity.QUARTER_TURN in kinds else "half"
-        texts.append(
-            f"The board looks the same after a {turn} turn, so poses of different views may "
-            "differ by one; the camera does not depend on it. A board with an odd number of "
-            "rows and an even number of columns, or the reverse, has no such turn."
+    texts = [*(sentence.text for sentence in summary(result)), *symmetry(result.used)]
+    return "\n".join(map(bullet, texts))
+
+
+def symmetry(found: Iterable[View]) -> list[str]:
+    """What a board that can be turned unnoticed means for the poses; nothing for others."""
+    kinds = {view.corners.ambiguity for view in found if view.corners is not None}
+    if kinds <= {Ambiguity.NONE}:
+        return []
+    turn = "quarter" if Ambiguity.QUARTER_TURN in kinds else "half"
+    return [
+        f"The board looks the same after a {turn} turn, so the origins of two views may differ "
+        "by one, and their poses with them; the camera does not depend on it. A board with an "
+        "odd number of corners one way and an even number the other has no such turn."
+    ]
+
+
+def comparison(calibration: Calibration, truth: Mapping[str, float]) -> str:
+    """The intrinsics beside their true values, the error in standard deviations."""
+    rows = []
+    names = parameter_names(calibration.camera.model)
+    for name, value, sigma in zip(names, calibration.camera.params, calibration.sigma, strict=True):
+        error = value - truth[name]
+        rows.append(
+            [
+                name,
+                f"{truth[name]:.6g}",
+                _measured(calibration, name, value, sigma),
+                f"{error:+.2g}",
+                f"{error / sigma:+.1f}" if sigma > 0 else "",
+            ]
         )
-    return "\n".join(bullet(text) for text in texts)
+    head = ["", "true", "found", "error", "in sigmas"]
+    return "Camera against the truth\n" + _aligned([head, *rows], left=(0, 2))
 
 
 def detection(all_views: Sequence[View]) -> str:
@@ -193,7 +217,8 @@ def detection(all_views: Sequence[View]) -> str:
     head = ["view", "image", "status", "corners", "board"]
     parts = ["Images\n" + _aligned([head, *rows], left=(1, 2)), unused(all_views)]
     found = sum(view.status is ViewStatus.FOUND for view in all_views)
-    parts.append(f"The board was found in {found} of {counted(len(all_views), 'image')}.")
+    remarks = [f"The board was found in {found} of {counted(len(all_views), 'image')}."]
+    parts.append("\n".join(map(bullet, [*remarks, *symmetry(all_views)])))
     return "\n\n".join(part for part in parts if part)
 
 

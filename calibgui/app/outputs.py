@@ -1,0 +1,41 @@
+"""Checks of the places to write to, made before long work rather than after it."""
+
+from __future__ import annotations
+
+import os
+from pathlib import Path
+
+from calibgui.engine.errors import CalibrationError
+
+
+def check_writable(path: Path) -> None:
+    """Refuse an output file that could not be written.
+
+    Raises:
+        CalibrationError: if it is a folder, or its folder is missing or closed to writing.
+    """
+    folder = path.parent
+    if path.is_dir():
+        raise CalibrationError(f"{path} is a folder.", "Name a file in it.")
+    if not folder.is_dir():
+        raise CalibrationError(f"The folder {folder} does not exist.", "Create it first.")
+    if not os.access(folder, os.W_OK):
+        raise CalibrationError(
+            f"{path} cannot be written: you may not write to {folder}.", "Choose another folder."
+        )
+
+
+def make_folder(path: Path) -> None:
+    """Create a folder to write to, with those above it, unless it is there.
+
+    Raises:
+        CalibrationError: if it cannot be made or written to.
+    """
+    try:
+        path.mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        raise CalibrationError(
+            f"The folder {path} cannot be made: {error.strerror or error}.",
+            "Choose another folder that you may write to.",
+        ) from error
+    check_writable(path / "any")

@@ -1,0 +1,89 @@
+"""Calibrate the bundled sample, whose truth is known, and write everything there is to see."""
+
+from __future__ import annotations
+
+import argparse
+from pathlib import Path
+
+from matplotlib.figure import Figure
+
+from calibgui.app.calibration import calibrate_views
+from calibgui.app.outputs import make_folder
+from calibgui.app.resources import resource
+from calibgui.cli.arguments import search
+from calibgui.cli.console import Console
+from calibgui.engine.calibrate import parameter_names
+from calibgui.engine.images import read_image
+from calibgui.engine.undistort import board_extent, rectify_image, undistort_image
+from calibgui.formats import export
+from calibgui.formats.json_document import read
+from calibgui.formats.result import Result
+from calibgui.formats.result_json import result_record
+from calibgui.report import figures, tables
+
+_EXPORTS = {
+    "result": "result.json",
+    "opencv": "opencv.yaml",
+    "ros": "ros.yaml",
+    "corners": "corners.json",
+    "corners-csv": "corners.csv",
+}
+
+
+def configure(parser: argparse.ArgumentParser) -> None:
+    """Describe the arguments."""
+    parser.add_argument(
+        "-o",
+        "--output",
+        type=Path,
+        default=Path("calibgui-demo"),
+        metavar="DIR",
+        help="folder to write to (default ./calibgui-demo)",
+    )
+
+
+def run(options: argparse.Namespace, console: Console) -> None:
+    """Search, calibrate, compare, write and print."""
+    out: Path = options.output
+    make_folder(out)
+    sample = resource("sample")
+    truth = read(sample / "truth.json")
+    options.paths, options.board, options.roi = [str(sample)], None, None
+    square = truth["target"]["square_mm"].number()
+    result = calibrate_views(search(options, console).corner_set(square))
+    for name, file in _EXPORTS.items():
+        export(result, name, out / file)
+    for file, figure in _figures(result).items():
+        figure.savefig(out / file, dpi=110)
+    params = truth["camera"]["params"]
+    names = parameter_names(result.calibration.camera.model)
+    console.answer(result_record(result))
+    console.say(tables.report(result))
+    console.say(
+        "\n"
+        + tables.comparison(result.calibration, {name: params[name].number() for name in names})
+        + f"\n\nWrote the results in {len(_EXPORTS)} formats, and figures, to {out.resolve()}."
+    )
+
+
+def _figures(result: Result) -> dict[str, Figure]:
+    """What there is to see, by file name."""
+    calibration, view = result.calibration, result.used[0]
+    camera, pose = calibration.camera, calibration.poses[0]
+    photograph = read_image(view.image).pixels
+    drawn = {
+        "convergence.png": figures.convergence(calibration.history, "px"),
+        "distortion.png": figures.distortion(camera),
+        "residuals.png": figures.residual_scatter(calibration, on_reference=False),
+        "histograms.png": figures.residual_histograms(calibration, on_reference=False),
+    }
+    if view.corners is not None:
+        drawn["corners.png"] = figures.corners(photograph, view.corners)
+    if result.target is not None:
+        extent, scale = board_extent(result.target), calibration.reference_scale
+        drawn["undistorted.png"] = figures.image_pair(
+            undistort_image(photograph, camera).image,
+            rectify_image(photograph, camera, pose, extent, scale).image,
+            ("undistorted", "rectified"),
+        )
+    return drawn
