@@ -1,0 +1,65 @@
+"""The README's examples do what it says."""
+
+from __future__ import annotations
+
+import json
+import re
+import shlex
+import shutil
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from calibgui.cli.main import main
+
+ROOT = Path(__file__).resolve().parents[1]
+README = (ROOT / "README.md").read_text(encoding="utf-8")
+
+
+def blocks(language: str) -> list[str]:
+    return re.findall(rf"^```{language}\n(.*?)^```$", README, re.MULTILINE | re.DOTALL)
+
+
+@pytest.fixture
+def elsewhere(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    """A working folder with the sample where the README has it."""
+    shutil.copytree(ROOT / "resources" / "sample", tmp_path / "resources" / "sample")
+    monkeypatch.chdir(tmp_path)
+    return tmp_path
+
+
+@pytest.mark.slow
+def test_command_lines(elsewhere: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    lines = re.findall(r"^calibgui (.+)$", "".join(blocks("sh")), re.MULTILINE)
+    assert {line.split()[0] for line in lines} == {
+        *("calibrate", "detect", "undistort", "rectify", "paper")
+    }
+    for line in lines:
+        if not line.startswith("paper"):  # it needs the paper's images
+            assert main(shlex.split(line)) == 0, capsys.readouterr().err
+    written = {path.name for path in elsewhere.iterdir()}
+    named = re.findall(r"(?:-o |=)(\S+)", "\n".join(lines))
+    assert set(named) - {"paper"} <= written
+
+
+@pytest.mark.slow
+@pytest.mark.usefixtures("elsewhere")
+def test_python() -> None:
+    (example,) = blocks("python")
+    scope: dict[str, Any] = {}
+    exec(example, scope)
+    truth = json.loads(Path("resources/sample/truth.json").read_text(encoding="utf-8"))
+    true_values = list(truth["camera"]["params"].values())
+    result = scope["result"]
+    fx, fx_sigma = result.camera.params[0], result.sigma[0]
+    assert abs(fx - true_values[0]) < 4 * fx_sigma
+    assert scope["straight"].shape == scope["views"][0][0].shape
+    assert scope["picture"].ndim == 2
+
+
+def test_files_named_exist() -> None:
+    for name in re.findall(r"`((?:[\w.-]+/)*[\w-]+\.(?:md|py|txt)|[\w/]+/)`", README):
+        assert (ROOT / name).exists(), name
+    for picture in re.findall(r"!\[.*?\]\((.*?)\)", README):
+        assert (ROOT / picture).is_file(), picture
