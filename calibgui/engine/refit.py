@@ -9,7 +9,7 @@ agree to a fraction of the corners' noise; beyond them both extrapolate.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -44,8 +44,7 @@ def refit(views: Sequence[Observation], original: Calibration, model: str = "ope
     Raises:
         CalibrationError: as ``calibrate``.
     """
-    pinhole = ("fx", "fy", "cx", "cy")
-    held = {n: v for n, v in original.settings["fixed"].items() if n in pinhole}
+    held = _held(original.settings["fixed"])
     calibration = calibrate(views, original.camera.size, model=model, fix=held)
     w, h = original.camera.size
     whole: Array = np.stack(
@@ -57,6 +56,22 @@ def refit(views: Sequence[Observation], original: Calibration, model: str = "ope
         float(displacement(original.camera, calibration.camera, whole).max()),
         float(displacement(original.camera, calibration.camera, seen).max()),
     )
+
+
+def _held(fixed: Mapping[str, float]) -> dict[str, float]:
+    """What of the original's held parameters the refit holds as well.
+
+    The pinhole parameters mean the same in every model. Lens coefficients do not, but the
+    inverse of a map without decentering has none, and that of a map without distortion
+    has none either.
+    """
+    held = {name: fixed[name] for name in ("fx", "fy", "cx", "cy") if name in fixed}
+    without = {name for name, value in fixed.items() if value == 0}
+    if without >= {"p1", "p2"}:
+        held |= dict.fromkeys(("p1", "p2"), 0.0)
+        if without >= {"k1", "k2", "k3"}:
+            held |= dict.fromkeys(("k1", "k2", "k3"), 0.0)
+    return held
 
 
 def displacement(a: Camera, b: Camera, uv: Array) -> Array:

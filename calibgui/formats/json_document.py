@@ -37,6 +37,8 @@ def dumps(value: Any, depth: int = 0) -> str:
         members = [f"{dumps(str(key))}: {dumps(item, depth + 1)}" for key, item in value.items()]
         return _block("{", members, "}", depth)
     if isinstance(value, Sequence) and not isinstance(value, str):
+        if all(type(item) is float for item in value) and all(map(math.isfinite, value)):
+            return json.dumps(value)  # the bulk of every file, written by the library's C code
         items = [dumps(item, depth + 1) for item in value]
         nested = any(item[0] in "[{" for item in items)
         line = f"[{', '.join(items)}]"

@@ -11,6 +11,8 @@ from calibgui.engine.refit import Refit
 from calibgui.engine.types import Array
 from calibgui.formats.forward_model import forward, refit_note
 from calibgui.formats.result import Result
+from tests.engine import scenes
+from tests.formats.conftest import solved
 
 
 def moved(result: Result, fitted: Refit, uv: Array) -> Array:
@@ -47,6 +49,16 @@ def test_opencvs_model_is_exported_as_calibrated(forward_result: Result) -> None
     assert fitted.calibration is forward_result.calibration
     assert fitted.largest_error == fitted.covered_error == 0.0
     assert "as calibrated" in refit_note(forward_result, fitted)
+
+
+def test_what_was_held_stays_held() -> None:
+    """A camera calibrated without distortion is not exported with some fitted to the noise."""
+    lens = ["k1", "k2", "k3", "p1", "p2"]
+    without = forward(solved(scenes.barrel(), fix=lens)).calibration.camera
+    assert not without.coefficients.any()
+    radial = forward(solved(scenes.barrel(), fix={"p1": 0.0, "p2": 0.0, "fx": 640.0}))
+    assert radial.calibration.camera.params[0] == 640.0
+    assert (radial.calibration.camera.coefficients == 0).tolist() == [0, 0, 1, 1, 0]
 
 
 def test_a_model_that_cannot_follow_says_so(result: Result) -> None:
