@@ -8,7 +8,8 @@ from typing import TypeVar
 import numpy as np
 import pytest
 from PySide6.QtCore import QPoint, QPointF, Qt
-from PySide6.QtWidgets import QApplication
+from PySide6.QtGui import QMouseEvent
+from PySide6.QtWidgets import QApplication, QWidget
 from pytestqt.qtbot import QtBot
 
 from calibgui import engine
@@ -77,3 +78,23 @@ def place(plot: Plot, x: float, y: float) -> QPoint:
     """The pixel of a plot's viewport at the plot's coordinates."""
     scene = plot.getPlotItem().getViewBox().mapViewToScene(QPointF(x, y))
     return plot.mapFromScene(scene)
+
+
+def drag(qtbot: QtBot, widget: QWidget, start: QPoint, end: QPoint) -> None:
+    """The left button pressed at `start`, moved to `end` in steps, and let go."""
+    left, none = Qt.MouseButton.LeftButton, Qt.MouseButton.NoButton
+    kind = QMouseEvent.Type
+
+    def send(
+        what: QMouseEvent.Type, at: QPoint, button: Qt.MouseButton, held: Qt.MouseButton
+    ) -> None:
+        where = QPointF(at), QPointF(widget.mapToGlobal(at))
+        event = QMouseEvent(what, *where, button, held, Qt.KeyboardModifier.NoModifier)
+        QApplication.sendEvent(widget, event)
+        qtbot.wait(12)  # plots look at a hundred positions a second at most
+
+    send(kind.MouseMove, start, none, none)
+    send(kind.MouseButtonPress, start, left, left)
+    for share in (0.1, 0.4, 0.7, 1.0, 1.0):
+        send(kind.MouseMove, start + (end - start) * share, none, left)
+    send(kind.MouseButtonRelease, end, left, none)

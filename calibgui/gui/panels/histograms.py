@@ -1,0 +1,80 @@
+"""Histograms of the residuals with the densities fitted to them (figures 11, 12 and 16)."""
+
+from __future__ import annotations
+
+import numpy as np
+import pyqtgraph as pg
+from PySide6.QtCore import QT_TRANSLATE_NOOP, Qt
+from PySide6.QtWidgets import QVBoxLayout
+
+from calibgui.engine.statistics import Histogram, component_histogram, length_histogram
+from calibgui.formats.result import Result
+from calibgui.gui import theme
+from calibgui.gui.panels.panel import Panel
+from calibgui.gui.panels.plane import PlaneChoice
+from calibgui.gui.panels.split import Split
+from calibgui.gui.plots import Plot
+
+
+class HistogramPlot(Plot):
+    """One histogram with its Gaussian or Rayleigh density, and the numbers of both."""
+
+    def __init__(self) -> None:
+        super().__init__("", "")
+        self.bars = self.plot(stepMode="center", fillLevel=0)
+        self.fit = self.plot()
+
+    def show_histogram(self, histogram: Histogram, name: str, unit: str) -> None:
+        """Show the density of a quantity."""
+        colours = theme.current()
+        self.set_labels(name, self.tr("density"), unit, f"1/{unit}")
+        self.bars.setData(histogram.edges, histogram.density)
+        self.bars.setPen(pg.mkPen(colours.line))
+        self.bars.setBrush(pg.mkBrush(colours.line))
+        x = np.linspace(histogram.edges[0], histogram.edges[-1], 300)
+        self.fit.setData(x, histogram.fitted(x))
+        self.fit.setPen(pg.mkPen(colours.bad, width=2))
+        law = self.tr("Rayleigh s") if histogram.rayleigh else self.tr("Gaussian σ")
+        self.set_title(
+            self.tr("mean {0:.4f}, SD {1:.4f}; {2} = {3:.4f}").format(
+                round(histogram.mean, 4) + 0.0, histogram.sd, law, histogram.scale
+            )
+        )
+
+
+class HistogramsPanel(Panel):
+    """Whether the residuals look like noise: Gaussian components, Rayleigh lengths."""
+
+    title = str(QT_TRANSLATE_NOOP("HistogramsPanel", "Histograms"))
+    icon = "histograms"
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.plane = PlaneChoice()
+        self.plane.currentIndexChanged.connect(self._plane_changed)
+        self.plots = tuple(HistogramPlot() for _ in range(3))
+        for plot in self.plots:
+            plot.setToolTip(
+                self.tr(
+                    "Noise of equal size in all directions has Gaussian components and lengths "
+                    "after Rayleigh.\nHeavy tails mean bad corners; two humps, a board that is "
+                    "not flat or a wrong model."
+                )
+            )
+        layout = QVBoxLayout(self.body)
+        layout.addWidget(self.plane, 0, Qt.AlignmentFlag.AlignLeft)
+        layout.addWidget(Split(900, *((plot, 1) for plot in self.plots)), 1)
+
+    def _refresh(self, result: Result) -> None:
+        residuals = np.concatenate(self.plane.residuals(result.calibration))
+        histograms = (
+            component_histogram(residuals[:, 0]),
+            component_histogram(residuals[:, 1]),
+            length_histogram(np.linalg.norm(residuals, axis=1)),
+        )
+        for plot, histogram, name in zip(self.plots, histograms, self.plane.names, strict=True):
+            plot.show_histogram(histogram, name, self.plane.unit)
+
+    def _plane_changed(self) -> None:
+        self._stale = True
+        self._update()

@@ -1,0 +1,43 @@
+"""Where residuals are looked at: in the image, or on the paper's reference plane."""
+
+from __future__ import annotations
+
+from PySide6.QtWidgets import QComboBox
+
+from calibgui.engine.types import Array, Calibration
+
+
+class PlaneChoice(QComboBox):
+    """A choice of two planes, with their names and units."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.addItem(self.tr("in the image"))
+        self.addItem(self.tr("on the reference plane"))
+        self.setToolTip(
+            self.tr(
+                "In the image a residual is the measured less the predicted corner.\n"
+                "The paper's reference plane has 30 px to a square; residuals of far and tilted\n"
+                "boards look larger there (figures 10 to 12)."
+            )
+        )
+        self.setAccessibleName(self.tr("Where residuals are shown"))
+
+    @property
+    def on_reference(self) -> bool:
+        """Whether the reference plane is chosen."""
+        return self.currentIndex() == 1
+
+    @property
+    def names(self) -> tuple[str, str, str]:
+        """Of the residual's components and its length."""
+        return ("Δx′", "Δy′", "e′") if self.on_reference else ("Δu", "Δv", "e")
+
+    @property
+    def unit(self) -> str:
+        """Of residuals on the chosen plane."""
+        return self.tr("reference px") if self.on_reference else self.tr("px")
+
+    def residuals(self, calibration: Calibration) -> list[Array]:
+        """(n, 2) residuals of each view on the chosen plane."""
+        return [v.reference if self.on_reference else v.image for v in calibration.residuals]

@@ -1,0 +1,38 @@
+"""Histograms and fits are the engine's, on either plane."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from PySide6.QtCore import Qt
+from pytestqt.qtbot import QtBot
+
+from calibgui.engine.statistics import component_histogram, length_histogram, stacked
+from calibgui.formats.result import Result
+from calibgui.gui.panels.histograms import HistogramsPanel
+from tests.gui.panels.conftest import Shown
+
+
+@pytest.mark.parametrize("on_reference", [False, True])
+def test_bars_curves_and_numbers(
+    shown: Shown[HistogramsPanel], result: Result, qtbot: QtBot, on_reference: bool
+) -> None:
+    panel = shown(HistogramsPanel, result)
+    if on_reference:
+        qtbot.keyClick(panel.plane, Qt.Key.Key_Down)
+    residuals = stacked(result.calibration, on_reference)
+    expected = (
+        component_histogram(residuals[:, 0]),
+        component_histogram(residuals[:, 1]),
+        length_histogram(np.linalg.norm(residuals, axis=1)),
+    )
+    for plot, histogram in zip(panel.plots, expected, strict=True):
+        edges, density = plot.bars.getData()
+        np.testing.assert_array_equal(edges, histogram.edges)
+        np.testing.assert_array_equal(density, histogram.density)
+        x, y = plot.fit.getData()
+        np.testing.assert_array_equal(y, histogram.fitted(x))
+        title = plot.getPlotItem().titleLabel.text
+        assert f"SD {histogram.sd:.4f}" in title and f"= {histogram.scale:.4f}" in title
+    unit = "reference px" if on_reference else "px"
+    assert f"[{unit}]" in panel.plots[2].getPlotItem().getAxis("bottom").labelText
