@@ -4,7 +4,10 @@ from __future__ import annotations
 
 from calibgui.engine.calibrate import calibrate
 from calibgui.engine.errors import CalibrationError, Cancelled, DegenerateError, NoBoardError
+from calibgui.engine.images import Image, read_image
+from calibgui.engine.maps import distort_points, project_points, undistort_points
 from calibgui.engine.refit import Refit, refit
+from calibgui.engine.render import render
 from calibgui.engine.statistics import Summary, summarise
 from calibgui.engine.types import (
     Ambiguity,
@@ -20,6 +23,7 @@ from calibgui.engine.types import (
     View,
     ViewStatus,
 )
+from calibgui.engine.undistort import rectify_image, undistort_image
 
 __all__ = [
     "Ambiguity",
@@ -30,6 +34,7 @@ __all__ = [
     "Corners",
     "Cost",
     "DegenerateError",
+    "Image",
     "Iteration",
     "NoBoardError",
     "Observation",
@@ -41,6 +46,13 @@ __all__ = [
     "View",
     "ViewStatus",
     "calibrate",
+    "distort_points",
+    "project_points",
+    "read_image",
+    "rectify_image",
     "refit",
+    "render",
     "summarise",
+    "undistort_image",
+    "undistort_points",
 ]

@@ -16,6 +16,9 @@ from calibgui.engine.types import Array
 
 VERSION: str = cv2.__version__
 
+# What fails here is answered to the caller, who names the file; OpenCV would print it besides.
+cv2.utils.logging.setLogLevel(cv2.utils.logging.LOG_LEVEL_SILENT)
+
 Image = npt.NDArray[Any]
 Image32 = npt.NDArray[np.float32]
 
@@ -26,7 +29,7 @@ def use_threads(count: int) -> None:
 
 
 def half(image: Image) -> Image:
-    """Every second pixel of `image` (h, w), each the mean of its 2 x 2 block; odd edges are dropped.
+    """Every second pixel of `image` (h, w), each the mean of its 2 x 2 block; odd edges drop.
 
     An odd size would make the blocks unequal, and corners drift by whole pixels.
     """
@@ -110,9 +113,7 @@ def resample(image: Image, uv: Array) -> Image:
     No side may exceed `LONGEST_SIDE` px.
     """
     points = uv.astype(np.float32)
-    return np.asarray(
-        cv2.remap(image, points, None, cv2.INTER_LINEAR, None, cv2.BORDER_REPLICATE)
-    )
+    return np.asarray(cv2.remap(image, points, None, cv2.INTER_LINEAR, None, cv2.BORDER_REPLICATE))
 
 
 LONGEST_SIDE = 32_766
