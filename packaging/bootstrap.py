@@ -342,7 +342,9 @@ def run() -> int:
             sample = str(ROOT / "resources" / "sample")
             return subprocess.call([environment.python, "-m", "calibgui.gui", sample], env=env)
         say("no window can be opened on this display; calibrating without one")
-    return subprocess.call([environment.python, "-m", "calibgui", "demo"], env=env)
+    folder = Path.cwd() if os.access(Path.cwd(), os.W_OK) else Path.home()
+    demo = ["demo", "-o", str(folder / "calibgui-demo")]
+    return subprocess.call([environment.python, "-m", "calibgui", *demo], env=env)
 
 
 def test(arguments: list[str]) -> int:
