@@ -1,0 +1,168 @@
+"""What the user works on: images, board, settings and named results, as one frozen record.
+
+Everything else that the window shows (which board, how many views are usable, whether a result
+is out of date) follows from it and is computed, not stored.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from dataclasses import dataclass, field, replace
+from enum import StrEnum
+from types import MappingProxyType
+
+from calibgui.app.detection import Board, usual_board
+from calibgui.engine.types import Cost, Size, Target, View
+from calibgui.formats.result import Result
+
+DEFAULT_SQUARE = 30.0
+"""Side of a square until the user states it, mm. Only the poses' lengths depend on it."""
+
+
+class Unit(StrEnum):
+    """In which the user states the side of a square; kept in mm."""
+
+    MM = "mm"
+    CM = "cm"
+    INCH = "inch"
+
+    @property
+    def mm(self) -> float:
+        """Its length, mm."""
+        return {"mm": 1.0, "cm": 10.0, "inch": 25.4}[self]
+
+
+@dataclass(frozen=True, slots=True)
+class Settings:
+    """How to calibrate; see ``engine.calibrate``."""
+
+    cost: Cost = Cost.IMAGE
+    fixed: tuple[str, ...] = ()
+    """Names of intrinsics to hold."""
+    freed: tuple[str, ...] = ()
+    """Names of intrinsics to estimate that are held by default."""
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class Project:
+    """Images of a board, what was found in them and what was made of it."""
+
+    views: tuple[View, ...] = ()
+    """One per image, under its absolute path."""
+    size: Size | None = None
+    """Width and height of the images, px; None until one has been read."""
+    board: Board | None = None
+    """Rows and columns of inner corners as stated by the user; inferred if None."""
+    square: float = DEFAULT_SQUARE
+    """Side of a square, mm."""
+    unit: Unit = Unit.MM
+    settings: Settings = field(default_factory=Settings)
+    results: Mapping[str, Result] = field(default_factory=lambda: MappingProxyType({}))
+    """By name, oldest first."""
+    digests: Mapping[str, str] = field(default_factory=lambda: MappingProxyType({}))
+    """SHA-256 of the image files, by path, as far as they have been read."""
+
+    @property
+    def target(self) -> Target | None:
+        """The board as stated or as seen; None while nothing is known of it."""
+        board = self.board or usual_board(self.views) or _largest_part(self.views)
+        return None if board is None else Target(*board, self.square)
+
+    @property
+    def usable(self) -> tuple[View, ...]:
+        """The views that a calibration would use."""
+        return tuple(view for view in self.views if view.usable)
+
+    def is_current(self, result: Result) -> bool:
+        """Whether `result` answers the views as they are now."""
+        used, now = result.used, self.usable
+        same = len(used) == len(now) and all(a is b for a, b in zip(used, now, strict=True))
+        return same and result.target == self.target
+
+    def find(self, image: str) -> int:
+        """Place of the view of `image`; -1 if there is none."""
+        return next((k for k, view in enumerate(self.views) if view.image == image), -1)
+
+
+def _largest_part(views: Iterable[View]) -> Board | None:
+    """Rows and columns that parts of a board, never seen whole, amount to at least."""
+    shapes = [view.corners.shape for view in views if view.corners is not None]
+    rows, cols = (max((shape[i] for shape in shapes), default=0) for i in (0, 1))
+    return (rows, cols) if rows and cols else None
+
+
+def with_images(project: Project, images: Iterable[str]) -> Project:
+    """The project with views of those `images` that it does not have, in the order given."""
+    known = {view.image for view in project.views}
+    new = [image for image in dict.fromkeys(images) if image not in known]
+    return replace(project, views=(*project.views, *map(View, new)))
+
+
+def without_views(project: Project, images: Iterable[str]) -> Project:
+    """The project without the views of `images`."""
+    gone = set(images)
+    views = tuple(view for view in project.views if view.image not in gone)
+    return replace(project, views=views, size=project.size if views else None)
+
+
+def with_each(project: Project, images: Iterable[str], change: Callable[[View], View]) -> Project:
+    """The project with the views of `images` changed."""
+    chosen = set(images)
+    views = tuple(change(view) if view.image in chosen else view for view in project.views)
+    return replace(project, views=views)
+
+
+def with_result(project: Project, name: str, result: Result) -> Project:
+    """The project with `result` under `name`, as the newest."""
+    others = {key: value for key, value in project.results.items() if key != name}
+    return replace(project, results=MappingProxyType({**others, name: result}))
+
+
+def without_result(project: Project, name: str) -> Project:
+    """The project without the result of that name."""
+    others = {key: value for key, value in project.results.items() if key != name}
+    return replace(project, results=MappingProxyType(others))
+
+
+def renamed_result(project: Project, old: str, new: str) -> Project:
+    """The project with the result `old` called `new`, at its place."""
+    results = {new if key == old else key: value for key, value in project.results.items()}
+    return replace(project, results=MappingProxyType(results))
+
+
+def with_digests(project: Project, digests: Mapping[str, str]) -> Project:
+    """The project with the SHA-256 of more images."""
+    return replace(project, digests=MappingProxyType({**project.digests, **digests}))
+
+
+def relocated(project: Project, moved: Mapping[str, str]) -> Project:
+    """The project with images under new paths; results follow."""
+
+    def view_at(view: View) -> View:
+        return replace(view, image=moved[view.image]) if view.image in moved else view
+
+    # A view that a result shares with the project must go on being the same object.
+    renewed: dict[int, View] = {}
+
+    def views_at(views: Sequence[View]) -> tuple[View, ...]:
+        return tuple(renewed.setdefault(id(view), view_at(view)) for view in views)
+
+    return replace(
+        project,
+        views=views_at(project.views),
+        results=MappingProxyType(
+            {
+                name: replace(result, views=views_at(result.views))
+                for name, result in project.results.items()
+            }
+        ),
+        digests=MappingProxyType({moved.get(k, k): v for k, v in project.digests.items()}),
+    )
+
+
+def free_name(project: Project, stem: str) -> str:
+    """`stem` with the lowest number that no result has."""
+    count = 1
+    while f"{stem} {count}" in project.results:
+        count += 1
+    return f"{stem} {count}"

@@ -1,0 +1,161 @@
+"""A project as a JSON file beside its images.
+
+    format, version     "calibgui-project", 1
+    target              rows, cols (null: inferred from the images), square_mm, unit
+    size                width and height of the images, px
+    settings            cost, fixed, freed
+    views               as in ``views_json.py``, and the image file's sha256 where known
+    results             by name, each as a result.json is (``result_json.py``)
+
+Paths are relative to the file's folder, with "/", so that folder and project move together.
+Cannot hold: the images; undone edits.
+
+A change that old programs could misread takes a new version: raise `VERSION` and add to
+`_MIGRATIONS` the function that turns the content of the version before into the new one.
+"""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Callable, Mapping
+from dataclasses import replace
+from pathlib import Path, PurePath
+from types import MappingProxyType
+from typing import Any
+
+from calibgui.app.project import Project, Settings, Unit, relocated
+from calibgui.engine.types import Cost, Target, View
+from calibgui.formats.corners_json import read_size
+from calibgui.formats.json_document import Node, check_format, read, write
+from calibgui.formats.result import Result
+from calibgui.formats.result_json import result_from, result_record
+from calibgui.formats.views_json import read_views, view_record
+
+FORMAT = "calibgui-project"
+VERSION = 1
+_MIGRATIONS: Mapping[int, Callable[[dict[str, Any]], dict[str, Any]]] = {}
+"""By the version that they take: to the content of the next one."""
+
+
+def write_project(project: Project, path: Path) -> None:
+    """Write the project file, completely or not at all.
+
+    Raises:
+        CalibrationError: if it cannot be written.
+    """
+    write(path, project_record(project, path.parent))
+
+
+def project_record(project: Project, folder: Path) -> dict[str, Any]:
+    """The content of the file, with paths relative to `folder`."""
+    project = _with_paths(project, lambda image: _relative(image, folder))
+    rows, cols = project.board or (None, None)
+    square = {"square_mm": project.square, "unit": project.unit}
+    return {
+        "format": FORMAT,
+        "version": VERSION,
+        "target": {"rows": rows, "cols": cols, **square},
+        "size": project.size,
+        "settings": {
+            "cost": project.settings.cost,
+            "fixed": project.settings.fixed,
+            "freed": project.settings.freed,
+        },
+        "views": [_view_record(view, project) for view in project.views],
+        "results": {name: result_record(result) for name, result in project.results.items()},
+    }
+
+
+def read_project(path: Path, folder: Path | None = None) -> Project:
+    """Read a project file.
+
+    Args:
+        path: the file.
+        folder: what its paths are relative to, if not to the folder that it is in.
+
+    Raises:
+        CalibrationError: if the file cannot be read, is of another format or a newer version,
+            or something in it is wrong, naming the place.
+    """
+    node = read(path)
+    check_format(node, FORMAT, VERSION)
+    project = _read(_migrated(node))
+    base = (folder or path.parent).absolute()
+    return _with_paths(project, lambda image: os.path.normpath(base / image))
+
+
+def _migrated(node: Node) -> Node:
+    content = node.value
+    for version in range(content["version"], VERSION):
+        content = _MIGRATIONS[version](content)
+    return Node(content, node.where, node.file)
+
+
+def _view_record(view: View, project: Project) -> dict[str, Any]:
+    record = view_record(view, _lattice(project))
+    digest = project.digests.get(view.image)
+    return record if digest is None else record | {"sha256": digest}
+
+
+def _lattice(project: Project) -> Target:
+    """Where found corners lie on the plate: that takes the squares' side, not their number."""
+    return project.target or Target(2, 2, project.square)
+
+
+def _read(node: Node) -> Project:
+    target, settings = node["target"], node["settings"]
+    rows, cols, size = target.get("rows"), target.get("cols"), node.get("size")
+    if not (square := target["square_mm"]).number() > 0:
+        square.fail("a length above 0")
+    views = read_views(node["views"], Target(2, 2, square.number()))
+    digests = {
+        view.image: digest.text()
+        for view, item in zip(views, node["views"].items(), strict=True)
+        if (digest := item.get("sha256"))
+    }
+    return Project(
+        views=views,
+        size=read_size(size) if size else None,
+        board=(rows.integer(), cols.integer()) if rows and cols else None,
+        square=square.number(),
+        unit=Unit(target["unit"].choice(list(Unit))),
+        settings=Settings(
+            cost=Cost(settings["cost"].choice(list(Cost))),
+            fixed=tuple(name.text() for name in settings["fixed"].items()),
+            freed=tuple(name.text() for name in settings["freed"].items()),
+        ),
+        results=MappingProxyType(_read_results(node, views)),
+        digests=MappingProxyType(digests),
+    )
+
+
+def _read_results(node: Node, views: tuple[View, ...]) -> dict[str, Result]:
+    """The results; what they and the project hold alike becomes one object, as it was."""
+    own = {
+        view.image: (view, {k: v for k, v in item.items() if k != "sha256"})
+        for view, item in zip(views, node["views"].value, strict=True)
+    }
+
+    def shared(view: View, item: dict[str, Any]) -> View:
+        mine, record = own.get(view.image, (view, {}))
+        return mine if all(item.get(key) == record[key] for key in record) else view
+
+    results = {}
+    for name, record in node["results"].value.items():
+        result = result_from(node["results"][name])
+        pairs = zip(result.views, record["views"], strict=True)
+        results[name] = replace(result, views=tuple(shared(*pair) for pair in pairs))
+    return results
+
+
+def _with_paths(project: Project, change: Callable[[str], str]) -> Project:
+    images = {view.image for view in project.views}
+    images |= {view.image for result in project.results.values() for view in result.views}
+    return relocated(project, {image: change(image) for image in images})
+
+
+def _relative(image: str, folder: Path) -> str:
+    try:
+        return PurePath(os.path.relpath(image, folder)).as_posix()
+    except ValueError:  # on another drive
+        return PurePath(image).as_posix()

@@ -1,0 +1,45 @@
+"""A small finished project, without image files."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from functools import cache
+from pathlib import Path
+
+import numpy as np
+
+from calibgui.app.calibration import calibrate_views
+from calibgui.app.project import Project, with_result
+from calibgui.engine.types import Camera, Corners, Target, View, ViewStatus
+from calibgui.formats.corners_json import CornerSet
+from tests.engine import scenes
+
+BOARD = Target(rows=6, cols=7, square=30.0)
+CAMERA = Camera((200, 150), [200.0, 204.0, 97.0, 76.0, 0.2, 0.05, 0.0, 1e-3, -1e-3, 0.0])
+
+
+@cache
+def views(folder: Path) -> tuple[View, ...]:
+    """Six views with corners, and an image without a board."""
+    rng = np.random.default_rng(3)
+    poses = [scenes.looking(CAMERA, rng, fill=(0.55, 0.65), board=BOARD) for _ in range(6)]
+    found = []
+    for k, view in enumerate(scenes.seen(CAMERA, poses, BOARD).noisy(0.05, rng)):
+        grid = np.rint(view.xy[:, ::-1] / BOARD.square)
+        corners = Corners((6, 7), grid, view.uv, np.rint(view.uv), method="saddle")
+        found.append(View(str(folder / f"{k}.png"), ViewStatus.FOUND, corners=corners))
+    blank = View(str(folder / "blank.png"), ViewStatus.NO_BOARD, "No checkerboard was found.")
+    return (*found, blank)
+
+
+@cache
+def calibrated(folder: Path) -> Project:
+    """A project of those views with two results."""
+    project = Project(views=views(folder), size=CAMERA.size)
+    for name, fixed in (("Calibration 1", ()), ("k3 held", ("k3",))):
+        corner_set = CornerSet(CAMERA.size, project.views, project.target)
+        result = calibrate_views(corner_set, fix=fixed)
+        project = with_result(project, name, result)
+    settings = replace(project.settings, fixed=("k3",))
+    first = project.views[0].image
+    return replace(project, settings=settings, digests={first: "ab" * 32})

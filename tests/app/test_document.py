@@ -1,0 +1,198 @@
+"""Undo, redo, save and reopen lead back to the same document, whatever was done."""
+
+from __future__ import annotations
+
+import itertools
+import json
+import os
+import tempfile
+from dataclasses import replace
+from functools import lru_cache
+from pathlib import Path
+
+from hypothesis import settings
+from hypothesis import strategies as st
+from hypothesis.stateful import (
+    RuleBasedStateMachine,
+    initialize,
+    invariant,
+    precondition,
+    rule,
+    run_state_machine_as_test,
+)
+
+from calibgui.app.document import Document
+from calibgui.app.project import (
+    Project,
+    Unit,
+    free_name,
+    renamed_result,
+    with_each,
+    with_images,
+    with_result,
+    without_result,
+    without_views,
+)
+from calibgui.app.project_file import project_record, read_project, write_project
+from calibgui.engine.types import Cost, View, ViewStatus
+from calibgui.formats.json_document import dumps
+from tests.app import examples
+
+_FOLDER = Path(tempfile.gettempdir()) / "calibgui images"
+
+
+@lru_cache
+def content(project: Project) -> str:
+    """Everything that a project holds, to compare."""
+    return dumps(project_record(project, _FOLDER))
+
+
+def answered(text: str, image: str) -> str:
+    """That content once the search of `image`, if it waits, has found nothing."""
+    record = json.loads(text)
+    for view in record["views"]:
+        if view["image"] == os.path.relpath(image, _FOLDER) and view["status"] == "waiting":
+            view["status"], view["reason"] = "no-board", "No checkerboard was found."
+    return dumps(record)
+
+
+class Editing(RuleBasedStateMachine):
+    """A document beside the plainest history there is: a list of contents and an index."""
+
+    @initialize()
+    def begin(self) -> None:
+        self.document = Document()
+        self.past = [content(self.document.project)]
+        self.labels = [""]
+        self.at = 0
+        self.count = itertools.count()
+
+    def edit(self, label: str, change, sliding: bool = False) -> None:
+        before = self.document.project
+        continues = (
+            sliding
+            and self.sliding_label == label
+            and self.labels[self.at] == label
+            and not self.document.saved
+        )
+        self.document.edit(label, change, sliding=sliding)
+        if self.document.project is before:
+            return
+        keep = self.at if continues else self.at + 1
+        self.past = [*self.past[:keep], content(self.document.project)]
+        self.labels = [*self.labels[:keep], label]
+        self.at = keep
+        self.sliding_label = label if sliding else ""
+
+    sliding_label = ""
+
+    @rule(count=st.integers(1, 3))
+    def add_images(self, count: int) -> None:
+        names = [str(_FOLDER / f"new {next(self.count)}.png") for _ in range(count)]
+        self.edit("Add images", lambda p: with_images(p, names))
+
+    @rule()
+    def add_found_views(self) -> None:
+        have = {view.image for view in self.document.project.views}
+        new = tuple(v for v in examples.views(_FOLDER) if v.image not in have)
+        if new:
+            self.edit("Add views", lambda p: replace(p, views=p.views + new, size=(200, 150)))
+
+    @precondition(lambda self: self.document.project.views)
+    @rule(data=st.data())
+    def remove_images(self, data: st.DataObject) -> None:
+        view = data.draw(st.sampled_from(self.document.project.views), label="removed")
+        self.edit("Remove images", lambda p: without_views(p, [view.image]))
+
+    @precondition(lambda self: self.document.project.views)
+    @rule(data=st.data())
+    def exclude(self, data: st.DataObject) -> None:
+        view = data.draw(st.sampled_from(self.document.project.views), label="toggled")
+        self.edit(
+            "Exclude",
+            lambda p: with_each(p, [view.image], lambda v: replace(v, enabled=not v.enabled)),
+        )
+
+    @rule(square=st.floats(1.0, 100.0), unit=st.sampled_from(Unit))
+    def slide_square(self, square: float, unit: Unit) -> None:
+        self.edit("Square", lambda p: replace(p, square=square, unit=unit), sliding=True)
+
+    @rule(board=st.none() | st.tuples(st.integers(3, 20), st.integers(3, 20)))
+    def state_board(self, board: tuple[int, int] | None) -> None:
+        self.edit("Board", lambda p: replace(p, board=board))
+
+    @rule(cost=st.sampled_from(Cost), fixed=st.sets(st.sampled_from(["k2", "k3", "p1"])))
+    def change_settings(self, cost: Cost, fixed: set[str]) -> None:
+        names = tuple(sorted(fixed))
+        self.edit(
+            "Settings",
+            lambda p: replace(p, settings=replace(p.settings, cost=cost, fixed=names)),
+        )
+
+    @rule(which=st.sampled_from(["Calibration 1", "k3 held"]))
+    def calibrate(self, which: str) -> None:
+        result = examples.calibrated(_FOLDER).results[which]
+        self.edit("Calibrate", lambda p: with_result(p, free_name(p, "Calibration"), result))
+
+    @precondition(lambda self: self.document.project.results)
+    @rule(data=st.data(), delete=st.booleans())
+    def delete_or_rename_result(self, data: st.DataObject, delete: bool) -> None:
+        name = data.draw(st.sampled_from(list(self.document.project.results)), label="result")
+        if delete:
+            self.edit("Delete", lambda p: without_result(p, name))
+        else:
+            new = f"renamed {next(self.count)}"
+            self.edit("Rename", lambda p: renamed_result(p, name, new))
+
+    @precondition(
+        lambda self: any(v.status is ViewStatus.WAITING for v in self.document.project.views)
+    )
+    @rule()
+    def learn(self) -> None:
+        """A finding reaches every snapshot."""
+        asked = next(v for v in self.document.project.views if v.status is ViewStatus.WAITING)
+
+        def answer(view: View) -> View:
+            return replace(view, status=ViewStatus.NO_BOARD, reason="No checkerboard was found.")
+
+        def learnt(project: Project) -> Project:
+            waits = [v.image for v in project.views if v.status is ViewStatus.WAITING]
+            return with_each(project, [asked.image], answer) if asked.image in waits else project
+
+        self.document.learn(learnt)
+        self.past = [answered(text, asked.image) for text in self.past]
+
+    @rule()
+    def undo(self) -> None:
+        self.document.undo()
+        self.at = max(self.at - 1, 0)
+
+    @rule()
+    def redo(self) -> None:
+        self.document.redo()
+        self.at = min(self.at + 1, len(self.past) - 1)
+
+    @rule()
+    def save_and_reopen(self) -> None:
+        """The reopened document begins a new history with the same content."""
+        with tempfile.TemporaryDirectory() as folder:
+            path = Path(folder) / "project.json"
+            write_project(self.document.project, path)
+            reopened = read_project(path)
+            self.document.mark_saved(self.document.project, path)
+        assert self.document.saved
+        assert content(reopened) == content(self.document.project)
+        # What is shared between views and results is one object again.
+        for name, result in self.document.project.results.items():
+            assert reopened.is_current(reopened.results[name]) == (
+                self.document.project.is_current(result)
+            )
+
+    @invariant()
+    def shows_what_the_plain_history_shows(self) -> None:
+        assert content(self.document.project) == self.past[self.at]
+        assert self.document.undo_label == self.labels[self.at]
+
+
+def test_any_sequence_of_edits_can_be_undone_redone_saved_and_reopened() -> None:
+    run_state_machine_as_test(Editing, settings=settings(max_examples=30, stateful_step_count=30))

@@ -1,0 +1,125 @@
+from __future__ import annotations
+
+import json
+import re
+import shutil
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from calibgui.app import project_file
+from calibgui.app.project import relocated
+from calibgui.app.project_file import read_project, write_project
+from calibgui.engine.errors import CalibrationError
+from tests.app import examples
+
+
+def test_numbers_read_back_to_the_last_bit(tmp_path: Path) -> None:
+    project = examples.calibrated(tmp_path)
+    write_project(project, tmp_path / "project.json")
+    again = read_project(tmp_path / "project.json")
+    for before, after in zip(project.views, again.views, strict=True):
+        assert (before.image, before.status) == (after.image, after.status)
+        if before.corners is not None and after.corners is not None:
+            np.testing.assert_array_equal(before.corners.uv, after.corners.uv)
+            np.testing.assert_array_equal(before.corners.grid, after.corners.grid)
+    for name, result in project.results.items():
+        assert again.is_current(again.results[name])
+        for field in ("sigma", "covariance", "pose_covariances"):
+            np.testing.assert_array_equal(
+                getattr(result.calibration, field), getattr(again.results[name].calibration, field)
+            )
+    assert (again.size, again.settings, again.target) == (
+        project.size,
+        project.settings,
+        project.target,
+    )
+    assert again.digests == project.digests
+
+
+def test_folder_and_project_move_together(tmp_path: Path) -> None:
+    before, after = tmp_path / "before", tmp_path / "after"
+    before.mkdir()
+    write_project(examples.calibrated(before), before / "project.json")
+    assert "before" not in (before / "project.json").read_text(encoding="utf-8")
+    shutil.move(before, after)
+    project = read_project(after / "project.json")
+    assert project.views[0].image == str(after / "0.png")
+    assert project.results["k3 held"].views[0].image == str(after / "0.png")
+
+
+def test_a_changed_view_makes_its_results_old(tmp_path: Path) -> None:
+    project = examples.calibrated(tmp_path)
+    first = replace(project.views[0], enabled=False)
+    project = replace(project, views=(first, *project.views[1:]))
+    write_project(project, tmp_path / "project.json")
+    again = read_project(tmp_path / "project.json")
+    assert not again.is_current(again.results["k3 held"])
+    assert again.results["k3 held"].views[1] is again.views[1]
+    assert again.results["k3 held"].views[0] is not again.views[0]
+
+
+def test_relocated_images_keep_their_results_current(tmp_path: Path) -> None:
+    project = examples.calibrated(tmp_path)
+    old, new = project.views[0].image, str(tmp_path / "elsewhere" / "0.png")
+    moved = relocated(project, {old: new})
+    assert moved.views[0].image == new
+    assert moved.is_current(moved.results["k3 held"])
+    assert moved.digests == {new: "ab" * 32}
+
+
+def broken(tmp_path: Path, text: str) -> Path:
+    path = tmp_path / "broken.json"
+    path.write_text(text, encoding="utf-8")
+    return path
+
+
+def test_what_is_no_project_is_refused_by_name(tmp_path: Path) -> None:
+    write_project(examples.calibrated(tmp_path), tmp_path / "project.json")
+    text = (tmp_path / "project.json").read_text(encoding="utf-8")
+    newer = json.dumps(json.loads(text) | {"version": 99})
+    for content, says in (
+        (text[: len(text) // 2], "cut short"),
+        (newer, "version 99"),
+        ('{"format": "something"}', "not a file of the format"),
+        (text.replace('"square_mm": 30.0', '"square_mm": -1.0', 1), "a length above 0"),
+        (text.replace('"status": "found"', '"status": "lost"', 1), "view 1 (0.png)"),
+    ):
+        with pytest.raises(CalibrationError, match=re.escape(says)) as error:
+            read_project(broken(tmp_path, content))
+        assert "broken.json" in error.value.message
+        assert error.value.hint
+
+
+def test_old_versions_are_brought_up_to_date_step_by_step(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    write_project(examples.calibrated(tmp_path), tmp_path / "project.json")
+    old = json.loads((tmp_path / "project.json").read_text(encoding="utf-8"))
+    old["board_mm"] = old["target"].pop("square_mm")
+
+    def second(content: dict) -> dict:
+        square = {"square_mm": content["board_mm"]}
+        return content | {"version": 2, "target": content["target"] | square}
+
+    def third(content: dict) -> dict:
+        assert content["version"] == 2
+        return content | {"version": 3}
+
+    monkeypatch.setattr(project_file, "VERSION", 3)
+    monkeypatch.setattr(project_file, "_MIGRATIONS", {1: second, 2: third})
+    assert read_project(broken(tmp_path, json.dumps(old))).square == 30.0
+
+
+def test_images_on_another_drive_keep_their_whole_path(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def no_way(*_: object) -> str:
+        raise ValueError("path is on mount 'D:', start on mount 'C:'")
+
+    monkeypatch.setattr(project_file.os.path, "relpath", no_way)
+    project = examples.calibrated(tmp_path)
+    write_project(project, tmp_path / "project.json")
+    assert read_project(tmp_path / "project.json").views[0].image == project.views[0].image
