@@ -8,6 +8,8 @@ from pathlib import Path
 import pytest
 from hypothesis import HealthCheck, settings
 
+from tests.photographs import take
+
 settings.register_profile(
     "calibgui",
     derandomize=True,
@@ -33,3 +35,11 @@ def data_dir() -> Path:
 def bouguet(data_dir: Path) -> Path:
     """Bouguet's 25 images, the paper's own data."""
     return data_dir / "bouguet_calib_example"
+
+
+@pytest.fixture(scope="session")
+def photographs(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """Folder of six rendered photographs, see `tests.photographs`; not to be changed."""
+    folder = tmp_path_factory.mktemp("photographs")
+    take(folder)
+    return folder

@@ -31,7 +31,7 @@ def calibrate_views(
     used = [view for view in corner_set.views if view.usable]
     if not used:
         raise CalibrationError(
-            f"None of the {len(corner_set.views)} images can be used.",
+            "None of the images can be used.",
             "Photograph the whole board, sharp and evenly lit, at least 3 times from different "
             "directions.",
         )

@@ -48,7 +48,7 @@ class Detection:
         """
         if self.size is None:
             raise CalibrationError(
-                f"None of the {len(self.views)} files can be read as an image.",
+                "None of the files can be read as an image.",
                 f"The first: {self.views[0].reason}",
             )
         target = None if self.board is None else Target(*self.board, square)

@@ -34,7 +34,7 @@ def run(options: argparse.Namespace, console: Console) -> None:
     if not any(view.usable for view in corner_set.views):
         console.problem(tables.unused(corner_set.views))
         raise CalibrationError(
-            f"The board was found in none of {len(corner_set.views)} images.",
+            "The board was found in none of the images.",
             "Photograph the whole board, sharp and evenly lit, or mark its corners with --roi.",
         )
     console.answer(corners_record(corner_set))

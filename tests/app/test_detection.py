@@ -1,0 +1,160 @@
+"""Views from photographs: what is found, and what each kind of bad image becomes."""
+
+from __future__ import annotations
+
+import shutil
+from pathlib import Path
+from threading import Event
+
+import numpy as np
+import pytest
+
+from calibgui.app import detection
+from calibgui.app.detection import Detection, find_views, search_view, usual_board
+from calibgui.app.paths import find_images
+from calibgui.engine import Ambiguity, CalibrationError, Cancelled, Corners, View, ViewStatus
+from calibgui.engine.images import read_image, write_image
+from calibgui.engine.maps import project_points
+from calibgui.engine.types import frozen
+from tests.photographs import BOARD, CAMERA, COUNT, poses
+
+
+@pytest.fixture(scope="module")
+def spoilt(photographs: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """The photographs with every kind of image that cannot be used among them."""
+    folder = tmp_path_factory.mktemp("spoilt")
+    shutil.copytree(photographs, folder, dirs_exist_ok=True)
+    first = (photographs / "view1.png").read_bytes()
+    pixels = read_image(photographs / "view1.png").pixels
+    (folder / "a-text.png").write_text("no image")
+    (folder / "b-truncated.png").write_bytes(first[: len(first) // 2])
+    (folder / "c-empty.png").write_bytes(b"")
+    write_image(folder / "d-smaller.png", pixels[:200])
+    write_image(folder / "e-turned.png", np.ascontiguousarray(pixels.T))
+    write_image(folder / "f-blank.png", np.full_like(pixels, 128))
+    write_image(folder / "g-16bit.png", pixels.astype(np.uint16) * 16)
+    return folder
+
+
+@pytest.fixture(scope="module")
+def found(spoilt: Path) -> Detection:
+    return find_views(find_images([str(spoilt)]))
+
+
+def test_every_image_has_a_view_in_the_images_order(spoilt: Path, found: Detection) -> None:
+    assert [view.image for view in found.views] == [str(p) for p in find_images([str(spoilt)])]
+    assert found.size == CAMERA.size
+
+
+@pytest.mark.parametrize(
+    ("name", "status", "reason"),
+    [
+        ("a-text", ViewStatus.UNREADABLE, "not an image"),
+        ("b-truncated", ViewStatus.UNREADABLE, "cut short"),
+        ("c-empty", ViewStatus.UNREADABLE, "empty"),
+        ("d-smaller", ViewStatus.WRONG_SIZE, "320 x 200 pixels, most have 320 x 240"),
+        ("e-turned", ViewStatus.WRONG_SIZE, "Turn it"),
+        ("f-blank", ViewStatus.NO_BOARD, "No checkerboard"),
+    ],
+)
+def test_a_bad_image_is_named_with_the_reason(
+    found: Detection, name: str, status: ViewStatus, reason: str
+) -> None:
+    (view,) = (view for view in found.views if Path(view.image).stem == name)
+    assert view.status is status
+    assert reason in view.reason
+    assert not view.usable and view.corners is None
+
+
+def test_the_board_is_inferred_and_its_corners_are_right(found: Detection) -> None:
+    assert found.board == (BOARD.rows, BOARD.cols)
+    views = {Path(view.image).stem: view for view in found.views}
+    for number, pose in enumerate(poses(), start=1):
+        view = views[f"view{number}"]
+        assert view.corners is not None and view.corners.complete
+        expected = project_points(BOARD.points(), CAMERA, pose)
+        distance = np.linalg.norm(view.corners.uv[:, None] - expected, axis=2).min(axis=1)
+        assert distance.max() < 0.15
+
+
+def test_sixteen_bits_give_the_same_corners(found: Detection) -> None:
+    views = {Path(view.image).stem: view.corners for view in found.views}
+    fine, coarse = views["g-16bit"], views["view1"]
+    assert fine is not None and coarse is not None
+    np.testing.assert_allclose(fine.uv, coarse.uv, atol=1e-3)
+
+
+def test_progress_counts_every_search(photographs: Path) -> None:
+    told: list[tuple[int, int, str]] = []
+    images = find_images([str(photographs)])
+    find_views(
+        images,
+        (BOARD.rows, BOARD.cols),
+        progress=lambda done, total, view: told.append((done, total, view.image)),
+    )
+    assert [(done, total) for done, total, _ in told] == [(k, COUNT) for k in range(1, COUNT + 1)]
+    assert sorted(image for *_, image in told) == [str(path) for path in images]
+
+
+def test_a_set_event_abandons_the_search(photographs: Path) -> None:
+    stop = Event()
+    stop.set()
+    with pytest.raises(Cancelled):
+        find_views(find_images([str(photographs)]), stop=stop)
+
+
+def test_a_region_shows_which_of_two_boards_is_meant(photographs: Path, tmp_path: Path) -> None:
+    left, right = (read_image(photographs / f"view{k}.png").pixels for k in (1, 2))
+    write_image(tmp_path / "two.png", np.hstack([left, right]))
+    width = CAMERA.size[0]
+    corners = project_points(BOARD.points(), CAMERA, poses()[1]).reshape(BOARD.rows, BOARD.cols, 2)
+    region = corners[[0, 0, -1, -1], [0, -1, -1, 0]] + [width, 0]
+    view = search_view(View(str(tmp_path / "two.png"), roi=frozen(region)), (6, 7))
+    assert view.corners is not None
+    assert (view.corners.uv[:, 0] > width).all()
+
+
+def corners(shape: tuple[int, int], count: int) -> View:
+    grid = np.indices(shape).reshape(2, -1).T[:count]
+    found = Corners(shape, grid, grid * 10.0, grid * 10.0, ambiguity=Ambiguity.NONE)
+    return View("x.png", ViewStatus.FOUND, corners=found)
+
+
+def test_the_usual_board_is_the_most_frequent_complete_one() -> None:
+    whole, part, larger = corners((6, 7), 42), corners((5, 7), 30), corners((7, 8), 56)
+    assert usual_board([part, part, part, whole, larger, whole]) == (6, 7)
+    assert usual_board([whole, larger]) == (7, 8)
+    assert usual_board([part, View("blank.png", ViewStatus.NO_BOARD)]) is None
+
+
+def test_a_partly_seen_board_is_counted_on_the_usual_one(photographs: Path, tmp_path: Path) -> None:
+    shutil.copytree(photographs, tmp_path, dirs_exist_ok=True)
+    # The right-most column of the first view is outside the image.
+    pixels = read_image(photographs / "view1.png").pixels
+    uv = project_points(BOARD.points(), CAMERA, poses()[0]).reshape(BOARD.rows, BOARD.cols, 2)
+    shift = CAMERA.size[0] - int(uv[:, -2, 0].max()) - 8
+    moved = np.roll(pixels, shift, axis=1)
+    moved[:, :shift] = pixels[:, :1].mean()
+    write_image(tmp_path / "view1.png", moved)
+    found = find_views(find_images([str(tmp_path)]))
+    view = found.views[0]
+    assert found.board == (6, 7)
+    assert view.corners is not None
+    assert view.corners.shape == (6, 7) and not view.corners.complete
+
+
+def test_a_crash_is_the_images_own(photographs: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    def spread(_: object, items: list[View], __: object) -> list[tuple[int, object]]:
+        return [(k, detection.Crashed()) for k in range(len(items))]
+
+    monkeypatch.setattr(detection, "spread", spread)
+    found = find_views(find_images([str(photographs)]))
+    assert {view.status for view in found.views} == {ViewStatus.UNREADABLE}
+    assert found.board is None
+
+
+def test_no_readable_image_is_an_error(tmp_path: Path) -> None:
+    (tmp_path / "a.png").write_text("no image")
+    found = find_views(find_images([str(tmp_path)]))
+    with pytest.raises(CalibrationError, match="None of the files"):
+        found.corner_set(30.0)

@@ -1,0 +1,72 @@
+"""What a user may call images, and what is found."""
+
+from __future__ import annotations
+
+import os
+from pathlib import Path
+
+import pytest
+
+from calibgui.app.paths import find_images, natural_key
+from calibgui.engine import CalibrationError
+
+
+@pytest.fixture
+def folder(tmp_path: Path) -> Path:
+    for name in ("Image10.tif", "Image2.tif", "image1.TIF", "notes.txt", "._Image2.tif"):
+        (tmp_path / name).touch()
+    (tmp_path / "more.png").mkdir()
+    return tmp_path
+
+
+def names(paths: tuple[Path, ...]) -> list[str]:
+    return [path.name for path in paths]
+
+
+def test_a_folder_means_its_images_in_natural_order(folder: Path) -> None:
+    assert names(find_images([str(folder)])) == ["image1.TIF", "Image2.tif", "Image10.tif"]
+
+
+def test_a_pattern_means_the_files_that_match(folder: Path) -> None:
+    assert names(find_images([str(folder / "Image*.tif")])) == ["Image2.tif", "Image10.tif"]
+
+
+def test_a_pattern_may_go_through_folders(tmp_path: Path) -> None:
+    (tmp_path / "a" / "b").mkdir(parents=True)
+    (tmp_path / "a" / "b" / "deep.png").touch()
+    assert names(find_images([str(tmp_path / "**" / "*.png")])) == ["deep.png"]
+
+
+def test_a_named_file_is_taken_whatever_it_holds(folder: Path) -> None:
+    assert names(find_images([str(folder / "notes.txt")])) == ["notes.txt"]
+
+
+def test_every_image_comes_once(folder: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.chdir(folder)
+    again = [str(folder), "Image2.tif", "./Image2.tif", str(folder / "Image*.tif")]
+    if os.name == "posix":
+        Path("link.tif").symlink_to("Image2.tif")
+    assert len(find_images(again)) == 3
+
+
+def test_names_are_any_text(tmp_path: Path) -> None:
+    strange = ["Bild [1] é.png", "фото 2.png", "照片 10.png", "照片 9.png"]
+    for name in strange:
+        (tmp_path / name).touch()
+    assert set(names(find_images([str(tmp_path)]))) == set(strange)
+    assert names(find_images([str(tmp_path / "照片*")])) == ["照片 9.png", "照片 10.png"]
+    # A name that looks like a pattern is a name if there is such a file.
+    assert names(find_images([str(tmp_path / strange[0])])) == [strange[0]]
+
+
+def test_natural_order_compares_numbers_as_numbers() -> None:
+    ordered = ["a1", "a2", "A10", "b", "b1x2", "b1x10"]
+    assert sorted(ordered[::-1], key=lambda name: natural_key(Path(name))) == ordered
+
+
+@pytest.mark.parametrize("what", ["missing.tif", "missing*.tif", "empty"])
+def test_what_stands_for_nothing_is_named(tmp_path: Path, what: str) -> None:
+    (tmp_path / "empty").mkdir()
+    with pytest.raises(CalibrationError, match=r"missing|empty") as caught:
+        find_images([str(tmp_path / what)])
+    assert caught.value.hint

@@ -1,0 +1,121 @@
+"""Folders of undistorted and rectified images."""
+
+from __future__ import annotations
+
+import json
+import shutil
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from calibgui.app.calibration import calibrate_views
+from calibgui.app.paths import find_images
+from calibgui.app.resampling import GEOMETRY, Written, rectify_files, undistort_files
+from calibgui.engine import CalibrationError, Cancelled, Corners, View, ViewStatus
+from calibgui.engine.corners import find_corners
+from calibgui.engine.images import read_image, write_image
+from calibgui.engine.maps import distort_points
+from calibgui.engine.undistort import FieldOfView
+from calibgui.formats.corners_json import CornerSet
+from calibgui.formats.result import Result
+from tests.engine import scenes
+from tests.photographs import BOARD, CAMERA, COUNT, poses
+
+
+@pytest.fixture(scope="module")
+def result(photographs: Path) -> Result:
+    scene = scenes.seen(CAMERA, poses(), BOARD)
+    views = []
+    for number, seen in enumerate(scene.views, start=1):
+        grid = np.rint(seen.xy[:, ::-1] / BOARD.square)
+        found = Corners((BOARD.rows, BOARD.cols), grid, seen.uv, seen.uv)
+        image = str(photographs / f"view{number}.png")
+        views.append(View(image, ViewStatus.FOUND, corners=found))
+    return calibrate_views(CornerSet(CAMERA.size, tuple(views), BOARD))
+
+
+def test_undistorted_images_are_a_pinholes(photographs: Path, tmp_path: Path) -> None:
+    images = find_images([str(photographs)])
+    told: list[int] = []
+    written = undistort_files(
+        CAMERA, images, tmp_path, progress=lambda done, total, _: told.append(total - done)
+    )
+    assert [one.source for one in written] == list(images)
+    assert told == list(range(COUNT - 1, -1, -1))
+    geometry = json.loads((tmp_path / GEOMETRY).read_text())
+    assert geometry["kind"] == "undistorted"
+    assert set(geometry["images"]) == {path.name for path in images}
+    # Corners of the new image, distorted again, are the corners of the photograph.
+    assert written[0].path is not None
+    ideal = find_corners(read_image(written[0].path).pixels, (6, 7)).uv
+    back = distort_points(ideal, CAMERA, np.array(geometry["matrix"]))
+    measured = find_corners(read_image(images[0]).pixels, (6, 7)).uv
+    assert np.linalg.norm(back - measured, axis=1).max() < 0.2
+
+
+def test_rectified_images_show_the_board_square(
+    result: Result, photographs: Path, tmp_path: Path
+) -> None:
+    written = rectify_files(result, find_images([str(photographs)]), tmp_path, pixels_per_mm=1.0)
+    geometry = json.loads((tmp_path / GEOMETRY).read_text())
+    assert geometry["size"] == [8 * 30, 7 * 30]
+    matrix = np.array(geometry["matrix"])
+    for one in written:
+        assert one.path is not None
+        corners = find_corners(read_image(one.path).pixels, (6, 7))
+        expected = BOARD.points(corners.grid) @ matrix[:2, :2] + matrix[:2, 2]
+        assert np.linalg.norm(corners.uv - expected, axis=1).max() < 0.3
+
+
+def test_the_scale_left_open_is_about_the_photographs(
+    result: Result, photographs: Path, tmp_path: Path
+) -> None:
+    rectify_files(result, find_images([str(photographs)]), tmp_path)
+    width, _ = json.loads((tmp_path / GEOMETRY).read_text())["size"]
+    assert 0.5 < width / CAMERA.size[0] < 1.1
+
+
+def reasons(written: tuple[Written, ...]) -> dict[str, str]:
+    return {one.source.name: one.reason for one in written if one.path is None}
+
+
+def test_what_cannot_be_done_is_said_and_the_rest_done(
+    result: Result, photographs: Path, tmp_path: Path
+) -> None:
+    source = tmp_path / "in"
+    shutil.copytree(photographs, source)
+    (source / "text.png").write_text("no image")
+    write_image(source / "other.png", np.zeros((240, 320), np.uint8))
+    write_image(source / "small.png", np.zeros((24, 32), np.uint8))
+    images = find_images([str(source)])
+    undone = reasons(undistort_files(CAMERA, images, tmp_path / "u"))
+    assert set(undone) == {"text.png", "small.png"}
+    assert "32 x 24" in undone["small.png"]
+    # Poses are found by name where the folder is another.
+    undone = reasons(rectify_files(result, images, tmp_path / "r"))
+    assert set(undone) == {"text.png", "other.png", "small.png"}
+    assert "not one of the calibrated views" in undone["other.png"]
+    assert not list((tmp_path / "r").glob(".*"))
+
+
+def test_photographs_are_never_overwritten(photographs: Path, tmp_path: Path) -> None:
+    shutil.copytree(photographs, tmp_path / "a")
+    shutil.copytree(photographs, tmp_path / "b")
+    images = find_images([str(tmp_path / "a")])
+    with pytest.raises(CalibrationError, match="overwritten"):
+        undistort_files(CAMERA, images, tmp_path / "b" / ".." / "a")
+    with pytest.raises(CalibrationError, match="same name"):
+        undistort_files(CAMERA, find_images([str(tmp_path / "*" / "*.png")]), tmp_path / "c")
+
+
+def test_progress_can_cancel_and_leaves_whole_images(photographs: Path, tmp_path: Path) -> None:
+    def cancel(*_: object) -> None:
+        raise Cancelled
+
+    with pytest.raises(Cancelled):
+        undistort_files(
+            CAMERA, find_images([str(photographs)]), tmp_path, FieldOfView.NO_BORDER, cancel
+        )
+    for path in tmp_path.iterdir():
+        assert read_image(path).size == CAMERA.size

@@ -1,0 +1,73 @@
+"""Work in other processes: complete, stoppable, and no worse than the item that breaks it."""
+
+from __future__ import annotations
+
+import multiprocessing
+import sys
+import time
+from functools import partial
+from threading import Event
+from types import ModuleType
+
+import pytest
+
+from calibgui.app.workers import Crashed, spread
+from calibgui.engine import Cancelled
+
+
+def test_every_item_is_done_and_told_with_its_index() -> None:
+    items = [4.0, 9.0, 16.0]
+    assert dict(spread(partial(pow, exp=2), items)) == {0: 16.0, 1: 81.0, 2: 256.0}
+    assert not multiprocessing.active_children()
+
+
+def test_nothing_to_do_starts_nothing() -> None:
+    assert list(spread(abs, [])) == []
+
+
+def test_each_worker_keeps_to_one_thread() -> None:
+    asked = [
+        "__import__('cv2').getNumThreads()",
+        "max(x['num_threads'] for x in __import__('threadpoolctl').threadpool_info())",
+    ]
+    assert dict(spread(eval, asked)) == {0: 1, 1: 1}
+
+
+def test_a_set_event_ends_work_under_way() -> None:
+    stop = Event()
+    work = spread(time.sleep, [0.0, 3600.0, 3600.0], stop)
+    next(work)
+    stop.set()
+    with pytest.raises(Cancelled):
+        next(work)
+    assert not multiprocessing.active_children()
+
+
+def test_closing_ends_work_under_way() -> None:
+    work = spread(time.sleep, [0.0, 3600.0, 3600.0])
+    next(work)
+    work.close()
+    assert not multiprocessing.active_children()
+
+
+def test_a_process_that_dies_costs_its_item_only() -> None:
+    expressions = ["1", "__import__('os')._exit(3)", "__import__('os')._exit(3)", "2", "3"]
+    results = dict(spread(eval, expressions))
+    assert isinstance(results.pop(1), Crashed)
+    assert isinstance(results.pop(2), Crashed)
+    assert results == {0: 1, 3: 2, 4: 3}
+
+
+def test_an_exception_comes_through_with_its_traceback() -> None:
+    with pytest.raises(ZeroDivisionError) as caught:
+        list(spread(eval, ["1 / 0"]))
+    assert "Traceback" in "".join(caught.value.__notes__)
+
+
+def test_workers_that_cannot_start_are_an_error(monkeypatch: pytest.MonkeyPatch) -> None:
+    only_here = ModuleType("only_here")
+    exec("def task(item):\n    return item\n", only_here.__dict__)
+    monkeypatch.setitem(sys.modules, "only_here", only_here)
+    with pytest.raises(RuntimeError, match="could not be started"):
+        list(spread(only_here.task, [1, 2, 3]))
+    assert not multiprocessing.active_children()

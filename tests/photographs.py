@@ -1,0 +1,29 @@
+"""A folder of small rendered photographs of a board, with known truth."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+
+from calibgui.engine.images import write_image
+from calibgui.engine.render import render
+from calibgui.engine.types import Camera, Pose, Target
+from tests.engine import scenes
+
+BOARD = Target(rows=6, cols=7, square=30.0)
+CAMERA = Camera((320, 240), [330.0, 333.0, 155.0, 122.0, 0.2, 0.05, 0.0, 3e-4, -4e-4, 0.0])
+COUNT = 6
+
+
+def poses() -> list[Pose]:
+    """Where the board is in each photograph."""
+    rng = np.random.default_rng(5)
+    return [scenes.looking(CAMERA, rng, fill=(0.5, 0.6), board=BOARD) for _ in range(COUNT)]
+
+
+def take(folder: Path) -> None:
+    """Write view1.png to view6.png."""
+    for number, pose in enumerate(poses(), start=1):
+        image = render(CAMERA, pose, BOARD, blur=0.7, noise=1.0, seed=number)
+        write_image(folder / f"view{number}.png", image)
