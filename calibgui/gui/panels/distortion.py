@@ -1,0 +1,187 @@
+"""The corrective displacement over the image (figure 8)."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import numpy as np
+import pyqtgraph as pg
+from contourpy import contour_generator
+from PySide6.QtCore import QT_TRANSLATE_NOOP, QPointF
+from PySide6.QtWidgets import QCheckBox, QComboBox, QHBoxLayout, QLabel, QVBoxLayout
+from scipy.spatial import Delaunay
+
+from calibgui.engine.frames import centre_of_array
+from calibgui.engine.maps import Displacement, Part, displacement
+from calibgui.engine.types import Array, BoolArray, Size
+from calibgui.formats.result import Result
+from calibgui.gui.panels.heat import HeatMap
+from calibgui.gui.panels.panel import Panel
+
+_CELLS = 240
+"""Values along the image's longer side."""
+_ARROWS = 14
+"""Arrows along the image's longer side."""
+_CONTOURS = 8
+
+
+class DistortionPanel(Panel):
+    """How far the lens moves each pixel from where an ideal camera would see it."""
+
+    title = str(QT_TRANSLATE_NOOP("DistortionPanel", "Distortion"))
+    icon = "distortion"
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.part = QComboBox()
+        for part, name in (
+            (Part.COMPLETE, self.tr("Complete")),
+            (Part.RADIAL, self.tr("Radial part")),
+            (Part.DECENTERING, self.tr("Decentering part")),
+        ):
+            self.part.addItem(name, part)
+        self.part.setAccessibleName(self.tr("Part of the distortion"))
+        self.part.currentIndexChanged.connect(self._changed)
+        self.masked = QCheckBox(self.tr("Only where &corners were seen"))
+        self.masked.setToolTip(
+            self.tr("Beyond the corners' convex hull the correction is an extrapolation.")
+        )
+        self.masked.toggled.connect(self._changed)
+        self.plot = HeatMap(self.tr("displacement d [px]"))
+        self.plot.scene().sigMouseMoved.connect(self._hover)
+        self._contours = self.plot.plot(connect="finite", pen=pg.mkPen("#ffffffc8"))
+        self._arrows = self.plot.plot(connect="finite", pen=pg.mkPen("#ffffff90"))
+        self._labels: list[pg.TextItem] = []
+        edge = pg.mkPen("#101418")
+        self.centre = pg.ScatterPlotItem(symbol="+", size=18, brush="#ffe600", pen=edge)
+        self.principal = pg.ScatterPlotItem(symbol="x", size=16, brush="#ff3b30", pen=edge)
+        for mark in (self.centre, self.principal):
+            self.plot.addItem(mark)
+        self.under_cursor = QLabel()
+        legend = QLabel(self.tr("+ array's centre   × principal point   → gradient"))
+        bar = QHBoxLayout()
+        bar.addWidget(self.part)
+        bar.addWidget(self.masked)
+        bar.addStretch(1)
+        below = QHBoxLayout()
+        below.addWidget(self.under_cursor)
+        below.addStretch(1)
+        below.addWidget(legend)
+        layout = QVBoxLayout(self.body)
+        layout.addLayout(bar)
+        layout.addWidget(self.plot, 1)
+        layout.addLayout(below)
+
+    def displacement(self, uv: Array) -> Displacement:
+        """The chosen part of the displacement at pixels (..., 2)."""
+        assert self._result is not None
+        return displacement(uv, self._result.calibration.camera, Part(self.part.currentData()))
+
+    def _refresh(self, result: Result) -> None:
+        camera = result.calibration.camera
+        u, v = _cells(camera.size, _CELLS)
+        d = self.displacement(_grid(u, v)).length
+        d = np.where(self._shown(_grid(u, v), result), d, np.nan)
+        self.plot.show_values(d, camera.size)
+        self.plot.fit(camera.size)
+        self._draw_contours(u, v, d)
+        at = _grid(*_cells(camera.size, _ARROWS)).reshape(-1, 2)
+        at = at[self._shown(at, result)]
+        gradient = self.displacement(at).gradient
+        pitch = max(camera.size) / _ARROWS
+        longest = np.linalg.norm(gradient, axis=1).max(initial=1e-12)
+        self._arrows.setData(*_arrows(at, 0.8 * pitch / longest * gradient).T)
+        self.centre.setData(*centre_of_array(camera.size)[:, None])
+        self.principal.setData(*camera.centre[:, None])
+        self._hover(None)
+
+    def _shown(self, uv: Array, result: Result) -> BoolArray:
+        """(...) whether pixels (..., 2) are to be shown."""
+        if not self.masked.isChecked():
+            return np.ones(uv.shape[:-1], dtype=bool)
+        corners = np.concatenate([view.uv for view in result.observations()])
+        return np.asarray(Delaunay(corners).find_simplex(uv) >= 0)
+
+    def _draw_contours(self, u: Array, v: Array, d: Array) -> None:
+        for label in self._labels:
+            self.plot.removeItem(label)
+        self._labels = []
+        gap = np.full((1, 2), np.nan)
+        lines: list[Array] = [gap]
+        contours = contour_generator(u, v, np.ma.masked_invalid(d))
+        for level in _levels(float(np.nanmax(d, initial=0.0))):
+            found = [np.asarray(line) for line in contours.lines(level)]
+            for line in found:
+                lines += [line, gap]
+            if found:
+                longest = max(found, key=len)
+                self._label(level, longest[len(longest) // 2])
+        self._contours.setData(*np.concatenate(lines).T)
+
+    def _label(self, level: float, at: Array) -> None:
+        label = pg.TextItem(
+            f"{level:g}", color="#101418", anchor=(0.5, 0.5), fill=(255, 255, 255, 170)
+        )
+        label.setPos(*at)
+        self.plot.addItem(label)
+        self._labels.append(label)
+
+    def _changed(self) -> None:
+        self._stale = True
+        self._update()
+
+    def _hover(self, position: QPointF | None) -> None:
+        """Say the displacement under the cursor, or the largest where there is none."""
+        if self._result is None:
+            return
+        size = self._result.calibration.camera.size
+        if position is not None:
+            place = self.plot.getPlotItem().getViewBox().mapSceneToView(position)
+            uv = np.array([place.x(), place.y()])
+            if ((uv >= -0.5) & (uv <= np.array(size) - 0.5)).all():
+                here = self.displacement(uv)
+                self.under_cursor.setText(
+                    self.tr("u {0:.0f}, v {1:.0f}: d = {2:.2f} px ({3:+.2f}, {4:+.2f})").format(
+                        *uv, float(here.length), *here.vector
+                    )
+                )
+                return
+        values = self.plot.image.image
+        self.under_cursor.setText(
+            self.tr("d is at most {0:.2f} px: point to read it").format(
+                float(np.nanmax(values, initial=0.0))
+            )
+        )
+
+
+def _cells(size: Size, count: int) -> tuple[Array, Array]:
+    """u and v of the middles of square cells that cover an image, `count` along its longer side."""
+    side = max(size) / count
+    u, v = ((np.arange(max(1, round(n / side))) + 0.5) for n in size)
+    return u * size[0] / len(u) - 0.5, v * size[1] / len(v) - 0.5
+
+
+def _grid(u: Array, v: Array) -> Array:
+    """(len(v), len(u), 2) points (u, v)."""
+    return np.stack(np.meshgrid(u, v), axis=-1)
+
+
+def _levels(top: float) -> Iterator[float]:
+    """Round numbers between 0 and `top`."""
+    if top <= 0:
+        return
+    power = 10.0 ** np.floor(np.log10(top / _CONTOURS))
+    step = next(m * power for m in (1, 2, 5, 10) if top / (m * power) <= _CONTOURS)
+    n = 1
+    while n * step < top:
+        yield float(n * step)
+        n += 1
+
+
+def _arrows(at: Array, vector: Array) -> Array:
+    """Arrows centred at (n, 2) along (n, 2) as one polyline, broken by NaN."""
+    start, tip = at - vector / 2, at + vector / 2
+    side = np.stack([-vector[:, 1], vector[:, 0]], axis=1)
+    barbs = [tip - 0.3 * vector + sign * 0.18 * side for sign in (1, -1)]
+    gap = np.full_like(at, np.nan)
+    return np.stack([start, tip, barbs[0], gap, tip, barbs[1], gap], axis=1).reshape(-1, 2)
