@@ -30,25 +30,28 @@ _LINE = 100
 
 
 def dumps(value: Any, depth: int = 0) -> str:
-    """`value` as JSON: mappings, sequences, numpy arrays, text, numbers, True, False and None."""
+    """`value` as JSON: mappings, sequences, arrays of numbers, text, numbers, True, False, None."""
     if isinstance(value, np.ndarray):
-        value = value.tolist()
+        # Of finite numbers and lists of them JSON and Python's repr are the same, repr is quicker.
+        write_row = repr if np.isfinite(value).all() else dumps
+        return _list([write_row(row) for row in value.tolist()], depth)
     if isinstance(value, Mapping):
         members = [f"{dumps(str(key))}: {dumps(item, depth + 1)}" for key, item in value.items()]
         return _block("{", members, "}", depth)
     if isinstance(value, Sequence) and not isinstance(value, str):
-        if all(type(item) is float for item in value) and all(map(math.isfinite, value)):
-            return json.dumps(value)  # the bulk of every file, written by the library's C code
-        items = [dumps(item, depth + 1) for item in value]
-        nested = any(item[0] in "[{" for item in items)
-        line = f"[{', '.join(items)}]"
-        if not nested or (len(line) <= _LINE and "\n" not in line):
-            return line
-        return _block("[", items, "]", depth)
+        return _list([dumps(item, depth + 1) for item in value], depth)
     if isinstance(value, float) and not math.isfinite(value):
         return "null"
     # A file name that is not valid Unicode holds surrogates, which only \u can write.
     return json.dumps(value, ensure_ascii=isinstance(value, str) and not value.isprintable())
+
+
+def _list(items: list[str], depth: int) -> str:
+    nested = any(item[0] in "[{" for item in items)
+    line = f"[{', '.join(items)}]"
+    if not nested or (len(line) <= _LINE and "\n" not in line):
+        return line
+    return _block("[", items, "]", depth)
 
 
 def _block(opening: str, lines: list[str], closing: str, depth: int) -> str:
@@ -140,15 +143,7 @@ class Node:
 
     def number(self, nullable: bool = False) -> float:
         """This finite number; NaN for null if `nullable`."""
-        if nullable and self.value is None:
-            return math.nan
-        if (
-            not isinstance(self.value, (int, float))
-            or isinstance(self.value, bool)
-            or not abs(self.value) <= sys.float_info.max
-        ):
-            self.fail("a finite number")
-        return float(self.value)
+        return float(self.numbers(nullable=nullable))
 
     def integer(self) -> int:
         """This integer."""
@@ -158,10 +153,17 @@ class Node:
         return int(number)
 
     def numbers(self, *shape: int | None, nullable: bool = False) -> Array:
-        """This array of finite numbers; `shape` may begin with None for any length."""
-        nested = self._nested(shape, nullable)
+        """This array of finite numbers; `shape` may begin with None for any length.
+
+        Null is NaN if `nullable`.
+        """
+        misfit = _misfit(self.value, shape, nullable)
+        if misfit is not None:
+            place, expected = misfit
+            self.named(self.where + place).fail(expected)
         # An empty list hides the lengths of its entries.
-        return frozen(np.reshape(nested, [len(nested) if n is None else n for n in shape]))
+        lengths = [len(self.value) if n is None else n for n in shape]
+        return frozen(np.reshape(np.array(self.value, dtype=np.float64), lengths))
 
     def integers(self, *shape: int | None) -> IntArray:
         """This array of integers; `shape` may begin with None for any length."""
@@ -170,13 +172,28 @@ class Node:
             self.fail("an array of integers")
         return frozen_int(numbers)
 
-    def _nested(self, shape: tuple[int | None, ...], nullable: bool) -> Any:
-        if not shape:
-            return self.number(nullable)
-        items = self.items()
-        if shape[0] is not None and len(items) != shape[0]:
-            self.fail(f"a list of {shape[0]} entries (it has {len(items)})")
-        return [item._nested(shape[1:], nullable) for item in items]
+
+def _misfit(value: Any, shape: tuple[int | None, ...], nullable: bool) -> tuple[str, str] | None:
+    """Place of the first entry of `value` that is not what `shape` wants there, and that."""
+    if not shape:
+        return None if _finite(value) or (nullable and value is None) else ("", "a finite number")
+    if not isinstance(value, list):
+        return "", "a list"
+    if shape[0] not in (None, len(value)):
+        return "", f"a list of {shape[0]} entries (it has {len(value)})"
+    for i, item in enumerate(value):
+        misfit = _misfit(item, shape[1:], nullable)
+        if misfit is not None:
+            return f"[{i}]{misfit[0]}", misfit[1]
+    return None
+
+
+def _finite(value: Any) -> bool:
+    return (
+        isinstance(value, (int, float))
+        and not isinstance(value, bool)
+        and abs(value) <= sys.float_info.max
+    )
 
 
 def read(path: str | os.PathLike[str]) -> Node:
