@@ -1,0 +1,102 @@
+"""What the views cover: the sensor, the board's tilts and distances."""
+
+from __future__ import annotations
+
+import numpy as np
+import pyqtgraph as pg
+from PySide6.QtCore import QT_TRANSLATE_NOOP, Qt
+from PySide6.QtGui import QColor
+from PySide6.QtWidgets import QVBoxLayout
+
+from calibgui.formats.result import Result
+from calibgui.gui import theme
+from calibgui.gui.panels.heat import HeatMap
+from calibgui.gui.panels.panel import Panel
+from calibgui.gui.panels.split import Split
+from calibgui.gui.plots import Plot
+from calibgui.report.coverage import attitudes, density
+
+_CELLS = (24, 18)
+"""Columns and rows of the density that is drawn."""
+_RINGS = (15, 30, 45, 60)
+"""Tilts that are marked by circles, degrees."""
+
+
+class CoveragePanel(Panel):
+    """Whether the views see all of the sensor, from all sides and distances."""
+
+    title = str(QT_TRANSLATE_NOOP("CoveragePanel", "Coverage"))
+    icon = "coverage"
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.density = HeatMap(self.tr("corners in a cell"))
+        self.density.setToolTip(
+            self.tr("Where corners were seen. The lens correction is extrapolated beyond them.")
+        )
+        self.tilts = Plot(
+            self.tr("tilt to the right"), self.tr("tilt upwards"), "°", "°", square=True
+        )
+        self.tilts.setToolTip(
+            self.tr(
+                "Each view's tilt, towards the side of the board that is farther away.\n"
+                "Points on all sides, 20° to 45° out, determine the focal length best."
+            )
+        )
+        for ring in _RINGS:
+            self._add_ring(ring)
+        self.distances = Plot(self.tr("view"), self.tr("distance"), y_unit=self.tr("mm"))
+        self.distances.setToolTip(self.tr("From the camera to the middle of the corners seen."))
+        self._points = [pg.ScatterPlotItem(size=10, pen=None) for _ in range(2)]
+        self._rings = [pg.ScatterPlotItem(size=17, brush=None) for _ in range(2)]
+        for plot, points, ring in zip(
+            (self.tilts, self.distances), self._points, self._rings, strict=True
+        ):
+            plot.addItem(points)
+            plot.addItem(ring)
+            points.sigClicked.connect(lambda _, spots: self._pick(spots[0].data()))
+        layout = QVBoxLayout(self.body)
+        sensor = Split(600, (self.density, 4), (self.distances, 3))
+        layout.addWidget(Split(800, (sensor, 1), (self.tilts, 1)))
+
+    def _refresh(self, result: Result) -> None:
+        size = result.calibration.camera.size
+        observations = result.observations()
+        uv = np.concatenate([view.uv for view in observations])
+        self.density.show_values(density(uv, size, _CELLS).astype(np.float64), size)
+        self.density.fit(size)
+        attitude = attitudes(result.calibration, observations)
+        tilt = np.rad2deg(attitude.tilt)
+        self._at = (
+            np.stack(
+                [tilt * np.cos(attitude.direction), tilt * np.sin(attitude.direction)], axis=1
+            ),
+            np.stack([np.arange(1, len(tilt) + 1), attitude.distance], axis=1),
+        )
+        views = np.arange(len(tilt))
+        for points, at in zip(self._points, self._at, strict=True):
+            points.setData(
+                *at.T, data=views, brush=[theme.view_colour(k) for k in range(len(tilt))]
+            )
+        self.distances.getPlotItem().getViewBox().setYRange(0, 1.1 * attitude.distance.max())
+        reach = max(48.0, 1.05 * float(np.abs(self._at[0]).max()))
+        self.tilts.getPlotItem().getViewBox().setRange(
+            xRange=(-reach, reach), yRange=(-reach, reach)
+        )
+
+    def _select(self, k: int, corner: int) -> None:  # noqa: ARG002 - a view has one tilt
+        for ring, at in zip(self._rings, self._at, strict=True):
+            ring.setData(*at[k : k + 1].T if k >= 0 else ([], []))
+            ring.setPen(pg.mkPen(theme.current().text, width=2))
+
+    def _add_ring(self, degrees: int) -> None:
+        turn = np.linspace(0, 2 * np.pi, 73)
+        grey = QColor(128, 128, 128, 220)
+        self.tilts.plot(
+            degrees * np.cos(turn),
+            degrees * np.sin(turn),
+            pen=pg.mkPen(grey, style=Qt.PenStyle.DotLine),
+        )
+        label = pg.TextItem(f"{degrees}°", color=grey, anchor=(0.5, 0.5))
+        label.setPos(degrees * np.sqrt(0.5), degrees * np.sqrt(0.5))
+        self.tilts.addItem(label)

@@ -1,0 +1,92 @@
+"""The boards in space: what is drawn, turned and clicked."""
+
+from __future__ import annotations
+
+import numpy as np
+from PySide6.QtCore import QPoint, QPointF, Qt
+from PySide6.QtGui import QWheelEvent
+from PySide6.QtWidgets import QApplication
+from pytestqt.qtbot import QtBot
+
+from calibgui.engine import frames
+from calibgui.formats.result import Result
+from calibgui.gui.panels.poses import PosesPanel
+from calibgui.report.scene3d import Centre, Kind, Observer, draw, scene
+from tests.gui.panels.conftest import Shown, drag
+
+
+def test_a_board_picks_its_view(shown: Shown[PosesPanel], result: Result, qtbot: QtBot) -> None:
+    panel = shown(PosesPanel, result)
+    front = [d for d in draw(scene(result, Centre.CAMERA), Observer()) if d.polygon.view >= 0][-1]
+    at = panel.space.to_widget(front.points.mean(axis=0, keepdims=True))[0].toPoint()
+    with qtbot.waitSignal(panel.picked) as signal:
+        qtbot.mouseClick(panel.space, Qt.MouseButton.LeftButton, pos=at)
+    assert result.views[signal.args[0]] is result.used[front.polygon.view]
+
+
+def test_a_click_beside_the_boards_picks_nothing(
+    shown: Shown[PosesPanel], result: Result, qtbot: QtBot
+) -> None:
+    panel = shown(PosesPanel, result)
+    with qtbot.assertNotEmitted(panel.picked, wait=20):
+        qtbot.mouseClick(panel.space, Qt.MouseButton.LeftButton, pos=QPoint(3, 3))
+
+
+def test_dragging_turns_and_does_not_pick(
+    shown: Shown[PosesPanel], result: Result, qtbot: QtBot
+) -> None:
+    panel = shown(PosesPanel, result)
+    middle = panel.space.rect().center()
+    before = panel.space.observer
+    with qtbot.assertNotEmitted(panel.picked, wait=20):
+        drag(qtbot, panel.space, middle, middle + QPoint(50, 25))
+    after = panel.space.observer
+    assert after.azimuth < before.azimuth and after.elevation > before.elevation
+    qtbot.mouseClick(panel.home, Qt.MouseButton.LeftButton)
+    assert panel.space.observer == Observer()
+
+
+def test_keys_turn_and_zoom(shown: Shown[PosesPanel], result: Result, qtbot: QtBot) -> None:
+    panel = shown(PosesPanel, result)
+    panel.space.setFocus()
+    qtbot.keyClick(panel.space, Qt.Key.Key_Left)
+    assert panel.space.observer.azimuth > Observer().azimuth
+    qtbot.keyClicks(panel.space, "+")
+    assert panel.space.observer.zoom > Observer().zoom
+    qtbot.keyClicks(panel.space, "-")
+    assert np.isclose(panel.space.observer.zoom, Observer().zoom)
+
+
+def test_the_wheel_zooms(shown: Shown[PosesPanel], result: Result) -> None:
+    panel = shown(PosesPanel, result)
+    at = QPointF(panel.space.rect().center())
+    no = Qt.KeyboardModifier.NoModifier
+    wheel = QWheelEvent(
+        at, panel.space.mapToGlobal(at), QPoint(), QPoint(0, 120), Qt.MouseButton.NoButton, no,
+        Qt.ScrollPhase.NoScrollPhase, False,
+    )  # fmt: skip
+    QApplication.sendEvent(panel.space, wheel)
+    assert panel.space.observer.zoom > Observer().zoom
+
+
+def test_what_is_drawn_is_the_scene(shown: Shown[PosesPanel], result: Result, qtbot: QtBot) -> None:
+    panel = shown(PosesPanel, result)
+    panel.centre.setFocus()
+    qtbot.keyClick(panel.centre, Qt.Key.Key_Down)
+    drawn = panel.space._drawn
+    assert {d.polygon.view for d in drawn if d.polygon.kind is Kind.CAMERA} == set(range(9))
+    expected = draw(scene(result, Centre.BOARD), Observer())
+    for one, other in zip(drawn, expected, strict=True):
+        np.testing.assert_array_equal(one.points, other.points)
+
+
+def test_words_and_highlight_follow_the_selection(shown: Shown[PosesPanel], result: Result) -> None:
+    panel = shown(PosesPanel, result)
+    assert panel.words.text().startswith("9 views, ")
+    before = panel.space.grab().toImage()
+    panel.select(4)
+    assert panel.space.grab().toImage() != before
+    pose = result.calibration.poses[3]
+    tilt = np.rad2deg(np.arccos(abs(frames.rotation(pose.rvec)[2, 2])))
+    assert panel.words.text().startswith("view4.png: ")
+    assert f"tilted by {tilt:.0f}°" in panel.words.text()
