@@ -141,6 +141,7 @@ def test_the_figures_are_those_of_the_calibration(result: Result) -> None:
     assert [view["rvec"] is None for view in views] == [1, 0, 0, 0, 1, 0, 0, 1]
     assert views[0]["reason"] == "No board: the image is dark."
     assert views[5]["tvec_mm"] == result.calibration.poses[3].tvec.tolist()
+    assert views[5]["sigma_rvec"][1] == np.sqrt(result.calibration.pose_covariances[3, 1, 1])
     assert views[5]["sigma_tvec_mm"][2] == np.sqrt(result.calibration.pose_covariances[3, 5, 5])
     assert [row["image"] for row in content["stage_one"]] == [view.image for view in result.used]
     assert content["versions"].keys() == {"calibgui", "numpy", "scipy", "opencv", "python"}
