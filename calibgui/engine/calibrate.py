@@ -8,15 +8,19 @@ from typing import Any
 
 import numpy as np
 
-from calibgui.engine import closed_form, cosines, frames, homography, uncertainty
+from calibgui.engine import uncertainty
 from calibgui.engine.degeneracy import diagnose
 from calibgui.engine.errors import CalibrationError, DegenerateError
-from calibgui.engine.lens import MODELS, Lens
-from calibgui.engine.levenberg_marquardt import Solution, minimise
+from calibgui.engine.lens import MODELS
+from calibgui.engine.levenberg_marquardt import Solution, StartError, minimise
 from calibgui.engine.observations import REFERENCE_PITCH, Observations, pack, pitch, view_names
+from calibgui.engine.outcome import estimated, poses, residuals, stage_one_table
+from calibgui.engine.plate import on_plate
+from calibgui.engine.plate_fit import fit_plate
 from calibgui.engine.problem import stage_two
-from calibgui.engine.stage_one import Prealignment, prealign
-from calibgui.engine.stage_two import State, predicted_corners, reference_residual
+from calibgui.engine.stage_one import prealign
+from calibgui.engine.stage_two import State
+from calibgui.engine.start import in_paper_frame, start_of_stage_two
 from calibgui.engine.types import (
     Array,
     Calibration,
@@ -24,11 +28,11 @@ from calibgui.engine.types import (
     Cost,
     IntArray,
     Observation,
-    Pose,
+    Plate,
+    PlateModel,
+    Prior,
     Report,
     Size,
-    StageOne,
-    ViewResiduals,
 )
 
 HELD = {"lucchese": ("p3",)}
@@ -49,6 +53,8 @@ def calibrate(
     free: Iterable[str] = (),
     model: str = "lucchese",
     report: Report | None = None,
+    plate: PlateModel | str | Plate = PlateModel.NOMINAL,
+    prior: Prior | None = None,
     max_iterations: int = 100,
     names: Sequence[str] | None = None,
 ) -> Calibration:
@@ -65,6 +71,9 @@ def calibrate(
             are held at 0, the centre at the array's and focal lengths at the closed form.
         free: intrinsics to estimate that are held by default (p3).
         model: the lens, a key of ``lens.MODELS``.
+        plate: how the target may deviate from its nominal shape, estimated with the camera; or
+            a plate estimated before, which is held. With the image cost only.
+        prior: what is known of a free plate's corners beforehand.
         report: told of each iteration of Stage II; returning False stops it.
         max_iterations: of Stage II.
         names: of the views, for messages; numbers by default.
@@ -77,41 +86,73 @@ def calibrate(
     cost = Cost(cost)
     if cost is Cost.PAPER:
         model = "lucchese-pixels"
+    plate = plate if isinstance(plate, Plate) else PlateModel(plate)
+    if plate is not PlateModel.NOMINAL and cost is not Cost.IMAGE:
+        raise CalibrationError(
+            f"The cost {cost.value!r} registers the views on a flat, nominal plate.",
+            "Use the cost 'image' with another plate.",
+        )
     parameters = parameter_names(model)
     held = _held(fix, free, model, parameters)
     names = names or view_names(len(views))
     observations = pack(views, names)
     _check_size(observations, size, names)
-    target_pitch = pitch(np.concatenate([xy for _, xy, *_ in views]))
-    scale = REFERENCE_PITCH / target_pitch
-
+    scale = REFERENCE_PITCH / pitch(np.concatenate([xy for _, xy, *_ in views]))
     if len(views) < 2:
         raise DegenerateError(
             "One view does not determine a camera.",
             "Add at least two more views with the board tilted in different directions.",
         )
-    first = prealign(*_in_paper_frame(observations, scale, size, names))
-    start, values = _start(observations, first, size, MODELS[model], parameters, held)
+    first = prealign(*in_paper_frame(observations, scale, size, names))
+    lens = MODELS[model]
+    start, values = start_of_stage_two(observations, first, size, lens, parameters, held)
     free_indices = np.flatnonzero([name not in held for name in parameters])
-    solution = minimise(
-        stage_two(observations, model, cost, scale, free_indices),
-        start,
-        free_indices,
-        observations.count,
-        float(np.sum(observations.uv**2)),
-        report,
-        max_iterations,
+    settings = {
+        "cost": cost.value,
+        "model": model,
+        "fixed": values,
+        "max_iterations": max_iterations,
+        "plate": plate.model.value if isinstance(plate, Plate) else plate.value,
+    }
+    if isinstance(plate, Plate):
+        observations = on_plate(observations, plate)
+    solution = _solved(
+        observations, start, model, cost, scale, free_indices, report, max_iterations
     )
-    diagnose(solution, tuple(parameters[i] for i in free_indices))
-    return _assembled(
-        solution,
-        observations,
-        first,
-        Camera(size, solution.state.params, model),
-        cost,
-        scale,
-        free_indices,
-        {"cost": str(cost), "model": model, "fixed": values, "max_iterations": max_iterations},
+    precision = uncertainty.precision(
+        solution.normal,
+        tuple(parameters[i] for i in free_indices),
+        observations.count,
+        _tolerated(Camera(size, solution.state.params, model), observations)[free_indices],
+    )
+    diagnose(solution, tuple(parameters[i] for i in free_indices), precision)
+    if isinstance(plate, Plate) or plate is PlateModel.NOMINAL:
+        estimate = estimated(solution, observations, precision)
+    else:
+        estimate = fit_plate(solution, observations, lens, free_indices, plate, prior, report)
+    covariance = np.zeros((len(parameters), len(parameters)))
+    covariance[np.ix_(free_indices, free_indices)] = estimate.camera
+    sigma = np.sqrt(np.diag(covariance))
+    sigma[[parameters.index(u.name) for u in precision.undetermined]] = np.nan
+    return Calibration(
+        camera=Camera(size, estimate.state.params, model),
+        sigma=sigma,
+        covariance=covariance,
+        poses=poses(estimate.state),
+        pose_covariances=estimate.poses,
+        residuals=residuals(estimate.state, estimate.observations, lens, cost, scale),
+        noise=float(np.sqrt(estimate.sigma2)),
+        reference_scale=scale,
+        stage_one=stage_one_table(first, literal=cost is Cost.PAPER),
+        history=estimate.solution.history,
+        status=estimate.solution.status,
+        cost=cost,
+        fixed=tuple(held),
+        undetermined=precision.undetermined,
+        plate=plate if isinstance(plate, Plate) else estimate.plate,
+        warnings=estimate.warnings,
+        settings=settings,
+        digest=_digest(observations, settings),
     )
 
 
@@ -149,150 +190,50 @@ def _check_size(observations: Observations, size: Size, names: Sequence[str]) ->
         )
 
 
-def _facing(observations: Observations) -> Array:
-    """(K,) +1 where the plate's Y runs down in the image as v does, -1 where it runs up."""
-    H = homography.dlt(observations.xy, observations.uv, observations.mask)
-    point = np.concatenate([observations.xy[:, 0], np.ones((len(H), 1))], axis=1)
-    depth = np.einsum("ki,ki->k", H[:, 2], point)
-    # The orientation of a homography at a point is det H / depth^3.
-    return np.asarray(np.sign(np.linalg.det(H) * depth))
-
-
-def _in_paper_frame(
-    observations: Observations, scale: float, size: Size, names: Sequence[str]
-) -> tuple[Array, Array, Array]:
-    """Measured corners, reference corners x', y' (from the plate's centre) and mask."""
-    facing = _facing(observations)
-    if not (facing == facing[0]).all():
-        minority = facing != (1.0 if facing.sum() >= 0 else -1.0)
-        listed = ", ".join(names[k] for k in np.flatnonzero(minority).tolist())
-        raise CalibrationError(
-            f"The board is mirrored against the other views in {listed}.",
-            "Number their corners in the same turning sense, or undo the image's mirroring.",
-        )
-    corners = observations.xy[observations.mask > 0]
-    centre = (corners.min(axis=0) + corners.max(axis=0)) / 2
-    reference = (observations.xy - centre) * scale * np.array([1.0, -facing[0]])
-    return frames.paper_from_array(observations.uv, size), reference, observations.mask
-
-
-def _start(
+def _solved(
     observations: Observations,
-    first: Prealignment,
-    size: Size,
-    lens: Lens,
-    names: tuple[str, ...],
-    held: Mapping[str, float | None],
-) -> tuple[State, dict[str, float]]:
-    """The closed-form start of Stage II, and the held parameters with their values."""
-    centre, k1 = closed_form.initial_lens(first, size)
-    array_centre = frames.centre_of_array(size)
-    for i, name in enumerate(("cx", "cy")):
-        if name in held:
-            value = held[name]
-            centre[i] = array_centre[i] if value is None else value
-    known = np.array([held.get(name) or np.nan for name in ("fx", "fy")], dtype=np.float64)
-    f, R, T = closed_form.initial_poses(observations, centre, k1, size, known)
-    params = np.concatenate(
-        [f, centre, _coefficients(lens, (observations.uv - centre) / f, k1 * f[0] ** 2)]
-    )
-    values: dict[str, float] = {}
-    for i, name in enumerate(names):
-        if name in held:
-            value = held[name]
-            values[name] = float(params[i] if i < 4 else 0.0) if value is None else float(value)
-            params[i] = values[name]
-    return State(params, R, T), values
-
-
-def _coefficients(lens: Lens, d: Array, k1: float) -> Array:
-    """Coefficients of any lens model that approximate the correction n = d (1 + k1 r2).
-
-    To first order in the coefficients, correct(d, k) = d + (d correct / dk) k; the first
-    coefficient alone is fitted, which for the paper's model is k1 itself.
-    """
-    d = d.reshape(-1, 2)
-    radial = np.sum(d**2, axis=1, keepdims=True) * d
-    k = np.zeros(len(lens.names))
-    slope = lens.correct(d, k).by_coefficients[..., 0]
-    k[0] = k1 * np.sum(slope * radial) / np.sum(slope**2)
-    return k
-
-
-def _assembled(
-    solution: Solution,
-    observations: Observations,
-    first: Prealignment,
-    camera: Camera,
+    start: State,
+    model: str,
     cost: Cost,
     scale: float,
     free: IntArray,
-    settings: Mapping[str, Any],
-) -> Calibration:
-    """The result with its covariances, residuals and Stage I table."""
-    state, normal = solution.state, solution.normal
-    K = len(state.R)
-    names = parameter_names(camera.model)
-    sigma2 = uncertainty.variance(normal.cost, observations.count, len(free) + 6 * K)
-    shared = uncertainty.shared_covariance(normal, sigma2)
-    covariance = np.zeros((len(names), len(names)))
-    covariance[np.ix_(free, free)] = shared
-    rvecs = np.array([frames.rotation_vector(R) for R in state.R])
-    missing = uncertainty.undetermined(normal, tuple(names[i] for i in free))
-    sigma = np.sqrt(np.diag(covariance))
-    sigma[[names.index(u.name) for u in missing]] = np.nan
-    return Calibration(
-        camera=camera,
-        sigma=sigma,
-        covariance=covariance,
-        poses=tuple(Pose(r, t) for r, t in zip(rvecs, state.T, strict=True)),
-        pose_covariances=uncertainty.pose_covariances(normal, shared, rvecs, sigma2),
-        residuals=_residuals(state, observations, MODELS[camera.model], cost, scale),
-        noise=float(np.sqrt(sigma2)),
-        reference_scale=scale,
-        stage_one=_stage_one_table(first, literal=cost is Cost.PAPER),
-        history=solution.history,
-        status=solution.status,
-        cost=cost,
-        fixed=tuple(name for i, name in enumerate(names) if i not in free),
-        undetermined=missing,
-        settings=settings,
-        digest=_digest(observations, settings),
-    )
+    report: Report | None,
+    max_iterations: int,
+) -> Solution:
+    """Stage II, by way of the reference plane where the start cannot be imaged.
 
+    A pincushion lens's correction folds over beyond its outermost corners. If the closed form
+    puts the fold before them, the image cost has no value there; registration always has one.
+    """
 
-def _residuals(
-    state: State, observations: Observations, lens: Lens, cost: Cost, scale: float
-) -> tuple[ViewResiduals, ...]:
-    """Residuals of every view in the image and on the reference plane."""
-    image = observations.uv - predicted_corners(state, observations, lens, cost)
-    registered = reference_residual(state, observations, lens, scale, cost is Cost.PAPER).residual
-    return tuple(
-        ViewResiduals(image[k, observations.view(k)], registered[k, observations.view(k)])
-        for k in range(len(image))
-    )
-
-
-def _stage_one_table(first: Prealignment, literal: bool) -> tuple[StageOne, ...]:
-    """Table 1, with what the cosines' equation says of each view."""
-    rows = []
-    for k, backward in enumerate(homography.inverted(first.forward)):
-        view = cosines.view_geometry(backward, literal)
-        rows.append(
-            StageOne(
-                xp=float(first.centre[k, 0]),
-                yp=float(first.centre[k, 1]),
-                k1=float(first.k1[k]),
-                aspect=view.aspect,
-                fx=view.fx,
-                fy=view.fy,
-                iterations=int(first.iterations[k]),
-                rms=float(first.rms[k]),
-                backward=backward,
-                converged=bool(first.converged[k]),
-            )
+    def run(cost: Cost, start: State, report: Report | None) -> Solution:
+        return minimise(
+            stage_two(observations, model, cost, scale, free),
+            start,
+            free,
+            observations.count,
+            float(np.sum(observations.uv**2)),
+            report,
+            max_iterations,
         )
-    return tuple(rows)
+
+    try:
+        return run(cost, start, report)
+    except StartError:
+        if cost is not Cost.IMAGE:
+            raise
+    return run(cost, run(Cost.REFERENCE, start, None).state, report)
+
+
+def _tolerated(camera: Camera, observations: Observations) -> Array:
+    """Standard deviations of `camera.params` beyond which they count as undetermined.
+
+    A tenth of the focal length for focal lengths and centre, and for a coefficient the value
+    that moves the outermost corner by its whole distance from the centre.
+    """
+    f, lens = camera.focal, MODELS[camera.model]
+    outermost = np.linalg.norm((observations.uv - camera.centre) / f, axis=-1).max()
+    return np.concatenate([0.1 * f, 0.1 * f, outermost ** -np.array(lens.powers, float)])
 
 
 def _digest(observations: Observations, settings: Mapping[str, Any]) -> str:

@@ -1,9 +1,19 @@
 """Sets of views that do not determine a camera, recognised and named.
 
-A view adds two equations on the focal lengths and the centre, through the direction of its
-plane in the camera's frame only: planes parallel to the sensor add none, parallel planes add
-the same ones. ``uncertainty.undetermined`` finds the loss by the rank of the normal
-equations; the directions of the planes then tell its cause.
+A view adds two equations on the focal lengths and the centre, through the vanishing line of
+its plane only: planes parallel to the sensor add none, parallel planes add the same ones.
+What a solution then says of the camera comes from its lens model and from noise, and its
+own standard deviations are not to be believed. The test is therefore whether the planes'
+directions differ at all: with C_k the covariance of the normal n_k and m their mean, noise
+alone makes
+
+    T = sum_k (n_k - m)^T C_k^-1 (n_k - m) / (2 (K - 1))
+
+about 1, whatever the focal length has become, because all parallel planes keep one vanishing
+line. Measured over 2 to 40 views at 0.05 to 1 px: at most 5 for parallel planes, 120 for two
+planes 1.4 degrees apart, thousands for tilts of 2 to 5 degrees.
+
+What differing planes still leave open, ``uncertainty.precision`` finds.
 """
 
 from __future__ import annotations
@@ -13,10 +23,15 @@ import numpy as np
 from calibgui.engine.errors import DegenerateError
 from calibgui.engine.levenberg_marquardt import Solution
 from calibgui.engine.types import Array
-from calibgui.engine.uncertainty import undetermined
+from calibgui.engine.uncertainty import Precision
 
-_PARALLEL = np.deg2rad(3.0)
-_PINHOLE = ("fx", "fy", "cx", "cy")
+PINHOLE = ("fx", "fy", "cx", "cy")
+_SIGNIFICANT = 50.0
+"""T below which the planes count as parallel."""
+_DISTINCT = np.deg2rad(0.1)
+"""Largest angle from the mean normal below which they do however little noise there is."""
+_CLOSE = np.deg2rad(3.0)
+"""Angle below which a diagnosis calls directions the same."""
 
 
 def normals(R: Array) -> Array:
@@ -25,30 +40,56 @@ def normals(R: Array) -> Array:
     return n * np.where(n[:, 2:] < 0, -1.0, 1.0)
 
 
-def diagnose(solution: Solution, names: tuple[str, ...]) -> None:
+def parallel(R: Array, V: Array, variance: float) -> bool:
+    """Whether the planes' directions differ by no more than noise.
+
+    Args:
+        R: (K, 3, 3) rotations cam_from_plate.
+        V: (K, 6, 6) normal matrices of the poses (w, tau), as in ``levenberg_marquardt``.
+        variance: of one residual coordinate.
+    """
+    n = normals(R)
+    if _spread(n) < _DISTINCT:
+        return True
+    # In a basis of the plane across n: turns about n itself leave it where it is.
+    across = np.linalg.svd(n[:, None, :])[2][:, 1:]
+    turn = (across @ np.cross(n, _mean(n))[..., None])[..., 0]
+    covariance = across @ np.linalg.inv(V)[:, :3, :3] @ np.swapaxes(across, 1, 2)
+    squares = turn * np.linalg.solve(covariance, turn[..., None])[..., 0]
+    return bool(squares.sum() / (2 * (len(n) - 1)) < _SIGNIFICANT * variance)
+
+
+def diagnose(solution: Solution, names: tuple[str, ...], precision: Precision) -> None:
     """Refuse a solution whose focal lengths or centre the views do not determine.
 
     Args:
         solution: of Stage II.
         names: (P,) of the free parameters.
+        precision: of the solution.
 
     Raises:
         DegenerateError: with the cause, and what to photograph instead.
     """
-    lost = [u.name for u in undetermined(solution.normal, names) if u.name in _PINHOLE]
+    if not np.isfinite(precision.variance):
+        raise DegenerateError(
+            "There are no more corner coordinates than unknowns.",
+            "Add views, or views that show more corners.",
+        )
+    pinhole = [name for name in names if name in PINHOLE]
+    R, n = solution.state.R, normals(solution.state.R)
+    # One orientation gives two equations: enough if the other two parameters are held.
+    same = len(pinhole) > 2 and parallel(R, solution.normal.V, precision.variance)
+    lost = pinhole if same else [u.name for u in precision.undetermined if u.name in PINHOLE]
     if not lost:
         return
-    n = normals(solution.state.R)
-    tilt = np.arccos(np.clip(n[:, 2], -1, 1))
-    mean = n.mean(axis=0) / np.linalg.norm(n.mean(axis=0))
-    spread = np.arccos(np.clip(n @ mean, -1, 1))
     what = ", ".join(lost)
-    if (tilt < _PARALLEL).all():
+    close = same or _spread(n) < _CLOSE
+    if close and np.arccos(_mean(n)[2]) < _CLOSE:
         raise DegenerateError(
             f"All views are parallel to the sensor, which leaves {what} undetermined.",
             "Tilt the board by 20 to 45 degrees, to the left, right, top and bottom.",
         )
-    if (spread < _PARALLEL).all():
+    if close:
         raise DegenerateError(
             f"All views show the board in one orientation, which leaves {what} undetermined.",
             "Add views with the board tilted by 20 to 45 degrees in other directions.",
@@ -58,3 +99,14 @@ def diagnose(solution: Solution, names: tuple[str, ...]) -> None:
         "Add views with the board tilted by 20 to 45 degrees in different directions, "
         "some of them near the image's corners.",
     )
+
+
+def _mean(n: Array) -> Array:
+    """(3,) unit mean of normals (K, 3)."""
+    total = n.sum(axis=0)
+    return np.asarray(total / np.linalg.norm(total))
+
+
+def _spread(n: Array) -> float:
+    """Largest angle between one of the normals (K, 3) and their mean, rad."""
+    return float(np.arccos(np.clip(n @ _mean(n), -1, 1)).max())

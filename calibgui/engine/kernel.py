@@ -69,14 +69,16 @@ def _distort(n, k, d, M):  # type: ignore[no-untyped-def]
 def _invert(n, k, d, M):  # type: ignore[no-untyped-def]
     """Solve eq10(d) = n from the given d; M = dd/dn. Returns whether all points converged.
 
-    The last step is at most 1e-8, after which the error is its square.
+    The last step is at most 1e-8, after which the error is its square. A point that ends
+    beyond the fold of eq. 10, where det < 0, has no inverse.
     """
     k1, k2, k3, p1, p2, p3 = k
     for _ in range(20):
-        worst = 0.0
+        worst, folded = 0.0, False
         for i in range(n.shape[1]):
             e0, e1, j00, j01, j10, j11 = _eq10(d[0, i], d[1, i], k1, k2, k3, p1, p2, p3)
             det = 1 / (j00 * j11 - j01 * j10)
+            folded |= not det > 0
             m00, m01, m10, m11 = j11 * det, -j01 * det, -j10 * det, j00 * det
             e0 -= n[0, i]
             e1 -= n[1, i]
@@ -86,7 +88,7 @@ def _invert(n, k, d, M):  # type: ignore[no-untyped-def]
             M[0, i], M[1, i], M[2, i], M[3, i] = m00, m01, m10, m11
             worst = max(worst, s0 * s0 + s1 * s1)
         if worst < 1e-16:
-            return True
+            return not folded
     return False
 
 
@@ -175,7 +177,7 @@ def _whiten(weight, J):  # type: ignore[no-untyped-def]
 
 
 @_compiled
-def _views(params, backward, R, T, uv, xy, weight, whitened, rows, out):  # type: ignore[no-untyped-def]
+def _views(params, backward, R, T, uv, xyz, weight, whitened, rows, out):  # type: ignore[no-untyped-def]
     """Fill out (K, M, M) with the products of [J_free J_pose r] of each view."""
     K, _, N = uv.shape
     P = rows.shape[0]
@@ -190,16 +192,16 @@ def _views(params, backward, R, T, uv, xy, weight, whitened, rows, out):  # type
     lead[0, :] = 1.0
     lead[3, :] = 1.0
     for view in range(K):
-        X, Y, u, v = xy[view, 0], xy[view, 1], uv[view, 0], uv[view, 1]
+        X, Y, Z, u, v = xyz[view, 0], xyz[view, 1], xyz[view, 2], uv[view, 0], uv[view, 1]
         for row in range(3):
-            r0, r1 = R[view, row, 0], R[view, row, 1]
+            r0, r1, r2 = R[view, row, 0], R[view, row, 1], R[view, row, 2]
             for i in range(N):
-                rotated[row, i] = r0 * X[i] + r1 * Y[i]
+                rotated[row, i] = r0 * X[i] + r1 * Y[i] + r2 * Z[i]
         behind = False
         for i in range(N):
-            Z = rotated[2, i] + T[view, 2]
-            behind |= not Z > 0
-            inverse_depth[i] = 1 / Z
+            depth = rotated[2, i] + T[view, 2]
+            behind |= not depth > 0
+            inverse_depth[i] = 1 / depth
             n[0, i] = (rotated[0, i] + T[view, 0]) * inverse_depth[i]
             n[1, i] = (rotated[1, i] + T[view, 1]) * inverse_depth[i]
         failed = behind
@@ -234,7 +236,7 @@ def products(
     R: Array,
     T: Array,
     uv: Array,
-    xy: Array,
+    xyz: Array,
     weight: Array | None,
     rows: IntArray,
 ) -> Array:
@@ -246,7 +248,7 @@ def products(
         R: (K, 3, 3) rotations.
         T: (K, 3) translations, mm.
         uv: (K, 2, N) measured corners, px.
-        xy: (K, 2, N) plate points, mm.
+        xyz: (K, 3, N) plate points, mm.
         weight: (K, 4, N) whitening of the corners, 0 for padding; None if all weigh 1.
         rows: (P,) places of the free parameters among `params`.
 
@@ -260,7 +262,7 @@ def products(
 
     def run(views: slice) -> None:
         _views(
-            params, backward, R[views], T[views], uv[views], xy[views], weights[views],
+            params, backward, R[views], T[views], uv[views], xyz[views], weights[views],
             whitened, rows, out[views],
         )  # fmt: skip
 

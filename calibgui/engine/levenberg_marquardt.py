@@ -51,6 +51,10 @@ NormalAt = Callable[[State], "NormalEquations"]
 """The normal equations of the free parameters; infinite cost where a corner has no prediction."""
 
 
+class StartError(CalibrationError):
+    """The residuals at the start have no value."""
+
+
 class NormalEquations(NamedTuple):
     """The blocks of J^T J and J^T r, for the free shared parameters."""
 
@@ -96,14 +100,14 @@ def minimise(
         max_iterations: accepted and rejected steps together.
 
     Raises:
-        CalibrationError: if the residuals at the start are not finite.
+        StartError: if the residuals at the start are not finite.
         Cancelled: from `report`.
     """
     began = time.perf_counter()
     state, damping = start, _DAMPING
     normal = normal_at(state)
     if not np.isfinite(normal.cost):
-        raise CalibrationError(
+        raise StartError(
             "The closed-form start does not reproject the corners.",
             "Check that the views number their corners alike and come from one camera.",
         )
@@ -180,7 +184,7 @@ def schur(normal: NormalEquations, damping: float = 0.0) -> tuple[Array, Array, 
     scaled = normal.V * unit[:, :, None] * unit[:, None, :] + damping * np.eye(6)
     right = np.concatenate([np.swapaxes(normal.W, 1, 2), normal.pose[..., None]], axis=-1)
     eliminated = unit[..., None] * np.linalg.solve(scaled, unit[..., None] * right)
-    reduction = (normal.W @ eliminated).sum(axis=0)
+    reduction = np.tensordot(normal.W, eliminated, axes=([0, 2], [0, 1]))
     S = normal.U + damping * np.diag(np.diag(normal.U)) - reduction[:, :-1]
     return (S + S.T) / 2, normal.shared - reduction[:, -1], eliminated
 
@@ -189,7 +193,11 @@ def solve(normal: NormalEquations, damping: float) -> tuple[Array, Array]:
     """The damped step: (P,) shared and (K, 6) poses."""
     S, gradient, eliminated = schur(normal, damping)
     unit = 1 / np.sqrt(np.maximum(np.diag(normal.U), 1e-300))
-    shared = -unit * np.linalg.lstsq(S * np.outer(unit, unit), unit * gradient, rcond=1e-15)[0]
+    scaled, right = S * np.outer(unit, unit), unit * gradient
+    try:
+        shared = -unit * np.linalg.solve(scaled, right)
+    except np.linalg.LinAlgError:  # exactly singular: the shortest of the solutions
+        shared = -unit * np.linalg.lstsq(scaled, right, rcond=1e-15)[0]
     return shared, -(eliminated @ np.append(shared, 1.0))
 
 

@@ -27,7 +27,7 @@ class Observations:
     uv: Array
     """(K, N, 2) measured corners, px."""
     xy: Array
-    """(K, N, 2) corners on the plate, mm."""
+    """(K, N, 2) corners on the plate, mm; (K, N, 3) where the plate is not flat."""
     mask: Array
     """(K, N) 1 for a corner, 0 for padding."""
     whitening: Array | None

@@ -73,14 +73,15 @@ def _compiled(observations: Observations, model: str, free: IntArray) -> NormalA
 
     to_eq10 = _EQ10_ROWS[model]
     uv = np.ascontiguousarray(np.swapaxes(observations.uv, 1, 2))
-    xy = np.ascontiguousarray(np.swapaxes(observations.xy, 1, 2))
+    xyz = np.zeros((len(uv), 3, uv.shape[2]))
+    xyz[:, : observations.xy.shape[-1]] = np.swapaxes(observations.xy, 1, 2)
     weight = _weights(observations)
     rows, P = to_eq10[free], len(free)
 
     def normal_at(state: State) -> NormalEquations:
         params: Array = np.zeros(10)
         params[to_eq10] = state.params
-        A = kernel.products(params, model == "lucchese", state.R, state.T, uv, xy, weight, rows)
+        A = kernel.products(params, model == "lucchese", state.R, state.T, uv, xyz, weight, rows)
         # Summed over views in a fixed order, whichever thread made them.
         total = A[:, :P, :P].sum(axis=0), A[:, :P, -1].sum(axis=0), float(A[:, -1, -1].sum())
         cost = total[2] if np.isfinite(total[2]) else float("inf")

@@ -114,7 +114,7 @@ def reference_residual(
         by_params[..., 1, 0] -= scale * plate[..., 1] * fy / fx**2
         by_params[..., 1, 1] += scale * plate[..., 1] / fx
     return Linearised(
-        plate * to_reference - scale * views.xy, by_params, by_pose * to_reference[:, None]
+        plate * to_reference - scale * views.xy[..., :2], by_params, by_pose * to_reference[:, None]
     )
 
 
@@ -126,8 +126,8 @@ def predicted_corners(state: State, views: Observations, lens: Lens, cost: Cost)
 
 
 def _seen(state: State, plate: Array) -> tuple[Array, Array, Array, Array]:
-    """R X (K, N, 3), depth Z (K, N), ray n (K, N, 2) and Q (K, N, 2, 3) of points (K, N, 2)."""
-    rotated = plate @ np.swapaxes(state.R[..., :2], 1, 2)
+    """R X (K, N, 3), depth Z (K, N), ray n (K, N, 2), Q (K, N, 2, 3) of points (K, N, 2 or 3)."""
+    rotated = plate @ np.swapaxes(state.R[..., : plate.shape[-1]], 1, 2)
     point = rotated + state.T[:, None]
     Z = np.where(point[..., 2] > 0, point[..., 2], np.nan)  # behind the camera: no image
     n = point[..., :2] / Z[..., None]

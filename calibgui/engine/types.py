@@ -274,6 +274,47 @@ class Cost(StrEnum):
     """Eq. 41 to the letter: the same reference grid in px along x and y, radius in pixels."""
 
 
+class PlateModel(StrEnum):
+    """How the target may deviate from its nominal shape."""
+
+    NOMINAL = "nominal"
+    AFFINE = "affine"
+    BOW = "bow"
+    FREE = "free"
+
+
+@dataclass(frozen=True, slots=True)
+class Prior:
+    """What is known of a plate beforehand: standard deviations of its corners' places, mm."""
+
+    in_plane: float
+    """Accuracy of the print."""
+    out_of_plane: float
+    """Flatness."""
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class Plate:
+    """A target with its corners where they were found to be."""
+
+    model: PlateModel
+    nominal: Array
+    """(n, 2) places by the drawing, mm."""
+    deviation: Array
+    """(n, 3) from there, mm, without net motion, turn or scale."""
+    sigma: Array
+    """(n, 3) one standard deviation, mm; 0 where not estimated."""
+
+    def __post_init__(self) -> None:
+        for name in ("nominal", "deviation", "sigma"):
+            object.__setattr__(self, name, frozen(getattr(self, name)))
+
+    @property
+    def rms(self) -> float:
+        """Root mean square length of the deviations, mm."""
+        return float(np.sqrt(np.mean(np.sum(self.deviation**2, axis=1))))
+
+
 @dataclass(frozen=True, slots=True)
 class Undetermined:
     """A parameter that the data do not determine, and why."""
@@ -325,6 +366,8 @@ class Calibration:
     fixed: tuple[str, ...]
     """Names of the intrinsics that were held."""
     undetermined: tuple[Undetermined, ...] = ()
+    plate: Plate | None = None
+    """The target's shape, where it was estimated or held."""
     warnings: tuple[str, ...] = ()
     settings: Mapping[str, Any] = field(default_factory=dict)
     digest: str = ""

@@ -10,14 +10,16 @@ blocks of ``levenberg_marquardt.py``
 The paper's own standard deviations (Tables 2 and 3) are sqrt(diag((2 J^T J)^-1)), without
 sigma: they answer how well the reference grid, not the corners' noise, determines a value.
 
-Rank. S scaled by the parameters' own diagonal, U^-1/2 S U^-1/2, has eigenvalues between 0
-and 1: the part of the information on a combination of parameters that is left once the
-poses have been fitted as well. Its smallest eigenvalue is about 1e-5 for useful sets of
-views and drops to rounding where a combination of parameters can be traded for a motion of
-the boards; the parameters in that combination are undetermined.
+A parameter is undetermined if S has lost its rank in it, or if its standard deviation is
+larger than any use of the parameter tolerates. Rank is judged on U^-1/2 S U^-1/2, S scaled
+by the parameters' own diagonal, whose eigenvalues lie between 0 and 1: the part of the
+information on a combination of parameters that is left once the poses have been fitted as
+well. Poor sets of views and long lenses reach 1e-7; only rounding makes it 1e-14.
 """
 
 from __future__ import annotations
+
+from typing import NamedTuple
 
 import numpy as np
 
@@ -25,10 +27,20 @@ from calibgui.engine import frames
 from calibgui.engine.levenberg_marquardt import NormalEquations, schur
 from calibgui.engine.types import Array, Calibration, Undetermined
 
-_RANK = 3e-7
-"""Information left after fitting the poses below which a combination counts as undetermined."""
+_RANK = 1e-12
+"""Information left below which a combination is lost in rounding."""
 _SHARE = 0.2
 """Of the undetermined combination's length that a parameter must contribute to be named."""
+
+
+class Precision(NamedTuple):
+    """What the corners' noise leaves open."""
+
+    variance: float
+    """sigma^2 of one residual coordinate."""
+    shared: Array
+    """(P, P) covariance of the free shared parameters."""
+    undetermined: tuple[Undetermined, ...]
 
 
 def variance(cost: float, corners: int, unknowns: int) -> float:
@@ -44,24 +56,33 @@ def information_left(normal: NormalEquations) -> tuple[Array, Array]:
     return values, vectors
 
 
-def undetermined(normal: NormalEquations, names: tuple[str, ...]) -> tuple[Undetermined, ...]:
-    """The free parameters that the views do not determine, by rank.
+def precision(
+    normal: NormalEquations, names: tuple[str, ...], corners: int, tolerated: Array
+) -> Precision:
+    """How well the views determine the camera.
 
     Args:
         normal: at the solution.
         names: (P,) of the free parameters.
+        corners: number of corners in all views.
+        tolerated: (P,) standard deviations beyond which a parameter counts as undetermined.
     """
+    sigma2 = variance(normal.cost, corners, len(names) + normal.pose.size)
+    shared = shared_covariance(normal, sigma2)
     values, vectors = information_left(normal)
-    null = vectors[:, values < _RANK]
-    involved = np.sqrt((null**2).sum(axis=1)) if null.size else np.zeros(len(names))
+    lost = np.sqrt((vectors[:, values < _RANK] ** 2).sum(axis=1)) > _SHARE
     blank = np.diag(normal.U) <= 0
-    found = []
-    for name, share, nothing in zip(names, involved, blank, strict=True):
-        if nothing:
-            found.append(Undetermined(name, "no corner depends on it"))
-        elif share > _SHARE:
-            found.append(Undetermined(name, "it can be traded for the boards' poses"))
-    return tuple(found)
+    vague = np.sqrt(np.diag(shared)) > tolerated
+    undetermined = tuple(
+        Undetermined(name, reason)
+        for i, name in enumerate(names)
+        if (
+            reason := ("no corner depends on it" if blank[i] else "")
+            or ("it can be traded for the boards' poses" if lost[i] else "")
+            or ("the corners' noise leaves it open" if vague[i] else "")
+        )
+    )
+    return Precision(sigma2, shared, undetermined)
 
 
 def shared_covariance(normal: NormalEquations, sigma2: float) -> Array:

@@ -32,6 +32,11 @@ class Lens(Protocol):
         ...
 
     @property
+    def powers(self) -> tuple[int, ...]:
+        """Power of the radius that each coefficient multiplies, relative to the radius."""
+        ...
+
+    @property
     def radius_in_pixels(self) -> bool:
         """Whether d is in units of fx along both axes (the paper's radius) instead of fx and fy."""
         ...

@@ -26,6 +26,7 @@ class Brown:
     """Distortion model with coefficients in OpenCV's order: k1, k2, p1, p2, k3."""
 
     names = ("k1", "k2", "p1", "p2", "k3")
+    powers = (2, 4, 1, 1, 6)
     radius_in_pixels = False
 
     def distort(self, n: Array, k: Array) -> Mapped:

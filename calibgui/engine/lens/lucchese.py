@@ -40,6 +40,7 @@ class Lucchese:
     """Correction model with coefficients k1, k2, k3, p1, p2, p3; `distort` by Newton's method."""
 
     names = ("k1", "k2", "k3", "p1", "p2", "p3")
+    powers = (2, 4, 6, 1, 1, 2)
 
     def __init__(self, radius_in_pixels: bool = False) -> None:
         self.radius_in_pixels = radius_in_pixels

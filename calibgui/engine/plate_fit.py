@@ -1,0 +1,132 @@
+"""Estimating the plate together with the camera, and refusing where the views cannot carry it."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from calibgui.engine import uncertainty
+from calibgui.engine.errors import CalibrationError
+from calibgui.engine.lens import Lens
+from calibgui.engine.levenberg_marquardt import Solution, minimise
+from calibgui.engine.observations import Observations
+from calibgui.engine.outcome import Estimate, poses
+from calibgui.engine.plate import basis, corners_of, deviated, gauge, plate_problem
+from calibgui.engine.types import Array, IntArray, Plate, PlateModel, Prior, Report
+
+_LEAST_VIEWS = {PlateModel.AFFINE: 3, PlateModel.BOW: 3, PlateModel.FREE: 6}
+"""Views without which the model follows the noise (a free plate without a prior)."""
+_LEAST_SEEN = 4
+"""Views that must show every corner of a free plate without a prior."""
+_RANK = 1e-9
+"""Information left (``uncertainty.py``) below which a plate is not determined."""
+
+
+def fit_plate(
+    nominal: Solution,
+    observations: Observations,
+    lens: Lens,
+    free: IntArray,
+    model: PlateModel,
+    prior: Prior | None,
+    report: Report | None,
+) -> Estimate:
+    """Estimate the plate with everything else, from the solution for the nominal one.
+
+    Args:
+        nominal: the converged Stage II with the image cost.
+        observations: the views on the nominal plate.
+        lens: the lens model.
+        free: (P,) indices of the camera's parameters that may move.
+        model: affine, bow or free.
+        prior: of a free plate's corners.
+        report: told of each iteration.
+
+    Raises:
+        CalibrationError: if the views cannot determine the plate, with the reason.
+    """
+    points, index = corners_of(observations)
+    _check(observations, index, len(points), model, prior)
+    B = basis(model, points)
+    Q, P, K = B.shape[2], len(nominal.state.params), len(nominal.state.R)
+    lost = 0 if prior is not None or model is not PlateModel.FREE else gauge(points).shape[1]
+    unknowns = len(free) + 6 * K + Q - lost
+    sigma2 = uncertainty.variance(nominal.normal.cost, observations.count, len(free) + 6 * K)
+    solution = nominal._replace(
+        state=nominal.state._replace(params=np.append(nominal.state.params, np.zeros(Q)))
+    )
+    shared = np.append(free, P + np.arange(Q))
+    # A prior is in units of the corners' noise, which the better plate itself lowers.
+    for _ in range(2 if prior is not None else 1):
+        solution = minimise(
+            plate_problem(
+                observations, lens, free, points, index, B, _stiffness(model, points, prior, sigma2)
+            ),
+            solution.state,
+            shared,
+            observations.count,
+            float(np.sum(observations.uv**2)),
+            report,
+        )
+        sigma2 = uncertainty.variance(solution.normal.cost, observations.count, unknowns)
+    if uncertainty.information_left(solution.normal)[0][0] < _RANK:
+        raise CalibrationError(
+            f"These views do not determine the plate's shape ({model.value}).",
+            "Add views tilted in different directions that show the whole board, "
+            "state a prior, or keep the nominal plate.",
+        )
+    covariance = uncertainty.shared_covariance(solution.normal, sigma2)
+    if lost:
+        covariance = _without_gauge(covariance, gauge(points), len(free))
+    deviation = B @ solution.state.params[P:]
+    of_plate = covariance[len(free) :, len(free) :]
+    spread = np.einsum("iaq,iaq->ia", B @ of_plate, B)
+    state = solution.state._replace(params=solution.state.params[:P])
+    rvecs = np.array([pose.rvec for pose in poses(state)])
+    return Estimate(
+        solution,
+        state,
+        deviated(observations, points, index, deviation),
+        sigma2,
+        covariance[: len(free), : len(free)],
+        uncertainty.pose_covariances(solution.normal, covariance, rvecs, sigma2),
+        Plate(model, points, deviation, np.sqrt(np.maximum(spread, 0.0))),
+    )
+
+
+def _check(
+    observations: Observations, index: IntArray, count: int, model: PlateModel, prior: Prior | None
+) -> None:
+    K = len(observations.mask)
+    if prior is None and _LEAST_VIEWS[model] > K:
+        raise CalibrationError(
+            f"{K} views cannot carry the plate model {model.value!r}, which needs "
+            f"{_LEAST_VIEWS[model]}.",
+            "Add views, or keep the nominal plate.",
+        )
+    if model is not PlateModel.FREE or prior is not None:
+        return
+    seen = np.bincount(index[observations.mask > 0], minlength=count)
+    if (rare := int((seen < _LEAST_SEEN).sum())) > 0:
+        raise CalibrationError(
+            f"{rare} of the plate's {count} corners are seen in fewer than {_LEAST_SEEN} views.",
+            "A free plate needs every corner in several views: add views of those parts, "
+            "state a prior, or use the plate models affine or bow.",
+        )
+
+
+def _stiffness(model: PlateModel, points: Array, prior: Prior | None, sigma2: float) -> Array:
+    """(Q, Q) what is added to J^T J for the plate: the prior, or the free plate's gauge."""
+    if model is not PlateModel.FREE:
+        return np.zeros((2, 2))
+    if prior is not None:
+        s = np.array([prior.in_plane, prior.in_plane, prior.out_of_plane])
+        return np.diag(np.tile(sigma2 / s**2, len(points)))
+    G = gauge(points)
+    return G @ G.T
+
+
+def _without_gauge(covariance: Array, G: Array, P: int) -> Array:
+    """The covariance with the directions of the gauge, fixed by definition, taken out."""
+    project = np.eye(len(covariance))
+    project[P:, P:] -= G @ G.T
+    return project @ covariance @ project

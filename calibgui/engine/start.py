@@ -1,0 +1,108 @@
+"""From checked views to the start of Stage II: facing, Stage I, one camera, all poses."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+
+import numpy as np
+
+from calibgui.engine import closed_form, frames, homography
+from calibgui.engine.errors import CalibrationError
+from calibgui.engine.lens import Lens
+from calibgui.engine.observations import Observations
+from calibgui.engine.stage_one import Prealignment
+from calibgui.engine.stage_two import State
+from calibgui.engine.types import Array, Size
+
+
+def in_paper_frame(
+    observations: Observations, scale: float, size: Size, names: Sequence[str]
+) -> tuple[Array, Array, Array]:
+    """What Stage I registers: measured corners, reference corners x', y' and mask.
+
+    Args:
+        observations: the views.
+        scale: reference px per mm.
+        size: of the images, px.
+        names: of the views, for messages.
+
+    Returns:
+        (K, N, 2) corners in the paper's frame, (K, N, 2) the same on the reference image,
+        from the plate's centre and y up, (K, N) mask.
+
+    Raises:
+        CalibrationError: if some views show the board mirrored against the others.
+    """
+    facing = _facing(observations)
+    if not (facing == facing[0]).all():
+        minority = facing != (1.0 if facing.sum() >= 0 else -1.0)
+        listed = ", ".join(names[k] for k in np.flatnonzero(minority).tolist())
+        raise CalibrationError(
+            f"The board is mirrored against the other views in {listed}.",
+            "Number their corners in the same turning sense, or undo the image's mirroring.",
+        )
+    corners = observations.xy[observations.mask > 0]
+    centre = (corners.min(axis=0) + corners.max(axis=0)) / 2
+    reference = (observations.xy - centre) * scale * np.array([1.0, -facing[0]])
+    return frames.paper_from_array(observations.uv, size), reference, observations.mask
+
+
+def start_of_stage_two(
+    observations: Observations,
+    first: Prealignment,
+    size: Size,
+    lens: Lens,
+    names: tuple[str, ...],
+    held: Mapping[str, float | None],
+) -> tuple[State, dict[str, float]]:
+    """The closed-form start of Stage II, and the held parameters with their values.
+
+    Args:
+        observations: the views.
+        first: their Stage I.
+        size: of the images, px.
+        lens: the lens model.
+        names: of the camera's parameters.
+        held: names to hold, with a value or None for the default.
+    """
+    centre, k1 = closed_form.initial_lens(first, size)
+    array_centre = frames.centre_of_array(size)
+    for i, name in enumerate(("cx", "cy")):
+        if name in held:
+            value = held[name]
+            centre[i] = array_centre[i] if value is None else value
+    known = np.array([held.get(name) or np.nan for name in ("fx", "fy")], dtype=np.float64)
+    f, R, T = closed_form.initial_poses(observations, centre, k1, size, known)
+    params = np.concatenate(
+        [f, centre, _coefficients(lens, (observations.uv - centre) / f, k1 * f[0] ** 2)]
+    )
+    values: dict[str, float] = {}
+    for i, name in enumerate(names):
+        if name in held:
+            value = held[name]
+            values[name] = float(params[i] if i < 4 else 0.0) if value is None else float(value)
+            params[i] = values[name]
+    return State(params, R, T), values
+
+
+def _facing(observations: Observations) -> Array:
+    """(K,) +1 where the plate's Y runs down in the image as v does, -1 where it runs up."""
+    H = homography.dlt(observations.xy, observations.uv, observations.mask)
+    point = np.concatenate([observations.xy[:, 0], np.ones((len(H), 1))], axis=1)
+    depth = np.einsum("ki,ki->k", H[:, 2], point)
+    # The orientation of a homography at a point is det H / depth^3.
+    return np.asarray(np.sign(np.linalg.det(H) * depth))
+
+
+def _coefficients(lens: Lens, d: Array, k1: float) -> Array:
+    """Coefficients of any lens model that approximate the correction n = d (1 + k1 r2).
+
+    To first order in the coefficients, correct(d, k) = d + (d correct / dk) k; the first
+    coefficient alone is fitted, which for the paper's model is k1 itself.
+    """
+    d = d.reshape(-1, 2)
+    radial = np.sum(d**2, axis=1, keepdims=True) * d
+    k = np.zeros(len(lens.names))
+    slope = lens.correct(d, k).by_coefficients[..., 0]
+    k[0] = k1 * np.sum(slope * radial) / np.sum(slope**2)
+    return k
