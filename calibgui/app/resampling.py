@@ -13,24 +13,20 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import cast
 
-import numpy as np
-
 from calibgui.app.outputs import make_folder
 from calibgui.app.paths import natural_key
 from calibgui.engine.errors import CalibrationError
 from calibgui.engine.images import Pixels, read_colour, write_image
 from calibgui.engine.types import Array, Camera, Pose, Size
 from calibgui.engine.undistort import (
-    Extent,
     FieldOfView,
     Resampled,
-    board_extent,
     rectify_image,
     undistort_image,
 )
 from calibgui.formats.resampled_json import write_resampled
 from calibgui.formats.result import Result
-from calibgui.report.coverage import attitudes
+from calibgui.report.coverage import natural_scale, plate_extent
 
 GEOMETRY = "resampled.json"
 """Name of the file that says what the new images' pixels are."""
@@ -96,8 +92,8 @@ def rectify_files(
         Cancelled: from `progress`.
     """
     camera = result.calibration.camera
-    scale = pixels_per_mm or _natural_scale(result)
-    extent = _extent(result)
+    scale = pixels_per_mm or natural_scale(result)
+    extent = plate_extent(result)
     poses = _poses(result)
 
     def change(path: Path, pixels: Pixels) -> Resampled:
@@ -118,21 +114,6 @@ def _poses(result: Result) -> dict[str, Pose]:
     names = [Path(view.image).name for view, _ in pairs]
     poses = {n: pose for n, (_, pose) in zip(names, pairs, strict=True) if names.count(n) == 1}
     return poses | {view.image: pose for view, pose in pairs}
-
-
-def _extent(result: Result) -> Extent:
-    """The part of the plate to show, mm."""
-    if result.target is not None:
-        return board_extent(result.target)
-    xy = np.concatenate([view.xy for view in result.observations()])
-    low, high = xy.min(axis=0), xy.max(axis=0)
-    return float(low[0]), float(low[1]), float(high[0]), float(high[1])
-
-
-def _natural_scale(result: Result) -> float:
-    """Pixels per mm with which the median view shows the board."""
-    distance = attitudes(result.calibration, result.observations()).distance
-    return float(result.calibration.camera.focal.mean() / np.median(distance))
 
 
 def _write_all(

@@ -16,6 +16,8 @@ import numpy as np
 
 from calibgui.engine import frames
 from calibgui.engine.types import Array, Calibration, IntArray, Observation, Size
+from calibgui.engine.undistort import Extent, board_extent
+from calibgui.formats.result import Result
 
 CELLS = (9, 6)
 """Columns and rows in which the sensor is divided when its coverage is judged."""
@@ -58,3 +60,18 @@ def attitudes(calibration: Calibration, observations: Sequence[Observation]) -> 
         direction=np.arctan2(away[:, 1], -away[:, 0]),
         distance=np.linalg.norm(position, axis=1),
     )
+
+
+def plate_extent(result: Result) -> Extent:
+    """The part of the plate that the views are about: the board's squares, or else its corners."""
+    if result.target is not None:
+        return board_extent(result.target)
+    xy = np.concatenate([view.xy for view in result.observations()])
+    low, high = xy.min(axis=0), xy.max(axis=0)
+    return float(low[0]), float(low[1]), float(high[0]), float(high[1])
+
+
+def natural_scale(result: Result) -> float:
+    """Pixels per mm with which the median view shows the board."""
+    distance = attitudes(result.calibration, result.observations()).distance
+    return float(result.calibration.camera.focal.mean() / np.median(distance))

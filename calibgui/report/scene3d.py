@@ -21,6 +21,7 @@ import numpy as np
 from calibgui.engine import frames
 from calibgui.engine.types import Array, Camera, Pose, frozen
 from calibgui.formats.result import Result
+from calibgui.report.coverage import plate_extent
 
 _DISTANCE = 3.0
 """Of the observer from the middle, in radii of the scene."""
@@ -148,14 +149,7 @@ def _contains(outline: Array, point: Array) -> bool:
 
 def _board_outline(result: Result) -> Array:
     """(4, 3) corners of the board with its outer squares, from the origin's side round, mm."""
-    if result.target is not None:
-        side = result.target.square
-        low = np.array([-side, -side])
-        high = np.array([result.target.cols, result.target.rows]) * side
-    else:
-        xy = np.concatenate([view.xy for view in result.observations()])
-        low, high = xy.min(axis=0), xy.max(axis=0)
-    (x0, y0), (x1, y1) = low, high
+    x0, y0, x1, y1 = plate_extent(result)
     return np.array([[x0, y0, 0.0], [x1, y0, 0.0], [x1, y1, 0.0], [x0, y1, 0.0]])
 
 
