@@ -22,8 +22,8 @@ r gamma2 in the angles, and g(r) = det A cos(phi) cos^2(theta) - alpha11^2 cos(o
 has its root at r only if fy = fx holds; it is kept for figures 4 and 5.
 
 Near fronto-parallel views and views tilted about one axis leave omega and phi undetermined:
-the square roots turn imaginary with the noise. Every function then returns NaN, and no
-result of the engine depends on a single view's value.
+the square roots turn imaginary with the noise, or 0 / 0. Every function then returns NaN, and
+no result of the engine depends on a single view's value.
 """
 
 from __future__ import annotations
@@ -39,6 +39,10 @@ from calibgui.engine.types import Array
 
 _SEARCH = np.linspace(0.5, 2.0, 1501)
 """Aspect ratios among which the zero of g(r) closest to 1 is sought."""
+
+
+_LEAST = 1e-6
+"""Tilt about either axis, rad, below which eq. 25 divides rounding errors by each other."""
 
 
 class ViewGeometry(NamedTuple):
@@ -62,7 +66,7 @@ def _normalised(backward: Array, r: float | Array, literal: bool) -> tuple[Array
 
 
 def _angles(backward: Array, r: float | Array, literal: bool) -> tuple[Array, Array, Array]:
-    """|omega|, |phi| and theta (eq. 25), NaN where the square roots are imaginary."""
+    """|omega|, |phi| and theta (eq. 25), NaN where the view leaves them open."""
     a11, a12, a21, a22, g1, g2 = _normalised(backward, r, literal)
     theta = np.arctan2(a12, a11)
     with np.errstate(invalid="ignore", divide="ignore"):
@@ -70,7 +74,8 @@ def _angles(backward: Array, r: float | Array, literal: bool) -> tuple[Array, Ar
         second = np.tan(theta - np.arctan2(g2, g1))
         omega = np.arctan(np.sqrt(first * second))
         phi = np.arcsin(np.sqrt(first / second))
-    return omega, phi, theta
+    defined = np.minimum(omega, phi) > _LEAST
+    return np.where(defined, omega, np.nan), np.where(defined, phi, np.nan), theta
 
 
 def cosines_equation(backward: Array, r: Array, literal: bool = False) -> Array:
