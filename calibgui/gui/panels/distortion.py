@@ -41,12 +41,12 @@ class DistortionPanel(Panel):
         ):
             self.part.addItem(name, part)
         self.part.setAccessibleName(self.tr("Part of the distortion"))
-        self.part.currentIndexChanged.connect(self._changed)
+        self.part.currentIndexChanged.connect(self._refresh_now)
         self.masked = QCheckBox(self.tr("Only where &corners were seen"))
         self.masked.setToolTip(
             self.tr("Beyond the corners' convex hull the correction is an extrapolation.")
         )
-        self.masked.toggled.connect(self._changed)
+        self.masked.toggled.connect(self._refresh_now)
         self.plot = HeatMap(self.tr("displacement d [px]"))
         self.plot.scene().sigMouseMoved.connect(self._hover)
         self._contours = self.plot.plot(connect="finite", pen=pg.mkPen("#ffffffc8"))
@@ -125,10 +125,6 @@ class DistortionPanel(Panel):
         label.setPos(*at)
         self.plot.addItem(label)
         self._labels.append(label)
-
-    def _changed(self) -> None:
-        self._stale = True
-        self._update()
 
     def _hover(self, position: QPointF | None) -> None:
         """Say the displacement under the cursor, or the largest where there is none."""

@@ -36,7 +36,7 @@ class HistogramPlot(Plot):
         self.fit.setPen(pg.mkPen(colours.bad, width=2))
         law = self.tr("Rayleigh s") if histogram.rayleigh else self.tr("Gaussian σ")
         self.set_title(
-            self.tr("mean {0:.4f}, SD {1:.4f}; {2} = {3:.4f}").format(
+            self.tr("mean {0:.4f}, SD {1:.4f}<br>{2} = {3:.4f}").format(
                 round(histogram.mean, 4) + 0.0, histogram.sd, law, histogram.scale
             )
         )
@@ -51,7 +51,7 @@ class HistogramsPanel(Panel):
     def __init__(self) -> None:
         super().__init__()
         self.plane = PlaneChoice()
-        self.plane.currentIndexChanged.connect(self._plane_changed)
+        self.plane.currentIndexChanged.connect(self._refresh_now)
         self.plots = tuple(HistogramPlot() for _ in range(3))
         for plot in self.plots:
             plot.setToolTip(
@@ -74,7 +74,3 @@ class HistogramsPanel(Panel):
         )
         for plot, histogram, name in zip(self.plots, histograms, self.plane.names, strict=True):
             plot.show_histogram(histogram, name, self.plane.unit)
-
-    def _plane_changed(self) -> None:
-        self._stale = True
-        self._update()

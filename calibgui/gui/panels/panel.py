@@ -39,7 +39,7 @@ class Panel(QWidget):
         self._result: Result | None = None
         self._indices: tuple[int, ...] = ()
         self._selected = (-1, -1)
-        self._stale = False
+        self._stale = self._behind = False
         self._empty = QLabel(self.tr(self.hint))
         self._empty.setAlignment(Qt.AlignmentFlag.AlignCenter)
         self._empty.setWordWrap(True)
@@ -62,8 +62,8 @@ class Panel(QWidget):
         """Highlight a view, and one of its corners, without announcing it."""
         k = self._indices.index(view) if view in self._indices else -1
         self._selected = (k, corner if k >= 0 else -1)
-        if self._result is not None and not self._stale:
-            self._select(*self._selected)
+        self._behind = True
+        self._update()
 
     def showEvent(self, event: QShowEvent) -> None:  # noqa: N802 - Qt's name
         super().showEvent(event)
@@ -72,14 +72,21 @@ class Panel(QWidget):
     def changeEvent(self, event: QEvent) -> None:  # noqa: N802 - Qt's name
         super().changeEvent(event)
         if event.type() == QEvent.Type.PaletteChange:
-            self._stale = True
-            self._update()
+            self._refresh_now()
 
     def _update(self) -> None:
-        if self._stale and self._result is not None and self.isVisible():
-            self._stale = False
+        if self._result is None or not self.isVisible():
+            return
+        if self._stale:
             self._refresh(self._result)
+        if self._stale or self._behind:
             self._select(*self._selected)
+        self._stale = self._behind = False
+
+    def _refresh_now(self) -> None:
+        """Show the result anew, after a choice of the user's."""
+        self._stale = True
+        self._update()
 
     def _pick(self, k: int, corner: int = -1) -> None:
         """Announce what the user pointed at: calibrated view k and a corner."""

@@ -151,7 +151,7 @@ class PosesPanel(Panel):
         self.centre = QComboBox()
         self.centre.addItem(self.tr("Boards around the camera"), Centre.CAMERA)
         self.centre.addItem(self.tr("Cameras around the board"), Centre.BOARD)
-        self.centre.currentIndexChanged.connect(self._changed)
+        self.centre.currentIndexChanged.connect(self._refresh_now)
         self.home = QPushButton(self.tr("&Reset view"))
         self.space = SceneView()
         self.space.setToolTip(
@@ -187,7 +187,3 @@ class PosesPanel(Panel):
                 "{0} views, {1:.0f} to {2:.0f} mm away, tilted by {3:.0f}° to {4:.0f}°"
             ).format(len(tilt), distance.min(), distance.max(), tilt.min(), tilt.max())
         )
-
-    def _changed(self) -> None:
-        self._stale = True
-        self._update()

@@ -16,7 +16,7 @@ from tests.gui.panels.conftest import Shown, click, drag, made, place
 
 def drawn(panel: ResidualsPanel) -> Array:
     """All points on the plot, in order of x."""
-    points = np.concatenate([np.transpose(cloud.getData()) for cloud in panel._clouds])
+    points = np.concatenate([np.transpose(cloud.getData()) for cloud in panel.scatter._clouds])
     return points[np.lexsort(points.T)]
 
 
@@ -107,14 +107,14 @@ def test_selection_is_highlighted(shown: Shown[ResidualsPanel], result: Result) 
     panel = shown(ResidualsPanel, result)
     panel.select(6, 17)
     image = result.calibration.residuals[5].image
-    np.testing.assert_array_equal(np.transpose(panel._view.getData()), image)
-    np.testing.assert_array_equal(np.transpose(panel._ring.getData()), image[17:18])
+    np.testing.assert_array_equal(np.transpose(panel.scatter._view.getData()), image)
+    np.testing.assert_array_equal(np.transpose(panel.scatter._ring.getData()), image[17:18])
     panel.select(1)  # an image that was not used
-    assert len(panel._view.getData()[0]) == 0
+    assert len(panel.scatter._view.getData()[0]) == 0
 
 
 def test_many_views_take_few_items(shown: Shown[ResidualsPanel]) -> None:
     result = made(count=70)
     panel = shown(ResidualsPanel, result)
-    assert len(panel._clouds) <= 56
+    assert len(panel.scatter._clouds) <= 56
     assert len(drawn(panel)) == 70 * 108

@@ -1,0 +1,80 @@
+"""Residuals as points coloured by view (figures 10 and 15)."""
+
+from __future__ import annotations
+
+from collections import defaultdict
+from collections.abc import Sequence
+
+import numpy as np
+import pyqtgraph as pg
+from PySide6.QtCore import Qt, Signal
+
+from calibgui.engine.types import Array
+from calibgui.gui import theme
+from calibgui.gui.plots import Plot
+
+_REACH = 8.0
+"""Distance from a point within which a click means it, px of the screen."""
+
+
+class ResidualScatter(Plot):
+    """The residuals of all views about the origin."""
+
+    picked = Signal(int, int)
+    """The view and the corner whose point was clicked."""
+
+    def __init__(self) -> None:
+        super().__init__("", "", square=True)
+        self._points: Sequence[Array] = ()
+        self._clouds: list[pg.ScatterPlotItem] = []
+        self._view = pg.ScatterPlotItem(size=6)
+        self._ring = pg.ScatterPlotItem(size=15, brush=None)
+        for z, item in enumerate((self._view, self._ring), start=10):
+            item.setZValue(z)
+            self.addItem(item)
+        self.scene().sigMouseClicked.connect(self._clicked)
+
+    def show_residuals(self, points: Sequence[Array], x: str, y: str, unit: str) -> None:
+        """Show the residuals (n, 2) of each view.
+
+        All views of a colour and symbol are one item: thousands of points stay quick.
+        """
+        for cloud in self._clouds:
+            self.removeItem(cloud)
+        self._points = points
+        alike: defaultdict[tuple[str, str], list[Array]] = defaultdict(list)
+        for k, of_view in enumerate(points):
+            alike[theme.view_colour(k).name(), theme.view_symbol(k)].append(of_view)
+        self._clouds = [
+            pg.ScatterPlotItem(
+                *np.concatenate(group).T, size=4, pen=None, brush=brush, symbol=symbol
+            )
+            for (brush, symbol), group in alike.items()
+        ]
+        for cloud in self._clouds:
+            self.addItem(cloud)
+        self.set_labels(x, y, unit, unit)
+        self.select(-1)
+        self.getPlotItem().autoRange()
+
+    def select(self, view: int, corner: int = -1) -> None:
+        """Bring a view's points to the front and ring one of them; -1 for none."""
+        text = theme.current().text
+        points = self._points[view] if view >= 0 else np.zeros((0, 2))
+        self._view.setData(*points.T, brush=theme.view_colour(max(view, 0)), pen=pg.mkPen(text))
+        chosen = points[corner : corner + 1] if corner >= 0 else points[:0]
+        self._ring.setData(*chosen.T, pen=pg.mkPen(text, width=2))
+
+    def _clicked(self, event: pg.GraphicsScene.mouseEvents.MouseClickEvent) -> None:
+        if event.button() is not Qt.MouseButton.LeftButton or not self._points:
+            return
+        box = self.getPlotItem().getViewBox()
+        place = box.mapSceneToView(event.scenePos())
+        pixel = np.array(box.viewPixelSize())
+        everything = np.concatenate(self._points)
+        distance = np.linalg.norm((everything - [place.x(), place.y()]) / pixel, axis=1)
+        nearest = int(np.argmin(distance))
+        if distance[nearest] < _REACH:
+            ends = np.cumsum([len(points) for points in self._points])
+            k = int(np.searchsorted(ends, nearest, side="right"))
+            self.picked.emit(k, nearest - int(ends[k] - len(self._points[k])))

@@ -1,0 +1,150 @@
+"""What is shown and asked to be saved is what the engine makes of the image."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from pathlib import Path
+
+import numpy as np
+import pytest
+from PySide6.QtCore import QPoint, Qt
+from PySide6.QtGui import QImage
+from pytestqt.qtbot import QtBot
+
+from calibgui.engine.errors import CalibrationError
+from calibgui.engine.images import Image
+from calibgui.engine.types import Array
+from calibgui.engine.undistort import rectify_image, undistort_image
+from calibgui.formats.result import Result
+from calibgui.gui.jobs import Jobs
+from calibgui.gui.panels.undistort import RECTIFIED, UndistortPanel
+from calibgui.report.coverage import natural_scale, plate_extent
+from tests.gui.panels.conftest import drag
+
+Read = Callable[[str], Image]
+
+
+def photograph(path: str) -> Image:
+    """Smooth noise that differs from one name to the next."""
+    rng = np.random.default_rng(len(path) + sum(map(ord, path)))
+    coarse = rng.integers(0, 255, (24, 32)).astype(np.uint8)
+    return Image(np.kron(coarse, np.ones((20, 20), np.uint8)), Path(path))
+
+
+@pytest.fixture
+def jobs() -> Iterator[Jobs]:
+    running = Jobs()
+    yield running
+    running.close()
+
+
+@pytest.fixture
+def panel(jobs: Jobs, qtbot: QtBot, result: Result) -> UndistortPanel:
+    made = UndistortPanel(jobs, photograph)
+    qtbot.addWidget(made)
+    made.resize(700, 600)
+    made.show_result(result)
+    made.show()
+    qtbot.waitUntil(lambda: not jobs.running)
+    return made
+
+
+def shown(panel: UndistortPanel) -> list[Array]:
+    """The images' pixels."""
+    return [_pixels(image) for image in panel.images._images]
+
+
+def _pixels(image: QImage) -> Array:
+    rows = np.frombuffer(image.constBits(), np.uint8).reshape(image.height(), -1)
+    return rows[:, : image.width()]
+
+
+def test_the_original_beside_the_undistorted(panel: UndistortPanel, result: Result) -> None:
+    before, after = shown(panel)
+    grey = photograph("view1.png").grey
+    np.testing.assert_array_equal(before, grey)
+    np.testing.assert_array_equal(after, undistort_image(grey, result.calibration.camera).image)
+    assert panel.words.text() == "view1.png: 640 × 480 px"
+
+
+@pytest.mark.parametrize(("index", "view"), [(1, "no-border"), (2, "same-scale")])
+def test_field_of_view(
+    panel: UndistortPanel, result: Result, jobs: Jobs, qtbot: QtBot, index: int, view: str
+) -> None:
+    panel.way.setFocus()
+    for _ in range(index):
+        qtbot.keyClick(panel.way, Qt.Key.Key_Down)
+    qtbot.waitUntil(lambda: not jobs.running)
+    grey = photograph("view1.png").grey
+    expected = undistort_image(grey, result.calibration.camera, view).image
+    np.testing.assert_array_equal(shown(panel)[1], expected)
+
+
+def test_rectified_of_the_selected_view(
+    panel: UndistortPanel, result: Result, jobs: Jobs, qtbot: QtBot
+) -> None:
+    panel.select(5)
+    panel.way.setCurrentIndex(3)
+    qtbot.waitUntil(lambda: not jobs.running)
+    expected = rectify_image(
+        photograph("view5.png").grey,
+        result.calibration.camera,
+        result.calibration.poses[4],
+        plate_extent(result),
+        natural_scale(result),
+    )
+    (only,) = shown(panel)
+    np.testing.assert_array_equal(only, expected.image)
+
+
+def test_the_divider_slides(panel: UndistortPanel, qtbot: QtBot) -> None:
+    images = panel.images
+    frame = images.frame
+    start = frame.center().toPoint()
+    goal = QPoint(round(frame.left() + 0.8 * frame.width()), start.y())
+    drag(qtbot, images, start, goal)
+    assert images.divider == pytest.approx(0.8, abs=0.01)
+    qtbot.keyClick(images, Qt.Key.Key_Left)
+    assert images.divider == pytest.approx(0.75, abs=0.01)
+    # At 0.6 of the width the picture is still the original's, at 0.9 the undistorted one's.
+    picture = images.grab().toImage()
+    for share, k in ((0.6, 0), (0.9, 1)):
+        x, y = frame.left() + share * frame.width(), frame.top() + 0.4 * frame.height()
+        before, after = shown(panel)
+        level = (before, after)[k][round(0.4 * 480), round(share * 640)]
+        assert abs(picture.pixelColor(round(x), round(y)).red() - int(level)) < 40
+
+
+def test_saving_names_views_and_way(panel: UndistortPanel, qtbot: QtBot) -> None:
+    panel.select(3)
+    with qtbot.waitSignal(panel.saving) as signal:
+        qtbot.mouseClick(panel.save_one, Qt.MouseButton.LeftButton)
+    assert signal.args == [(3,), "all"]
+    panel.way.setCurrentIndex(3)
+    with qtbot.waitSignal(panel.saving) as signal:
+        qtbot.mouseClick(panel.save_all, Qt.MouseButton.LeftButton)
+    assert signal.args == [(0, 2, 3, 4, 5, 6, 7, 8, 9), RECTIFIED]
+
+
+def test_an_image_that_is_gone_says_so(jobs: Jobs, qtbot: QtBot, result: Result) -> None:
+    def gone(path: str) -> Image:
+        raise CalibrationError(f"{path} does not exist.", "Locate it.")
+
+    panel = UndistortPanel(jobs, gone)
+    qtbot.addWidget(panel)
+    panel.show_result(result)
+    panel.show()
+    qtbot.waitUntil(lambda: not jobs.running)
+    assert panel.words.text() == "view1.png does not exist. Locate it."
+    assert not shown(panel)
+
+
+def test_nothing_is_read_while_hidden(jobs: Jobs, qtbot: QtBot, result: Result) -> None:
+    panel = UndistortPanel(jobs, photograph)
+    qtbot.addWidget(panel)
+    panel.show_result(result)
+    panel.select(4)
+    assert not jobs.running
+    panel.show()
+    qtbot.waitUntil(lambda: not jobs.running)
+    assert panel.words.text().startswith("view4.png")
