@@ -97,7 +97,7 @@ def calibrate(
     names = names or view_names(len(views))
     observations = pack(views, names)
     _check_size(observations, size, names)
-    scale = REFERENCE_PITCH / pitch(np.concatenate([xy for _, xy, *_ in views]))
+    scale = REFERENCE_PITCH / pitch(observations)
     if len(views) < 2:
         raise DegenerateError(
             "One view does not determine a camera.",

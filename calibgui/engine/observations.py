@@ -19,6 +19,9 @@ from calibgui.engine.types import Array, Observation
 REFERENCE_PITCH = 30.0
 """Side dx' of a square on the virtual reference image, reference px (the paper's choice)."""
 
+_SAMPLED = 25
+"""Views that the target's pitch is taken from."""
+
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Observations:
@@ -90,11 +93,16 @@ def view_names(count: int) -> list[str]:
     return [f"View {k + 1}" for k in range(count)]
 
 
-def pitch(xy: Array) -> float:
-    """Side of the target's squares, mm: the median distance between neighbouring corners (n, 2)."""
-    unique = np.unique(np.round(xy, 9), axis=0)
-    distances = np.asarray(cKDTree(unique).query(unique, k=2)[0])
-    return float(np.median(distances[:, 1]))
+def pitch(observations: Observations) -> float:
+    """Side of the target's squares, mm: the median distance between neighbouring corners.
+
+    View by view, because views may name the same corner's place with different precision, and
+    the least of them, because a partly seen board can lack neighbours.
+    """
+    chosen = np.unique(np.linspace(0, len(observations.xy) - 1, _SAMPLED).astype(int))
+    places = [observations.xy[k, observations.view(k), :2] for k in chosen.tolist()]
+    nearest = [np.asarray(cKDTree(xy).query(xy, k=2)[0])[:, 1] for xy in places]
+    return float(min(np.median(distance) for distance in nearest))
 
 
 def _checked(view: Observation, name: str) -> Observation:

@@ -59,7 +59,8 @@ def prealign(xy: Array, reference: Array, mask: Array) -> Prealignment:
     Args:
         xy: (K, N, 2) measured corners in the paper's frame, px.
         reference: (K, N, 2) the same corners x', y' on the reference plane, reference px.
-        mask: (K, N) 1 for a corner, 0 for padding.
+        mask: (K, N) what each corner's residual is multiplied with: 1 for a corner, 0 for
+            padding, between for one that is doubted.
     """
     count = mask.sum(axis=1)
     s = np.sqrt((xy**2 * mask[..., None]).sum(axis=(1, 2)) / count)
@@ -100,6 +101,19 @@ def prealign(xy: Array, reference: Array, mask: Array) -> Prealignment:
         iterations=iterations,
         converged=converged,
     )
+
+
+def registration_error(first: Prealignment, xy: Array, reference: Array) -> Array:
+    """(K, N) distance |xi - x'| that Stage I leaves between corners and grid, reference px.
+
+    Args:
+        first: of these views.
+        xy: (K, N, 2) as for `prealign`.
+        reference: (K, N, 2) as for `prealign`.
+    """
+    d = xy - first.centre[:, None]
+    corrected = d * (1 + first.k1[:, None, None] * np.sum(d**2, axis=-1, keepdims=True))
+    return np.linalg.norm(homography.apply(first.forward, corrected) - reference, axis=-1)
 
 
 def registration(z: Array, x: Array) -> tuple[Array, Array]:

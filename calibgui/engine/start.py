@@ -33,18 +33,33 @@ def in_paper_frame(
     Raises:
         CalibrationError: if some views show the board mirrored against the others.
     """
-    facing = _facing(observations)
-    if not (facing == facing[0]).all():
-        minority = facing != (1.0 if facing.sum() >= 0 else -1.0)
+    sign = facing(observations)
+    if not (sign == sign[0]).all():
+        minority = sign != (1.0 if sign.sum() >= 0 else -1.0)
         listed = ", ".join(names[k] for k in np.flatnonzero(minority).tolist())
         raise CalibrationError(
             f"The board is mirrored against the other views in {listed}.",
             "Number their corners in the same turning sense, or undo the image's mirroring.",
         )
+    return (
+        frames.paper_from_array(observations.uv, size),
+        reference_points(observations, scale, sign),
+        observations.mask,
+    )
+
+
+def reference_points(observations: Observations, scale: float, sign: Array) -> Array:
+    """(K, N, 2) corners on the reference image: from the plate's centre, y up, reference px.
+
+    Args:
+        observations: the views.
+        scale: reference px per mm.
+        sign: (K,) which way each view's plate faces, see `facing`.
+    """
     corners = observations.xy[observations.mask > 0]
     centre = (corners.min(axis=0) + corners.max(axis=0)) / 2
-    reference = (observations.xy - centre) * scale * np.array([1.0, -facing[0]])
-    return frames.paper_from_array(observations.uv, size), reference, observations.mask
+    up = np.stack([np.ones_like(sign), -sign], axis=1)
+    return (observations.xy - centre) * scale * up[:, None]
 
 
 def start_of_stage_two(
@@ -85,7 +100,7 @@ def start_of_stage_two(
     return State(params, R, T), values
 
 
-def _facing(observations: Observations) -> Array:
+def facing(observations: Observations) -> Array:
     """(K,) +1 where the plate's Y runs down in the image as v does, -1 where it runs up."""
     H = homography.dlt(observations.xy, observations.uv, observations.mask)
     point = np.concatenate([observations.xy[:, 0], np.ones((len(H), 1))], axis=1)
