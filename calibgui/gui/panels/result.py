@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Sequence
 from html import escape
 
 import numpy as np
@@ -14,12 +14,12 @@ from calibgui.engine.frames import PAPER_NAMES
 from calibgui.engine.uncertainty import correlations, paper_table
 from calibgui.formats.result import Result
 from calibgui.gui import theme
+from calibgui.gui.panels.estimates import estimate_columns
 from calibgui.gui.panels.matrix import Matrix
 from calibgui.gui.panels.panel import Panel
 from calibgui.gui.panels.split import Split
 from calibgui.gui.tables import Column, Table, fixed, number
 from calibgui.report.comparison import compare
-from calibgui.report.numbers import with_sigma
 from calibgui.report.summary import Sentence, Tone, summary
 
 _PAPER_UNITS = ("px", "px", "px⁻²", "px⁻⁴", "px⁻⁶", "px⁻¹", "px⁻¹", "px⁻²", "px", "px")
@@ -58,8 +58,8 @@ class ResultPanel(Panel):
         self.differences.show_columns(
             [
                 Column(self.tr("Parameter"), [row.name for row in rows]),
-                *_estimates(names[0], [r.a for r in rows], [r.sigma_a for r in rows]),
-                *_estimates(names[1], [r.b for r in rows], [r.sigma_b for r in rows]),
+                *estimate_columns(names[0], [r.a for r in rows], [r.sigma_a for r in rows]),
+                *estimate_columns(names[1], [r.b for r in rows], [r.sigma_b for r in rows]),
                 Column(
                     self.tr("Difference"),
                     [row.change for row in rows],
@@ -92,7 +92,7 @@ class ResultPanel(Panel):
         self.array_frame.show_columns(
             [
                 Column(self.tr("Parameter"), names),
-                *_estimates(self.tr("Value"), calibration.camera.params, calibration.sigma),
+                *estimate_columns(self.tr("Value"), calibration.camera.params, calibration.sigma),
                 Column(self.tr("Unit"), ["px"] * 4 + [""] * (len(names) - 4)),
                 Column(self.tr("Remark"), self._remarks(result, names)),
             ],
@@ -105,7 +105,7 @@ class ResultPanel(Panel):
             self.paper_units.show_columns(
                 [
                     Column(self.tr("Parameter"), PAPER_NAMES),
-                    *_estimates(self.tr("Value"), values, sigma),
+                    *estimate_columns(self.tr("Value"), values, sigma),
                     Column(self.tr("Unit"), _PAPER_UNITS),
                     Column(
                         self.tr("SD of Table 2"),
@@ -139,13 +139,6 @@ class ResultPanel(Panel):
             else:
                 remarks.append("")
         return remarks
-
-
-def _estimates(title: str, values: Iterable[float], sigma: Iterable[float]) -> tuple[Column, ...]:
-    """A column of values ± 1σ, and one of σ alone for sorting and CSV."""
-    values, sigma = [float(v) for v in values], [float(s) for s in sigma]
-    texts = dict(zip(values, map(with_sigma, values, sigma), strict=True))
-    return Column(f"{title} ± 1σ", values, texts.__getitem__), Column("1σ", sigma, number(2))
 
 
 def _html(sentences: Sequence[Sentence]) -> str:

@@ -1,0 +1,135 @@
+"""The check is run by its button; its plots hold its numbers."""
+
+from __future__ import annotations
+
+import csv
+import io
+from collections.abc import Iterator
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+from PySide6.QtCore import Qt
+from pytestqt.qtbot import QtBot
+
+from calibgui.app.synthetic import BLUR, SyntheticCheck, synthetic_check
+from calibgui.engine.images import Image
+from calibgui.engine.render import render
+from calibgui.engine.statistics import length_histogram, stacked
+from calibgui.formats.result import Result
+from calibgui.gui.jobs import Jobs
+from calibgui.gui.panels.synthetic import SyntheticPanel, pictures
+from tests.app.rendered import small_result
+
+
+def black(path: str) -> Image:
+    return Image(np.zeros((150, 200), np.uint8), Path(path))
+
+
+@pytest.fixture(scope="module")
+def small() -> Result:
+    return small_result()
+
+
+@pytest.fixture(scope="module")
+def check(small: Result) -> SyntheticCheck:
+    return synthetic_check(small)
+
+
+@pytest.fixture
+def jobs() -> Iterator[Jobs]:
+    running = Jobs()
+    yield running
+    running.close()
+
+
+def panel_of(result: Result, jobs: Jobs, qtbot: QtBot) -> SyntheticPanel:
+    panel = SyntheticPanel(jobs, black)
+    qtbot.addWidget(panel)
+    panel.resize(800, 600)
+    panel.show_result(result)
+    panel.show()
+    return panel
+
+
+def test_the_button_runs_the_check(small: Result, jobs: Jobs, qtbot: QtBot) -> None:
+    panel = panel_of(small, jobs, qtbot)
+    assert not panel.tabs.isVisible()
+    qtbot.mouseClick(panel.run, Qt.MouseButton.LeftButton)
+    assert "Cancel" in panel.run.text()
+    qtbot.waitUntil(lambda: panel.check is not None and not jobs.running, timeout=60_000)
+    assert panel.tabs.isVisible() and "Cancel" not in panel.run.text()
+    assert panel.words.text().startswith("5 of 5 views found again.")
+
+
+def test_it_can_be_cancelled(small: Result, jobs: Jobs, qtbot: QtBot) -> None:
+    panel = panel_of(small, jobs, qtbot)
+    qtbot.mouseClick(panel.run, Qt.MouseButton.LeftButton)
+    qtbot.mouseClick(panel.run, Qt.MouseButton.LeftButton)
+    qtbot.waitUntil(lambda: not jobs.running, timeout=60_000)
+    assert panel.check is None and panel.run.isEnabled()
+    assert panel.words.text().startswith("Would the method")
+
+
+def test_tables_and_plots_hold_its_numbers(
+    small: Result, check: SyntheticCheck, jobs: Jobs, qtbot: QtBot
+) -> None:
+    panel = panel_of(small, jobs, qtbot)
+    panel._done(check)
+    rows = list(csv.reader(io.StringIO(panel.table.as_csv())))[1:]
+    numbers = np.array([[float(row[i]) for i in (1, 2, 3, 4)] for row in rows]).T
+    real, made = check.real.calibration, check.synthetic.calibration
+    expected = (real.camera.params, real.sigma, made.camera.params, made.sigma)
+    np.testing.assert_array_equal(numbers, expected)
+
+    edges, count = panel._bars.getData()
+    errors = 100 * check.extrinsic_errors.ravel()
+    assert count.sum() == np.count_nonzero(errors <= edges[-1])
+    for result, scatter, histogram in zip(
+        (check.real, check.synthetic), panel.scatters, panel.histograms, strict=True
+    ):
+        points = np.concatenate(scatter._points)
+        np.testing.assert_array_equal(points, stacked(result.calibration, on_reference=True))
+        lengths = length_histogram(np.linalg.norm(points, axis=1))
+        np.testing.assert_array_equal(histogram.bars.getData()[1], lengths.density)
+    qtbot.waitUntil(lambda: not jobs.running)
+
+
+def test_the_selected_view_is_rendered(
+    small: Result, check: SyntheticCheck, jobs: Jobs, qtbot: QtBot
+) -> None:
+    panel = panel_of(small, jobs, qtbot)
+    panel._done(check)
+    panel.select(4, 11)
+    qtbot.waitUntil(lambda: not jobs.running)
+    assert len(panel.images._images) == 2
+    calibration = small.calibration
+    real, made = pictures(small, 3, black)
+    assert not real.any()
+    expected = render(calibration.camera, calibration.poses[3], small.target, blur=BLUR)
+    np.testing.assert_array_equal(made, expected)
+    ring = np.transpose(panel.scatters[0]._ring.getData())
+    np.testing.assert_array_equal(ring, calibration.residuals[3].reference[11:12])
+
+
+def test_another_result_drops_the_check(
+    small: Result, check: SyntheticCheck, jobs: Jobs, qtbot: QtBot
+) -> None:
+    panel = panel_of(small, jobs, qtbot)
+    panel._done(check)
+    other = replace(small)
+    panel.show_result(other)
+    assert panel.check is None and not panel.tabs.isVisible()
+    panel._done(check)  # a late answer to the question before
+    assert panel.check is None
+    qtbot.waitUntil(lambda: not jobs.running)
+
+
+def test_without_a_pattern_it_says_why_not(small: Result, jobs: Jobs, qtbot: QtBot) -> None:
+    views = tuple(
+        replace(v, points=v.observation(small.target), corners=None) if v.usable else v
+        for v in small.views
+    )
+    panel = panel_of(Result(small.calibration, views), jobs, qtbot)
+    assert not panel.run.isEnabled() and "pattern is not known" in panel.words.text()
