@@ -92,6 +92,10 @@ def calibrate(
             f"The cost {cost.value!r} registers the views on a flat, nominal plate.",
             "Use the cost 'image' with another plate.",
         )
+    if model not in MODELS:
+        raise CalibrationError(
+            f"There is no lens model {model!r}.", f"Choose from {', '.join(MODELS)}."
+        )
     parameters = parameter_names(model)
     held = _held(fix, free, model, parameters)
     names = names or view_names(len(views))
@@ -170,6 +174,11 @@ def _held(
             raise CalibrationError(
                 f"The lens model {model!r} has no parameter {name!r}.",
                 f"Choose from {', '.join(names)}.",
+            )
+    for name, value in asked.items():
+        if value is not None and not (np.isfinite(value) and (value > 0 or name[0] != "f")):
+            raise CalibrationError(
+                f"{name} cannot be held at {value}.", "Focal lengths are positive, in pixels."
             )
     if both := freed & asked.keys():
         raise CalibrationError(

@@ -133,10 +133,10 @@ def _checked(view: Observation, name: str) -> Observation:
             f"{name} names the same plate point twice.", "Give each corner of the board once."
         )
     for points, what in ((uv, "corners"), (xy, "plate points")):
-        spread = np.linalg.svd(points - points.mean(axis=0), compute_uv=False)
-        if spread[1] <= 1e-6 * spread[0]:
+        if not _in_general_position(points):
             raise CalibrationError(
-                f"{name}: all {what} lie on one line.", "Use corners from at least two rows."
+                f"{name}: all {what}, or all but one, lie on one line.",
+                "Use at least two corners from each of two rows.",
             )
     if cov is not None and not (np.linalg.eigvalsh(cov)[:, 0] > 0).all():
         raise CalibrationError(
@@ -144,6 +144,17 @@ def _checked(view: Observation, name: str) -> Observation:
             "Leave the covariances out or correct them.",
         )
     return Observation(uv, xy, cov)
+
+
+def _in_general_position(points: Array) -> bool:
+    """Whether at least two points (n, 2) lie off every line, as a homography needs."""
+    tolerance = 1e-6 * np.ptp(points, axis=0).max()
+    # A line that holds all points but one holds two of the first three.
+    for i, j in ((0, 1), (0, 2), (1, 2)):
+        (x, y), (dx, dy) = points[j] - points[i], (points - points[i]).T
+        if np.sum(np.abs(x * dy - y * dx) > tolerance * np.hypot(x, y)) < 2:
+            return False
+    return True
 
 
 def _whitening(views: list[Observation], length: int) -> Array:
