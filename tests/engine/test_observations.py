@@ -93,8 +93,9 @@ def test_no_views() -> None:
 
 
 def test_pitch_is_the_distance_of_neighbours() -> None:
-    assert pitch(BOARD.points()) == pytest.approx(30.0)
-    assert pitch(np.vstack([XY[::2], XY[::2]])) == pytest.approx(np.hypot(30, 30), rel=0.5)
-    # Zhang's squares stand apart: the nearest corner is within the square.
-    squares = np.array([[0, 0], [0.5, 0], [0, 0.5], [0.5, 0.5], [0.9, 0], [1.4, 0]])
-    assert pitch(squares) == pytest.approx(0.5, rel=0.2)
+    assert pitch(pack([VIEW])) == pytest.approx(30.0)
+    # Of parts of the board, in several views.
+    assert pitch(pack([(UV[:40], XY[:40]), (UV[60:], XY[60:])])) == pytest.approx(30.0)
+    # Zhang's squares stand apart: the nearest corner belongs to the same square.
+    squares = np.array([[0, 0], [0.5, 0], [0, 0.5], [0.5, 0.5], [0.9, 0], [1.4, 0], [1.4, 0.5]])
+    assert pitch(pack([(UV[:7] + squares, squares)])) == pytest.approx(0.5, rel=0.2)
