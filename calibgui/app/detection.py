@@ -61,6 +61,7 @@ def find_views(
     rois: Mapping[Path, Array] | None = None,
     progress: Progress | None = None,
     stop: Event | None = None,
+    size: Size | None = None,
 ) -> Detection:
     """Search all images for the board, on all processors.
 
@@ -70,13 +71,14 @@ def find_views(
         rois: (4, 2) px, the region to search in some of the images.
         progress: told of each image searched; those searched again add to the total.
         stop: abandons the search within 0.2 s when set.
+        size: width and height of the camera's images; the most frequent ones if None.
 
     Raises:
         Cancelled: if `stop` was set.
     """
     rois = rois or {}
     waiting = [View(str(path), roi=rois.get(path)) for path in images]
-    views, size = _sized(waiting)
+    views, size = _sized(waiting, size)
 
     def search(which: Sequence[int], board: Board | None, before: int = 0) -> None:
         items = [views[k] for k in which]
@@ -121,8 +123,8 @@ def _worth_another_look(view: View, board: Board) -> bool:
     return view.status is ViewStatus.NO_BOARD and view.roi is not None
 
 
-def _sized(views: Iterable[View]) -> tuple[list[View], Size | None]:
-    """The views, without those whose image is unreadable or not of the most frequent size."""
+def _sized(views: Iterable[View], size: Size | None) -> tuple[list[View], Size | None]:
+    """The views, without those whose image is unreadable or not of `size`, by default the usual."""
     sizes: dict[int, Size] = {}
     result = list(views)
     for k, view in enumerate(result):
@@ -131,10 +133,11 @@ def _sized(views: Iterable[View]) -> tuple[list[View], Size | None]:
         except CalibrationError as error:
             result[k] = _without_corners(view, ViewStatus.UNREADABLE, str(error))
     count = Counter(sizes.values())
-    usual = max(count, key=lambda size: (count[size], size[0] * size[1]), default=None)
-    for k, size in sizes.items():
-        if size != usual:
-            result[k] = _without_corners(result[k], ViewStatus.WRONG_SIZE, _wrong(size, usual))
+    most = max(count, key=lambda size: (count[size], size[0] * size[1]), default=None)
+    usual = size or most
+    for k, own in sizes.items():
+        if own != usual:
+            result[k] = _without_corners(result[k], ViewStatus.WRONG_SIZE, _wrong(own, usual))
     return result, usual
 
 

@@ -44,6 +44,7 @@ class Job:
     """One piece of work on each of some items, as its workers and the window see it."""
 
     label: str
+    """What is being done, for the user; empty if it need not be mentioned."""
     items: Sequence[Any]
     work: Callable[[Any], Any]
     """In a worker: from an item to its result."""
@@ -58,10 +59,17 @@ class Job:
     inputs: Callable[[Any], Hashable] = nothing
     """Digest of what an item's result depends on."""
     queue: Queue
+    total: int = field(init=False)
+    """Parts of the work, as far as known."""
     finished: int = field(default=0, init=False)
-    begun: float = field(default_factory=time.monotonic, init=False)
+    cancelling: threading.Event = field(default_factory=threading.Event, init=False)
+    """Set by `cancel`."""
+    settled: int = field(default=0, init=False)
+    _begun: float = field(default_factory=time.monotonic, init=False)
     _stop: threading.Event = field(default_factory=threading.Event, init=False)
-    _cancel: threading.Event = field(default_factory=threading.Event, init=False)
+
+    def __post_init__(self) -> None:
+        self.total = len(self.items)
 
     def stop(self) -> None:
         """Ask the work to end and keep the best so far."""
@@ -69,13 +77,13 @@ class Job:
 
     def cancel(self) -> None:
         """Ask the work to end and drop what it found."""
-        self._cancel.set()
+        self.cancelling.set()
         self._stop.set()
 
     @property
     def cancelled(self) -> bool:
         """Whether `cancel` was called."""
-        return self._cancel.is_set()
+        return self.cancelling.is_set()
 
     def tell(self, record: Any) -> bool:
         """For the worker: pass a record on to the main thread; False if it should stop.
@@ -87,6 +95,15 @@ class Job:
         self.queue.put(lambda: self.told(record))
         return not self._stop.is_set()
 
+    def advance(self, finished: int, total: int) -> None:
+        """For the worker of a single item: how many of its parts are finished."""
+
+        def note() -> None:
+            self.finished, self.total = finished, total
+
+        self.check()
+        self.queue.put(note)
+
     def check(self) -> None:
         """For the worker: raise `Cancelled` if the user wants none of it."""
         if self.cancelled:
@@ -95,10 +112,10 @@ class Job:
     @property
     def seconds_left(self) -> float | None:
         """Estimated from the parts that are finished; None before the first."""
-        if len(self.items) <= 1 or self.finished == 0:
+        if self.total <= 1 or self.finished == 0:
             return None
-        each = (time.monotonic() - self.begun) / self.finished
-        return each * (len(self.items) - self.finished)
+        each = (time.monotonic() - self._begun) / self.finished
+        return each * (self.total - self.finished)
 
 
 class Callbacks(TypedDict, total=False):
@@ -209,20 +226,26 @@ class Jobs(QObject):
             return job.work(item)
 
         def settle(future: Future[Any]) -> None:
-            job.finished += 1
-            try:
-                result = future.result()
-                if not job.cancelled and job.inputs(item) == digest:
-                    job.done(item, result)
-            except Cancelled:
-                pass
-            except Exception as error:  # whatever a worker or a callback raised is shown
-                log.debug("%s failed", job.label, exc_info=error)
-                job.failed(error)
-            if job.finished == len(job.items):
-                self._end(job)
+            self._settle(job, item, digest, future)
 
         pool.submit(work).add_done_callback(lambda future: self._queue.put(lambda: settle(future)))
+
+    def _settle(self, job: Job, item: Any, digest: Hashable, future: Future[Any]) -> None:
+        """Deliver what one item's work came to."""
+        try:
+            result = future.result()
+            if not job.cancelled and job.inputs(item) == digest:
+                job.done(item, result)
+        except Cancelled:
+            pass
+        except Exception as error:  # whatever a worker or a callback raised is shown
+            log.debug("%s failed", job.label, exc_info=error)
+            job.failed(error)
+        job.settled += 1
+        if len(job.items) > 1:
+            job.finished = job.settled
+        if job.settled == len(job.items):
+            self._end(job)
 
     def _end(self, job: Job) -> None:
         self._running.remove(job)

@@ -1,0 +1,42 @@
+"""Making actions: text, shortcut, tooltip and what they do, in one line each."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+from PySide6.QtCore import Qt
+from PySide6.QtGui import QAction, QKeySequence
+from PySide6.QtWidgets import QWidget
+
+
+def make_action(
+    parent: QWidget,
+    text: str,
+    shortcut: str | QKeySequence.StandardKey | None,
+    tip: str,
+    does: Callable[[], Any],
+    *,
+    scope: Qt.ShortcutContext = Qt.ShortcutContext.WindowShortcut,
+) -> QAction:
+    """An action of `parent`.
+
+    Args:
+        parent: owns it.
+        text: with & before the letter that chooses it in a menu.
+        shortcut: keys, or None.
+        tip: what it is good for, in a sentence.
+        does: called without arguments.
+        scope: where the shortcut works.
+    """
+    action = QAction(text, parent)
+    if shortcut is not None:
+        action.setShortcut(QKeySequence(shortcut))
+        keys = action.shortcut().toString(QKeySequence.SequenceFormat.NativeText)
+        action.setToolTip(f"{tip} ({keys})" if keys else tip)
+    else:
+        action.setToolTip(tip)
+    action.setStatusTip(tip)
+    action.setShortcutContext(scope)
+    action.triggered.connect(lambda: does())
+    return action

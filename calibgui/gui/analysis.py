@@ -1,0 +1,192 @@
+"""What there is to see of a result: a list of panels, one of which is shown."""
+
+from __future__ import annotations
+
+from functools import partial
+
+from PySide6.QtCore import Signal
+from PySide6.QtWidgets import (
+    QComboBox,
+    QHBoxLayout,
+    QLabel,
+    QListWidget,
+    QMenu,
+    QStackedWidget,
+    QToolButton,
+    QVBoxLayout,
+    QWidget,
+)
+
+from calibgui.app.project import Project
+from calibgui.engine.types import Iteration
+from calibgui.formats.result import Result
+from calibgui.gui import theme
+from calibgui.gui.panels.convergence import ConvergencePanel
+from calibgui.gui.panels.coverage import CoveragePanel
+from calibgui.gui.panels.distortion import DistortionPanel
+from calibgui.gui.panels.panel import Panel
+from calibgui.gui.panels.poses import PosesPanel
+from calibgui.gui.panels.residuals import ResidualsPanel
+from calibgui.gui.panels.result import ResultPanel
+from calibgui.gui.panels.stage_one import StageOnePanel
+from calibgui.gui.panels.synthetic import SyntheticPanel
+from calibgui.gui.panels.undistort import UndistortPanel
+from calibgui.gui.session import Session
+
+
+class Analysis(QWidget):
+    """The named results, and every panel on the one that is chosen."""
+
+    excluded = Signal(list)
+    """Images that the user wants out of the calibration."""
+    saving = Signal(tuple, str)
+    """See `UndistortPanel.saving`."""
+    rename_wanted = Signal(str)
+    delete_wanted = Signal(str)
+
+    def __init__(self, session: Session) -> None:
+        super().__init__()
+        self._session = session
+        self._shown: Result | None = None
+        self.convergence = ConvergencePanel()
+        self.result = ResultPanel()
+        self.residuals = ResidualsPanel()
+        self.undistort = UndistortPanel(session.jobs, session.images.read)
+        self.panels: tuple[Panel, ...] = (
+            self.result,
+            StageOnePanel(),
+            self.convergence,
+            self.residuals,
+            DistortionPanel(),
+            self.undistort,
+            PosesPanel(),
+            CoveragePanel(),
+            SyntheticPanel(session.jobs, session.images.read),
+        )
+        self.names = QListWidget()
+        self.names.setAccessibleName(self.tr("Panels"))
+        self.stack = QStackedWidget()
+        for panel in self.panels:
+            self.names.addItem(panel.windowTitle())
+            self.stack.addWidget(panel)
+            panel.picked.connect(self._picked)
+        width = self.names.sizeHintForColumn(0) + 4 * theme.SPACING
+        self.names.setFixedWidth(width)
+        self.names.currentRowChanged.connect(self.stack.setCurrentIndex)
+        self.names.setCurrentRow(0)
+        self.residuals.excluded.connect(self._exclude)
+        self.undistort.saving.connect(self.saving)
+        below = QHBoxLayout()
+        below.addWidget(self.names)
+        below.addWidget(self.stack, 1)
+        layout = QVBoxLayout(self)
+        layout.addLayout(self._make_bar())
+        layout.addLayout(below, 1)
+        session.changed.connect(self._project_changed)
+        session.result_changed.connect(self._show_result)
+        session.selected.connect(self._select)
+        self._show_result(session.result)
+
+    def show_panel(self, panel: Panel) -> None:
+        """Bring a panel to the front."""
+        self.names.setCurrentRow(self.panels.index(panel))
+
+    def began(self) -> None:
+        """A calibration starts: its progress is shown."""
+        self.convergence.start()
+        self.show_panel(self.convergence)
+
+    def advanced(self, iteration: Iteration) -> None:
+        """A calibration has come one iteration further."""
+        self.convergence.add(iteration)
+
+    def ended(self) -> None:
+        """A calibration is over: what came of it is shown."""
+        self.convergence.show_result(self._session.result)
+        self._select(self._session.image, self._session.corner)
+        if self.stack.currentWidget() is self.convergence and self._session.result is not None:
+            self.show_panel(self.result)
+
+    def _make_bar(self) -> QHBoxLayout:
+        self.results = QComboBox()
+        self.results.setAccessibleName(self.tr("Result"))
+        self.results.setToolTip(self.tr("Every calibration keeps its result under a name"))
+        self.results.activated.connect(
+            lambda row: self._session.show_result(self.results.itemText(row))
+        )
+        self.state = QLabel()
+        self.more = QToolButton()
+        self.more.setText(self.tr("Manage"))
+        self.more.setPopupMode(QToolButton.ToolButtonPopupMode.InstantPopup)
+        self.more.setToolTip(self.tr("Rename, delete or compare results"))
+        menu = QMenu(self.more)
+        self.compare = menu.addMenu(self.tr("&Compare with"))
+        menu.addAction(
+            self.tr("&Rename…"), lambda: self.rename_wanted.emit(self._session.result_name)
+        )
+        menu.addAction(
+            self.tr("&Delete"), lambda: self.delete_wanted.emit(self._session.result_name)
+        )
+        self.more.setMenu(menu)
+        bar = QHBoxLayout()
+        bar.addWidget(self.results, 1)
+        bar.addWidget(self.state)
+        bar.addWidget(self.more)
+        return bar
+
+    def _project_changed(self, before: Project, after: Project) -> None:
+        if before.results is not after.results:
+            self._list_results()
+        self._show_state()
+
+    def _list_results(self) -> None:
+        names = list(self._session.project.results)
+        self.results.clear()
+        self.results.addItems(names)
+        self.results.setCurrentText(self._session.result_name)
+        self.more.setEnabled(bool(names))
+        self.compare.clear()
+        for name in names:
+            if name != self._session.result_name:
+                self.compare.addAction(name, partial(self.compare_with, name))
+        self.compare.setEnabled(len(names) > 1)
+
+    def compare_with(self, name: str) -> None:
+        """Set another result beside the one shown."""
+        mine, other = self._session.result, self._session.project.results[name]
+        if mine is not None:
+            self.show_panel(self.result)
+            self.result.show_comparison(other, mine, (name, self._session.result_name))
+
+    def _show_state(self) -> None:
+        result = self._session.result
+        old = result is not None and not self._session.project.is_current(result)
+        self.state.setText(self.tr("out of date") if old else "")
+        self.state.setToolTip(
+            self.tr("Views or board have changed since: calibrate again.") if old else ""
+        )
+        self.state.setStyleSheet(f"color: {theme.current().warning}")
+
+    def _show_result(self, result: Result | None) -> None:
+        self._list_results()
+        self._show_state()
+        if result is self._shown:
+            return
+        self._shown = result
+        for panel in self.panels:
+            panel.show_result(result)
+        self._select(self._session.image, self._session.corner)
+
+    def _select(self, image: str, corner: int) -> None:
+        if self._shown is not None:
+            k = next((i for i, v in enumerate(self._shown.views) if v.image == image), -1)
+            for panel in self.panels:
+                panel.select(k, corner)
+
+    def _picked(self, view: int, corner: int) -> None:
+        if self._shown is not None:
+            self._session.select(self._shown.views[view].image, corner)
+
+    def _exclude(self, views: tuple[int, ...]) -> None:
+        if self._shown is not None:
+            self.excluded.emit([self._shown.views[k].image for k in views])

@@ -1,0 +1,41 @@
+"""Starting the window."""
+
+from __future__ import annotations
+
+import signal
+import sys
+from collections.abc import Sequence
+from types import TracebackType
+
+from PySide6.QtCore import QTimer
+from PySide6.QtWidgets import QApplication
+
+from calibgui.gui import theme
+from calibgui.gui.main_window import MainWindow
+
+
+def run(arguments: Sequence[str]) -> int:
+    """Open the window, with a folder, images or a project if they are named; its exit code."""
+    app = QApplication([sys.argv[0]])
+    app.setApplicationName("calibgui")
+    app.setOrganizationName("calibgui")
+    app.setDesktopFileName("calibgui")
+    theme.apply(app)
+    theme.follow_system(app)
+    window = MainWindow()
+    sys.excepthook = lambda kind, error, trace: _report(window, kind, error, trace)
+    signal.signal(signal.SIGINT, signal.SIG_DFL)
+    window.show()
+    if arguments:
+        QTimer.singleShot(0, window, lambda: window.files.open_paths(arguments))
+    return app.exec()
+
+
+def _report(
+    window: MainWindow,
+    kind: type[BaseException],
+    error: BaseException,
+    trace: TracebackType | None,
+) -> None:
+    sys.__excepthook__(kind, error, trace)
+    window.show_failure(error)

@@ -1,0 +1,76 @@
+"""A line across the window: what could not be done and what to do about it."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from types import MappingProxyType
+
+from PySide6.QtCore import QEvent, Qt
+from PySide6.QtWidgets import QFrame, QHBoxLayout, QLabel, QPushButton, QToolButton, QWidget
+
+from calibgui.engine.errors import CalibrationError
+from calibgui.gui import theme
+
+
+class Banner(QFrame):
+    """Shown until it is dismissed or the next message comes."""
+
+    def __init__(self, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self.text = QLabel()
+        self.text.setWordWrap(True)
+        self.text.setTextFormat(Qt.TextFormat.PlainText)
+        self.text.setTextInteractionFlags(Qt.TextInteractionFlag.TextSelectableByMouse)
+        self.buttons: list[QPushButton] = []
+        self.dismiss = QToolButton()
+        self.dismiss.setText("✕")
+        self.dismiss.setAutoRaise(True)
+        self.dismiss.setToolTip(self.tr("Dismiss this message"))
+        self.dismiss.setAccessibleName(self.dismiss.toolTip())
+        self.dismiss.clicked.connect(self.hide)
+        self._row = QHBoxLayout(self)
+        self._row.addWidget(self.text, 1)
+        self._row.addWidget(self.dismiss, 0, Qt.AlignmentFlag.AlignTop)
+        self._failure = False
+        self.hide()
+
+    def show_error(self, error: CalibrationError) -> None:
+        """Show what cannot be done, and the remedy."""
+        self._show(f"{error.message}\n{error.hint}".strip(), failure=True)
+
+    def show_text(
+        self, text: str, choices: Mapping[str, Callable[[], None]] = MappingProxyType({})
+    ) -> None:
+        """Show a message; each choice is a button with its text and what it does."""
+        self._show(text, failure=False)
+        for name, does in choices.items():
+            button = QPushButton(name)
+            button.clicked.connect(self.hide)
+            button.clicked.connect(lambda _=False, does=does: does())
+            self._row.insertWidget(self._row.count() - 1, button)
+            self.buttons.append(button)
+
+    def _show(self, text: str, *, failure: bool) -> None:
+        for button in self.buttons:
+            button.deleteLater()
+        self.buttons = []
+        self.text.setText(text)
+        self._failure = failure
+        self._restyle()
+        self.show()
+
+    def changeEvent(self, event: QEvent) -> None:  # noqa: N802 - Qt's name
+        super().changeEvent(event)
+        if event.type() == QEvent.Type.PaletteChange and hasattr(self, "_failure"):
+            self._restyle()
+
+    def _restyle(self) -> None:
+        colours = theme.current()
+        base = colours.bad_base if self._failure else colours.warning_base
+        edge = colours.bad if self._failure else colours.warning
+        style = (
+            f"Banner {{ background: {base}; border: none; border-left: 4px solid {edge}; }}"
+            f"Banner QLabel {{ color: {colours.text}; }}"
+        )
+        if style != self.styleSheet():
+            self.setStyleSheet(style)

@@ -1,0 +1,103 @@
+"""Calibrating in the background, once every image has been searched."""
+
+from __future__ import annotations
+
+from PySide6.QtCore import QObject, Signal
+
+from calibgui.app.calibration import calibrate_views
+from calibgui.app.project import free_name, with_result
+from calibgui.engine.errors import CalibrationError
+from calibgui.engine.types import Iteration, Status
+from calibgui.formats.corners_json import CornerSet
+from calibgui.formats.result import Result
+from calibgui.gui.detecting import Detector
+from calibgui.gui.jobs import Job
+from calibgui.gui.session import Session
+
+
+class Calibrator(QObject):
+    """Does what is still to do: searches the images that wait, then solves."""
+
+    began = Signal()
+    """Stage I and II start."""
+    advanced = Signal(Iteration)
+    """An iteration of Stage II is done."""
+    ended = Signal()
+    """There is a result, or a reason why not."""
+
+    def __init__(self, session: Session, detector: Detector) -> None:
+        super().__init__(session)
+        self._session = session
+        self._detector = detector
+        self._job: Job | None = None
+        self._wanted = False
+        detector.finished.connect(self._searched)
+
+    @property
+    def running(self) -> bool:
+        """Whether a calibration is under way, or waits for the search to end."""
+        return self._wanted or self._job is not None
+
+    def calibrate(self) -> None:
+        """Search what has not been searched, and solve for a new result."""
+        if not self.running:
+            self._wanted = True
+            self._detector.search()
+
+    def stop(self) -> None:
+        """End with the best camera so far; without one, end."""
+        self._wanted = False
+        if self._job is not None:
+            self._job.stop()
+        self.ended.emit()
+
+    def _searched(self) -> None:
+        if self._wanted:
+            self._wanted = False
+            self._solve()
+
+    def _solve(self) -> None:
+        project = self._session.project
+        if project.size is None:
+            self._session.failed.emit(
+                CalibrationError(
+                    self.tr("There is no image to calibrate from."),
+                    self.tr("Add photographs of a checkerboard."),
+                )
+            )
+            self.ended.emit()
+            return
+        corner_set = CornerSet(project.size, project.views, project.target)
+        settings = project.settings
+
+        def work(job: Job) -> Result:
+            return calibrate_views(
+                corner_set,
+                cost=settings.cost,
+                fix=settings.fixed,
+                free=settings.freed,
+                report=job.tell,
+            )
+
+        self._job = self._session.jobs.start(
+            self.tr("Calibrating"),
+            work,
+            self._done,
+            told=self.advanced.emit,
+            ended=self._end,
+            inputs=self._session.question,
+        )
+        self.began.emit()
+
+    def _done(self, result: Result) -> None:
+        name = free_name(self._session.project, self.tr("Calibration"))
+        self._session.edit(self.tr("Calibrate"), lambda p: with_result(p, name, result))
+        self._session.show_result(name)
+        if result.calibration.status is Status.STOPPED:
+            self._session.told.emit(
+                self.tr("Stopped: “{0}” is the best so far, not the optimum.").format(name)
+            )
+
+    def _end(self) -> None:
+        self._job = None
+        self.ended.emit()

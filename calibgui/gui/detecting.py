@@ -1,0 +1,110 @@
+"""Finding corners in the background: what it finds fills the document in."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import replace
+from pathlib import Path
+
+from PySide6.QtCore import QObject, Signal
+
+from calibgui.app.detection import Detection, find_views, usual_board
+from calibgui.app.project import Project, with_each
+from calibgui.engine.types import Array, Corners, View, ViewStatus
+from calibgui.gui.jobs import Job
+from calibgui.gui.session import Session
+
+
+class Detector(QObject):
+    """Searches the images that wait, one batch after the other."""
+
+    finished = Signal()
+    """Nothing is waiting any more, or the user cancelled."""
+
+    def __init__(self, session: Session) -> None:
+        super().__init__(session)
+        self._session = session
+        self._job: Job | None = None
+        self._asked: dict[str, Array | None] = {}
+        """Images of the batch, with the regions that are searched."""
+        self._given: dict[str, Corners | None] = {}
+        """What the batch found in them so far."""
+
+    @property
+    def running(self) -> bool:
+        """Whether a search is under way."""
+        return self._job is not None
+
+    def search(self) -> None:
+        """Search every enabled image that waits, if that is not being done already."""
+        if self.running:
+            return
+        project = self._session.project
+        asked = tuple(view for view in project.views if view.status is ViewStatus.WAITING)
+        if not asked:
+            self.finished.emit()
+            return
+        self._asked = {view.image: view.roi for view in asked}
+        self._given = dict.fromkeys(self._asked)
+        board = project.board or usual_board(project.views)
+        rois = {Path(image): roi for image, roi in self._asked.items() if roi is not None}
+
+        def work(job: Job) -> Detection:
+            def progress(done: int, total: int, view: View) -> None:
+                job.advance(done, total)
+                job.tell([view])
+
+            images = [Path(view.image) for view in asked]
+            return find_views(images, board, rois, progress, job.cancelling, project.size)
+
+        self._job = self._session.jobs.start(
+            self.tr("Finding corners"), work, self._done, told=self._learn, ended=self._ended
+        )
+
+    def search_again(self, images: Iterable[str]) -> None:
+        """Forget what was found in `images`, and search them anew."""
+
+        def forget(view: View) -> View:
+            return replace(view, status=ViewStatus.WAITING, reason="", corners=None, points=None)
+
+        chosen = list(images)
+        for image in chosen:
+            self._session.images.forget(image)
+        self._session.edit(self.tr("Detect again"), lambda p: with_each(p, chosen, forget))
+        self.search()
+
+    def _learn(self, found: Iterable[View]) -> None:
+        """Write findings into every snapshot in which the question is still open."""
+        news = {view.image: view for view in found}
+
+        def answered(view: View) -> View:
+            new = news.get(view.image)
+            if new is None or (view.status is new.status and view.corners is new.corners):
+                return view
+            asked = view.roi is self._asked[view.image]
+            if not asked or view.corners is not self._given[view.image]:
+                return view  # changed by the user meanwhile, or of a time before the question
+            return replace(view, status=new.status, reason=new.reason, corners=new.corners)
+
+        def change(project: Project) -> Project:
+            views = tuple(map(answered, project.views))
+            same = all(a is b for a, b in zip(views, project.views, strict=True))
+            return project if same else replace(project, views=views)
+
+        self._session.document.learn(change)
+        self._given.update({view.image: view.corners for view in news.values()})
+
+    def _done(self, detection: Detection) -> None:
+        self._learn(detection.views)
+        if detection.size is not None:
+            self._session.document.learn(
+                lambda p: replace(p, size=detection.size) if p.views and p.size is None else p
+            )
+
+    def _ended(self) -> None:
+        cancelled = self._job is not None and self._job.cancelled
+        self._job = None
+        if cancelled:
+            self.finished.emit()
+        else:
+            self.search()  # what was added meanwhile

@@ -1,0 +1,191 @@
+"""What the user does with files: open, add, save, export; with the questions that go with it."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Sequence
+from pathlib import Path
+
+from PySide6.QtCore import QObject, Signal
+from PySide6.QtGui import QGuiApplication
+from PySide6.QtWidgets import QFileDialog, QInputDialog, QLineEdit, QMessageBox, QWidget
+
+from calibgui.app.document import Document
+from calibgui.app.paths import find_images
+from calibgui.app.project import renamed_result, with_images, without_result
+from calibgui.app.resampling import rectify_files, undistort_files
+from calibgui.app.resources import resource
+from calibgui.engine.errors import CalibrationError
+from calibgui.engine.images import FORMATS
+from calibgui.engine.undistort import FieldOfView
+from calibgui.gui.calibrating import Calibrator
+from calibgui.gui.detecting import Detector
+from calibgui.gui.jobs import Job
+from calibgui.gui.panels.undistort import RECTIFIED
+from calibgui.gui.saving import Saver
+from calibgui.gui.session import Session
+
+_PROJECT = "calibgui.json"
+
+
+class Files(QObject):
+    """Dialogs over the saver; what fails is shown in the banner."""
+
+    recoverable = Signal(Path)
+
+    def __init__(
+        self, session: Session, detector: Detector, calibrator: Calibrator, window: QWidget
+    ) -> None:
+        super().__init__(session)
+        self._session, self._window = session, window
+        self._detector, self._calibrator = detector, calibrator
+        self.saver = Saver(session)
+        self.saver.recoverable.connect(self.recoverable)
+
+    def open_paths(self, names: Sequence[str]) -> None:
+        """Open what was dropped, pasted or named on the command line: a project, or images."""
+        projects = [name for name in names if name.lower().endswith(".json")]
+        if projects:
+            self.open_project(Path(projects[0]))
+        elif names:
+            self._try(lambda: self._add(find_images(names)))
+
+    def paste(self) -> None:
+        """Add the files or paths on the clipboard."""
+        data = QGuiApplication.clipboard().mimeData()
+        urls = [url.toLocalFile() for url in data.urls() if url.isLocalFile()]
+        lines = [line.strip().strip('"') for line in data.text().splitlines()]
+        self.open_paths(urls or [line for line in lines if line])
+
+    def ask_for_folder(self) -> None:
+        """Add the images of a folder."""
+        folder = QFileDialog.getExistingDirectory(self._window, self.tr("Folder of images"))
+        if folder:
+            self.open_paths([folder])
+
+    def ask_for_images(self) -> None:
+        """Add single images."""
+        kinds = " ".join(f"*{suffix}" for suffix in FORMATS)
+        names, _ = QFileDialog.getOpenFileNames(
+            self._window, self.tr("Add images"), "", self.tr("Images ({0})").format(kinds)
+        )
+        self.open_paths(names)
+
+    def open_sample(self) -> None:
+        """Begin with the sample that comes with the program."""
+        self._try(lambda: self.open_paths([str(resource("sample"))]))
+
+    def new(self) -> None:
+        """Begin with nothing."""
+        if self.may_leave():
+            self._session.begin(Document())
+
+    def ask_for_project(self) -> None:
+        """Open a project of the user's choice."""
+        name, _ = QFileDialog.getOpenFileName(
+            self._window, self.tr("Open project"), "", self.tr("Projects (*.json)")
+        )
+        if name:
+            self.open_project(Path(name))
+
+    def open_project(self, path: Path) -> None:
+        """Open a project file."""
+        if self.may_leave():
+            self.saver.open(path)
+
+    def save(self) -> bool:
+        """Save to the document's file, asking for one if it has none; whether it is saved."""
+        path = self._session.document.path
+        return self.save_as() if path is None else self._try(lambda: self.saver.save(path))
+
+    def save_as(self) -> bool:
+        """Save to a file of the user's choice; whether it is saved."""
+        views = self._session.project.views
+        beside = Path(views[0].image).parent if views else Path()
+        start = self._session.document.path or beside / _PROJECT
+        name, _ = QFileDialog.getSaveFileName(
+            self._window, self.tr("Save project"), str(start), self.tr("Projects (*.json)")
+        )
+        if not name:
+            return False
+        path = Path(name)
+        path = path if path.suffix else path.with_suffix(".json")
+        return self._try(lambda: self.saver.save(path))
+
+    def may_leave(self) -> bool:
+        """Whether the document can be given up: it is saved, or the user does not want it."""
+        if self._session.document.saved or not self._session.project.views:
+            return True
+        button = QMessageBox.StandardButton
+        answer = QMessageBox.question(
+            self._window,
+            self.tr("Unsaved changes"),
+            self.tr("Save the changes to this project?"),
+            button.Save | button.Discard | button.Cancel,
+            button.Save,
+        )
+        if answer == button.Save:
+            return self.save()
+        return answer == button.Discard
+
+    def keep_work(self) -> None:
+        """Write the unsaved state, because something went wrong."""
+        self._try(self.saver.autosave_now)
+
+    def rename_result(self, name: str) -> None:
+        """Give a result another name."""
+        new, ok = QInputDialog.getText(
+            self._window,
+            self.tr("Rename result"),
+            self.tr("Name"),
+            QLineEdit.EchoMode.Normal,
+            name,
+        )
+        if ok and new.strip() and new != name and new not in self._session.project.results:
+            self._session.edit(
+                self.tr("Rename result"), lambda p: renamed_result(p, name, new.strip())
+            )
+            self._session.show_result(new.strip())
+
+    def delete_result(self, name: str) -> None:
+        """Remove a result; undo brings it back."""
+        self._session.edit(self.tr("Delete {0}").format(name), lambda p: without_result(p, name))
+
+    def _add(self, images: Iterable[Path]) -> None:
+        """Add images and search them; a project's first images are calibrated as well."""
+        first = not self._session.project.results
+        names = [str(path.absolute()) for path in images]
+        self._session.edit(self.tr("Add images"), lambda p: with_images(p, names))
+        if first:
+            self._calibrator.calibrate()
+        else:
+            self._detector.search()
+
+    def save_changed_images(self, views: tuple[int, ...], way: str) -> None:
+        """Write undistorted or rectified images to a folder of the user's choice."""
+        result = self._session.result
+        folder = QFileDialog.getExistingDirectory(self._window, self.tr("Folder for the images"))
+        if result is None or not folder:
+            return
+        images = [Path(result.views[k].image) for k in views]
+
+        def work(job: Job) -> int:
+            if way == RECTIFIED:
+                return len(rectify_files(result, images, Path(folder), progress=job.advance))
+            view, camera = FieldOfView(way), result.calibration.camera
+            return len(undistort_files(camera, images, Path(folder), view, job.advance))
+
+        self._session.jobs.start(
+            self.tr("Writing images"),
+            work,
+            lambda count: self._session.told.emit(
+                self.tr("Wrote {0} images to {1}.").format(count, folder)
+            ),
+        )
+
+    def _try(self, does: Callable[[], object]) -> bool:
+        try:
+            does()
+        except CalibrationError as error:
+            self._session.failed.emit(error)
+            return False
+        return True

@@ -1,0 +1,180 @@
+"""The project's images as a list for Qt."""
+
+from __future__ import annotations
+
+from enum import IntEnum
+from pathlib import PurePath
+from typing import Any
+
+from PySide6.QtCore import (
+    QAbstractListModel,
+    QCoreApplication,
+    QModelIndex,
+    QPersistentModelIndex,
+    QSize,
+    Qt,
+)
+from PySide6.QtGui import QColor, QImage, QPixmap
+
+from calibgui.app.image_store import Thumbnail, read_thumbnail
+from calibgui.app.project import Project, with_digests
+from calibgui.engine.types import Ambiguity, View, ViewStatus
+from calibgui.formats.result import Result
+from calibgui.gui import theme
+from calibgui.gui.picture import qimage
+from calibgui.gui.session import Session
+
+THUMBNAIL = QSize(56, 42)
+"""Device-independent px."""
+Index = QModelIndex | QPersistentModelIndex
+
+
+class Role(IntEnum):
+    """What the list knows of an image beside its name."""
+
+    STATUS = Qt.ItemDataRole.UserRole
+    COLOUR = Qt.ItemDataRole.UserRole + 1
+    RMS = Qt.ItemDataRole.UserRole + 2
+    """Px, of the shown result; None if the view has no part in it."""
+    PATH = Qt.ItemDataRole.UserRole + 3
+
+
+def status_text(view: View) -> str:
+    """The state of an image in a few words."""
+
+    def tr(text: str) -> str:
+        return QCoreApplication.translate("status_text", text)
+
+    words = {
+        ViewStatus.WAITING: tr("waiting"),
+        ViewStatus.NO_BOARD: tr("no board"),
+        ViewStatus.UNREADABLE: tr("unreadable"),
+        ViewStatus.WRONG_SIZE: tr("wrong size"),
+        ViewStatus.FOUND: tr("found"),
+    }
+    text = words[view.status]
+    if view.corners is not None:
+        rows, cols = view.corners.shape
+        text = tr("{0} of {1} corners").format(len(view.corners), rows * cols)
+        if view.corners.ambiguity is not Ambiguity.NONE or view.corners.relative:
+            text += tr(", ambiguous")
+    elif view.points is not None:
+        text = tr("{0} corners").format(len(view.points.uv))
+    return text if view.enabled else tr("excluded") + " · " + text
+
+
+def status_tip(view: View) -> str:
+    """The state of an image in sentences."""
+    tip = view.reason or status_text(view)
+    if view.corners is not None and view.corners.ambiguity is not Ambiguity.NONE:
+        turn = "180°" if view.corners.ambiguity is Ambiguity.HALF_TURN else "90°"
+        tip += "\n" + QCoreApplication.translate(
+            "status_tip", "A turn of the board by {0} cannot be seen in its pattern."
+        ).format(turn)
+    return f"{view.image}\n{tip}"
+
+
+class ImageModel(QAbstractListModel):
+    """Follows the session; thumbnails are read in the background."""
+
+    def __init__(self, session: Session) -> None:
+        super().__init__(session)
+        self._session = session
+        self._views = session.project.views
+        self._rms: dict[str, float] = {}
+        self._thumbnails: dict[str, QPixmap] = {}
+        self._asked: set[str] = set()
+        session.changed.connect(self._project_changed)
+        session.result_changed.connect(self._result_changed)
+
+    @property
+    def worst(self) -> float:
+        """The largest RMS of any view, px; 0 without a result."""
+        return max(self._rms.values(), default=0.0)
+
+    def rowCount(self, parent: Index = QModelIndex()) -> int:  # noqa: N802, B008 - Qt's signature
+        return 0 if parent.isValid() else len(self._views)
+
+    def data(self, index: Index, role: int = Qt.ItemDataRole.DisplayRole) -> Any:
+        view = self._views[index.row()]
+        match role:
+            case Qt.ItemDataRole.DisplayRole:
+                return PurePath(view.image).name
+            case Qt.ItemDataRole.DecorationRole:
+                return self._thumbnails.get(view.image)
+            case Qt.ItemDataRole.ToolTipRole:
+                return status_tip(view)
+            case Qt.ItemDataRole.AccessibleTextRole:
+                return f"{PurePath(view.image).name}, {status_text(view)}"
+            case Role.STATUS:
+                return status_text(view)
+            case Role.COLOUR:
+                return _colour(view)
+            case Role.RMS:
+                return self._rms.get(view.image)
+            case Role.PATH:
+                return view.image
+        return None
+
+    def _project_changed(self, _: Project, after: Project) -> None:
+        before, self._views = self._views, after.views
+        same = len(before) == len(after.views) and all(
+            a.image == b.image for a, b in zip(before, after.views, strict=True)
+        )
+        if not same:
+            self.beginResetModel()
+            self.endResetModel()
+            self._read_thumbnails()
+            return
+        for row, (a, b) in enumerate(zip(before, after.views, strict=True)):
+            if a is not b:
+                self.dataChanged.emit(self.index(row), self.index(row))
+
+    def _result_changed(self, result: Result | None) -> None:
+        self._rms = {}
+        if result is not None:
+            pairs = zip(result.used, result.calibration.residuals, strict=True)
+            self._rms = {view.image: residuals.rms for view, residuals in pairs}
+        if self._views:
+            self.dataChanged.emit(self.index(0), self.index(len(self._views) - 1))
+
+    def _read_thumbnails(self) -> None:
+        new = [view.image for view in self._views if view.image not in self._asked]
+        self._asked.update(new)
+        if not new:
+            return
+        digests: dict[str, str] = {}
+
+        def work(path: str) -> tuple[QImage, Thumbnail]:
+            thumbnail = read_thumbnail(path)
+            return qimage(thumbnail.grey).scaled(
+                THUMBNAIL * 2,
+                Qt.AspectRatioMode.KeepAspectRatio,
+                Qt.TransformationMode.SmoothTransformation,
+            ), thumbnail
+
+        def done(path: str, found: tuple[QImage, Thumbnail]) -> None:
+            image, thumbnail = found
+            digests[path] = thumbnail.digest
+            self._thumbnails[path] = QPixmap.fromImage(image)
+            row = self._session.project.find(path)
+            if row >= 0:
+                self.dataChanged.emit(self.index(row), self.index(row))
+
+        def ended() -> None:
+            def learn(project: Project) -> Project:
+                mine = {view.image for view in project.views} - project.digests.keys()
+                new = {path: digests[path] for path in digests.keys() & mine}
+                return with_digests(project, new) if new else project
+
+            self._session.document.learn(learn)
+
+        # An image that cannot be read is reported by the search for corners.
+        self._session.jobs.each("", new, work, done, failed=lambda _: None, ended=ended)
+
+
+def _colour(view: View) -> QColor:
+    colours = theme.current()
+    if not view.enabled or view.status is ViewStatus.WAITING:
+        return QColor(colours.muted)
+    return QColor(colours.good if view.status is ViewStatus.FOUND else colours.bad)

@@ -1,0 +1,229 @@
+"""The selected image with its marks, and the bar of what to show of them."""
+
+from __future__ import annotations
+
+import math
+from pathlib import PurePath
+
+import numpy as np
+from PySide6.QtCore import Signal
+from PySide6.QtWidgets import (
+    QDoubleSpinBox,
+    QHBoxLayout,
+    QLabel,
+    QMenu,
+    QSizePolicy,
+    QToolButton,
+    QVBoxLayout,
+    QWidget,
+)
+
+from calibgui.app.project import Project
+from calibgui.engine.images import Image
+from calibgui.engine.types import View
+from calibgui.formats.result import Result
+from calibgui.gui import theme
+from calibgui.gui.actions import make_action
+from calibgui.gui.canvas import Canvas
+from calibgui.gui.image_model import status_text
+from calibgui.gui.jobs import Job
+from calibgui.gui.layers import Layer, Marks
+from calibgui.gui.picture import Levels, levels
+from calibgui.gui.session import Session
+
+
+class ImagePage(QWidget):
+    """Follows the session: whatever image and corner are selected are shown."""
+
+    place = Signal(str)
+    """What is under the cursor, for the status bar."""
+
+    def __init__(self, session: Session) -> None:
+        super().__init__()
+        self._session = session
+        self._image: Image | None = None
+        self._job: Job | None = None
+        self.canvas = Canvas()
+        self.heading = QLabel()
+        self.heading.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Preferred)
+        self.bar = QHBoxLayout()
+        self.bar.setContentsMargins(theme.SPACING, 4, theme.SPACING, 4)
+        self.bar.addWidget(self.heading, 1)
+        self._add_layers()
+        self._add_zoom()
+        layout = QVBoxLayout(self)
+        layout.setContentsMargins(0, 0, 0, 0)
+        layout.setSpacing(0)
+        layout.addLayout(self.bar)
+        layout.addWidget(self.canvas, 1)
+        self.canvas.hovered.connect(self._hovered)
+        self.canvas.stepped.connect(session.select_next)
+        self.canvas.picked.connect(lambda corner: session.select(session.image, corner))
+        session.selected.connect(self._selected)
+        session.changed.connect(self._project_changed)
+        session.result_changed.connect(lambda _: self._show_marks())
+
+    def _add_layers(self) -> None:
+        menu = QMenu(self)
+        self.layers = {}
+        for layer, name, key, tip in (
+            (
+                Layer.REGION,
+                self.tr("Region of interest"),
+                "Shift+1",
+                self.tr("The part of the image that was searched (yellow outline)"),
+            ),
+            (
+                Layer.ESTIMATES,
+                self.tr("First estimates"),
+                "Shift+2",
+                self.tr("Corners to the nearest pixel, by Harris' detector (red +)"),
+            ),
+            (
+                Layer.CORNERS,
+                self.tr("Refined corners"),
+                "Shift+3",
+                self.tr("Corners at the saddle point of the grey levels (yellow +)"),
+            ),
+            (
+                Layer.ORDER,
+                self.tr("Order and axes"),
+                "Shift+4",
+                self.tr("The numbering of the corners: origin, rows, and the board's axes"),
+            ),
+            (
+                Layer.REPROJECTION,
+                self.tr("Reprojection"),
+                "Shift+5",
+                self.tr("Where the calibration expects the corners (blue circles)"),
+            ),
+            (
+                Layer.RESIDUALS,
+                self.tr("Residuals"),
+                "Shift+6",
+                self.tr("Arrows from expected to measured corners, magnified"),
+            ),
+        ):
+            action = make_action(self, name, key, tip, lambda: None)
+            action.setCheckable(True)
+            action.setChecked(layer in self.canvas.shown)
+            action.toggled.connect(lambda shown, layer=layer: self.canvas.set_layer(layer, shown))
+            menu.addAction(action)
+            self.layers[layer] = action
+        menu.setToolTipsVisible(True)
+        button = QToolButton()
+        button.setText(self.tr("Layers"))
+        button.setMenu(menu)
+        button.setPopupMode(QToolButton.ToolButtonPopupMode.InstantPopup)
+        button.setToolTip(self.tr("What to draw over the image"))
+        self.scale = QDoubleSpinBox(decimals=0, minimum=1, maximum=10_000, prefix="× ")
+        self.scale.setValue(self.canvas.residual_scale)
+        self.scale.setToolTip(self.tr("How many times as long as they are residuals are drawn"))
+        self.scale.setAccessibleName(self.tr("Magnification of residuals"))
+        self.scale.valueChanged.connect(self.canvas.set_residual_scale)
+        self.bar.addWidget(button)
+        self.bar.addWidget(self.scale)
+
+    def _add_zoom(self) -> None:
+        self.zoom_actions = [
+            make_action(
+                self, self.tr("&Fit"), "Ctrl+0", self.tr("Show the whole image"), self.canvas.fit
+            ),
+            make_action(
+                self,
+                self.tr("&1:1"),
+                "Ctrl+1",
+                self.tr("Show the image's pixels as pixels of the screen"),
+                self.canvas.actual_size,
+            ),
+        ]
+        for action in self.zoom_actions:
+            button = QToolButton()
+            button.setDefaultAction(action)
+            self.bar.addWidget(button)
+
+    def _selected(self, image: str, corner: int) -> None:
+        if self._image is None or str(self._image.path) != image:
+            self._load(image)
+        self._show_marks()
+        view = self._session.view
+        if view is not None and view.corners is not None and 0 <= corner < len(view.corners):
+            self.canvas.show_place(view.corners.uv[corner])
+
+    def _load(self, path: str) -> None:
+        if self._job is not None:
+            self._job.cancel()
+            self._job = None
+        self._image = None
+        if not path:
+            self.canvas.show_image(())
+            return
+
+        def done(found: tuple[Image, Levels]) -> None:
+            self._image = found[0]
+            self.canvas.show_image(found[1])
+            self._show_marks()
+
+        def read(_: Job) -> tuple[Image, Levels]:
+            image = self._session.images.read(path)
+            return image, levels(image)
+
+        self._job = self._session.jobs.start(
+            "", read, done, failed=lambda _: self.canvas.show_image(())
+        )
+
+    def _project_changed(self, before: Project, after: Project) -> None:
+        if before.views is not after.views:
+            self._show_marks()
+
+    def _show_marks(self) -> None:
+        session, view = self._session, self._session.view
+        if view is None:
+            self.heading.clear()
+            self.canvas.show_marks(Marks())
+            return
+        self.heading.setText(f"{PurePath(view.image).name}  ·  {status_text(view)}")
+        self.heading.setToolTip(view.reason or view.image)
+        if self._image is None and self._job is not None and not self._job.finished:
+            pass  # marks of the new image wait for its pixels
+        measured, predicted = _fitted(session.result, view)
+        region = view.roi
+        if region is None and view.corners is not None:
+            region = view.corners.roi
+        self.canvas.show_marks(Marks(view.corners, region, measured, predicted, session.corner))
+
+    def _hovered(self, u: float, v: float) -> None:
+        image = self._image
+        if image is None or not (math.isfinite(u) and math.isfinite(v)):
+            self.place.emit("")
+            return
+        text = self.tr("u {0:.2f}  v {1:.2f} px").format(u, v)
+        column, row = round(u), round(v)
+        width, height = image.size
+        if 0 <= column < width and 0 <= row < height:
+            text += self.tr("   grey {0}").format(int(image.pixels[row, column]))
+        text += self._board_index(u, v)
+        self.place.emit(text)
+
+    def _board_index(self, u: float, v: float) -> str:
+        corners = self.canvas.marks.corners
+        if corners is None or len(corners) < 2:
+            return ""
+        distance = np.linalg.norm(corners.uv - [u, v], axis=1)
+        k = int(np.argmin(distance))
+        spacing = np.partition(np.linalg.norm(corners.uv - corners.uv[k], axis=1), 1)[1]
+        if distance[k] > spacing / 2:
+            return ""
+        row, col = corners.grid[k]
+        return self.tr("   corner: row {0}, column {1}").format(row, col)
+
+
+def _fitted(result: Result | None, view: View) -> tuple[np.ndarray | None, np.ndarray | None]:
+    """Measured corners (n, 2) of the result that has this very view, and where it expects them."""
+    if result is None or not view.usable:
+        return None, None
+    for used, residuals in zip(result.used, result.calibration.residuals, strict=True):
+        if used.image == view.image and used.corners is view.corners:
+            measured = used.observation(result.target).uv
+            return measured, measured - residuals.image
+    return None, None

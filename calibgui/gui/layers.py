@@ -1,0 +1,172 @@
+"""What is drawn over an image, in the paper's colours (figure 6).
+
+All marks have a dark halo, so that they show on bright squares as on dark ones, and keep their
+size on the screen at any zoom.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Collection
+from dataclasses import dataclass
+from enum import StrEnum
+
+import numpy as np
+from PySide6.QtCore import QLineF, QPointF, QRectF, Qt
+from PySide6.QtGui import QColor, QPainter, QPen, QPolygonF
+
+from calibgui.engine.types import Array, Corners
+from calibgui.gui import theme
+
+ToScreen = Callable[[Array], Array]
+"""From (n, 2) px of the image to (n, 2) device-independent px of the widget."""
+
+_ARM = 5.0
+"""Half the length of a cross."""
+_HEAD = 5.0
+"""Length of an arrow's head."""
+
+
+class Layer(StrEnum):
+    """What can be shown or hidden."""
+
+    REGION = "region"
+    ESTIMATES = "estimates"
+    CORNERS = "corners"
+    ORDER = "order"
+    REPROJECTION = "reprojection"
+    RESIDUALS = "residuals"
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class Marks:
+    """What there is to draw for one view."""
+
+    corners: Corners | None = None
+    region: Array | None = None
+    """(4, 2) px"""
+    measured: Array | None = None
+    """(n, 2) px, corners of the calibration."""
+    predicted: Array | None = None
+    """(n, 2) px, where the calibration expects them."""
+    chosen: int = -1
+    """Index of the corner to point out, -1 for none."""
+
+
+def paint(
+    painter: QPainter,
+    marks: Marks,
+    to_screen: ToScreen,
+    shown: Collection[Layer],
+    residual_scale: float,
+) -> None:
+    """Draw the `shown` layers of `marks` on a painter in the widget's coordinates."""
+    painter.setRenderHint(QPainter.RenderHint.Antialiasing)
+    if Layer.REGION in shown and marks.region is not None:
+        outline(painter, to_screen(marks.region), theme.REGION)
+    corners = marks.corners
+    if corners is not None:
+        uv = to_screen(corners.uv)
+        if Layer.ORDER in shown:
+            _order(painter, corners, uv)
+        if Layer.ESTIMATES in shown:
+            crosses(painter, to_screen(corners.estimate), theme.ESTIMATE)
+        if Layer.CORNERS in shown:
+            crosses(painter, uv, theme.REFINED)
+    if marks.predicted is not None and marks.measured is not None:
+        at, measured = to_screen(marks.predicted), to_screen(marks.measured)
+        if Layer.REPROJECTION in shown:
+            rings(painter, at, theme.REPROJECTED)
+        if Layer.RESIDUALS in shown:
+            arrows(painter, at, at + residual_scale * (measured - at), theme.RESIDUAL)
+    if corners is not None and 0 <= marks.chosen < len(corners):
+        rings(painter, to_screen(corners.uv[marks.chosen : marks.chosen + 1]), theme.REFINED, 12)
+
+
+def crosses(painter: QPainter, at: Array, colour: QColor) -> None:
+    """A + at each of (n, 2) screen positions."""
+    lines = [QLineF(u - _ARM, v, u + _ARM, v) for u, v in at]
+    lines += [QLineF(u, v - _ARM, u, v + _ARM) for u, v in at]
+    _lines(painter, lines, colour)
+
+
+def rings(painter: QPainter, at: Array, colour: QColor, radius: float = 4.0) -> None:
+    """A circle around each of (n, 2) screen positions."""
+    painter.setBrush(Qt.BrushStyle.NoBrush)
+    for pen in _pens(colour):
+        painter.setPen(pen)
+        for u, v in at:
+            painter.drawEllipse(QPointF(u, v), radius, radius)
+
+
+def arrows(painter: QPainter, start: Array, end: Array, colour: QColor) -> None:
+    """Arrows between (n, 2) screen positions; the head shrinks with a short shaft."""
+    shaft = end - start
+    length = np.linalg.norm(shaft, axis=1, keepdims=True)
+    along = shaft / np.maximum(length, 1e-9)
+    across = along[:, ::-1] * [1.0, -1.0]
+    head = np.minimum(_HEAD, 0.4 * length)
+    lines = []
+    for a, b, left, right in zip(
+        start,
+        end,
+        end - head * (along + 0.5 * across),
+        end - head * (along - 0.5 * across),
+        strict=True,
+    ):
+        lines += [QLineF(*a, *b), QLineF(*b, *left), QLineF(*b, *right)]
+    _lines(painter, lines, colour)
+
+
+def outline(painter: QPainter, at: Array, colour: QColor) -> None:
+    """A closed line through (n, 2) screen positions."""
+    polygon = QPolygonF([QPointF(u, v) for u, v in at])
+    painter.setBrush(Qt.BrushStyle.NoBrush)
+    for pen in _pens(colour):
+        painter.setPen(pen)
+        painter.drawPolygon(polygon)
+
+
+def label(painter: QPainter, at: Array, text: str, colour: QColor) -> None:
+    """Text beside a screen position (2,), on a dark patch."""
+    box = QRectF(painter.fontMetrics().boundingRect(text)).adjusted(-3, -1, 3, 1)
+    box.moveTopLeft(QPointF(at[0] + 8, at[1] + 4))
+    painter.setPen(Qt.PenStyle.NoPen)
+    painter.setBrush(theme.HALO)
+    painter.drawRoundedRect(box, 3, 3)
+    painter.setPen(colour)
+    painter.drawText(box, Qt.AlignmentFlag.AlignCenter, text)
+
+
+def _order(painter: QPainter, corners: Corners, uv: Array) -> None:
+    """The corners in the order of their numbers, the origin and the two axes."""
+    order = np.lexsort((corners.grid[:, 1], corners.grid[:, 0]))
+    path, rows = uv[order], corners.grid[order, 0]
+    lines = [
+        QLineF(*a, *b)
+        for a, b, same in zip(path[:-1], path[1:], rows[1:] == rows[:-1], strict=True)
+        if same
+    ]
+    _lines(painter, lines, theme.PATH)
+    place = {(int(m), int(n)): k for k, (m, n) in enumerate(corners.grid)}
+    first = place.get((0, 0))
+    if first is None:
+        return
+    rings(painter, uv[first : first + 1], theme.PATH, 7)
+    label(painter, uv[first], "0, 0", theme.PATH)
+    for step, name in (((0, 1), "X"), ((1, 0), "Y")):
+        ends = [place.get((2 * step[0], 2 * step[1])), place.get(step)]
+        end = next((k for k in ends if k is not None), None)
+        if end is not None:
+            arrows(painter, uv[first : first + 1], uv[end : end + 1], theme.PATH)
+            label(painter, uv[end], name, theme.PATH)
+
+
+def _lines(painter: QPainter, lines: list[QLineF], colour: QColor) -> None:
+    for pen in _pens(colour):
+        painter.setPen(pen)
+        painter.drawLines(lines)
+
+
+def _pens(colour: QColor) -> tuple[QPen, QPen]:
+    """The halo's pen, then the mark's."""
+    return QPen(theme.HALO, 3.4), QPen(colour, 1.4)

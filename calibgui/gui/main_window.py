@@ -1,0 +1,204 @@
+"""The window: puts the parts together, and nothing else."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from PySide6.QtCore import QSettings, Qt
+from PySide6.QtGui import QCloseEvent, QDragEnterEvent, QDropEvent
+from PySide6.QtWidgets import (
+    QDockWidget,
+    QLabel,
+    QMainWindow,
+    QPushButton,
+    QStackedWidget,
+    QTabWidget,
+    QVBoxLayout,
+    QWidget,
+)
+
+from calibgui.app.recent import recent_projects
+from calibgui.engine.errors import CalibrationError
+from calibgui.gui import theme
+from calibgui.gui.analysis import Analysis
+from calibgui.gui.banner import Banner
+from calibgui.gui.bug_dialog import BugDialog
+from calibgui.gui.calibrating import Calibrator
+from calibgui.gui.detecting import Detector
+from calibgui.gui.files import Files
+from calibgui.gui.image_list import ImageList
+from calibgui.gui.image_page import ImagePage
+from calibgui.gui.menus import make_menus
+from calibgui.gui.progress import Progress
+from calibgui.gui.session import Session
+from calibgui.gui.settings_panel import SettingsPanel
+from calibgui.gui.target_panel import TargetPanel
+from calibgui.gui.welcome import Welcome
+
+
+class MainWindow(QMainWindow):
+    """Images on the left, the selected one in the middle, what it all means on the right."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.setObjectName("calibgui")
+        self.setDockNestingEnabled(True)
+        self.setAcceptDrops(True)
+        self.resize(1280, 720)
+        self.session = Session(self)
+        self.detector = Detector(self.session)
+        self.calibrator = Calibrator(self.session, self.detector)
+        self.files = Files(self.session, self.detector, self.calibrator, self)
+        self.images = ImageList(self.session)
+        self.page = ImagePage(self.session)
+        self.target = TargetPanel(self.session)
+        self.settings = SettingsPanel(self.session)
+        self.analysis = Analysis(self.session)
+        self.welcome = Welcome()
+        self.banner = Banner()
+        self.calibrate = QPushButton()
+        self._lay_out()
+        self._connect()
+        make_menus(self)
+        self._refresh()
+        self._restore_layout()
+        self.files.saver.check_slot()
+
+    def _lay_out(self) -> None:
+        self.pages = QStackedWidget()
+        self.pages.addWidget(self.welcome)
+        self.pages.addWidget(self.page)
+        middle = QWidget()
+        column = QVBoxLayout(middle)
+        column.setContentsMargins(0, 0, 0, 0)
+        column.setSpacing(0)
+        column.addWidget(self.banner)
+        column.addWidget(self.pages, 1)
+        self.setCentralWidget(middle)
+
+        how = QTabWidget(documentMode=True)
+        how.addTab(self.target, self.tr("Board"))
+        how.addTab(self.settings, self.tr("Settings"))
+        how.setMaximumHeight(how.sizeHint().height())
+        left = QWidget()
+        column = QVBoxLayout(left)
+        column.setContentsMargins(0, 0, 0, 0)
+        column.addWidget(self.images, 1)
+        column.addWidget(how)
+        column.addWidget(self.calibrate)
+        self.image_dock = self._dock(self.tr("Images"), "images", left, _LEFT)
+        self.analysis_dock = self._dock(self.tr("Results"), "results", self.analysis, _RIGHT)
+        self.resizeDocks([self.image_dock, self.analysis_dock], [270, 520], _HORIZONTAL)
+
+        self.place = QLabel()
+        self.place.setFont(theme.fixed_font())
+        self.statusBar().addPermanentWidget(self.place)
+        self.statusBar().addPermanentWidget(Progress(self.session.jobs))
+
+    def _dock(self, title: str, name: str, widget: QWidget, area: Qt.DockWidgetArea) -> QDockWidget:
+        dock = QDockWidget(title, self)
+        dock.setObjectName(name)
+        dock.setWidget(widget)
+        self.addDockWidget(area, dock)
+        return dock
+
+    def _connect(self) -> None:
+        self.session.changed.connect(self._refresh)
+        self.session.failed.connect(self.show_failure)
+        self.session.told.connect(self.banner.show_text)
+        self.page.place.connect(self.place.setText)
+        self.images.search_wanted.connect(self.detector.search_again)
+        self.target.search_wanted.connect(self.detector.search)
+        self.calibrate.clicked.connect(self._calibrate_or_stop)
+        self.calibrator.began.connect(self.analysis.began)
+        self.calibrator.advanced.connect(self.analysis.advanced)
+        self.calibrator.ended.connect(self.analysis.ended)
+        self.session.jobs.changed.connect(self._show_calibrate)
+        self.analysis.excluded.connect(self.images.exclude)
+        self.analysis.saving.connect(self.files.save_changed_images)
+        self.analysis.rename_wanted.connect(self.files.rename_result)
+        self.analysis.delete_wanted.connect(self.files.delete_result)
+        self.files.recoverable.connect(self._offer_recovery)
+        self.welcome.folder_wanted.connect(self.files.ask_for_folder)
+        self.welcome.images_wanted.connect(self.files.ask_for_images)
+        self.welcome.sample_wanted.connect(self.files.open_sample)
+        self.welcome.project_wanted.connect(self.files.open_project)
+
+    def show_failure(self, error: BaseException) -> None:
+        """Say what cannot be done; report what should not have happened."""
+        if isinstance(error, CalibrationError):
+            self.banner.show_error(error)
+            return
+        self.files.keep_work()
+        BugDialog(error, self).open()
+
+    def _refresh(self) -> None:
+        document = self.session.document
+        empty = not self.session.project.views
+        if empty:
+            self.welcome.show_recent(recent_projects())
+        self.pages.setCurrentWidget(self.welcome if empty else self.page)
+        for dock in (self.image_dock, self.analysis_dock):
+            dock.setVisible(not empty)
+        name = document.path.name if document.path else self.tr("Untitled")
+        self.setWindowTitle(f"{name}[*]")
+        self.setWindowModified(not document.saved)
+        self._show_calibrate()
+
+    def _show_calibrate(self) -> None:
+        running = self.calibrator.running
+        self.calibrate.setText(self.tr("&Stop") if running else self.tr("&Calibrate"))
+        self.calibrate.setToolTip(
+            self.tr("End with the best camera so far")
+            if running
+            else self.tr("Find the corners still missing, then estimate the camera")
+        )
+        self.calibrate.setEnabled(bool(self.session.project.views))
+
+    def _calibrate_or_stop(self) -> None:
+        if self.calibrator.running:
+            self.calibrator.stop()
+        else:
+            self.calibrator.calibrate()
+
+    def _offer_recovery(self, path: Path) -> None:
+        self.banner.show_text(
+            self.tr("The program ended without saving. Its last state has been kept."),
+            {
+                self.tr("&Recover"): lambda: self.files.saver.recover(path),
+                self.tr("&Throw away"): lambda: self.files.saver.forget(path),
+            },
+        )
+
+    def _restore_layout(self) -> None:
+        settings = QSettings()
+        if geometry := settings.value("geometry"):
+            self.restoreGeometry(geometry)
+        if state := settings.value("layout"):
+            self.restoreState(state)
+
+    def dragEnterEvent(self, event: QDragEnterEvent) -> None:  # noqa: N802 - Qt's name
+        if event.mimeData().hasUrls():
+            event.acceptProposedAction()
+
+    def dropEvent(self, event: QDropEvent) -> None:  # noqa: N802 - Qt's name
+        urls = event.mimeData().urls()
+        self.files.open_paths([url.toLocalFile() for url in urls if url.isLocalFile()])
+        event.acceptProposedAction()
+
+    def closeEvent(self, event: QCloseEvent) -> None:  # noqa: N802 - Qt's name
+        if not self.files.may_leave():
+            event.ignore()
+            return
+        settings = QSettings()
+        settings.setValue("geometry", self.saveGeometry())
+        if self.session.project.views:
+            settings.setValue("layout", self.saveState())
+        self.session.jobs.close()
+        self.files.saver.close()
+        event.accept()
+
+
+_LEFT = Qt.DockWidgetArea.LeftDockWidgetArea
+_RIGHT = Qt.DockWidgetArea.RightDockWidgetArea
+_HORIZONTAL = Qt.Orientation.Horizontal

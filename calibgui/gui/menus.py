@@ -1,0 +1,121 @@
+"""The menus of the window."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from functools import partial
+from typing import TYPE_CHECKING
+
+from PySide6.QtCore import QCoreApplication
+from PySide6.QtGui import QAction, QKeySequence
+from PySide6.QtWidgets import QMenu
+
+from calibgui.app.recent import recent_projects
+from calibgui.gui.actions import make_action
+
+if TYPE_CHECKING:
+    from calibgui.gui.main_window import MainWindow
+
+Key = QKeySequence.StandardKey
+
+
+def make_menus(window: MainWindow) -> None:
+    """Fill the menu bar of `window`."""
+    bar, files = window.menuBar(), window.files
+
+    def tr(text: str) -> str:
+        return QCoreApplication.translate("menus", text)
+
+    def add(
+        menu: QMenu, text: str, key: str | Key | None, tip: str, does: Callable[[], object]
+    ) -> QAction:
+        action = make_action(window, text, key, tip, does)
+        menu.addAction(action)
+        return action
+
+    menu = bar.addMenu(tr("&File"))
+    menu.setToolTipsVisible(True)
+    add(menu, tr("&New project"), Key.New, tr("Begin with nothing"), files.new)
+    add(menu, tr("&Open project…"), Key.Open, tr("Open a saved project"), files.ask_for_project)
+    recent = menu.addMenu(tr("Open &recent"))
+    recent.aboutToShow.connect(lambda: _fill_recent(window, recent))
+    add(
+        menu,
+        tr("Open the sa&mple"),
+        None,
+        tr("Rendered photographs, to look around"),
+        files.open_sample,
+    )
+    menu.addSeparator()
+    add(menu, tr("&Save"), Key.Save, tr("Write the project to its file"), files.save)
+    add(
+        menu,
+        tr("Save &as…"),
+        "Ctrl+Shift+S",
+        tr("Write the project to another file"),
+        files.save_as,
+    )
+    menu.addSeparator()
+    add(menu, tr("Add &images…"), "Ctrl+I", tr("Choose image files"), files.ask_for_images)
+    add(
+        menu,
+        tr("Add a &folder…"),
+        "Ctrl+Shift+I",
+        tr("Take all images of a folder"),
+        files.ask_for_folder,
+    )
+    menu.addSeparator()
+    add(menu, tr("&Quit"), "Ctrl+Q", tr("Close the window"), window.close)
+
+    menu = bar.addMenu(tr("&Edit"))
+    undo = add(
+        menu,
+        tr("&Undo"),
+        Key.Undo,
+        tr("Take the last change back"),
+        lambda: window.session.document.undo(),
+    )
+    redo = add(
+        menu,
+        tr("&Redo"),
+        Key.Redo,
+        tr("Do what was undone"),
+        lambda: window.session.document.redo(),
+    )
+    menu.addSeparator()
+    add(menu, tr("&Paste paths"), Key.Paste, tr("Add the files on the clipboard"), files.paste)
+
+    def name_edits() -> None:
+        document = window.session.document
+        for action, text, label in (
+            (undo, tr("&Undo"), document.undo_label),
+            (redo, tr("&Redo"), document.redo_label),
+        ):
+            action.setText(f"{text} “{label}”" if label else text)
+            action.setEnabled(bool(label))
+
+    window.session.changed.connect(lambda *_: name_edits())
+    name_edits()
+
+    menu = bar.addMenu(tr("&Images"))
+    menu.setToolTipsVisible(True)
+    menu.addActions(window.images.actions_for_menu)
+
+    menu = bar.addMenu(tr("&Calibration"))
+    add(menu, tr("&Calibrate"), "F9", window.calibrate.toolTip(), window.calibrate.click)
+
+    menu = bar.addMenu(tr("&View"))
+    menu.setToolTipsVisible(True)
+    menu.addActions(window.page.zoom_actions)
+    menu.addSeparator()
+    menu.addActions(list(window.page.layers.values()))
+    menu.addSeparator()
+    for dock in (window.image_dock, window.analysis_dock):
+        menu.addAction(dock.toggleViewAction())
+
+
+def _fill_recent(window: MainWindow, menu: QMenu) -> None:
+    menu.clear()
+    for path in recent_projects():
+        menu.addAction(str(path), partial(window.files.open_project, path))
+    menu.setEnabled(True)

@@ -1,0 +1,136 @@
+"""Files of the document: open, save, autosave, recover."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from PySide6.QtCore import QLockFile, QObject, QTimer, Signal
+
+from calibgui.app.autosave import DELAY, autosave, autosave_path, discard, unsaved_work
+from calibgui.app.document import Document
+from calibgui.app.project import Project
+from calibgui.app.project_file import read_project, write_project
+from calibgui.app.recent import remember_project, state_folder
+from calibgui.gui.jobs import Job
+from calibgui.gui.session import Session
+
+_SLOTS = 20
+"""Programs without a project file that may run at the same time."""
+
+
+class Saver(QObject):
+    """Keeps the document in its file, and what is not saved in another beside it.
+
+    A document without a file is kept in the program's own folder, in the first slot whose lock
+    no other running program holds; what is found in a slot that was free is left from a crash.
+    """
+
+    opened = Signal()
+    recoverable = Signal(Path)
+    """Unsaved work was found for this project file (or slot)."""
+
+    def __init__(self, session: Session) -> None:
+        super().__init__(session)
+        self._session = session
+        self._autosaved: Project | None = None
+        self._writing: Job | None = None
+        self._lock, self._slot = _free_slot()
+        self._timer = QTimer(self, interval=round(1000 * DELAY), singleShot=True)
+        self._timer.timeout.connect(self._autosave)
+        session.changed.connect(self._schedule)
+
+    @property
+    def file(self) -> Path:
+        """The document's file, or its slot if it has none yet."""
+        return self._session.document.path or self._slot
+
+    def check_slot(self) -> None:
+        """Announce work left from a crash before it had a file."""
+        if unsaved_work(self._slot) is not None:
+            self.recoverable.emit(self._slot)
+
+    def open(self, path: Path) -> None:
+        """Open a project file; announces unsaved work on it."""
+
+        def done(project: Project) -> None:
+            self._session.begin(Document(project, path))
+            remember_project(path)
+            self.opened.emit()
+            if unsaved_work(path) is not None:
+                self.recoverable.emit(path)
+
+        self._session.jobs.start(
+            self.tr("Opening {0}").format(path.name), lambda _: read_project(path), done
+        )
+
+    def recover(self, path: Path) -> None:
+        """Go on with the unsaved work on the project file (or slot) `path`."""
+
+        def done(project: Project) -> None:
+            file = None if path == self._slot else path
+            self._session.begin(Document(project, file, saved=False))
+            self.opened.emit()
+
+        source = autosave_path(path)
+        self._session.jobs.start(
+            self.tr("Recovering {0}").format(path.name), lambda _: read_project(source), done
+        )
+
+    def forget(self, path: Path) -> None:
+        """Throw the unsaved work on `path` away."""
+        discard(path)
+
+    def save(self, path: Path) -> None:
+        """Write the document to `path`, now.
+
+        Raises:
+            CalibrationError: if it cannot be written.
+        """
+        self._timer.stop()
+        before, project = self.file, self._session.project
+        write_project(project, path)
+        self._autosaved = project
+        for file in {before, path}:
+            discard(file)
+        self._session.document.mark_saved(project, path)
+        remember_project(path)
+
+    def close(self) -> None:
+        """The user leaves, having saved or given up what there was."""
+        self._timer.stop()
+        discard(self.file)
+        self._lock.unlock()
+
+    def autosave_now(self) -> None:
+        """Write the unsaved state at once: something went wrong."""
+        if not self._session.document.saved:
+            autosave(self._session.project, self.file)
+
+    def _schedule(self, before: Project, after: Project) -> None:
+        # Not restarted by further edits, or steady work would never be kept.
+        if after is not before and not self._timer.isActive():
+            self._timer.start()
+
+    def _autosave(self) -> None:
+        document, file = self._session.document, self.file
+        project = document.project
+        if document.saved or project is self._autosaved:
+            return
+        self._autosaved = project
+
+        def done(_: None) -> None:
+            if document.saved or self.file != file:  # saved while this was being written
+                discard(file)
+
+        self._session.jobs.start(self.tr("Autosave"), lambda _: autosave(project, file), done)
+
+
+def _free_slot() -> tuple[QLockFile, Path]:
+    folder = state_folder()
+    for number in range(1, _SLOTS + 1):
+        slot = folder / f"unsaved-{number}.json"
+        lock = QLockFile(str(slot.with_suffix(".lock")))
+        lock.setStaleLockTime(0)
+        if lock.tryLock(0):
+            return lock, slot
+    return lock, slot

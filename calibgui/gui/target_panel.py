@@ -1,0 +1,140 @@
+"""The board: how many inner corners, how large the squares, and one to print."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+from PySide6.QtCore import Signal
+from PySide6.QtWidgets import (
+    QCheckBox,
+    QComboBox,
+    QDoubleSpinBox,
+    QFormLayout,
+    QHBoxLayout,
+    QLabel,
+    QPushButton,
+    QSpinBox,
+    QWidget,
+)
+
+from calibgui.app.project import Project, Unit
+from calibgui.engine.types import View, ViewStatus
+from calibgui.gui import theme
+from calibgui.gui.session import Session
+
+
+class TargetPanel(QWidget):
+    """Pattern and size of the board, as stated or as seen."""
+
+    search_wanted = Signal()
+    """The board has changed: images wait to be searched."""
+    print_wanted = Signal()
+
+    def __init__(self, session: Session) -> None:
+        super().__init__()
+        self._session = session
+        self.inferred = QCheckBox(self.tr("&Count them in the images"))
+        self.inferred.setToolTip(
+            self.tr("Take the size that most images show; turn it off to state it.")
+        )
+        self.rows, self.cols = (QSpinBox(minimum=2, maximum=200) for _ in range(2))
+        self.rows.setAccessibleName(self.tr("rows of inner corners"))
+        self.cols.setAccessibleName(self.tr("columns of inner corners"))
+        for box in (self.rows, self.cols):
+            box.setToolTip(
+                self.tr("Corners where four squares meet: one fewer than squares each way.")
+            )
+            box.setSpecialValueText("–")
+        self.square = QDoubleSpinBox(decimals=3, minimum=0.001, maximum=100_000.0)
+        self.square.setToolTip(
+            self.tr(
+                "Side of one square. Only the distances depend on it: measure several squares "
+                "together and divide."
+            )
+        )
+        self.square.setAccessibleName(self.tr("Side of a square"))
+        self.unit = QComboBox()
+        self.unit.addItems(list(Unit))
+        self.unit.setAccessibleName(self.tr("Unit"))
+        self.print = QPushButton(self.tr("&Print a board…"))
+        self.print.setToolTip(self.tr("Make a PDF or SVG of a board of any size."))
+
+        corners = QHBoxLayout()
+        corners.addWidget(self.rows, 1)
+        corners.addWidget(QLabel("×"))
+        corners.addWidget(self.cols, 1)
+        side = QHBoxLayout()
+        side.addWidget(self.square, 1)
+        side.addWidget(self.unit)
+        form = QFormLayout(self)
+        form.setContentsMargins(theme.SPACING, theme.SPACING, theme.SPACING, theme.SPACING)
+        form.addRow(self.tr("Inner corners"), corners)
+        form.addRow("", self.inferred)
+        form.addRow(self.tr("Square"), side)
+        form.addRow("", self.print)
+
+        self.inferred.clicked.connect(self._edit_board)
+        for box in (self.rows, self.cols):
+            box.editingFinished.connect(self._edit_board)
+        self.square.valueChanged.connect(self._edit_square)
+        self.square.editingFinished.connect(lambda: session.document.settle())
+        self.unit.activated.connect(self._edit_unit)
+        self.print.clicked.connect(self.print_wanted)
+        session.changed.connect(self._refresh)
+        self._refresh()
+
+    def _refresh(self) -> None:
+        project = self._session.project
+        target = project.target
+        inferred = project.board is None
+        self.inferred.setChecked(inferred)
+        for box, value in (
+            (self.rows, target and target.rows),
+            (self.cols, target and target.cols),
+        ):
+            box.blockSignals(True)
+            box.setValue(value or box.minimum())
+            box.setSuffix(self.tr(" (seen)") if inferred and value else "")
+            box.setEnabled(not inferred)
+            box.blockSignals(False)
+        self.square.blockSignals(True)
+        if abs(self.square.value() * project.unit.mm - project.square) > 1e-9:
+            self.square.setValue(project.square / project.unit.mm)
+        self.square.blockSignals(False)
+        self.unit.setCurrentText(project.unit)
+
+    def _edit_board(self) -> None:
+        project = self._session.project
+        seen = project.target
+        stated = None if self.inferred.isChecked() else (self.rows.value(), self.cols.value())
+        if stated == project.board:
+            return
+
+        def again(view: View) -> View:
+            """What was found for another board must be searched anew."""
+            fits = view.corners is not None and stated in (None, view.corners.shape)
+            searched = view.status in (ViewStatus.FOUND, ViewStatus.NO_BOARD)
+            if fits or view.points is not None or not searched or stated is None:
+                return view
+            return replace(view, status=ViewStatus.WAITING, reason="", corners=None)
+
+        def change(project: Project) -> Project:
+            return replace(project, board=stated, views=tuple(map(again, project.views)))
+
+        self._session.edit(self.tr("Number of corners"), change)
+        if seen is None or stated != (seen.rows, seen.cols):
+            self.search_wanted.emit()
+
+    def _edit_square(self, value: float) -> None:
+        mm = value * self._session.project.unit.mm
+        self._session.edit(
+            self.tr("Size of squares"), lambda p: replace(p, square=mm), sliding=True
+        )
+
+    def _edit_unit(self) -> None:
+        unit = Unit(self.unit.currentText())
+        mm = self.square.value() * unit.mm
+        if unit is not self._session.project.unit:
+            self._session.edit(
+                self.tr("Unit of squares"), lambda p: replace(p, unit=unit, square=mm)
+            )

@@ -1,0 +1,87 @@
+"""What an empty window shows: how to begin."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+
+from PySide6.QtCore import Qt, Signal, SignalInstance
+from PySide6.QtWidgets import QCommandLinkButton, QLabel, QPushButton, QVBoxLayout, QWidget
+
+from calibgui.gui import theme
+
+_SHOWN = 5
+
+
+class Welcome(QWidget):
+    """Drop images, open a folder, open the sample, or a recent project."""
+
+    folder_wanted = Signal()
+    images_wanted = Signal()
+    sample_wanted = Signal()
+    project_wanted = Signal(Path)
+
+    def __init__(self) -> None:
+        super().__init__()
+        title = QLabel(self.tr("Calibrate a camera"))
+        font = title.font()
+        font.setPointSizeF(1.8 * font.pointSizeF())
+        font.setBold(True)
+        title.setFont(font)
+        words = QLabel(
+            self.tr(
+                "Drop photographs of a flat checkerboard here: 10 to 30 of them, all of the "
+                "board in view, tilted in different directions, and reaching into the "
+                "image's corners."
+            )
+        )
+        words.setWordWrap(True)
+        self._buttons = [
+            self._link(
+                self.tr("Open a &folder of images"),
+                self.tr("Corners are found and the camera is calibrated at once."),
+                self.folder_wanted,
+            ),
+            self._link(self.tr("&Add images"), self.tr("Choose single files."), self.images_wanted),
+            self._link(
+                self.tr("Open the &sample"),
+                self.tr("Fourteen rendered photographs, to look around."),
+                self.sample_wanted,
+            ),
+        ]
+        column = QWidget()
+        column.setMaximumWidth(520)
+        self._column = QVBoxLayout(column)
+        self._column.setSpacing(theme.SPACING)
+        for widget in (title, words, *self._buttons):
+            self._column.addWidget(widget)
+        self._heading = QLabel(self.tr("Recent projects"))
+        self._heading.setContentsMargins(0, 2 * theme.SPACING, 0, 0)
+        self._column.addWidget(self._heading)
+        self._recent: list[QPushButton] = []
+        layout = QVBoxLayout(self)
+        layout.addStretch(1)
+        layout.addWidget(column, 0, Qt.AlignmentFlag.AlignHCenter)
+        layout.addStretch(2)
+        self.show_recent([])
+
+    def show_recent(self, projects: Sequence[Path]) -> None:
+        """Offer these projects."""
+        for button in self._recent:
+            button.deleteLater()
+        self._recent = []
+        self._heading.setVisible(bool(projects))
+        for path in projects[:_SHOWN]:
+            button = QPushButton(f"{path.parent.name}/{path.name}")
+            button.setFlat(True)
+            button.setToolTip(str(path))
+            button.setCursor(Qt.CursorShape.PointingHandCursor)
+            button.setStyleSheet("text-align: left; padding: 4px;")
+            button.clicked.connect(lambda _=False, path=path: self.project_wanted.emit(path))
+            self._column.addWidget(button)
+            self._recent.append(button)
+
+    def _link(self, text: str, tip: str, wanted: SignalInstance) -> QCommandLinkButton:
+        button = QCommandLinkButton(text, tip)
+        button.clicked.connect(lambda: wanted.emit())
+        return button
