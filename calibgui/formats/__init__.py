@@ -13,13 +13,29 @@ import os
 from pathlib import Path
 
 from calibgui.engine.errors import CalibrationError
-from calibgui.formats import corners_csv, corners_json, opencv_file, result_json, ros_yaml
+from calibgui.formats import (
+    corners_csv,
+    corners_json,
+    engine_python,
+    opencv_file,
+    opencv_python,
+    result_json,
+    ros_yaml,
+)
 from calibgui.formats.exporter import Exporter, ExportReport
 from calibgui.formats.result import Result
 
 EXPORTERS: dict[str, Exporter] = {
     module.EXPORTER.name: module.EXPORTER
-    for module in (result_json, opencv_file, ros_yaml, corners_json, corners_csv)
+    for module in (
+        result_json,
+        opencv_file,
+        ros_yaml,
+        engine_python,
+        opencv_python,
+        corners_json,
+        corners_csv,
+    )
 }
 """By name, in the order of menus."""
 

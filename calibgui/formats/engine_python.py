@@ -1,0 +1,60 @@
+"""The camera as a few lines of Python for this program's engine, to paste into a program.
+
+Reader: Python with calibgui. Pixels count from 0 at the centre of the first one, coefficients
+are dimensionless; nothing is refitted. Cannot hold: correlations, poses, corners.
+"""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from calibgui.engine.calibrate import parameter_names
+from calibgui.engine.files import write_atomically
+from calibgui.engine.types import Calibration
+from calibgui.formats.exporter import Exporter, ExportReport
+from calibgui.formats.result import Result
+
+_NOTE = "The camera as calibrated; nothing is refitted."
+
+
+def write_engine_python(result: Result, path: Path) -> ExportReport:
+    """Write the lines as a file."""
+    write_atomically(path, lines(result.calibration).encode())
+    return ExportReport(path, _NOTE)
+
+
+def lines(calibration: Calibration) -> str:
+    """The program text."""
+    camera = calibration.camera
+    rows = "\n".join(
+        f"    {value!r},  # {name} +- {sigma:.2g}"
+        for name, value, sigma in zip(
+            parameter_names(camera.model),
+            camera.params.tolist(),
+            calibration.sigma.tolist(),
+            strict=True,
+        )
+    )
+    return f"""\
+# {_NOTE}
+# Pixels count from 0 at the centre of the first pixel, u right, v down.
+from calibgui import engine
+
+params = [
+{rows}
+]
+camera = engine.Camera({camera.size}, params, {camera.model!r})
+
+
+def undistorted(image):
+    return engine.undistort_image(image, camera).image
+"""
+
+
+EXPORTER = Exporter(
+    name="python",
+    title="Python lines for calibgui",
+    suffixes=(".py",),
+    limits="The camera as calibrated, sigma as comments; no poses.",
+    write=write_engine_python,
+)

@@ -1,0 +1,54 @@
+"""The pasted lines project points to the pixels of the calibrated camera."""
+
+from __future__ import annotations
+
+import runpy
+from pathlib import Path
+
+import cv2
+import numpy as np
+import pytest
+
+from calibgui import engine
+from calibgui.formats.engine_python import write_engine_python
+from calibgui.formats.forward_model import forward
+from calibgui.formats.opencv_python import write_opencv_python
+from calibgui.formats.result import Result
+
+
+@pytest.mark.parametrize("name", ["result", "weighted", "forward_result"])
+def test_engine_lines_make_the_same_camera(
+    tmp_path: Path, name: str, request: pytest.FixtureRequest
+) -> None:
+    result: Result = request.getfixturevalue(name)
+    file = tmp_path / "camera.py"
+    report = write_engine_python(result, file)
+    assert report.largest_error_px is None
+    made = runpy.run_path(str(file))
+    camera = result.calibration.camera
+    assert made["camera"].size == camera.size and made["camera"].model == camera.model
+    np.testing.assert_array_equal(made["camera"].params, camera.params)
+    image = np.random.default_rng(0).integers(0, 255, (480, 640)).astype(np.uint8)
+    expected = engine.undistort_image(image, camera).image
+    np.testing.assert_array_equal(made["undistorted"](image), expected)
+
+
+@pytest.mark.parametrize("name", ["result", "forward_result"])
+def test_opencv_lines_project_to_our_pixels(
+    tmp_path: Path, name: str, request: pytest.FixtureRequest
+) -> None:
+    result: Result = request.getfixturevalue(name)
+    file = tmp_path / "camera.py"
+    report = write_opencv_python(result, file)
+    made = runpy.run_path(str(file))
+    fitted = forward(result).calibration
+    assert made["image_size"] == fitted.camera.size
+    pose, (_, xy, _) = fitted.poses[0], result.observations()[0]
+    plate = np.column_stack([xy, np.zeros(len(xy))])
+    theirs, _ = cv2.projectPoints(
+        plate, pose.rvec.copy(), pose.tvec.copy(), made["camera_matrix"], made["dist_coeffs"]
+    )
+    ours = engine.project_points(xy, fitted.camera, pose)
+    np.testing.assert_allclose(theirs.reshape(-1, 2), ours, atol=1e-9)
+    assert report.note in file.read_text()
+    assert made["undistorted"](np.zeros((480, 640), np.uint8)).shape == (480, 640)
