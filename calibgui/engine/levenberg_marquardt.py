@@ -40,6 +40,8 @@ from calibgui.engine.types import Array, IntArray, Iteration, Report, Status
 CHUNK = 64
 """Views linearised together: their arrays still fit the processor's cache."""
 _CONVERGED = 1e-12
+_SETTLED = 1e-6
+"""Decrease that a full step still predicts, relative to the cost, where damped ones fail."""
 _ROUNDING = 1e-26
 """Cost below which the residuals are rounding errors, relative to the squared data."""
 _DAMPING = 1e-4
@@ -133,9 +135,10 @@ def minimise(
         return ended(Status.STOPPED)
     for _ in range(max_iterations):
         by_shared, by_pose = solve(normal, damping)
-        predicted = -float(by_shared @ normal.shared + np.sum(by_pose * normal.pose))
-        if predicted <= _CONVERGED * normal.cost or normal.cost <= _ROUNDING * data_square:
-            return ended(Status.CONVERGED)
+        small = _decrease(normal, by_shared, by_pose) <= _CONVERGED * normal.cost
+        exact = normal.cost <= _ROUNDING * data_square
+        if small or exact or damping > _MAX_DAMPING:
+            break
         full = np.zeros(len(state.params))
         full[free] = by_shared
         trial = state.moved(full, by_pose)
@@ -148,9 +151,11 @@ def minimise(
                 return ended(Status.STOPPED)
         else:
             damping *= 10
-            if damping > _MAX_DAMPING:  # no downhill step is left within rounding
-                return ended(Status.CONVERGED)
-    return ended(Status.MAX_ITERATIONS)
+    else:
+        return ended(Status.MAX_ITERATIONS)
+    # Damping makes steps small as well, against a wall of states that cannot be imaged.
+    left = 0.0 if exact else _decrease(normal, *solve(normal, 0.0))
+    return ended(Status.CONVERGED if left <= _SETTLED * normal.cost else Status.MAX_ITERATIONS)
 
 
 def normal_equations(linearise: Linearise, state: State, free: IntArray) -> NormalEquations:
@@ -199,6 +204,11 @@ def solve(normal: NormalEquations, damping: float) -> tuple[Array, Array]:
     except np.linalg.LinAlgError:  # exactly singular: the shortest of the solutions
         shared = -unit * np.linalg.lstsq(scaled, right, rcond=1e-15)[0]
     return shared, -(eliminated @ np.append(shared, 1.0))
+
+
+def _decrease(normal: NormalEquations, by_shared: Array, by_pose: Array) -> float:
+    """Decrease of the cost that the linear model predicts of a step, without its curvature."""
+    return -float(by_shared @ normal.shared + np.sum(by_pose * normal.pose))
 
 
 def _scaled_gradient(normal: NormalEquations) -> float:
