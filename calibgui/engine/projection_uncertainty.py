@@ -164,20 +164,28 @@ def sensitivity(camera: Camera, uv: Array, distance: float) -> tuple[Array, Arra
     The first by all of the camera's parameters, px; the second by a motion (w, t), rad and mm,
     of camera space.
     """
+    p = points_behind(uv, camera, distance)
+    _, by_params, by_motion = imaged(p, camera)
+    if not np.isfinite(distance):
+        by_motion[..., 3:] = 0.0
+    return by_params, by_motion
+
+
+def points_behind(uv: Array, camera: Camera, distance: float) -> Array:
+    """(..., 3) points at a distance, mm, on the rays of pixels; unit directions at infinity."""
     n = rays(uv, camera)
-    _, by_ray, by_params = project(n, camera.params, MODELS[camera.model])
-    direction = np.concatenate([n, np.ones((*n.shape[:-1], 1))], axis=-1)
-    p = direction / np.linalg.norm(direction, axis=-1, keepdims=True)
-    if far := not np.isfinite(distance):
-        distance = 1.0
-    p = distance * p
-    Q = np.zeros((*n.shape, 3))
-    Q[..., 0, 0] = Q[..., 1, 1] = 1.0
-    Q[..., 2] = -n
-    by_point = by_ray @ Q / p[..., 2, None, None]
-    by_rotation = -by_point @ cross_matrix(p)
-    by_shift = np.zeros_like(by_point) if far else by_point
-    return by_params, np.concatenate([by_rotation, by_shift], axis=-1)
+    ray = np.concatenate([n, np.ones((*n.shape[:-1], 1))], axis=-1)
+    ray /= np.linalg.norm(ray, axis=-1, keepdims=True)
+    return ray * distance if np.isfinite(distance) else ray
+
+
+def imaged(p: Array, camera: Camera) -> tuple[Array, Array, Array]:
+    """The image q (..., 2) of points (..., 3) in front of the camera, q_c and q_p B."""
+    Z = np.where(p[..., 2:] > 0, p[..., 2:], np.nan)
+    n = p[..., :2] / Z
+    q, by_ray, by_params = project(n, camera.params, MODELS[camera.model])
+    by_point = np.concatenate([by_ray, -by_ray @ n[..., None]], axis=-1) / Z[..., None]
+    return q, by_params, np.concatenate([-by_point @ cross_matrix(p), by_point], axis=-1)
 
 
 def grid(size: Size) -> tuple[Array, Array]:
