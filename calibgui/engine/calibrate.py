@@ -16,6 +16,7 @@ from calibgui.engine.levenberg_marquardt import Solution, StartError, minimise
 from calibgui.engine.observations import REFERENCE_PITCH, Observations, pack, pitch, view_names
 from calibgui.engine.outcome import estimated, poses, residuals, stage_one_table
 from calibgui.engine.plate import on_plate
+from calibgui.engine.plate_doubt import with_plate_doubt
 from calibgui.engine.plate_fit import fit_plate
 from calibgui.engine.problem import stage_two
 from calibgui.engine.stage_one import prealign
@@ -130,9 +131,10 @@ def calibrate(
         _tolerated(Camera(size, solution.state.params, model), observations)[free_indices],
     )
     diagnose(solution, tuple(parameters[i] for i in free_indices), precision)
-    if isinstance(plate, Plate) or plate is PlateModel.NOMINAL:
-        estimate = estimated(solution, observations, precision)
-    else:
+    estimate = estimated(solution, observations, precision)
+    if plate is PlateModel.NOMINAL and cost is Cost.IMAGE:
+        estimate = with_plate_doubt(estimate, observations, lens, free_indices)
+    elif isinstance(plate, PlateModel) and plate is not PlateModel.NOMINAL:
         estimate = fit_plate(solution, observations, lens, free_indices, plate, prior, report)
     covariance = np.zeros((len(parameters), len(parameters)))
     covariance[np.ix_(free_indices, free_indices)] = estimate.camera

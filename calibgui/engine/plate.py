@@ -26,10 +26,10 @@ from scipy.spatial import cKDTree
 
 from calibgui.engine.errors import CalibrationError
 from calibgui.engine.lens import Lens
-from calibgui.engine.levenberg_marquardt import NormalAt, NormalEquations
+from calibgui.engine.levenberg_marquardt import CHUNK, NormalAt, NormalEquations
 from calibgui.engine.observations import Observations
 from calibgui.engine.problem import linearised
-from calibgui.engine.stage_two import State
+from calibgui.engine.stage_two import Linearised, State
 from calibgui.engine.types import Array, Cost, IntArray, Plate, PlateModel
 
 
@@ -87,29 +87,36 @@ def plate_problem(
     Returns:
         A function of a state whose `params` are the camera's parameters followed by q.
     """
-    count = len(B)
-    places = np.nonzero(observations.mask)
-    Q = B.shape[2]
+    P, Q = len(free), B.shape[2]
 
     def normal_at(state: State) -> NormalEquations:
         camera, q = state.params[:-Q], state.params[-Q:]
         bent = deviated(observations, points, index, B @ q)
-        with np.errstate(all="ignore"):  # a wild trial overflows; its cost says so
-            whole = slice(0, len(state.R))
-            r, by_params, by_pose = linearised(
-                state._replace(params=camera), bent, whole, lens, Cost.IMAGE, 1.0
-            )
-        K = len(r)
-        cost = float(np.sum(r**2) + q @ stiffness @ q)
-        J = np.concatenate([by_params[..., free], by_pose, r[..., None]], axis=-1)
-        by_corner = by_pose[..., 3:] @ state.R[:, None]
-        flat = J.reshape(K, -1, J.shape[-1])
-        A = np.swapaxes(flat, 1, 2) @ flat
-        # Products of each corner's own three columns with all others, by the corner's number.
-        D = np.zeros((K, count, 3, J.shape[-1] + 3))
-        products = np.swapaxes(by_corner, -1, -2) @ np.concatenate([J, by_corner], axis=-1)
-        D[places[0], index[places]] = products[places]
-        return _assembled(A, D, B, q, stiffness, len(free), cost)
+        K = len(state.R)
+        U, W, V = np.zeros((P + Q, P + Q)), np.empty((K, P + Q, 6)), np.empty((K, 6, 6))
+        U[P:, P:] = stiffness
+        shared, pose = np.append(np.zeros(P), stiffness @ q), np.empty((K, 6))
+        cost = float(q @ stiffness @ q)
+        for begin in range(0, K, CHUNK):
+            views = slice(begin, min(begin + CHUNK, K))
+            with np.errstate(all="ignore"):  # a wild trial overflows; its cost says so
+                whole = linearised(
+                    state._replace(params=camera), bent, views, lens, Cost.IMAGE, 1.0
+                )
+            A, D = _products(whole, state.R[views], free, index[views], bent.mask[views], len(B))
+            cost += float(A[:, -1, -1].sum())
+            total = _contracted(D.sum(axis=0)[None], B)[0]
+            U[:P, :P] += A[:, :P, :P].sum(axis=0)
+            U[P:, :P] += total[:, :P]
+            U[P:, P:] += _own_blocks(D[..., P + 7 :].sum(axis=0), B)
+            W[views, :P] = A[:, :P, P : P + 6]
+            W[views, P:] = _contracted(D[..., P : P + 6], B)
+            V[views], pose[views] = A[:, P : P + 6, P : P + 6], A[:, P : P + 6, -1]
+            shared[:P] += A[:, :P, -1].sum(axis=0)
+            shared[P:] += total[:, P + 6]
+        U[:P, P:] = U[P:, :P].T
+        finite = cost if np.isfinite(cost) else float("inf")
+        return NormalEquations(U, W, V, shared, pose, finite)
 
     return normal_at
 
@@ -139,21 +146,24 @@ def deviated(observations: Observations, points: Array, index: IntArray, d: Arra
     )
 
 
-def _assembled(
-    A: Array, D: Array, B: Array, q: Array, stiffness: Array, P: int, cost: float
-) -> NormalEquations:
-    """Blocks for (camera, q) from products per view A (K, P + 7, P + 7) and per corner D."""
-    total = _contracted(D.sum(axis=0)[None], B)[0]
-    own = _own_blocks(D[..., P + 7 :].sum(axis=0), B)
-    by_camera = total[:, :P]
-    return NormalEquations(
-        U=np.block([[A[:, :P, :P].sum(axis=0), by_camera.T], [by_camera, own + stiffness]]),
-        W=np.concatenate([A[:, :P, P : P + 6], _contracted(D[..., P : P + 6], B)], axis=1),
-        V=A[:, P : P + 6, P : P + 6],
-        shared=np.concatenate([A[:, :P, -1].sum(axis=0), total[:, P + 6] + stiffness @ q]),
-        pose=A[:, P : P + 6, -1],
-        cost=cost if np.isfinite(cost) else float("inf"),
-    )
+def _products(
+    whole: Linearised, R: Array, free: IntArray, index: IntArray, mask: Array, count: int
+) -> tuple[Array, Array]:
+    """Products of the columns [camera, pose, r] of some views.
+
+    Returns:
+        (K, P + 7, P + 7) with each other, and (K, n, 3, P + 10) with the three columns of the
+        plate's corners, by the corner's number; the last three are those columns themselves.
+    """
+    r, by_params, by_pose = whole
+    J = np.concatenate([by_params[..., free], by_pose, r[..., None]], axis=-1)
+    rows = J.reshape(len(J), -1, J.shape[-1])
+    by_corner = by_pose[..., 3:] @ R[:, None]
+    each = np.swapaxes(by_corner, -1, -2) @ np.concatenate([J, by_corner], axis=-1)
+    D = np.zeros((len(J), count, 3, J.shape[-1] + 3))
+    views, places = np.nonzero(mask)
+    D[views, index[views, places]] = each[views, places]
+    return np.swapaxes(rows, 1, 2) @ rows, D
 
 
 def _contracted(D: Array, B: Array) -> Array:

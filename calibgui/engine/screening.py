@@ -94,7 +94,9 @@ def screen(
     reasons = dict(_by_stage_one(given, names, size, kept))
     _leave_out_poor(kept, reasons)
     # Whom to believe is asked of the flat plate and the image, whatever is estimated then.
-    plain = {name: settings[name] for name in ("fix", "free", "model") if name in settings}
+    plain: dict[str, Any] = {
+        name: settings[name] for name in ("fix", "free", "model") if name in settings
+    }
     for _ in range(_SOLVES):
         if not _by_residual(_calibrated(given, size, names, kept, plain), given, kept):
             break

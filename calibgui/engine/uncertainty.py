@@ -89,7 +89,10 @@ def shared_covariance(normal: NormalEquations, sigma2: float) -> Array:
     """(P, P) covariance of the free shared parameters."""
     unit = 1 / np.sqrt(np.maximum(np.diag(normal.U), 1e-300))
     scaled = schur(normal)[0] * np.outer(unit, unit)
-    inverse = np.linalg.pinv(scaled, rcond=1e-14, hermitian=True)
+    try:
+        inverse = np.linalg.inv(scaled)
+    except np.linalg.LinAlgError:  # exactly singular; `precision` names what is lost
+        inverse = np.linalg.pinv(scaled, rcond=1e-14, hermitian=True)
     return np.asarray(sigma2 * inverse * np.outer(unit, unit))
 
 
@@ -105,10 +108,16 @@ def pose_covariances(normal: NormalEquations, shared: Array, rvecs: Array, sigma
     inverse = np.linalg.inv(normal.V)
     G = inverse @ np.swapaxes(normal.W, 1, 2)
     local = sigma2 * inverse + G @ shared @ np.swapaxes(G, 1, 2)
+    J = pose_by_local(rvecs)
+    return J @ local @ np.swapaxes(J, 1, 2)
+
+
+def pose_by_local(rvecs: Array) -> Array:
+    """(K, 6, 6) derivatives of (rvec, tvec) by the solver's local (w, tau), for rvecs (K, 3)."""
     J = np.zeros((len(rvecs), 6, 6))
     J[:, :3, :3] = frames.rvec_by_local(rvecs)
     J[:, 3:, 3:] = np.eye(3)
-    return J @ local @ np.swapaxes(J, 1, 2)
+    return J
 
 
 def correlations(covariance: Array) -> Array:

@@ -1,0 +1,122 @@
+"""What a nominal plate leaves unknown: wider uncertainties where the residuals are not noise.
+
+If the plate is as drawn, the residual of a corner, carried back to its place on the plate,
+averages out over the views. With the derivatives J_ik of corner i's image in view k by its
+place (2 x 3), g_i = sum_k J_ik^T r_ik and H_i = sum_k J_ik^T J_ik, noise alone makes
+
+    chi^2 = sum_i g_i^T H_i^-1 g_i / sigma^2
+
+at most about three a corner, because camera and poses have been fitted to the same residuals.
+An excess is the plate's: deviations of variance s^2 add s^2 tr H_i to each term, which
+estimates s^2.
+
+Treated as unknowns with that variance (stiffness sigma^2 / s^2), the deviations can be solved
+for by one linear step, which in turn improves s^2 and sigma^2 (expectation-maximisation). It
+moves camera and poses by b, and leaves them with the covariance C of the joint estimate. The
+nominal plate's answer is off by b with uncertainty C, so that its mean square error is
+C + b b^T; this is reported in place of sigma^2 (J^T J)^-1.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from calibgui.engine import uncertainty
+from calibgui.engine.lens import Lens
+from calibgui.engine.levenberg_marquardt import CHUNK, solve
+from calibgui.engine.observations import Observations
+from calibgui.engine.outcome import Estimate, poses
+from calibgui.engine.plate import basis, corners_of, plate_problem
+from calibgui.engine.problem import linearised
+from calibgui.engine.types import Array, Cost, IntArray, PlateModel
+
+_SEEN = 3
+"""Views that must show a corner for it to be judged."""
+_ROUNDS = 3
+"""Of expectation-maximisation for s^2 and sigma^2."""
+_ALARM = 5.0
+"""Excess of chi^2, in standard deviations, that counts as evidence."""
+
+
+def with_plate_doubt(
+    estimate: Estimate, observations: Observations, lens: Lens, free: IntArray
+) -> Estimate:
+    """The estimate with the uncertainty that an imperfect plate adds, if the residuals show one.
+
+    Args:
+        estimate: with the image cost on the nominal plate.
+        observations: the views.
+        lens: the lens model.
+        free: (P,) indices of the camera's parameters that may move.
+    """
+    points, index = corners_of(observations)
+    g, H, seen = _scores(estimate, observations, lens, index, len(points))
+    judged = seen >= _SEEN
+    if not judged.any() or not estimate.sigma2 > 0:
+        return estimate
+    terms = np.einsum("ia,ia->i", g[judged], np.linalg.solve(H[judged], g[judged, :, None])[..., 0])
+    expected = 3 * int(judged.sum())
+    excess = float(terms.sum()) / estimate.sigma2 - expected
+    if excess < _ALARM * np.sqrt(2 * expected):
+        return estimate
+    s2 = excess * estimate.sigma2 / float(np.trace(H[judged], axis1=1, axis2=2).sum())
+    return _widened(estimate, observations, lens, free, points, index, s2)
+
+
+def _scores(
+    estimate: Estimate, observations: Observations, lens: Lens, index: IntArray, count: int
+) -> tuple[Array, Array, IntArray]:
+    """g (n, 3), H (n, 3, 3) and the number of views of every corner of the plate."""
+    g, H = np.zeros((count, 3)), np.zeros((count, 3, 3))
+    for begin in range(0, len(index), CHUNK):
+        views = slice(begin, begin + CHUNK)
+        whole = linearised(estimate.state, observations, views, lens, Cost.IMAGE, 1.0)
+        J = whole.by_pose[..., 3:] @ estimate.state.R[views, None]
+        JT = np.swapaxes(J, -1, -2)
+        np.add.at(g, index[views], (JT @ whole.residual[..., None])[..., 0])
+        np.add.at(H, index[views], JT @ J)
+    seen = np.bincount(index[observations.mask > 0], minlength=count)
+    return g, H, seen.astype(np.int64)
+
+
+def _widened(
+    estimate: Estimate,
+    observations: Observations,
+    lens: Lens,
+    free: IntArray,
+    points: Array,
+    index: IntArray,
+    s2: float,
+) -> Estimate:
+    """The estimate with C + b b^T for deviations of variance s2, mm^2."""
+    B = basis(PlateModel.FREE, points)
+    P, Q = len(free), B.shape[2]
+    state = estimate.state._replace(params=np.append(estimate.state.params, np.zeros(Q)))
+    unstiffened = plate_problem(observations, lens, free, points, index, B, np.zeros((Q, Q)))(state)
+    unknowns = P + unstiffened.pose.size + Q
+    sigma2 = estimate.sigma2
+    stiffness = np.zeros_like(unstiffened.U)
+    for _ in range(_ROUNDS):
+        stiffness[P:, P:] = np.eye(Q) * sigma2 / s2
+        normal = unstiffened._replace(U=unstiffened.U + stiffness)
+        by_shared, by_pose = solve(normal, 0.0)
+        gained = -float(by_shared @ normal.shared + np.sum(by_pose * normal.pose))
+        left = uncertainty.variance(normal.cost - gained, observations.count, unknowns)
+        sigma2 = left if left > 0 else sigma2
+        covariance = uncertainty.shared_covariance(normal, sigma2)
+        s2 = float(by_shared[P:] @ by_shared[P:] + np.trace(covariance[P:, P:])) / Q
+    b = by_shared[:P]
+    rvecs = np.array([pose.rvec for pose in poses(estimate.state)])
+    shift = (uncertainty.pose_by_local(rvecs) @ by_pose[..., None])[..., 0]
+    rms = float(np.sqrt(np.mean(np.sum(by_shared[P:].reshape(-1, 3) ** 2, axis=1))))
+    return estimate._replace(
+        camera=covariance[:P, :P] + np.outer(b, b),
+        poses=uncertainty.pose_covariances(normal, covariance, rvecs, sigma2)
+        + shift[:, :, None] * shift[:, None, :],
+        warnings=(
+            *estimate.warnings,
+            f"The residuals are not noise: over the views, the board's corners are off by "
+            f"{rms:.2g} mm (rms), as if it were not flat or not printed true. The uncertainties "
+            f"include what this does to the camera. Estimate the plate to remove it.",
+        ),
+    )
