@@ -153,7 +153,7 @@ def calibrate(
         history=estimate.solution.history,
         status=estimate.solution.status,
         cost=cost,
-        fixed=tuple(held),
+        fixed=tuple(name for name in parameters if name in held),
         undetermined=precision.undetermined,
         plate=plate if isinstance(plate, Plate) else estimate.plate,
         warnings=estimate.warnings,
