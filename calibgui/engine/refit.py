@@ -16,7 +16,7 @@ import numpy as np
 
 from calibgui.engine.calibrate import calibrate
 from calibgui.engine.projection import pixels, rays
-from calibgui.engine.types import Array, Calibration, Camera, Observation
+from calibgui.engine.types import Array, Calibration, Camera, Observation, PlateModel
 
 _STEPS = 64
 """Samples along either side of the image."""
@@ -45,7 +45,8 @@ def refit(views: Sequence[Observation], original: Calibration, model: str = "ope
         CalibrationError: as ``calibrate``.
     """
     held = _held(original.settings["fixed"])
-    calibration = calibrate(views, original.camera.size, model=model, fix=held)
+    plate = original.plate or PlateModel.NOMINAL
+    calibration = calibrate(views, original.camera.size, model=model, fix=held, plate=plate)
     w, h = original.camera.size
     whole: Array = np.stack(
         np.meshgrid(np.linspace(0, w - 1, _STEPS), np.linspace(0, h - 1, _STEPS)), axis=-1

@@ -30,6 +30,7 @@ from calibgui.engine.types import (
     Camera,
     Cost,
     Iteration,
+    Plate,
     Pose,
     StageOne,
     Status,
@@ -40,6 +41,7 @@ from calibgui.engine.types import (
 from calibgui.formats.corners_json import read_size, read_target, target_record
 from calibgui.formats.exporter import Exporter, ExportReport
 from calibgui.formats.json_document import Node, check_format, read, write
+from calibgui.formats.plate_json import plate_record, read_plate_record
 from calibgui.formats.result import Result
 from calibgui.formats.views_json import read_views, view_record
 
@@ -94,6 +96,7 @@ def result_record(result: Result) -> dict[str, Any]:
         "versions": result.versions,
         "inputs_sha256": calibration.digest,
         "target": None if result.target is None else target_record(result.target),
+        "plate": None if calibration.plate is None else plate_record(calibration.plate),
         "stage_one": _stage_one_records(result),
         "history": [{k: getattr(i, k) for k in _ITERATION} for i in calibration.history],
         "views": _view_records(result),
@@ -215,6 +218,7 @@ def _read_calibration(node: Node, used: list[Node]) -> Calibration:
             Undetermined(n["name"].choice(names), n["reason"].text())
             for n in node["undetermined"].items()
         ),
+        plate=_read_plate(node.get("plate")),
         warnings=tuple(n.text() for n in node["warnings"].items()),
         settings=_read_settings(node["settings"]),
         digest=node["inputs_sha256"].text(),
@@ -224,6 +228,11 @@ def _read_calibration(node: Node, used: list[Node]) -> Calibration:
 def _read_settings(node: Node) -> dict[str, Any]:
     held = {name: value.number() for name, value in node["fixed"].members().items()}
     return {**node.value, "fixed": held}
+
+
+def _read_plate(node: Node | None) -> Plate | None:
+    """The plate, which results written before plates were estimated do not have."""
+    return None if node is None or node.value is None else read_plate_record(node)
 
 
 def _by_name(node: Node, names: tuple[str, ...]) -> Array:

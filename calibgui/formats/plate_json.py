@@ -1,0 +1,61 @@
+"""plate.json: the shape of a target as it was found to be, for later calibrations to hold.
+
+    {"format": "calibgui-plate", "version": 1, "model", "nominal_mm": [[x, y], ...],
+     "deviation_mm": [[dx, dy, dz], ...], "sigma_mm": [[sx, sy, sz], ...]}
+
+Reader: `read_plate`, and any JSON reader. Millimetres in the plate's frame: the nominal corner
+plus its deviation is where the corner is; z is along x cross y. Cannot hold: how the plate was
+found (see ``result_json.py``).
+"""
+
+from __future__ import annotations
+
+import os
+from typing import Any
+
+from calibgui.engine.types import Plate, PlateModel
+from calibgui.formats.json_document import Node, check_format, read, write
+
+FORMAT = "calibgui-plate"
+VERSION = 1
+
+
+def write_plate(plate: Plate, path: str | os.PathLike[str]) -> None:
+    """Write plate.json.
+
+    Raises:
+        CalibrationError: if the file cannot be written.
+    """
+    write(path, {"format": FORMAT, "version": VERSION, **plate_record(plate)})
+
+
+def read_plate(path: str | os.PathLike[str]) -> Plate:
+    """Read plate.json.
+
+    Raises:
+        CalibrationError: if the file cannot be read or is no plate.
+    """
+    node = read(path)
+    check_format(node, FORMAT, VERSION)
+    return read_plate_record(node)
+
+
+def plate_record(plate: Plate) -> dict[str, Any]:
+    """A plate as JSON holds it, in this file and in a result."""
+    return {
+        "model": plate.model,
+        "nominal_mm": plate.nominal,
+        "deviation_mm": plate.deviation,
+        "sigma_mm": plate.sigma,
+    }
+
+
+def read_plate_record(node: Node) -> Plate:
+    """The inverse of `plate_record`."""
+    nominal = node["nominal_mm"].numbers(None, 2)
+    return Plate(
+        PlateModel(node["model"].choice(list(PlateModel))),
+        nominal,
+        node["deviation_mm"].numbers(len(nominal), 3),
+        node["sigma_mm"].numbers(len(nominal), 3),
+    )
