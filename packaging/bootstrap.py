@@ -42,11 +42,12 @@ for name in sys.argv[1:]:
         print(name)
 """
 COMPLETE = """
-import re, sys
+import sys
 from importlib.metadata import requires, version
-for line in requires("calibgui"):
-    if "extra ==" not in line or sys.argv[1] == "dev":
-        version(re.match(r"[\\w.-]+", line)[0])
+from pip._vendor.packaging.requirements import Requirement
+for need in map(Requirement, requires("calibgui")):
+    if need.marker is None or need.marker.evaluate({"extra": sys.argv[1]}):
+        assert need.specifier.contains(version(need.name), prereleases=True)
 """
 PIP_IN_WHEEL = """
 import runpy, sys

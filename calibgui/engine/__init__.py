@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from calibgui.engine.calibrate import calibrate
+from calibgui.engine.corners import find_corners
 from calibgui.engine.errors import CalibrationError, Cancelled, DegenerateError, NoBoardError
 from calibgui.engine.images import Image, read_image
 from calibgui.engine.maps import distort_points, project_points, undistort_points
@@ -47,6 +48,7 @@ __all__ = [
     "ViewStatus",
     "calibrate",
     "distort_points",
+    "find_corners",
     "project_points",
     "read_image",
     "rectify_image",
