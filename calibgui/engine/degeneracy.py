@@ -29,7 +29,9 @@ PINHOLE = ("fx", "fy", "cx", "cy")
 _SIGNIFICANT = 50.0
 """T below which the planes count as parallel."""
 _DISTINCT = np.deg2rad(0.1)
-"""Largest angle from the mean normal below which they do however little noise there is."""
+"""Largest angle from the mean below which they do however little noise there is."""
+_AXIS = np.array([0.0, 0.0, 1.0])
+"""The camera's optical axis, the normal of planes parallel to the sensor."""
 _CLOSE = np.deg2rad(3.0)
 """Angle below which a diagnosis calls directions the same."""
 
@@ -41,7 +43,7 @@ def normals(R: Array) -> Array:
 
 
 def parallel(R: Array, V: Array, variance: float) -> bool:
-    """Whether the planes' directions differ by no more than noise.
+    """Whether the planes' normals differ by no more than noise.
 
     Args:
         R: (K, 3, 3) rotations cam_from_plate.
@@ -49,11 +51,12 @@ def parallel(R: Array, V: Array, variance: float) -> bool:
         variance: of one residual coordinate.
     """
     n = normals(R)
-    if _spread(n) < _DISTINCT:
+    mean = _mean(n)
+    if _farthest(n, mean) < _DISTINCT:
         return True
     # In a basis of the plane across n: turns about n itself leave it where it is.
     across = np.linalg.svd(n[:, None, :])[2][:, 1:]
-    turn = (across @ np.cross(n, _mean(n))[..., None])[..., 0]
+    turn = (across @ np.cross(n, mean)[..., None])[..., 0]
     covariance = across @ np.linalg.inv(V)[:, :3, :3] @ np.swapaxes(across, 1, 2)
     squares = turn * np.linalg.solve(covariance, turn[..., None])[..., 0]
     return bool(squares.sum() / (2 * (len(n) - 1)) < _SIGNIFICANT * variance)
@@ -83,13 +86,12 @@ def diagnose(solution: Solution, names: tuple[str, ...], precision: Precision) -
     if not lost:
         return
     what = ", ".join(lost)
-    close = same or _spread(n) < _CLOSE
-    if close and np.arccos(_mean(n)[2]) < _CLOSE:
+    if _farthest(n, _AXIS) < _CLOSE:
         raise DegenerateError(
             f"All views are parallel to the sensor, which leaves {what} undetermined.",
             "Tilt the board by 20 to 45 degrees, to the left, right, top and bottom.",
         )
-    if close:
+    if same or _farthest(n, _mean(n)) < _CLOSE:
         raise DegenerateError(
             f"All views show the board in one orientation, which leaves {what} undetermined.",
             "Add views with the board tilted by 20 to 45 degrees in other directions.",
@@ -107,6 +109,6 @@ def _mean(n: Array) -> Array:
     return np.asarray(total / np.linalg.norm(total))
 
 
-def _spread(n: Array) -> float:
-    """Largest angle between one of the normals (K, 3) and their mean, rad."""
-    return float(np.arccos(np.clip(n @ _mean(n), -1, 1)).max())
+def _farthest(n: Array, direction: Array) -> float:
+    """Largest angle between one of the normals (K, 3) and a direction, rad."""
+    return float(np.arccos(np.clip(n @ direction, -1, 1)).max())

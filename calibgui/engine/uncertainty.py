@@ -86,13 +86,11 @@ def precision(
 
 
 def shared_covariance(normal: NormalEquations, sigma2: float) -> Array:
-    """(P, P) covariance of the free shared parameters."""
+    """(P, P) covariance of the free shared parameters, without the combinations that are lost."""
+    values, vectors = information_left(normal)
+    kept = values > _RANK
+    inverse = vectors[:, kept] / values[kept] @ vectors[:, kept].T
     unit = 1 / np.sqrt(np.maximum(np.diag(normal.U), 1e-300))
-    scaled = schur(normal)[0] * np.outer(unit, unit)
-    try:
-        inverse = np.linalg.inv(scaled)
-    except np.linalg.LinAlgError:  # exactly singular; `precision` names what is lost
-        inverse = np.linalg.pinv(scaled, rcond=1e-14, hermitian=True)
     return np.asarray(sigma2 * inverse * np.outer(unit, unit))
 
 
