@@ -1,0 +1,62 @@
+"""Poses of views under a known camera and plate: what is left of Stage II when both are held.
+
+The start is closed: rays n of the corners are the image of an ideal camera with f = 1 and the
+centre at 0, whose homography from the plate is [r1 r2 T]. Levenberg-Marquardt then minimises
+the same cost as the calibration's Stage II, which the camera is judged by.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+
+import numpy as np
+
+from calibgui.engine import closed_form
+from calibgui.engine.lens import MODELS
+from calibgui.engine.levenberg_marquardt import minimise
+from calibgui.engine.observations import Observations, pack
+from calibgui.engine.outcome import residuals
+from calibgui.engine.plate import on_plate
+from calibgui.engine.problem import stage_two
+from calibgui.engine.projection import rays
+from calibgui.engine.stage_two import State
+from calibgui.engine.types import Calibration, Camera, Observation, ViewResiduals
+
+
+def resected(calibration: Calibration, views: Sequence[Observation]) -> tuple[ViewResiduals, ...]:
+    """Residuals of views that a calibration has not seen, with only their poses fitted.
+
+    Args:
+        calibration: whose camera and plate are held.
+        views: of the same plate.
+
+    Raises:
+        CalibrationError: for views that cannot be used, or do not fit the camera or the plate.
+    """
+    observations = pack(views)
+    start = posed(calibration.camera, observations)
+    if calibration.plate is not None:
+        observations = on_plate(observations, calibration.plate)
+    model, cost, scale = (
+        calibration.camera.model,
+        calibration.cost,
+        calibration.reference_scale,
+    )
+    none_free = np.zeros(0, dtype=np.int64)
+    solution = minimise(
+        stage_two(observations, model, cost, scale, none_free),
+        start,
+        none_free,
+        observations.count,
+        float(np.sum(observations.uv**2)),
+    )
+    return residuals(solution.state, observations, MODELS[model], cost, scale)
+
+
+def posed(camera: Camera, observations: Observations) -> State:
+    """Poses in closed form of views of a flat plate under a known camera."""
+    ideal = replace(observations, uv=rays(observations.uv, camera))
+    one, origin = np.ones(2), np.zeros(2)
+    _, R, T = closed_form.initial_poses(ideal, origin, 0.0, (1, 1), one)
+    return State(camera.params, R, T)
