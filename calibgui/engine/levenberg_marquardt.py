@@ -22,7 +22,7 @@ deviations of the minimum.
 
 Where the sums come from is the caller's choice: `normal_equations` below adds them up from
 residuals and derivatives, in chunks of views so that memory does not grow with their number;
-``kernel.py`` does the same compiled.
+``kernels`` does the same compiled.
 """
 
 from __future__ import annotations

@@ -2,23 +2,19 @@
 
 The compiled kernel needs numba and knows the image cost of the two polynomial lens models.
 Everything else, and machines without numba, use the readable numpy code; both give the same
-solution to rounding (``tests/engine/test_kernel.py``).
+solution to rounding (``tests/engine/kernels``).
 """
 
 from __future__ import annotations
 
-from importlib.util import find_spec
-
 import numpy as np
 
+from calibgui.engine import kernels
 from calibgui.engine.lens import MODELS, Lens
 from calibgui.engine.levenberg_marquardt import NormalAt, NormalEquations, normal_equations
 from calibgui.engine.observations import Observations
 from calibgui.engine.stage_two import Linearised, State, image_residual, reference_residual
 from calibgui.engine.types import Array, Cost, IntArray
-
-COMPILED = find_spec("numba") is not None
-"""Whether the compiled kernel can be used."""
 
 _EQ10_ROWS = {
     "lucchese": np.arange(10),
@@ -39,7 +35,7 @@ def stage_two(
         scale: reference px per mm, for the costs on the reference plane.
         free: (P,) indices of the camera's parameters that may move.
     """
-    if COMPILED and cost is Cost.IMAGE and model in _EQ10_ROWS:
+    if kernels.COMPILED and cost is Cost.IMAGE and model in _EQ10_ROWS:
         return _compiled(observations, model, free)
 
     def linearise(state: State, views: slice) -> Linearised:
@@ -69,7 +65,7 @@ def linearised(
 
 def _compiled(observations: Observations, model: str, free: IntArray) -> NormalAt:
     """The kernel's sums as `NormalEquations`."""
-    from calibgui.engine import kernel  # importing numba takes a while: only when it is used
+    from calibgui.engine.kernels.stage_two import products  # takes a while: only when used
 
     to_eq10 = _EQ10_ROWS[model]
     uv = np.ascontiguousarray(np.swapaxes(observations.uv, 1, 2))
@@ -81,7 +77,7 @@ def _compiled(observations: Observations, model: str, free: IntArray) -> NormalA
     def normal_at(state: State) -> NormalEquations:
         params: Array = np.zeros(10)
         params[to_eq10] = state.params
-        A = kernel.products(params, model == "lucchese", state.R, state.T, uv, xyz, weight, rows)
+        A = products(params, model == "lucchese", state.R, state.T, uv, xyz, weight, rows)
         # Summed over views in a fixed order, whichever thread made them.
         total = A[:, :P, :P].sum(axis=0), A[:, :P, -1].sum(axis=0), float(A[:, -1, -1].sum())
         cost = total[2] if np.isfinite(total[2]) else float("inf")

@@ -21,17 +21,21 @@ the spread of the points, without which k1 (1e-7 px^-2) would ruin the normal eq
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
 
-from calibgui.engine import homography
+from calibgui.engine import homography, kernels
 from calibgui.engine.types import Array, BoolArray, IntArray
 
 _MAX_ITERATIONS = 50
 _CONVERGED = 1e-10
 """Decrease of the cost that the linear model still predicts, relative to the cost."""
 _MAX_DAMPING = 1e8
+
+_NormalAt = Callable[[Array, IntArray], tuple[Array, Array, Array]]
+"""J^T J, J^T r and r^T r at unknowns z (k, 11) of the views numbered (k,)."""
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -73,7 +77,8 @@ def prealign(xy: Array, reference: Array, mask: Array) -> Prealignment:
         [H[:, i, j] for i, j in ((0, 0), (1, 0), (0, 1), (1, 1), (0, 2), (1, 2), (2, 0), (2, 1))],
         axis=1,
     )
-    z, cost, normal, iterations, converged = _levenberg_marquardt(z, x, goal, mask)
+    normal_at = (_compiled if kernels.COMPILED else _readable)(x, goal, mask)
+    z, cost, normal, iterations, converged = _levenberg_marquardt(z, normal_at)
 
     xp, yp, k1, a11, a21, a12, a22, d1, d2, c1, c2 = z.T
     one = np.ones_like(xp)
@@ -156,7 +161,7 @@ def registration(z: Array, x: Array) -> tuple[Array, Array]:
 
 
 def _levenberg_marquardt(
-    z: Array, x: Array, goal: Array, mask: Array
+    z: Array, normal_at: _NormalAt
 ) -> tuple[Array, Array, Array, IntArray, BoolArray]:
     """Minimise |xi - x'|^2; returns z, cost, normal matrices, iterations, converged."""
     z = z.copy()
@@ -165,7 +170,7 @@ def _levenberg_marquardt(
     iterations = np.zeros(K, dtype=np.int64)
     converged = np.zeros(K, dtype=bool)
     active = np.arange(K)
-    normal, gradient, cost = _normal_equations(z, x, goal, mask)
+    normal, gradient, cost = normal_at(z, active)
     for _ in range(_MAX_ITERATIONS):
         diagonal = np.diagonal(normal[active], axis1=1, axis2=2)
         damped = normal[active] + (damping[active, None] * diagonal + 1e-14)[:, :, None] * np.eye(
@@ -179,9 +184,7 @@ def _levenberg_marquardt(
         if active.size == 0:
             break
         trial = z[active] + step
-        new_normal, new_gradient, new_cost = _normal_equations(
-            trial, x[active], goal[active], mask[active]
-        )
+        new_normal, new_gradient, new_cost = normal_at(trial, active)
         iterations[active] += 1
         better = new_cost < cost[active]
         won = active[better]
@@ -194,16 +197,25 @@ def _levenberg_marquardt(
     return z, cost, normal, iterations, converged
 
 
-def _normal_equations(z: Array, x: Array, goal: Array, mask: Array) -> tuple[Array, Array, Array]:
-    """J^T J (K, 11, 11), J^T r (K, 11) and r^T r (K,)."""
-    with np.errstate(all="ignore"):  # a wild trial step overflows and is rejected by its cost
-        xi, J = registration(z, x)
-    r = ((xi - goal) * mask[..., None]).reshape(len(z), -1)
-    J = (J * mask[..., None, None]).reshape(len(z), -1, 11)
-    transposed = np.swapaxes(J, 1, 2)
-    cost = np.einsum("ki,ki->k", r, r)
-    return (
-        transposed @ J,
-        (transposed @ r[..., None])[..., 0],
-        np.where(np.isfinite(cost), cost, np.inf),
-    )
+def _readable(x: Array, goal: Array, mask: Array) -> _NormalAt:
+    def normal_at(z: Array, which: IntArray) -> tuple[Array, Array, Array]:
+        with np.errstate(all="ignore"):  # a wild trial step overflows and is rejected by its cost
+            xi, J = registration(z, x[which])
+        columns = np.concatenate([J, (xi - goal[which])[..., None]], axis=-1)
+        columns = (columns * mask[which, :, None, None]).reshape(len(z), -1, 12)
+        return _split(np.swapaxes(columns, 1, 2) @ columns)
+
+    return normal_at
+
+
+def _compiled(x: Array, goal: Array, mask: Array) -> _NormalAt:
+    from calibgui.engine.kernels.stage_one import products  # takes a while: only when used
+
+    xT, goalT = (np.ascontiguousarray(np.swapaxes(a, 1, 2)) for a in (x, goal))
+    return lambda z, which: _split(products(z, which, xT, goalT, mask))
+
+
+def _split(products: Array) -> tuple[Array, Array, Array]:
+    """J^T J (k, 11, 11), J^T r (k, 11) and r^T r (k,), infinite where it has no value."""
+    cost = products[:, 11, 11]
+    return products[:, :11, :11], products[:, :11, 11], np.where(np.isfinite(cost), cost, np.inf)

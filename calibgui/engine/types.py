@@ -65,6 +65,14 @@ class Ambiguity(StrEnum):
     QUARTER_TURN = "90"
 
 
+class Rejection(NamedTuple):
+    """A corner that was seen but is not trusted."""
+
+    u: float
+    v: float
+    reason: str
+
+
 @dataclass(frozen=True, eq=False, slots=True)
 class Corners:
     """The X-junctions located in one image, with their places on the board."""
@@ -85,10 +93,19 @@ class Corners:
     method: str = "saddle"
     relative: bool = False
     """Whether a partly seen board's rows or columns could be counted otherwise."""
+    blur: Array | None = None
+    """(n,) standard deviation of the edges' blur, pixel included, px."""
+    contrast: Array | None = None
+    """(n,) bright minus dark, grey levels."""
+    residual: Array | None = None
+    """(n,) root mean square of the grey levels that the fit leaves unexplained."""
+    rejected: tuple[Rejection, ...] = ()
+    others: tuple[Array, ...] = ()
+    """(4, 2) px, the outlines of further boards in the image."""
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "grid", frozen_int(self.grid))
-        for name in ("uv", "estimate", "cov", "roi"):
+        for name in ("uv", "estimate", "cov", "roi", "blur", "contrast", "residual"):
             value = getattr(self, name)
             if value is not None:
                 object.__setattr__(self, name, frozen(value))

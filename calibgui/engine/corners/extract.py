@@ -2,19 +2,21 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass, replace
+
 import numpy as np
 import numpy.typing as npt
 
-from calibgui.engine.corners import harris, saddle, verify
+from calibgui.engine.corners import edges, harris, saddle, verify
 from calibgui.engine.corners import roi as region
 from calibgui.engine.corners.finder import MIN_CORNERS, MIN_LINES, find_boards
 from calibgui.engine.corners.lattice import Lattice
 from calibgui.engine.corners.ordering import Board, Numbering, ambiguity, numberings, place
 from calibgui.engine.errors import NoBoardError
 from calibgui.engine.opencv import Image
-from calibgui.engine.types import Array, Corners
+from calibgui.engine.types import Array, BoolArray, Corners, Rejection
 
-METHODS = ("saddle",)
+METHODS = ("edges", "saddle")
 _SPARSE = 0.5
 """Filled share below which a line beyond the stated size is clutter."""
 _STATE_SIZE = "State the number of inner corners, rows x columns, or leave it out."
@@ -24,7 +26,7 @@ def find_corners(
     image: npt.ArrayLike,
     board: Board | None = None,
     roi: npt.ArrayLike | None = None,
-    method: str = "saddle",
+    method: str = "edges",
 ) -> Corners:
     """Locate the inner corners of the checkerboard in an image.
 
@@ -35,12 +37,14 @@ def find_corners(
         roi: (4, 2) px, points at or just outside the board's outermost corners, in order around
             it: only corners inside count, and where the pattern leaves the origin open it is the
             corner nearest to the first point.
-        method: "saddle", the paper's.
+        method: "edges", the edge model at the Cramer-Rao bound, with covariances; or "saddle",
+            the paper's.
 
     Returns:
         The corners, right-handed in the image, from an origin whose outer square is dark. Of a
         board that is only partly seen `complete` is false, and `relative` is true where its
-        rows or columns could be counted otherwise.
+        rows or columns could be counted otherwise. Corners seen but not trusted are `rejected`
+        with the reason; further boards are in `others`.
 
     Raises:
         NoBoardError: no acceptable board, why, and what was found instead.
@@ -54,14 +58,23 @@ def find_corners(
     outline = None if roi is None else region.outline(roi)
     search = None if outline is None else region.enlarged(outline)
     try:
-        numbered = _automatic(grey, board, search)
+        found, others = _automatic(grey, board, search, method)
     except NoBoardError:
         if outline is None or board is None:
             raise
-        numbered = _guided(grey, board, outline)
+        found, others = _guided(grey, board, outline), ()
+    numbered = numberings(found.lattice, board)
     if outline is not None:
         numbered.sort(key=lambda way: not region.starts_at(way.lattice, outline[0]))
-    return _corners(grey, numbered, outline, method)
+    return _corners(grey, numbered, found.rejected, outline, others, method)
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class _Found:
+    """A verified board whose origin is still open."""
+
+    lattice: Lattice
+    rejected: tuple[Rejection, ...]
 
 
 def _grey(image: npt.ArrayLike) -> Image:
@@ -76,8 +89,10 @@ def _grey(image: npt.ArrayLike) -> Image:
     return grey
 
 
-def _automatic(grey: Image, board: Board | None, search: Array | None) -> list[Numbering]:
-    """Numberings of the best verified board."""
+def _automatic(
+    grey: Image, board: Board | None, search: Array | None, method: str
+) -> tuple[_Found, tuple[Array, ...]]:
+    """The best verified board, and the outlines of the others."""
     candidates = find_boards(grey, search)
     if not candidates:
         raise NoBoardError(
@@ -85,42 +100,65 @@ def _automatic(grey: Image, board: Board | None, search: Array | None) -> list[N
             "Mark its four outermost corners, or take the picture again: all of the board in"
             " view, sharp and evenly lit.",
         )
-    lattices = [x for x in (_verified(grey, lattice) for lattice in candidates) if x is not None]
-    if not lattices:
+    tried = (_verified(grey, lattice, method) for lattice in candidates)
+    verified = [found for found in tried if found is not None]
+    if not verified:
         raise NoBoardError(
             "What looks like a checkerboard is not regular enough to be trusted.",
             "Mark its four outermost corners, or leave this picture out.",
         )
-    if board is None:
-        return numberings(max(lattices, key=len), None)
-    fitting = [x for x in (_fitted(grey, lattice, board) for lattice in lattices) if x is not None]
-    if not fitting:
-        rows, cols = sorted(max(lattices, key=len).shape)
-        raise NoBoardError(
-            f"This board has {rows} x {cols} inner corners, not {board[0]} x {board[1]}.",
-            _STATE_SIZE,
-        )
-    return numberings(max(fitting, key=len), board)
+    verified.sort(key=lambda found: len(found.lattice), reverse=True)
+    chosen, wanted = 0, verified[0].lattice
+    if board is not None:
+        fitting = [_fitted(grey, found.lattice, board) for found in verified]
+        chosen = max(range(len(fitting)), key=lambda i: len(fitting[i] or ()))
+        part = fitting[chosen]
+        if part is None:
+            rows, cols = sorted(wanted.shape)
+            raise NoBoardError(
+                f"This board has {rows} x {cols} inner corners, not {board[0]} x {board[1]}.",
+                _STATE_SIZE,
+            )
+        wanted = part
+    others = [found.lattice for i, found in enumerate(verified) if i != chosen]
+    return _Found(wanted, verified[chosen].rejected), tuple(map(region.around, others))
 
 
-def _verified(grey: Image, lattice: Lattice) -> Lattice | None:
-    """The lattice refined, less the corners that fail, or None if it is no board."""
-    refined = _refined(grey, lattice)
+def _verified(grey: Image, lattice: Lattice, method: str) -> _Found | None:
+    """The lattice refined, less the corners that fail, or None if it is no board.
+
+    A corner whose squares overlap or part by much has no saddle point; the edge model copes.
+    """
+    refined, at_saddle = _refined(grey, lattice)
+    if method == "saddle":
+        refined = refined.under(at_saddle)
     good = verify.sound(refined, grey)
     if not verify.credible(good, lattice.found) or np.count_nonzero(good) < MIN_CORNERS:
         return None
-    refined = verify.without_strays(refined.under(good), grey.shape)
-    return refined if min(refined.shape) >= MIN_LINES else None
+    kept = verify.without_strays(refined.under(good), grey.shape)
+    if min(kept.shape) < MIN_LINES:
+        return None
+    rejected = [
+        *_rejections(lattice.uv[lattice.found & ~refined.found], "no saddle point"),
+        *_rejections(refined.uv[refined.found & ~good], "off its place or its colours"),
+    ]
+    return _Found(kept, tuple(rejected))
 
 
-def _refined(grey: Image, lattice: Lattice) -> Lattice:
-    """The lattice with every corner at its saddle point, less those that have none."""
+def _rejections(uv: Array, reason: str) -> list[Rejection]:
+    return [Rejection(float(u), float(v), reason) for u, v in uv]
+
+
+def _refined(grey: Image, lattice: Lattice) -> tuple[Lattice, BoolArray]:
+    """The lattice with its corners moved to their saddle points, and which (rows, cols) have one
+    near."""
     found = lattice.found
     spacing = lattice.spacing()[found]
     uv = lattice.uv.copy()
     uv[found], good = saddle.refine(grey, uv[found], saddle.window(spacing), spacing / 4)
-    found[found] = good
-    return Lattice(uv, lattice.dark).under(found)
+    at_saddle = found.copy()
+    at_saddle[found] = good
+    return Lattice(uv, lattice.dark), at_saddle
 
 
 def _fitted(grey: Image, lattice: Lattice, board: Board) -> Lattice | None:
@@ -154,31 +192,39 @@ def _without_sparse_lines(lattice: Lattice, size: Board) -> Lattice:
     return Lattice(uv, dark)
 
 
-def _guided(grey: Image, board: Board, outline: Array) -> list[Numbering]:
-    """Numberings of the board whose outermost corners were pointed at."""
+def _guided(grey: Image, board: Board, outline: Array) -> _Found:
+    """The board whose outermost corners were pointed at."""
     parts = []
     for guess in region.guesses(outline, board):
-        refined = _refined(grey, guess)
-        # Where nothing was found the guess stands in for the neighbours of what was.
-        filled = np.where(refined.found[..., None], refined.uv, guess.uv)
+        refined, at_saddle = _refined(grey, guess)
         for dark in (True, False):
-            good = verify.sound(Lattice(filled, dark), grey) & refined.found
-            parts.append(Lattice(filled, dark).under(good))
-    best = max(parts, key=len)
-    if len(best) < max(MIN_CORNERS, best.found.size // 2):
+            # Where nothing was found the guess stands in for the neighbours of what was.
+            candidate = Lattice(refined.uv, dark)
+            good = verify.sound(candidate, grey) & at_saddle
+            doubtful = _rejections(guess.uv[~good], "not found where the marked points place it")
+            parts.append(_Found(candidate.under(good), tuple(doubtful)))
+    best = max(parts, key=lambda found: len(found.lattice))
+    if len(best.lattice) < max(MIN_CORNERS, best.lattice.found.size // 2):
         raise NoBoardError(
             f"No board of {board[0]} x {board[1]} inner corners fits the four marked points.",
             "Mark the four outermost inner corners, in order around the board. " + _STATE_SIZE,
         )
-    return numberings(best, board)
+    return best
 
 
-def _corners(grey: Image, numbered: list[Numbering], outline: Array | None, method: str) -> Corners:
+def _corners(
+    grey: Image,
+    numbered: list[Numbering],
+    rejected: tuple[Rejection, ...],
+    outline: Array | None,
+    others: tuple[Array, ...],
+    method: str,
+) -> Corners:
     """The record of the preferred numbering."""
     chosen = numbered[0]
     grid, uv = place(chosen)
     spacing = chosen.lattice.spacing()[chosen.lattice.found]
-    return Corners(
+    corners = Corners(
         shape=chosen.board,
         grid=grid,
         uv=uv,
@@ -187,4 +233,25 @@ def _corners(grey: Image, numbered: list[Numbering], outline: Array | None, meth
         roi=region.around(chosen.lattice) if outline is None else outline,
         method=method,
         relative=len({way.offset for way in numbered}) > 1,
+        rejected=rejected,
+        others=others,
+    )
+    return corners if method == "saddle" else _fit_edges(grey, chosen.lattice, corners)
+
+
+def _fit_edges(grey: Image, lattice: Lattice, corners: Corners) -> Corners:
+    """`corners` refined by the edge model, less those that it does not describe."""
+    fit = edges.fit(grey, lattice)
+    spacing = lattice.spacing()[lattice.found]
+    good = verify.described(fit, corners.uv, spacing)
+    return replace(
+        corners,
+        grid=corners.grid[good],
+        uv=fit.uv[good],
+        estimate=corners.estimate[good],
+        cov=fit.covariance[good],
+        blur=fit.blur[good],
+        contrast=fit.contrast[good],
+        residual=fit.residual[good],
+        rejected=(*corners.rejected, *_rejections(corners.uv[~good], "not two crossing edges")),
     )

@@ -13,6 +13,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from calibgui.engine.corners.edges import Fit
 from calibgui.engine.corners.growth import sectors
 from calibgui.engine.corners.lattice import Lattice, axes, crop, in_steps, predict
 from calibgui.engine.opencv import Image
@@ -26,6 +27,12 @@ _WEAKEST = 0.2
 """Least contrast over the board's median."""
 _FAILING = 0.25
 """Share of corners that may fail before the board does."""
+_MOVED = 0.1
+"""Farthest that the edge fit may move a corner, squares."""
+_UNEXPLAINED = 4.0
+"""Greatest residual of the edge fit over the board's median residual ..."""
+_MISFIT = 0.15
+"""... or over the corner's contrast, whichever is more."""
 _SPARSE = 0.4
 """Least share found of a border line's visible places."""
 BORDERS = (np.s_[0], np.s_[-1], np.s_[:, 0], np.s_[:, -1])
@@ -51,6 +58,19 @@ def sound(lattice: Lattice, image: Image) -> BoolArray:
 def credible(good: BoolArray, found: BoolArray) -> bool:
     """Whether enough of the corners found are good for their board to be trusted."""
     return bool(np.count_nonzero(found & ~good) <= _FAILING * np.count_nonzero(found))
+
+
+def described(fit: Fit, start: Array, spacing: Array) -> BoolArray:
+    """(n,) which corners the edge model describes: it stayed near the saddle point where it
+    started, its edges are as strong as the board's, and it leaves no more unexplained."""
+    moved = np.linalg.norm(fit.uv - start, axis=1)
+    typical = float(np.median(fit.residual))
+    return np.asarray(
+        (moved <= np.maximum(_MOVED * spacing, 1.0))
+        & (fit.contrast > _WEAKEST * np.median(fit.contrast))
+        & (fit.residual <= np.maximum(_UNEXPLAINED * typical, _MISFIT * fit.contrast))
+        & np.isfinite(fit.covariance).all(axis=(1, 2))
+    )
 
 
 def without_strays(lattice: Lattice, shape: tuple[int, ...]) -> Lattice:

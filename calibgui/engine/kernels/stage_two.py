@@ -2,39 +2,24 @@
 
 The same sums as ``levenberg_marquardt.normal_equations`` over
 ``stage_two.image_residual``, which stay as the readable reference that this file is tested
-against. What makes it fast is the layout: the Jacobian of one view is kept transposed, one
-parameter a row, so that every loop runs over the corners without a branch and the compiler
-turns it into vector instructions, and the products of the rows are formed four at a time
-while they are in the processor's first cache.
+against.
 
 Both lens models are the polynomial of eq. 10, with the coefficients ordered as
 k1, k2, k3, p1, p2, p3: the paper's corrects, and is inverted here by Newton's method from the
 measured corner; the other distorts. With M = d(measured) / d(ideal) the derivatives by the
 coefficients are -M basis(measured) for the first and basis(ideal) for the second.
-
-Each view's sums are independent of every other's and are added in a fixed order, so that the
-result does not depend on the number of threads. Padded corners carry zero weight.
+Padded corners carry zero weight.
 """
 
 from __future__ import annotations
 
-from concurrent.futures import ThreadPoolExecutor
-from typing import Any
-
 import numpy as np
-from numba import njit
 
+from calibgui.engine.kernels.common import compiled, gram, in_blocks
 from calibgui.engine.types import Array, IntArray
 
-_MATHS = {"contract", "nsz", "arcp", "reassoc"}
-"""Freedoms that the compiler needs to vectorise sums; infinities and NaN stay as they are."""
-_THREADS = 2
-_BLOCK = 64
-"""Views that one thread takes at a time."""
-_compiled: Any = njit(cache=True, fastmath=_MATHS, error_model="numpy", nogil=True)
 
-
-@_compiled
+@compiled
 def _eq10(x, y, k1, k2, k3, p1, p2, p3):  # type: ignore[no-untyped-def]
     """psi1, psi2 and their derivatives by x and y, as ``lens.lucchese``."""
     xx, yy, xy = x * x, y * y, x * y
@@ -55,7 +40,7 @@ def _eq10(x, y, k1, k2, k3, p1, p2, p3):  # type: ignore[no-untyped-def]
     )
 
 
-@_compiled
+@compiled
 def _distort(n, k, d, M):  # type: ignore[no-untyped-def]
     """d = eq10(n) and M = dd/dn, all (2 or 4, N)."""
     k1, k2, k3, p1, p2, p3 = k
@@ -65,7 +50,7 @@ def _distort(n, k, d, M):  # type: ignore[no-untyped-def]
         )
 
 
-@_compiled
+@compiled
 def _invert(n, k, d, M):  # type: ignore[no-untyped-def]
     """Solve eq10(d) = n from the given d; M = dd/dn. Returns whether all points converged.
 
@@ -92,37 +77,7 @@ def _invert(n, k, d, M):  # type: ignore[no-untyped-def]
     return False
 
 
-@_compiled
-def _gram(J, out):  # type: ignore[no-untyped-def]
-    """out = J J^T for J (M, n), four products at a time."""
-    M, n = J.shape
-    for a in range(M):
-        ja = J[a]
-        b = a
-        while b + 3 < M:
-            j0, j1, j2, j3 = J[b], J[b + 1], J[b + 2], J[b + 3]
-            s0 = s1 = s2 = s3 = 0.0
-            for i in range(n):
-                v = ja[i]
-                s0 += v * j0[i]
-                s1 += v * j1[i]
-                s2 += v * j2[i]
-                s3 += v * j3[i]
-            out[a, b] = out[b, a] = s0
-            out[a, b + 1] = out[b + 1, a] = s1
-            out[a, b + 2] = out[b + 2, a] = s2
-            out[a, b + 3] = out[b + 3, a] = s3
-            b += 4
-        while b < M:
-            jb = J[b]
-            s0 = 0.0
-            for i in range(n):
-                s0 += ja[i] * jb[i]
-            out[a, b] = out[b, a] = s0
-            b += 1
-
-
-@_compiled
+@compiled
 def _by_params(fc, base, lead, d, F):  # type: ignore[no-untyped-def]
     """Rows of F (10, 2N): derivatives of u (first N) and v by fx, fy, cx, cy and eq. 10's k.
 
@@ -150,7 +105,7 @@ def _by_params(fc, base, lead, d, F):  # type: ignore[no-untyped-def]
         F[9, i], F[9, n + i] = c * lx + e * ly, g * lx + h * ly
 
 
-@_compiled
+@compiled
 def _by_pose(fx, fy, rotated, n, M, inverse_depth, J):  # type: ignore[no-untyped-def]
     """Rows of J (6, 2N): derivatives by (w, tau), the cross product of R X and d(u, v)/dX_cam."""
     N = n.shape[1]
@@ -165,7 +120,7 @@ def _by_pose(fx, fy, rotated, n, M, inverse_depth, J):  # type: ignore[no-untype
             J[3, j], J[4, j], J[5, j] = c0, c1, c2
 
 
-@_compiled
+@compiled
 def _whiten(weight, J):  # type: ignore[no-untyped-def]
     """J (M, 2N) times the corners' whitening (4, N): w00, w01, w10, w11."""
     N = weight.shape[1]
@@ -176,7 +131,7 @@ def _whiten(weight, J):  # type: ignore[no-untyped-def]
             J[m, N + i] = weight[2, i] * u + weight[3, i] * v
 
 
-@_compiled
+@compiled
 def _views(params, backward, R, T, uv, xyz, weight, whitened, rows, out):  # type: ignore[no-untyped-def]
     """Fill out (K, M, M) with the products of [J_free J_pose r] of each view."""
     K, _, N = uv.shape
@@ -225,7 +180,7 @@ def _views(params, backward, R, T, uv, xyz, weight, whitened, rows, out):  # typ
             J[P + 6, N + i] = cy + fy * d[1, i] - v[i]
         if whitened:
             _whiten(weight[view], J)
-        _gram(J, out[view])
+        gram(J, out[view])
         if failed:
             out[view, P + 6, P + 6] = np.inf
 
@@ -266,10 +221,5 @@ def products(
             whitened, rows, out[views],
         )  # fmt: skip
 
-    blocks = [slice(begin, begin + _BLOCK) for begin in range(0, K, _BLOCK)]
-    if len(blocks) == 1:
-        run(blocks[0])
-    else:
-        with ThreadPoolExecutor(_THREADS) as pool:
-            list(pool.map(run, blocks))
+    in_blocks(K, run)
     return out

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from calibgui.engine import problem
+from calibgui.engine import kernels, problem
 from calibgui.engine.calibrate import parameter_names
 from calibgui.engine.frames import rotation
 from calibgui.engine.observations import pack
@@ -13,7 +13,7 @@ from calibgui.engine.projection import pixels
 from calibgui.engine.stage_two import State
 from calibgui.engine.types import Camera, Cost, Observation, Target
 
-pytestmark = pytest.mark.skipif(not problem.COMPILED, reason="numba is not installed")
+pytestmark = pytest.mark.skipif(not kernels.COMPILED, reason="numba is not installed")
 
 CAMERAS = {
     "lucchese": Camera((640, 480), [650, 600, 310, 250, 0.25, 0.06, -0.05, 1e-3, -2e-3, 0.4]),
@@ -47,7 +47,7 @@ def test_the_compiled_sums_are_the_readable_ones(
     free = np.array([i for i in range(len(parameter_names(model))) if i not in (3, 5)])
     arguments = (pack(views), model, Cost.IMAGE, 1.0, free)
     compiled = problem.stage_two(*arguments)(state)
-    monkeypatch.setattr(problem, "COMPILED", False)
+    monkeypatch.setattr(kernels, "COMPILED", False)
     readable = problem.stage_two(*arguments)(state)
     for name in ("U", "W", "V", "shared", "pose", "cost"):
         ours, truth = getattr(compiled, name), getattr(readable, name)
@@ -64,7 +64,7 @@ def test_a_board_behind_the_camera_costs_infinitely_much(model: str) -> None:
 
 
 def test_the_sums_do_not_depend_on_the_number_of_threads(monkeypatch: pytest.MonkeyPatch) -> None:
-    from calibgui.engine import kernel
+    from calibgui.engine.kernels import common
 
     state, views = scene("lucchese", weighted=False)
     many = 30 * views
@@ -72,7 +72,7 @@ def test_the_sums_do_not_depend_on_the_number_of_threads(monkeypatch: pytest.Mon
     normal_at = problem.stage_two(pack(many), "lucchese", Cost.IMAGE, 1.0, np.arange(9))
     results = []
     for threads in (1, 2, 5):
-        monkeypatch.setattr(kernel, "_THREADS", threads)
+        monkeypatch.setattr(common, "THREADS", threads)
         results.append(normal_at(wide))
     for other in results[1:]:
         for ours, theirs in zip(results[0], other, strict=True):
