@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from typing import TypeVar
 
 import numpy as np
@@ -15,6 +15,7 @@ from pytestqt.qtbot import QtBot
 from calibgui import engine
 from calibgui.engine.types import Corners, View, ViewStatus
 from calibgui.formats.result import Result
+from calibgui.gui.jobs import Jobs
 from calibgui.gui.panels.panel import Panel
 from calibgui.gui.plots import Plot
 from tests.engine import scenes
@@ -46,6 +47,14 @@ def result() -> Result:
 def other() -> Result:
     """The same camera from other views."""
     return made(seed=7)
+
+
+@pytest.fixture
+def jobs() -> Iterator[Jobs]:
+    """Work beside the window, ended with the test."""
+    running = Jobs()
+    yield running
+    running.close()
 
 
 Shown = Callable[[type[P], Result | None], P]

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import csv
 import io
-from collections.abc import Iterator
 from dataclasses import replace
 from pathlib import Path
 
@@ -35,13 +34,6 @@ def small() -> Result:
 @pytest.fixture(scope="module")
 def check(small: Result) -> SyntheticCheck:
     return synthetic_check(small)
-
-
-@pytest.fixture
-def jobs() -> Iterator[Jobs]:
-    running = Jobs()
-    yield running
-    running.close()
 
 
 def panel_of(result: Result, jobs: Jobs, qtbot: QtBot) -> SyntheticPanel:

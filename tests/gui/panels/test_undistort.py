@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
@@ -29,13 +29,6 @@ def photograph(path: str) -> Image:
     rng = np.random.default_rng(len(path) + sum(map(ord, path)))
     coarse = rng.integers(0, 255, (24, 32)).astype(np.uint8)
     return Image(np.kron(coarse, np.ones((20, 20), np.uint8)), Path(path))
-
-
-@pytest.fixture
-def jobs() -> Iterator[Jobs]:
-    running = Jobs()
-    yield running
-    running.close()
 
 
 @pytest.fixture
