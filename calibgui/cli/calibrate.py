@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+import math
 from dataclasses import replace
 from pathlib import Path
 
@@ -68,6 +69,8 @@ def configure(parser: argparse.ArgumentParser) -> None:
 
 def run(options: argparse.Namespace, console: Console) -> None:
     """Search, calibrate, write and print."""
+    if both := options.fix.keys() & set(options.free):
+        options.usage_error(f"{', '.join(sorted(both))} cannot be both held and freed")
     for path in [*(path for _, path in options.export), *filter(None, [options.output])]:
         check_writable(path)
     corner_set = _corner_set(options, console)
@@ -114,14 +117,18 @@ def _from_corners_file(options: argparse.Namespace) -> CornerSet:
 
 def _fixed(text: str) -> dict[str, float | None]:
     """Names to hold, with values where given, from "k3,p1=0"."""
-    held: dict[str, float | None] = {}
-    for part in text.split(","):
-        name, equals, value = part.partition("=")
-        try:
-            held[_name(name)] = float(value) if equals else None
-        except ValueError as error:
-            raise argparse.ArgumentTypeError(f"{value!r} is not a number") from error
-    return held
+    parts = [part.partition("=") for part in text.split(",")]
+    return {_name(name): _value(name, value) if equals else None for name, equals, value in parts}
+
+
+def _value(name: str, text: str) -> float:
+    try:
+        value = float(text)
+    except ValueError:
+        value = math.nan
+    if not math.isfinite(value) or (name.strip() in ("fx", "fy") and value <= 0):
+        raise argparse.ArgumentTypeError(f"{text!r} cannot be the value of {name}")
+    return value
 
 
 def _names(text: str) -> tuple[str, ...]:

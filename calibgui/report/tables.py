@@ -31,7 +31,7 @@ _PAPER_UNITS = ("px", "px", "px^-2", "px^-4", "px^-6", "px^-1", "px^-1", "px^-2"
 _COSTS = {
     Cost.IMAGE: "reprojection error in the image",
     Cost.REFERENCE: "registration error on the reference plane",
-    Cost.PAPER: "the paper's eq. 41 to the letter",
+    Cost.PAPER: "registration error of eq. 41 to the letter",
 }
 
 
@@ -140,7 +140,7 @@ def intrinsics(calibration: Calibration) -> str:
         ]
         for row, i in enumerate(order)
     ]
-    head = ["", "array frame", "", " ", "", "the paper's frame and units", ""]
+    head = ["", "array frame", "", " ", "", "paper's frame, units", ""]
     if calibration.cost is Cost.PAPER:
         head.append("its own SD")
         for row, i in zip(right, order, strict=True):
@@ -154,12 +154,13 @@ def residuals(calibration: Calibration) -> str:
     fit = summarise(calibration.residuals)
     lines = [
         f"Residuals of {counted(fit.count, 'corner')} in {counted(len(calibration.poses), 'view')}",
-        f"  in the image              rms {fit.rms:.4f} px,  "
-        f"sigma_x {fit.sigma_x:.4f} px,  sigma_y {fit.sigma_y:.4f} px",
-        f"  on the reference plane    mean e' {fit.reference_mean:.4f},  "
+        f"  in the image            rms {fit.rms:.4f} px, "
+        f"sigma_x {fit.sigma_x:.4f} px, sigma_y {fit.sigma_y:.4f} px",
+        f"  on the reference plane  mean e' {fit.reference_mean:.4f}, "
         f"SD {fit.reference_sd:.4f} reference px",
-        f"Stage II ({_COSTS[calibration.cost]}): {calibration.status} after "
-        f"{counted(len(calibration.history) - 1, 'iteration')}",
+        f"Stage II: {calibration.status} after "
+        f"{counted(len(calibration.history) - 1, 'iteration')}, minimising",
+        f"  the {_COSTS[calibration.cost]}",
     ]
     return "\n".join(lines)
 

@@ -1,0 +1,265 @@
+"""calibgui calibrate: from photographs or corners to a result, and every way to fail."""
+
+from __future__ import annotations
+
+import json
+import math
+import shutil
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+from calibgui.cli.main import main
+from calibgui.engine.calibrate import parameter_names
+from calibgui.engine.images import write_image
+from calibgui.engine.maps import project_points
+from calibgui.engine.types import Pose
+from calibgui.formats.result_json import read_result
+from tests.photographs import BOARD, CAMERA, COUNT
+
+Capture = pytest.CaptureFixture[str]
+
+
+def test_photographs_give_the_camera_that_took_them(
+    photographs: Path, tmp_path: Path, capsys: Capture
+) -> None:
+    file = tmp_path / "result.json"
+    assert main(["calibrate", str(photographs), "--square", "30", "-o", str(file)]) == 0
+    result = read_result(file)
+    camera, sigma = result.calibration.camera, result.calibration.sigma
+    assert camera.size == CAMERA.size and len(result.used) == COUNT
+    free = sigma > 0
+    assert (np.abs(camera.params - CAMERA.params)[free] < 5 * sigma[free]).all()
+    printed, problems = capsys.readouterr()
+    assert problems == ""
+    for heading in ("Stage I", "Views", "Camera, 320 x 240 px", "Residuals of", "Wrote"):
+        assert heading in printed
+    # Only the name of a file may be longer than a line.
+    assert all(len(line) <= 80 or str(file) in line for line in printed.splitlines())
+
+
+def test_corners_need_no_square(corners_file: Path, tmp_path: Path) -> None:
+    file = tmp_path / "result.json"
+    assert main(["calibrate", str(corners_file), "-q", "-o", str(file)]) == 0
+    assert read_result(file).target == BOARD
+
+
+def test_a_square_given_with_corners_scales_the_poses(corners_file: Path, tmp_path: Path) -> None:
+    files = [tmp_path / "30.json", tmp_path / "15.json"]
+    for file in files:
+        options = ["--square", file.stem, "-q", "-o", str(file)]
+        assert main(["calibrate", str(corners_file), *options]) == 0
+    full, half = (read_result(file).calibration for file in files)
+    np.testing.assert_allclose(half.camera.params, full.camera.params, rtol=1e-6, atol=1e-9)
+    np.testing.assert_allclose(half.poses[0].tvec, full.poses[0].tvec / 2, rtol=1e-6)
+
+
+def test_corners_from_elsewhere(content: Any, tmp_path: Path) -> None:
+    bare = {
+        "size": content["size"],
+        "views": [{key: v[key] for key in ("image", "uv", "board")} for v in content["views"]],
+    }
+    file, result = tmp_path / "bare.json", tmp_path / "result.json"
+    file.write_text(json.dumps(bare))
+    assert main(["calibrate", str(file), "-q", "-o", str(result)]) == 0
+    assert main(["calibrate", str(file), "-q", "--square", "30"]) == 1  # it states its own
+
+
+def test_json_is_all_there_is_on_stdout(corners_file: Path, capsys: Capture) -> None:
+    assert main(["calibrate", str(corners_file), "--json"]) == 0
+    printed, problems = capsys.readouterr()
+    record = json.loads(printed)
+    assert record["format"] == "calibgui-result"
+    assert record["residuals"]["count"] == COUNT * 42
+    assert problems == ""
+
+
+def test_quiet_is_silent(corners_file: Path, capsys: Capture) -> None:
+    assert main(["calibrate", str(corners_file), "--quiet"]) == 0
+    assert capsys.readouterr() == ("", "")
+
+
+def test_parameters_are_held_and_freed(corners_file: Path, tmp_path: Path, capsys: Capture) -> None:
+    file = tmp_path / "result.json"
+    options = ["--fix", "k3,p1=0.001,fx=330", "--free", "p3", "-o", str(file)]
+    assert main(["calibrate", str(corners_file), *options]) == 0
+    calibration = read_result(file).calibration
+    value = dict(zip(parameter_names("lucchese"), calibration.camera.params, strict=True))
+    assert (value["k3"], value["p1"], value["fx"]) == (0.0, 0.001, 330.0)
+    assert calibration.fixed == ("fx", "k3", "p1")
+    assert "330 (held)" in capsys.readouterr().out
+
+
+@pytest.mark.parametrize("cost", ["reference", "paper"])
+def test_other_costs(corners_file: Path, cost: str, capsys: Capture) -> None:
+    assert main(["calibrate", str(corners_file), "--cost", cost]) == 0
+    printed = capsys.readouterr().out
+    assert ("its own SD" in printed) == (cost == "paper")
+    assert max(map(len, printed.splitlines())) <= 80
+
+
+def test_exports_are_written_and_described(
+    corners_file: Path, tmp_path: Path, capsys: Capture
+) -> None:
+    yaml, csv = tmp_path / "camera.yaml", tmp_path / "corners.csv"
+    options = ["--export", f"opencv={yaml}", "--export", f"corners-csv={csv}"]
+    assert main(["calibrate", str(corners_file), *options]) == 0
+    assert "camera_matrix" in yaml.read_text() and csv.exists()
+    assert "refitted" in capsys.readouterr().out
+
+
+def test_bad_images_are_reported_by_name_and_skipped(
+    photographs: Path, tmp_path: Path, capsys: Capture
+) -> None:
+    shutil.copytree(photographs, tmp_path, dirs_exist_ok=True)
+    (tmp_path / "text.png").write_text("no image")
+    write_image(tmp_path / "small.png", np.zeros((100, 100), np.uint8))
+    write_image(tmp_path / "blank.png", np.full((240, 320), 99, np.uint8))
+    assert main(["calibrate", str(tmp_path), "--square", "30", "--board", "6x7"]) == 0
+    printed = " ".join(capsys.readouterr().out.split())
+    assert "text.png is not an image" in printed
+    assert "small.png: It has 100 x 100 pixels" in printed
+    assert "blank.png: No checkerboard was found." in printed
+
+
+def test_a_region_of_interest_is_passed_on(
+    photographs: Path, tmp_path: Path, capsys: Capture
+) -> None:
+    # Far from the board: the one view that it spoils shows that it was used.
+    roi = tmp_path / "roi.json"
+    roi.write_text(json.dumps({"view2.png": [[0, 0], [20, 0], [20, 20], [0, 20]]}))
+    options = ["--square", "30", "--board", "6x7", "--roi", str(roi)]
+    assert main(["calibrate", str(photographs), *options]) == 0
+    assert "view2.png: No" in capsys.readouterr().out
+
+
+# --- what cannot be done --------------------------------------------------------------------------
+
+
+def refused(arguments: list[str], capsys: Capture, *words: str) -> None:
+    """The command fails with code 1, nothing on stdout and `words` in its one-line reason."""
+    assert main(["calibrate", *arguments]) == 1
+    printed, problems = capsys.readouterr()
+    assert printed == ""
+    last = problems.strip().splitlines()[-1]
+    assert last.startswith("calibgui: ")
+    for word in words:
+        assert word in last
+
+
+def test_no_board_anywhere(tmp_path: Path, capsys: Capture) -> None:
+    for k in range(2):
+        write_image(tmp_path / f"blank{k}.png", np.full((240, 320), 99, np.uint8))
+    arguments = [str(tmp_path), "--square", "30", "-o", str(tmp_path / "result.json")]
+    assert main(["calibrate", *arguments]) == 1
+    problems = capsys.readouterr().err
+    assert "blank0.png: No checkerboard" in problems and "blank1.png" in problems
+    refused(arguments, capsys, "None of the images can be used.", "Photograph")
+    assert not (tmp_path / "result.json").exists()
+
+
+def test_nothing_found(tmp_path: Path, capsys: Capture) -> None:
+    refused([str(tmp_path), "--square", "30"], capsys, "holds no images")
+    refused([str(tmp_path / "x.png"), "--square", "30"], capsys, "x.png does not exist")
+
+
+def write(content: Any, folder: Path) -> str:
+    file = folder / "corners.json"
+    file.write_text(json.dumps(content))
+    return str(file)
+
+
+@pytest.mark.parametrize("number", [math.nan, None, 1e999, "12"])
+def test_a_corner_that_is_no_number(
+    content: Any, tmp_path: Path, capsys: Capture, number: object
+) -> None:
+    content["views"][1]["uv"][3][0] = number
+    refused([write(content, tmp_path)], capsys, "view 2", "view2.png", "uv[3][0]")
+
+
+def test_a_truncated_corners_file(corners_file: Path, tmp_path: Path, capsys: Capture) -> None:
+    file = tmp_path / "corners.json"
+    file.write_text(corners_file.read_text()[:5000])
+    refused([str(file)], capsys, "corners.json is cut short")
+
+
+def test_one_view(content: Any, tmp_path: Path, capsys: Capture) -> None:
+    content["views"] = content["views"][:1]
+    refused([write(content, tmp_path)], capsys, "One view does not", "Add at least two more")
+
+
+def test_parallel_views(tmp_path: Path, capsys: Capture) -> None:
+    rng = np.random.default_rng(1)
+    views = []
+    for k in range(5):
+        pose = Pose([0.0, 0.0, 0.2 * k], [-100.0 + 8 * k, -80.0, 350.0 + 30 * k])
+        uv = project_points(BOARD.points(), CAMERA, pose) + rng.normal(scale=0.05, size=(42, 2))
+        views.append({"image": f"{k}.png", "uv": uv.tolist(), "board": BOARD.points().tolist()})
+    file = write({"size": CAMERA.size, "views": views}, tmp_path)
+    refused([file], capsys, "parallel to the sensor", "Tilt the board")
+
+
+def test_a_mirrored_view_is_named(content: Any, tmp_path: Path, capsys: Capture) -> None:
+    view = content["views"][4]
+    view["uv"] = [[319 - u, v] for u, v in view["uv"]]
+    refused([write(content, tmp_path)], capsys, "view5.png", "mirrored")
+
+
+def test_outputs_are_checked_before_the_work(
+    corners_file: Path, tmp_path: Path, capsys: Capture
+) -> None:
+    missing = tmp_path / "missing" / "result.json"
+    refused([str(corners_file), "-o", str(missing)], capsys, "does not exist")
+    refused([str(corners_file), "-o", str(tmp_path)], capsys, "is a folder")
+    refused([str(corners_file), "--export", f"ros={missing.parent / 'a.yaml'}"], capsys, "exist")
+
+
+@pytest.mark.parametrize(
+    "wrong",
+    [
+        [],
+        ["a.png"],  # no --square
+        ["a.png", "--square", "0"],
+        ["a.png", "--square", "nan"],
+        ["a.png", "--square", "30", "--board", "12"],
+        ["a.png", "--square", "30", "--board", "1x1"],
+        ["a.png", "--square", "30", "--cost", "none"],
+        ["a.png", "--square", "30", "--fix", "k9"],
+        ["a.png", "--square", "30", "--fix", "k1=x"],
+        ["a.png", "--square", "30", "--fix", "k1=nan"],
+        ["a.png", "--square", "30", "--fix", "p3", "--free", "p3"],
+        ["a.png", "--square", "30", "--free", ""],
+        ["a.png", "--square", "30", "--export", "opencv"],
+        ["a.png", "--square", "30", "--export", "none=a.json"],
+        ["a.png", "--square", "30", "--export", "ros=a.txt"],
+        ["corners.json", "--board", "6x7"],
+    ],
+)
+def test_wrong_usage_is_said_before_any_work(wrong: list[str], capsys: Capture) -> None:
+    with pytest.raises(SystemExit) as ended:
+        main(["calibrate", *wrong])
+    assert ended.value.code == 2
+    assert "usage: calibgui calibrate" in capsys.readouterr().err
+
+
+# --- the paper's images ---------------------------------------------------------------------------
+
+
+@pytest.mark.data
+@pytest.mark.slow
+def test_the_papers_images(bouguet: Path, tmp_path: Path) -> None:
+    """Bouguet's published camera, from nothing but his 25 photographs."""
+    file = tmp_path / "result.json"
+    images = [str(bouguet / f"Image{number}.tif") for number in range(1, 26)]
+    options = ["--square", "30", "--board", "12x13", "-q", "-o", str(file)]
+    assert main(["calibrate", *images, *options]) == 0
+    record = json.loads(file.read_text())
+    assert [view["corners"] for view in record["views"]] == [156] * 25
+    assert {view["status"] for view in record["views"]} == {"found"}
+    assert record["residuals"]["sigma_x_px"] <= 0.102
+    assert record["residuals"]["sigma_y_px"] <= 0.112
+    params = record["camera"]["params"]
+    assert abs(params["fx"] - 657.30) < 1.0 and abs(params["fy"] - 657.75) < 1.0
+    assert abs(params["cx"] - 302.98) < 1.5 and abs(params["cy"] - 242.48) < 1.5

@@ -1,0 +1,61 @@
+"""calibgui detect: photographs to corners.json."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from calibgui.cli.main import main
+from calibgui.engine.images import write_image
+from calibgui.formats.corners_json import read_corners
+from tests.photographs import BOARD, CAMERA, COUNT
+
+Capture = pytest.CaptureFixture[str]
+
+
+def test_corners_are_written_and_listed(photographs: Path, tmp_path: Path, capsys: Capture) -> None:
+    file = tmp_path / "corners.json"
+    assert main(["detect", str(photographs), "--square", "30", "-o", str(file)]) == 0
+    corner_set = read_corners(file)
+    assert corner_set.size == CAMERA.size and corner_set.target == BOARD
+    assert [view.image for view in corner_set.views] == [
+        str(photographs / f"view{k}.png") for k in range(1, COUNT + 1)
+    ]
+    printed = capsys.readouterr().out
+    assert f"The board was found in {COUNT} of {COUNT} images." in printed
+    assert "6 x 7" in printed
+
+
+def test_without_a_square_it_says_what_to_do(
+    photographs: Path, tmp_path: Path, capsys: Capture
+) -> None:
+    file = tmp_path / "corners.json"
+    assert main(["detect", str(photographs), "-o", str(file)]) == 0
+    assert "give --square when calibrating" in capsys.readouterr().out
+
+
+def test_json_is_the_content_of_the_file(
+    photographs: Path, tmp_path: Path, capsys: Capture
+) -> None:
+    file = tmp_path / "corners.json"
+    assert main(["detect", str(photographs), "--json", "-o", str(file)]) == 0
+    assert json.loads(capsys.readouterr().out) == json.loads(file.read_text())
+
+
+def test_no_board_is_a_failure_with_every_reason(tmp_path: Path, capsys: Capture) -> None:
+    write_image(tmp_path / "blank.png", np.full((240, 320), 99, np.uint8))
+    file = tmp_path / "corners.json"
+    assert main(["detect", str(tmp_path), "-o", str(file)]) == 1
+    printed, problems = capsys.readouterr()
+    assert printed == "" and not file.exists()
+    assert "blank.png: No checkerboard was found." in problems
+    assert "found in none of the images" in problems
+
+
+def test_no_readable_image_is_a_failure(tmp_path: Path, capsys: Capture) -> None:
+    (tmp_path / "text.png").write_text("no image")
+    assert main(["detect", str(tmp_path)]) == 1
+    assert "text.png is not an image" in capsys.readouterr().err

@@ -1,0 +1,150 @@
+"""Every ending of the program: its exit code, and what it prints and leaves behind."""
+
+from __future__ import annotations
+
+import contextlib
+import json
+import os
+import select
+import signal
+import struct
+import subprocess
+import sys
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+
+from calibgui import __version__
+from calibgui.cli import detect
+from calibgui.cli.main import COMMANDS, main
+from tests.photographs import COUNT
+
+Capture = pytest.CaptureFixture[str]
+
+posix = pytest.mark.skipif(os.name != "posix", reason="signals and terminals of POSIX")
+
+
+def program(*arguments: str | Path) -> list[str]:
+    return [sys.executable, "-m", "calibgui", *map(str, arguments)]
+
+
+def test_without_arguments_it_shows_its_commands(capsys: Capture) -> None:
+    assert main([]) == 2
+    printed = capsys.readouterr().out
+    for command in COMMANDS:
+        assert command in printed
+
+
+def test_its_version(capsys: Capture) -> None:
+    with pytest.raises(SystemExit) as ended:
+        main(["--version"])
+    assert ended.value.code == 0
+    assert __version__ in capsys.readouterr().out
+
+
+@pytest.mark.parametrize("command", COMMANDS)
+def test_every_command_describes_itself(command: str, capsys: Capture) -> None:
+    with pytest.raises(SystemExit) as ended:
+        main([command, "--help"])
+    assert ended.value.code == 0
+    printed = capsys.readouterr().out
+    assert f"usage: calibgui {command}" in printed
+    assert max(map(len, printed.splitlines())) <= 80
+
+
+def test_an_unknown_command_is_wrong_usage(capsys: Capture) -> None:
+    with pytest.raises(SystemExit) as ended:
+        main(["calibarte"])
+    assert ended.value.code == 2
+    assert "calibarte" in capsys.readouterr().err
+
+
+def test_a_bug_shows_traceback_and_versions(
+    monkeypatch: pytest.MonkeyPatch, capsys: Capture
+) -> None:
+    monkeypatch.setattr(detect, "search", lambda *_: 1 / 0)
+    assert main(["detect", "a.png"]) == 70
+    problems = capsys.readouterr().err
+    for word in ("Traceback", "ZeroDivisionError", "bug", f"calibgui {__version__}", "numpy"):
+        assert word in problems
+
+
+def test_an_interruption_is_not_a_bug(monkeypatch: pytest.MonkeyPatch, capsys: Capture) -> None:
+    def interrupt(*_: object) -> None:
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr(detect, "search", interrupt)
+    assert main(["detect", "a.png"]) == 130
+    assert capsys.readouterr() == ("", "calibgui: interrupted.\n")
+
+
+@posix
+def test_ctrl_c_during_the_search_leaves_nothing(photographs: Path, tmp_path: Path) -> None:
+    images, out = tmp_path / "images", tmp_path / "out"
+    images.mkdir()
+    out.mkdir()
+    for k in range(3000):
+        os.link(photographs / f"view{k % COUNT + 1}.png", images / f"{k}.png")
+    with terminal() as (ours, theirs):
+        process = subprocess.Popen(
+            program("detect", images, "-o", out / "corners.json"),
+            stdout=subprocess.DEVNULL,
+            stderr=theirs,
+            start_new_session=True,
+        )
+        shown_until(ours, b"/3000")  # the progress bar: workers are searching
+        os.killpg(process.pid, signal.SIGINT)  # as a terminal does: the workers get it too
+        shown = shown_until(ours, b"interrupted")
+        assert process.wait(60) == 130
+    assert b"Traceback" not in shown
+    assert list(out.iterdir()) == []
+
+
+@contextlib.contextmanager
+def terminal() -> Iterator[tuple[int, int]]:
+    """Both ends of a terminal of 80 columns."""
+    import fcntl
+    import termios
+
+    ours, theirs = os.openpty()
+    fcntl.ioctl(theirs, termios.TIOCSWINSZ, struct.pack("HHHH", 24, 80, 0, 0))
+    yield ours, theirs
+    os.close(theirs)
+    os.close(ours)
+
+
+def shown_until(screen: int, words: bytes) -> bytes:
+    """What appears on a terminal up to `words`; fails if nothing does for a minute."""
+    shown = b""
+    while words not in shown:
+        ready, _, _ = select.select([screen], [], [], 60)
+        assert ready, shown
+        shown += os.read(screen, 4096)
+    return shown
+
+
+@posix
+def test_a_reader_that_goes_away_is_no_error(corners_file: Path) -> None:
+    with subprocess.Popen(
+        program("calibrate", corners_file), stdout=subprocess.PIPE, stderr=subprocess.PIPE
+    ) as process:
+        assert process.stdout is not None and process.stderr is not None
+        process.stdout.close()
+        problems = process.stderr.read()
+    assert process.returncode == 141
+    assert problems == b""
+
+
+def test_a_terminal_without_unicode_is_served(corners_file: Path, tmp_path: Path) -> None:
+    content = json.loads(corners_file.read_text())
+    content["views"][0]["image"] = "фото.png"
+    file = tmp_path / "corners.json"
+    file.write_text(json.dumps(content))
+    done = subprocess.run(
+        program("calibrate", file),
+        env=os.environ | {"PYTHONIOENCODING": "ascii", "PYTHONUTF8": "0"},
+        capture_output=True,
+        check=True,
+    )
+    assert done.stdout.isascii() and done.stderr == b""

@@ -1,0 +1,66 @@
+"""calibgui undistort and rectify: folders of new images."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import pytest
+
+from calibgui.app.resampling import GEOMETRY
+from calibgui.cli.main import main
+from calibgui.engine.images import image_size
+from tests.photographs import CAMERA, COUNT
+
+Capture = pytest.CaptureFixture[str]
+
+
+def test_undistort_writes_a_folder(
+    result_file: Path, photographs: Path, tmp_path: Path, capsys: Capture
+) -> None:
+    out = tmp_path / "new" / "folder"
+    assert main(["undistort", str(result_file), str(photographs), "-o", str(out)]) == 0
+    assert f"Wrote {COUNT} images" in capsys.readouterr().out
+    assert image_size(out / "view1.png") == CAMERA.size
+    assert len(list(out.iterdir())) == COUNT + 1
+
+
+def test_the_field_of_view_is_passed_on(
+    result_file: Path, photographs: Path, tmp_path: Path
+) -> None:
+    focal = {}
+    for view in ("all", "same-scale", "no-border"):
+        arguments = [str(result_file), str(photographs / "view1.png"), "--view", view, "-q"]
+        assert main(["undistort", *arguments, "-o", str(tmp_path / view)]) == 0
+        focal[view] = json.loads((tmp_path / view / GEOMETRY).read_text())["matrix"][0][0]
+    assert focal["all"] < focal["no-border"]
+    assert focal["same-scale"] == pytest.approx(CAMERA.focal[0], rel=1e-2)
+
+
+def test_rectify_takes_the_calibrated_images_by_default(
+    result_file: Path, tmp_path: Path, capsys: Capture
+) -> None:
+    options = ["--scale", "2", "--json", "-o", str(tmp_path / "out")]
+    assert main(["rectify", str(result_file), *options]) == 0
+    answer = json.loads(capsys.readouterr().out)
+    assert len(answer["written"]) == COUNT and answer["skipped"] == {}
+    assert image_size(tmp_path / "out" / "view1.png") == (8 * 60, 7 * 60)
+
+
+def test_a_skipped_image_is_named_and_none_written_fails(
+    result_file: Path, photographs: Path, tmp_path: Path, capsys: Capture
+) -> None:
+    text = tmp_path / "text.png"
+    text.write_text("no image")
+    both = [str(result_file), str(photographs / "view1.png"), str(text)]
+    assert main(["undistort", *both, "-o", str(tmp_path / "a")]) == 0
+    assert "skipped" in capsys.readouterr().err
+    assert main(["undistort", str(result_file), str(text), "-o", str(tmp_path / "b")]) == 1
+    assert "No image was written" in capsys.readouterr().err
+
+
+def test_a_file_that_is_no_result_is_refused(
+    corners_file: Path, photographs: Path, tmp_path: Path, capsys: Capture
+) -> None:
+    assert main(["undistort", str(corners_file), str(photographs), "-o", str(tmp_path)]) == 1
+    assert "corners.json is not a file of the format" in capsys.readouterr().err

@@ -1,0 +1,163 @@
+"""Tables that fit a terminal, name their units and hide nothing."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from calibgui import engine
+from calibgui.app.calibration import calibrate_views
+from calibgui.engine import Ambiguity, Corners, Cost, Target, View, ViewStatus
+from calibgui.engine.types import Undetermined
+from calibgui.formats.corners_json import CornerSet
+from calibgui.formats.result import Result
+from calibgui.report import tables
+from tests.engine import scenes
+
+BOARD = Target(rows=8, cols=11, square=30.0)
+
+
+def calibrated(ambiguity: Ambiguity = Ambiguity.NONE, cost: Cost = Cost.IMAGE) -> Result:
+    """Eight views with noise, one image switched off and one without a board."""
+    rng = np.random.default_rng(2)
+    camera = scenes.barrel()
+    poses = [scenes.looking(camera, rng, board=BOARD) for _ in range(8)]
+    views = []
+    for k, seen in enumerate(scenes.seen(camera, poses, BOARD).noisy(0.1, rng)):
+        grid = np.rint(seen.xy[:, ::-1] / BOARD.square)
+        found = Corners((8, 11), grid, seen.uv, seen.uv, ambiguity=ambiguity)
+        views.append(View(f"folder/view{k}.png", ViewStatus.FOUND, corners=found))
+    views[2] = replace(views[2], enabled=False)
+    blank = View("folder/blank.png", ViewStatus.NO_BOARD, "No checkerboard was found. " * 5)
+    return calibrate_views(CornerSet(camera.size, (*views, blank), BOARD), cost=cost)
+
+
+@pytest.fixture(scope="module")
+def result() -> Result:
+    return calibrated()
+
+
+def lines(table: str) -> list[str]:
+    found = table.splitlines()
+    assert max(map(len, found)) <= tables.WIDTH
+    assert not any(line != line.rstrip() for line in found)
+    return found
+
+
+@pytest.mark.parametrize("cost", list(Cost))
+def test_everything_fits_the_terminal(cost: Cost) -> None:
+    report = tables.report(calibrated(cost=cost))
+    assert max(map(len, report.splitlines())) <= tables.WIDTH
+    assert ("its own SD" in report) == (cost is Cost.PAPER)
+
+
+def test_table_1_counts_views_as_they_are_listed(result: Result) -> None:
+    title, head, units, *rows = lines(tables.stage_one(result))
+    assert "Table 1" in title
+    assert head.split()[:4] == ["view", "xp", "yp", "k1"]
+    assert "px^-2" in units
+    assert [row.split()[0] for row in rows] == ["1", "2", "4", "5", "6", "7", "8", "mean"]
+    stage_one = result.calibration.stage_one
+    assert float(rows[0].split()[1]) == pytest.approx(stage_one[0].xp, abs=1e-4)
+    mean = np.mean([row.k1 for row in stage_one]) * 1e7
+    assert float(rows[-1].split()[3]) == pytest.approx(mean, abs=1e-4)
+
+
+def test_what_a_view_does_not_determine_is_not_printed_as_a_number(result: Result) -> None:
+    rows = list(result.calibration.stage_one)
+    rows[0] = replace(rows[0], aspect=np.nan, fx=np.nan, fy=np.nan)
+    calibration = replace(result.calibration, stage_one=tuple(rows))
+    table = tables.stage_one(replace(result, calibration=calibration))
+    assert table.splitlines()[3].split()[4:7] == ["-", "-", "-"]
+    assert "nan" not in table
+
+
+def test_views_show_fit_and_attitude(result: Result) -> None:
+    _, _, units, *rows = lines(tables.views(result))
+    assert units.split() == ["px", "mm", "deg"]
+    number, image, corners, rms, *_ = rows[2].split()
+    assert (number, image, corners) == ("4", "view3.png", "88")
+    assert float(rms) == pytest.approx(result.calibration.residuals[2].rms, abs=1e-3)
+
+
+def test_a_long_name_is_shortened_in_its_middle(result: Result) -> None:
+    views = list(result.views)
+    views[0] = replace(views[0], image="a" * 40 + "b" * 40 + ".png")
+    row = lines(tables.views(replace(result, views=tuple(views))))[3]
+    assert "aa..bb" in row and ".png" in row
+
+
+def test_every_image_left_out_has_its_reason(result: Result) -> None:
+    text = " ".join(" ".join(lines(tables.unused(result.views))).split())
+    assert "view2.png: Left out by choice." in text
+    assert "blank.png: No checkerboard was found. No checkerboard" in text
+    assert tables.unused([view for view in result.views if view.usable]) == ""
+
+
+def test_intrinsics_have_their_uncertainty_in_both_frames(result: Result) -> None:
+    calibration = result.calibration
+    _, head, *rows = lines(tables.intrinsics(calibration))
+    assert "array frame" in head and "paper's frame" in head
+    fx = rows[0].split()
+    assert float(fx[1]) == pytest.approx(calibration.camera.params[0], abs=0.01)
+    assert fx[2] == "±" and fx[4] == "px" and fx[5] == "fx" and fx[9] == "px"
+    names = [row.split()[0] for row in rows]
+    assert names == ["fx", "fy", "cx", "cy", "k1", "k2", "k3", "p1", "p2", "p3"]
+    # The principal point stands beside the paper's.
+    assert rows[2].split()[5] == "xp" and rows[3].split()[5] == "yp"
+    assert "0 (held)" in rows[-1]
+
+
+def test_an_undetermined_parameter_shows_no_number(result: Result) -> None:
+    calibration = result.calibration
+    sigma = np.array(calibration.sigma)
+    sigma[6] = np.nan
+    lost = (Undetermined("k3", "it can be traded for the boards' poses"),)
+    table = tables.intrinsics(replace(calibration, sigma=sigma, undetermined=lost))
+    assert table.splitlines()[8].split() == ["k3", "not", "determined", "k3", "not", "determined",
+                                             "px^-6"]  # fmt: skip
+
+
+def test_another_lens_model_has_no_paper_column() -> None:
+    rng = np.random.default_rng(3)
+    scene = scenes.scene(scenes.brown(), 6)
+    views = tuple(
+        View(f"{k}.png", ViewStatus.FOUND, points=seen)
+        for k, seen in enumerate(scene.noisy(0.1, rng))
+    )
+    calibration = engine.calibrate(scene.noisy(0.1, rng), scene.size, model="opencv")
+    assert "paper" not in tables.intrinsics(calibration)
+    assert max(map(len, tables.report(Result(calibration, views)).splitlines())) <= tables.WIDTH
+
+
+def test_rms_comes_with_sigma_and_count(result: Result) -> None:
+    text = "\n".join(lines(tables.residuals(result.calibration)))
+    for words in ("616 corners in 7 views", "rms 0.1", "sigma_x 0.", "sigma_y 0.", "mean e' 0."):
+        assert words in text
+    assert "converged after" in text
+
+
+def test_a_symmetric_board_is_explained() -> None:
+    assert tables.symmetry(calibrated().used) == []
+    (text,) = tables.symmetry(calibrated(Ambiguity.HALF_TURN).used)
+    assert "half turn" in text
+    (text,) = tables.symmetry(calibrated(Ambiguity.QUARTER_TURN).used)
+    assert "quarter turn" in text
+
+
+def test_the_truth_stands_beside_what_was_found(result: Result) -> None:
+    calibration = result.calibration
+    names = ("fx", "fy", "cx", "cy", "k1", "k2", "k3", "p1", "p2", "p3")
+    truth = dict(zip(names, map(float, scenes.barrel().params), strict=True))
+    _, _, *rows = lines(tables.comparison(calibration, truth))
+    error = (calibration.camera.params[0] - truth["fx"]) / calibration.sigma[0]
+    assert float(rows[0].split()[-1]) == pytest.approx(error, abs=0.06)
+
+
+def test_detection_lists_every_image(result: Result) -> None:
+    table = tables.detection(result.views)
+    assert "no-board" in table and "8 x 11" in table
+    assert "The board was found in 8 of 9 images." in table
+    assert max(map(len, table.splitlines())) <= tables.WIDTH
