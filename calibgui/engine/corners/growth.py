@@ -14,7 +14,16 @@ from scipy.spatial import cKDTree
 
 from calibgui.engine import opencv
 from calibgui.engine.corners.junctions import Saddles
-from calibgui.engine.corners.lattice import DEVIATION, Lattice, axes, crop, in_steps, predict, trim
+from calibgui.engine.corners.lattice import (
+    DEVIATION,
+    Lattice,
+    axes,
+    bordered,
+    crop,
+    in_steps,
+    predict,
+    trim,
+)
 from calibgui.engine.opencv import Image
 from calibgui.engine.types import Array, BoolArray
 
@@ -35,7 +44,7 @@ def grow(lattice: Lattice, saddles: Saddles, max_shape: int = 200) -> Lattice:
         return lattice
     tree = cKDTree(saddles.uv)
     for _ in range(_ROUNDS):
-        uv = np.pad(lattice.uv, ((1, 1), (1, 1), (0, 0)), constant_values=np.nan)
+        uv = bordered(lattice.uv, 1)
         if max(uv.shape) > max_shape:
             break
         filled = _fill(Lattice(uv, lattice.dark), saddles, tree)

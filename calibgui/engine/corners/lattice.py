@@ -17,6 +17,7 @@ sectors have the grey levels that its place requires.
 from __future__ import annotations
 
 from collections import deque
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
@@ -224,20 +225,14 @@ def predict(uv: Array) -> Array:
     Returns:
         Predictions (rows, cols, 2) px, NaN where there is no basis.
     """
-    shape = uv.shape[:2]
-    padded = np.pad(uv, ((3, 3), (3, 3), (0, 0)), constant_values=np.nan)
-
-    def at(step: IntArray, distance: int) -> Array:
-        r, c = 3 + distance * step
-        return np.asarray(padded[r : r + shape[0], c : c + shape[1]])
-
+    shift = shifted(uv, 3)
     extrapolated = []
     for step in STEPS:
-        p1, p2, p3 = (at(step, distance) for distance in (1, 2, 3))
+        p1, p2, p3 = (shift(k * step) for k in (1, 2, 3))
         slope = p1 - p2
         bend = np.where(np.isnan(p3), 0.0, slope - (p2 - p3))
         extrapolated.append(p1 + slope + 0.5 * bend)
-    middle = [(at(step, 1) + at(step, -1)) / 2 for step in STEPS[:2]]
+    middle = [(shift(step) + shift(-step)) / 2 for step in STEPS[:2]]
     inner, outer = _nanmean(middle), _nanmean(extrapolated)
     return np.where(np.isnan(inner), outer, inner)
 
@@ -267,19 +262,37 @@ def _nanmean(values: list[Array]) -> Array:
 def axes(uv: Array) -> tuple[Array, Array]:
     """Steps (rows, cols, 2) to the next column and to the next row of a lattice, px.
 
-    Where a place has no neighbour on the line, the mean of its neighbours' steps; NaN beyond.
+    From the nearest neighbours on the line, else from those two places away, else the mean of
+    the steps of the four places around; NaN where there is none of these.
     """
     steps = []
-    for axis in (1, 0):
-        d = np.diff(uv, axis=axis)
-        before = np.pad(
-            d, [(1, 0) if a == axis else (0, 0) for a in range(3)], constant_values=np.nan
-        )
-        after = np.pad(
-            d, [(0, 1) if a == axis else (0, 0) for a in range(3)], constant_values=np.nan
-        )
-        own = _nanmean([before, after])
-        around = np.pad(own, ((1, 1), (1, 1), (0, 0)), constant_values=np.nan)
-        near = [around[1:-1, :-2], around[1:-1, 2:], around[:-2, 1:-1], around[2:, 1:-1]]
-        steps.append(np.where(np.isnan(own), _nanmean(near), own))
+    shift = shifted(uv, 2)
+    for step in (STEPS[0], STEPS[1]):
+        near = _nanmean([shift(step) - uv, uv - shift(-step)])
+        far = _nanmean([(shift(2 * step) - uv) / 2, (uv - shift(-2 * step)) / 2])
+        around = (shift(step) - shift(-step)) / 2
+        own = np.where(np.isnan(near), np.where(np.isnan(around), far, around), near)
+        beside = shifted(own, 1)
+        steps.append(np.where(np.isnan(own), _nanmean([beside(s) for s in STEPS]), own))
     return steps[0], steps[1]
+
+
+def shifted(uv: Array, reach: int) -> Callable[[IntArray], Array]:
+    """What stands (drow, dcol) places away from each place of `uv` (rows, cols, 2), NaN outside;
+    for steps of up to `reach`."""
+    around = bordered(uv, reach)
+    rows, cols = uv.shape[:2]
+
+    def at(step: IntArray) -> Array:
+        r, c = reach + step
+        return around[r : r + rows, c : c + cols]
+
+    return at
+
+
+def bordered(uv: Array, width: int) -> Array:
+    """`uv` (rows, cols, 2) with a border of NaN."""
+    rows, cols = uv.shape[:2]
+    result = np.full((rows + 2 * width, cols + 2 * width, 2), np.nan)
+    result[width : width + rows, width : width + cols] = uv
+    return result

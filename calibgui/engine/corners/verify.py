@@ -15,7 +15,7 @@ import numpy as np
 
 from calibgui.engine.corners.edges import Fit
 from calibgui.engine.corners.growth import sectors
-from calibgui.engine.corners.lattice import Lattice, axes, crop, in_steps, predict
+from calibgui.engine.corners.lattice import Lattice, axes, bordered, crop, in_steps, predict
 from calibgui.engine.opencv import Image
 from calibgui.engine.types import Array, BoolArray
 
@@ -95,7 +95,7 @@ def visible_ends(lattice: Lattice, shape: tuple[int, ...]) -> tuple[tuple[bool, 
         For the rows, then for the columns: whether the next line before the first and after the
         last would lie inside the image, so that it would have been found if it existed.
     """
-    expected = predict(np.pad(lattice.uv, ((1, 1), (1, 1), (0, 0)), constant_values=np.nan))
+    expected = predict(bordered(lattice.uv, 1))
     inside, known = _inside(expected, shape), np.isfinite(expected[..., 0])
     top, bottom, left, right = (
         bool(inside[line][known[line]].mean() > _MOSTLY) for line in BORDERS

@@ -31,7 +31,7 @@ def truth_of(corners: Corners, uv: np.ndarray[Any, Any]) -> np.ndarray[Any, Any]
         {"step": 12.0, "turn": 10.0},
         {"blur": 4.0},
         {"noise": 12.0},
-        {"barrel": 0.5, "step": 60.0},
+        {"barrel": 0.5, "step": 60.0, "turn": 8.0},
         {"size": (1280, 960), "step": 80.0, "turn": -20.0},
         {"levels": (100.0, 125.0), "noise": 1.0},
     ],
@@ -47,14 +47,14 @@ def test_finds_every_corner_in_its_place(
     assert corners.ambiguity is Ambiguity.NONE
     error = corners.uv - truth_of(corners, drawn.uv)
     noise = scene.get("noise", 0.0) / (np.diff(scene.get("levels", (40.0, 210.0)))[0])
-    assert np.abs(error).max() < 0.15 + 5 * noise
+    assert np.abs(error).max() < 0.04 + 2 * noise
     assert np.abs(corners.estimate - corners.uv).max() < 4
 
 
 @settings(max_examples=25)
 @given(
     turn=st.floats(-180, 180),
-    tilt=st.tuples(st.floats(-0.25, 0.25), st.floats(-0.25, 0.25)),
+    tilt=st.tuples(st.floats(-0.2, 0.2), st.floats(-0.2, 0.2)),
     rows=st.integers(3, 6),
     more=st.integers(0, 2),
 )
@@ -62,14 +62,14 @@ def test_numbering_is_right_handed_from_a_dark_square(
     draw: Any, turn: float, tilt: tuple[float, float], rows: int, more: int
 ) -> None:
     cols = max(rows + more, 4)
-    drawn = draw((rows, cols), (320, 240), step=26.0, turn=turn, tilt=tilt)
+    drawn = draw((rows, cols), (320, 240), step=22.0, turn=turn, tilt=tilt)
     corners = find_corners(drawn.image)
     assert corners.complete
     assert corners.shape == (rows, cols)
     uv = corners.uv.reshape(*corners.shape, 2)
     right, down = uv[0, 1] - uv[0, 0], uv[1, 0] - uv[0, 0]
     assert right[0] * down[1] - right[1] * down[0] > 0
-    u, v = np.rint(uv[0, 0] - (right + down) / 3).astype(int)
+    u, v = np.rint(uv[0, 0] - (right + down) / 4).astype(int)
     assert drawn.image[v, u] < 100
     if (rows + cols) % 2:
         np.testing.assert_allclose(corners.uv, truth_of(corners, drawn.uv), atol=0.3)
@@ -179,20 +179,26 @@ def test_arguments_without_sense_are_refused(draw: Any) -> None:
 
 
 @pytest.mark.data
-@pytest.mark.parametrize("board", [(12, 13), None])
-def test_bouguets_25_images(bouguet: Path, board: tuple[int, int] | None) -> None:
+@pytest.mark.parametrize(
+    ("method", "board", "farthest"),
+    # Bouguet's own corners lie up to a pixel off where coma smears the image's upper border.
+    [("saddle", (12, 13), 1.0), ("edges", (12, 13), 1.25), ("edges", None, 1.25)],
+)
+def test_bouguets_25_images(
+    bouguet: Path, method: str, board: tuple[int, int] | None, farthest: float
+) -> None:
     stored = bouguet / "corners_and_results" / "corners_25img__benJephunneh.json"
     distances, plates = [], []
     for view in json.loads(stored.read_text())["views"]:
         image = read_image(bouguet / f"Image{view['index']}.tif").pixels
-        corners = find_corners(image, board)
+        corners = find_corners(image, board, method=method)
         assert corners.shape == (12, 13)
         assert corners.complete
         distance, order = cKDTree(view["image_points"]).query(corners.uv)
         distances.append(distance)
         plates.append(np.array(view["object_points"])[order])
-    assert np.max(distances) < 1.0
-    assert np.median(distances) < 0.2
+    assert np.max(distances) < farthest
+    assert np.median(distances) < 0.25
     # One numbering for all views: what our grid calls (m, n) is the same point of the plate.
     assert np.ptp(plates, axis=0).max() == 0
 

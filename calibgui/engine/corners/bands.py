@@ -1,0 +1,90 @@
+"""The pixels near two crossing edges, each read once.
+
+An edge that runs more along u than v crosses each pixel column once: the pixels of its band are,
+column by column, those around the row where it passes. (Else with u and v exchanged.) This gives
+rectangular arrays, the same for all corners, of little more than the band itself; what lies
+outside the band or the image, or in the band of the other edge before, is masked.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from calibgui.engine.opencv import Image
+from calibgui.engine.types import Array, BoolArray, IntArray
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class Bands:
+    """Where to read around n corners."""
+
+    uv: Array
+    """(n, 2) the corners, px."""
+    tangent: Array
+    """(n, 2, 2) unit tangents of edges 1 and 2."""
+    normal: Array
+    """(n, 2, 2) their unit normals."""
+    curvature: Array
+    """(n, 2) 1/px."""
+    arm: Array
+    """(n, 2) reach along the edges to both sides, px."""
+    width: Array
+    """(n, 2) reach across the edges to both sides, px."""
+
+    def pixels(self) -> int:
+        """Pixels read per corner, masked ones included."""
+        return sum(a * b for a, b in (self._extent(edge) for edge in (0, 1)))
+
+    def read(self, image: Image) -> tuple[IntArray, Array, BoolArray]:
+        """Pixels (n, P, 2) as (u, v), their grey levels (n, P), and which (n, P) count."""
+        positions, masks = [], []
+        for edge in (0, 1):
+            at = self._along(edge)
+            q = at - self.uv[:, None]
+            inside = ((at >= 0) & (at < np.array(image.shape[::-1]))).all(axis=2)
+            masks.append(inside & self._holds(edge, q))
+            if edge == 1:
+                masks[1] &= ~self._holds(0, q)
+            positions.append(at)
+        uv = np.concatenate(positions, axis=1)
+        u = np.clip(uv[..., 0], 0, image.shape[1] - 1)
+        v = np.clip(uv[..., 1], 0, image.shape[0] - 1)
+        return uv, image[v, u].astype(np.float64), np.concatenate(masks, axis=1)
+
+    def _holds(self, edge: int, q: Array) -> BoolArray:
+        """Which offsets `q` (n, k, 2) from the corner lie in the band of an edge."""
+        s = np.einsum("nkd,nd->nk", q, self.tangent[:, edge])
+        d = np.einsum("nkd,nd->nk", q, self.normal[:, edge])
+        d -= self.curvature[:, edge, None] / 2 * s * s
+        near = abs(d) <= self.width[:, edge, None]
+        return np.asarray(near & (abs(s) <= self.arm[:, edge, None]))
+
+    def _along(self, edge: int) -> IntArray:
+        """(n, k, 2) pixels in and around the band of an edge, line by line across it."""
+        length, breadth = self._extent(edge)
+        tangent = self.tangent[:, edge]
+        flat = abs(tangent[:, 0]) >= abs(tangent[:, 1])
+        main = np.where(flat, 0, 1)
+        row = np.arange(len(main))
+        start = np.rint(self.uv[row, main])
+        x = start[:, None] + np.arange(length) - length // 2
+        dx = x - self.uv[row, main][:, None]
+        slope = tangent[row, 1 - main] / tangent[row, main]
+        bend = (
+            self.curvature[:, edge] * self.normal[:, edge][row, 1 - main] / tangent[row, main] ** 2
+        )
+        y = self.uv[row, 1 - main][:, None] + slope[:, None] * dx + bend[:, None] / 2 * dx * dx
+        lines = np.rint(y)[:, :, None] + np.arange(breadth) - breadth // 2
+        columns = np.broadcast_to(x[:, :, None], lines.shape)
+        turned = flat[:, None, None]
+        uv = np.stack([np.where(turned, columns, lines), np.where(turned, lines, columns)], axis=-1)
+        return uv.reshape(len(main), -1, 2).astype(np.int64)
+
+    def _extent(self, edge: int) -> tuple[int, int]:
+        """Number of lines along, and of pixels across, an edge's band of the greediest corner."""
+        slant = np.max(abs(self.tangent[:, edge]), axis=1)
+        along = np.max(self.arm[:, edge] * slant + self.width[:, edge])
+        across = np.max(self.width[:, edge] / slant)
+        return 2 * int(np.ceil(along)) + 1, 2 * int(np.ceil(across + 0.5)) + 1

@@ -1,0 +1,284 @@
+"""Photographs of checkerboards with exact truth, drawn independently of the engine.
+
+Each pixel is divided into 4 x 4 parts and each part is mapped to the board: through the lens (from
+the distorted to the ideal point, in closed form), the perspective and the board's own frame. A
+part near an edge is dark by the share that the edge's distance from its centre says, so that area
+is covered to second order in the part's size. Light, point spread, motion and response follow in
+the order in which a camera applies them; noise and rounding last.
+
+The grey levels around a corner are point symmetric but for perspective, curvature and shading,
+whatever the blur and the response: `tests/benchmarks/test_corner_scenes.py` holds the renderer
+to that.
+
+`Scene.bound` is the Cramer-Rao bound of every corner: noise^2 F^-1 with F = sum of
+(grad I)(grad I)^T over the corner's own cell, half a square each way, the gradient taken before
+the pixels integrate it.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import cv2
+import numpy as np
+from numpy.typing import NDArray
+
+Array = NDArray[np.float64]
+_PARTS = 4
+
+
+@dataclass(frozen=True)
+class Conditions:
+    """What a photograph is taken of, and how. Angles in degrees, lengths in pixels."""
+
+    board: tuple[int, int] = (6, 9)
+    size: tuple[int, int] = (640, 480)
+    square: float = 30.0
+    """Side of a square at the board's centre."""
+    tilt: float = 25.0
+    """Of the board against the sensor, about a random axis in its plane."""
+    shift: float = 25.0
+    """Largest displacement of the board's centre along u and v."""
+    turn: float = 180.0
+    """Largest rotation in the image."""
+    focal: float = 1.1
+    """Over the image's width."""
+    distortion: float = 0.0
+    """d in p (1 + d r^2) = ideal point, r over the half diagonal: above 0 barrel, below pincushion."""
+    fisheye: bool = False
+    """Equidistant lens instead of a pinhole."""
+    blur: float = 0.7
+    """Standard deviation of the point spread."""
+    blur_end: float | None = None
+    """At the image's right edge, growing from `blur` at its left."""
+    motion: float = 0.0
+    """Length of the path during exposure, along a random direction."""
+    ink: float = 0.0
+    """Growth of the dark squares on every side, squares."""
+    dark: float = 45.0
+    bright: float = 205.0
+    light: float = 0.0
+    """0 even, 1 from full to a third across the image, with a bright spot."""
+    gamma: float = 1.0
+    clutter: bool = False
+    """Random polygons instead of a plain background, up to a narrow quiet zone."""
+    quiet: float = 1.0
+    """Width of the white margin, squares."""
+    noise: float = 2.0
+    deep: bool = False
+    """16 bits instead of 8."""
+
+
+@dataclass(frozen=True)
+class Scene:
+    conditions: Conditions
+    clean: Array
+    """(h, w) grey levels 0..255 before noise and rounding."""
+    uv: Array
+    """(rows, cols, 2) true corners."""
+    dark_first: bool
+    """Whether the square above and left of corner (0, 0) is dark."""
+    fisher: Array
+    """(rows, cols, 2, 2) sum of (grad I)(grad I)^T, grey levels^2 per px^2."""
+
+    def photograph(self, seed: int) -> NDArray[np.uint8] | NDArray[np.uint16]:
+        """(h, w) with noise, rounded and clipped."""
+        noise = np.random.default_rng(seed).standard_normal(self.clean.shape)
+        values = self.clean + self.conditions.noise * noise
+        if self.conditions.deep:
+            return np.clip(np.rint(values * 257), 0, 65535).astype(np.uint16)
+        return np.clip(np.rint(values), 0, 255).astype(np.uint8)
+
+    @property
+    def bound(self) -> Array:
+        """(rows, cols, 2, 2) least covariance of an unbiased estimate, px^2."""
+        rounding = 0.0 if self.conditions.deep else 1 / 12
+        return (self.conditions.noise**2 + rounding) * np.linalg.inv(self.fisher)
+
+    @property
+    def visible(self) -> NDArray[np.bool_]:
+        """(rows, cols) corners inside the image by a third of a square or more."""
+        margin = self.conditions.square / 3
+        limit = np.array(self.conditions.size) - 1 - margin
+        return np.all((self.uv > margin) & (self.uv < limit), axis=2)
+
+
+def draw(conditions: Conditions, seed: int) -> Scene:
+    """A photograph's scene; the pose and what else is random follow from `seed`."""
+    rng = np.random.default_rng(seed)
+    camera = _Camera(conditions, rng)
+    rows, cols = conditions.board
+    width, height = conditions.size
+    fine_u = (np.arange(width * _PARTS) + 0.5) / _PARTS - 0.5
+    fine_v = (np.arange(height * _PARTS) + 0.5) / _PARTS - 0.5
+    x, y = camera.board_from_image(*np.meshgrid(fine_u, fine_v))
+    irradiance = _paper(x, y, conditions, rng, camera.valid(x, y))
+    irradiance *= _light(conditions, fine_u[None], fine_v[:, None], rng)
+    irradiance = _blurred(irradiance, conditions, rng)
+    ideal = _response(irradiance, conditions)
+    slope_v, slope_u = np.gradient(ideal, 1 / _PARTS)
+
+    n, m = np.meshgrid(np.arange(cols), np.arange(rows))
+    uv = camera.image_from_board(n.astype(float), m.astype(float))
+    gu, gv = _pixels(slope_u), _pixels(slope_v)
+    at_x, at_y = _pixels(x), _pixels(y)
+    fisher = np.zeros((rows, cols, 2, 2))
+    cell = np.stack([np.rint(at_y), np.rint(at_x)], axis=-1)
+    inside = (cell >= 0).all(axis=-1) & (cell < np.array([rows, cols])).all(axis=-1)
+    index = cell[inside].astype(int)
+    g = np.stack([gu[inside], gv[inside]], axis=-1)
+    np.add.at(fisher, (index[:, 0], index[:, 1]), g[:, :, None] * g[:, None, :])
+    fisher += 1e-12 * np.eye(2)
+    return Scene(conditions, _pixels(ideal), uv, True, fisher)
+
+
+class _Camera:
+    """Lens and pose, both ways."""
+
+    def __init__(self, conditions: Conditions, rng: np.random.Generator) -> None:
+        self._conditions = conditions
+        width, height = conditions.size
+        self._centre = np.array([(width - 1) / 2, (height - 1) / 2])
+        self._half = np.hypot(width, height) / 2
+        self._f = conditions.focal * width
+        turn = np.radians(conditions.turn) * rng.uniform(-1, 1)
+        about = rng.uniform(0, 2 * np.pi)
+        axis = np.array([np.cos(about), np.sin(about), 0.0]) * np.radians(conditions.tilt)
+        tilt, _ = cv2.Rodrigues(axis)
+        spin, _ = cv2.Rodrigues(np.array([0.0, 0.0, turn]))
+        rows, cols = conditions.board
+        origin = np.array([(cols - 1) / 2, (rows - 1) / 2, 0.0])
+        shift = conditions.shift * rng.uniform(-1, 1, 2)
+        R = tilt @ spin
+        distance = self._f / conditions.square
+        t = distance * np.append(shift / self._f, 1.0) - R @ origin
+        self._H = np.column_stack([R[:, 0], R[:, 1], t])
+
+    def board_from_image(self, u: Array, v: Array) -> tuple[Array, Array]:
+        q = np.stack([u - self._centre[0], v - self._centre[1]], axis=-1)
+        r2 = np.sum(q * q, axis=-1)
+        if self._conditions.fisheye:
+            theta = np.sqrt(r2) / self._f
+            ray = np.concatenate(
+                [q / self._f * np.sinc(theta / np.pi)[..., None], np.cos(theta)[..., None]], axis=-1
+            )
+        else:
+            q *= (1 + self._conditions.distortion * r2 / self._half**2)[..., None]
+            ray = np.concatenate([q / self._f, np.ones((*r2.shape, 1))], axis=-1)
+        p = ray @ np.linalg.inv(self._H).T
+        with np.errstate(divide="ignore", invalid="ignore"):
+            x, y = p[..., 0] / p[..., 2], p[..., 1] / p[..., 2]
+        behind = p[..., 2] <= 0
+        x[behind] = y[behind] = np.inf
+        return x, y
+
+    def valid(self, x: Array, y: Array) -> NDArray[np.bool_]:
+        return np.isfinite(x) & np.isfinite(y)
+
+    def image_from_board(self, x: Array, y: Array) -> Array:
+        ray = np.stack([x, y, np.ones_like(x)], axis=-1) @ self._H.T
+        if self._conditions.fisheye:
+            r = np.linalg.norm(ray[..., :2], axis=-1)
+            theta = np.arctan2(r, ray[..., 2])
+            q = ray[..., :2] * (self._f * theta / np.maximum(r, 1e-300))[..., None]
+            return q + self._centre
+        ideal = self._f * ray[..., :2] / ray[..., 2:]
+        goal = np.linalg.norm(ideal, axis=-1)
+        d = self._conditions.distortion / self._half**2
+        r = goal.copy()
+        for _ in range(50):  # Newton on r (1 + d r^2) = goal
+            r -= (r * (1 + d * r * r) - goal) / (1 + 3 * d * r * r)
+        return ideal * (r / np.maximum(goal, 1e-300))[..., None] + self._centre
+
+
+def _paper(
+    x: Array, y: Array, conditions: Conditions, rng: np.random.Generator, valid: NDArray[np.bool_]
+) -> Array:
+    """Reflectance of what each part of a pixel sees, 0 dark to 1 bright."""
+    rows, cols = conditions.board
+    with np.errstate(invalid="ignore"):
+        stretch = [np.hypot(*np.gradient(c)) for c in (x, y)]  # squares per part
+        across = [
+            (abs(c - np.rint(c)), s) for c, s in zip((x, y), stretch, strict=True)
+        ]
+        bright = (np.floor(x) + np.floor(y)) % 2 != 0
+        ink = np.where(bright, -conditions.ink, conditions.ink)
+        depth = np.minimum(*((gap + ink) / s for gap, s in across))
+        share = np.clip(0.5 + np.where(bright, depth, -depth), 0, 1)
+        on_board = valid & (x > -1) & (x < cols) & (y > -1) & (y < rows)
+        quiet = valid & (abs(x - (cols - 1) / 2) < (cols + 1) / 2 + conditions.quiet)
+        quiet &= abs(y - (rows - 1) / 2) < (rows + 1) / 2 + conditions.quiet
+    background = _background(x.shape, conditions, rng)
+    return np.where(on_board, share, np.where(quiet, 1.0, background))
+
+
+def _background(
+    shape: tuple[int, ...], conditions: Conditions, rng: np.random.Generator
+) -> Array:
+    """Plain, or a litter of polygons and grids of the board's own size."""
+    image = np.full(shape, 0.55, dtype=np.float64)
+    if not conditions.clutter:
+        return image
+    scale = conditions.square * _PARTS
+    for _ in range(150):
+        corners = rng.uniform(0, 1, 2) * np.array(shape[::-1])
+        polygon = corners + rng.uniform(-2, 2, (rng.integers(3, 6), 2)) * scale
+        cv2.fillPoly(image, [polygon.astype(np.int32)], float(rng.uniform(0, 1)))
+    return image
+
+
+def _light(conditions: Conditions, u: Array, v: Array, rng: np.random.Generator) -> Array:
+    """What falls on each part, 1 at most."""
+    width, height = conditions.size
+    about = rng.uniform(0, 2 * np.pi)
+    ramp = 0.5 + (np.cos(about) * (u / width - 0.5) + np.sin(about) * (v / height - 0.5)) / 1.5
+    spot = rng.uniform(0.25, 0.75, 2) * np.array([width, height])
+    r2 = ((u - spot[0]) ** 2 + (v - spot[1]) ** 2) / (0.15 * width) ** 2
+    uneven = (1 / 3 + ramp * 2 / 3) * 0.8 + 0.2 * np.exp(-r2 / 2)
+    return 1 - conditions.light + conditions.light * uneven
+
+
+def _blurred(image: Array, conditions: Conditions, rng: np.random.Generator) -> Array:
+    """Through point spread and motion."""
+
+    def spread(sigma: float) -> Array:
+        if sigma <= 0:
+            return image
+        return np.asarray(cv2.GaussianBlur(image, (0, 0), sigma * _PARTS))
+
+    result = spread(conditions.blur)
+    if conditions.blur_end is not None:
+        steps = np.linspace(conditions.blur, conditions.blur_end, 9)
+        layers = [spread(s) for s in steps]
+        place = np.linspace(0, len(steps) - 1, image.shape[1])
+        low = np.minimum(place.astype(int), len(steps) - 2)
+        column = np.arange(image.shape[1])
+        weight = place - low
+        stack = np.stack(layers)
+        result = (1 - weight) * stack[low, :, column].T + weight * stack[low + 1, :, column].T
+    if conditions.motion > 0:
+        about = rng.uniform(0, np.pi)
+        half = conditions.motion * _PARTS / 2
+        reach = int(np.ceil(half)) + 1
+        grid = np.arange(-reach, reach + 1)
+        along = grid * np.cos(about) + grid[:, None] * np.sin(about)
+        across = -grid * np.sin(about) + grid[:, None] * np.cos(about)
+        kernel = np.clip(half + 0.5 - abs(along), 0, 1) * np.clip(1 - abs(across), 0, 1)
+        result = cv2.filter2D(result, -1, kernel / kernel.sum(), borderType=cv2.BORDER_REFLECT)
+    return np.asarray(result)
+
+
+def _response(irradiance: Array, conditions: Conditions) -> Array:
+    levels = conditions.dark + (conditions.bright - conditions.dark) * irradiance
+    return np.asarray(255 * (levels / 255) ** (1 / conditions.gamma))
+
+
+def _pixels(fine: Array) -> Array:
+    """Means over each pixel's parts."""
+    height, width = fine.shape[0] // _PARTS, fine.shape[1] // _PARTS
+    return np.asarray(fine.reshape(height, _PARTS, width, _PARTS).mean(axis=(1, 3)))
+
+
+def still(conditions: Conditions) -> Conditions:
+    """The same without noise."""
+    return replace(conditions, noise=0.0)
