@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 from functools import partial
+from typing import TypeVar, cast
 
-from PySide6.QtCore import Signal
+from PySide6.QtCore import QCoreApplication, Signal
 from PySide6.QtWidgets import (
     QComboBox,
     QHBoxLayout,
@@ -24,6 +25,7 @@ from calibgui.gui import theme
 from calibgui.gui.panels.convergence import ConvergencePanel
 from calibgui.gui.panels.coverage import CoveragePanel
 from calibgui.gui.panels.distortion import DistortionPanel
+from calibgui.gui.panels.histograms import HistogramsPanel
 from calibgui.gui.panels.panel import Panel
 from calibgui.gui.panels.poses import PosesPanel
 from calibgui.gui.panels.residuals import ResidualsPanel
@@ -32,6 +34,22 @@ from calibgui.gui.panels.stage_one import StageOnePanel
 from calibgui.gui.panels.synthetic import SyntheticPanel
 from calibgui.gui.panels.undistort import UndistortPanel
 from calibgui.gui.session import Session
+
+PANELS: tuple[type[Panel], ...] = (
+    ResultPanel,
+    StageOnePanel,
+    ConvergencePanel,
+    ResidualsPanel,
+    HistogramsPanel,
+    DistortionPanel,
+    UndistortPanel,
+    PosesPanel,
+    CoveragePanel,
+    SyntheticPanel,
+)
+"""In the order of the list."""
+
+P = TypeVar("P", bound=Panel)
 
 
 class Analysis(QWidget):
@@ -48,34 +66,17 @@ class Analysis(QWidget):
         super().__init__()
         self._session = session
         self._shown: Result | None = None
-        self.convergence = ConvergencePanel()
-        self.result = ResultPanel()
-        self.residuals = ResidualsPanel()
-        self.undistort = UndistortPanel(session.jobs, session.images.read)
-        self.panels: tuple[Panel, ...] = (
-            self.result,
-            StageOnePanel(),
-            self.convergence,
-            self.residuals,
-            DistortionPanel(),
-            self.undistort,
-            PosesPanel(),
-            CoveragePanel(),
-            SyntheticPanel(session.jobs, session.images.read),
-        )
+        self._built: dict[type[Panel], Panel] = {}
+        self._blank = {kind: QWidget() for kind in PANELS}
         self.names = QListWidget()
         self.names.setAccessibleName(self.tr("Panels"))
         self.stack = QStackedWidget()
-        for panel in self.panels:
-            self.names.addItem(panel.windowTitle())
-            self.stack.addWidget(panel)
-            panel.picked.connect(self._picked)
+        for kind in PANELS:
+            self.names.addItem(QCoreApplication.translate(kind.__name__, kind.title))
+            self.stack.addWidget(self._blank[kind])
         width = self.names.sizeHintForColumn(0) + 4 * theme.SPACING
         self.names.setFixedWidth(width)
-        self.names.currentRowChanged.connect(self.stack.setCurrentIndex)
-        self.names.setCurrentRow(0)
-        self.residuals.excluded.connect(self._exclude)
-        self.undistort.saving.connect(self.saving)
+        self.names.currentRowChanged.connect(lambda row: self.show_panel(PANELS[row]))
         below = QHBoxLayout()
         below.addWidget(self.names)
         below.addWidget(self.stack, 1)
@@ -86,26 +87,50 @@ class Analysis(QWidget):
         session.result_changed.connect(self._show_result)
         session.selected.connect(self._select)
         self._show_result(session.result)
+        self.show_panel(ResultPanel)
 
-    def show_panel(self, panel: Panel) -> None:
+    def panel(self, kind: type[P]) -> P:
+        """The panel of that kind; built when it is wanted first."""
+        if kind not in self._built:
+            panel = self._built[kind] = self._build(kind)
+            panel.picked.connect(self._picked)
+            if isinstance(panel, ResidualsPanel):
+                panel.excluded.connect(self._exclude)
+            if isinstance(panel, UndistortPanel):
+                panel.saving.connect(self.saving)
+            panel.show_result(self._shown)
+            panel.select(self._place(self._session.image), self._session.corner)
+            row = PANELS.index(kind)
+            self.stack.insertWidget(row, panel)
+            self.stack.removeWidget(self._blank[kind])
+        return cast(P, self._built[kind])
+
+    def _build(self, kind: type[Panel]) -> Panel:
+        if issubclass(kind, (UndistortPanel, SyntheticPanel)):
+            return kind(self._session.jobs, self._session.images.read)
+        return kind()
+
+    def show_panel(self, kind: type[P]) -> P:
         """Bring a panel to the front."""
-        self.names.setCurrentRow(self.panels.index(panel))
+        panel = self.panel(kind)
+        self.stack.setCurrentWidget(panel)
+        self.names.setCurrentRow(PANELS.index(kind))
+        return panel
 
     def began(self) -> None:
         """A calibration starts: its progress is shown."""
-        self.convergence.start()
-        self.show_panel(self.convergence)
+        self.show_panel(ConvergencePanel).start()
 
     def advanced(self, iteration: Iteration) -> None:
         """A calibration has come one iteration further."""
-        self.convergence.add(iteration)
+        self.panel(ConvergencePanel).add(iteration)
 
     def ended(self) -> None:
         """A calibration is over: what came of it is shown."""
-        self.convergence.show_result(self._session.result)
-        self._select(self._session.image, self._session.corner)
-        if self.stack.currentWidget() is self.convergence and self._session.result is not None:
-            self.show_panel(self.result)
+        convergence = self.panel(ConvergencePanel)
+        convergence.show_result(self._session.result)
+        if self.stack.currentWidget() is convergence and self._session.result is not None:
+            self.show_panel(ResultPanel)
 
     def _make_bar(self) -> QHBoxLayout:
         self.results = QComboBox()
@@ -155,8 +180,9 @@ class Analysis(QWidget):
         """Set another result beside the one shown."""
         mine, other = self._session.result, self._session.project.results[name]
         if mine is not None:
-            self.show_panel(self.result)
-            self.result.show_comparison(other, mine, (name, self._session.result_name))
+            self.show_panel(ResultPanel).show_comparison(
+                other, mine, (name, self._session.result_name)
+            )
 
     def _show_state(self) -> None:
         result = self._session.result
@@ -173,15 +199,19 @@ class Analysis(QWidget):
         if result is self._shown:
             return
         self._shown = result
-        for panel in self.panels:
+        for panel in self._built.values():
             panel.show_result(result)
         self._select(self._session.image, self._session.corner)
 
     def _select(self, image: str, corner: int) -> None:
         if self._shown is not None:
-            k = next((i for i, v in enumerate(self._shown.views) if v.image == image), -1)
-            for panel in self.panels:
-                panel.select(k, corner)
+            for panel in self._built.values():
+                panel.select(self._place(image), corner)
+
+    def _place(self, image: str) -> int:
+        """Index of an image in the shown result; -1 if it has none."""
+        views = () if self._shown is None else self._shown.views
+        return next((i for i, view in enumerate(views) if view.image == image), -1)
 
     def _picked(self, view: int, corner: int) -> None:
         if self._shown is not None:

@@ -26,6 +26,7 @@ def run(arguments: Sequence[str]) -> int:
     sys.excepthook = lambda kind, error, trace: _report(window, kind, error, trace)
     signal.signal(signal.SIGINT, signal.SIG_DFL)
     window.show()
+    QTimer.singleShot(0, window, window.prepare)
     if arguments:
         QTimer.singleShot(0, window, lambda: window.files.open_paths(arguments))
     return app.exec()

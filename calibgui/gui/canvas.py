@@ -64,7 +64,7 @@ class Canvas(QGraphicsView):
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self.marks = Marks()
-        self.shown: set[Layer] = set(Layer) - {Layer.ORDER}
+        self.shown: set[Layer] = {Layer.REGION, Layer.CORNERS, Layer.RESIDUALS}
         self.residual_scale = 50.0
         self.tool: Tool | None = None
         self._picture = Picture()

@@ -12,7 +12,7 @@ from PySide6.QtWidgets import QFileDialog, QInputDialog, QLineEdit, QMessageBox,
 from calibgui.app.document import Document
 from calibgui.app.paths import find_images
 from calibgui.app.project import renamed_result, with_images, without_result
-from calibgui.app.resampling import rectify_files, undistort_files
+from calibgui.app.resampling import Written, rectify_files, undistort_files
 from calibgui.app.resources import resource
 from calibgui.engine.errors import CalibrationError
 from calibgui.engine.images import FORMATS
@@ -169,10 +169,13 @@ class Files(QObject):
         images = [Path(result.views[k].image) for k in views]
 
         def work(job: Job) -> int:
+            def progress(done: int, total: int, _: Written) -> None:
+                job.advance(done, total)
+
             if way == RECTIFIED:
-                return len(rectify_files(result, images, Path(folder), progress=job.advance))
+                return len(rectify_files(result, images, Path(folder), progress=progress))
             view, camera = FieldOfView(way), result.calibration.camera
-            return len(undistort_files(camera, images, Path(folder), view, job.advance))
+            return len(undistort_files(camera, images, Path(folder), view, progress))
 
         self._session.jobs.start(
             self.tr("Writing images"),

@@ -156,8 +156,6 @@ class ImageList(QWidget):
 
     search_wanted = Signal(list)
     """Images to be searched again."""
-    mark_wanted = Signal()
-    """The board in the current image is to be marked by hand."""
 
     def __init__(self, session: Session) -> None:
         super().__init__()
@@ -186,6 +184,7 @@ class ImageList(QWidget):
         head.addWidget(label)
         head.addWidget(self.sorting)
         layout = QVBoxLayout(self)
+        layout.setContentsMargins(0, 0, 0, 0)
         layout.addLayout(head)
         layout.addWidget(self.list, 1)
         self.actions_for_menu = self._make_actions()
@@ -212,7 +211,7 @@ class ImageList(QWidget):
         self._session.edit(label, lambda p: without_views(p, images))
 
     def _make_actions(self) -> list[QAction]:
-        table: list[tuple[str, str, str, Callable[[], None]]] = [
+        table: list[tuple[str, str | None, str, Callable[[], None]]] = [
             (
                 self.tr("Ex&clude or include"),
                 "Space",
@@ -224,12 +223,6 @@ class ImageList(QWidget):
                 "F5",
                 self.tr("Forget what was found in the selected images and search them anew."),
                 lambda: self.search_wanted.emit(self.chosen),
-            ),
-            (
-                self.tr("&Mark board by four clicks"),
-                "M",
-                self.tr("Point at the board's four outermost corners in the image shown."),
-                self.mark_wanted.emit,
             ),
             (
                 self.tr("&Remove from project"),

@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from pathlib import PurePath
 
 import numpy as np
 from PySide6.QtCore import Signal
+from PySide6.QtGui import QAction
 from PySide6.QtWidgets import (
     QDoubleSpinBox,
     QHBoxLayout,
@@ -28,6 +30,7 @@ from calibgui.gui.canvas import Canvas
 from calibgui.gui.image_model import status_text
 from calibgui.gui.jobs import Job
 from calibgui.gui.layers import Layer, Marks
+from calibgui.gui.marker import Marker
 from calibgui.gui.picture import Levels, levels
 from calibgui.gui.session import Session
 
@@ -46,15 +49,19 @@ class ImagePage(QWidget):
         self.canvas = Canvas()
         self.heading = QLabel()
         self.heading.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Preferred)
+        self.marker = Marker(session, self.canvas)
         self.bar = QHBoxLayout()
         self.bar.setContentsMargins(theme.SPACING, 4, theme.SPACING, 4)
         self.bar.addWidget(self.heading, 1)
+        self._add_tools()
         self._add_layers()
         self._add_zoom()
         layout = QVBoxLayout(self)
         layout.setContentsMargins(0, 0, 0, 0)
         layout.setSpacing(0)
         layout.addLayout(self.bar)
+        layout.addWidget(self.marker.roi_bar)
+        layout.addWidget(self.marker.corner_bar)
         layout.addWidget(self.canvas, 1)
         self.canvas.hovered.connect(self._hovered)
         self.canvas.stepped.connect(session.select_next)
@@ -62,6 +69,48 @@ class ImagePage(QWidget):
         session.selected.connect(self._selected)
         session.changed.connect(self._project_changed)
         session.result_changed.connect(lambda _: self._show_marks())
+
+    def _add_tools(self) -> None:
+        self.tools = [
+            make_action(
+                self,
+                self.tr("&Mark board"),
+                "M",
+                self.tr("Point at the board's four outermost corners"),
+                self._mark_or_leave,
+            ),
+            make_action(
+                self,
+                self.tr("&Edit corners"),
+                "E",
+                self.tr("Move, remove and restore single corners; turn the axes"),
+                self._edit_or_leave,
+            ),
+        ]
+        for action in self.tools:
+            action.setCheckable(True)
+            button = QToolButton()
+            button.setDefaultAction(action)
+            self.bar.addWidget(button)
+        self.marker.finished.connect(self._untoggle)
+
+    def _mark_or_leave(self) -> None:
+        self._run_tool(self.tools[0], self.marker.mark_board)
+
+    def _edit_or_leave(self) -> None:
+        self._run_tool(self.tools[1], self.marker.edit_corners)
+
+    def _run_tool(self, action: QAction, run: Callable[[], None]) -> None:
+        if not action.isChecked():
+            self.marker.leave()
+            return
+        run()
+        self._untoggle()
+        action.setChecked(self.canvas.tool is not None)
+
+    def _untoggle(self) -> None:
+        for action in self.tools:
+            action.setChecked(False)
 
     def _add_layers(self) -> None:
         menu = QMenu(self)
@@ -184,8 +233,6 @@ class ImagePage(QWidget):
             return
         self.heading.setText(f"{PurePath(view.image).name}  ·  {status_text(view)}")
         self.heading.setToolTip(view.reason or view.image)
-        if self._image is None and self._job is not None and not self._job.finished:
-            pass  # marks of the new image wait for its pixels
         measured, predicted = _fitted(session.result, view)
         region = view.roi
         if region is None and view.corners is not None:

@@ -9,6 +9,7 @@ from __future__ import annotations
 from collections.abc import Callable, Collection
 from dataclasses import dataclass
 from enum import StrEnum
+from itertools import pairwise
 
 import numpy as np
 from PySide6.QtCore import QLineF, QPointF, QRectF, Qt
@@ -20,8 +21,10 @@ from calibgui.gui import theme
 ToScreen = Callable[[Array], Array]
 """From (n, 2) px of the image to (n, 2) device-independent px of the widget."""
 
-_ARM = 5.0
-"""Half the length of a cross."""
+_ARM = 6.0
+"""Half the length of a cross, if corners are far enough apart."""
+_ROOM = 0.22
+"""Of the distance between corners that a mark may take to each side."""
 _HEAD = 5.0
 """Length of an arrow's head."""
 
@@ -66,26 +69,35 @@ def paint(
     corners = marks.corners
     if corners is not None:
         uv = to_screen(corners.uv)
+        arm = arm_for(uv)
         if Layer.ORDER in shown:
             _order(painter, corners, uv)
         if Layer.ESTIMATES in shown:
-            crosses(painter, to_screen(corners.estimate), theme.ESTIMATE)
+            crosses(painter, to_screen(corners.estimate), theme.ESTIMATE, arm)
         if Layer.CORNERS in shown:
-            crosses(painter, uv, theme.REFINED)
+            crosses(painter, uv, theme.REFINED, arm)
     if marks.predicted is not None and marks.measured is not None:
         at, measured = to_screen(marks.predicted), to_screen(marks.measured)
         if Layer.REPROJECTION in shown:
-            rings(painter, at, theme.REPROJECTED)
+            rings(painter, at, theme.REPROJECTED, arm_for(at))
         if Layer.RESIDUALS in shown:
             arrows(painter, at, at + residual_scale * (measured - at), theme.RESIDUAL)
     if corners is not None and 0 <= marks.chosen < len(corners):
         rings(painter, to_screen(corners.uv[marks.chosen : marks.chosen + 1]), theme.REFINED, 12)
 
 
-def crosses(painter: QPainter, at: Array, colour: QColor) -> None:
+def arm_for(at: Array) -> float:
+    """Half the size of marks at (n, 2) screen positions that leaves room between them."""
+    if len(at) < 2:
+        return _ARM
+    step = np.median(np.linalg.norm(np.diff(at, axis=0), axis=1))
+    return float(np.clip(_ROOM * step, 1.5, _ARM))
+
+
+def crosses(painter: QPainter, at: Array, colour: QColor, arm: float = _ARM) -> None:
     """A + at each of (n, 2) screen positions."""
-    lines = [QLineF(u - _ARM, v, u + _ARM, v) for u, v in at]
-    lines += [QLineF(u, v - _ARM, u, v + _ARM) for u, v in at]
+    lines = [QLineF(u - arm, v, u + arm, v) for u, v in at]
+    lines += [QLineF(u, v - arm, u, v + arm) for u, v in at]
     _lines(painter, lines, colour)
 
 
@@ -124,6 +136,11 @@ def outline(painter: QPainter, at: Array, colour: QColor) -> None:
     for pen in _pens(colour):
         painter.setPen(pen)
         painter.drawPolygon(polygon)
+
+
+def polyline(painter: QPainter, at: Array, colour: QColor) -> None:
+    """An open line through (n, 2) screen positions."""
+    _lines(painter, [QLineF(*a, *b) for a, b in pairwise(at)], colour)
 
 
 def label(painter: QPainter, at: Array, text: str, colour: QColor) -> None:

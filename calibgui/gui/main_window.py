@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+from importlib import import_module
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from PySide6.QtCore import QSettings, Qt
 from PySide6.QtGui import QCloseEvent, QDragEnterEvent, QDropEvent
@@ -19,8 +21,8 @@ from PySide6.QtWidgets import (
 
 from calibgui.app.recent import recent_projects
 from calibgui.engine.errors import CalibrationError
+from calibgui.formats.result import Result
 from calibgui.gui import theme
-from calibgui.gui.analysis import Analysis
 from calibgui.gui.banner import Banner
 from calibgui.gui.bug_dialog import BugDialog
 from calibgui.gui.calibrating import Calibrator
@@ -34,6 +36,9 @@ from calibgui.gui.session import Session
 from calibgui.gui.settings_panel import SettingsPanel
 from calibgui.gui.target_panel import TargetPanel
 from calibgui.gui.welcome import Welcome
+
+if TYPE_CHECKING:
+    from calibgui.gui.analysis import Analysis
 
 
 class MainWindow(QMainWindow):
@@ -53,15 +58,18 @@ class MainWindow(QMainWindow):
         self.page = ImagePage(self.session)
         self.target = TargetPanel(self.session)
         self.settings = SettingsPanel(self.session)
-        self.analysis = Analysis(self.session)
+        self.analysis: Analysis | None = None
         self.welcome = Welcome()
         self.banner = Banner()
         self.calibrate = QPushButton()
+        self.calibrate.setMinimumHeight(36)
+        self.calibrate.setDefault(True)
         self._lay_out()
         self._connect()
         make_menus(self)
-        self._refresh()
         self._restore_layout()
+        self._show_parts(empty=True)
+        self._refresh()
         self.files.saver.check_slot()
 
     def _lay_out(self) -> None:
@@ -82,12 +90,14 @@ class MainWindow(QMainWindow):
         how.setMaximumHeight(how.sizeHint().height())
         left = QWidget()
         column = QVBoxLayout(left)
-        column.setContentsMargins(0, 0, 0, 0)
+        column.setContentsMargins(theme.SPACING, 0, 0, theme.SPACING)
         column.addWidget(self.images, 1)
         column.addWidget(how)
         column.addWidget(self.calibrate)
         self.image_dock = self._dock(self.tr("Images"), "images", left, _LEFT)
-        self.analysis_dock = self._dock(self.tr("Results"), "results", self.analysis, _RIGHT)
+        nothing = QLabel(self.tr("Nothing is calibrated yet."))
+        nothing.setAlignment(Qt.AlignmentFlag.AlignCenter)
+        self.analysis_dock = self._dock(self.tr("Results"), "results", nothing, _RIGHT)
         self.resizeDocks([self.image_dock, self.analysis_dock], [270, 520], _HORIZONTAL)
 
         self.place = QLabel()
@@ -108,21 +118,40 @@ class MainWindow(QMainWindow):
         self.session.told.connect(self.banner.show_text)
         self.page.place.connect(self.place.setText)
         self.images.search_wanted.connect(self.detector.search_again)
+        self.images.list.addActions(self.page.tools)
         self.target.search_wanted.connect(self.detector.search)
         self.calibrate.clicked.connect(self._calibrate_or_stop)
-        self.calibrator.began.connect(self.analysis.began)
-        self.calibrator.advanced.connect(self.analysis.advanced)
-        self.calibrator.ended.connect(self.analysis.ended)
+        self.calibrator.began.connect(lambda: self.need_analysis().began())
+        self.calibrator.advanced.connect(lambda step: self.need_analysis().advanced(step))
+        self.calibrator.ended.connect(lambda: self.need_analysis().ended())
+        self.session.result_changed.connect(self._result_changed)
         self.session.jobs.changed.connect(self._show_calibrate)
-        self.analysis.excluded.connect(self.images.exclude)
-        self.analysis.saving.connect(self.files.save_changed_images)
-        self.analysis.rename_wanted.connect(self.files.rename_result)
-        self.analysis.delete_wanted.connect(self.files.delete_result)
         self.files.recoverable.connect(self._offer_recovery)
         self.welcome.folder_wanted.connect(self.files.ask_for_folder)
         self.welcome.images_wanted.connect(self.files.ask_for_images)
         self.welcome.sample_wanted.connect(self.files.open_sample)
         self.welcome.project_wanted.connect(self.files.open_project)
+
+    def need_analysis(self) -> Analysis:
+        """The panels: they and what they import are left until there is something to show."""
+        if self.analysis is None:
+            from calibgui.gui.analysis import Analysis
+
+            self.analysis = Analysis(self.session)
+            self.analysis.excluded.connect(self.images.exclude)
+            self.analysis.saving.connect(self.files.save_changed_images)
+            self.analysis.rename_wanted.connect(self.files.rename_result)
+            self.analysis.delete_wanted.connect(self.files.delete_result)
+            self.analysis_dock.setWidget(self.analysis)
+        return self.analysis
+
+    def prepare(self) -> None:
+        """Import beside the main thread what will be needed."""
+        self.session.jobs.start("", lambda _: import_module("calibgui.gui.analysis"))
+
+    def _result_changed(self, result: Result | None) -> None:
+        if result is not None:
+            self.need_analysis()
 
     def show_failure(self, error: BaseException) -> None:
         """Say what cannot be done; report what should not have happened."""
@@ -135,15 +164,21 @@ class MainWindow(QMainWindow):
     def _refresh(self) -> None:
         document = self.session.document
         empty = not self.session.project.views
+        if empty is not self._empty:
+            self._show_parts(empty)
+        name = document.path.name if document.path else self.tr("Untitled")
+        self.setWindowTitle(f"{name}[*]")
+        self.setWindowModified(not document.saved)
+        self._show_calibrate()
+
+    def _show_parts(self, empty: bool) -> None:
+        """The welcome page alone while there are no images, else all parts."""
+        self._empty = empty
         if empty:
             self.welcome.show_recent(recent_projects())
         self.pages.setCurrentWidget(self.welcome if empty else self.page)
         for dock in (self.image_dock, self.analysis_dock):
             dock.setVisible(not empty)
-        name = document.path.name if document.path else self.tr("Untitled")
-        self.setWindowTitle(f"{name}[*]")
-        self.setWindowModified(not document.saved)
-        self._show_calibrate()
 
     def _show_calibrate(self) -> None:
         running = self.calibrator.running

@@ -101,6 +101,9 @@ def make_menus(window: MainWindow) -> None:
     menu.setToolTipsVisible(True)
     menu.addActions(window.images.actions_for_menu)
 
+    menu.addSeparator()
+    menu.addActions(window.page.tools)
+
     menu = bar.addMenu(tr("&Calibration"))
     add(menu, tr("&Calibrate"), "F9", window.calibrate.toolTip(), window.calibrate.click)
 

@@ -19,6 +19,8 @@ from PySide6.QtWidgets import QFileDialog, QMenu, QWidget
 
 from calibgui.gui import theme
 
+pg.setConfigOptions(antialias=True)
+
 
 class Plot(pg.PlotWidget):  # type: ignore[misc]  # pyqtgraph is not typed
     """A plot whose axes say what they show.

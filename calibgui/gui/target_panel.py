@@ -33,7 +33,7 @@ class TargetPanel(QWidget):
     def __init__(self, session: Session) -> None:
         super().__init__()
         self._session = session
-        self.inferred = QCheckBox(self.tr("&Count them in the images"))
+        self.inferred = QCheckBox(self.tr("&Counted in the images"))
         self.inferred.setToolTip(
             self.tr("Take the size that most images show; turn it off to state it.")
         )
@@ -94,7 +94,6 @@ class TargetPanel(QWidget):
         ):
             box.blockSignals(True)
             box.setValue(value or box.minimum())
-            box.setSuffix(self.tr(" (seen)") if inferred and value else "")
             box.setEnabled(not inferred)
             box.blockSignals(False)
         self.square.blockSignals(True)

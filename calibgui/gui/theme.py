@@ -9,7 +9,6 @@ from __future__ import annotations
 from dataclasses import dataclass
 from enum import StrEnum
 
-import pyqtgraph as pg
 from PySide6.QtCore import Qt
 from PySide6.QtGui import QColor, QFont, QFontDatabase, QPalette
 from PySide6.QtWidgets import QApplication
@@ -103,6 +102,7 @@ REGION = QColor("#ffe600")
 REPROJECTED = QColor("#56b4e9")
 RESIDUAL = QColor("#ff8c1a")
 PATH = QColor("#00d39b")
+MUTED_MARK = QColor("#ffffff")
 HALO = QColor(0, 0, 0, 150)
 
 
@@ -123,7 +123,6 @@ def apply(app: QApplication, scheme: Scheme = Scheme.SYSTEM) -> None:
     app.setProperty("scheme", str(scheme))
     if app.style().objectName() != "fusion":
         app.setStyle("Fusion")
-    pg.setConfigOptions(background=theme.base, foreground=theme.text, antialias=True)
     app.setPalette(_palette(theme))
 
 

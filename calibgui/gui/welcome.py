@@ -6,11 +6,20 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from PySide6.QtCore import Qt, Signal, SignalInstance
-from PySide6.QtWidgets import QCommandLinkButton, QLabel, QPushButton, QVBoxLayout, QWidget
+from PySide6.QtGui import QIcon
+from PySide6.QtWidgets import (
+    QCommandLinkButton,
+    QHBoxLayout,
+    QLabel,
+    QPushButton,
+    QVBoxLayout,
+    QWidget,
+)
 
 from calibgui.gui import theme
 
 _SHOWN = 5
+_WIDTH = 520
 
 
 class Welcome(QWidget):
@@ -50,7 +59,7 @@ class Welcome(QWidget):
             ),
         ]
         column = QWidget()
-        column.setMaximumWidth(520)
+        column.setMaximumWidth(_WIDTH)
         self._column = QVBoxLayout(column)
         self._column.setSpacing(theme.SPACING)
         for widget in (title, words, *self._buttons):
@@ -61,7 +70,11 @@ class Welcome(QWidget):
         self._recent: list[QPushButton] = []
         layout = QVBoxLayout(self)
         layout.addStretch(1)
-        layout.addWidget(column, 0, Qt.AlignmentFlag.AlignHCenter)
+        middle = QHBoxLayout()
+        middle.addStretch(1)
+        middle.addWidget(column, 1000)
+        middle.addStretch(1)
+        layout.addLayout(middle)
         layout.addStretch(2)
         self.show_recent([])
 
@@ -83,5 +96,7 @@ class Welcome(QWidget):
 
     def _link(self, text: str, tip: str, wanted: SignalInstance) -> QCommandLinkButton:
         button = QCommandLinkButton(text, tip)
+        button.setMinimumHeight(button.heightForWidth(_WIDTH))
+        button.setIcon(QIcon())
         button.clicked.connect(lambda: wanted.emit())
         return button

@@ -1,0 +1,231 @@
+"""Putting corners right by hand: joins the tools, their bars and the document."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import replace
+from functools import partial
+
+import numpy as np
+from PySide6.QtCore import QObject, Signal
+
+from calibgui.app import marking
+from calibgui.app.project import with_each
+from calibgui.engine.errors import CalibrationError
+from calibgui.engine.types import Array, Corners, IntArray, View, ViewStatus
+from calibgui.gui.canvas import Canvas
+from calibgui.gui.corner_tool import CornerTool
+from calibgui.gui.jobs import Job
+from calibgui.gui.marking_bar import CornerBar, RoiBar
+from calibgui.gui.roi_tool import RoiTool
+from calibgui.gui.session import Session
+
+
+class Marker(QObject):
+    """Runs one tool at a time on the selected image."""
+
+    finished = Signal()
+    """The tool was left, or no image needs it any more."""
+
+    def __init__(self, session: Session, canvas: Canvas) -> None:
+        super().__init__(session)
+        self._session, self._canvas = session, canvas
+        self.roi_bar, self.corner_bar = RoiBar(), CornerBar()
+        self._roi: RoiTool | None = None
+        self._tool: RoiTool | CornerTool | None = None
+        self._image = ""
+        self._job: Job | None = None
+        self.roi_bar.board_changed.connect(self._board_stated)
+        self.roi_bar.accept.clicked.connect(self._accept)
+        self.roi_bar.leave.clicked.connect(self.leave)
+        self.corner_bar.left.connect(self.leave)
+        self.corner_bar.turn_wanted.connect(
+            lambda: self._change_corners(self.tr("Turn axes"), marking.turned)
+        )
+        self.corner_bar.flip_wanted.connect(
+            lambda: self._change_corners(self.tr("Flip axes"), marking.flipped)
+        )
+        session.selected.connect(self._selected)
+
+    def mark_board(self) -> None:
+        """Let the user point at the board of the selected image."""
+        self.leave()
+        self._image = self._session.image
+        image = self._session.images.kept(self._image)
+        if image is None:
+            return
+        self._tool = self._roi = RoiTool(self._canvas, image.grey)
+        self._roi.changed.connect(self._points_changed)
+        self._roi.accepted.connect(self._accept)
+        self._roi.left.connect(self.leave)
+        self._canvas.set_tool(self._roi)
+        self._canvas.setFocus()
+        self.roi_bar.show()
+        self._points_changed()
+
+    def edit_corners(self) -> None:
+        """Let the user move, remove and restore corners of the selected image."""
+        self.leave()
+        self._image = self._session.image
+        image = self._session.images.kept(self._image)
+        if image is None or self._corners() is None:
+            return
+        self._tool = tool = CornerTool(self._canvas, image.grey, self._corners)
+        tool.chosen.connect(lambda k: self._session.select(self._session.image, k))
+        tool.moved.connect(self._move)
+        tool.removed.connect(self._remove)
+        tool.restored.connect(self._restore)
+        tool.left.connect(self.leave)
+        self._canvas.set_tool(tool)
+        self._canvas.setFocus()
+        self.corner_bar.show()
+
+    def leave(self) -> None:
+        """Put the tool away; what was not accepted is forgotten."""
+        if self._job is not None:
+            self._job.cancel()
+            self._job = None
+        tool, self._tool, self._roi = self._tool, None, None
+        self._canvas.set_tool(None)
+        self.roi_bar.hide()
+        self.corner_bar.hide()
+        if tool is not None:
+            tool.deleteLater()
+            self.finished.emit()
+
+    def _selected(self, image: str) -> None:
+        if self._canvas.tool is not None and image != self._image:
+            self.leave()
+
+    # The board
+
+    def _points_changed(self) -> None:
+        tool = self._roi
+        if tool is None:
+            return
+        tool.preview = None
+        self.roi_bar.accept.setEnabled(False)
+        if tool.complete:
+            self._search(None)
+        else:
+            self.roi_bar.words.setText(
+                self.tr("Click the board's outermost inner corners, in order: {0} of 4.").format(
+                    len(tool.points)
+                )
+            )
+
+    def _board_stated(self) -> None:
+        if self._roi is not None and self._roi.complete:
+            self._search(self.roi_bar.board)
+
+    def _search(self, board: tuple[int, int] | None) -> None:
+        """Find the corners between the four points, beside the main thread."""
+        tool = self._roi
+        assert tool is not None
+        target = self._session.project.target
+        usual = None if target is None else (target.rows, target.cols)
+        tool.board = board or usual
+        if self._job is not None:
+            self._job.cancel()
+        image = self._session.images.read(self._image).pixels
+        points = np.array(tool.points)
+        self.roi_bar.words.setText(self.tr("Counting…"))
+        self._job = self._session.jobs.start(
+            "",
+            lambda _: marking.marked(image, points, board, usual),
+            self._found,
+            failed=self._not_found,
+        )
+
+    def _found(self, corners: Corners) -> None:
+        tool = self._roi
+        if tool is None:
+            return
+        tool.preview, tool.board = corners, corners.shape
+        self.roi_bar.show_board(corners.shape)
+        rows, cols = corners.shape
+        text = self.tr("{0} of {1} corners. Enter accepts; drag a handle to change them.").format(
+            len(corners), rows * cols
+        )
+        target = self._session.project.target
+        if target is not None and (target.rows, target.cols) != corners.shape:
+            text += self.tr(" The other images show {0} × {1} squares.").format(
+                target.rows + 1, target.cols + 1
+            )
+        self.roi_bar.words.setText(text)
+        self.roi_bar.accept.setEnabled(True)
+        self._canvas.viewport().update()
+
+    def _not_found(self, error: Exception) -> None:
+        if not isinstance(error, CalibrationError):
+            self._session.failed.emit(error)
+        elif self._roi is not None:
+            self.roi_bar.words.setText(str(error))
+
+    def _accept(self) -> None:
+        tool = self._roi
+        if tool is None or tool.preview is None:
+            return
+        corners, points = tool.preview, np.array(tool.points)
+
+        def change(view: View) -> View:
+            return replace(
+                view,
+                status=ViewStatus.FOUND,
+                reason="",
+                corners=corners,
+                points=None,
+                roi=points,
+                enabled=True,
+            )
+
+        self._edit(self.tr("Mark board"), change)
+        image = self._next_in_need()
+        self.leave()
+        if image:
+            self._session.select(image)
+
+    def _next_in_need(self) -> str:
+        """The next image in which no board was found; "" if there is none."""
+        views = self._session.project.views
+        here = self._session.project.find(self._image)
+        need = (
+            view.image
+            for view in (*views[here + 1 :], *views[:here])
+            if view.enabled and view.status is ViewStatus.NO_BOARD
+        )
+        return next(need, "")
+
+    # Single corners
+
+    def _corners(self) -> Corners | None:
+        view = self._session.view
+        return None if view is None else view.corners
+
+    def _move(self, k: int, uv: Array) -> None:
+        self._change_corners(self.tr("Move corner"), partial(marking.moved, k=k, uv=uv))
+
+    def _remove(self, k: int) -> None:
+        self._session.select(self._session.image)
+        self._change_corners(self.tr("Remove corner"), partial(marking.removed, k=k))
+
+    def _restore(self, place: IntArray) -> None:
+        image = self._session.images.read(self._image).pixels
+        self._change_corners(
+            self.tr("Restore corner"), lambda corners: marking.restored(image, corners, place)
+        )
+
+    def _change_corners(self, label: str, change: Callable[[Corners], Corners]) -> None:
+        corners = self._corners()
+        if corners is None:
+            return
+        try:
+            new = change(corners)
+        except CalibrationError as error:
+            self._session.failed.emit(error)
+            return
+        self._edit(label, lambda view: replace(view, corners=new))
+
+    def _edit(self, label: str, change: Callable[[View], View]) -> None:
+        images = [self._image]
+        self._session.edit(label, lambda p: with_each(p, images, change))

@@ -1,0 +1,135 @@
+"""The board pointed at by four clicks (paper 4.1)."""
+
+from __future__ import annotations
+
+import numpy as np
+from PySide6.QtCore import QObject, QPointF, QRectF, Qt, Signal
+from PySide6.QtGui import QKeyEvent, QMouseEvent, QPainter
+
+from calibgui.app.detection import Board
+from calibgui.app.marking import projected, snapped
+from calibgui.engine.opencv import Image
+from calibgui.engine.types import Array, Corners
+from calibgui.gui import layers, theme
+from calibgui.gui.canvas import Canvas
+from calibgui.gui.loupe import paint_loupe
+
+_REACH = 14.0
+"""From the cursor to a corner that it snaps to, device-independent px."""
+_GRAB = 12.0
+"""From the cursor to a handle that it drags."""
+
+
+class RoiTool(QObject):
+    """Collects four points; between clicks a loupe shows where the next one would go.
+
+    A click goes to the nearest corner in reach, with Ctrl held to where it is made. Handles are
+    dragged, Backspace takes the last one back, Enter accepts, Esc leaves.
+    """
+
+    changed = Signal()
+    """A point was added, moved or taken back."""
+    accepted = Signal()
+    left = Signal()
+
+    def __init__(self, canvas: Canvas, image: Image) -> None:
+        super().__init__(canvas)
+        self._canvas = canvas
+        self._image = image
+        self.points: list[Array] = []
+        self.board: Board | None = None
+        """Rows and columns that the grid is drawn with."""
+        self.preview: Corners | None = None
+        """What was found between the points."""
+        self._cursor: Array | None = None
+        self._target: Array | None = None
+        self._dragged = -1
+
+    @property
+    def complete(self) -> bool:
+        """Whether all four points are there."""
+        return len(self.points) == 4
+
+    def press(self, uv: Array, event: QMouseEvent) -> bool:
+        if event.button() is not Qt.MouseButton.LeftButton:
+            return False
+        self._dragged = self._handle_near(uv)
+        if self._dragged < 0:
+            if self.complete:
+                return False
+            self.points.append(self._aim(uv, event))
+            self.changed.emit()
+        return True
+
+    def move(self, uv: Array, event: QMouseEvent) -> bool:
+        self._cursor = uv
+        self._target = self._snap(uv, event)
+        if self._dragged >= 0:
+            self.points[self._dragged] = self._aim(uv, event)
+            self.preview = None
+        return True
+
+    def release(self, uv: Array, event: QMouseEvent) -> bool:
+        if self._dragged < 0:
+            return False
+        self.points[self._dragged] = self._aim(uv, event)
+        self._dragged = -1
+        self.changed.emit()
+        return True
+
+    def key(self, event: QKeyEvent) -> bool:
+        match event.key():
+            case Qt.Key.Key_Backspace if self.points:
+                self.points.pop()
+                self.changed.emit()
+            case Qt.Key.Key_Escape:
+                self.left.emit()
+            case Qt.Key.Key_Return | Qt.Key.Key_Enter if self.complete:
+                self.accepted.emit()
+            case _:
+                return False
+        return True
+
+    def paint(self, painter: QPainter, canvas: Canvas) -> None:
+        if self.complete:
+            self._paint_grid(painter, canvas)
+        elif self.points and self._cursor is not None:
+            aim = self._cursor if self._target is None else self._target
+            layers.outline(painter, canvas.to_screen(np.array([*self.points, aim])), theme.REGION)
+        if self.points:
+            at = canvas.to_screen(np.array(self.points))
+            layers.rings(painter, at, theme.REGION, 7)
+            for number, place in enumerate(at, start=1):
+                layers.label(painter, place, str(number), theme.REGION)
+        if self._cursor is not None and (not self.complete or self._dragged >= 0):
+            aim = self._cursor if self._target is None else self._target
+            cursor = QPointF(*canvas.to_screen(self._cursor[None])[0])
+            port = QRectF(canvas.viewport().rect())
+            paint_loupe(painter, self._image, aim, self._target, cursor, port)
+
+    def _paint_grid(self, painter: QPainter, canvas: Canvas) -> None:
+        points = np.array(self.points)
+        layers.outline(painter, canvas.to_screen(points), theme.REGION)
+        if self.preview is not None:
+            layers.crosses(painter, canvas.to_screen(self.preview.uv), theme.REFINED)
+        elif self.board is not None:
+            grid = projected(points, self.board)
+            for line in (*grid, *grid.swapaxes(0, 1)):
+                layers.polyline(painter, canvas.to_screen(line), theme.REGION)
+
+    def _handle_near(self, uv: Array) -> int:
+        if not self.points:
+            return -1
+        at = self._canvas.to_screen(np.array(self.points))
+        distance = np.linalg.norm(at - self._canvas.to_screen(uv[None]), axis=1)
+        nearest = int(np.argmin(distance))
+        return nearest if distance[nearest] <= _GRAB else -1
+
+    def _aim(self, uv: Array, event: QMouseEvent) -> Array:
+        target = self._snap(uv, event)
+        return uv if target is None else target
+
+    def _snap(self, uv: Array, event: QMouseEvent) -> Array | None:
+        if event.modifiers() & Qt.KeyboardModifier.ControlModifier:
+            return None
+        return snapped(self._image, uv, _REACH / self._canvas.zoom)
