@@ -1,11 +1,17 @@
-"""Checks of the places to write to, made before long work rather than after it."""
+"""Places to write to, checked before long work rather than after it, and whole pictures."""
 
 from __future__ import annotations
 
+import io
 import os
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from calibgui.engine.errors import CalibrationError
+from calibgui.engine.files import write_atomically
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure  # slow to import, and not needed to check
 
 
 def check_writable(path: Path) -> None:
@@ -39,3 +45,14 @@ def make_folder(path: Path) -> None:
             "Choose another folder that you may write to.",
         ) from error
     check_writable(path / "any")
+
+
+def save_figure(figure: Figure, path: Path) -> None:
+    """Write a figure in the format of the path's suffix, completely or not at all.
+
+    Raises:
+        CalibrationError: if it cannot be written.
+    """
+    content = io.BytesIO()
+    figure.savefig(content, format=path.suffix.removeprefix("."), dpi=110)
+    write_atomically(path, content.getvalue())

@@ -4,15 +4,14 @@ from __future__ import annotations
 
 import argparse
 import re
+from collections.abc import Iterable
 from pathlib import Path
 
-from calibgui.app.detection import Detection, find_views
+from calibgui.app.detection import Board, Detection, find_views
 from calibgui.app.paths import find_images
 from calibgui.app.regions import read_regions
 from calibgui.cli.console import Console
 from calibgui.engine.corners.finder import MIN_LINES
-
-Board = tuple[int, int]
 
 
 def board(text: str) -> Board:
@@ -62,15 +61,15 @@ def add_search(parser: argparse.ArgumentParser) -> None:
     )
 
 
-def search(options: argparse.Namespace, console: Console) -> Detection:
-    """Find the images that `add_images` and `add_search` describe and search them.
+def search(
+    console: Console, paths: Iterable[str], board: Board | None = None, roi: Path | None = None
+) -> Detection:
+    """Find the images that are meant and search them for the board, showing progress.
 
     Raises:
-        CalibrationError: if there are no images, or none can be read.
+        CalibrationError: if a path stands for nothing, or the regions in `roi` are no good.
     """
-    images = find_images(options.paths)
-    rois = read_regions(options.roi, images) if options.roi else {}
+    images = find_images(paths)
+    rois = read_regions(roi, images) if roi else {}
     with console.progress("searching") as advance:
-        return find_views(
-            images, options.board, rois, progress=lambda done, total, _: advance(done, total)
-        )
+        return find_views(images, board, rois, lambda done, total, _: advance(done, total))

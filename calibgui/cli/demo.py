@@ -8,7 +8,7 @@ from pathlib import Path
 from matplotlib.figure import Figure
 
 from calibgui.app.calibration import calibrate_views
-from calibgui.app.outputs import make_folder
+from calibgui.app.outputs import make_folder, save_figure
 from calibgui.app.resources import resource
 from calibgui.cli.arguments import search
 from calibgui.cli.console import Console
@@ -48,13 +48,12 @@ def run(options: argparse.Namespace, console: Console) -> None:
     make_folder(out)
     sample = resource("sample")
     truth = read(sample / "truth.json")
-    options.paths, options.board, options.roi = [str(sample)], None, None
     square = truth["target"]["square_mm"].number()
-    result = calibrate_views(search(options, console).corner_set(square))
+    result = calibrate_views(search(console, [str(sample)]).corner_set(square))
     for name, file in _EXPORTS.items():
         export(result, name, out / file)
     for file, figure in _figures(result).items():
-        figure.savefig(out / file, dpi=110)
+        save_figure(figure, out / file)
     params = truth["camera"]["params"]
     names = parameter_names(result.calibration.camera.model)
     console.answer(result_record(result))

@@ -25,6 +25,7 @@ COMMANDS = {
     "undistort": "write photographs without lens distortion",
     "rectify": "write the board as seen from straight above",
     "demo": "calibrate the bundled sample and show everything there is",
+    "paper": "reproduce the paper from its 25 images, with every printed number beside ours",
 }
 """Subcommands, each with its module's name and what it does; imported only when chosen."""
 
@@ -62,13 +63,16 @@ def _run(arguments: list[str]) -> int:
     parser = argparse.ArgumentParser(
         prog="calibgui",
         description="Geometric camera calibration from photographs of a checkerboard.",
-        epilog="calibgui COMMAND --help describes a command.",
+        epilog="calibgui COMMAND --help describes a command. Without one, calibgui [FOLDER | "
+        "IMAGES | PROJECT] opens the window.",
     )
     parser.add_argument("--version", action="version", version=f"calibgui {__version__}")
     choices = parser.add_subparsers(title="commands", metavar="COMMAND", dest="command")
     parsers = {name: choices.add_parser(name, help=text) for name, text in COMMANDS.items()}
     chosen = next((name for name in arguments[:1] if name in COMMANDS), None)
     if chosen is None:
+        if _wants_window(arguments):
+            return int(import_module("calibgui.gui.app").run(arguments))
         parser.parse_args(arguments)
         parser.print_help()
         return _USAGE
@@ -86,6 +90,14 @@ def _run(arguments: list[str]) -> int:
         print(f"calibgui: {error}", file=sys.stderr)
         return _CANNOT
     return 0
+
+
+def _wants_window(arguments: list[str]) -> bool:
+    """Whether nothing but files and folders is named, and there is a screen to show them on."""
+    screen = sys.platform in ("win32", "darwin") or any(
+        os.environ.get(name) for name in ("DISPLAY", "WAYLAND_DISPLAY")
+    )
+    return screen and all(os.path.exists(name) for name in arguments)  # noqa: PTH110 - no import
 
 
 def _report_bug() -> None:

@@ -7,13 +7,12 @@ import re
 from pathlib import Path
 
 from calibgui.app.calibration import calibrate_views
+from calibgui.app.outputs import make_folder, save_figure
 from calibgui.app.synthetic import synthetic_check
 from calibgui.cli.arguments import search
 from calibgui.cli.console import Console
-from calibgui.engine.errors import CalibrationError
 from calibgui.engine.files import write_atomically
-from calibgui.engine.types import Cost, Target
-from calibgui.formats.corners_json import CornerSet
+from calibgui.engine.types import Cost
 from calibgui.formats.result import Result
 from calibgui.formats.result_json import result_record, write_result
 from calibgui.report import tables
@@ -39,14 +38,14 @@ def run(options: argparse.Namespace, console: Console) -> None:
     with console.progress("synthetic views") as advance:
         check = synthetic_check(real, progress=advance)
     out: Path = options.output
-    out.mkdir(parents=True, exist_ok=True)
+    make_folder(out)
     write_result(real, out / "real.json")
     write_result(image_cost, out / "image-cost.json")
     write_result(check.synthetic, out / "synthetic.json")
     pictures = {}
     for caption, figure in paper_figures(real, check.synthetic, check.extrinsic_errors).items():
         pictures[caption] = f"{re.sub(' ', '-', caption.split(':')[0].lower())}.png"
-        figure.savefig(out / pictures[caption], dpi=110)
+        save_figure(figure, out / pictures[caption])
     page = paper_page(
         real.calibration,
         check.synthetic.calibration,
@@ -62,12 +61,6 @@ def run(options: argparse.Namespace, console: Console) -> None:
 
 def _calibrated(options: argparse.Namespace, console: Console) -> tuple[Result, Result]:
     """The paper's formulation and the default one, on the images named Image<number>."""
-    options.paths, options.board, options.roi = [str(options.folder / "Image[0-9]*")], _BOARD, None
-    detection = search(options, console)
-    if detection.size is None:
-        raise CalibrationError(
-            f"None of the images in {options.folder} can be read.",
-            "Name the folder of Bouguet's calibration example.",
-        )
-    corner_set = CornerSet(detection.size, detection.views, Target(*_BOARD, _SQUARE))
+    detection = search(console, [str(options.folder / "Image[0-9]*")], _BOARD)
+    corner_set = detection.corner_set(_SQUARE)
     return calibrate_views(corner_set, cost=Cost.PAPER), calibrate_views(corner_set)

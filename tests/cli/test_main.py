@@ -63,7 +63,7 @@ def test_an_unknown_command_is_wrong_usage(capsys: Capture) -> None:
 def test_a_bug_shows_traceback_and_versions(
     monkeypatch: pytest.MonkeyPatch, capsys: Capture
 ) -> None:
-    monkeypatch.setattr(detect, "search", lambda *_: 1 / 0)
+    monkeypatch.setattr(detect, "search", lambda *_, **__: 1 / 0)
     assert main(["detect", "a.png"]) == 70
     problems = capsys.readouterr().err
     for word in ("Traceback", "ZeroDivisionError", "bug", f"calibgui {__version__}", "numpy"):

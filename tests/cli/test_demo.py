@@ -1,0 +1,48 @@
+"""calibgui demo: the bundled sample, whose truth is known."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from calibgui.app.resources import resource
+from calibgui.cli.main import main
+from calibgui.engine.images import image_size
+from calibgui.formats.result_json import read_result
+
+
+def test_the_sample_is_calibrated_to_its_truth(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    assert main(["demo"]) == 0
+    out = tmp_path / "calibgui-demo"
+    result = read_result(out / "result.json")
+    truth = json.loads((resource("sample") / "truth.json").read_text())
+    assert len(result.used) == len(truth["views"])
+    sigma = result.calibration.sigma
+    error = result.calibration.camera.params - list(truth["camera"]["params"].values())
+    assert np.abs(error[sigma > 0] / sigma[sigma > 0]).max() < 4
+    printed = capsys.readouterr().out
+    assert str(out) in printed and "in sigmas" in printed
+    assert max(len(line) for line in printed.splitlines() if str(out) not in line) <= 80
+    for name in ("corners", "distortion", "residuals", "histograms", "undistorted", "convergence"):
+        assert image_size(out / f"{name}.png")[0] > 400
+    for name in ("opencv.yaml", "ros.yaml", "corners.json", "corners.csv"):
+        assert (out / name).stat().st_size > 500
+    # Running it again does the same.
+    assert main(["demo", "--quiet"]) == 0
+    np.testing.assert_array_equal(
+        read_result(out / "result.json").calibration.camera.params, result.calibration.camera.params
+    )
+
+
+def test_a_folder_that_cannot_be_made_is_refused(
+    tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    (tmp_path / "file").touch()
+    assert main(["demo", "-o", str(tmp_path / "file")]) == 1
+    assert "cannot be made" in capsys.readouterr().err
