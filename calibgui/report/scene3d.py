@@ -84,7 +84,7 @@ class Observer:
 
     azimuth: float = 0.6
     elevation: float = 0.4
-    zoom: float = 1.5
+    zoom: float = 1.35
 
     def turned(self, right: float, down: float) -> Observer:
         """Moved about the scene by angles; never over the poles."""

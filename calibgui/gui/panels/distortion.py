@@ -63,14 +63,11 @@ class DistortionPanel(Panel):
         bar.addWidget(self.part)
         bar.addWidget(self.masked)
         bar.addStretch(1)
-        below = QHBoxLayout()
-        below.addWidget(self.under_cursor)
-        below.addStretch(1)
-        below.addWidget(legend)
         layout = QVBoxLayout(self.body)
         layout.addLayout(bar)
         layout.addWidget(self.plot, 1)
-        layout.addLayout(below)
+        layout.addWidget(self.under_cursor)
+        layout.addWidget(legend)
 
     def displacement(self, uv: Array) -> Displacement:
         """The chosen part of the displacement at pixels (..., 2)."""

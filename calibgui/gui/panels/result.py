@@ -52,6 +52,11 @@ class ResultPanel(Panel):
         layout = QVBoxLayout(self.body)
         layout.addWidget(self.tabs)
 
+    def show_result(self, result: Result | None) -> None:
+        """Drop a comparison with the result shown before."""
+        self.tabs.setTabVisible(3, False)
+        super().show_result(result)
+
     def show_comparison(self, a: Result, b: Result, names: tuple[str, str] = ("A", "B")) -> None:
         """Set two results side by side, with their differences in units of sigma."""
         rows = compare(a.calibration, b.calibration)

@@ -104,3 +104,5 @@ def test_comparison_in_units_of_sigma(
         assert float(row[6]) == pytest.approx(difference.sigmas, nan_ok=True)
     headers = [panel.differences.model().headerData(c, Qt.Orientation.Horizontal) for c in (1, 3)]
     assert headers == ["all ± 1σ", "again ± 1σ"]
+    panel.show_result(other)
+    assert not panel.tabs.isTabVisible(3)
