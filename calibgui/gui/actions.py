@@ -1,4 +1,4 @@
-"""Making actions: text, shortcut, tooltip and what they do, in one line each."""
+"""Making actions and opening dialogs, the same way everywhere."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from typing import Any
 
 from PySide6.QtCore import Qt
 from PySide6.QtGui import QAction, QKeySequence
-from PySide6.QtWidgets import QWidget
+from PySide6.QtWidgets import QDialog, QWidget
 
 
 def make_action(
@@ -40,3 +40,9 @@ def make_action(
     action.setShortcutContext(scope)
     action.triggered.connect(lambda: does())
     return action
+
+
+def show_dialog(dialog: QDialog) -> None:
+    """Open a dialog over its window; it ceases to exist when it is closed."""
+    dialog.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
+    dialog.open()

@@ -20,7 +20,7 @@ def run(arguments: Sequence[str]) -> int:
     app.setApplicationName("calibgui")
     app.setOrganizationName("calibgui")
     app.setDesktopFileName("calibgui")
-    theme.apply(app)
+    theme.apply(app, theme.chosen())
     theme.follow_system(app)
     window = MainWindow()
     sys.excepthook = lambda kind, error, trace: _report(window, kind, error, trace)

@@ -35,6 +35,9 @@ _GRAB = 10
 class Tool(Protocol):
     """Takes the mouse and the keys on the canvas while it is chosen; positions are image px."""
 
+    with_marks: bool
+    """Whether the usual marks are drawn beneath it."""
+
     def press(self, uv: Array, event: QMouseEvent) -> bool:
         """A button went down; whether the tool takes it."""
 
@@ -198,7 +201,8 @@ class Canvas(QGraphicsView):
     ) -> None:
         painter.save()
         painter.resetTransform()
-        paint(painter, self.marks, self.to_screen, self.shown, self.residual_scale)
+        if self.tool is None or self.tool.with_marks:
+            paint(painter, self.marks, self.to_screen, self.shown, self.residual_scale)
         if self.tool is not None:
             self.tool.paint(painter, self)
         painter.restore()

@@ -23,6 +23,7 @@ class CornerTool(QObject):
     """Drag a corner to move it (it snaps; Ctrl: it does not), Delete to remove the chosen one,
     click a hollow ring to find a missing one, Esc to leave."""
 
+    with_marks = True
     chosen = Signal(int)
     """Index of a corner."""
     moved = Signal(int, object)

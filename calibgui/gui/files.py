@@ -11,16 +11,18 @@ from PySide6.QtWidgets import QFileDialog, QInputDialog, QLineEdit, QMessageBox,
 
 from calibgui.app.document import Document
 from calibgui.app.paths import find_images
-from calibgui.app.project import renamed_result, with_images, without_result
+from calibgui.app.project import relocated, renamed_result, with_images, without_result
+from calibgui.app.relocating import find_moved, missing_images
 from calibgui.app.resampling import Written, rectify_files, undistort_files
 from calibgui.app.resources import resource
 from calibgui.engine.errors import CalibrationError
 from calibgui.engine.images import FORMATS
 from calibgui.engine.undistort import FieldOfView
+from calibgui.gui.actions import show_dialog
 from calibgui.gui.calibrating import Calibrator
 from calibgui.gui.detecting import Detector
 from calibgui.gui.jobs import Job
-from calibgui.gui.panels.undistort import RECTIFIED
+from calibgui.gui.print_dialog import PrintDialog
 from calibgui.gui.saving import Saver
 from calibgui.gui.session import Session
 
@@ -31,6 +33,7 @@ class Files(QObject):
     """Dialogs over the saver; what fails is shown in the banner."""
 
     recoverable = Signal(Path)
+    images_missing = Signal(list)
 
     def __init__(
         self, session: Session, detector: Detector, calibrator: Calibrator, window: QWidget
@@ -40,6 +43,7 @@ class Files(QObject):
         self._detector, self._calibrator = detector, calibrator
         self.saver = Saver(session)
         self.saver.recoverable.connect(self.recoverable)
+        self.saver.opened.connect(self.check_images)
 
     def open_paths(self, names: Sequence[str]) -> None:
         """Open what was dropped, pasted or named on the command line: a project, or images."""
@@ -127,6 +131,51 @@ class Files(QObject):
             return self.save()
         return answer == button.Discard
 
+    def export(self) -> None:
+        """Offer the shown result in every format."""
+        from calibgui.gui.panels.export import ExportDialog
+
+        if self._session.result is not None:
+            show_dialog(ExportDialog(self._session.jobs, self._session.result, self._window))
+
+    def print_board(self) -> None:
+        """Offer a board to print, like the project's."""
+        show_dialog(PrintDialog(self._session.project.target, self._window))
+
+    def check_images(self) -> None:
+        """Announce images that are not where the project says."""
+        project = self._session.project
+        self._session.jobs.start(
+            "",
+            lambda _: missing_images(project),
+            lambda missing: self.images_missing.emit(missing) if missing else None,
+        )
+
+    def ask_for_moved(self, missing: list[str]) -> None:
+        """Find missing images in a folder of the user's choice."""
+        folder = QFileDialog.getExistingDirectory(
+            self._window, self.tr("Folder that holds the missing images")
+        )
+        if folder:
+            self.find_moved(missing, Path(folder))
+
+    def find_moved(self, missing: list[str], folder: Path) -> None:
+        """Find missing images in `folder`."""
+        digests = self._session.project.digests
+
+        def done(moved: dict[str, str]) -> None:
+            if moved:
+                self._session.edit(self.tr("Relocate images"), lambda p: relocated(p, moved))
+            self._session.told.emit(
+                self.tr("Found {0} of {1} missing images in {2}.").format(
+                    len(moved), len(missing), folder
+                )
+            )
+
+        self._session.jobs.start(
+            self.tr("Looking for images"), lambda _: find_moved(missing, folder, digests), done
+        )
+
     def keep_work(self) -> None:
         """Write the unsaved state, because something went wrong."""
         self._try(self.saver.autosave_now)
@@ -162,6 +211,8 @@ class Files(QObject):
 
     def save_changed_images(self, views: tuple[int, ...], way: str) -> None:
         """Write undistorted or rectified images to a folder of the user's choice."""
+        from calibgui.gui.panels.undistort import RECTIFIED
+
         result = self._session.result
         folder = QFileDialog.getExistingDirectory(self._window, self.tr("Folder for the images"))
         if result is None or not folder:

@@ -18,6 +18,7 @@ from PySide6.QtWidgets import (
     QToolButton,
     QVBoxLayout,
     QWidget,
+    QWidgetAction,
 )
 
 from calibgui.app.project import Project
@@ -171,7 +172,13 @@ class ImagePage(QWidget):
         self.scale.setAccessibleName(self.tr("Magnification of residuals"))
         self.scale.valueChanged.connect(self.canvas.set_residual_scale)
         self.bar.addWidget(button)
-        self.bar.addWidget(self.scale)
+        row = QWidget()
+        line = QHBoxLayout(row)
+        line.addWidget(QLabel(self.tr("Residuals drawn")))
+        line.addWidget(self.scale)
+        setting = QWidgetAction(menu)
+        setting.setDefaultWidget(row)
+        menu.addAction(setting)
 
     def _add_zoom(self) -> None:
         self.zoom_actions = [

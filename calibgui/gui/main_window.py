@@ -23,6 +23,7 @@ from calibgui.app.recent import recent_projects
 from calibgui.engine.errors import CalibrationError
 from calibgui.formats.result import Result
 from calibgui.gui import theme
+from calibgui.gui.actions import show_dialog
 from calibgui.gui.banner import Banner
 from calibgui.gui.bug_dialog import BugDialog
 from calibgui.gui.calibrating import Calibrator
@@ -98,7 +99,7 @@ class MainWindow(QMainWindow):
         nothing = QLabel(self.tr("Nothing is calibrated yet."))
         nothing.setAlignment(Qt.AlignmentFlag.AlignCenter)
         self.analysis_dock = self._dock(self.tr("Results"), "results", nothing, _RIGHT)
-        self.resizeDocks([self.image_dock, self.analysis_dock], [270, 520], _HORIZONTAL)
+        self.resizeDocks([self.image_dock, self.analysis_dock], [264, 540], _HORIZONTAL)
 
         self.place = QLabel()
         self.place.setFont(theme.fixed_font())
@@ -127,6 +128,8 @@ class MainWindow(QMainWindow):
         self.session.result_changed.connect(self._result_changed)
         self.session.jobs.changed.connect(self._show_calibrate)
         self.files.recoverable.connect(self._offer_recovery)
+        self.files.images_missing.connect(self._offer_search)
+        self.target.print_wanted.connect(self.files.print_board)
         self.welcome.folder_wanted.connect(self.files.ask_for_folder)
         self.welcome.images_wanted.connect(self.files.ask_for_images)
         self.welcome.sample_wanted.connect(self.files.open_sample)
@@ -159,7 +162,7 @@ class MainWindow(QMainWindow):
             self.banner.show_error(error)
             return
         self.files.keep_work()
-        BugDialog(error, self).open()
+        show_dialog(BugDialog(error, self))
 
     def _refresh(self) -> None:
         document = self.session.document
@@ -203,6 +206,14 @@ class MainWindow(QMainWindow):
                 self.tr("&Recover"): lambda: self.files.saver.recover(path),
                 self.tr("&Throw away"): lambda: self.files.saver.forget(path),
             },
+        )
+
+    def _offer_search(self, missing: list[str]) -> None:
+        self.banner.show_text(
+            self.tr("{0} of {1} images are not where they were, among them {2}.").format(
+                len(missing), len(self.session.project.views), missing[0]
+            ),
+            {self.tr("&Locate…"): lambda: self.files.ask_for_moved(missing)},
         )
 
     def _restore_layout(self) -> None:

@@ -3,14 +3,22 @@
 from __future__ import annotations
 
 from PySide6.QtCore import Signal
-from PySide6.QtWidgets import QFrame, QHBoxLayout, QLabel, QPushButton, QSpinBox, QWidget
+from PySide6.QtWidgets import (
+    QFrame,
+    QHBoxLayout,
+    QLabel,
+    QPushButton,
+    QSpinBox,
+    QVBoxLayout,
+    QWidget,
+)
 
 from calibgui.app.detection import Board
 from calibgui.gui import theme
 
 
 class _Bar(QFrame):
-    """Words on the left, buttons on the right."""
+    """Words over buttons."""
 
     def __init__(self) -> None:
         super().__init__()
@@ -19,9 +27,12 @@ class _Bar(QFrame):
         self.setBackgroundRole(self.backgroundRole().AlternateBase)
         self.words = QLabel()
         self.words.setWordWrap(True)
-        self.row = QHBoxLayout(self)
-        self.row.setContentsMargins(theme.SPACING, 4, theme.SPACING, 4)
-        self.row.addWidget(self.words, 1)
+        self.row = QHBoxLayout()
+        self.row.addStretch(1)
+        column = QVBoxLayout(self)
+        column.setContentsMargins(theme.SPACING, 4, theme.SPACING, 4)
+        column.addWidget(self.words)
+        column.addLayout(self.row)
         self.hide()
 
     def add(self, *widgets: QWidget) -> None:

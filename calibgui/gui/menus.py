@@ -7,11 +7,13 @@ from functools import partial
 from typing import TYPE_CHECKING
 
 from PySide6.QtCore import QCoreApplication
-from PySide6.QtGui import QAction, QKeySequence
+from PySide6.QtGui import QAction, QActionGroup, QKeySequence
 from PySide6.QtWidgets import QMenu
 
 from calibgui.app.recent import recent_projects
-from calibgui.gui.actions import make_action
+from calibgui.gui import theme
+from calibgui.gui.actions import make_action, show_dialog
+from calibgui.gui.help_dialog import HelpDialog
 
 if TYPE_CHECKING:
     from calibgui.gui.main_window import MainWindow
@@ -105,7 +107,20 @@ def make_menus(window: MainWindow) -> None:
     menu.addActions(window.page.tools)
 
     menu = bar.addMenu(tr("&Calibration"))
-    add(menu, tr("&Calibrate"), "F9", window.calibrate.toolTip(), window.calibrate.click)
+    add(
+        menu,
+        tr("&Calibrate or stop"),
+        "F9",
+        tr("Do everything that is still to do"),
+        window.calibrate.click,
+    )
+    export = add(
+        menu, tr("&Export…"), "Ctrl+E", tr("Write the camera for another program"), files.export
+    )
+    export.setEnabled(False)
+    window.session.result_changed.connect(lambda result: export.setEnabled(result is not None))
+    menu.addSeparator()
+    add(menu, tr("&Print a board…"), "Ctrl+P", tr("Make a board of any size"), files.print_board)
 
     menu = bar.addMenu(tr("&View"))
     menu.setToolTipsVisible(True)
@@ -115,6 +130,29 @@ def make_menus(window: MainWindow) -> None:
     menu.addSeparator()
     for dock in (window.image_dock, window.analysis_dock):
         menu.addAction(dock.toggleViewAction())
+
+    looks = menu.addMenu(tr("&Colours"))
+    group = QActionGroup(window)
+    for scheme, text in (
+        (theme.Scheme.SYSTEM, tr("As the &system")),
+        (theme.Scheme.LIGHT, tr("&Light")),
+        (theme.Scheme.DARK, tr("&Dark")),
+    ):
+        action = add(
+            looks, text, None, tr("Choose light or dark colours"), partial(theme.choose, scheme)
+        )
+        action.setCheckable(True)
+        action.setChecked(theme.chosen() is scheme)
+        group.addAction(action)
+
+    menu = bar.addMenu(tr("&Help"))
+    add(
+        menu,
+        tr("&How it works"),
+        Key.HelpContents,
+        tr("The workflow on one page"),
+        lambda: show_dialog(HelpDialog(window)),
+    )
 
 
 def _fill_recent(window: MainWindow, menu: QMenu) -> None:

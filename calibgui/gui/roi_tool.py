@@ -27,6 +27,7 @@ class RoiTool(QObject):
     dragged, Backspace takes the last one back, Enter accepts, Esc leaves.
     """
 
+    with_marks = False
     changed = Signal()
     """A point was added, moved or taken back."""
     accepted = Signal()

@@ -137,6 +137,8 @@ class Table(QTableView):
         self.verticalHeader().hide()
         self.verticalHeader().setDefaultSectionSize(self.fontMetrics().height() + theme.SPACING)
         self.horizontalHeader().setSectionResizeMode(QHeaderView.ResizeMode.ResizeToContents)
+        # Columns as wide as what is in sight: measuring thousands of rows would be felt.
+        self.horizontalHeader().setResizeContentsPrecision(0)
         self.setTabKeyNavigation(False)
         self.selectionModel().currentRowChanged.connect(self._current_changed)
         self._menu = QMenu(self)

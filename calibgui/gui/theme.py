@@ -9,7 +9,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from enum import StrEnum
 
-from PySide6.QtCore import Qt
+from PySide6.QtCore import QSettings, Qt
 from PySide6.QtGui import QColor, QFont, QFontDatabase, QPalette
 from PySide6.QtWidgets import QApplication
 
@@ -113,14 +113,29 @@ def current() -> Theme:
     return DARK if dark else LIGHT
 
 
-def apply(app: QApplication, scheme: Scheme = Scheme.SYSTEM) -> None:
-    """Give the application the look of `scheme`; `follow_system` repeats it when that changes."""
+def chosen() -> Scheme:
+    """The scheme that the user chose, now or in an earlier session."""
+    try:
+        return Scheme(str(QSettings().value("scheme", Scheme.SYSTEM)))
+    except ValueError:
+        return Scheme.SYSTEM
+
+
+def choose(scheme: Scheme) -> None:
+    """Show `scheme`, and remember it."""
+    QSettings().setValue("scheme", str(scheme))
+    app = QApplication.instance()
+    if isinstance(app, QApplication):
+        apply(app, scheme)
+
+
+def apply(app: QApplication, scheme: Scheme) -> None:
+    """Give the application the look of `scheme`."""
     if scheme is Scheme.SYSTEM:
         dark = app.styleHints().colorScheme() is Qt.ColorScheme.Dark
     else:
         dark = scheme is Scheme.DARK
     theme = DARK if dark else LIGHT
-    app.setProperty("scheme", str(scheme))
     if app.style().objectName() != "fusion":
         app.setStyle("Fusion")
     app.setPalette(_palette(theme))
@@ -128,9 +143,7 @@ def apply(app: QApplication, scheme: Scheme = Scheme.SYSTEM) -> None:
 
 def follow_system(app: QApplication) -> None:
     """Repeat `apply` whenever the system turns dark or light."""
-    app.styleHints().colorSchemeChanged.connect(
-        lambda: apply(app, Scheme(app.property("scheme") or Scheme.SYSTEM))
-    )
+    app.styleHints().colorSchemeChanged.connect(lambda: apply(app, chosen()))
 
 
 def view_colour(view: int) -> QColor:

@@ -1,0 +1,37 @@
+"""Images that are no longer where the project says: find them elsewhere."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping
+from pathlib import Path, PurePath
+
+from calibgui.app.image_store import file_digest
+from calibgui.app.project import Project
+
+
+def missing_images(project: Project) -> list[str]:
+    """The project's images whose files are gone."""
+    return [view.image for view in project.views if not Path(view.image).is_file()]
+
+
+def find_moved(missing: Iterable[str], folder: Path, digests: Mapping[str, str]) -> dict[str, str]:
+    """Where in `folder`, at any depth, the `missing` images are now.
+
+    A file of the same name is taken if its SHA-256 is the known one; of an image of which none
+    is known, any file of that name. One that was renamed is found by its SHA-256 alone.
+    """
+    files = sorted(path for path in folder.rglob("*") if path.is_file())
+    by_name: dict[str, list[Path]] = {}
+    for path in files:
+        by_name.setdefault(path.name, []).append(path)
+    moved = {}
+    for image in missing:
+        known = digests.get(image)
+        alike = by_name.get(PurePath(image).name, [])
+        candidates = alike if known is None else [p for p in alike if file_digest(p) == known]
+        if not candidates and known is not None:
+            suffix = PurePath(image).suffix
+            candidates = [p for p in files if p.suffix == suffix and file_digest(p) == known]
+        if candidates:
+            moved[image] = str(candidates[0].absolute())
+    return moved

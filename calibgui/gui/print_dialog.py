@@ -1,0 +1,141 @@
+"""A board to print: its size and paper, and how it will look."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from PySide6.QtCore import QByteArray, QRectF, Qt
+from PySide6.QtGui import QPainter, QPaintEvent
+from PySide6.QtSvg import QSvgRenderer
+from PySide6.QtWidgets import (
+    QComboBox,
+    QDialog,
+    QDialogButtonBox,
+    QDoubleSpinBox,
+    QFileDialog,
+    QFormLayout,
+    QHBoxLayout,
+    QLabel,
+    QSpinBox,
+    QVBoxLayout,
+    QWidget,
+)
+
+from calibgui.app.printable_target import PAPERS, Sheet, sheet, write_sheet
+from calibgui.engine.errors import CalibrationError
+from calibgui.engine.types import Target
+from calibgui.gui import theme
+
+_DEFAULT = Target(7, 10, 25.0)
+
+
+class _Preview(QWidget):
+    """The sheet, as large as there is room for."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self._drawing = QSvgRenderer(self)
+        self.setMinimumSize(280, 280)
+
+    def show_sheet(self, content: Sheet | None) -> None:
+        self._drawing.load(QByteArray() if content is None else content.svg().encode())
+        self.update()
+
+    def paintEvent(self, event: QPaintEvent) -> None:  # noqa: N802, ARG002 - Qt's signature
+        if not self._drawing.isValid():
+            return
+        size = self._drawing.viewBoxF().size()
+        size.scale(self.width() - 2.0, self.height() - 2.0, Qt.AspectRatioMode.KeepAspectRatio)
+        place = QRectF(0, 0, size.width(), size.height())
+        place.moveCenter(QRectF(self.rect()).center())
+        painter = QPainter(self)
+        self._drawing.render(painter, place)
+        painter.setPen(theme.current().line)
+        painter.drawRect(place)
+
+
+class PrintDialog(QDialog):
+    """Makes a PDF or SVG of a board in true size."""
+
+    def __init__(self, target: Target | None, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self.setWindowTitle(self.tr("Board to print"))
+        target = target or _DEFAULT
+        self.rows, self.cols = (QSpinBox(minimum=3, maximum=200) for _ in range(2))
+        self.rows.setValue(target.rows + 1)
+        self.cols.setValue(target.cols + 1)
+        self.square = QDoubleSpinBox(decimals=2, minimum=1.0, maximum=500.0, suffix=self.tr(" mm"))
+        self.square.setValue(target.square)
+        self.paper = QComboBox()
+        self.paper.addItems(list(PAPERS))
+        self.words = QLabel()
+        self.words.setWordWrap(True)
+        self.preview = _Preview()
+        squares = QHBoxLayout()
+        squares.addWidget(self.rows)
+        squares.addWidget(QLabel("×"))
+        squares.addWidget(self.cols)
+        form = QFormLayout()
+        form.addRow(self.tr("Squares"), squares)
+        form.addRow(self.tr("&Side of a square"), self.square)
+        form.addRow(self.tr("&Paper"), self.paper)
+        form.addRow(self.words)
+        form.addRow(
+            QLabel(
+                self.tr(
+                    "An odd and an even number of squares\nlets every view find the same origin."
+                )
+            )
+        )
+        buttons = QDialogButtonBox(QDialogButtonBox.StandardButton.Close)
+        self.save = buttons.addButton(
+            self.tr("&Save as PDF or SVG…"), QDialogButtonBox.ButtonRole.ActionRole
+        )
+        self.save.clicked.connect(self._ask_and_save)
+        buttons.rejected.connect(self.reject)
+        middle = QHBoxLayout()
+        middle.addLayout(form)
+        middle.addWidget(self.preview, 1)
+        layout = QVBoxLayout(self)
+        layout.addLayout(middle, 1)
+        layout.addWidget(buttons)
+        for box in (self.rows, self.cols, self.square):
+            box.valueChanged.connect(self._refresh)
+        self.paper.currentIndexChanged.connect(self._refresh)
+        self.resize(760, 440)
+        self._refresh()
+
+    def content(self) -> Sheet:
+        """The sheet as chosen. Raises CalibrationError if it does not fit the paper."""
+        board = (self.rows.value() - 1, self.cols.value() - 1)
+        return sheet(board, self.square.value(), self.paper.currentText())
+
+    def _refresh(self) -> None:
+        colours = theme.current()
+        try:
+            content: Sheet | None = self.content()
+            text, colour = self.tr("Fits."), colours.good
+        except CalibrationError as error:
+            content, text, colour = None, str(error), colours.bad
+        self.preview.show_sheet(content)
+        self.words.setText(text)
+        self.words.setStyleSheet(f"color: {colour}")
+        self.save.setEnabled(content is not None)
+
+    def _ask_and_save(self) -> None:
+        name, chosen = QFileDialog.getSaveFileName(
+            self,
+            self.tr("Save board"),
+            "board.pdf",
+            self.tr("PDF (*.pdf);;SVG drawing (*.svg)"),
+        )
+        if not name:
+            return
+        path = Path(name)
+        if not path.suffix:
+            path = path.with_suffix(".svg" if "svg" in chosen else ".pdf")
+        try:
+            write_sheet(self.content(), path)
+            self.accept()
+        except CalibrationError as error:
+            self.words.setText(str(error))

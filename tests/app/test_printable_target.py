@@ -1,0 +1,78 @@
+"""The sheet is read back as what it must be: a board of the stated size, in mm."""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+from xml.etree import ElementTree
+
+import numpy as np
+import pytest
+
+from calibgui.app.printable_target import PAPERS, Sheet, sheet, write_sheet
+from calibgui.engine.corners import find_corners
+from calibgui.engine.errors import CalibrationError
+from calibgui.engine.types import Array
+
+_PER_MM = 4
+
+
+def rasterised(content: Sheet) -> Array:
+    """The SVG's rectangles as an image of 4 pixels a mm."""
+    root = ElementTree.fromstring(content.svg())
+    width, height = (float(root.attrib[k].removesuffix("mm")) for k in ("width", "height"))
+    image = np.full((round(_PER_MM * height), round(_PER_MM * width)), 255, np.uint8)
+    for rect in root.iter("{http://www.w3.org/2000/svg}rect"):
+        if "x" in rect.attrib:
+            x, y, w, h = (
+                round(_PER_MM * float(rect.attrib[k])) for k in ("x", "y", "width", "height")
+            )
+            image[y : y + h, x : x + w] = 0
+    return image
+
+
+@pytest.mark.parametrize("board", [(6, 9), (9, 6)])
+def test_the_finder_sees_the_board_in_its_size(board: tuple[int, int]) -> None:
+    content = sheet(board, 20.0, "A4")
+    corners = find_corners(rasterised(content), board)
+    assert corners.complete
+    row = corners.uv[corners.grid[:, 0] == 0]
+    np.testing.assert_allclose(
+        np.linalg.norm(np.diff(row, axis=0), axis=1), 20.0 * _PER_MM, atol=0.6
+    )
+
+
+def test_pdf_and_svg_hold_the_same_rectangles(tmp_path: Path) -> None:
+    content = sheet((5, 8), 22.5, "A4")
+    for name in ("board.pdf", "board.svg"):
+        write_sheet(content, tmp_path / name)
+    pdf = (tmp_path / "board.pdf").read_bytes().decode("cp1252")
+    found = [
+        tuple(map(float, m))
+        for m in re.findall(r"^([\d.]+) ([\d.]+) ([\d.]+) ([\d.]+) re$", pdf, re.M)
+    ]
+    expected = [(x, content.size[1] - y - h, w, h) for x, y, w, h in content.rectangles]
+    np.testing.assert_allclose(found, expected, atol=1e-4)
+    start = int(re.search(r"startxref\n(\d+)", pdf)[1])
+    assert pdf[start : start + 4] == "xref"
+    for place in re.findall(r"^(\d{10}) 00000 n", pdf, re.M):
+        assert re.match(r"\d+ 0 obj", pdf[int(place) :])
+    with pytest.raises(CalibrationError, match="neither"):
+        write_sheet(content, tmp_path / "board.png")
+
+
+@pytest.mark.parametrize("paper", PAPERS)
+def test_everything_is_on_the_sheet_with_white_around(paper: str) -> None:
+    with pytest.raises(CalibrationError) as error:
+        sheet((6, 9), 5000.0, paper)
+    largest = float(re.search(r"at most ([\d.]+) mm", error.value.hint)[1])
+    content = sheet((6, 9), largest - 0.1, paper)
+    squares = np.array([r for r in content.rectangles if r[2] == r[3]])
+    width, height = content.size
+    left, top = squares[:, :2].min(axis=0)
+    right, bottom = (squares[:, :2] + squares[:, 2:]).max(axis=0)
+    margin = squares[0, 2] / 2
+    assert min(left, top, width - right) > margin
+    bar_top = min(r[1] for r in content.rectangles if r[2] != r[3])
+    assert bottom + margin < bar_top < height - 8
+    assert content.bar in (20, 50, 100, 200, 500, 1000)
