@@ -32,6 +32,7 @@ def spoilt(photographs: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
     write_image(folder / "d-smaller.png", pixels[:200])
     write_image(folder / "e-turned.png", np.ascontiguousarray(pixels.T))
     write_image(folder / "f-blank.png", np.full_like(pixels, 128))
+    write_image(folder / "h-larger.png", np.full((480, 640), 99, np.uint8))
     write_image(folder / "g-16bit.png", pixels.astype(np.uint16) * 16)
     return folder
 
@@ -54,6 +55,7 @@ def test_every_image_has_a_view_in_the_images_order(spoilt: Path, found: Detecti
         ("c-empty", ViewStatus.UNREADABLE, "empty"),
         ("d-smaller", ViewStatus.WRONG_SIZE, "320 x 200 pixels, most have 320 x 240"),
         ("e-turned", ViewStatus.WRONG_SIZE, "Turn it"),
+        ("h-larger", ViewStatus.WRONG_SIZE, "640 x 480 pixels, most have 320 x 240"),
         ("f-blank", ViewStatus.NO_BOARD, "No checkerboard"),
     ],
 )
