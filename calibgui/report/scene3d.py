@@ -113,11 +113,15 @@ def draw(polygons: Sequence[Polygon], observer: Observer) -> tuple[Drawn, ...]:
     everything = np.concatenate([polygon.points for polygon in polygons])
     middle = (everything.min(axis=0) + everything.max(axis=0)) / 2
     radius = float(np.linalg.norm(everything - middle, axis=1).max()) or 1.0
-    drawn = []
-    for polygon in polygons:
-        points, depth = project((polygon.points - middle) / radius, observer)
-        if depth.min() > 0.1:
-            drawn.append(Drawn(polygon, points, float(depth.mean())))
+    points, depth = project((everything - middle) / radius, observer)
+    ends = np.cumsum([len(polygon.points) for polygon in polygons])[:-1]
+    drawn = [
+        Drawn(polygon, at, float(far.mean()))
+        for polygon, at, far in zip(
+            polygons, np.split(points, ends), np.split(depth, ends), strict=True
+        )
+        if far.min() > 0.1
+    ]
     return tuple(sorted(drawn, key=lambda d: -d.depth))
 
 

@@ -24,6 +24,8 @@ from calibgui.gui.panels.panel import Panel
 from calibgui.report.coverage import attitudes
 from calibgui.report.scene3d import Centre, Drawn, Kind, Observer, Polygon, draw, scene, view_at
 
+_FILLED = 150
+"""Polygons up to which they are filled: more would be a blur, and slow."""
 _TURN = 0.008
 """Angle for a pixel of dragging, rad."""
 _KEYS = {
@@ -97,8 +99,8 @@ class SceneView(QWidget):
         painter.setPen(
             QPen(QColor(colours.text) if chosen else QColor(colour), 2.5 if chosen else 1)
         )
-        colour.setAlpha(150 if chosen else 60)
-        painter.setBrush(colour)
+        colour.setAlpha(150 if chosen else 60 if len(self._drawn) <= _FILLED else 0)
+        painter.setBrush(colour if colour.alpha() else Qt.BrushStyle.NoBrush)
         points = self.to_widget(item.points)
         painter.drawPolygon(QPolygonF(points))
         if item.polygon.kind is Kind.BOARD:
