@@ -29,7 +29,12 @@ def program(*arguments: str | Path) -> list[str]:
     return [sys.executable, "-m", "calibgui", *map(str, arguments)]
 
 
-def test_without_arguments_it_shows_its_commands(capsys: Capture) -> None:
+def test_without_arguments_or_screen_it_shows_its_commands(
+    monkeypatch: pytest.MonkeyPatch, capsys: Capture
+) -> None:
+    monkeypatch.setattr(sys, "platform", "linux")
+    for name in ("DISPLAY", "WAYLAND_DISPLAY"):
+        monkeypatch.delenv(name, raising=False)
     assert main([]) == 2
     printed = capsys.readouterr().out
     for command in COMMANDS:
