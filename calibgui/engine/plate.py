@@ -139,11 +139,10 @@ def on_plate(observations: Observations, plate: Plate) -> Observations:
 
 
 def deviated(observations: Observations, points: Array, index: IntArray, d: Array) -> Observations:
-    """The observations on a plate with deviations d (n, 3) mm."""
-    nominal = np.column_stack([points, np.zeros(len(points))])
-    return Observations(
-        observations.uv, (nominal + d)[index], observations.mask, observations.whitening
-    )
+    """The observations on a plate with deviations d (n, 3) mm from its points (n, 2 or 3)."""
+    places = np.array(d)
+    places[:, : points.shape[1]] += points
+    return Observations(observations.uv, places[index], observations.mask, observations.whitening)
 
 
 def _products(

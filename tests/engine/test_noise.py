@@ -1,0 +1,134 @@
+"""Whether residuals look like noise: no alarms on noise, and every usual fault by its name."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import numpy as np
+import pytest
+
+from calibgui.engine import frames
+from calibgui.engine.calibrate import calibrate
+from calibgui.engine.noise import calibrate_weighted, examine, weighted
+from calibgui.engine.projection import pixels
+from calibgui.engine.types import Array, Observation, Pose
+from tests.engine.scenes import BOARD, barrel, scene
+
+SIZE = barrel().size
+XY = BOARD.points()
+SCENE = scene(barrel(), 12, seed=1)
+Z = np.zeros((len(XY), 1))
+BOW = 1 - ((XY[:, :1] - XY[:, 0].mean()) / (np.ptp(XY[:, 0]) / 2)) ** 2
+
+
+def _solid(pose: Pose, board: Array) -> Array:
+    """(n, 2) the image of a board's corners (n, 3)."""
+    p = board @ frames.rotation(pose.rvec).T + pose.tvec
+    return pixels(p[:, :2] / p[:, 2:], SCENE.camera)
+
+
+def _rolling(pose: Pose, velocity: Array) -> Array:
+    """(n, 2) the image while the board moves by `velocity`, mm from the first row to the last."""
+    uv = _solid(pose, np.hstack([XY, Z]))
+    p = np.hstack([XY, Z]) @ frames.rotation(pose.rvec).T + pose.tvec
+    for _ in range(5):
+        q = p + (uv[:, 1:] / SIZE[1] - 0.5) * velocity
+        uv = pixels(q[:, :2] / q[:, 2:], SCENE.camera)
+    return uv
+
+
+def _images(fault: str, rng: np.random.Generator) -> list[Array]:
+    poses = SCENE.poses
+    bent: dict[str, Callable[[Pose], Array]] = {
+        "none": lambda pose: _solid(pose, np.hstack([XY, Z])),
+        "squares": lambda pose: _solid(pose, np.hstack([XY * [1.003, 1.0], Z])),
+        "bow": lambda pose: _solid(pose, np.hstack([XY, 0.5 * BOW])),
+        "rows": lambda pose: _rolling(pose, rng.normal(scale=0.5, size=3)),
+        "bending": lambda pose: _solid(pose, np.hstack([XY, rng.normal() * BOW])),
+    }
+    if fault == "board":
+        true = np.hstack([XY, Z]) + rng.normal(scale=0.1, size=(len(XY), 3))
+        return [_solid(pose, true) for pose in poses]
+    if fault == "views":
+        exact = [bent["none"](pose) for pose in poses]
+        blurred = [uv + rng.normal(scale=0.6, size=(len(uv), 1)) * [0.8, 0.3] for uv in exact[:3]]
+        return blurred + exact[3:]
+    return [bent[fault if fault in bent else "none"](pose) for pose in poses]
+
+
+@pytest.mark.parametrize("fault", ["squares", "bow", "rows", "bending", "board", "views", "lens"])
+def test_a_fault_is_named(fault: str) -> None:
+    rng = np.random.default_rng(0)
+    views = [
+        Observation(uv + rng.normal(scale=0.1, size=uv.shape), XY) for uv in _images(fault, rng)
+    ]
+    held = ["k2", "k3"] if fault == "lens" else []
+    report = examine(calibrate(views, SIZE, fix=held), views)
+    assert not report.passed
+    assert report.cause is not None
+    assert report.cause.name == fault
+
+
+def test_outliers_and_rounding_are_told_apart() -> None:
+    rng = np.random.default_rng(0)
+    rounded = [Observation(np.round(2 * view.uv) / 2, view.xy) for view in SCENE.views]
+    report = examine(calibrate(rounded, SIZE), rounded)
+    assert report.cause is not None
+    assert "rounded" in report.cause.advice
+    displaced = SCENE.noisy(0.1, rng)
+    for k, view in enumerate(displaced):
+        uv = np.array(view.uv)
+        uv[rng.integers(len(uv))] += 3.0
+        displaced[k] = view._replace(uv=uv)
+    report = examine(calibrate(displaced, SIZE), displaced)
+    assert report.cause is not None
+    assert report.cause.name == "shape"
+    assert "misplaced" in report.cause.advice
+
+
+def test_blurred_views_are_listed_and_weigh_less() -> None:
+    rng = np.random.default_rng(3)
+    exact = scene(barrel(), 12, seed=1)
+    noise = np.where(np.arange(12) < 4, 1.0, 0.1)
+    views = [
+        Observation(view.uv + rng.normal(scale=s, size=view.uv.shape), view.xy)
+        for view, s in zip(exact.views, noise, strict=True)
+    ]
+    plain = calibrate(views, SIZE)
+    report = examine(plain, views)
+    found = next(check for check in report.checks if check.name == "views")
+    assert not found.passed
+    assert {int(word.rstrip(",")) for word in found.finding.split("view ")[1].split()} == {
+        1,
+        2,
+        3,
+        4,
+    }
+    result, used = calibrate_weighted(views, SIZE)
+    assert result.noise == pytest.approx(1.0, abs=0.01)
+    assert examine(result, used).passed
+    assert (result.sigma[:4] < 0.5 * plain.sigma[:4]).all()
+    assert report.view_sigma == pytest.approx(noise, rel=0.35)
+
+
+def test_weights_multiply_covariances() -> None:
+    cov = np.tile(np.diag([1.0, 4.0]), (3, 1, 1))
+    points = np.array([[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]])
+    views = weighted(
+        [Observation(points, points), Observation(points, points, cov)], np.array([2, 3])
+    )
+    assert views[0].cov is not None
+    assert views[0].cov[1].tolist() == [[4, 0], [0, 4]]
+    assert views[1].cov is not None
+    assert views[1].cov[2].tolist() == [[9, 0], [0, 36]]
+
+
+@pytest.mark.slow
+def test_noise_raises_no_alarm() -> None:
+    alarms = []
+    for seed in range(80):
+        true = scene(barrel(), (4, 8, 16)[seed % 3], seed)
+        views = true.noisy(0.2, np.random.default_rng(seed))
+        report = examine(calibrate(views, SIZE), views)
+        alarms += [check.name for check in report.checks if not check.passed]
+    assert len(alarms) <= 4  # 0.8 expected of 80 x 10 checks at one in a thousand
