@@ -70,6 +70,7 @@ class Analysis(QWidget):
         self._blank = {kind: QWidget() for kind in PANELS}
         self.names = QListWidget()
         self.names.setAccessibleName(self.tr("Panels"))
+        self.names.setSpacing(2)
         self.stack = QStackedWidget()
         for kind in PANELS:
             self.names.addItem(QCoreApplication.translate(kind.__name__, kind.title))

@@ -150,8 +150,7 @@ class Canvas(QGraphicsView):
         scale = min(max(self.zoom * factor, lowest), _NEAREST)
         fixed = self.to_image(np.array([[at.x(), at.y()]]))[0]
         self.setTransform(QTransform.fromScale(scale, scale))
-        middle = self.viewport().rect().center()
-        self._look_at(fixed + (np.array([middle.x() - at.x(), middle.y() - at.y()])) / scale)
+        self._look_at(fixed + (self._middle - [at.x(), at.y()]) / scale)
         self._fits = False
 
     def show_place(self, uv: Array) -> None:
@@ -166,6 +165,11 @@ class Canvas(QGraphicsView):
         if rect.isEmpty():
             return 1.0
         return min(port.width() / rect.width(), port.height() / rect.height())
+
+    @property
+    def _middle(self) -> Array:
+        """(2,) widget coordinates of the viewport's centre, as `centerOn` understands it."""
+        return np.array([self.viewport().width(), self.viewport().height()]) / 2
 
     def _look_at(self, uv: Array) -> None:
         self.centerOn(QPointF(*uv))
@@ -276,9 +280,7 @@ class Canvas(QGraphicsView):
         shift = to - self._pan_from
         if shift.isNull():
             return
-        middle = self.viewport().rect().center()
-        centre = self.to_image(np.array([[middle.x() - shift.x(), middle.y() - shift.y()]]))[0]
-        self._look_at(centre)
+        self._look_at(self.to_image(self._middle[None] - [shift.x(), shift.y()])[0])
         self._pan_from = to
         self._fits = False
 

@@ -26,6 +26,7 @@ class Saver(QObject):
     """
 
     opened = Signal()
+    """A document from a file is there to be worked on."""
     recoverable = Signal(Path)
     """Unsaved work was found for this project file (or slot)."""
 
@@ -55,8 +56,9 @@ class Saver(QObject):
         def done(project: Project) -> None:
             self._session.begin(Document(project, path))
             remember_project(path)
-            self.opened.emit()
-            if unsaved_work(path) is not None:
+            if unsaved_work(path) is None:
+                self.opened.emit()
+            else:
                 self.recoverable.emit(path)
 
         self._session.jobs.start(
@@ -79,6 +81,7 @@ class Saver(QObject):
     def forget(self, path: Path) -> None:
         """Throw the unsaved work on `path` away."""
         discard(path)
+        self.opened.emit()
 
     def save(self, path: Path) -> None:
         """Write the document to `path`, now.

@@ -5,13 +5,13 @@ from __future__ import annotations
 from collections.abc import Sequence
 from pathlib import Path
 
-from PySide6.QtCore import Qt, Signal, SignalInstance
-from PySide6.QtGui import QIcon
+from PySide6.QtCore import QSize, Qt, Signal, SignalInstance
 from PySide6.QtWidgets import (
     QCommandLinkButton,
     QHBoxLayout,
     QLabel,
     QPushButton,
+    QStyle,
     QVBoxLayout,
     QWidget,
 )
@@ -45,17 +45,28 @@ class Welcome(QWidget):
             )
         )
         words.setWordWrap(True)
+        words.setAlignment(Qt.AlignmentFlag.AlignCenter)
+        words.setMargin(3 * theme.SPACING)
+        words.setStyleSheet("border: 2px dashed palette(mid); border-radius: 8px;")
+        icon = QStyle.StandardPixmap
         self._buttons = [
             self._link(
                 self.tr("Open a &folder of images"),
                 self.tr("Corners are found and the camera is calibrated at once."),
                 self.folder_wanted,
+                icon.SP_DirOpenIcon,
             ),
-            self._link(self.tr("&Add images"), self.tr("Choose single files."), self.images_wanted),
+            self._link(
+                self.tr("&Add images"),
+                self.tr("Choose single files."),
+                self.images_wanted,
+                icon.SP_FileIcon,
+            ),
             self._link(
                 self.tr("Open the &sample"),
                 self.tr("Fourteen rendered photographs, to look around."),
                 self.sample_wanted,
+                icon.SP_FileDialogContentsView,
             ),
         ]
         column = QWidget()
@@ -94,9 +105,12 @@ class Welcome(QWidget):
             self._column.addWidget(button)
             self._recent.append(button)
 
-    def _link(self, text: str, tip: str, wanted: SignalInstance) -> QCommandLinkButton:
+    def _link(
+        self, text: str, tip: str, wanted: SignalInstance, icon: QStyle.StandardPixmap
+    ) -> QCommandLinkButton:
         button = QCommandLinkButton(text, tip)
         button.setMinimumHeight(button.heightForWidth(_WIDTH))
-        button.setIcon(QIcon())
+        button.setIcon(self.style().standardIcon(icon))
+        button.setIconSize(QSize(24, 24))
         button.clicked.connect(lambda: wanted.emit())
         return button

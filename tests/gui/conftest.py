@@ -12,10 +12,12 @@ os.environ.setdefault("QT_QPA_PLATFORM", "offscreen")
 
 pytest.importorskip("PySide6.QtWidgets", reason="Qt's system libraries are missing")
 
-from PySide6.QtCore import QTimer
+from PySide6.QtCore import QEvent, QSettings, QTimer
 from PySide6.QtWidgets import QApplication
+from pytestqt.qtbot import QtBot
 
 from calibgui.gui import theme
+from calibgui.gui.main_window import MainWindow
 
 
 @pytest.fixture(scope="session")
@@ -33,6 +35,8 @@ def clean(
     with pytest.MonkeyPatch.context() as patch:
         for name in ("XDG_CONFIG_HOME", "XDG_STATE_HOME", "XDG_CACHE_HOME", "XDG_DATA_HOME"):
             patch.setenv(name, str(home))
+        for scope in QSettings.Scope:
+            QSettings.setPath(QSettings.Format.NativeFormat, scope, str(home))
         theme.apply(qapp, theme.Scheme.LIGHT)
         threads = set(threading.enumerate())
         yield
@@ -50,3 +54,17 @@ def clean(
     # The offscreen platform says this of every window that is shown.
     warnings = [r.message for r in qtlog.records if "propagateSizeHints" not in r.message]
     assert not warnings, f"Qt warned: {warnings}"
+
+
+@pytest.fixture
+def window(qtbot: QtBot) -> Iterator[MainWindow]:
+    """The program's window, empty; what a test leaves unsaved is given up."""
+    window = MainWindow()
+    window.resize(1280, 720)
+    window.show()
+    qtbot.waitExposed(window)
+    yield window
+    window.session.document.mark_saved(window.session.project, window.files.saver.file)
+    window.close()
+    window.deleteLater()
+    QApplication.sendPostedEvents(None, QEvent.Type.DeferredDelete)

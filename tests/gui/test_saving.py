@@ -1,0 +1,161 @@
+"""Nothing is lost: autosave, recovery, and being killed in the middle of it all."""
+
+from __future__ import annotations
+
+import json
+import os
+import signal
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import pytest
+from pytestqt.qtbot import QtBot
+
+from calibgui.app.autosave import DELAY, autosave_path, unsaved_work
+from calibgui.app.document import Document
+from calibgui.app.project import with_images
+from calibgui.app.project_file import read_project, write_project
+from calibgui.gui.main_window import MainWindow
+from calibgui.gui.saving import Saver
+from calibgui.gui.session import Session
+from tests.app import examples
+
+_WORK = """
+import itertools, os, sys, time
+from pathlib import Path
+from PySide6.QtCore import QCoreApplication, QTimer
+from calibgui.app.document import Document
+from calibgui.app.project import with_images
+from calibgui.app.project_file import read_project
+from calibgui.gui.saving import Saver
+from calibgui.gui.session import Session
+
+app = QCoreApplication([])
+session = Session()
+saver = Saver(session)
+path = Path(sys.argv[1])
+session.begin(Document(read_project(path), path))
+numbers = itertools.count()
+
+def edit():
+    n = next(numbers)
+    session.edit("Add", lambda p: with_images(p, [f"{time.monotonic()}/{n}.png"]))
+    if n % 40 == 39:
+        saver.save(path)
+
+timer = QTimer(interval=10)
+timer.timeout.connect(edit)
+timer.start()
+print("ready", flush=True)
+app.exec()
+"""
+
+
+def newest_edit(project_file: Path) -> float:
+    """When the last edit in the file was made; minus infinity if it holds none."""
+    views = read_project(project_file).views
+    times = [
+        float(Path(view.image).parent.name)
+        for view in views
+        if "/" in view.image[1:] and Path(view.image).parent.name.replace(".", "").isdigit()
+    ]
+    return max(times, default=-float("inf"))
+
+
+@pytest.mark.slow
+@pytest.mark.skipif(not hasattr(signal, "SIGKILL"), reason="the system has no SIGKILL")
+@pytest.mark.parametrize("lifetime", [0.4, 1.3, 2.6, 3.1])
+def test_killed_at_any_time_all_but_the_last_two_seconds_is_offered(
+    tmp_path: Path, lifetime: float
+) -> None:
+    path = tmp_path / "project.json"
+    write_project(examples.calibrated(tmp_path), path)
+    env = {**os.environ, "QT_QPA_PLATFORM": "offscreen", "XDG_STATE_HOME": str(tmp_path)}
+    with subprocess.Popen(
+        [sys.executable, "-c", _WORK, str(path)], env=env, stdout=subprocess.PIPE
+    ) as process:
+        assert process.stdout is not None
+        process.stdout.readline()
+        time.sleep(lifetime)
+        process.send_signal(signal.SIGKILL)
+        killed = time.monotonic()
+    latest = newest_edit(path)
+    if (work := unsaved_work(path)) is not None:
+        latest = max(latest, newest_edit(work))
+    if lifetime > DELAY:
+        assert killed - latest < DELAY + 1.0, "a second for a slow machine to write it"
+    # Whatever there is can be read, and the results are whole.
+    assert len(read_project(work or path).results) == 2
+
+
+def test_steady_work_is_kept_though_it_never_pauses(qtbot: QtBot, tmp_path: Path) -> None:
+    session = Session()
+    saver = Saver(session)
+    saver._timer.setInterval(100)
+    session.begin(Document(examples.calibrated(tmp_path), tmp_path / "project.json"))
+    for number in range(30):
+        session.edit("Add", lambda p, n=number: with_images(p, [str(tmp_path / f"{n}.new")]))
+        qtbot.wait(10)
+    kept = autosave_path(tmp_path / "project.json")
+    assert len(read_project(kept).views) > 7
+    qtbot.waitUntil(lambda: len(read_project(kept).views) == 37)
+    session.jobs.close()
+    saver.close()
+    assert not kept.exists()
+    session.deleteLater()
+
+
+def test_saving_leaves_nothing_to_recover(window: MainWindow, tmp_path: Path) -> None:
+    path = tmp_path / "project.json"
+    window.session.begin(Document(examples.calibrated(tmp_path)))
+    window.session.edit("Add", lambda p: with_images(p, [str(tmp_path / "new.png")]))
+    assert window.isWindowModified()
+    window.files.keep_work()
+    slot = window.files.saver.file
+    assert autosave_path(slot).exists()
+    window.files.saver.save(path)
+    assert not window.isWindowModified()
+    assert window.windowTitle().startswith("project.json")
+    assert not autosave_path(slot).exists()
+    assert unsaved_work(path) is None
+    assert json.loads(path.read_text(encoding="utf-8"))["format"] == "calibgui-project"
+
+
+def test_unsaved_work_is_offered_and_recovered(
+    window: MainWindow, qtbot: QtBot, tmp_path: Path
+) -> None:
+    path = tmp_path / "project.json"
+    project = examples.calibrated(tmp_path)
+    write_project(project, path)
+    more = with_images(project, [str(tmp_path / "new.png")])
+    write_project(more, autosave_path(path))
+    later = path.stat().st_mtime + 5
+    os.utime(autosave_path(path), (later, later))
+    window.files.open_project(path)
+    qtbot.waitUntil(lambda: len(window.banner.buttons) == 2)
+    assert len(window.session.project.views) == 7
+    assert "ended without saving" in window.banner.text.text()
+    window.banner.buttons[0].click()
+    qtbot.waitUntil(lambda: len(window.session.project.views) == 8)
+    assert window.session.document.path == path
+    assert window.isWindowModified(), "recovered work still has to be saved"
+
+
+def test_a_file_that_cannot_be_written_is_reported(
+    window: MainWindow, qtbot: QtBot, tmp_path: Path
+) -> None:
+    window.session.begin(Document(examples.calibrated(tmp_path), tmp_path / "gone" / "p.json"))
+    assert not window.files.save()
+    qtbot.waitUntil(window.banner.isVisible)
+    assert "p.json cannot be written" in window.banner.text.text()
+
+
+@pytest.mark.usefixtures("qapp")
+def test_two_programs_do_not_share_a_slot() -> None:
+    savers = [Saver(Session()) for _ in range(2)]
+    assert savers[0].file != savers[1].file
+    for saver in savers:
+        saver.close()
+        saver.parent().jobs.close()
