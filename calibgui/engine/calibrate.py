@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import hashlib
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -11,7 +12,7 @@ import numpy as np
 from calibgui.engine import uncertainty
 from calibgui.engine.degeneracy import diagnose
 from calibgui.engine.errors import CalibrationError, DegenerateError
-from calibgui.engine.lens import MODELS
+from calibgui.engine.lens import MODELS, Lens
 from calibgui.engine.levenberg_marquardt import Solution, StartError, minimise
 from calibgui.engine.observations import REFERENCE_PITCH, Observations, pack, pitch, view_names
 from calibgui.engine.outcome import estimated, poses, residuals, stage_one_table
@@ -20,7 +21,7 @@ from calibgui.engine.plate_doubt import with_plate_doubt
 from calibgui.engine.plate_fit import fit_plate
 from calibgui.engine.problem import stage_two
 from calibgui.engine.stage_one import prealign
-from calibgui.engine.stage_two import State
+from calibgui.engine.stage_two import State, predicted_corners
 from calibgui.engine.start import in_paper_frame, start_of_stage_two
 from calibgui.engine.types import (
     Array,
@@ -28,16 +29,25 @@ from calibgui.engine.types import (
     Camera,
     Cost,
     IntArray,
+    Iteration,
     Observation,
     Plate,
     PlateModel,
     Prior,
     Report,
     Size,
+    Status,
 )
+from calibgui.engine.weighting import model_variance, weighted
+
+_REWEIGHTINGS = 4
+"""Rounds of estimating the model's own errors; each changes the weights ten times less."""
 
 HELD = {"lucchese": ("p3",)}
 """Coefficients held at 0 unless freed: p3 multiplies p1 and p2 and is rarely determined."""
+
+_LOWER = 6
+"""Number of the camera's parameters up to k2: focal lengths, centre, k1, k2 in every model."""
 
 
 def parameter_names(model: str) -> tuple[str, ...]:
@@ -121,9 +131,12 @@ def calibrate(
     }
     if isinstance(plate, Plate):
         observations = on_plate(observations, plate)
-    solution = _solved(
-        observations, start, model, cost, scale, free_indices, report, max_iterations
-    )
+    if cost is Cost.IMAGE:  # the covariances are of corners in the image
+        observations = weighted(observations)
+    solve = partial(_solved, model=model, cost=cost, scale=scale, free=free_indices, report=report)
+    solution = solve(observations, start, max_iterations=max_iterations)
+    if observations.whitening is not None:
+        observations, solution = _reweighted(observations, solution, lens, solve)
     precision = uncertainty.precision(
         solution.normal,
         tuple(parameters[i] for i in free_indices),
@@ -204,20 +217,24 @@ def _check_size(observations: Observations, size: Size, names: Sequence[str]) ->
 def _solved(
     observations: Observations,
     start: State,
+    *,
     model: str,
     cost: Cost,
     scale: float,
     free: IntArray,
     report: Report | None,
     max_iterations: int,
+    earlier: Sequence[Iteration] = (),
 ) -> Solution:
-    """Stage II, by way of the reference plane where the start cannot be imaged.
+    """Stage II, by way of the reference plane where the image bars it.
 
-    A pincushion lens's correction folds over beyond its outermost corners. If the closed form
-    puts the fold before them, the image cost has no value there; registration always has one.
+    The correction of a pincushion lens folds over beyond its outermost corners, and the image
+    cost has no value where a fold comes before them: neither at a start beyond it nor on a way
+    through it. Registration always has one; with the lower terms of the lens only, its solution
+    folds well outside.
     """
 
-    def run(cost: Cost, start: State, report: Report | None) -> Solution:
+    def run(cost: Cost, start: State, free: IntArray, report: Report | None) -> Solution:
         return minimise(
             stage_two(observations, model, cost, scale, free),
             start,
@@ -226,14 +243,35 @@ def _solved(
             float(np.sum(observations.uv**2)),
             report,
             max_iterations,
+            earlier,
         )
 
     try:
-        return run(cost, start, report)
+        solution = run(cost, start, free, report)
+        if cost is not Cost.IMAGE or not solution.barred:
+            return solution
     except StartError:
         if cost is not Cost.IMAGE:
             raise
-    return run(cost, run(Cost.REFERENCE, start, None).state, report)
+    registered = run(Cost.REFERENCE, start, free[free < _LOWER], None)
+    return run(cost, registered.state, free, report)
+
+
+def _reweighted(
+    observations: Observations, solution: Solution, lens: Lens, solve: Callable[..., Solution]
+) -> tuple[Observations, Solution]:
+    """The solution with the floor under the corners' covariances that its residuals call for."""
+    unknowns = len(solution.normal.shared) + solution.normal.pose.size
+    tau2 = 0.0
+    for _ in range(_REWEIGHTINGS):
+        before = tau2
+        predicted = predicted_corners(solution.state, observations, lens, Cost.IMAGE)
+        tau2 = model_variance(observations, predicted - observations.uv, unknowns)
+        if solution.status is Status.STOPPED or abs(tau2 - before) <= 0.01 * before:
+            break
+        observations = weighted(observations, tau2)
+        solution = solve(observations, solution.state, max_iterations=100, earlier=solution.history)
+    return observations, solution
 
 
 def _tolerated(camera: Camera, observations: Observations) -> Array:
@@ -250,7 +288,7 @@ def _tolerated(camera: Camera, observations: Observations) -> Array:
 def _digest(observations: Observations, settings: Mapping[str, Any]) -> str:
     """SHA-256 of what a calibration answers."""
     digest = hashlib.sha256(repr(sorted(settings.items())).encode())
-    for array in (observations.uv, observations.xy, observations.mask, observations.whitening):
+    for array in (observations.uv, observations.xy, observations.mask, observations.cov):
         if array is not None:
             digest.update(np.ascontiguousarray(array).tobytes())
     return digest.hexdigest()

@@ -28,7 +28,7 @@ residuals and derivatives, in chunks of views so that memory does not grow with 
 from __future__ import annotations
 
 import time
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from typing import NamedTuple
 
 import numpy as np
@@ -79,6 +79,8 @@ class Solution(NamedTuple):
     """At `state`, undamped."""
     history: tuple[Iteration, ...]
     status: Status
+    barred: bool = False
+    """Whether it did not converge and states without residuals barred its way."""
 
 
 def minimise(
@@ -89,6 +91,7 @@ def minimise(
     data_square: float,
     report: Report | None = None,
     max_iterations: int = 100,
+    earlier: Sequence[Iteration] = (),
 ) -> Solution:
     """Minimise the sum of squared residuals.
 
@@ -100,12 +103,13 @@ def minimise(
         data_square: sum of the squared data, which sets the level of rounding errors.
         report: told of each iteration; may stop it.
         max_iterations: accepted and rejected steps together.
+        earlier: iterations of the solve that this one continues.
 
     Raises:
         StartError: if the residuals at the start are not finite.
         Cancelled: from `report`.
     """
-    began = time.perf_counter()
+    began = time.perf_counter() - (earlier[-1].seconds if earlier else 0.0)
     state, damping = start, _DAMPING
     normal = normal_at(state)
     if not np.isfinite(normal.cost):
@@ -113,7 +117,8 @@ def minimise(
             "The closed-form start does not reproject the corners.",
             "Check that the views number their corners alike and come from one camera.",
         )
-    history: list[Iteration] = []
+    history = list(earlier)
+    barred = False
 
     def record(step: float) -> bool:
         iteration = Iteration(
@@ -131,7 +136,7 @@ def minimise(
     def ended(status: Status) -> Solution:
         return Solution(state, normal, tuple(history), status)
 
-    if not record(0.0):
+    if not earlier and not record(0.0):
         return ended(Status.STOPPED)
     for _ in range(max_iterations):
         by_shared, by_pose = solve(normal, damping)
@@ -151,11 +156,14 @@ def minimise(
                 return ended(Status.STOPPED)
         else:
             damping *= 10
+            barred |= not np.isfinite(trial_normal.cost)
     else:
-        return ended(Status.MAX_ITERATIONS)
+        return ended(Status.MAX_ITERATIONS)._replace(barred=barred)
     # Damping makes steps small as well, against a wall of states that cannot be imaged.
     left = 0.0 if exact else _decrease(normal, *solve(normal, 0.0))
-    return ended(Status.CONVERGED if left <= _SETTLED * normal.cost else Status.MAX_ITERATIONS)
+    if left <= _SETTLED * normal.cost:
+        return ended(Status.CONVERGED)
+    return ended(Status.MAX_ITERATIONS)._replace(barred=barred)
 
 
 def normal_equations(linearise: Linearise, state: State, free: IntArray) -> NormalEquations:

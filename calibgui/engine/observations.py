@@ -33,8 +33,10 @@ class Observations:
     """(K, N, 2) corners on the plate, mm; (K, N, 3) where the plate is not flat."""
     mask: Array
     """(K, N) 1 for a corner, 0 for padding."""
-    whitening: Array | None
-    """(K, N, 2, 2) W with W^T W = cov^-1, where covariances are given."""
+    cov: Array | None = None
+    """(K, N, 2, 2) covariances of uv, px^2, where they are given."""
+    whitening: Array | None = None
+    """(K, N, 2, 2) what residuals are multiplied with (``weighting.py``); nothing if None."""
 
     @property
     def count(self) -> int:
@@ -43,8 +45,8 @@ class Observations:
 
     def part(self, views: slice) -> Observations:
         """Some of the views."""
-        whitening = None if self.whitening is None else self.whitening[views]
-        return Observations(self.uv[views], self.xy[views], self.mask[views], whitening)
+        cov, whitening = (a if a is None else a[views] for a in (self.cov, self.whitening))
+        return Observations(self.uv[views], self.xy[views], self.mask[views], cov, whitening)
 
     def view(self, k: int) -> slice:
         """The places of view k's corners along the second axis."""
@@ -84,7 +86,7 @@ def pack(
         uv=np.stack([_padded(view.uv, longest) for view in checked]),
         xy=np.stack([_padded(view.xy, longest) for view in checked]),
         mask=np.stack([np.arange(longest) < len(view.uv) for view in checked]).astype(np.float64),
-        whitening=_whitening(checked, longest) if all(weighted) else None,
+        cov=_covariances(checked, longest) if all(weighted) else None,
     )
 
 
@@ -157,13 +159,12 @@ def _in_general_position(points: Array) -> bool:
     return True
 
 
-def _whitening(views: list[Observation], length: int) -> Array:
-    """(K, length, 2, 2) upper triangular W with W^T W = cov^-1; zero for padding."""
-    W = np.zeros((len(views), length, 2, 2))
+def _covariances(views: list[Observation], length: int) -> Array:
+    """(K, length, 2, 2), the unit matrix for padding."""
+    cov = np.zeros((len(views), length, 2, 2)) + np.eye(2)
     for k, view in enumerate(views):
-        assert view.cov is not None
-        W[k, : len(view.uv)] = np.swapaxes(np.linalg.cholesky(np.linalg.inv(view.cov)), -1, -2)
-    return W
+        cov[k, : len(view.uv)] = view.cov
+    return cov
 
 
 def _padded(rows: Array, length: int) -> Array:

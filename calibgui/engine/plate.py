@@ -21,6 +21,8 @@ is the noise of the corners; it is what lets few views carry a free plate.
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 from scipy.spatial import cKDTree
 
@@ -142,7 +144,7 @@ def deviated(observations: Observations, points: Array, index: IntArray, d: Arra
     """The observations on a plate with deviations d (n, 3) mm from its points (n, 2 or 3)."""
     places = np.array(d)
     places[:, : points.shape[1]] += points
-    return Observations(observations.uv, places[index], observations.mask, observations.whitening)
+    return replace(observations, xy=places[index])
 
 
 def _products(

@@ -11,12 +11,16 @@ from calibgui.engine.levenberg_marquardt import Solution, minimise
 from calibgui.engine.observations import Observations
 from calibgui.engine.outcome import Estimate, poses
 from calibgui.engine.plate import basis, corners_of, deviated, gauge, plate_problem
-from calibgui.engine.types import Array, IntArray, Plate, PlateModel, Prior, Report
+from calibgui.engine.stage_two import predicted_corners
+from calibgui.engine.types import Array, Cost, IntArray, Plate, PlateModel, Prior, Report
+from calibgui.engine.weighting import model_variance, weighted
 
 _LEAST_VIEWS = {PlateModel.AFFINE: 3, PlateModel.BOW: 3, PlateModel.FREE: 6}
 """Views without which the model follows the noise (a free plate without a prior)."""
 _LEAST_SEEN = 4
 """Views that must show every corner of a free plate without a prior."""
+_ROUNDS = 3
+"""Solves until prior and weights have settled."""
 _RANK = 1e-9
 """Information left (``uncertainty.py``) below which a plate is not determined."""
 
@@ -55,18 +59,23 @@ def fit_plate(
         state=nominal.state._replace(params=np.append(nominal.state.params, np.zeros(Q)))
     )
     shared = np.append(free, P + np.arange(Q))
-    # A prior is in units of the corners' noise, which the better plate itself lowers.
-    for _ in range(2 if prior is not None else 1):
+    # Prior and weights are in units of the corners' noise, which the better plate itself lowers.
+    settled = prior is None and observations.cov is None
+    for _ in range(1 if settled else _ROUNDS):
+        stiffness = _stiffness(model, points, prior, sigma2)
         solution = minimise(
-            plate_problem(
-                observations, lens, free, points, index, B, _stiffness(model, points, prior, sigma2)
-            ),
+            plate_problem(observations, lens, free, points, index, B, stiffness),
             solution.state,
             shared,
             observations.count,
             float(np.sum(observations.uv**2)),
             report,
+            earlier=solution.history,
         )
+        bent = deviated(observations, points, index, B @ solution.state.params[P:])
+        camera = solution.state._replace(params=solution.state.params[:P])
+        miss = predicted_corners(camera, bent, lens, Cost.IMAGE) - observations.uv
+        observations = weighted(observations, model_variance(observations, miss, unknowns))
         sigma2 = uncertainty.variance(solution.normal.cost, observations.count, unknowns)
     if uncertainty.information_left(solution.normal)[0][0] < _RANK:
         raise CalibrationError(

@@ -120,8 +120,10 @@ def reference_residual(
 
 def predicted_corners(state: State, views: Observations, lens: Lens, cost: Cost) -> Array:
     """(K, N, 2) where the calibrated camera images the nominal plate, px."""
-    stretch = state.params[0] / state.params[1] if cost is Cost.PAPER else 1.0
-    _, _, n, _ = _seen(state, views.xy * np.array([1.0, stretch]))
+    plate = views.xy
+    if cost is Cost.PAPER:
+        plate = plate * np.array([1.0, state.params[0] / state.params[1]])
+    _, _, n, _ = _seen(state, plate)
     return project(n, state.params, lens).points
 
 

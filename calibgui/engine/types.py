@@ -373,7 +373,8 @@ class Calibration:
     """(K, 6, 6) covariance of (rvec, tvec) of each view, rad and mm."""
     residuals: tuple[ViewResiduals, ...]
     noise: float
-    """Estimated standard deviation of a residual coordinate (sigma of the covariance), its unit."""
+    """Estimated standard deviation of one residual coordinate, in the cost's px; of the median
+    corner where corners are weighted."""
     reference_scale: float
     """Reference px per mm on the plate."""
     stage_one: tuple[StageOne, ...]

@@ -8,7 +8,7 @@ import pytest
 from calibgui.engine.errors import CalibrationError
 from calibgui.engine.observations import pack, pitch
 from calibgui.engine.types import Array, Observation
-from tests.engine.scenes import BOARD, barrel, scene
+from tests.engine.scenes import barrel, scene
 
 VIEW = scene(barrel(), 1).views[0]
 UV, XY = np.array(VIEW.uv), np.array(VIEW.xy)
@@ -26,19 +26,8 @@ def test_views_are_padded_with_weightless_corners() -> None:
     assert packed.count == 148
     np.testing.assert_array_equal(packed.mask.sum(axis=1), [108, 40])
     np.testing.assert_array_equal(packed.uv[1, packed.view(1)], UV[:40])
-    assert packed.whitening is None
+    assert packed.cov is None
     assert packed.part(slice(1, 2)).count == 40
-
-
-def test_whitening_is_a_root_of_the_inverse_covariance() -> None:
-    rng = np.random.default_rng(0)
-    root = rng.normal(size=(108, 2, 2))
-    cov = root @ np.swapaxes(root, 1, 2) + 0.1 * np.eye(2)
-    W = pack([(UV, XY, cov)]).whitening
-    assert W is not None
-    np.testing.assert_allclose(
-        np.swapaxes(W[0], 1, 2) @ W[0] @ cov, np.eye(2)[None].repeat(108, 0), atol=1e-10
-    )
 
 
 BAD = {
