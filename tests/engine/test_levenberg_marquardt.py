@@ -181,3 +181,4 @@ def test_stuck_at_a_wall_is_not_converged() -> None:
     solution = minimise(walled(655.0), away(1.0), FREE, VIEWS.count, data)
     assert solution.state.params[0] >= 655.0
     assert solution.status is Status.MAX_ITERATIONS
+    assert solution.barred
