@@ -20,6 +20,7 @@ from calibgui.engine.stage_two import (
     reference_residual,
 )
 from calibgui.engine.types import Array, Camera, Cost
+from calibgui.engine.weighting import weighted
 from tests.engine.scenes import Scene, barrel, brown, central_differences, relative, scene
 
 CASES = [
@@ -143,14 +144,15 @@ def test_padding_weighs_nothing_and_covariances_whiten() -> None:
     made = scene(barrel(), 2, seed=3)
     uv, xy, _ = made.noisy(0.4, np.random.default_rng(1))[0]
     cov = np.tile(np.array([[0.04, 0.01], [0.01, 0.09]]), (len(uv), 1, 1))
-    views = pack([(uv, xy, cov), (made.views[1].uv[:30], xy[:30], cov[:30])])
+    views = weighted(pack([(uv, xy, cov), (made.views[1].uv[:30], xy[:30], cov[:30])]))
     state, lens = truth_of(made), MODELS["lucchese"]
     found = linearised(state, views, slice(0, 2), lens, Cost.IMAGE, 1.0)
     assert not found.residual[1, 30:].any()
     assert not found.by_params[1, 30:].any()
     assert not found.by_pose[1, 30:].any()
     plain = image_residual(state, views, lens).residual[0]
-    squares = np.einsum("ni,nij,nj->n", plain, np.linalg.inv(cov), plain)
+    typical = np.trace(cov[0]) / 2  # in px of the median corner
+    squares = typical * np.einsum("ni,nij,nj->n", plain, np.linalg.inv(cov), plain)
     np.testing.assert_allclose(np.sum(found.residual[0] ** 2, axis=1), squares, rtol=1e-9)
 
 
