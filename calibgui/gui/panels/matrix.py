@@ -82,7 +82,7 @@ class Matrix(QWidget):
                     return self.tr("correlation of {0} and {1}: {2:+.4f}").format(
                         self._names[i], self._names[j], self._values[i, j]
                     )
-        return ""
+        return self.toolTip()
 
 
 def _mixed(a: QColor, b: QColor, share: float) -> QColor:
