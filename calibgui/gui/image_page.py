@@ -199,12 +199,17 @@ class ImagePage(QWidget):
             self.bar.addWidget(button)
 
     def _selected(self, image: str, corner: int) -> None:
-        if self._image is None or str(self._image.path) != image:
+        if self.shown_path != image:
             self._load(image)
         self._show_marks()
         view = self._session.view
         if view is not None and view.corners is not None and 0 <= corner < len(view.corners):
             self.canvas.show_place(view.corners.uv[corner])
+
+    @property
+    def shown_path(self) -> str:
+        """The image whose pixels are on the canvas; "" while it is being read."""
+        return "" if self._image is None else str(self._image.path)
 
     def _load(self, path: str) -> None:
         if self._job is not None:

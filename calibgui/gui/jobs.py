@@ -20,6 +20,7 @@ from concurrent.futures import Future, ThreadPoolExecutor
 from dataclasses import dataclass, field
 from typing import Any, TypedDict, Unpack
 
+import shiboken6
 from PySide6.QtCore import QObject, QTimer, Signal
 from threadpoolctl import threadpool_limits
 
@@ -56,6 +57,8 @@ class Job:
     """Takes what the work or `done` raised; `Cancelled` is no failure."""
     ended: Callable[[], None] = nothing
     """Called after it all, whatever happened."""
+    owner: QObject | None = None
+    """After whose end nobody wants to hear of the job."""
     inputs: Callable[[Any], Hashable] = nothing
     """Digest of what an item's result depends on."""
     queue: Queue
@@ -92,7 +95,7 @@ class Job:
             Cancelled: the user wants none of it.
         """
         self.check()
-        self.queue.put(lambda: self.told(record))
+        self.queue.put(lambda: self.told(record) if self.wanted else None)
         return not self._stop.is_set()
 
     def advance(self, finished: int, total: int) -> None:
@@ -110,6 +113,11 @@ class Job:
             raise Cancelled
 
     @property
+    def wanted(self) -> bool:
+        """Whether the owner, if there is one, still exists."""
+        return self.owner is None or shiboken6.isValid(self.owner)
+
+    @property
     def seconds_left(self) -> float | None:
         """Estimated from the parts that are finished; None before the first."""
         if self.total <= 1 or self.finished == 0:
@@ -124,6 +132,7 @@ class Callbacks(TypedDict, total=False):
     told: Callable[[Any], None]
     failed: Callable[[Exception], None]
     ended: Callable[[], None]
+    owner: QObject
 
 
 class Jobs(QObject):
@@ -162,7 +171,7 @@ class Jobs(QObject):
         Args:
             label: what it does, for the progress bar.
             done: takes the result, if `inputs()` still is what it was at the start.
-            callbacks: `told`, `failed`, `ended` of `Job`.
+            callbacks: `told`, `failed`, `ended`, `owner` of `Job`.
         """
         job = Job(
             label=label,
@@ -232,24 +241,27 @@ class Jobs(QObject):
 
     def _settle(self, job: Job, item: Any, digest: Hashable, future: Future[Any]) -> None:
         """Deliver what one item's work came to."""
+        job.settled += 1
+        if len(job.items) > 1:
+            job.finished = job.settled
         try:
             result = future.result()
-            if not job.cancelled and job.inputs(item) == digest:
+            if not job.cancelled and job.wanted and job.inputs(item) == digest:
                 job.done(item, result)
         except Cancelled:
             pass
         except Exception as error:  # whatever a worker or a callback raised is shown
             log.debug("%s failed", job.label, exc_info=error)
-            job.failed(error)
-        job.settled += 1
-        if len(job.items) > 1:
-            job.finished = job.settled
-        if job.settled == len(job.items):
-            self._end(job)
+            if job.wanted:
+                job.failed(error)
+        finally:
+            if job.settled == len(job.items):
+                self._end(job)
 
     def _end(self, job: Job) -> None:
         self._running.remove(job)
-        job.ended()
+        if job.wanted:
+            job.ended()
 
     def _drain(self) -> None:
         """Act on what the workers said, not longer than the user would notice."""

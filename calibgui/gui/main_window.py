@@ -126,7 +126,8 @@ class MainWindow(QMainWindow):
         self.calibrator.advanced.connect(lambda step: self.need_analysis().advanced(step))
         self.calibrator.ended.connect(lambda: self.need_analysis().ended())
         self.session.result_changed.connect(self._result_changed)
-        self.session.jobs.changed.connect(self._show_calibrate)
+        for changed in (self.session.jobs.changed, self.calibrator.began, self.calibrator.ended):
+            changed.connect(self._show_calibrate)
         self.files.recoverable.connect(self._offer_recovery)
         self.files.images_missing.connect(self._offer_search)
         self.target.print_wanted.connect(self.files.print_board)

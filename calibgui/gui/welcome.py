@@ -49,7 +49,7 @@ class Welcome(QWidget):
         words.setMargin(3 * theme.SPACING)
         words.setStyleSheet("border: 2px dashed palette(mid); border-radius: 8px;")
         icon = QStyle.StandardPixmap
-        self._buttons = [
+        self.buttons = [
             self._link(
                 self.tr("Open a &folder of images"),
                 self.tr("Corners are found and the camera is calibrated at once."),
@@ -73,7 +73,7 @@ class Welcome(QWidget):
         column.setMaximumWidth(_WIDTH)
         self._column = QVBoxLayout(column)
         self._column.setSpacing(theme.SPACING)
-        for widget in (title, words, *self._buttons):
+        for widget in (title, words, *self.buttons):
             self._column.addWidget(widget)
         self._heading = QLabel(self.tr("Recent projects"))
         self._heading.setContentsMargins(0, 2 * theme.SPACING, 0, 0)

@@ -5,6 +5,8 @@ from collections.abc import Iterator
 from typing import Any
 
 import pytest
+import shiboken6
+from PySide6.QtCore import QObject
 from PySide6.QtWidgets import QApplication
 from pytestqt.qtbot import QtBot
 
@@ -98,3 +100,30 @@ def test_no_items_is_no_work(qtbot: QtBot, jobs: Jobs) -> None:
     job = jobs.each("Nothing", [], str, ended=lambda: ended.append(1))
     assert job.seconds_left is None
     qtbot.waitUntil(lambda: bool(ended))
+
+
+def test_nobody_is_told_after_the_owner_is_gone(qtbot: QtBot, jobs: Jobs) -> None:
+    owner, go, heard = QObject(), threading.Event(), []
+
+    def work(job: Job) -> None:
+        go.wait(5)
+        job.tell("a record")
+
+    def hear(*_: object) -> None:
+        heard.append(1)
+
+    jobs.start("Working", work, hear, told=hear, ended=lambda: hear(), owner=owner)
+    shiboken6.delete(owner)
+    go.set()
+    qtbot.waitUntil(lambda: not jobs.running)
+    assert not heard
+
+
+def test_a_callback_that_fails_does_not_keep_the_job_alive(qtbot: QtBot, jobs: Jobs) -> None:
+    def fails(*_: object) -> None:
+        raise RuntimeError("by design")
+
+    with qtbot.capture_exceptions() as caught:
+        jobs.start("Failing", lambda _: 1, fails, failed=fails)
+        qtbot.waitUntil(lambda: not jobs.running)
+    assert [str(error[1]) for error in caught] == ["by design"]

@@ -117,6 +117,7 @@ class ExportDialog(QDialog):
             lambda _: exporter.write(self._result, draft),
             lambda report: self._drafted(exporter, report),
             failed=lambda error: self.note.setText(str(error)),
+            owner=self,
         )
 
     def _drafted(self, exporter: Exporter, report: ExportReport) -> None:
@@ -163,6 +164,7 @@ class ExportDialog(QDialog):
             lambda _: export(self._result, exporter.name, path),
             self._saved,
             failed=lambda error: self.note.setText(str(error)),
+            owner=self,
         )
 
     def _saved(self, report: ExportReport) -> None:

@@ -1,0 +1,257 @@
+"""The whole way through the window, with the mouse and the keyboard."""
+
+from __future__ import annotations
+
+import json
+import shutil
+import time
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from PySide6.QtCore import QEvent, QPoint, QPointF, Qt
+from PySide6.QtGui import QMouseEvent
+from PySide6.QtWidgets import QApplication, QFileDialog, QPushButton
+from pytestqt.qtbot import QtBot
+
+from calibgui.app.project import Project
+from calibgui.app.project_file import project_record
+from calibgui.app.resources import resource
+from calibgui.engine.types import Array, Corners, Status
+from calibgui.formats.json_document import dumps
+from calibgui.formats.result_json import read_result
+from calibgui.gui import calibrating
+from calibgui.gui.image_model import Role
+from calibgui.gui.main_window import MainWindow
+from calibgui.gui.panels.convergence import ConvergencePanel
+from calibgui.gui.panels.residuals import ResidualsPanel
+
+pytestmark = pytest.mark.slow
+
+LEFT = Qt.MouseButton.LeftButton
+COUNT = 8
+
+
+@pytest.fixture
+def folder(tmp_path: Path) -> Path:
+    """Some of the sample's images, and one that shows nothing."""
+    images = tmp_path / "photographs"
+    images.mkdir()
+    for source in sorted(resource("sample").glob("*.png"))[:COUNT]:
+        shutil.copy(source, images)
+    (images / "view99.png").write_bytes(b"not an image")
+    return images
+
+
+def content(project: Project) -> str:
+    return dumps(project_record(project, Path("/")))
+
+
+class Hand:
+    """What a user does to the window."""
+
+    def __init__(self, window: MainWindow, qtbot: QtBot) -> None:
+        self.window, self.bot, self.canvas = window, qtbot, window.page.canvas
+
+    def wait(self, condition: Callable[[], Any], timeout: int = 60_000) -> None:
+        self.bot.waitUntil(condition, timeout=timeout)
+
+    def key(
+        self, key: Qt.Key, modifier: Qt.KeyboardModifier = Qt.KeyboardModifier.NoModifier
+    ) -> None:
+        self.bot.keyClick(QApplication.focusWidget() or self.window, key, modifier)
+
+    def click_button(self, button: QPushButton) -> None:
+        self.bot.mouseClick(button, LEFT)
+
+    def choose_image(self, name: str) -> None:
+        """Click a row of the list and wait for the picture."""
+        view = self.window.images.list
+        rows = [view.model().index(row, 0) for row in range(view.model().rowCount())]
+        index = next(i for i in rows if i.data() == name)
+        view.scrollTo(index)
+        self.bot.mouseClick(view.viewport(), LEFT, pos=view.visualRect(index).center())
+        self.wait(lambda: self.window.session.images.kept(index.data(Role.PATH)) is not None)
+        self.wait(lambda: self.window.page.shown_path == index.data(Role.PATH))
+
+    def click(
+        self, uv: Array, modifier: Qt.KeyboardModifier = Qt.KeyboardModifier.NoModifier
+    ) -> None:
+        at = self.place(uv)
+        self.bot.mouseMove(self.canvas.viewport(), at)
+        self.bot.mouseClick(self.canvas.viewport(), LEFT, modifier, at)
+
+    def drag(self, start: Array, end: Array, modifier: Qt.KeyboardModifier) -> None:
+        for kind, uv, buttons in (
+            (QEvent.Type.MouseButtonPress, start, LEFT),
+            (QEvent.Type.MouseMove, (start + end) / 2, LEFT),
+            (QEvent.Type.MouseMove, end, LEFT),
+            (QEvent.Type.MouseButtonRelease, end, Qt.MouseButton.NoButton),
+        ):
+            at = QPointF(self.place(uv))
+            everywhere = QPointF(self.canvas.viewport().mapToGlobal(at))
+            event = QMouseEvent(kind, at, everywhere, LEFT, buttons, modifier)
+            QApplication.sendEvent(self.canvas.viewport(), event)
+
+    def place(self, uv: Array) -> QPoint:
+        return QPointF(*self.canvas.to_screen(np.asarray(uv)[None])[0]).toPoint()
+
+    def corners(self) -> Corners:
+        view = self.window.session.view
+        assert view is not None
+        assert view.corners is not None
+        return view.corners
+
+
+def outermost(corners: Corners) -> Array:
+    place = {tuple(p): k for k, p in enumerate(corners.grid.tolist())}
+    rows, cols = corners.shape[0] - 1, corners.shape[1] - 1
+    return corners.uv[[place[p] for p in ((0, 0), (0, cols), (rows, cols), (rows, 0))]]
+
+
+def test_from_photographs_to_an_exported_camera(
+    window: MainWindow,
+    qtbot: QtBot,
+    folder: Path,
+    tmp_path: Path,
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    hand, session = Hand(window, qtbot), window.session
+    begin = content(session.project)
+
+    # Load: the folder is searched and calibrated without another click.
+    monkeypatch.setattr(QFileDialog, "getExistingDirectory", lambda *_: str(folder))
+    hand.click_button(window.welcome.buttons[0])
+    hand.wait(lambda: session.result is not None)
+    assert session.result is not None
+    first = session.result.calibration
+    assert first.status is Status.CONVERGED
+    statuses = [
+        window.images.list.model().index(row, 0).data(Role.STATUS) for row in range(COUNT + 1)
+    ]
+    assert statuses == ["70 of 70 corners"] * COUNT + ["unreadable"]
+    truth = json.loads((resource("sample") / "truth.json").read_text())["camera"]["params"]
+    assert abs(first.camera.params[0] - truth["fx"]) < 5 * first.sigma[0]
+
+    # Four clicks, somewhat beside the corners; one is taken back in between.
+    hand.choose_image("view04.png")
+    before = hand.corners()
+    window.page.tools[0].trigger()
+    points = outermost(before)
+    hand.click(points[0] + [2, -1])
+    hand.click(points[3])
+    hand.key(Qt.Key.Key_Backspace)
+    for point in points[1:]:
+        hand.click(point + np.array([1.5, 1.5]))
+    hand.wait(window.page.marker.roi_bar.accept.isEnabled)
+    assert window.page.marker.roi_bar.board == before.shape
+    hand.key(Qt.Key.Key_Return)
+    assert session.document.undo_label == "Mark board"
+    marked = hand.corners()
+    assert marked is not before
+    assert marked.complete
+    np.testing.assert_allclose(outermost(marked), points, atol=0.05)
+    assert window.page.canvas.tool is None
+
+    # A wrong corner, made by hand, is seen in the residuals.
+    window.page.tools[1].trigger()
+    right = hand.corners().uv[25].copy()
+    hand.drag(right, right + np.array([5.0, 4.0]), Qt.KeyboardModifier.ControlModifier)
+    assert session.document.undo_label == "Move corner"
+    wrong = hand.corners().uv[25]
+    assert 4 < np.linalg.norm(wrong - right) < 9
+    hand.key(Qt.Key.Key_Escape)
+    hand.click_button(window.calibrate)
+    hand.wait(lambda: len(session.project.results) == 2)
+    assert session.result is not None
+    hand.wait(lambda: not session.jobs.running)
+    rms = {
+        v.image: r.rms
+        for v, r in zip(session.result.used, session.result.calibration.residuals, strict=True)
+    }
+    worst = max(rms, key=rms.__getitem__)
+    assert Path(worst).name == "view04.png"
+    assert window.analysis is not None
+
+    # Its bar stands out: exclude by threshold.
+    panel = window.analysis.show_panel(ResidualsPanel)
+    others = max(value for image, value in rms.items() if image != worst)
+    panel.views.threshold.setValue((others + rms[worst]) / 2)
+    hand.click_button(panel.views.exclude)
+    assert [Path(v.image).name for v in session.project.views if not v.enabled] == ["view04.png"]
+    assert not session.project.is_current(session.result)
+
+    # Repaired: it snaps back to where it was, and takes part again.
+    hand.choose_image("view04.png")
+    window.page.tools[1].trigger()
+    hand.drag(hand.corners().uv[25], right + np.array([1.0, 1.0]), Qt.KeyboardModifier.NoModifier)
+    assert np.linalg.norm(hand.corners().uv[25] - right) < 0.1
+    hand.key(Qt.Key.Key_Escape)
+    window.images.list.setFocus()
+    hand.key(Qt.Key.Key_Space)
+    assert all(view.enabled for view in session.project.views)
+
+    # A solve that is stopped keeps its best, and says so.
+    def slowly(*args: Any, report: Any, **options: Any) -> Any:
+        def slow(iteration: Any) -> bool:
+            time.sleep(0.1)
+            return report(iteration)
+
+        return calibrate_views(*args, report=slow, **options)
+
+    calibrate_views = calibrating.calibrate_views
+    monkeypatch.setattr(calibrating, "calibrate_views", slowly)
+    hand.click_button(window.calibrate)
+    assert window.calibrate.text() == "&Stop"
+    convergence = window.analysis.panel(ConvergencePanel)
+    hand.wait(lambda: len(convergence._iterations) >= 2)
+    hand.click_button(window.calibrate)
+    hand.wait(lambda: len(session.project.results) == 3)
+    assert session.result.calibration.status is Status.STOPPED
+    assert "best so far" in window.banner.text.text()
+    monkeypatch.setattr(calibrating, "calibrate_views", calibrate_views)
+    hand.wait(lambda: not session.jobs.running)
+
+    # Undo all, redo all.
+    end, steps = content(session.project), 0
+    while session.document.undo_label:
+        hand.window.setFocus()
+        hand.key(Qt.Key.Key_Z, Qt.KeyboardModifier.ControlModifier)
+        steps += 1
+        assert steps < 50
+    assert content(session.project) == begin
+    assert window.pages.currentWidget() is window.welcome
+    for _ in range(steps):
+        session.document.redo()
+    assert content(session.project) == end
+
+    # Save, begin anew, reopen.
+    path = folder / "camera.json"
+    monkeypatch.setattr(QFileDialog, "getSaveFileName", lambda *_: (str(path), ""))
+    hand.window.setFocus()
+    hand.key(Qt.Key.Key_S, Qt.KeyboardModifier.ControlModifier)
+    assert path.exists()
+    assert not window.isWindowModified()
+    window.files.new()
+    assert window.pages.currentWidget() is window.welcome
+    monkeypatch.setattr(QFileDialog, "getOpenFileName", lambda *_: (str(path), ""))
+    window.files.ask_for_project()
+    hand.wait(lambda: len(session.project.views) == COUNT + 1)
+    assert content(session.project) == end
+    assert not window.isWindowModified()
+
+    # Export.
+    out = tmp_path / "out.json"
+    monkeypatch.setattr(QFileDialog, "getSaveFileName", lambda *_: (str(out), ""))
+    window.files.export()
+    dialog = QApplication.activeModalWidget()
+    assert dialog is not None
+    hand.wait(dialog.save.isEnabled)
+    hand.click_button(dialog.save)
+    hand.wait(out.exists)
+    dialog.close()
+    exported = read_result(out).calibration.camera.params
+    np.testing.assert_array_equal(exported, session.result.calibration.camera.params)
+    hand.wait(lambda: not session.jobs.running)
