@@ -152,11 +152,10 @@ def _in_general_position(points: Array) -> bool:
     """Whether at least two points (n, 2) lie off every line, as a homography needs."""
     tolerance = 1e-6 * np.ptp(points, axis=0).max()
     # A line that holds all points but one holds two of the first three.
-    for i, j in ((0, 1), (0, 2), (1, 2)):
-        (x, y), (dx, dy) = points[j] - points[i], (points - points[i]).T
-        if np.sum(np.abs(x * dy - y * dx) > tolerance * np.hypot(x, y)) < 2:
-            return False
-    return True
+    base, along = points[[0, 0, 1]], points[[1, 2, 2]] - points[[0, 0, 1]]
+    (x, y), (dx, dy) = along.T[..., None], np.moveaxis(points - base[:, None], -1, 0)
+    off = np.abs(x * dy - y * dx) > tolerance * np.hypot(x, y)
+    return bool((off.sum(axis=1) >= 2).all())
 
 
 def _covariances(views: list[Observation], length: int) -> Array:

@@ -14,6 +14,9 @@ from calibgui.engine.stage_one import Prealignment
 from calibgui.engine.stage_two import State
 from calibgui.engine.types import Array, Size
 
+_SAMPLED = 500
+"""Corners that are enough to fit one coefficient to."""
+
 
 def in_paper_frame(
     observations: Observations, scale: float, size: Size, names: Sequence[str]
@@ -116,6 +119,7 @@ def _coefficients(lens: Lens, d: Array, k1: float) -> Array:
     coefficient alone is fitted, which for the paper's model is k1 itself.
     """
     d = d.reshape(-1, 2)
+    d = d[:: max(1, len(d) // _SAMPLED)]
     radial = np.sum(d**2, axis=1, keepdims=True) * d
     k = np.zeros(len(lens.names))
     slope = lens.correct(d, k).by_coefficients[..., 0]
