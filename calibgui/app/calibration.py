@@ -3,13 +3,26 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import replace
 from pathlib import PurePath
 
+import numpy as np
 from threadpoolctl import threadpool_limits
 
 from calibgui import engine
+from calibgui.app.marking import removed
 from calibgui.engine.errors import CalibrationError
-from calibgui.engine.types import Cost, Report, View
+from calibgui.engine.screening import screen
+from calibgui.engine.types import (
+    Cost,
+    IntArray,
+    Observation,
+    Plate,
+    PlateModel,
+    Prior,
+    Report,
+    View,
+)
 from calibgui.formats.corners_json import CornerSet
 from calibgui.formats.result import Result
 
@@ -20,16 +33,22 @@ def calibrate_views(
     cost: Cost | str = Cost.IMAGE,
     fix: Mapping[str, float | None] | Iterable[str] = (),
     free: Iterable[str] = (),
+    plate: PlateModel | str | Plate = PlateModel.NOMINAL,
+    prior: Prior | None = None,
+    robust: bool = False,
     report: Report | None = None,
 ) -> Result:
     """Calibrate from the usable views of a set; the arguments are ``engine.calibrate``'s.
+
+    `robust` leaves outliers out first (``engine.screening``): the result's views are without
+    them, and its warnings name them.
 
     Raises:
         CalibrationError: as ``engine.calibrate``, naming images, or if no view is usable.
         Cancelled: from `report`.
     """
-    used = [view for view in corner_set.views if view.usable]
-    if not used:
+    views = corner_set.views
+    if not any(view.usable for view in views):
         raise CalibrationError(
             "None of the images can be used.",
             "Photograph the whole board, sharp and evenly lit, at least 3 times from different "
@@ -37,16 +56,60 @@ def calibrate_views(
         )
     # The matrices are small: threads would cost more than they bring.
     with threadpool_limits(1):
+        left_out: tuple[str, ...] = ()
+        if robust:
+            views, left_out = _screened(corner_set, fix, free)
+        used = [view for view in views if view.usable]
         calibration = engine.calibrate(
             [view.observation(corner_set.target) for view in used],
             corner_set.size,
             cost=cost,
             fix=fix,
             free=free,
+            plate=plate,
+            prior=prior,
             report=report,
             names=short_names(used),
         )
-    return Result(calibration, corner_set.views, corner_set.target)
+    calibration = replace(calibration, warnings=(*calibration.warnings, *left_out))
+    return Result(calibration, views, corner_set.target)
+
+
+def _screened(
+    corner_set: CornerSet,
+    fix: Mapping[str, float | None] | Iterable[str],
+    free: Iterable[str],
+) -> tuple[tuple[View, ...], tuple[str, ...]]:
+    """The views without outliers, and a sentence for each that lost any."""
+    places = [k for k, view in enumerate(corner_set.views) if view.usable]
+    used = [corner_set.views[k] for k in places]
+    names = short_names(used)
+    observations = [view.observation(corner_set.target) for view in used]
+    screening = screen(observations, corner_set.size, names=names, fix=fix, free=free)
+    views, sentences = list(corner_set.views), []
+    for rejected in screening.rejected:
+        view, name = used[rejected.view], names[rejected.view]
+        lost = np.array(rejected.corners, dtype=np.int64)
+        if rejected.whole:
+            view = replace(view, enabled=False, reason=f"Left out: {rejected.reason}.")
+            sentences.append(f"{name} is left out: {rejected.reason}.")
+        else:
+            view = _without(view, lost)
+            sentences.append(f"{name} loses {len(lost)} corners, {rejected.reason}.")
+        views[places[rejected.view]] = view
+    return tuple(views), tuple(sentences)
+
+
+def _without(view: View, lost: IntArray) -> View:
+    """The view without some of its corners."""
+    if view.corners is not None:
+        view = replace(view, corners=removed(view.corners, lost))
+    if view.points is not None:
+        uv, xy, cov = view.points
+        kept = np.setdiff1d(np.arange(len(uv)), lost)
+        points = Observation(uv[kept], xy[kept], None if cov is None else cov[kept])
+        view = replace(view, points=points)
+    return view
 
 
 def short_names(views: Sequence[View]) -> list[str]:

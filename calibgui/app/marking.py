@@ -96,8 +96,8 @@ def moved(corners: Corners, k: int, uv: Array) -> Corners:
     return replace(corners, uv=places)
 
 
-def removed(corners: Corners, k: int) -> Corners:
-    """The corners without the k-th."""
+def removed(corners: Corners, k: int | IntArray) -> Corners:
+    """The corners without the k-th, or without several."""
     return _each(corners, lambda values: np.delete(values, k, axis=0))
 
 

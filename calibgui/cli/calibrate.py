@@ -13,9 +13,10 @@ from calibgui.cli.arguments import add_images, add_search, positive, search
 from calibgui.cli.console import Console
 from calibgui.engine.calibrate import HELD, parameter_names
 from calibgui.engine.errors import CalibrationError
-from calibgui.engine.types import Cost
+from calibgui.engine.types import Cost, Plate, PlateModel, Prior
 from calibgui.formats import EXPORTERS, export, find_exporter
 from calibgui.formats.corners_json import CornerSet, read_corners
+from calibgui.formats.plate_json import read_plate, write_plate
 from calibgui.formats.result_json import result_record, write_result
 from calibgui.report import tables
 
@@ -56,6 +57,29 @@ def configure(parser: argparse.ArgumentParser) -> None:
         metavar="NAMES",
         help=f"intrinsics to estimate that are held by default ({', '.join(HELD['lucchese'])})",
     )
+    parser.add_argument(
+        "--robust",
+        action="store_true",
+        help="leave out corners and views that do not fit, and name them",
+    )
+    parser.add_argument(
+        "--plate",
+        type=_plate,
+        default=PlateModel.NOMINAL,
+        metavar="MODEL|FILE",
+        help="the board's shape: nominal (default), or estimated as affine (sides and shear), "
+        "bow (two bends) or free (every corner), or held as in a plate.json made before",
+    )
+    parser.add_argument(
+        "--prior",
+        type=_prior,
+        metavar="XY,Z",
+        help="what is known of a free plate: standard deviations of its corners in the plane "
+        "and out of it, mm, as 0.1,0.3",
+    )
+    parser.add_argument(
+        "--save-plate", type=Path, metavar="FILE", help="write the estimated plate as plate.json"
+    )
     parser.add_argument("-o", "--output", type=Path, metavar="FILE", help="write result.json")
     parser.add_argument(
         "--export",
@@ -71,11 +95,22 @@ def run(options: argparse.Namespace, console: Console) -> None:
     """Search, calibrate, write and print."""
     if both := options.fix.keys() & set(options.free):
         options.usage_error(f"{', '.join(sorted(both))} cannot be both held and freed")
-    for path in [*(path for _, path in options.export), *filter(None, [options.output])]:
+    if options.save_plate and options.plate is PlateModel.NOMINAL:
+        options.usage_error("--save-plate needs a plate that is estimated: add --plate free")
+    outputs = filter(None, [options.output, options.save_plate])
+    for path in [*(path for _, path in options.export), *outputs]:
         check_writable(path)
     corner_set = _corner_set(options, console)
     try:
-        result = calibrate_views(corner_set, cost=options.cost, fix=options.fix, free=options.free)
+        result = calibrate_views(
+            corner_set,
+            cost=options.cost,
+            fix=options.fix,
+            free=options.free,
+            plate=options.plate,
+            prior=options.prior,
+            robust=options.robust,
+        )
     except CalibrationError:
         console.problem(tables.unused(corner_set.views))
         raise
@@ -83,6 +118,9 @@ def run(options: argparse.Namespace, console: Console) -> None:
     if options.output:
         write_result(result, options.output)
         written.append(f"Wrote {options.output}.")
+    if options.save_plate and result.calibration.plate is not None:
+        write_plate(result.calibration.plate, options.save_plate)
+        written.append(f"Wrote {options.save_plate}.")
     for name, path in options.export:
         written.append(f"Wrote {path}. {export(result, name, path).note}")
     console.answer(result_record(result))
@@ -140,6 +178,23 @@ def _name(text: str) -> str:
     if name not in NAMES:
         raise argparse.ArgumentTypeError(f"{name!r} is none of {', '.join(NAMES)}")
     return name
+
+
+def _plate(text: str) -> PlateModel | Plate:
+    """A model of the plate, or a plate from a file."""
+    if text in list(PlateModel):
+        return PlateModel(text)
+    try:
+        return read_plate(text)
+    except CalibrationError as error:
+        models = ", ".join(PlateModel)
+        raise argparse.ArgumentTypeError(f"{text!r} is none of {models}: {error}") from error
+
+
+def _prior(text: str) -> Prior:
+    """Standard deviations from "0.1,0.3"."""
+    in_plane, _, out_of_plane = text.partition(",")
+    return Prior(positive(in_plane), positive(out_of_plane))
 
 
 def _export(text: str) -> tuple[str, Path]:
