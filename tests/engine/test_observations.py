@@ -42,6 +42,7 @@ BAD = {
     "one row": (UV[:12], XY[:12], "on one line"),
     "one row and a corner": (UV[:13], XY[:13], "on one line"),
     "a corner and one row": (UV[11:24], XY[11:24], "on one line"),
+    "a row, interrupted": (UV[[0, 20, *range(1, 12)]], XY[[0, 20, *range(1, 12)]], "on one line"),
     "four corners, three in line": (UV[[0, 5, 11, 40]], XY[[0, 5, 11, 40]], "on one line"),
     "image on one line": (np.column_stack([UV[:, 0], UV[:, 0]]), XY, "on one line"),
     "a corner twice": (np.vstack([UV, UV[:1]]), np.vstack([XY, XY[:1]]), "twice"),
