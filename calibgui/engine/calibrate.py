@@ -169,7 +169,7 @@ def calibrate(
         fixed=tuple(name for name in parameters if name in held),
         undetermined=precision.undetermined,
         plate=plate if isinstance(plate, Plate) else estimate.plate,
-        warnings=estimate.warnings,
+        plate_doubt=estimate.plate_doubt,
         settings=settings,
         digest=_digest(observations, settings),
     )

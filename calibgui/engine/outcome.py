@@ -30,7 +30,8 @@ class Estimate(NamedTuple):
     poses: Array
     """(K, 6, 6) covariances of (rvec, tvec)."""
     plate: Plate | None = None
-    warnings: tuple[str, ...] = ()
+    plate_doubt: float = 0.0
+    """As ``Calibration.plate_doubt``."""
 
 
 def estimated(

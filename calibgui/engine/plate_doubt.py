@@ -113,10 +113,5 @@ def _widened(
         camera=covariance[:P, :P] + np.outer(b, b),
         poses=uncertainty.pose_covariances(normal, covariance, rvecs, sigma2)
         + shift[:, :, None] * shift[:, None, :],
-        warnings=(
-            *estimate.warnings,
-            f"The residuals are not noise: over the views, the board's corners are off by "
-            f"{rms:.2g} mm (rms), as if it were not flat or not printed true. The uncertainties "
-            f"include what this does to the camera. Estimate the plate to remove it.",
-        ),
+        plate_doubt=rms,
     )

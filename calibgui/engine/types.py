@@ -386,6 +386,9 @@ class Calibration:
     undetermined: tuple[Undetermined, ...] = ()
     plate: Plate | None = None
     """The target's shape, where it was estimated or held."""
+    plate_doubt: float = 0.0
+    """By how much, mm rms, the corners of a nominal plate seem to be off, if the residuals say
+    so; the uncertainties then include what this does to the camera."""
     warnings: tuple[str, ...] = ()
     settings: Mapping[str, Any] = field(default_factory=dict)
     digest: str = ""

@@ -97,6 +97,7 @@ def result_record(result: Result) -> dict[str, Any]:
         "inputs_sha256": calibration.digest,
         "target": None if result.target is None else target_record(result.target),
         "plate": None if calibration.plate is None else plate_record(calibration.plate),
+        "plate_doubt_mm": calibration.plate_doubt,
         "stage_one": _stage_one_records(result),
         "history": [{k: getattr(i, k) for k in _ITERATION} for i in calibration.history],
         "views": _view_records(result),
@@ -219,6 +220,7 @@ def _read_calibration(node: Node, used: list[Node]) -> Calibration:
             for n in node["undetermined"].items()
         ),
         plate=_read_plate(node.get("plate")),
+        plate_doubt=doubt.number() if (doubt := node.get("plate_doubt_mm")) else 0.0,
         warnings=tuple(n.text() for n in node["warnings"].items()),
         settings=_read_settings(node["settings"]),
         digest=node["inputs_sha256"].text(),

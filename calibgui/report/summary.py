@@ -65,7 +65,7 @@ def summary(result: Result) -> tuple[Sentence, ...]:
     """The calibration in words, the most important first."""
     return tuple(
         sentence
-        for part in (_basis, _ending, _fit, _determined, _correlated, _outlying, _advice)
+        for part in (_basis, _ending, _plate, _fit, _determined, _correlated, _outlying, _advice)
         for sentence in part(result)
     )
 
@@ -97,10 +97,31 @@ def _ending(result: Result) -> Iterator[Sentence]:
         yield Sentence(Tone.CAUTION, warning)
 
 
+def _plate(result: Result) -> Iterator[Sentence]:
+    """What is known, or suspected, of the board's shape."""
+    plate, doubt = result.calibration.plate, result.calibration.plate_doubt
+    if doubt > 0:
+        yield Sentence(
+            Tone.CAUTION,
+            f"The residuals are not noise: over the views the board's corners are off by "
+            f"{doubt:.2g} mm (rms), as if it were not flat or not printed true. Every ± includes "
+            "what this does to the camera. Estimate the plate to remove it.",
+        )
+    if plate is not None:
+        across, along, out = np.sqrt(np.mean(plate.deviation**2, axis=0))
+        yield Sentence(
+            Tone.FACT,
+            f"The board deviates from its drawing by {plate.rms:.2g} mm (rms): {across:.2g} mm "
+            f"along its rows, {along:.2g} mm along its columns and {out:.2g} mm out of its plane.",
+        )
+
+
 def _fit(result: Result) -> Iterator[Sentence]:
     calibration = result.calibration
     fit = summarise(calibration.residuals)
     unknowns = int(np.count_nonzero(calibration.sigma)) + 6 * len(calibration.poses)
+    if calibration.plate is not None:
+        unknowns += int(np.count_nonzero(calibration.plate.sigma))
     yield Sentence(
         Tone.FACT,
         f"Corners scatter about the fitted camera with σ = {fit.sigma_x:.3f} px across and "
@@ -145,7 +166,11 @@ def _determined(result: Result) -> Iterator[Sentence]:
         yield Sentence(
             Tone.CAUTION,
             f"Not told from zero: {listed(vague)}. They may be held at 0; to measure them, "
-            "bring corners closer to the image's edges.",
+            + (
+                "estimate the plate."
+                if calibration.plate_doubt > 0
+                else "bring corners closer to the image's edges."
+            ),
         )
 
 
@@ -200,7 +225,7 @@ def _advice(result: Result) -> Iterator[Sentence]:
         )
     for advice in wanted:
         yield Sentence(Tone.ADVICE, f"To improve it, {advice}.")
-    if not wanted:
+    if not wanted and result.calibration.plate_doubt == 0:
         yield Sentence(
             Tone.GOOD,
             "The views cover sensor, tilts and distances; four times as many of the same kind "
