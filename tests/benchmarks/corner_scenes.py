@@ -2,9 +2,9 @@
 
 Each pixel is divided into 4 x 4 parts and each part is mapped to the board: through the lens (from
 the distorted to the ideal point, in closed form), the perspective and the board's own frame. A
-part near an edge is dark by the share that the edge's distance from its centre says, so that area
-is covered to second order in the part's size. Light, point spread, motion and response follow in
-the order in which a camera applies them; noise and rounding last.
+part is dark by the area that dark squares cover of it, exactly for straight edges. Light, point
+spread, motion and response follow in the order in which a camera applies them; noise and rounding
+last.
 
 The grey levels around a corner are point symmetric but for perspective, curvature and shading,
 whatever the blur and the response: `tests/benchmarks/test_corner_scenes.py` holds the renderer
@@ -44,7 +44,7 @@ class Conditions:
     focal: float = 1.1
     """Over the image's width."""
     distortion: float = 0.0
-    """d in p (1 + d r^2) = ideal point, r over the half diagonal: above 0 barrel, below pincushion."""
+    """d in p (1 + d r^2) = ideal point, r over the half diagonal: above 0 barrel, else pincushion."""
     fisheye: bool = False
     """Equidistant lens instead of a pinhole."""
     blur: float = 0.7
@@ -197,14 +197,12 @@ def _paper(
     """Reflectance of what each part of a pixel sees, 0 dark to 1 bright."""
     rows, cols = conditions.board
     with np.errstate(invalid="ignore"):
-        stretch = [np.hypot(*np.gradient(c)) for c in (x, y)]  # squares per part
-        across = [
-            (abs(c - np.rint(c)), s) for c, s in zip((x, y), stretch, strict=True)
-        ]
-        bright = (np.floor(x) + np.floor(y)) % 2 != 0
-        ink = np.where(bright, -conditions.ink, conditions.ink)
-        depth = np.minimum(*((gap + ink) / s for gap, s in across))
-        share = np.clip(0.5 + np.where(bright, depth, -depth), 0, 1)
+        ink = abs(conditions.ink)
+        (odd_x, even_x), (odd_y, even_y) = (_cover(c, ink) for c in (x, y))
+        if conditions.ink < 0:
+            share = 1 - odd_x * odd_y - even_x * even_y
+        else:
+            share = odd_x * even_y + even_x * odd_y
         on_board = valid & (x > -1) & (x < cols) & (y > -1) & (y < rows)
         quiet = valid & (abs(x - (cols - 1) / 2) < (cols + 1) / 2 + conditions.quiet)
         quiet &= abs(y - (rows - 1) / 2) < (rows + 1) / 2 + conditions.quiet
@@ -212,9 +210,31 @@ def _paper(
     return np.where(on_board, share, np.where(quiet, 1.0, background))
 
 
-def _background(
-    shape: tuple[int, ...], conditions: Conditions, rng: np.random.Generator
-) -> Array:
+def _cover(c: Array, ink: float) -> tuple[Array, Array]:
+    """How much of each part lies in odd, and in even, squares along one coordinate `c` of the
+    board, these being `ink` narrower on both sides: exactly, for a straight edge.
+
+    A half plane at the signed distance d covers a unit square with the normal (a, b) by
+    (R(d + (a + b)/2) - R(d + (a - b)/2) - R(d - (a - b)/2) + R(d - (a + b)/2)) / (a b), R(t) =
+    max(t, 0)^2 / 2.
+    """
+    slope_v, slope_u = np.gradient(c)
+    steep = np.hypot(slope_u, slope_v)
+    a, b = (np.maximum(abs(s) / steep, 1e-3) for s in (slope_u, slope_v))
+    place = np.mod(c, 2.0)
+    to_edge = np.minimum(np.mod(c, 1.0), 1 - np.mod(c, 1.0))
+    inside_odd = np.where(place >= 1, to_edge, -to_edge)
+
+    def covered(distance: Array) -> Array:
+        total = np.zeros_like(distance)
+        for sa, sb in ((1, 1), (1, -1), (-1, 1), (-1, -1)):
+            total += sa * sb * np.maximum(distance + (sa * a + sb * b) / 2, 0) ** 2 / 2
+        return np.clip(total / (a * b), 0, 1)
+
+    return covered((inside_odd - ink) / steep), covered((-inside_odd - ink) / steep)
+
+
+def _background(shape: tuple[int, ...], conditions: Conditions, rng: np.random.Generator) -> Array:
     """Plain, or a litter of polygons and grids of the board's own size."""
     image = np.full(shape, 0.55, dtype=np.float64)
     if not conditions.clutter:

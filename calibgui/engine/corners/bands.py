@@ -13,6 +13,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from calibgui.engine.opencv import Image
+from calibgui.engine.opencv import Image32 as Array32
 from calibgui.engine.types import Array, BoolArray, IntArray
 
 
@@ -33,33 +34,33 @@ class Bands:
     width: Array
     """(n, 2) reach across the edges to both sides, px."""
 
-    def pixels(self) -> int:
-        """Pixels read per corner, masked ones included."""
-        return sum(a * b for a, b in (self._extent(edge) for edge in (0, 1)))
+    def pixels(self, edge: int) -> int:
+        """Pixels read per corner along an edge, masked ones included."""
+        length, breadth = self._extent(edge)
+        return length * breadth
 
-    def read(self, image: Image) -> tuple[IntArray, Array, BoolArray]:
-        """Pixels (n, P, 2) as (u, v), their grey levels (n, P), and which (n, P) count."""
-        positions, masks = [], []
-        for edge in (0, 1):
-            at = self._along(edge)
-            q = at - self.uv[:, None]
-            inside = ((at >= 0) & (at < np.array(image.shape[::-1]))).all(axis=2)
-            masks.append(inside & self._holds(edge, q))
-            if edge == 1:
-                masks[1] &= ~self._holds(0, q)
-            positions.append(at)
-        uv = np.concatenate(positions, axis=1)
-        u = np.clip(uv[..., 0], 0, image.shape[1] - 1)
-        v = np.clip(uv[..., 1], 0, image.shape[0] - 1)
-        return uv, image[v, u].astype(np.float64), np.concatenate(masks, axis=1)
+    def read(self, image: Image) -> tuple[IntArray, Array32, Array32]:
+        """Pixels (n, P, 2) as (u, v), their grey levels (n, P), and 1 for those that count (n, P),
+        0 for the others."""
+        uv = np.concatenate([self._along(0), self._along(1)], axis=1)
+        q = (uv - self.uv[:, None]).astype(np.float32)
+        first = self.pixels(0)
+        counts = self._holds(0, q)
+        counts[:, first:] = ~counts[:, first:] & self._holds(1, q[:, first:])
+        last = np.array(image.shape[::-1]) - 1
+        inside = np.clip(uv, 0, last)
+        counts &= (inside == uv).all(axis=2)
+        grey = image[inside[..., 1], inside[..., 0]].astype(np.float32)
+        return uv, grey, counts.astype(np.float32)
 
-    def _holds(self, edge: int, q: Array) -> BoolArray:
+    def _holds(self, edge: int, q: Array32) -> BoolArray:
         """Which offsets `q` (n, k, 2) from the corner lie in the band of an edge."""
-        s = np.einsum("nkd,nd->nk", q, self.tangent[:, edge])
-        d = np.einsum("nkd,nd->nk", q, self.normal[:, edge])
-        d -= self.curvature[:, edge, None] / 2 * s * s
-        near = abs(d) <= self.width[:, edge, None]
-        return np.asarray(near & (abs(s) <= self.arm[:, edge, None]))
+        frame = np.stack([self.tangent[:, edge], self.normal[:, edge]], axis=2)
+        along = q @ frame.astype(np.float32)
+        s, d = along[..., 0], along[..., 1]
+        half = (self.curvature[:, edge, None] / 2).astype(np.float32)
+        near = abs(d - half * s * s) <= self.width[:, edge, None].astype(np.float32)
+        return np.asarray(near & (abs(s) <= self.arm[:, edge, None].astype(np.float32)))
 
     def _along(self, edge: int) -> IntArray:
         """(n, k, 2) pixels in and around the band of an edge, line by line across it."""

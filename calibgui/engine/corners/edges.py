@@ -32,14 +32,19 @@ import numpy as np
 from calibgui.engine.corners import profiles, surroundings
 from calibgui.engine.corners.bands import Bands
 from calibgui.engine.corners.lattice import Lattice, axes
-from calibgui.engine.corners.pattern import Pair, Pattern, meeting, spread
+from calibgui.engine.corners.pattern import Floats, Pair, Pattern, meeting, spread
 from calibgui.engine.opencv import Image
+from calibgui.engine.opencv import Image32 as Array32
 from calibgui.engine.types import Array, IntArray
 
-_CHUNK = 50_000
+_CHUNK = 16_000
 """Pixels fitted at once: what the processor's cache holds."""
 _LONGEST = 18.0
-"""Longest arm that is read, px."""
+"""Longest arm that is read on a board of many corners, px."""
+_ARMS = 4000.0
+"""Sum of the longest arms of a board's corners, px: fewer corners may have longer ones."""
+_NEAR = 9.0
+"""Arm that is read for a first approximation, px."""
 _SHARPEST = 0.3
 """Least blur, px: that of the pixel alone is 0.29."""
 _SHARP = 0.6
@@ -131,9 +136,12 @@ class Fit:
 def fit(image: Image, lattice: Lattice) -> Fit:
     """Fit the edge model at every corner of `lattice`, whose positions are the start."""
     edges = _start(image, lattice)
-    for steps in (1, 1):
-        edges = _surrounded(_solved(image, edges, steps).edges, lattice)
-    return _solved(image, edges, 2)
+    near = replace(edges, arm=np.minimum(edges.arm, _NEAR))
+    first = _step(near, _read(image, near))
+    edges = _surrounded(replace(edges, unknowns=first.edges.unknowns), lattice)
+    windows = _read(image, edges)
+    edges = _surrounded(_step(edges, windows).edges, lattice)
+    return _step(edges, windows)
 
 
 def _start(image: Image, lattice: Lattice) -> Edges:
@@ -152,7 +160,7 @@ def _start(image: Image, lattice: Lattice) -> Edges:
         unknowns=unknowns,
         sign=np.where(lattice.dark ^ (cells.sum(axis=1) % 2 == 1), -1.0, 1.0),
         size=area[:, None] / length,
-        arm=np.minimum(length / 2, _LONGEST),
+        arm=np.minimum(length / 2, max(_LONGEST, _ARMS / n)),
         curvature=surroundings.curvatures(lattice),
         spread=np.zeros(n),
         level_gradient=np.zeros((n, 2)),
@@ -206,90 +214,111 @@ def _surrounded(edges: Edges, lattice: Lattice) -> Edges:
     )
 
 
-def _solved(image: Image, edges: Edges, steps: int) -> Fit:
-    """The model after so many Gauss-Newton steps, in portions of corners of about one size."""
+@dataclass(frozen=True, eq=False, slots=True)
+class _Window:
+    """The pixels read around some of the corners."""
+
+    index: IntArray
+    """(k,) which corners."""
+    pixels: IntArray
+    """(k, P, 2) u, v."""
+    grey: Array32
+    """(k, P)"""
+    counts: Array32
+    """(k, P) 1 for pixels of the bands, 0 for others."""
+
+
+def _read(image: Image, edges: Edges) -> list[_Window]:
+    """The pixels of all corners, in portions of corners of about one size."""
     order = np.argsort(edges.arm.sum(axis=1), kind="stable")
-    largest = edges.under(order[-1:]).bands().pixels()
-    portions = np.array_split(order, max(len(order) * largest // _CHUNK, 1))
-    fits = [_gauss_newton(image, edges.under(portion), steps) for portion in portions]
-    back = np.argsort(order)
-    return Fit(
-        replace(edges, unknowns=np.concatenate([f.edges.unknowns for f in fits])[back]),
-        np.concatenate([f.covariance for f in fits])[back],
-        np.concatenate([f.residual for f in fits])[back],
-    )
+    largest = edges.under(order[-1:]).bands()
+    total = len(order) * (largest.pixels(0) + largest.pixels(1))
+    portions = np.array_split(order, max(total // _CHUNK, 1))
+    return [_Window(part, *edges.under(part).bands().read(image)) for part in portions]
 
 
-def _gauss_newton(image: Image, edges: Edges, steps: int) -> Fit:
-    """`steps` Gauss-Newton steps on one set of pixels."""
-    pixels, grey, counts = edges.bands().read(image)
-    used = counts.sum(axis=1)
-    step = np.zeros_like(edges.unknowns)
-    for _ in range(steps):
-        residual, J = _residual(edges, pixels, grey)
-        residual *= counts
-        J *= counts[:, None]
-        N = J @ J.transpose(0, 2, 1)
+def _step(edges: Edges, windows: list[_Window]) -> Fit:
+    """The model after one Gauss-Newton step."""
+    n = len(edges.unknowns)
+    unknowns = edges.unknowns.copy()
+    covariance, residual = np.empty((n, 2, 2)), np.empty(n)
+    for window in windows:
+        at = window.index
+        r, J = _residual(edges.under(at), window)
+        N = (J @ J.transpose(0, 2, 1)).astype(np.float64)
         largest = np.einsum("nkk->nk", N).max(axis=1) + 1e-300
         N += 1e-9 * largest[:, None, None] * np.eye(_UNKNOWNS)
-        step = np.asarray(np.linalg.solve(N, J @ residual[..., None])[..., 0])
-        edges = replace(edges, unknowns=edges.unknowns + _bounded(step, edges.unknowns))
-    predicted = np.einsum("nkp,nk->np", J, step)
-    square = np.sum((residual - predicted) ** 2, axis=1) / np.maximum(used - _UNKNOWNS, 1)
-    covariance = square[:, None, None] * np.linalg.inv(N)[:, :2, :2]
-    return Fit(edges, covariance, np.sqrt(square))
+        g = (J @ r[..., None]).astype(np.float64)
+        step = np.asarray(np.linalg.solve(N, g)[..., 0])
+        unknowns[at] += _bounded(step, unknowns[at])
+        square = np.maximum(np.sum(r * r, axis=1) - np.sum(step * g[..., 0], axis=1), 0.0)
+        square /= np.maximum(window.counts.sum(axis=1) - _UNKNOWNS, 1)
+        covariance[at] = square[:, None, None] * np.linalg.inv(N)[:, :2, :2]
+        residual[at] = np.sqrt(square)
+    return Fit(replace(edges, unknowns=unknowns), covariance, residual)
 
 
-def _residual(edges: Edges, pixels: IntArray, grey: Array) -> tuple[Array, Array]:
-    """Grey levels (n, P) not explained at `pixels` (n, P, 2), and derivatives (n, 9, P) of the
-    model by the unknowns."""
-    x = edges.unknowns
-    q = pixels - x[_C][:, None]
-    t, n = edges.tangents(), edges.normals()
-    s = q @ t.transpose(0, 2, 1)
-    d = q @ n.transpose(0, 2, 1) - edges.curvature[:, None] / 2 * s * s
-    s1, s2, d1, d2 = s[..., 0], s[..., 1], d[..., 0], d[..., 1]
+def _residual(edges: Edges, window: _Window) -> tuple[Floats, Floats]:
+    """Grey levels (k, P) not explained in a window of `edges`, and derivatives (k, 9, P) of the
+    model by the unknowns; 0 for pixels that do not count."""
+    x, grey, counts = edges.unknowns, window.grey, window.counts
+    q = (window.pixels - x[_C][:, None]).astype(np.float32)
+    normals = edges.normals().astype(np.float32)
+    s1, s2 = _along(q, edges.tangents())
+    d1, d2 = _along(q, normals)
+    kappa = (edges.curvature / 2).astype(np.float32)
+    d1 -= kappa[:, :1] * s1 * s1
+    d2 -= kappa[:, 1:] * s2 * s2
+    sign = edges.sign[:, None].astype(np.float32)
     G = _pattern(edges, q, (d1, d2))
-    swing = edges.sign[:, None] * (x[_A][:, None] + _dot(q, edges.contrast_gradient))
-    J = np.empty((len(x), _UNKNOWNS, grey.shape[1]))
+    swing = sign * _linear(x[_A], edges.contrast_gradient, q)
+    level = _linear(x[_M], edges.level_gradient, q)
+    residual = (grey - level - swing * G.value) * counts
+    swing = swing * counts
     by1, by2 = swing * G.by_distance[0], swing * G.by_distance[1]
+    J = np.empty((len(x), _UNKNOWNS, grey.shape[1]), dtype=np.float32)
     for axis in (0, 1):
-        J[:, axis] = -by1 * n[:, None, 0, axis] - by2 * n[:, None, 1, axis]
+        J[:, axis] = -by1 * normals[:, :1, axis] - by2 * normals[:, 1:, axis]
     J[:, 2] = -by1 * s1  # t_1 turns n_1 away from itself,
     J[:, 3] = by2 * s2  # and n_2 towards it
     J[:, 4] = swing * G.by_blur[0]
     J[:, 5] = swing * G.by_blur[1]
-    J[:, 6] = 1.0
-    J[:, 7] = edges.sign[:, None] * G.value
+    J[:, 6] = counts
+    J[:, 7] = sign * counts * G.value
     J[:, 8] = swing * G.by_correlation
-    model = x[_M][:, None] + _dot(q, edges.level_gradient) + swing * G.value
-    return grey - model, J
+    return residual, J
 
 
-def _pattern(edges: Edges, q: Array, d: Pair) -> Pattern:
+def _pattern(edges: Edges, q: Array32, d: Pair) -> Pattern:
     """G at the offsets `q` (n, P, 2) from the corners."""
     x = edges.unknowns
     s1, s2 = (
-        np.maximum(x[_BLUR][:, i, None] + _dot(q, edges.blur_gradient[:, i]), _SHARPEST)
-        for i in (0, 1)
+        np.maximum(_linear(x[_BLUR][:, i], edges.blur_gradient[:, i], q), _SHARPEST) for i in (0, 1)
     )
-    rho = x[_RHO][:, None]
+    rho = x[_RHO][:, None].astype(np.float32)
     box = None
     if np.median(x[_BLUR]) < _SHARP:
-        h = abs(edges.normals()).max(axis=2) / 2
+        h = (abs(edges.normals()).max(axis=2) / 2).astype(np.float32)
         box = (h[:, :1], h[:, 1:])
     if not edges.spread.any():
         return meeting(d, (s1, s2), rho, box)
-    growth = (edges.sign * edges.spread)[:, None]
-    w1, w2 = (
-        growth * (edges.size[:, i, None] + _dot(q, edges.size_gradient[:, i])) for i in (0, 1)
-    )
+    growth = (edges.sign * edges.spread)[:, None].astype(np.float32)
+    w1, w2 = (growth * _linear(edges.size[:, i], edges.size_gradient[:, i], q) for i in (0, 1))
     return spread(d, (s1, s2), rho, box, (w1, w2))
 
 
-def _dot(q: Array, gradient: Array) -> Array:
-    """(n, P) of (n, P, 2) and (n, 2)."""
-    return np.asarray((q @ gradient[..., None])[..., 0])
+def _along(q: Array32, directions: Floats) -> tuple[Array32, Array32]:
+    """Coordinates (n, P) of `q` (n, P, 2) along two directions (n, 2, 2)."""
+    both = directions.astype(np.float32) @ q.transpose(0, 2, 1)
+    return both[:, 0], both[:, 1]
+
+
+def _linear(value: Array, gradient: Array, q: Array32) -> Array32:
+    """`value` (n,) + `gradient` (n, 2) . q at `q` (n, P, 2), or (n, 1) where it does not vary."""
+    constant = value[:, None].astype(np.float32)
+    if not gradient.any():
+        return constant
+    return constant + (q @ gradient[..., None].astype(np.float32))[..., 0]
 
 
 def _bounded(step: Array, x: Array) -> Array:

@@ -23,43 +23,47 @@ If ink spread or blooming shrinks these two squares by w_i from edge i they beco
     2 G = e_1 e_2 + f_1 f_2 + (e_1 - f_1) + (e_2 - f_2) + rho s_1 s_2 (e_1' e_2' + f_1' f_2').
 
 If it grows them, w_i < 0, the other two squares shrink: G(d_1, d_2; w) = -G(d_1, -d_2; -w).
+
+All of this is float32: grey levels have 8 to 16 bits, and it is the most of the work.
 """
 
 from __future__ import annotations
 
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
-from scipy.special import erf
+import numpy.typing as npt
 
-from calibgui.engine.types import Array
-
+Floats = npt.NDArray[np.floating[Any]]
+"""float32 in, float32 out."""
 _FINEST = 0.1
 """Least Gaussian part of a blur, px."""
+_ROOT2, _ROOT_PI = float(np.sqrt(2.0)), float(np.sqrt(np.pi))
+_ROOT2_PI = _ROOT2 / _ROOT_PI
 
 
 class Pattern(NamedTuple):
     """G (n, P) and its derivatives by d_i, by s_i and by rho."""
 
-    value: Array
-    by_distance: tuple[Array, Array]
-    by_blur: tuple[Array, Array]
-    by_correlation: Array
+    value: Floats
+    by_distance: tuple[Floats, Floats]
+    by_blur: tuple[Floats, Floats]
+    by_correlation: Floats
 
 
 class Edge(NamedTuple):
     """E(d) and its derivatives by d and by the blur, all (n, P)."""
 
-    value: Array
-    slope: Array
-    by_blur: Array
+    value: Floats
+    slope: Floats
+    by_blur: Floats
 
 
-Pair = tuple[Array, Array]
+Pair = tuple[Floats, Floats]
 """Something of edge 1 and of edge 2."""
 
 
-def meeting(d: Pair, s: Pair, rho: Array, box: Pair | None) -> Pattern:
+def meeting(d: Pair, s: Pair, rho: Floats, box: Pair | None) -> Pattern:
     """G at the distances `d` (n, P) from two edges of blurs `s`, correlated by `rho` (n, 1).
 
     Args:
@@ -76,9 +80,9 @@ def meeting(d: Pair, s: Pair, rho: Array, box: Pair | None) -> Pattern:
     )
 
 
-def spread(d: Pair, s: Pair, rho: Array, box: Pair | None, w: Pair) -> Pattern:
+def spread(d: Pair, s: Pair, rho: Floats, box: Pair | None, w: Pair) -> Pattern:
     """G where the squares (+, +) and (-, -) have shrunk by `w` (n, P) px on every side."""
-    mirror = np.where(w[0][:, :1] < 0, -1.0, 1.0)
+    mirror = np.where(w[0][:, :1] < 0, -1.0, 1.0).astype(np.float32)
     shrunk = (d[0], mirror * d[1])
     e1, e2 = (edge(shrunk[i] - abs(w[i]), s[i], box and box[i]) for i in (0, 1))
     f1, f2 = (edge(shrunk[i] + abs(w[i]), s[i], box and box[i]) for i in (0, 1))
@@ -100,19 +104,27 @@ def spread(d: Pair, s: Pair, rho: Array, box: Pair | None, w: Pair) -> Pattern:
     )
 
 
-def edge(d: Array, s: Array, box: Array | None = None) -> Edge:
+def edge(d: Floats, s: Floats, box: Floats | None = None) -> Edge:
     """E at the distance `d` (n, P) from an edge of blur `s`, (n, P) or (n, 1)."""
     if box is None:
-        x = d / (np.sqrt(2.0) * s)
-        slope = np.exp(-x * x) * (np.sqrt(2.0 / np.pi) / s)
-        return Edge(erf(x), slope, -d / s * slope)
+        x = d / (_ROOT2 * s)
+        bell = np.exp(-x * x)
+        slope = bell * (_ROOT2_PI / s)
+        return Edge(_erf(x, bell), slope, -d / s * slope)
     g = np.sqrt(np.maximum(s * s - box * box / 3, _FINEST**2))
-    a, b = ((d + h) / (np.sqrt(2.0) * g) for h in (box, -box))
-    erf_a, erf_b = erf(a), erf(b)
-    exp_a, exp_b = np.exp(-a * a), np.exp(-b * b)
-    rise = (exp_a - exp_b) / np.sqrt(np.pi)
-    value = ((a * erf_a - b * erf_b) + rise) * (g / (np.sqrt(2.0) * box))
-    slope = (erf_a - erf_b) / (2 * box)
+    a, b = ((d + h) / (_ROOT2 * g) for h in (box, -box))
+    bell_a, bell_b = np.exp(-a * a), np.exp(-b * b)
+    erf_a, erf_b = _erf(a, bell_a), _erf(b, bell_b)
+    fall = bell_a - bell_b
+    value = (a * erf_a - b * erf_b + fall / _ROOT_PI) * (g / (_ROOT2 * box))
     # dF/dg = sqrt(2 / pi) exp(-d^2 / 2 g^2) and dg/ds = s / g.
-    by_blur = (exp_a - exp_b) * (np.sqrt(2.0 / np.pi) / (2 * box)) * (s / g)
-    return Edge(value, slope, by_blur)
+    by_blur = fall * (_ROOT2_PI / (2 * box) * (s / g))
+    return Edge(value, (erf_a - erf_b) / (2 * box), by_blur)
+
+
+def _erf(x: Floats, bell: Floats) -> Floats:
+    """erf(x), given exp(-x^2): Abramowitz and Stegun 7.1.26, to 1.5e-7 and several times faster."""
+    t = 1 / (1 + 0.3275911 * abs(x))
+    tail = 1.421413741 + t * (-1.453152027 + t * 1.061405429)
+    tail = t * (0.254829592 + t * (-0.284496736 + t * tail))
+    return np.copysign(1 - tail * bell, x)

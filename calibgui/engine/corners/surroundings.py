@@ -43,9 +43,9 @@ def curvatures(lattice: Lattice) -> Array:
     first, second = [], []
     for axis, order in ((0, (0, 1)), (1, (1, 0))):
         slope = (H[:2, axis] - flat * H[2, axis]) / d[:, None]
-        first.append(slope + bent.derivative(at, order))
+        first.append(slope + bent.derivative(order))
         twice = (2 * order[0], 2 * order[1])
-        second.append(-2 * slope * (H[2, axis] / d)[:, None] + bent.derivative(at, twice))
+        second.append(-2 * slope * (H[2, axis] / d)[:, None] + bent.derivative(twice))
     kappa = [
         np.sum(p2 * _normal(p1, across), axis=1) / np.sum(p1 * p1, axis=1)
         for p1, p2, across in zip(first, second, reversed(first), strict=True)
@@ -58,7 +58,7 @@ def gradients(lattice: Lattice, values: Array) -> Array:
     right, down = axes(lattice.uv)
     at = np.argwhere(lattice.found)
     polynomial = _Polynomial(at, lattice.shape, values)
-    slopes = np.stack([polynomial.derivative(at, order) for order in ((0, 1), (1, 0))], axis=1)
+    slopes = np.stack([polynomial.derivative(order) for order in ((0, 1), (1, 0))], axis=1)
     basis = np.stack([right[lattice.found], down[lattice.found]], axis=1)
     return np.asarray(np.linalg.solve(basis, slopes).transpose(0, 2, 1))
 
@@ -71,7 +71,7 @@ def _normal(along: Array, across: Array) -> Array:
 
 
 class _Polynomial:
-    """Least-squares polynomials in column and row through k quantities at n cells (n, 2)."""
+    """Least-squares polynomials in row and column through k quantities at n cells (n, 2)."""
 
     def __init__(self, cells: IntArray, shape: tuple[int, int], values: Array) -> None:
         self._half = np.maximum(np.array(shape) - 1, 1) / 2
@@ -81,7 +81,9 @@ class _Polynomial:
         order = np.argsort(degree, kind="stable")
         order = order[: max(2 * len(cells) // 3, 1)]
         self._powers, degree = powers[order], degree[order]
-        Q, R = np.linalg.qr(self._basis(cells))
+        x = cells / self._half - 1
+        self._table = x[..., None] ** np.arange(_HIGHEST + 1)
+        Q, R = np.linalg.qr(self._basis((0, 0)))
         weights = Q.T @ values
         # The terms are nested: dropping the last ones leaves the others' weights on Q unchanged.
         explained = np.cumsum(weights**2, axis=0)
@@ -90,21 +92,18 @@ class _Polynomial:
         score = np.maximum(rss, 0.0) / (1 - counts[:, None] / (len(cells) + 1)) ** 2
         best = counts[np.argmin(score, axis=0)]
         weights[np.arange(len(weights))[:, None] >= best] = 0.0
-        self._terms = np.zeros_like(weights)
-        for k, count in enumerate(best):
-            self._terms[:count, k] = np.linalg.solve(R[:count, :count], weights[:count, k])
+        self._terms = np.linalg.solve(R, weights)
 
-    def derivative(self, cells: IntArray, order: tuple[int, int]) -> Array:
-        """(m, k) derivatives at `cells` (m, 2), of `order` by row and by column."""
-        return np.asarray(self._basis(cells, order) @ self._terms)
+    def derivative(self, order: tuple[int, int]) -> Array:
+        """(n, k) derivatives at the cells, of `order` by row and by column."""
+        return np.asarray(self._basis(order) @ self._terms)
 
-    def _basis(self, cells: IntArray, order: tuple[int, int] = (0, 0)) -> Array:
-        """(m, terms) at `cells` (m, 2), differentiated."""
-        x = cells / self._half - 1
-        basis = np.ones((len(cells), len(self._powers)))
+    def _basis(self, order: tuple[int, int]) -> Array:
+        """(n, terms) at the cells, differentiated."""
+        basis = np.ones((len(self._table), len(self._powers)))
         for axis in (0, 1):
-            power, factor = self._powers[:, axis], 1.0
+            power, factor = self._powers[:, axis], np.ones(len(self._powers))
             for _ in range(order[axis]):
                 factor, power = factor * power / self._half[axis], np.maximum(power - 1, 0)
-            basis *= factor * x[:, axis, None] ** power
+            basis *= factor * self._table[:, axis, power]
         return basis
