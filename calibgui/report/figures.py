@@ -22,7 +22,7 @@ from calibgui.engine.statistics import (
     length_histogram,
     stacked,
 )
-from calibgui.engine.types import Array, Calibration, Camera, Corners, Iteration, StageOne
+from calibgui.engine.types import Array, Calibration, Camera, Corners, Iteration, Plate, StageOne
 
 Picture = npt.NDArray[np.generic]
 """(h, w) grey or (h, w, 3) colour image of any sample type."""
@@ -179,6 +179,25 @@ def extrinsic_errors(errors: Array) -> Figure:
     figure, axes = _single()
     axes.hist(100 * errors, bins=50, color="0.7")
     axes.set(xlabel="relative error of an external parameter, %", ylabel="count")
+    return figure
+
+
+def plate_deviations(plate: Plate) -> Figure:
+    """Where the corners of an estimated plate are: arrows in the plane, colour out of it."""
+    figure, axes = _single(5.2)
+    d, places = plate.deviation, plate.nominal
+    reach = float(np.abs(d[:, 2]).max()) or 1.0
+    x, y = places.T
+    dots = axes.scatter(x, y, c=d[:, 2], cmap="coolwarm", vmin=-reach, vmax=reach, s=36)
+    longest = float(np.linalg.norm(d[:, :2], axis=1).max())
+    if longest > 0:
+        arrows = axes.quiver(x, y, *d[:, :2].T, angles="xy", width=0.003)
+        axes.quiverkey(arrows, 0.88, 1.03, longest, f"{longest:.2g} mm", labelpos="E")
+    axes.set(aspect="equal", xlabel="X on the plate, mm", ylabel="Y on the plate, mm")
+    axes.margins(0.12)
+    axes.invert_yaxis()
+    axes.set_title(f"{plate.model} plate, {plate.rms:.2g} mm rms", loc="left")
+    figure.colorbar(dots, label="out of the plane, away from the camera, mm", shrink=0.8)
     return figure
 
 
