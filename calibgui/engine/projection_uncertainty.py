@@ -150,11 +150,15 @@ def projection_covariance(
             "Give a positive distance, or none for points far away.",
         )
     by_params, by_motion = sensitivity(camera, uv, distance)
-    A = views.answer.mean(axis=0)
-    J = by_params[..., free] + by_motion @ A
-    own = noise**2 * views.own.sum(axis=0) / len(views.own) ** 2
+    e = noise**2 * views.own.sum(axis=0) / len(views.own) ** 2
+    return propagated(by_params[..., free], by_motion, covariance, views.answer.mean(axis=0), e)
+
+
+def propagated(by_params: Array, by_motion: Array, covariance: Array, A: Array, e: Array) -> Array:
+    """(..., 2, 2) cov(q) from q_c (..., 2, P), q_p B (..., 2, 6), cov(c), A and cov(e)."""
+    J = by_params + by_motion @ A
     return np.asarray(
-        J @ covariance @ np.swapaxes(J, -1, -2) + by_motion @ own @ np.swapaxes(by_motion, -1, -2)
+        J @ covariance @ np.swapaxes(J, -1, -2) + by_motion @ e @ np.swapaxes(by_motion, -1, -2)
     )
 
 
