@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import cast
 
-from PySide6.QtCore import QT_TRANSLATE_NOOP, Signal
-from PySide6.QtWidgets import QComboBox, QGridLayout, QLabel, QPushButton, QVBoxLayout
+from PySide6.QtCore import QT_TRANSLATE_NOOP, Qt, Signal
+from PySide6.QtWidgets import QComboBox, QHBoxLayout, QLabel, QPushButton, QVBoxLayout
 
 from calibgui.app.calibration import short_names
 from calibgui.engine.images import Image
@@ -64,15 +64,14 @@ class UndistortPanel(Panel):
         self.images = BeforeAfter(self.tr("as taken"), self.tr("undistorted"))
         self.words = QLabel()
         self.words.setWordWrap(True)
-        bar = QGridLayout()
-        bar.addWidget(self.way, 0, 0)
-        bar.setColumnStretch(1, 1)
-        bar.addWidget(self.save_one, 0, 2)
-        bar.addWidget(self.save_all, 0, 3)
+        below = QHBoxLayout()
+        below.addWidget(self.words, 1)
+        below.addWidget(self.save_one)
+        below.addWidget(self.save_all)
         layout = QVBoxLayout(self.body)
-        layout.addLayout(bar)
+        layout.addWidget(self.way, 0, Qt.AlignmentFlag.AlignLeft)
         layout.addWidget(self.images, 1)
-        layout.addWidget(self.words)
+        layout.addLayout(below)
 
     def _refresh(self, result: Result) -> None:
         """Nothing but what `_select` shows depends on the result."""
