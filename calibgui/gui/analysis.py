@@ -49,6 +49,9 @@ PANELS: tuple[type[Panel], ...] = (
 )
 """In the order of the list."""
 
+_WIDTH = 380
+"""Least width of a panel, px."""
+
 P = TypeVar("P", bound=Panel)
 
 
@@ -72,6 +75,8 @@ class Analysis(QWidget):
         self.names.setAccessibleName(self.tr("Panels"))
         self.names.setSpacing(2)
         self.stack = QStackedWidget()
+        # All panels get the width that there is, or choosing one would move the image.
+        self.stack.setMinimumSize(_WIDTH, 0)
         for kind in PANELS:
             self.names.addItem(QCoreApplication.translate(kind.__name__, kind.title))
             self.stack.addWidget(self._blank[kind])

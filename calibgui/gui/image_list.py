@@ -245,7 +245,7 @@ class ImageList(QWidget):
         self._order.invalidate()
 
     def _current_changed(self, current: QModelIndex) -> None:
-        if current.isValid():
+        if current.isValid() and current.data(Role.PATH) != self._session.image:
             self._session.select(current.data(Role.PATH))
 
     def _refresh(self) -> None:

@@ -60,6 +60,7 @@ class MainWindow(QMainWindow):
         self.target = TargetPanel(self.session)
         self.settings = SettingsPanel(self.session)
         self.analysis: Analysis | None = None
+        self._empty = True
         self.welcome = Welcome()
         self.banner = Banner()
         self.calibrate = QPushButton()
@@ -68,7 +69,8 @@ class MainWindow(QMainWindow):
         self._lay_out()
         self._connect()
         make_menus(self)
-        self._restore_layout()
+        if geometry := QSettings().value("geometry"):
+            self.restoreGeometry(geometry)
         self._show_parts(empty=True)
         self._refresh()
         self.files.saver.check_slot()
@@ -177,12 +179,19 @@ class MainWindow(QMainWindow):
 
     def _show_parts(self, empty: bool) -> None:
         """The welcome page alone while there are no images, else all parts."""
+        self._keep_layout()
         self._empty = empty
         if empty:
             self.welcome.show_recent(recent_projects())
         self.pages.setCurrentWidget(self.welcome if empty else self.page)
         for dock in (self.image_dock, self.analysis_dock):
             dock.setVisible(not empty)
+        if not empty and (state := QSettings().value("layout")):
+            self.restoreState(state)
+
+    def _keep_layout(self) -> None:
+        if not self._empty:
+            QSettings().setValue("layout", self.saveState())
 
     def _show_calibrate(self) -> None:
         running = self.calibrator.running
@@ -217,13 +226,6 @@ class MainWindow(QMainWindow):
             {self.tr("&Locate…"): lambda: self.files.ask_for_moved(missing)},
         )
 
-    def _restore_layout(self) -> None:
-        settings = QSettings()
-        if geometry := settings.value("geometry"):
-            self.restoreGeometry(geometry)
-        if state := settings.value("layout"):
-            self.restoreState(state)
-
     def dragEnterEvent(self, event: QDragEnterEvent) -> None:  # noqa: N802 - Qt's name
         if event.mimeData().hasUrls():
             event.acceptProposedAction()
@@ -237,10 +239,8 @@ class MainWindow(QMainWindow):
         if not self.files.may_leave():
             event.ignore()
             return
-        settings = QSettings()
-        settings.setValue("geometry", self.saveGeometry())
-        if self.session.project.views:
-            settings.setValue("layout", self.saveState())
+        QSettings().setValue("geometry", self.saveGeometry())
+        self._keep_layout()
         self.session.jobs.close()
         self.files.saver.close()
         event.accept()

@@ -1,0 +1,125 @@
+"""Take the pictures of the window that the README shows, and one of every panel.
+
+    python packaging/screenshots.py FOLDER [--size 1280x720] [--scheme light|dark]
+
+Run it under Xvfb (QT_QPA_PLATFORM=xcb) or without a display (offscreen); QT_SCALE_FACTOR=2
+doubles the resolution.
+"""
+
+from __future__ import annotations
+
+import argparse
+import os
+import tempfile
+from collections.abc import Callable
+from pathlib import Path
+
+from PySide6.QtCore import QEventLoop, QPoint, QSettings, Qt, QTimer
+from PySide6.QtTest import QTest
+from PySide6.QtWidgets import QApplication
+
+from calibgui.app.resources import resource
+from calibgui.gui import theme
+from calibgui.gui.main_window import MainWindow
+
+_PATIENCE = 60.0
+
+
+def pause(seconds: float) -> None:
+    """Let the window work."""
+    loop = QEventLoop()
+    QTimer.singleShot(round(1000 * seconds), loop.quit)
+    loop.exec()
+
+
+def wait(condition: Callable[[], object]) -> None:
+    """Let the window work until `condition` holds."""
+    for _ in range(round(_PATIENCE / 0.02)):
+        if condition():
+            return
+        pause(0.02)
+    raise TimeoutError("the window does not come to an end")
+
+
+class Photographer:
+    """Writes what the window shows."""
+
+    def __init__(self, window: MainWindow, folder: Path) -> None:
+        self.window, self.folder = window, folder
+
+    def take(self, name: str) -> None:
+        """Write a picture once nothing moves any more."""
+        pause(0.3)
+        wait(lambda: not self.window.session.jobs.running)
+        pause(0.1)
+        self.window.grab().save(str(self.folder / f"{name}.png"))
+
+    def all(self) -> None:
+        """The way from the empty window through every panel."""
+        window, session = self.window, self.window.session
+        self.take("welcome")
+        window.files.open_paths([str(resource("sample"))])
+        wait(lambda: session.result is not None)
+        session.select(session.project.views[2].image)
+        self.take("result")
+        from calibgui.gui.analysis import PANELS
+        from calibgui.gui.panels.synthetic import SyntheticPanel
+
+        assert window.analysis is not None
+        for kind in PANELS[1:]:
+            panel = window.analysis.show_panel(kind)
+            if isinstance(panel, SyntheticPanel):
+                panel.run.click()
+                wait(lambda panel=panel: panel.check is not None)
+            self.take(kind.__name__.removesuffix("Panel").lower())
+        self.marking()
+
+    def marking(self) -> None:
+        """Four clicks around a board, with the loupe."""
+        window, canvas = self.window, self.window.page.canvas
+        session = window.session
+        session.select(session.project.views[4].image)
+        pause(0.3)
+        view = session.view
+        assert view is not None
+        assert view.corners is not None
+        assert view.corners.roi is not None
+        window.page.tools[0].trigger()
+        for number, (u, v) in enumerate(canvas.to_screen(view.corners.roi), start=1):
+            at = QPoint(round(u) + 2, round(v) - 2)
+            QTest.mouseMove(canvas.viewport(), at)
+            pause(0.05)
+            if number == 4:
+                self.take("marking")
+            QTest.mouseClick(
+                canvas.viewport(), Qt.MouseButton.LeftButton, Qt.KeyboardModifier.NoModifier, at
+            )
+        wait(window.page.marker.roi_bar.accept.isEnabled)
+        self.take("marked")
+        window.page.marker.leave()
+
+
+def main() -> None:
+    """Take all pictures."""
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("folder", type=Path)
+    parser.add_argument("--size", default="1280x720")
+    parser.add_argument("--scheme", type=theme.Scheme, default=theme.Scheme.LIGHT)
+    options = parser.parse_args()
+    options.folder.mkdir(parents=True, exist_ok=True)
+    os.environ.setdefault("QT_QPA_PLATFORM", "offscreen")
+    with tempfile.TemporaryDirectory() as home:
+        os.environ["XDG_STATE_HOME"] = home
+        QSettings.setPath(QSettings.Format.NativeFormat, QSettings.Scope.UserScope, home)
+        app = QApplication([])
+        theme.apply(app, options.scheme)
+        window = MainWindow()
+        window.resize(*map(int, options.size.split("x")))
+        window.show()
+        Photographer(window, options.folder).all()
+        window.session.document.mark_saved(window.session.project, window.files.saver.file)
+        window.close()
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,312 @@
+"""The parts around the canvas: list, board, settings, messages, dialogs."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+from PySide6.QtCore import QMimeData, QPoint, QPointF, Qt, QUrl
+from PySide6.QtGui import QDropEvent, QGuiApplication
+from PySide6.QtWidgets import QApplication, QFileDialog, QInputDialog, QMessageBox
+from pytestqt.qtbot import QtBot
+
+from calibgui.app.document import Document
+from calibgui.app.project import Unit
+from calibgui.app.recent import recent_projects
+from calibgui.engine.errors import CalibrationError
+from calibgui.engine.types import Cost, ViewStatus
+from calibgui.gui.bug_dialog import BugDialog
+from calibgui.gui.help_dialog import HelpDialog
+from calibgui.gui.image_model import Role
+from calibgui.gui.main_window import MainWindow
+from calibgui.gui.panels.result import ResultPanel
+from calibgui.gui.print_dialog import PrintDialog
+from tests.app import examples
+
+LEFT = Qt.MouseButton.LeftButton
+
+
+@pytest.fixture
+def full(window: MainWindow, qtbot: QtBot, tmp_path: Path) -> MainWindow:
+    """The window with six found views, one without a board, and two results."""
+    window.session.begin(Document(examples.calibrated(tmp_path)))
+    qtbot.waitUntil(lambda: not window.session.jobs.running)
+    return window
+
+
+def listed(window: MainWindow, role: int = Qt.ItemDataRole.DisplayRole) -> list[object]:
+    model = window.images.list.model()
+    return [model.index(row, 0).data(role) for row in range(model.rowCount())]
+
+
+def test_the_list_says_what_was_found_and_how_well_it_fits(full: MainWindow) -> None:
+    assert listed(full) == [*(f"{k}.png" for k in range(6)), "blank.png"]
+    assert listed(full, Role.STATUS) == [*["42 of 42 corners"] * 6, "no board"]
+    result = full.session.result
+    assert result is not None
+    rms = [residuals.rms for residuals in result.calibration.residuals]
+    assert listed(full, Role.RMS) == [*rms, None]
+    assert full.images.count.text() == "6 of 7 usable"
+    tip = full.images.list.model().index(6, 0).data(Qt.ItemDataRole.ToolTipRole)
+    assert "No checkerboard was found" in tip
+
+
+def test_sorting_by_name_status_and_error(full: MainWindow) -> None:
+    full.images.sorting.setCurrentIndex(2)
+    rms = [value for value in listed(full, Role.RMS) if value is not None]
+    assert rms == sorted(rms, reverse=True)
+    assert listed(full)[-1] == "blank.png"
+    full.images.sorting.setCurrentIndex(1)
+    assert listed(full, Role.STATUS)[-1] == "no board"
+    full.images.sorting.setCurrentIndex(0)
+    assert listed(full)[0] == "0.png"
+
+
+def test_several_images_are_excluded_and_removed_by_keys(full: MainWindow, qtbot: QtBot) -> None:
+    view = full.images.list
+    for row, modifier in (
+        (1, Qt.KeyboardModifier.NoModifier),
+        (3, Qt.KeyboardModifier.ShiftModifier),
+    ):
+        at = view.visualRect(view.model().index(row, 0)).center()
+        qtbot.mouseClick(view.viewport(), LEFT, modifier, at)
+    assert len(full.images.chosen) == 3
+    qtbot.keyClick(view, Qt.Key.Key_Space)
+    assert full.session.document.undo_label == "Exclude 3 images"
+    assert listed(full, Role.STATUS)[1] == "excluded · 42 of 42 corners"
+    assert full.analysis is not None
+    assert full.analysis.state.text() == "out of date"
+    assert len(full.images.chosen) == 3, "an edit keeps the selection"
+    qtbot.keyClick(view, Qt.Key.Key_Space)
+    assert all(v.enabled for v in full.session.project.views)
+    qtbot.keyClick(view, Qt.Key.Key_Delete)
+    assert listed(full) == ["0.png", "4.png", "5.png", "blank.png"]
+    for _ in range(3):
+        full.session.document.undo()
+    assert len(listed(full)) == 7
+    assert full.analysis.state.text() == ""
+
+
+def test_the_squares_side_keeps_its_length_in_every_unit(full: MainWindow, qtbot: QtBot) -> None:
+    panel, session = full.target, full.session
+    assert (panel.rows.value(), panel.cols.value()) == (6, 7)
+    assert not panel.rows.isEnabled(), "what is counted is not stated"
+    panel.square.selectAll()
+    qtbot.keyClicks(panel.square, "25.4")
+    assert session.project.square == pytest.approx(25.4)
+    assert session.document.undo_label == "Size of squares"
+    session.document.undo()
+    assert session.project.square == 30.0, "typing is one step"
+    session.document.redo()
+    panel.unit.setCurrentText("inch")
+    panel.unit.activated.emit(2)
+    assert session.project.unit is Unit.INCH
+    assert session.project.square == pytest.approx(25.4**2)
+    session.document.undo()
+    assert panel.square.value() == pytest.approx(25.4)
+
+
+def test_stating_another_board_searches_again(full: MainWindow, qtbot: QtBot) -> None:
+    panel = full.target
+    qtbot.mouseClick(panel.inferred, LEFT, pos=QPoint(8, panel.inferred.height() // 2))
+    assert full.session.project.board == (6, 7)
+    assert panel.rows.isEnabled()
+    assert full.session.project.views[0].status is ViewStatus.FOUND, "it is the one that was found"
+    with qtbot.waitSignal(panel.search_wanted):
+        panel.rows.setValue(5)
+        panel.rows.editingFinished.emit()
+    assert full.session.project.board == (5, 7)
+    assert full.session.document.undo_label == "Number of corners"
+    full.session.document.undo()
+    assert full.session.project.views[0].corners is not None
+
+
+def test_settings_become_arguments_of_the_calibration(full: MainWindow) -> None:
+    panel = full.settings
+    assert [name for name, box in panel.boxes.items() if not box.isChecked()] == ["k3", "p3"]
+    panel.boxes["k3"].click()
+    panel.boxes["p3"].click()
+    panel.boxes["cx"].click()
+    settings = full.session.project.settings
+    assert (settings.fixed, settings.freed) == (("cx",), ("p3",))
+    panel.cost.setCurrentIndex(1)
+    panel.cost.activated.emit(1)
+    assert full.session.project.settings.cost is Cost.REFERENCE
+    for _ in range(4):
+        full.session.document.undo()
+    assert not panel.boxes["k3"].isChecked()
+    assert panel.cost.currentData() == Cost.IMAGE
+
+
+def test_results_are_chosen_compared_renamed_and_deleted(
+    full: MainWindow, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    analysis, session = full.analysis, full.session
+    assert analysis is not None
+    assert session.result_name == "k3 held"
+    analysis.compare_with("Calibration 1")
+    table = analysis.panel(ResultPanel).differences.model()
+    rows = {table.index(r, 0).data(): r for r in range(table.rowCount())}
+    assert set(rows) >= {"fx", "k3"}
+    analysis.results.setCurrentIndex(0)
+    analysis.results.activated.emit(0)
+    assert session.result is session.project.results["Calibration 1"]
+    monkeypatch.setattr(QInputDialog, "getText", lambda *_: ("all free", True))
+    analysis.rename_wanted.emit("Calibration 1")
+    assert list(session.project.results) == ["all free", "k3 held"]
+    assert session.result_name == "all free"
+    analysis.delete_wanted.emit("all free")
+    assert session.result_name == "k3 held"
+    session.document.undo()
+    assert list(session.project.results) == ["all free", "k3 held"]
+
+
+def test_a_click_in_the_image_and_in_a_panel_select_the_same(full: MainWindow) -> None:
+    assert full.analysis is not None
+    panel = full.analysis.panel(ResultPanel)
+    panel.picked.emit(3, 17)
+    assert full.session.image.endswith("3.png")
+    assert full.page.canvas.marks.chosen == 17
+    assert full.images.list.currentIndex().data() == "3.png"
+
+
+def test_dropped_and_pasted_paths_become_images(
+    window: MainWindow, qtbot: QtBot, tmp_path: Path
+) -> None:
+    paths = [tmp_path / f"{k}.png" for k in range(3)]
+    for path in paths:
+        path.write_bytes(b"no image")
+    data = QMimeData()
+    data.setUrls([QUrl.fromLocalFile(str(path)) for path in paths[:2]])
+    drop = QDropEvent(
+        QPointF(200, 200), Qt.DropAction.CopyAction, data, LEFT, Qt.KeyboardModifier.NoModifier
+    )
+    window.dropEvent(drop)
+    assert [Path(v.image).name for v in window.session.project.views] == ["0.png", "1.png"]
+    QGuiApplication.clipboard().setText(f'"{paths[2]}"\n')
+    window.files.paste()
+    assert len(window.session.project.views) == 3
+    qtbot.waitUntil(lambda: window.banner.isVisible(), timeout=30_000)
+    assert [v.status for v in window.session.project.views] == [ViewStatus.UNREADABLE] * 3
+    window.files.open_paths([str(tmp_path / "nowhere")])
+    assert "does not exist" in window.banner.text.text()
+
+
+def test_what_cannot_be_done_comes_with_a_remedy(window: MainWindow, qtbot: QtBot) -> None:
+    window.show_failure(CalibrationError("It cannot be.", "Do otherwise."))
+    assert window.banner.isVisible()
+    assert window.banner.text.text() == "It cannot be.\nDo otherwise."
+    qtbot.mouseClick(window.banner.dismiss, LEFT)
+    assert not window.banner.isVisible()
+
+
+def test_a_bug_is_shown_with_its_traceback_and_the_work_is_kept(
+    full: MainWindow, qtbot: QtBot
+) -> None:
+    full.images.exclude([full.session.image])
+
+    def fails(_: object) -> None:
+        raise ZeroDivisionError("by design")
+
+    full.session.jobs.start("Failing", fails)
+    qtbot.waitUntil(lambda: isinstance(QApplication.activeModalWidget(), BugDialog))
+    dialog = QApplication.activeModalWidget()
+    assert isinstance(dialog, BugDialog)
+    qtbot.mouseClick(dialog.copy, LEFT)
+    text = QGuiApplication.clipboard().text()
+    assert "ZeroDivisionError: by design" in text
+    assert "numpy" in text
+    assert full.files.saver.file.with_name(f".{full.files.saver.file.name}.autosave").exists()
+    dialog.close()
+
+
+def test_missing_images_are_found_again(
+    window: MainWindow, qtbot: QtBot, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    project = examples.calibrated(tmp_path)
+    window.files.saver.save(tmp_path / "empty.json")
+    window.session.begin(Document(project))
+    window.files.saver.save(tmp_path / "project.json")
+    new = tmp_path / "moved"
+    new.mkdir()
+    for view in project.views[1:]:
+        (new / Path(view.image).name).write_bytes(b"")
+    window.files.open_project(tmp_path / "project.json")
+    qtbot.waitUntil(lambda: bool(window.banner.buttons))
+    assert "7 of 7 images are not where they were" in window.banner.text.text()
+    monkeypatch.setattr(QFileDialog, "getExistingDirectory", lambda *_: str(new))
+    window.banner.buttons[0].click()
+    qtbot.waitUntil(lambda: "Found 6 of 7" in window.banner.text.text())
+    assert window.session.document.undo_label == "Relocate images"
+    assert window.session.project.views[1].image == str(new / "1.png")
+    assert window.session.result is not None
+    assert window.session.project.is_current(window.session.result)
+    assert recent_projects() == [tmp_path / "project.json", tmp_path / "empty.json"]
+
+
+@pytest.mark.parametrize("answer", ["Save", "Discard", "Cancel"])
+def test_unsaved_work_is_not_left_without_a_question(
+    full: MainWindow, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, answer: str
+) -> None:
+    path = tmp_path / "p.json"
+    full.images.exclude([full.session.image])
+    monkeypatch.setattr(
+        QMessageBox, "question", lambda *_: getattr(QMessageBox.StandardButton, answer)
+    )
+    monkeypatch.setattr(QFileDialog, "getSaveFileName", lambda *_: (str(path), ""))
+    full.files.new()
+    assert bool(full.session.project.views) == (answer == "Cancel")
+    assert path.exists() == (answer == "Save")
+
+
+def test_a_board_is_printed_in_the_size_chosen(
+    qtbot: QtBot, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    dialog = PrintDialog(examples.BOARD)
+    qtbot.addWidget(dialog)
+    dialog.show()
+    assert (dialog.rows.value(), dialog.cols.value(), dialog.square.value()) == (7, 8, 30.0)
+    assert not dialog.save.isEnabled(), "8 squares of 30 mm need larger paper"
+    assert "at most" in dialog.words.text()
+    dialog.paper.setCurrentText("A3")
+    assert dialog.save.isEnabled()
+    monkeypatch.setattr(
+        QFileDialog, "getSaveFileName", lambda *_: (str(tmp_path / "board"), "SVG drawing (*.svg)")
+    )
+    qtbot.mouseClick(dialog.save, LEFT)
+    assert (tmp_path / "board.svg").read_text(encoding="utf-8") == dialog.content().svg()
+
+
+def test_every_action_has_a_tip_and_no_shortcut_twice(window: MainWindow) -> None:
+    actions = [a for menu in window.menuBar().actions() for a in menu.menu().actions()]
+    actions = [a for a in actions if a.text() and not a.menu()]
+    keys = [a.shortcut().toString() for a in actions if not a.shortcut().isEmpty()]
+    assert len(keys) == len(set(keys))
+    assert len(actions) > 25
+    assert all(action.toolTip() for action in actions)
+
+
+def test_help_names_keys_that_work(qtbot: QtBot, window: MainWindow) -> None:
+    dialog = HelpDialog(window)
+    qtbot.addWidget(dialog)
+    text = dialog.text.toPlainText()
+    assert "Lucchese" in text
+    known = {a.shortcut().toString() for a in window.findChildren(type(window.page.tools[0]))}
+    assert {"F9", "M", "E", "Ctrl+0", "Ctrl+1", "Shift+1", "Shift+6"} <= known
+
+
+def test_the_layout_is_remembered(qtbot: QtBot, tmp_path: Path) -> None:
+    widths = []
+    for width in (330, None):
+        window = MainWindow()
+        window.show()
+        window.resize(1280, 720)  # the offscreen screen is smaller than a remembered window
+        qtbot.waitExposed(window)
+        window.session.begin(Document(examples.calibrated(tmp_path)))
+        if width is not None:
+            window.resizeDocks([window.image_dock], [width], Qt.Orientation.Horizontal)
+        qtbot.wait(50)
+        widths.append(window.image_dock.width())
+        window.close()
+        window.deleteLater()
+    assert widths[0] == widths[1] == 330
