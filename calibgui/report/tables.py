@@ -69,7 +69,7 @@ def stage_one(result: Result) -> str:
     rows.append(["mean", *(_fixed(mean, 4) for mean in table.mean(axis=0)), *[""] * 5])
     head = ["view", "xp", "yp", "k1 x 1e7", "fy/fx", "fx", "fy", "steps", "rms e'"]
     units = ["", "px", "px", "px^-2", "", "px", "px", "", "ref px"]
-    return "Stage I, each view by itself (paper's Table 1; - : not determined)\n" + _aligned(
+    return "Stage I, each view by itself (paper's Table 1; - : not determined)\n" + aligned(
         [head, units, *rows]
     )
 
@@ -98,7 +98,7 @@ def views(result: Result) -> str:
     ]
     head = ["view", "image", "corners", "rms", "distance", "tilt"]
     units = ["", "", "", "px", "mm", "deg"]
-    return "Views\n" + _aligned([head, units, *rows], left=(1,))
+    return "Views\n" + aligned([head, units, *rows], left=(1,))
 
 
 def unused(all_views: Iterable[View]) -> str:
@@ -128,7 +128,7 @@ def intrinsics(calibration: Calibration) -> str:
     size = f"{camera.size[0]} x {camera.size[1]} px"
     title = f"Camera, {size}, each value ± one standard deviation"
     if not isinstance(MODELS[camera.model], Lucchese):
-        return f"{title}\n" + _aligned([["", "array frame", ""], *left], left=(0, 1, 2))
+        return f"{title}\n" + aligned([["", "array frame", ""], *left], left=(0, 1, 2))
     # The paper's values beside those of the same meaning.
     order = [PAPER_NAMES.index({"cx": "xp", "cy": "yp"}.get(name, name)) for name in names]
     values, sigma, printed = uncertainty.paper_table(calibration)
@@ -146,7 +146,7 @@ def intrinsics(calibration: Calibration) -> str:
         for row, i in zip(right, order, strict=True):
             row.append(f"{printed[i]:.2g}".replace("e-0", "e-"))
     rows = [[*a, " ", *b] for a, b in zip(left, right, strict=True)]
-    return f"{title}\n" + _aligned([head, *rows], left=range(8))
+    return f"{title}\n" + aligned([head, *rows], left=range(8))
 
 
 def residuals(calibration: Calibration) -> str:
@@ -200,7 +200,7 @@ def comparison(calibration: Calibration, truth: Mapping[str, float]) -> str:
             ]
         )
     head = ["", "true", "found", "error", "in sigmas"]
-    return "Camera against the truth\n" + _aligned([head, *rows], left=(0, 2))
+    return "Camera against the truth\n" + aligned([head, *rows], left=(0, 2))
 
 
 def detection(all_views: Sequence[View]) -> str:
@@ -216,7 +216,7 @@ def detection(all_views: Sequence[View]) -> str:
         for number, view in enumerate(all_views, start=1)
     ]
     head = ["view", "image", "status", "corners", "board"]
-    parts = ["Images\n" + _aligned([head, *rows], left=(1, 2)), unused(all_views)]
+    parts = ["Images\n" + aligned([head, *rows], left=(1, 2)), unused(all_views)]
     found = sum(view.status is ViewStatus.FOUND for view in all_views)
     remarks = [f"The board was found in {found} of {counted(len(all_views), 'image')}."]
     parts.append("\n".join(map(bullet, [*remarks, *symmetry(all_views)])))
@@ -259,7 +259,7 @@ def bullet(text: str) -> str:
     )
 
 
-def _aligned(rows: Sequence[Sequence[str]], left: Iterable[int] = ()) -> str:
+def aligned(rows: Sequence[Sequence[str]], left: Iterable[int] = ()) -> str:
     """Rows of cells in columns two blanks apart, to the right but for the `left` ones."""
     widths = [max(len(row[i]) for row in rows) for i in range(len(rows[0]))]
     flush = set(left)
