@@ -51,10 +51,12 @@ class Calibrator(QObject):
             self._job.stop()
         self.ended.emit()
 
-    def _searched(self) -> None:
-        if self._wanted:
-            self._wanted = False
+    def _searched(self, everything: bool) -> None:
+        wanted, self._wanted = self._wanted, False
+        if wanted and everything:
             self._solve()
+        elif wanted:
+            self.ended.emit()
 
     def _solve(self) -> None:
         project = self._session.project

@@ -18,8 +18,8 @@ from calibgui.gui.session import Session
 class Detector(QObject):
     """Searches the images that wait, one batch after the other."""
 
-    finished = Signal()
-    """Nothing is waiting any more, or the user cancelled."""
+    finished = Signal(bool)
+    """Whether all images have been searched; false if the user cancelled."""
 
     def __init__(self, session: Session) -> None:
         super().__init__(session)
@@ -42,7 +42,7 @@ class Detector(QObject):
         project = self._session.project
         asked = tuple(view for view in project.views if view.status is ViewStatus.WAITING)
         if not asked:
-            self.finished.emit()
+            self.finished.emit(True)
             return
         self._asked = {view.image: view.roi for view in asked}
         self._given = dict.fromkeys(self._asked)
@@ -105,6 +105,6 @@ class Detector(QObject):
         cancelled = self._job is not None and self._job.cancelled
         self._job = None
         if cancelled:
-            self.finished.emit()
+            self.finished.emit(False)
         else:
             self.search()  # what was added meanwhile

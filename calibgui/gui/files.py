@@ -96,13 +96,17 @@ class Files(QObject):
         if self.may_leave():
             self.saver.open(path)
 
-    def save(self) -> bool:
-        """Save to the document's file, asking for one if it has none; whether it is saved."""
-        path = self._session.document.path
-        return self.save_as() if path is None else self._try(lambda: self.saver.save(path))
+    def save(self) -> None:
+        """Save to the document's file, asking for one if it has none."""
+        if (path := self._session.document.path or self._ask_for_file()) is not None:
+            self.saver.save_beside(path)
 
-    def save_as(self) -> bool:
-        """Save to a file of the user's choice; whether it is saved."""
+    def save_as(self) -> None:
+        """Save to a file of the user's choice."""
+        if (path := self._ask_for_file()) is not None:
+            self.saver.save_beside(path)
+
+    def _ask_for_file(self) -> Path | None:
         views = self._session.project.views
         beside = Path(views[0].image).parent if views else Path()
         start = self._session.document.path or beside / _PROJECT
@@ -110,10 +114,8 @@ class Files(QObject):
             self._window, self.tr("Save project"), str(start), self.tr("Projects (*.json)")
         )
         if not name:
-            return False
-        path = Path(name)
-        path = path if path.suffix else path.with_suffix(".json")
-        return self._try(lambda: self.saver.save(path))
+            return None
+        return Path(name) if Path(name).suffix else Path(name).with_suffix(".json")
 
     def may_leave(self) -> bool:
         """Whether the document can be given up: it is saved, or the user does not want it."""
@@ -128,7 +130,8 @@ class Files(QObject):
             button.Save,
         )
         if answer == button.Save:
-            return self.save()
+            path = self._session.document.path or self._ask_for_file()
+            return path is not None and self._try(lambda: self.saver.save(path))
         return answer == button.Discard
 
     def export(self) -> None:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import replace
+from functools import lru_cache
 from pathlib import Path, PurePath
 
 from PySide6.QtCore import (
@@ -143,7 +144,7 @@ class _Order(QSortFilterProxyModel):
 
     def _key(self, index: Index) -> tuple[object, ...]:
         rms = index.data(Role.RMS)
-        name = natural_key(Path(index.data(Role.PATH)))
+        name = _name_key(index.data(Role.PATH))
         return (
             (name,),
             (index.data(Role.STATUS), name),
@@ -261,6 +262,11 @@ class ImageList(QWidget):
         if index.isValid() and index != self.list.currentIndex():
             flags = QItemSelectionModel.SelectionFlag.ClearAndSelect
             self.list.selectionModel().setCurrentIndex(index, flags)
+
+
+@lru_cache(8192)
+def _name_key(path: str) -> list[tuple[str, int]]:
+    return natural_key(Path(path))
 
 
 def _named(images: list[str]) -> str:

@@ -34,7 +34,8 @@ class Saver(QObject):
         super().__init__(session)
         self._session = session
         self._autosaved: Project | None = None
-        self._writing: Job | None = None
+        self._saving: Job | None = None
+        self._save_next: Path | None = None
         self._lock, self._slot = _free_slot()
         self._timer = QTimer(self, interval=round(1000 * DELAY), singleShot=True)
         self._timer.timeout.connect(self._autosave)
@@ -89,14 +90,38 @@ class Saver(QObject):
         Raises:
             CalibrationError: if it cannot be written.
         """
-        self._timer.stop()
-        before, project = self.file, self._session.project
+        project = self._session.project
         write_project(project, path)
-        self._autosaved = project
-        for file in {before, path}:
-            discard(file)
+        self._wrote(project, path)
+
+    def save_beside(self, path: Path) -> None:
+        """Write the document to `path` beside the main thread, once if asked for repeatedly."""
+        if self._saving is not None:
+            self._save_next = path
+            return
+        project = self._session.project
+        self._saving = self._session.jobs.start(
+            self.tr("Saving {0}").format(path.name),
+            lambda _: write_project(project, path),
+            lambda _: self._wrote(project, path),
+            ended=self._save_ended,
+        )
+
+    def _save_ended(self) -> None:
+        path, self._saving, self._save_next = self._save_next, None, None
+        if path is not None:
+            self.save_beside(path)
+
+    def _wrote(self, project: Project, path: Path) -> None:
+        before = self.file
         self._session.document.mark_saved(project, path)
         remember_project(path)
+        if before != path:
+            discard(before)
+        if self._session.document.saved:
+            self._timer.stop()
+            self._autosaved = project
+            discard(path)
 
     def close(self) -> None:
         """The user leaves, having saved or given up what there was."""

@@ -147,7 +147,7 @@ def test_a_file_that_cannot_be_written_is_reported(
     window: MainWindow, qtbot: QtBot, tmp_path: Path
 ) -> None:
     window.session.begin(Document(examples.calibrated(tmp_path), tmp_path / "gone" / "p.json"))
-    assert not window.files.save()
+    window.files.save()
     qtbot.waitUntil(window.banner.isVisible)
     assert "p.json cannot be written" in window.banner.text.text()
 
@@ -159,3 +159,16 @@ def test_two_programs_do_not_share_a_slot() -> None:
     for saver in savers:
         saver.close()
         saver.parent().jobs.close()
+
+
+def test_saving_twice_at_once_keeps_the_later_state(
+    window: MainWindow, qtbot: QtBot, tmp_path: Path
+) -> None:
+    path = tmp_path / "project.json"
+    window.session.begin(Document(examples.calibrated(tmp_path), path, saved=False))
+    window.files.save()
+    window.session.edit("Add", lambda p: with_images(p, [str(tmp_path / "new.png")]))
+    window.files.save()
+    qtbot.waitUntil(lambda: not window.session.jobs.running)
+    assert window.session.document.saved
+    assert len(read_project(path).views) == 8

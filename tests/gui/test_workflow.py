@@ -232,8 +232,8 @@ def test_from_photographs_to_an_exported_camera(
     monkeypatch.setattr(QFileDialog, "getSaveFileName", lambda *_: (str(path), ""))
     hand.window.setFocus()
     hand.key(Qt.Key.Key_S, Qt.KeyboardModifier.ControlModifier)
+    hand.wait(lambda: not window.isWindowModified())
     assert path.exists()
-    assert not window.isWindowModified()
     window.files.new()
     assert window.pages.currentWidget() is window.welcome
     monkeypatch.setattr(QFileDialog, "getOpenFileName", lambda *_: (str(path), ""))
