@@ -28,12 +28,13 @@ from calibgui.engine.calibrate import HELD
 from calibgui.engine.corners import find_corners
 from calibgui.engine.errors import CalibrationError, NoBoardError
 from calibgui.engine.maps import project_points
-from calibgui.engine.render import render
+from calibgui.engine.render import Appearance, render
 from calibgui.engine.types import (
     Array,
     Calibration,
     Camera,
     Corners,
+    Cost,
     IntArray,
     Pose,
     Target,
@@ -101,7 +102,7 @@ def synthetic_check(
             "Calibrate from images of a checkerboard, or state its rows, columns and square.",
         )
     camera, poses, views = result.calibration.camera, result.calibration.poses, [*result.used]
-    again = partial(_found_again, camera, target, blur, noise)
+    again = partial(_found_again, camera, target, _board_of(result.calibration), blur, noise)
     items = list(zip(range(len(views)), views, poses, strict=True))
     with closing(spread(again, items)) as found:
         for done, (k, view) in enumerate(found, start=1):
@@ -113,12 +114,26 @@ def synthetic_check(
     return SyntheticCheck(result, replace(result, calibration=calibration, views=tuple(views)))
 
 
+def _board_of(calibration: Calibration) -> Appearance:
+    """The board that the calibration believes in.
+
+    The paper's own grid makes its squares fx / fy as high as wide (``engine/stage_two.py``).
+    """
+    fx, fy = calibration.camera.focal
+    return Appearance(stretch=fx / fy if calibration.cost is Cost.PAPER else 1.0)
+
+
 def _found_again(
-    camera: Camera, target: Target, blur: float, noise: float, item: tuple[int, View, Pose]
+    camera: Camera,
+    target: Target,
+    board: Appearance,
+    blur: float,
+    noise: float,
+    item: tuple[int, View, Pose],
 ) -> View:
     """The view with the corners of its rendered image."""
     k, real, pose = item
-    image = render(camera, pose, target, blur=blur, noise=noise, seed=k)
+    image = render(camera, pose, target, blur=blur, noise=noise, seed=k, appearance=board)
     observed = real.observation(target)
     predicted = project_points(observed.xy, camera, pose)
     grid = np.rint(observed.xy[:, ::-1] / target.square).astype(np.int64)

@@ -54,6 +54,8 @@ class Appearance:
     """White margin around the squares, in squares."""
     shading: tuple[float, float] = (0.0, 0.0)
     """Relative change of the light from the left to the right edge, and from top to bottom."""
+    stretch: float = 1.0
+    """Height over width of the board's squares."""
     gamma: float = 1.0
     """Levels are recorded as 255 (level / 255)^(1 / gamma)."""
 
@@ -115,9 +117,10 @@ def irradiance(
     return np.asarray(255 * (levels / 255) ** (1 / look.gamma))
 
 
-def _plate_from_ray(pose: Pose, square: float) -> Array:
+def _plate_from_ray(pose: Pose, square: float, stretch: float) -> Array:
     """(3, 3) G: squares (X, Y, 1) = depth G (n, 1), the inverse of the planar pose's homography."""
-    homography = np.column_stack([rotation(pose.rvec)[:, :2] * square, pose.tvec])
+    sides = square * np.array([1.0, stretch])
+    homography = np.column_stack([rotation(pose.rvec)[:, :2] * sides, pose.tvec])
     # Its determinant is square^2 times the distance from the camera's centre to the plate.
     limit = 1e-9 * square**2 * np.linalg.norm(pose.tvec)
     if not (np.isfinite(homography).all() and abs(np.linalg.det(homography)) > limit):
@@ -173,7 +176,7 @@ class _Scene:
     def _plate(self, uv: Array) -> tuple[Array, Array, npt.NDArray[np.bool_]]:
         """Plate points (..., 2) in squares, their gradient (..., 2, 2), and where there are any."""
         n, by_uv, _ = normalise(uv, self.camera.params, MODELS[self.camera.model])
-        G = _plate_from_ray(self.pose, self.target.square)
+        G = _plate_from_ray(self.pose, self.target.square, self.look.stretch)
         with np.errstate(all="ignore"):  # points at infinity are not visible
             scaled = n @ G[:, :2].T + G[:, 2]
             inverse_depth = scaled[..., 2:]
