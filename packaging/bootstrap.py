@@ -25,6 +25,7 @@ import shutil
 import subprocess
 import sys
 from pathlib import Path
+from xml.sax.saxutils import escape
 
 ROOT = Path(__file__).resolve().parents[1]
 OLDEST = (3, 11)
@@ -57,6 +58,11 @@ from pip._vendor import certifi
 certifi.where = lambda: certificates
 sys.argv[1:] = arguments
 runpy.run_module("pip", run_name="__main__", alter_sys=True)
+"""
+FONTS_CONF = """<?xml version="1.0"?>
+<!DOCTYPE fontconfig SYSTEM "fonts.dtd">
+<fontconfig><dir>/usr/share/fonts</dir><dir>{}</dir><cachedir prefix="xdg">fontconfig</cachedir>
+</fontconfig>
 """
 OPENS_WINDOW = "from PySide6.QtGui import QGuiApplication; QGuiApplication([])"
 
@@ -142,6 +148,8 @@ class Environment:
         """Present: this script made the folder. Empty: it was interrupted."""
         self.debian = folder / "debian"
         """Debian packages unpacked for a user who may not install them."""
+        self.fonts = self.debian / "fonts.conf"
+        """Tells where their fonts are, if there are any among them."""
 
     def variables(self) -> dict[str, str]:
         """The caller's variables without what would lead Python or pip astray, in UTF-8.
@@ -154,8 +162,8 @@ class Environment:
             libraries = self.debian.glob("**/lib/*-linux-gnu*")
             inherited = [env["LD_LIBRARY_PATH"]] if env.get("LD_LIBRARY_PATH") else []
             env["LD_LIBRARY_PATH"] = os.pathsep.join([*map(str, libraries), *inherited])
-            if not Path("/etc/fonts/fonts.conf").exists():
-                env["FONTCONFIG_SYSROOT"] = str(self.debian)
+            if self.fonts.exists():
+                env["FONTCONFIG_FILE"] = str(self.fonts)
             if not Path("/usr/share/X11/xkb").exists():
                 env["XKB_CONFIG_ROOT"] = str(self.debian / "usr/share/X11/xkb")
         return env
@@ -307,6 +315,9 @@ def unpack(environment: Environment, packages: list[str]) -> bool:
         )
     )
     shutil.rmtree(store)
+    fonts = environment.debian / "usr/share/fonts"
+    if fonts.is_dir():
+        environment.fonts.write_text(FONTS_CONF.format(escape(str(fonts))), encoding="utf-8")
     return done
 
 
