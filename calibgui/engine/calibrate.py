@@ -161,6 +161,7 @@ def calibrate(
         pose_covariances=estimate.poses,
         residuals=residuals(estimate.state, estimate.observations, lens, cost, scale),
         noise=float(np.sqrt(estimate.sigma2)),
+        model_error=float(np.sqrt(estimate.observations.tau2)),
         reference_scale=scale,
         stage_one=stage_one_table(first, literal=cost is Cost.PAPER),
         history=estimate.solution.history,

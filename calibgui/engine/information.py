@@ -31,6 +31,7 @@ from calibgui.engine.plate import on_plate
 from calibgui.engine.problem import linearised
 from calibgui.engine.stage_two import State
 from calibgui.engine.types import Array, Calibration, Camera, Cost, IntArray, Observation, Pose
+from calibgui.engine.weighting import weighted
 
 
 class Information(NamedTuple):
@@ -57,6 +58,8 @@ def free_parameters(calibration: Calibration) -> IntArray:
 def measured(calibration: Calibration, views: Sequence[Observation]) -> Observations:
     """The views that a calibration was made from, on the plate that it found or was given."""
     observations = pack(views)
+    if calibration.cost is Cost.IMAGE:
+        observations = weighted(observations, calibration.model_error**2)
     return observations if calibration.plate is None else on_plate(observations, calibration.plate)
 
 

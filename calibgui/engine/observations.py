@@ -37,6 +37,8 @@ class Observations:
     """(K, N, 2, 2) covariances of uv, px^2, where they are given."""
     whitening: Array | None = None
     """(K, N, 2, 2) what residuals are multiplied with (``weighting.py``); nothing if None."""
+    tau2: float = 0.0
+    """What the whitening takes the model's own variance to be, px^2."""
 
     @property
     def count(self) -> int:
@@ -46,7 +48,9 @@ class Observations:
     def part(self, views: slice) -> Observations:
         """Some of the views."""
         cov, whitening = (a if a is None else a[views] for a in (self.cov, self.whitening))
-        return Observations(self.uv[views], self.xy[views], self.mask[views], cov, whitening)
+        return Observations(
+            self.uv[views], self.xy[views], self.mask[views], cov, whitening, self.tau2
+        )
 
     def view(self, k: int) -> slice:
         """The places of view k's corners along the second axis."""

@@ -21,7 +21,8 @@ from calibgui.engine.plate import on_plate
 from calibgui.engine.problem import stage_two
 from calibgui.engine.projection import rays
 from calibgui.engine.stage_two import State
-from calibgui.engine.types import Calibration, Camera, Observation, ViewResiduals
+from calibgui.engine.types import Calibration, Camera, Cost, Observation, ViewResiduals
+from calibgui.engine.weighting import weighted
 
 
 def resected(calibration: Calibration, views: Sequence[Observation]) -> tuple[ViewResiduals, ...]:
@@ -35,6 +36,8 @@ def resected(calibration: Calibration, views: Sequence[Observation]) -> tuple[Vi
         CalibrationError: for views that cannot be used, or do not fit the camera or the plate.
     """
     observations = pack(views)
+    if calibration.cost is Cost.IMAGE:
+        observations = weighted(observations, calibration.model_error**2)
     start = posed(calibration.camera, observations)
     if calibration.plate is not None:
         observations = on_plate(observations, calibration.plate)

@@ -375,6 +375,9 @@ class Calibration:
     noise: float
     """Estimated standard deviation of one residual coordinate, in the cost's px; of the median
     corner where corners are weighted."""
+    model_error: float
+    """What the models of plate and lens add to the corners' covariances, px along each axis
+    (``weighting.py``); 0 where corners have none."""
     reference_scale: float
     """Reference px per mm on the plate."""
     stage_one: tuple[StageOne, ...]

@@ -35,9 +35,8 @@ def weighted(observations: Observations, tau2: float = 0.0) -> Observations:
     places = observations.mask > 0
     typical = float(np.median(np.trace(total[places], axis1=1, axis2=2))) / 2
     root = np.swapaxes(np.linalg.cholesky(np.linalg.inv(total)), -1, -2)
-    return replace(
-        observations, whitening=np.sqrt(typical) * root * observations.mask[..., None, None]
-    )
+    whitening = np.sqrt(typical) * root * observations.mask[..., None, None]
+    return replace(observations, whitening=whitening, tau2=tau2)
 
 
 def model_variance(observations: Observations, residual: Array, unknowns: int) -> float:

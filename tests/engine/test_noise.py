@@ -105,7 +105,7 @@ def test_blurred_views_are_listed_and_weigh_less() -> None:
         4,
     }
     result, used = calibrate_weighted(views, SIZE)
-    assert result.noise == pytest.approx(1.0, abs=0.01)
+    assert result.noise == pytest.approx(0.1, rel=0.05)  # of the median corner, px
     assert examine(result, used).passed
     assert (result.sigma[:4] < 0.5 * plain.sigma[:4]).all()
     assert report.view_sigma == pytest.approx(noise, rel=0.35)
