@@ -2,14 +2,18 @@
 
 from __future__ import annotations
 
+import contextlib
 import signal
 import sys
 from collections.abc import Sequence
 from types import TracebackType
 
-from PySide6.QtCore import QTimer
+from PySide6.QtCore import QLibraryInfo, QLocale, QTimer, QTranslator
+from PySide6.QtGui import QIcon
 from PySide6.QtWidgets import QApplication
 
+from calibgui.app.resources import resource
+from calibgui.engine.errors import CalibrationError
 from calibgui.gui import theme
 from calibgui.gui.main_window import MainWindow
 
@@ -20,6 +24,9 @@ def run(arguments: Sequence[str]) -> int:
     app.setApplicationName("calibgui")
     app.setOrganizationName("calibgui")
     app.setDesktopFileName("calibgui")
+    with contextlib.suppress(CalibrationError):  # a window without its icon is still a window
+        app.setWindowIcon(QIcon(str(resource("icons/calibgui.svg"))))
+    _translate(app)
     theme.apply(app, theme.chosen())
     theme.follow_system(app)
     window = MainWindow()
@@ -30,6 +37,17 @@ def run(arguments: Sequence[str]) -> int:
     if arguments:
         QTimer.singleShot(0, window, lambda: window.files.open_paths(arguments))
     return app.exec()
+
+
+def _translate(app: QApplication) -> None:
+    """Speak the user's language as far as Qt and resources/translations/calibgui_<language> do."""
+    places = [QLibraryInfo.path(QLibraryInfo.LibraryPath.TranslationsPath)]
+    with contextlib.suppress(CalibrationError):
+        places.append(str(resource("translations")))
+    for name, place in zip(("qtbase", "calibgui"), places, strict=False):
+        translator = QTranslator(app)
+        if translator.load(QLocale(), name, "_", place):
+            app.installTranslator(translator)
 
 
 def _report(

@@ -25,6 +25,7 @@ class Detector(QObject):
         super().__init__(session)
         self._session = session
         self._job: Job | None = None
+        self._again = False
         self._asked: dict[str, Array | None] = {}
         """Images of the batch, with the regions that are searched."""
         self._given: dict[str, Corners | None] = {}
@@ -38,6 +39,7 @@ class Detector(QObject):
     def search(self) -> None:
         """Search every enabled image that waits, if that is not being done already."""
         if self.running:
+            self._again = True
             return
         project = self._session.project
         asked = tuple(view for view in project.views if view.status is ViewStatus.WAITING)
@@ -103,8 +105,8 @@ class Detector(QObject):
 
     def _ended(self) -> None:
         cancelled = self._job is not None and self._job.cancelled
-        self._job = None
-        if cancelled:
+        again, self._again, self._job = self._again, False, None
+        if cancelled and not again:
             self.finished.emit(False)
         else:
             self.search()  # what was added meanwhile

@@ -151,6 +151,22 @@ def test_a_cancelled_search_leaves_images_waiting_and_calibrates_nothing(
     assert not session.project.results
 
 
+def test_another_document_opened_during_a_search_is_searched(
+    qtbot: QtBot, session: Session, search: Search, tmp_path: Path
+) -> None:
+    detector, _ = begun(session, tmp_path)
+    session.begin(Document(with_images(Project(), [str(tmp_path / "other.png")])))
+    detector.search()
+    other = View(str(tmp_path / "other.png"), ViewStatus.NO_BOARD, "No board.")
+    for view in (None, other, None):
+        search.findings.put(view)
+    with qtbot.waitSignal(detector.finished) as finished:
+        pass
+    assert finished.args == [True]
+    assert search.asked[-1] == ["other.png"]
+    assert status(session) == [ViewStatus.NO_BOARD]
+
+
 def test_a_result_of_changed_views_is_dropped(
     qtbot: QtBot, session: Session, tmp_path: Path
 ) -> None:
