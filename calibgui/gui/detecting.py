@@ -26,6 +26,7 @@ class Detector(QObject):
         self._session = session
         self._job: Job | None = None
         self._again = False
+        """Whether images are waiting that the batch does not have."""
         self._asked: dict[str, Array | None] = {}
         """Images of the batch, with the regions that are searched."""
         self._given: dict[str, Corners | None] = {}
@@ -38,11 +39,11 @@ class Detector(QObject):
 
     def search(self) -> None:
         """Search every enabled image that waits, if that is not being done already."""
-        if self.running:
-            self._again = True
-            return
         project = self._session.project
         asked = tuple(view for view in project.views if view.status is ViewStatus.WAITING)
+        if self.running:
+            self._again = any(view.image not in self._asked for view in asked)
+            return
         if not asked:
             self.finished.emit(True)
             return
