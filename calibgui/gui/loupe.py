@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import numpy as np
-from PySide6.QtCore import QPointF, QRectF
+from PySide6.QtCore import QPointF, QRectF, Qt
 from PySide6.QtGui import QColor, QPainter, QPainterPath, QPen
 
 from calibgui.engine.opencv import Image
@@ -62,6 +62,7 @@ def paint_loupe(
         painter.drawLine(QPointF(at.x() - 14, at.y()), QPointF(at.x() + 14, at.y()))
         painter.drawLine(QPointF(at.x(), at.y() - 14), QPointF(at.x(), at.y() + 14))
     painter.setClipping(False)
+    painter.setBrush(Qt.BrushStyle.NoBrush)
     for pen in (QPen(theme.HALO, 4), QPen(QColor("white"), 1.5)):
         painter.setPen(pen)
         painter.drawEllipse(middle, _RADIUS, _RADIUS)

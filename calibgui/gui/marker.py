@@ -60,6 +60,8 @@ class Marker(QObject):
         self._roi.left.connect(self.leave)
         self._canvas.set_tool(self._roi)
         self._canvas.setFocus()
+        if (target := self._session.project.target) is not None:
+            self.roi_bar.show_board((target.rows, target.cols))
         self.roi_bar.show()
         self._points_changed()
 
