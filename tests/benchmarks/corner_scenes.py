@@ -44,7 +44,7 @@ class Conditions:
     focal: float = 1.1
     """Over the image's width."""
     distortion: float = 0.0
-    """d in p (1 + d r^2) = ideal point, r over the half diagonal: above 0 barrel, else pincushion."""
+    """d in p (1 + d r^2) = ideal point, r over the half diagonal; barrel if positive."""
     fisheye: bool = False
     """Equidistant lens instead of a pinhole."""
     blur: float = 0.7

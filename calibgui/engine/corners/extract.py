@@ -9,6 +9,7 @@ import numpy.typing as npt
 
 from calibgui.engine.corners import edges, harris, saddle, verify
 from calibgui.engine.corners import roi as region
+from calibgui.engine.corners.edges import Fit
 from calibgui.engine.corners.finder import MIN_CORNERS, MIN_LINES, find_boards
 from calibgui.engine.corners.lattice import Lattice
 from calibgui.engine.corners.ordering import Board, Numbering, ambiguity, numberings, place
@@ -17,6 +18,8 @@ from calibgui.engine.opencv import Image
 from calibgui.engine.types import Array, BoolArray, Corners, Rejection
 
 METHODS = ("edges", "saddle")
+_ROUNDS = 4
+"""How often corners may be left out and the rest fitted again."""
 _SPARSE = 0.5
 """Filled share below which a line beyond the stated size is clutter."""
 _STATE_SIZE = "State the number of inner corners, rows x columns, or leave it out."
@@ -63,10 +66,11 @@ def find_corners(
         if outline is None or board is None:
             raise
         found, others = _guided(grey, board, outline), ()
-    numbered = numberings(found.lattice, board)
-    if outline is not None:
-        numbered.sort(key=lambda way: not region.starts_at(way.lattice, outline[0]))
-    return _corners(grey, numbered, found.rejected, outline, others, method)
+    numbered = _numbered(found.lattice, board, outline)
+    fit = None
+    if method == "edges":
+        found, numbered, fit = _fit(grey, found, numbered, board, outline)
+    return _record(grey, found, numbered, outline, others, fit)
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -103,10 +107,7 @@ def _automatic(
     tried = (_verified(grey, lattice, method) for lattice in candidates)
     verified = [found for found in tried if found is not None]
     if not verified:
-        raise NoBoardError(
-            "What looks like a checkerboard is not regular enough to be trusted.",
-            "Mark its four outermost corners, or leave this picture out.",
-        )
+        raise _untrusted()
     verified.sort(key=lambda found: len(found.lattice), reverse=True)
     chosen, wanted = 0, verified[0].lattice
     if board is not None:
@@ -127,9 +128,10 @@ def _automatic(
 def _verified(grey: Image, lattice: Lattice, method: str) -> _Found | None:
     """The lattice refined, less the corners that fail, or None if it is no board.
 
-    A corner whose squares overlap or part by much has no saddle point; the edge model copes.
+    Its gaps are tried once more, at full resolution. A corner whose squares overlap or part by
+    much has no saddle point; the edge model copes with it.
     """
-    refined, at_saddle = _refined(grey, lattice)
+    refined, at_saddle = _refined(grey, verify.filled(lattice, grey.shape))
     if method == "saddle":
         refined = refined.under(at_saddle)
     good = verify.sound(refined, grey)
@@ -140,7 +142,7 @@ def _verified(grey: Image, lattice: Lattice, method: str) -> _Found | None:
         return None
     rejected = [
         *_rejections(lattice.uv[lattice.found & ~refined.found], "no saddle point"),
-        *_rejections(refined.uv[refined.found & ~good], "off its place or its colours"),
+        *_rejections(lattice.uv[lattice.found & refined.found & ~good], "off place or colours"),
     ]
     return _Found(kept, tuple(rejected))
 
@@ -212,46 +214,83 @@ def _guided(grey: Image, board: Board, outline: Array) -> _Found:
     return best
 
 
-def _corners(
+def _numbered(lattice: Lattice, board: Board | None, outline: Array | None) -> list[Numbering]:
+    """The lattice's numberings, the preferred first: of those that only a look at the marked
+    points can tell apart the one that starts at the first of them."""
+    numbered = numberings(lattice, board)
+    if outline is not None:
+        numbered.sort(key=lambda way: not region.starts_at(way.lattice, outline[0]))
+    return numbered
+
+
+def _fit(
     grey: Image,
+    found: _Found,
     numbered: list[Numbering],
-    rejected: tuple[Rejection, ...],
+    board: Board | None,
+    outline: Array | None,
+) -> tuple[_Found, list[Numbering], Fit]:
+    """The edge model at the corners that it describes.
+
+    The others mislead what is taken from the whole board: without them it is fitted again.
+    """
+    for _ in range(_ROUNDS):
+        lattice = numbered[0].lattice
+        fit = edges.fit(grey, lattice)
+        good = verify.described(fit, lattice.uv[lattice.found], lattice.spacing()[lattice.found])
+        if good.all():
+            return found, numbered, fit
+        doubtful = _rejections(lattice.uv[lattice.found][~good], "not two crossing edges")
+        keep = lattice.found
+        keep[keep] = good
+        if not keep.any():
+            break
+        lattice = verify.without_strays(lattice.under(keep), grey.shape)
+        if len(lattice) < MIN_CORNERS or min(lattice.shape) < MIN_LINES:
+            break
+        found = _Found(lattice, (*found.rejected, *doubtful))
+        numbered = _numbered(lattice, board, outline)
+    raise _untrusted()
+
+
+def _untrusted() -> NoBoardError:
+    return NoBoardError(
+        "What looks like a checkerboard is not regular enough to be trusted.",
+        "Mark its four outermost corners, or leave this picture out.",
+    )
+
+
+def _record(
+    grey: Image,
+    found: _Found,
+    numbered: list[Numbering],
     outline: Array | None,
     others: tuple[Array, ...],
-    method: str,
+    fit: Fit | None,
 ) -> Corners:
-    """The record of the preferred numbering."""
+    """What is handed out."""
     chosen = numbered[0]
     grid, uv = place(chosen)
-    spacing = chosen.lattice.spacing()[chosen.lattice.found]
     corners = Corners(
         shape=chosen.board,
         grid=grid,
         uv=uv,
-        estimate=harris.first_estimates(grey, uv, spacing),
+        estimate=harris.first_estimates(grey, uv, chosen.lattice.spacing()[chosen.lattice.found]),
         ambiguity=ambiguity(chosen.board),
         roi=region.around(chosen.lattice) if outline is None else outline,
-        method=method,
+        method="saddle",
         relative=len({way.offset for way in numbered}) > 1,
-        rejected=rejected,
+        rejected=found.rejected,
         others=others,
     )
-    return corners if method == "saddle" else _fit_edges(grey, chosen.lattice, corners)
-
-
-def _fit_edges(grey: Image, lattice: Lattice, corners: Corners) -> Corners:
-    """`corners` refined by the edge model, less those that it does not describe."""
-    fit = edges.fit(grey, lattice)
-    spacing = lattice.spacing()[lattice.found]
-    good = verify.described(fit, corners.uv, spacing)
+    if fit is None:
+        return corners
     return replace(
         corners,
-        grid=corners.grid[good],
-        uv=fit.uv[good],
-        estimate=corners.estimate[good],
-        cov=fit.covariance[good],
-        blur=fit.blur[good],
-        contrast=fit.contrast[good],
-        residual=fit.residual[good],
-        rejected=(*corners.rejected, *_rejections(corners.uv[~good], "not two crossing edges")),
+        method="edges",
+        uv=fit.uv,
+        cov=fit.covariance,
+        blur=fit.blur,
+        contrast=fit.contrast,
+        residual=fit.residual,
     )

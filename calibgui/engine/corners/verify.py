@@ -73,6 +73,13 @@ def described(fit: Fit, start: Array, spacing: Array) -> BoolArray:
     )
 
 
+def filled(lattice: Lattice, shape: tuple[int, ...]) -> Lattice:
+    """The lattice with its gaps where the neighbours expect their corners, inside the image."""
+    expected = predict(lattice.uv)
+    try_here = ~lattice.found & _inside(expected, shape)
+    return Lattice(np.where(try_here[..., None], expected, lattice.uv), lattice.dark)
+
+
 def without_strays(lattice: Lattice, shape: tuple[int, ...]) -> Lattice:
     """The lattice less border lines of which little was found though the image shows them."""
     lattice = crop(lattice)
