@@ -23,6 +23,7 @@ from calibgui.engine.types import (
     Report,
     View,
 )
+from calibgui.engine.validation import choose_plate
 from calibgui.formats.corners_json import CornerSet
 from calibgui.formats.result import Result
 
@@ -33,15 +34,16 @@ def calibrate_views(
     cost: Cost | str = Cost.IMAGE,
     fix: Mapping[str, float | None] | Iterable[str] = (),
     free: Iterable[str] = (),
-    plate: PlateModel | str | Plate = PlateModel.NOMINAL,
+    plate: PlateModel | Plate | None = PlateModel.NOMINAL,
     prior: Prior | None = None,
     robust: bool = False,
     report: Report | None = None,
 ) -> Result:
     """Calibrate from the usable views of a set; the arguments are ``engine.calibrate``'s.
 
-    `robust` leaves outliers out first (``engine.screening``): the result's views are without
-    them, and its warnings name them.
+    Without a `plate` (None) the model that predicts unseen views best is chosen, and the
+    result's warnings say why. `robust` leaves outliers out first (``engine.screening``): the
+    result's views are without them, and its warnings name them.
 
     Raises:
         CalibrationError: as ``engine.calibrate``, naming images, or if no view is usable.
@@ -56,12 +58,16 @@ def calibrate_views(
         )
     # The matrices are small: threads would cost more than they bring.
     with threadpool_limits(1):
-        left_out: tuple[str, ...] = ()
+        said: tuple[str, ...] = ()
         if robust:
-            views, left_out = _screened(corner_set, fix, free)
+            views, said = _screened(corner_set, fix, free)
         used = [view for view in views if view.usable]
+        observations = [view.observation(corner_set.target) for view in used]
+        if plate is None:
+            choice = choose_plate(observations, corner_set.size, fix=fix, free=free)
+            plate, said = choice.model, (choice.words, *said)
         calibration = engine.calibrate(
-            [view.observation(corner_set.target) for view in used],
+            observations,
             corner_set.size,
             cost=cost,
             fix=fix,
@@ -71,7 +77,7 @@ def calibrate_views(
             report=report,
             names=short_names(used),
         )
-    calibration = replace(calibration, warnings=(*calibration.warnings, *left_out))
+    calibration = replace(calibration, warnings=(*calibration.warnings, *said))
     return Result(calibration, views, corner_set.target)
 
 

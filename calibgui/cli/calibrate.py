@@ -68,7 +68,8 @@ def configure(parser: argparse.ArgumentParser) -> None:
         default=PlateModel.NOMINAL,
         metavar="MODEL|FILE",
         help="the board's shape: nominal (default), or estimated as affine (sides and shear), "
-        "bow (two bends) or free (every corner), or held as in a plate.json made before",
+        "bow (two bends) or free (every corner), or auto, whichever predicts unseen views best; "
+        "or held as in a plate.json made before",
     )
     parser.add_argument(
         "--prior",
@@ -180,14 +181,16 @@ def _name(text: str) -> str:
     return name
 
 
-def _plate(text: str) -> PlateModel | Plate:
-    """A model of the plate, or a plate from a file."""
+def _plate(text: str) -> PlateModel | Plate | None:
+    """A model of the plate, None for the best, or a plate from a file."""
+    if text == "auto":
+        return None
     if text in list(PlateModel):
         return PlateModel(text)
     try:
         return read_plate(text)
     except CalibrationError as error:
-        models = ", ".join(PlateModel)
+        models = ", ".join([*PlateModel, "auto"])
         raise argparse.ArgumentTypeError(f"{text!r} is none of {models}: {error}") from error
 
 

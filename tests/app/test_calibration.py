@@ -9,6 +9,9 @@ import pytest
 
 from calibgui.app.calibration import calibrate_views, short_names
 from calibgui.engine import CalibrationError, Cancelled, Iteration, Observation, View, ViewStatus
+from calibgui.engine.frames import rotation
+from calibgui.engine.projection import pixels
+from calibgui.engine.types import Array
 from calibgui.formats.corners_json import CornerSet
 from tests.engine import scenes
 from tests.photographs import BOARD, CAMERA, poses
@@ -63,3 +66,44 @@ def test_a_report_can_cancel() -> None:
 def test_names_are_short_where_that_is_enough() -> None:
     assert short_names([View("a/1.png"), View("b/2.png")]) == ["1.png", "2.png"]
     assert short_names([View("a/1.png"), View("b/1.png")]) == ["a/1.png", "b/1.png"]
+
+
+def noisy(plate: Array | None = None) -> CornerSet:
+    """Twelve views with 0.05 px of noise, of a board with deviations (n, 3) mm."""
+    rng = np.random.default_rng(4)
+    views = []
+    for k, pose in enumerate(poses() + poses()[:4]):
+        xy = BOARD.points()
+        point = np.column_stack([xy, np.zeros(len(xy))]) + (0 if plate is None else plate)
+        seen = point @ rotation(pose.rvec).T + pose.tvec
+        uv = pixels(seen[:, :2] / seen[:, 2:], CAMERA) + rng.normal(0, 0.05, xy.shape)
+        views.append(View(f"{k}.png", ViewStatus.FOUND, points=Observation(uv, xy)))
+    return CornerSet(CAMERA.size, tuple(views))
+
+
+def test_outliers_are_left_out_by_name() -> None:
+    spoilt = noisy()
+    views = list(spoilt.views)
+    for k, change in ((1, lambda uv: uv + np.eye(len(uv), 2, -4) * 30), (5, lambda uv: uv[::-1])):
+        points = views[k].points
+        assert points is not None
+        views[k] = replace(views[k], points=Observation(change(points.uv), points.xy))
+    mirrored = views[7].points
+    assert mirrored is not None
+    flipped = mirrored.uv.reshape(BOARD.rows, BOARD.cols, 2)[:, ::-1].reshape(-1, 2)
+    views[7] = replace(views[7], points=Observation(flipped, mirrored.xy))
+    result = calibrate_views(replace(spoilt, views=tuple(views)), robust=True)
+    assert [view.image for view in result.views if not view.usable] == ["7.png"]
+    assert "mirrored" in result.views[7].reason
+    kept = result.views[1].points
+    assert kept is not None and len(kept.uv) == len(BOARD.points()) - 2
+    assert [sentence.split()[0] for sentence in result.calibration.warnings] == ["1.png", "7.png"]
+
+
+def test_the_best_plate_is_chosen_and_said() -> None:
+    bow = 0.004 * (BOARD.points()[:, 0] - BOARD.points()[:, 0].mean()) ** 2
+    bent = np.column_stack([np.zeros((len(bow), 2)), bow / 5])
+    result = calibrate_views(noisy(bent), plate=None)
+    assert result.calibration.plate is not None
+    assert "unseen views" in result.calibration.warnings[0]
+    assert calibrate_views(noisy(), plate=None).calibration.plate is None
