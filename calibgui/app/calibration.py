@@ -26,6 +26,7 @@ from calibgui.engine.types import (
 from calibgui.engine.validation import choose_plate
 from calibgui.formats.corners_json import CornerSet
 from calibgui.formats.result import Result
+from calibgui.report.numbers import counted
 
 
 def calibrate_views(
@@ -101,7 +102,7 @@ def _screened(
             sentences.append(f"{name} is left out: {rejected.reason}.")
         else:
             view = _without(view, lost)
-            sentences.append(f"{name} loses {len(lost)} corners, {rejected.reason}.")
+            sentences.append(f"{name} loses {counted(len(lost), 'corner')}, {rejected.reason}.")
         views[places[rejected.view]] = view
     return tuple(views), tuple(sentences)
 

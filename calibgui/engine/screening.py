@@ -154,6 +154,7 @@ def _by_residual(
     used = [k for k, good in enumerate(kept) if good.any()]
     lengths = [
         np.linalg.norm(given[k].uv - project_points(given[k].xy, calibration.camera, pose), axis=1)
+        / _expected(given[k], calibration.model_error)
         for k, pose in zip(used, calibration.poses, strict=True)
     ]
     believed = np.concatenate([length[kept[k]] for k, length in zip(used, lengths, strict=True)])
@@ -164,6 +165,13 @@ def _by_residual(
         changed |= bool((kept[k] != (length <= limit)).any())
         kept[k][:] = length <= limit
     return changed
+
+
+def _expected(view: Observation, model_error: float) -> Array | float:
+    """(n,) standard deviations of the corners, px; 1 where nothing tells them apart."""
+    if view.cov is None:
+        return 1.0
+    return np.sqrt(np.trace(view.cov, axis1=1, axis2=2) / 2 + model_error**2)
 
 
 def _leave_out_poor(kept: list[BoolArray], reasons: dict[int, str]) -> None:
