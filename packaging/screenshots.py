@@ -2,6 +2,8 @@
 
     python packaging/screenshots.py FOLDER [--size 1280x720] [--scheme light|dark]
 
+The README's are result, residuals and marking, in resources/images as window-*.png.
+
 Run it under Xvfb (QT_QPA_PLATFORM=xcb) or without a display (offscreen); QT_SCALE_FACTOR=2
 doubles the resolution.
 """
@@ -20,7 +22,10 @@ from PySide6.QtWidgets import QApplication
 
 from calibgui.app.resources import resource
 from calibgui.gui import theme
+from calibgui.gui.analysis import PANELS
 from calibgui.gui.main_window import MainWindow
+from calibgui.gui.panels.poses import PosesPanel
+from calibgui.gui.panels.synthetic import SyntheticPanel
 
 _PATIENCE = 60.0
 
@@ -62,9 +67,6 @@ class Photographer:
         wait(lambda: session.result is not None)
         session.select(session.project.views[2].image)
         self.take("result")
-        from calibgui.gui.analysis import PANELS
-        from calibgui.gui.panels.synthetic import SyntheticPanel
-
         assert window.analysis is not None
         for kind in PANELS[1:]:
             panel = window.analysis.show_panel(kind)
@@ -78,6 +80,8 @@ class Photographer:
         """Four clicks around a board, with the loupe."""
         window, canvas = self.window, self.window.page.canvas
         session = window.session
+        assert window.analysis is not None
+        window.analysis.show_panel(PosesPanel)
         session.select(session.project.views[4].image)
         pause(0.3)
         view = session.view
