@@ -39,7 +39,7 @@ def test_command_lines(elsewhere: Path, capsys: pytest.CaptureFixture[str]) -> N
         if not line.startswith("paper"):  # it needs the paper's images
             assert main(shlex.split(line)) == 0, capsys.readouterr().err
     written = {path.name for path in elsewhere.iterdir()}
-    named = re.findall(r"(?:-o |=)(\S+)", "\n".join(lines))
+    named = re.findall(r"(?:-o |--next |=)(\S+)", "\n".join(lines))
     assert set(named) - {"paper"} <= written
 
 

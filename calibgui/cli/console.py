@@ -46,10 +46,10 @@ class Console:
         print(text, file=sys.stderr)
 
     @contextlib.contextmanager
-    def progress(self, what: str) -> Iterator[Advance]:
-        """A bar on stderr while images are worked on; nothing if quiet or no terminal."""
+    def progress(self, what: str, unit: str = "image") -> Iterator[Advance]:
+        """A bar on stderr while things are worked on; nothing if quiet or no terminal."""
         hidden = self.quiet or not sys.stderr.isatty()
-        with tqdm(desc=what, unit="image", disable=hidden, leave=False, file=sys.stderr) as bar:
+        with tqdm(desc=what, unit=unit, disable=hidden, leave=False, file=sys.stderr) as bar:
 
             def advance(done: int, total: int) -> None:
                 bar.total = total

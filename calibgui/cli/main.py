@@ -24,6 +24,9 @@ COMMANDS = {
     "detect": "locate the board's corners in photographs",
     "undistort": "write photographs without lens distortion",
     "rectify": "write the board as seen from straight above",
+    "uncertainty": "show how far a calibration can be trusted",
+    "diff": "compare two calibrations of a camera",
+    "views": "study how many views are enough, and where to hold the board next",
     "demo": "calibrate the bundled sample and show everything there is",
     "paper": "reproduce the paper from its 25 images, with every printed number beside ours",
 }

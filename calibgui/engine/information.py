@@ -56,7 +56,7 @@ def free_parameters(calibration: Calibration) -> IntArray:
 
 
 def measured(calibration: Calibration, views: Sequence[Observation]) -> Observations:
-    """The views that a calibration was made from, on the plate that it found or was given."""
+    """Views as a calibration takes them: weighed, on the plate that it found or was given."""
     observations = pack(views)
     if calibration.cost is Cost.IMAGE:
         observations = weighted(observations, calibration.model_error**2)

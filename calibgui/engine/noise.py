@@ -36,7 +36,7 @@ from scipy.stats import chi2, kurtosistest, norm
 
 from calibgui.engine import patterns
 from calibgui.engine.calibrate import calibrate
-from calibgui.engine.observations import Observations, pitch
+from calibgui.engine.observations import Observations, pitch, view_names
 from calibgui.engine.patterns import Fitted
 from calibgui.engine.statistics import summarise
 from calibgui.engine.types import Array, Calibration, Observation, PlateModel, Size, frozen
@@ -123,8 +123,8 @@ class NoiseReport:
     checks: tuple[Check, ...]
     """In the order of the module's description."""
     view_sigma: Array
-    """(K,) standard deviation of a residual coordinate in each view, px; without a unit
-    where the corners have covariances."""
+    """(K,) standard deviation of a residual coordinate in each view, px; of a median corner
+    where corners are weighted."""
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "view_sigma", frozen(self.view_sigma))
@@ -142,13 +142,17 @@ class NoiseReport:
         return next((check for check in failed if check.share >= _NEARLY * most), None)
 
 
-def examine(calibration: Calibration, views: Sequence[Observation]) -> NoiseReport:
+def examine(
+    calibration: Calibration, views: Sequence[Observation], names: Sequence[str] | None = None
+) -> NoiseReport:
     """Examine the residuals of a calibration, in the image.
 
     Args:
         calibration: with any cost.
         views: that it was made from.
+        names: of the views, for messages; numbers by default.
     """
+    names = names or view_names(len(views))
     fit = patterns.fitted(calibration, views)
     r = fit.linear(slice(0, len(views))).residual
     sigma = _view_sigma(r, fit)
@@ -158,22 +162,13 @@ def examine(calibration: Calibration, views: Sequence[Observation]) -> NoiseRepo
     return NoiseReport(
         (
             *(_pattern(name, test(even), rms, advice) for name, test, advice in _PATTERNS),
-            _views(sigma, _freedom(fit)),
+            _views(sigma, _freedom(fit), names),
             _shape(relative[seen]),
             _neighbours(relative, fit.observations),
             _directions(r[seen]),
         ),
         sigma,
     )
-
-
-def weighted(views: Sequence[Observation], sigma: Array) -> list[Observation]:
-    """The views with their corners' covariances as `NoiseReport.view_sigma` (K,) says."""
-    covs = (np.eye(2)[None] if view.cov is None else view.cov for view in views)
-    return [
-        view._replace(cov=np.broadcast_to(s**2 * cov, (len(view.uv), 2, 2)))
-        for view, s, cov in zip(views, sigma, covs, strict=True)
-    ]
 
 
 def calibrate_weighted(
@@ -187,14 +182,24 @@ def calibrate_weighted(
     Returns:
         The calibration, and the views with the covariances that it used.
     """
-    given = [Observation(*view) for view in views]
-    used = given
+    used = [Observation(*view) for view in views]
     result = calibrate(used, size, **settings)
     for _ in range(_ROUNDS):
-        fit = patterns.fitted(result, given)
-        used = weighted(given, _view_sigma(fit.linear(slice(0, len(given))).residual, fit))
+        fit = patterns.fitted(result, used)
+        sigma = _view_sigma(fit.linear(slice(0, len(used))).residual, fit)
+        used = _weighted(used, fit, sigma)
         result = calibrate(used, size, **settings)
     return result, used
+
+
+def _weighted(views: Sequence[Observation], fit: Fitted, sigma: Array) -> list[Observation]:
+    """The views with covariances that make up for their standard deviations (K,)."""
+    weight = fit.weight(slice(0, len(views)))
+    weighed = []
+    for k, view in enumerate(views):
+        W = weight[k, fit.observations.view(k)]
+        weighed.append(view._replace(cov=sigma[k] ** 2 * np.linalg.inv(np.swapaxes(W, 1, 2) @ W)))
+    return weighed
 
 
 def _freedom(fit: Fitted) -> Array:
@@ -230,7 +235,7 @@ def _shape(relative: Array) -> Check:
     )
 
 
-def _views(sigma: Array, freedom: Array) -> Check:
+def _views(sigma: Array, freedom: Array, names: Sequence[str]) -> Check:
     total, K = freedom.sum(), len(sigma)
     bartlett = total * np.log(np.sum(freedom * sigma**2) / total)
     bartlett -= np.sum(freedom * np.log(sigma**2))
@@ -240,7 +245,7 @@ def _views(sigma: Array, freedom: Array) -> Check:
     if not passed:
         order = np.argsort(sigma)[::-1][:5].tolist()
         loud = [k for k in order if sigma[k] > 1.5 * np.median(sigma)] or order[:1]
-        finding += ", most in view " + ", ".join(str(k + 1) for k in loud)
+        finding += ", most in " + ", ".join(names[k] for k in loud)
     excess = 1 - np.median(sigma) ** 2 * total / np.sum(freedom * sigma**2)
     return Check("views", passed, finding, _BLUR, 0.0 if passed else max(float(excess), 0.0))
 

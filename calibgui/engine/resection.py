@@ -13,16 +13,15 @@ from dataclasses import replace
 import numpy as np
 
 from calibgui.engine import closed_form
+from calibgui.engine.information import measured
 from calibgui.engine.lens import MODELS
 from calibgui.engine.levenberg_marquardt import minimise
 from calibgui.engine.observations import Observations, pack
 from calibgui.engine.outcome import residuals
-from calibgui.engine.plate import on_plate
 from calibgui.engine.problem import stage_two
 from calibgui.engine.projection import rays
 from calibgui.engine.stage_two import State
-from calibgui.engine.types import Calibration, Camera, Cost, Observation, ViewResiduals
-from calibgui.engine.weighting import weighted
+from calibgui.engine.types import Calibration, Camera, Observation, ViewResiduals
 
 
 def resected(calibration: Calibration, views: Sequence[Observation]) -> tuple[ViewResiduals, ...]:
@@ -35,12 +34,8 @@ def resected(calibration: Calibration, views: Sequence[Observation]) -> tuple[Vi
     Raises:
         CalibrationError: for views that cannot be used, or do not fit the camera or the plate.
     """
-    observations = pack(views)
-    if calibration.cost is Cost.IMAGE:
-        observations = weighted(observations, calibration.model_error**2)
-    start = posed(calibration.camera, observations)
-    if calibration.plate is not None:
-        observations = on_plate(observations, calibration.plate)
+    observations = measured(calibration, views)
+    start = posed(calibration.camera, pack(views))
     model, cost, scale = (
         calibration.camera.model,
         calibration.cost,

@@ -12,13 +12,14 @@ error and 1 %.
 Bootstrap: K views drawn from the K with replacement, calibrated, many times. The scatter of
 the estimates is a standard deviation that does not assume the corners' errors to be
 independent within a view; where it exceeds the reported one, they are not. An error that all
-views share, as the plate's, does not scatter. A view drawn m times weighs m times, by its
-covariance; the scatter of K draws is K / (K - 1) too small in variance.
+views share, as the plate's, does not scatter. The variance of K draws from K is (K - 1) / K of
+the true one.
 """
 
 from __future__ import annotations
 
 from collections.abc import Sequence
+from contextlib import suppress
 from dataclasses import dataclass
 from typing import Any
 
@@ -26,12 +27,13 @@ import numpy as np
 
 from calibgui.engine.calibrate import calibrate
 from calibgui.engine.errors import CalibrationError
-from calibgui.engine.observations import pack
+from calibgui.engine.repetition import as_drawn
 from calibgui.engine.resection import resected
 from calibgui.engine.types import (
     Array,
     Calibration,
     Camera,
+    Cost,
     IntArray,
     Observation,
     Plate,
@@ -238,19 +240,17 @@ def bootstrap(
     Raises:
         CalibrationError: if the views themselves, or nine draws in ten, cannot be calibrated.
     """
-    reported = calibrate(views, size, **settings).sigma
+    whole = calibrate(views, size, **settings)
     seen = [Observation(*view) for view in views]
-    pack(seen)
     rng = np.random.default_rng(seed)
     settings = {name: settings[name] for name in settings.keys() - {"names", "report"}}
+    if whole.plate is None and whole.cost is Cost.IMAGE:
+        settings["plate"] = as_drawn(seen)
     params = []
     for _ in range(draws):
-        times = np.bincount(rng.integers(len(seen), size=len(seen)), minlength=len(seen))
-        drawn = [_repeated(view, m) for view, m in zip(seen, times, strict=True) if m]
-        try:
+        drawn = [seen[k] for k in rng.integers(len(seen), size=len(seen)).tolist()]
+        with suppress(CalibrationError):
             params.append(calibrate(drawn, size, **settings).camera.params)
-        except CalibrationError:
-            continue
     if len(params) < max(2, draws // 10):
         raise CalibrationError(
             "Resampled views do not determine the camera: too few of them carry the result.",
@@ -258,11 +258,5 @@ def bootstrap(
         )
     sigma = np.std(params, axis=0, ddof=1) * np.sqrt(len(seen) / (len(seen) - 1))
     with np.errstate(divide="ignore", invalid="ignore"):
-        ratio = np.where(reported > 0, sigma / reported, np.nan)
+        ratio = np.where(whole.sigma > 0, sigma / whole.sigma, np.nan)
     return Bootstrap(np.array(params), sigma, ratio, draws - len(params))
-
-
-def _repeated(view: Observation, times: int) -> Observation:
-    """A view that counts as often as it was drawn."""
-    cov = np.broadcast_to(np.eye(2), (len(view.uv), 2, 2)) if view.cov is None else view.cov
-    return view._replace(cov=cov / times)

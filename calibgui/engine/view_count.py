@@ -12,19 +12,20 @@ earnest: their estimates scatter about the one from all K views with a variance 
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from contextlib import suppress
 from dataclasses import dataclass
 
 import numpy as np
 
-from calibgui.engine.calibrate import calibrate, parameter_names
+from calibgui.engine.calibrate import calibrate
 from calibgui.engine.errors import CalibrationError
+from calibgui.engine.repetition import as_drawn, settings_of
 from calibgui.engine.types import (
     Array,
     Calibration,
+    Cost,
     IntArray,
     Observation,
-    Plate,
-    PlateModel,
     frozen,
     frozen_int,
 )
@@ -172,17 +173,17 @@ def _scatter(
     """(n, 2) one sigma of centre and focal length from sets that are calibrated."""
     K = len(views)
     sigma = np.full((len(counts), 2), np.nan)
-    # A nominal plate that is held is not doubted again in every set, which would take long.
-    plate = calibration.plate or _as_drawn(views)
+    settings = settings_of(calibration)
+    if calibration.cost is Cost.IMAGE:
+        settings["plate"] = calibration.plate or as_drawn(views)
     sizes = [i for i, n in enumerate(counts) if _FEWEST <= n < K]
     for done, i in enumerate(sizes):
         n = int(counts[i])
         moved = []
         for members in _drawn(rng, K, n, solved):
-            found = _recalibrated(
-                calibration, [views[k] for k in np.flatnonzero(members).tolist()], plate
-            )
-            if found is not None:
+            some = [views[k] for k in np.flatnonzero(members).tolist()]
+            with suppress(CalibrationError):  # too few, or too much alike
+                found = calibrate(some, calibration.camera.size, **settings).camera.params
                 moved.append(found[:4] - calibration.camera.params[:4])
         if len(moved) > solved / 2:
             squares = np.mean(np.square(moved), axis=0) / (1 - n / K)
@@ -190,34 +191,3 @@ def _scatter(
         if progress is not None:
             progress(done + 1, len(sizes))
     return sigma
-
-
-def _as_drawn(views: Sequence[Observation]) -> Plate:
-    """The nominal plate."""
-    places = np.unique(np.round(np.concatenate([view.xy for view in views]), 9), axis=0)
-    none = np.zeros((len(places), 3))
-    return Plate(PlateModel.NOMINAL, places, none, none)
-
-
-def _recalibrated(
-    calibration: Calibration, views: Sequence[Observation], plate: Plate
-) -> Array | None:
-    """Camera parameters from some views, on a plate that is held; None if they do not suffice."""
-    camera = calibration.camera
-    names = parameter_names(camera.model)
-    held = {
-        n: float(x) for n, x in zip(names, camera.params, strict=True) if n in calibration.fixed
-    }
-    try:
-        result = calibrate(
-            views,
-            camera.size,
-            cost=calibration.cost,
-            model=camera.model,
-            fix=held,
-            free=[name for name in names if name not in held],
-            plate=plate,
-        )
-    except CalibrationError:
-        return None
-    return result.camera.params

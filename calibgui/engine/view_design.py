@@ -23,7 +23,7 @@ import numpy as np
 
 from calibgui.engine.information import Information, free_parameters, information
 from calibgui.engine.lens import MODELS
-from calibgui.engine.projection_uncertainty import propagated, sensitivity, worst_direction
+from calibgui.engine.projection_uncertainty import propagated, sensitivity
 from calibgui.engine.types import Array, Calibration, Camera, IntArray, Observation, PlateModel
 
 _MESH = (8, 6)
@@ -80,15 +80,14 @@ class Design:
         return np.asarray(variance.mean(axis=-1))
 
     def numbers(self, chosen: Array) -> Array:
-        """(..., 3) one sigma of centre, focal length (rms of x and y) and projection (median), px.
+        """(..., 3) one sigma of centre, focal length (rms of x and y) and projection (rms), px.
 
         A parameter that is held counts as known.
         """
         variance = np.zeros((*chosen.shape[:-1], len(self.camera.params)))
         variance[..., self.free] = np.diagonal(self.covariance(chosen), axis1=-2, axis2=-1)
         focal, centre = variance[..., :2].mean(axis=-1), variance[..., 2:4].mean(axis=-1)
-        projection = np.median(worst_direction(self.projection(chosen)), axis=-1)
-        return np.stack([np.sqrt(centre), np.sqrt(focal), projection], axis=-1)
+        return np.sqrt(np.stack([centre, focal, self.loss(chosen)], axis=-1))
 
 
 def design(calibration: Calibration, views: Sequence[Observation]) -> Design:

@@ -23,6 +23,23 @@ def test_the_views_add_up_to_the_covariance(cost: Cost) -> None:
     assert relative(result.noise**2 * np.linalg.inv(S) / unit, expected / unit) < 1e-6
 
 
+@pytest.mark.parametrize("claimed", [0.05, 0.2, 0.5])  # of 0.2 px: a floor, none, and too much
+def test_weights_are_those_of_the_calibration(claimed: float) -> None:
+    rng = np.random.default_rng(1)
+    views = [
+        view._replace(
+            cov=claimed**2 * rng.uniform(0.5, 2.0, len(view.uv))[:, None, None] * np.eye(2)
+        )
+        for view in scene(barrel(), 6).noisy(0.2, rng)
+    ]
+    result = calibrate(views, barrel().size)
+    free = free_parameters(result)
+    S = information(result, views).camera.sum(axis=0)
+    expected = result.covariance[np.ix_(free, free)]
+    unit = np.sqrt(np.outer(np.diag(expected), np.diag(expected)))
+    assert relative(result.noise**2 * np.linalg.inv(S) / unit, expected / unit) < 5e-3
+
+
 def test_motions_of_the_views_have_the_poses_covariances() -> None:
     views = scene(barrel(), 6).noisy(0.2, np.random.default_rng(1))
     result = calibrate(views, barrel().size)

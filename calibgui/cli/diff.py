@@ -1,0 +1,84 @@
+"""Compare two calibrations: where would camera B see what camera A sees?"""
+
+from __future__ import annotations
+
+import argparse
+import math
+from pathlib import Path
+
+import numpy as np
+
+from calibgui.app.outputs import check_writable, save_figure
+from calibgui.cli.arguments import positive
+from calibgui.cli.console import Console
+from calibgui.engine.difference import Difference, difference
+from calibgui.engine.projection_uncertainty import projection_uncertainty
+from calibgui.formats.result import Result
+from calibgui.formats.result_json import read_result
+from calibgui.report import quality
+
+_MEDIAN_LENGTH = math.sqrt(2 * math.log(2))
+"""Of a difference with independent components of unit variance."""
+
+
+def configure(parser: argparse.ArgumentParser) -> None:
+    """Describe the arguments."""
+    parser.add_argument("a", type=Path, metavar="A", help="result.json of a camera")
+    parser.add_argument("b", type=Path, metavar="B", help="another result.json of it")
+    parser.add_argument(
+        "--distance",
+        type=positive,
+        default=math.inf,
+        metavar="MM",
+        help="of the points that are compared (default: far away)",
+    )
+    parser.add_argument(
+        "--covered",
+        action="store_true",
+        help="compare only where A's views have corners, not over the whole image",
+    )
+    parser.add_argument("-o", "--output", type=Path, metavar="FILE", help="draw the map (.png ...)")
+
+
+def run(options: argparse.Namespace, console: Console) -> None:
+    """Read both, compare, draw and print."""
+    if options.output:
+        check_writable(options.output)
+    a, b = read_result(options.a), read_result(options.b)
+    found = difference(
+        a.calibration.camera,
+        b.calibration.camera,
+        options.distance,
+        a.observations() if options.covered else None,
+    )
+    expected = _expected(a, b, found)
+    text = quality.difference(found, expected)
+    if options.output:
+        from calibgui.report import quality_figures  # matplotlib takes a while to import
+
+        save_figure(quality_figures.difference(found), options.output)
+        text += f"\n\nWrote {options.output}."
+    console.answer(
+        {
+            "distance_mm": found.distance if math.isfinite(found.distance) else None,
+            "rms_px": found.rms,
+            "median_px": found.median,
+            "worst_px": found.worst,
+            "expected_median_px": expected,
+            "rvec_b_from_a": found.turn,
+            "tvec_b_from_a_mm": found.shift,
+            "u": found.u,
+            "v": found.v,
+            "vector_px": found.vector,
+        }
+    )
+    console.say(text)
+
+
+def _expected(a: Result, b: Result, found: Difference) -> float:
+    """Median length, px, of the difference that both uncertainties explain."""
+    sigma = [
+        projection_uncertainty(one.calibration, one.observations(), found.distance).rms
+        for one in (a, b)
+    ]
+    return float(_MEDIAN_LENGTH * np.nanmedian(np.hypot(*sigma)[found.region]))

@@ -1,0 +1,97 @@
+"""Show how far a calibration can be trusted: projection uncertainty and the look of residuals."""
+
+from __future__ import annotations
+
+import argparse
+import math
+from pathlib import Path
+
+from threadpoolctl import threadpool_limits
+
+from calibgui.app.calibration import short_names
+from calibgui.app.outputs import check_writable, save_figure
+from calibgui.cli.arguments import positive
+from calibgui.cli.console import Console
+from calibgui.engine.noise import examine
+from calibgui.engine.projection_uncertainty import projection_uncertainty
+from calibgui.engine.repetition import settings_of
+from calibgui.engine.types import PlateModel
+from calibgui.engine.validation import bootstrap, choose_plate, cross_validate
+from calibgui.formats.result import Result
+from calibgui.formats.result_json import read_result
+from calibgui.report import quality
+
+
+def configure(parser: argparse.ArgumentParser) -> None:
+    """Describe the arguments."""
+    parser.add_argument("result", type=Path, metavar="RESULT", help="result.json of the camera")
+    parser.add_argument(
+        "--distance",
+        type=positive,
+        default=math.inf,
+        metavar="MM",
+        help="of the points that the camera will look at (default: far away)",
+    )
+    parser.add_argument(
+        "--limit",
+        type=positive,
+        default=0.1,
+        metavar="PX",
+        help="uncertainty that you can live with; the region within it is measured (default 0.1)",
+    )
+    parser.add_argument(
+        "--validate",
+        action="store_true",
+        help="calibrate again without some of the views and try these, with every model of the "
+        "plate, and from resampled views",
+    )
+    parser.add_argument("-o", "--output", type=Path, metavar="FILE", help="draw the map (.png ...)")
+
+
+def run(options: argparse.Namespace, console: Console) -> None:
+    """Read, propagate, examine, draw and print."""
+    if options.output:
+        check_writable(options.output)
+    result = read_result(options.result)
+    views = result.observations()
+    with threadpool_limits(1):
+        found = projection_uncertainty(result.calibration, views, options.distance)
+        report = examine(result.calibration, views, short_names(result.used))
+        sections = [quality.projection(found, options.limit), quality.noise(report)]
+        if options.validate:
+            sections += _validated(result)
+    if options.output:
+        from calibgui.report import quality_figures  # matplotlib takes a while to import
+
+        save_figure(quality_figures.uncertainty(found, views, options.limit), options.output)
+        sections.append(f"Wrote {options.output}.")
+    cause = report.cause
+    console.answer(
+        {
+            "distance_mm": found.distance if math.isfinite(found.distance) else None,
+            "centre_px": found.centre,
+            "median_px": found.median,
+            "worst_px": found.worst,
+            "limit_px": options.limit,
+            "fraction_within_limit": found.fraction(options.limit),
+            "u": found.u,
+            "v": found.v,
+            "worst_direction_px": found.worst_direction,
+            "noise": {check.name: check.passed for check in report.checks},
+            "cause": None if cause is None else {"name": cause.name, "advice": cause.advice},
+        }
+    )
+    console.say("\n\n".join(sections))
+
+
+def _validated(result: Result) -> list[str]:
+    """What calibrations from other views say."""
+    calibration, views = result.calibration, result.observations()
+    size, settings = calibration.camera.size, settings_of(calibration)
+    sections = [
+        quality.validation(cross_validate(views, size, min(5, len(views)), **settings)),
+        quality.resampled(bootstrap(views, size, **settings), calibration),
+    ]
+    if settings.pop("plate") is PlateModel.NOMINAL and calibration.cost == "image":
+        sections.append(quality.plates(choose_plate(views, size, min(5, len(views)), **settings)))
+    return sections

@@ -1,0 +1,125 @@
+"""Maps over the image of what a calibration can be trusted with, drawn with matplotlib."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from matplotlib.ticker import FuncFormatter, MaxNLocator
+from scipy.spatial import ConvexHull
+
+from calibgui.engine.difference import Difference
+from calibgui.engine.next_view import NextView
+from calibgui.engine.projection_uncertainty import ProjectionUncertainty
+from calibgui.engine.types import Array, Observation, Size
+from calibgui.engine.view_count import QUANTITIES, ViewCount
+from calibgui.report.quality import where
+
+_WIDTH = 6.4
+
+
+def uncertainty(found: ProjectionUncertainty, views: Sequence[Observation], limit: float) -> Figure:
+    """Projection uncertainty over the image, the region within `limit` px, and the corners."""
+    figure, axes = _map(found.size)
+    sigma = np.array(found.worst_direction)
+    _filled(figure, axes, found.u, found.v, sigma, "one sigma, px")
+    if np.nanmin(sigma) < limit < np.nanmax(sigma):
+        axes.contour(found.u, found.v, sigma, levels=[limit], colors="red", linewidths=2)
+        axes.plot([], [], color="red", linewidth=2, label=f"{limit:g} px")
+        axes.legend(loc="upper right")
+    for view in views:
+        axes.plot(*view.uv.T, ".", color="white", markersize=1.0, alpha=0.5)
+    axes.set_title(
+        f"Uncertainty of where points {where(found.distance)} are imaged, "
+        f"median {found.median:.2g} px"
+    )
+    return figure
+
+
+def difference(found: Difference) -> Figure:
+    """Difference of two cameras over the image, with arrows from A to B and the region compared."""
+    figure, axes = _map(found.size)
+    length = np.array(found.length)
+    _filled(figure, axes, found.u, found.v, length, "difference, px")
+    if not found.region.all():
+        axes.contour(
+            found.u, found.v, found.region.astype(float), levels=[0.5], colors="red", linewidths=1.5
+        )
+    step = (slice(2, None, 4), slice(2, None, 4))
+    u, v = np.meshgrid(found.u, found.v)
+    du, dv = np.moveaxis(found.vector, -1, 0)
+    axes.quiver(u[step], v[step], du[step], dv[step], angles="xy", color="white", width=0.003)
+    axes.set_title(
+        f"B against A for points {where(found.distance)}: median {found.median:.2g} px, "
+        f"rms {found.rms:.2g} px"
+    )
+    return figure
+
+
+def view_count(study: ViewCount, limit: float) -> Figure:
+    """One sigma of principal point, focal length and projection against the number of views."""
+    figure = Figure(figsize=(2 * _WIDTH, 4.2), layout="constrained")
+    for column, (axes, name) in enumerate(zip(figure.subplots(1, 3), QUANTITIES, strict=True)):
+        low, middle, high = study.random[:, :, column].T
+        axes.fill_between(study.counts, low, high, color="0.85", label="random, 10 to 90 %")
+        axes.plot(study.counts, middle, color="0.4", label="random, median")
+        axes.plot(study.counts, study.chosen[:, column], color="tab:blue", label="well chosen")
+        if column < study.scatter.shape[1]:
+            axes.plot(
+                study.counts, study.scatter[:, column], "o", color="tab:red", markersize=4,
+                label="scatter of random sets, calibrated",
+            )  # fmt: skip
+        axes.axhline(limit, color="tab:green", linewidth=0.8, linestyle="--", label=f"{limit:g} px")
+        axes.set(xscale="log", yscale="log", xlabel="views", ylabel="one sigma, px", title=name)
+        _plain_numbers(axes)
+        axes.grid(alpha=0.3, which="both")
+    figure.axes[-1].legend(*figure.axes[0].get_legend_handles_labels(), fontsize=8)
+    return figure
+
+
+def next_views(proposed: Sequence[NextView], views: Sequence[Observation], size: Size) -> Figure:
+    """Where to hold the board next, over the corners that there are."""
+    figure, axes = _map(size)
+    for view in views:
+        axes.plot(*view.uv.T, ".", color="0.75", markersize=1.5)
+    for number, one in enumerate(proposed, start=1):
+        colour = f"C{number - 1}"
+        axes.plot(*one.corners.T, ".", color=colour, markersize=3)
+        outline = one.corners[ConvexHull(one.corners).vertices]
+        axes.fill(*outline.T, facecolor="none", edgecolor=colour, linewidth=1.8)
+        axes.plot([], [], color=colour, label=f"{number}: to {one.after:.2g} px")
+        box = {"facecolor": "white", "edgecolor": colour}
+        u, v = one.corners.mean(axis=0)
+        axes.text(u, v, str(number), color=colour, bbox=box)
+    axes.legend(loc="upper right")
+    axes.set(title="Where to hold the board next", xlim=(0, size[0] - 1), ylim=(size[1] - 1, 0))
+    return figure
+
+
+def _map(size: Size) -> tuple[Figure, Axes]:
+    """A figure in the image's proportions, v down."""
+    w, h = size
+    figure = Figure(figsize=(_WIDTH * 1.2, 0.9 * _WIDTH * h / w + 1.0), layout="constrained")
+    axes = figure.subplots()
+    axes.set(aspect="equal", xlabel="u, px", ylabel="v, px")
+    return figure, axes
+
+
+def _filled(figure: Figure, axes: Axes, u: Array, v: Array, values: Array, label: str) -> None:
+    """Filled contours up to a height that leaves the image's middle readable."""
+    top = float(min(np.nanmax(values), 4 * np.nanmedian(values)))
+    levels = MaxNLocator(12).tick_values(0.0, max(top, 1e-9))
+    shown = axes.contourf(u, v, values, levels=levels, extend="max", cmap="viridis")
+    axes.invert_yaxis()
+    figure.colorbar(shown, ax=axes, label=label, shrink=0.85)
+
+
+def _plain_numbers(axes: Axes) -> None:
+    """Numbers of a logarithmic axis without powers of ten."""
+    for axis in (axes.xaxis, axes.yaxis):
+        axis.set_major_formatter(FuncFormatter(lambda x, _: f"{x:g}"))
+        axis.set_minor_formatter(
+            FuncFormatter(lambda x, _: f"{x:g}" if str(x).lstrip("0.")[:1] in "25" else "")
+        )

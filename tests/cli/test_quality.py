@@ -1,0 +1,103 @@
+"""calibgui uncertainty, diff and views: numbers, figures and sentences."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+
+import pytest
+
+from calibgui.cli.main import main
+
+Capture = pytest.CaptureFixture[str]
+
+
+@pytest.fixture(scope="module")
+def held_file(corners_file: Path) -> Path:
+    """result.json of the same corners with fewer coefficients."""
+    file = corners_file.with_name("held.json")
+    assert main(["calibrate", str(corners_file), "--fix", "k2,k3", "-q", "-o", str(file)]) == 0
+    return file
+
+
+def test_uncertainty_prints_and_draws(
+    result_file: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: Capture
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    picture = Path("map.png")
+    options = ["--distance", "700", "--limit", "0.5", "-o", str(picture)]
+    assert main(["uncertainty", str(result_file), *options]) == 0
+    out = capsys.readouterr().out
+    assert "points 700 mm away" in out
+    assert "known to 0.5 px or better" in out
+    assert "Do the residuals look like noise?" in out
+    assert max(map(len, out.splitlines())) <= 80
+    assert picture.stat().st_size > 10_000
+
+
+def test_uncertainty_as_json(result_file: Path, capsys: Capture) -> None:
+    assert main(["uncertainty", str(result_file), "--json"]) == 0
+    answer = json.loads(capsys.readouterr().out)
+    assert answer["distance_mm"] is None
+    assert answer["centre_px"] <= answer["worst_px"]
+    assert len(answer["worst_direction_px"]) == len(answer["v"])
+    assert set(answer["noise"].values()) <= {True, False}
+
+
+@pytest.mark.slow
+def test_uncertainty_validates(result_file: Path, capsys: Capture) -> None:
+    assert main(["uncertainty", str(result_file), "--validate"]) == 0
+    out = capsys.readouterr().out
+    for title in ("Cross-validation", "resamplings of the views", "Plate models on unseen views"):
+        assert title in out
+    assert max(map(len, out.splitlines())) <= 80
+
+
+def test_diff(
+    result_file: Path,
+    held_file: Path,
+    tmp_path: Path,
+    monkeypatch: pytest.MonkeyPatch,
+    capsys: Capture,
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    picture = Path("difference.png")
+    both = [str(result_file), str(held_file)]
+    assert main(["diff", *both, "--covered", "--distance", "700", "-o", str(picture)]) == 0
+    out = capsys.readouterr().out
+    assert "shifted by" in out
+    assert max(map(len, out.splitlines())) <= 80
+    assert picture.stat().st_size > 10_000
+    assert main(["diff", both[0], both[0], "--json"]) == 0
+    answer = json.loads(capsys.readouterr().out)
+    assert answer["worst_px"] == pytest.approx(0, abs=1e-9)
+    assert answer["expected_median_px"] > 0
+
+
+@pytest.mark.slow
+def test_views(
+    result_file: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: Capture
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    curves, poses = Path("curves.png"), Path("next.png")
+    options = ["--limit", "1", "-o", str(curves), "--next", str(poses)]
+    assert main(["views", str(result_file), *options]) == 0
+    out = capsys.readouterr().out
+    assert "The principal point is" in out
+    assert "Hold the board" in out
+    assert max(map(len, out.splitlines())) <= 80
+    assert min(curves.stat().st_size, poses.stat().st_size) > 10_000
+
+
+@pytest.mark.parametrize("option", ["--distance", "--limit"])
+def test_distances_and_limits_are_positive(result_file: Path, option: str) -> None:
+    with pytest.raises(SystemExit):
+        main(["uncertainty", str(result_file), option, "0"])
+
+
+@pytest.mark.parametrize("command", ["uncertainty", "views"])
+def test_a_place_that_cannot_be_written_is_told_first(
+    command: str, result_file: Path, tmp_path: Path, capsys: Capture
+) -> None:
+    assert main([command, str(result_file), "-o", str(tmp_path / "no" / "map.png")]) == 1
+    assert "does not exist" in capsys.readouterr().err

@@ -1,0 +1,90 @@
+"""What the tables and sentences about trust say, and the figures that go with them."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from calibgui.engine.calibrate import calibrate
+from calibgui.engine.difference import difference
+from calibgui.engine.noise import examine
+from calibgui.engine.projection_uncertainty import projection_uncertainty
+from calibgui.engine.types import Calibration, Observation
+from calibgui.engine.validation import bootstrap, choose_plate, cross_validate
+from calibgui.engine.view_count import ViewCount, study
+from calibgui.report import quality, quality_figures
+from tests.engine.scenes import barrel, scene
+
+Calibrated = tuple[Calibration, list[Observation]]
+
+
+@pytest.fixture(scope="module")
+def calibrated() -> Calibrated:
+    views = scene(barrel(), 8, seed=1).noisy(0.2, np.random.default_rng(2))
+    return calibrate(views, barrel().size), views
+
+
+def test_tables_fit_a_terminal(calibrated: Calibrated) -> None:
+    result, views = calibrated
+    size = barrel().size
+    texts = [
+        quality.projection(projection_uncertainty(result, views, 500.0), 0.1),
+        quality.noise(examine(result, views)),
+        quality.validation(cross_validate(views, size, 4)),
+        quality.plates(choose_plate(views, size, 3)),
+        quality.resampled(bootstrap(views, size, 12), result),
+        quality.difference(difference(barrel(), result.camera, 500.0), 0.1),
+        quality.view_count(study(result, views, solved=4), 0.5),
+    ]
+    for text in texts:
+        assert max(map(len, text.splitlines())) <= 80, text
+    assert "Nothing speaks against" in texts[1]
+
+
+def test_a_held_parameter_is_not_resampled(calibrated: Calibrated) -> None:
+    _, views = calibrated
+    result = calibrate(views, barrel().size, fix=["cx", "cy"])
+    text = quality.resampled(bootstrap(views, barrel().size, 12, fix=["cx", "cy"]), result)
+    assert "fx" in text
+    assert "cx" not in text
+
+
+def test_differences_are_judged_by_what_is_expected(calibrated: Calibrated) -> None:
+    found = difference(barrel(), calibrated[0].camera)
+    assert "agree" in quality.difference(found, found.median)
+    assert "4.0 times" in quality.difference(found, found.median / 4)
+
+
+def _count(scatter: float) -> ViewCount:
+    counts = np.arange(2, 17)
+    sigma = np.repeat((2 / np.sqrt(counts))[:, None], 3, axis=1)
+    return ViewCount(
+        counts=counts,
+        random=np.stack([sigma, sigma, sigma], axis=1),
+        chosen=0.5 * sigma,
+        sets=(),
+        scatter=np.repeat(4.0 * counts[:, None] ** scatter, 2, axis=1),
+    )
+
+
+def test_sentences_about_the_number_of_views() -> None:
+    said = quality.sentences(_count(-0.5), 0.8)
+    assert "known to 0.8 px from 7 random views, or 2 well-chosen ones" in said[0]
+    assert "to 0.5 px from all 16" in said[0]
+    assert "1.6 px between sets of 6 and 1 px between sets of 16" in said[3]
+    assert "no number is special" in said[3]
+    assert "no number is special" not in quality.sentences(_count(-1.5), 0.8)[3]
+    assert (
+        "is not known to 0.1 px: 0.5 px from all 16 views"
+        in quality.sentences(_count(-1.0), 0.1)[0]
+    )
+
+
+def test_figures_can_be_drawn(calibrated: Calibrated) -> None:
+    result, views = calibrated
+    found = projection_uncertainty(result, views)
+    assert quality_figures.uncertainty(found, views, found.median).axes
+    region = difference(barrel(), result.camera, views=views)
+    assert quality_figures.difference(region).axes
+    assert quality_figures.difference(difference(barrel(), barrel())).axes
+    assert len(quality_figures.view_count(_count(-0.5), 0.5).axes) == 3
