@@ -16,7 +16,7 @@ from pathlib import Path
 from threading import Event
 
 from calibgui.app.workers import Crashed, spread
-from calibgui.engine.corners import find_corners
+from calibgui.engine.corners import METHODS, find_corners
 from calibgui.engine.errors import CalibrationError, NoBoardError
 from calibgui.engine.images import image_size, read_image
 from calibgui.engine.types import Array, Size, Target, View, ViewStatus
@@ -62,6 +62,7 @@ def find_views(
     progress: Progress | None = None,
     stop: Event | None = None,
     size: Size | None = None,
+    method: str = METHODS[0],
 ) -> Detection:
     """Search all images for the board, on all processors.
 
@@ -72,6 +73,7 @@ def find_views(
         progress: told of each image searched; those searched again add to the total.
         stop: abandons the search within 0.2 s when set.
         size: width and height of the camera's images; the most frequent ones if None.
+        method: of locating corners, one of ``corners.METHODS``.
 
     Raises:
         Cancelled: if `stop` was set.
@@ -82,7 +84,7 @@ def find_views(
 
     def search(which: Sequence[int], board: Board | None, before: int = 0) -> None:
         items = [views[k] for k in which]
-        results = spread(partial(search_view, board=board), items, stop)
+        results = spread(partial(search_view, board=board, method=method), items, stop)
         for done, (i, view) in enumerate(results, start=before + 1):
             views[which[i]] = _crashed(items[i]) if isinstance(view, Crashed) else view
             if progress is not None:
@@ -96,14 +98,14 @@ def find_views(
     return Detection(tuple(views), size, board)
 
 
-def search_view(view: View, board: Board | None = None) -> View:
+def search_view(view: View, board: Board | None = None, method: str = METHODS[0]) -> View:
     """The view with the corners found in its image, or with the reason why there are none."""
     try:
         pixels = read_image(view.image).pixels
     except CalibrationError as error:
         return _without_corners(view, ViewStatus.UNREADABLE, str(error))
     try:
-        corners = find_corners(pixels, board, view.roi)
+        corners = find_corners(pixels, board, view.roi, method)
     except NoBoardError as error:
         return _without_corners(view, ViewStatus.NO_BOARD, str(error))
     return replace(view, status=ViewStatus.FOUND, reason="", corners=corners)

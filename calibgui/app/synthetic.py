@@ -25,7 +25,7 @@ from scipy.spatial import cKDTree
 from calibgui import engine
 from calibgui.app.workers import Crashed, spread
 from calibgui.engine.calibrate import HELD
-from calibgui.engine.corners import find_corners
+from calibgui.engine.corners import METHODS, find_corners
 from calibgui.engine.errors import CalibrationError, NoBoardError
 from calibgui.engine.maps import project_points
 from calibgui.engine.render import Appearance, render
@@ -138,7 +138,8 @@ def _found_again(
     predicted = project_points(observed.xy, camera, pose)
     grid = np.rint(observed.xy[:, ::-1] / target.square).astype(np.int64)
     try:
-        found = find_corners(image, (target.rows, target.cols))
+        method = METHODS[0] if real.corners is None else real.corners.method
+        found = find_corners(image, (target.rows, target.cols), method=method)
         return replace(real, corners=_numbered(found, grid, predicted), points=None)
     except NoBoardError as error:
         return _lost(real, str(error))

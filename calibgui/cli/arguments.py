@@ -11,6 +11,7 @@ from calibgui.app.detection import Board, Detection, find_views
 from calibgui.app.paths import find_images
 from calibgui.app.regions import read_regions
 from calibgui.cli.console import Console
+from calibgui.engine.corners import METHODS
 from calibgui.engine.corners.finder import MIN_LINES
 
 
@@ -60,9 +61,26 @@ def add_search(parser: argparse.ArgumentParser) -> None:
         help="JSON file {image name: [[u, v] x 4]}: the board's four outermost corners, px",
     )
 
+    add_method(parser)
+
+
+def add_method(parser: argparse.ArgumentParser) -> None:
+    """How corners are to be located."""
+    parser.add_argument(
+        "--corners",
+        choices=METHODS,
+        default=METHODS[0],
+        help="locate corners by their edges (default), or as the paper does, by the saddle point "
+        "of the grey levels",
+    )
+
 
 def search(
-    console: Console, paths: Iterable[str], board: Board | None = None, roi: Path | None = None
+    console: Console,
+    paths: Iterable[str],
+    board: Board | None = None,
+    roi: Path | None = None,
+    corners: str = METHODS[0],
 ) -> Detection:
     """Find the images that are meant and search them for the board, showing progress.
 
@@ -72,4 +90,6 @@ def search(
     images = find_images(paths)
     rois = read_regions(roi, images) if roi else {}
     with console.progress("searching") as advance:
-        return find_views(images, board, rois, lambda done, total, _: advance(done, total))
+        return find_views(
+            images, board, rois, lambda done, total, _: advance(done, total), method=corners
+        )

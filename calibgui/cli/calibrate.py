@@ -136,7 +136,7 @@ def _corner_set(options: argparse.Namespace, console: Console) -> CornerSet:
         return _from_corners_file(options)
     if options.square is None:
         options.usage_error("--square MM, the side of the board's squares, is needed")
-    detection = search(console, options.paths, options.board, options.roi)
+    detection = search(console, options.paths, options.board, options.roi, options.corners)
     return detection.corner_set(options.square)
 
 

@@ -30,7 +30,7 @@ def run(options: argparse.Namespace, console: Console) -> None:
     """Search, write and print."""
     if options.output:
         check_writable(options.output)
-    detection = search(console, options.paths, options.board, options.roi)
+    detection = search(console, options.paths, options.board, options.roi, options.corners)
     corner_set = detection.corner_set(options.square or 1.0)
     if not any(view.usable for view in corner_set.views):
         console.problem(tables.unused(corner_set.views))

@@ -9,7 +9,7 @@ from pathlib import Path
 from calibgui.app.calibration import calibrate_views
 from calibgui.app.outputs import make_folder, save_figure
 from calibgui.app.synthetic import synthetic_check
-from calibgui.cli.arguments import search
+from calibgui.cli.arguments import add_method, search
 from calibgui.cli.console import Console
 from calibgui.engine.files import write_atomically
 from calibgui.engine.types import Cost
@@ -27,6 +27,7 @@ _SQUARE = 30.0
 def configure(parser: argparse.ArgumentParser) -> None:
     """Describe the arguments."""
     parser.add_argument("folder", metavar="DIR", type=Path, help="of Image1.tif to Image25.tif")
+    add_method(parser)
     parser.add_argument(
         "-o", "--output", type=Path, required=True, metavar="OUT", help="folder to write to"
     )
@@ -61,6 +62,7 @@ def run(options: argparse.Namespace, console: Console) -> None:
 
 def _calibrated(options: argparse.Namespace, console: Console) -> tuple[Result, Result]:
     """The paper's formulation and the default one, on the images named Image<number>."""
-    detection = search(console, [str(options.folder / "Image[0-9]*")], _BOARD)
+    images = [str(options.folder / "Image[0-9]*")]
+    detection = search(console, images, _BOARD, corners=options.corners)
     corner_set = detection.corner_set(_SQUARE)
     return calibrate_views(corner_set, cost=Cost.PAPER), calibrate_views(corner_set)
