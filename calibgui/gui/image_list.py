@@ -4,8 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import replace
-from functools import lru_cache
-from pathlib import Path, PurePath
+from pathlib import PurePath
 
 from PySide6.QtCore import (
     QItemSelectionModel,
@@ -31,12 +30,11 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
-from calibgui.app.paths import natural_key
 from calibgui.app.project import with_each, without_views
 from calibgui.engine.types import View
 from calibgui.gui import theme
 from calibgui.gui.actions import make_action
-from calibgui.gui.image_model import THUMBNAIL, ImageModel, Role
+from calibgui.gui.image_model import THUMBNAIL, Criterion, ImageModel, Role
 from calibgui.gui.session import Session
 
 _PAD = 4
@@ -135,21 +133,20 @@ _RIGHT = Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter
 
 
 class _Order(QSortFilterProxyModel):
-    """Sorts by the criterion of that number."""
+    """Shows the images in the order of `criterion`."""
 
-    criterion = 0
+    criterion = Criterion.NAME
+
+    def __init__(self, model: ImageModel) -> None:
+        super().__init__(model)
+        self._model = model
+        self.setSourceModel(model)
+        self.setDynamicSortFilter(True)
+        self.sort(0)
 
     def lessThan(self, left: Index, right: Index) -> bool:  # noqa: N802 - Qt's name
-        return bool(self._key(left) < self._key(right))
-
-    def _key(self, index: Index) -> tuple[object, ...]:
-        rms = index.data(Role.RMS)
-        name = _name_key(index.data(Role.PATH))
-        return (
-            (name,),
-            (index.data(Role.STATUS), name),
-            (-(rms if rms is not None else -1.0), name),
-        )[self.criterion]
+        key = self._model.sort_key
+        return key(left.row(), self.criterion) < key(right.row(), self.criterion)
 
 
 class ImageList(QWidget):
@@ -162,10 +159,7 @@ class ImageList(QWidget):
         super().__init__()
         self._session = session
         self._model = ImageModel(session)
-        self._order = _Order(self)
-        self._order.setSourceModel(self._model)
-        self._order.setDynamicSortFilter(True)
-        self._order.sort(0)
+        self._order = _Order(self._model)
         self.list = QListView()
         self.list.setModel(self._order)
         self.list.setItemDelegate(_Delegate(self._model))
@@ -242,7 +236,7 @@ class ImageList(QWidget):
             self.exclude([v.image for v in views], enabled=not any(v.enabled for v in views))
 
     def _sort_by(self, criterion: int) -> None:
-        self._order.criterion = criterion
+        self._order.criterion = Criterion(criterion)
         self._order.invalidate()
 
     def _current_changed(self, current: QModelIndex) -> None:
@@ -262,11 +256,6 @@ class ImageList(QWidget):
         if index.isValid() and index != self.list.currentIndex():
             flags = QItemSelectionModel.SelectionFlag.ClearAndSelect
             self.list.selectionModel().setCurrentIndex(index, flags)
-
-
-@lru_cache(8192)
-def _name_key(path: str) -> list[tuple[str, int]]:
-    return natural_key(Path(path))
 
 
 def _named(images: list[str]) -> str:

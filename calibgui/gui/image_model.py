@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from enum import IntEnum
-from pathlib import PurePath
+from functools import lru_cache
+from pathlib import Path, PurePath
 from typing import Any
 
 from PySide6.QtCore import (
@@ -17,6 +18,7 @@ from PySide6.QtCore import (
 from PySide6.QtGui import QColor, QImage, QPixmap
 
 from calibgui.app.image_store import Thumbnail, read_thumbnail
+from calibgui.app.paths import natural_key
 from calibgui.app.project import Project, with_digests
 from calibgui.engine.types import Ambiguity, View, ViewStatus
 from calibgui.formats.result import Result
@@ -37,6 +39,14 @@ class Role(IntEnum):
     RMS = Qt.ItemDataRole.UserRole + 2
     """Px, of the shown result; None if the view has no part in it."""
     PATH = Qt.ItemDataRole.UserRole + 3
+
+
+class Criterion(IntEnum):
+    """What images are sorted by."""
+
+    NAME = 0
+    STATUS = 1
+    ERROR = 2
 
 
 def status_text(view: View) -> str:
@@ -116,6 +126,17 @@ class ImageModel(QAbstractListModel):
                 return view.image
         return None
 
+    def sort_key(self, row: int, criterion: Criterion) -> tuple[object, ...]:
+        """Key of an image among the others; equal ones stand in the order of their names."""
+        view = self._views[row]
+        name = _name_key(view.image)
+        match criterion:
+            case Criterion.STATUS:
+                return (status_text(view), name)
+            case Criterion.ERROR:
+                return (-self._rms.get(view.image, -1.0), name)
+        return (name,)
+
     def _project_changed(self, _: Project, after: Project) -> None:
         before, self._views = self._views, after.views
         same = len(before) == len(after.views) and all(
@@ -171,6 +192,11 @@ class ImageModel(QAbstractListModel):
 
         # An image that cannot be read is reported by the search for corners.
         self._session.jobs.each("", new, work, done, failed=lambda _: None, ended=ended)
+
+
+@lru_cache(8192)
+def _name_key(path: str) -> list[tuple[str, int]]:
+    return natural_key(Path(path))
 
 
 def _colour(view: View) -> QColor:

@@ -38,6 +38,7 @@ class Session(QObject):
         self.image = ""
         self.corner = -1
         self._result_name = ""
+        self._announced: Result | None = None
 
     @property
     def project(self) -> Project:
@@ -64,10 +65,8 @@ class Session(QObject):
 
     def show_result(self, name: str) -> None:
         """Show another result; the empty name stands for the newest."""
-        before = self.result
         self._result_name = name
-        if self.result is not before:
-            self.result_changed.emit(self.result)
+        self._announce_result()
 
     def edit(self, label: str, change: Change, *, sliding: bool = False) -> None:
         """Apply an edit of the user's; see ``Document.edit``."""
@@ -109,6 +108,9 @@ class Session(QObject):
             self.selected.emit(self.image, self.corner)
         else:
             self.changed.emit(before, after)
-        name = self.result_name
-        if before.results.get(name) is not after.results.get(name) or not name:
+        self._announce_result()
+
+    def _announce_result(self) -> None:
+        if self.result is not self._announced:
+            self._announced = self.result
             self.result_changed.emit(self.result)
