@@ -12,7 +12,7 @@ from enum import StrEnum
 from types import MappingProxyType
 
 from calibgui.app.detection import Board, usual_board
-from calibgui.engine.types import Cost, Size, Target, View
+from calibgui.engine.types import Cost, Plate, PlateModel, Prior, Size, Target, View
 from calibgui.formats.result import Result
 
 DEFAULT_SQUARE = 30.0
@@ -34,13 +34,20 @@ class Unit(StrEnum):
 
 @dataclass(frozen=True, slots=True)
 class Settings:
-    """How to calibrate; see ``engine.calibrate``."""
+    """How to calibrate; see ``calibrate_views``."""
 
     cost: Cost = Cost.IMAGE
     fixed: tuple[str, ...] = ()
     """Names of intrinsics to hold."""
     freed: tuple[str, ...] = ()
     """Names of intrinsics to estimate that are held by default."""
+    plate: PlateModel | Plate | None = PlateModel.NOMINAL
+    """The board's shape: a model to estimate, a plate to hold, or None for the model that
+    predicts unseen views best."""
+    prior: Prior | None = None
+    """What is known of a free plate."""
+    robust: bool = False
+    """Whether to leave outliers out."""
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -116,6 +123,20 @@ def with_result(project: Project, name: str, result: Result) -> Project:
     """The project with `result` under `name`, as the newest."""
     others = {key: value for key, value in project.results.items() if key != name}
     return replace(project, results=MappingProxyType({**others, name: result}))
+
+
+def answered(project: Project, name: str, asked: Sequence[View], result: Result) -> Project:
+    """The project with the `result` of a calibration from the views `asked`.
+
+    What the calibration left out as outliers is left out of the project's views as well: there
+    it is seen, and undo brings it back.
+    """
+    pairs = zip(asked, result.views, strict=True)
+    screened = {id(before): after for before, after in pairs if before is not after}
+    if screened:
+        views = tuple(screened.get(id(view), view) for view in project.views)
+        project = replace(project, views=views)
+    return with_result(project, name, result)
 
 
 def without_result(project: Project, name: str) -> Project:

@@ -1,9 +1,10 @@
 """A project as a JSON file beside its images.
 
-    format, version     "calibgui-project", 1
+    format, version     "calibgui-project", 2
     target              rows, cols (null: inferred from the images), square_mm, unit
     size                width and height of the images, px
-    settings            cost, fixed, freed
+    settings            cost, fixed, freed; plate (a model, "auto" or a plate as in
+                        ``plate_json.py``), prior_mm (in the plane and out of it, or null), robust
     views               as in ``views_json.py``, and the image file's sha256 where known
     results             by name, each as a result.json is (``result_json.py``)
 
@@ -24,16 +25,26 @@ from types import MappingProxyType
 from typing import Any
 
 from calibgui.app.project import Project, Settings, Unit, relocated
-from calibgui.engine.types import Cost, Target, View
+from calibgui.engine.types import Cost, Plate, PlateModel, Prior, Target, View
 from calibgui.formats.corners_json import read_size
 from calibgui.formats.json_document import Node, check_format, read, write
+from calibgui.formats.plate_json import plate_record, read_plate_record
 from calibgui.formats.result import Result
 from calibgui.formats.result_json import result_from, result_record
 from calibgui.formats.views_json import read_views, view_record
 
 FORMAT = "calibgui-project"
-VERSION = 1
-_MIGRATIONS: Mapping[int, Callable[[dict[str, Any]], dict[str, Any]]] = {}
+VERSION = 2
+_AUTO = "auto"
+
+
+def _nominal_plate(content: dict[str, Any]) -> dict[str, Any]:
+    """Version 1 knew no other plate, and no outliers."""
+    settings = {"plate": PlateModel.NOMINAL, "prior_mm": None, "robust": False}
+    return content | {"version": 2, "settings": content["settings"] | settings}
+
+
+_MIGRATIONS: Mapping[int, Callable[[dict[str, Any]], dict[str, Any]]] = {1: _nominal_plate}
 """By the version that they take: to the content of the next one."""
 
 
@@ -56,13 +67,21 @@ def project_record(project: Project, folder: Path) -> dict[str, Any]:
         "version": VERSION,
         "target": {"rows": rows, "cols": cols, **square},
         "size": project.size,
-        "settings": {
-            "cost": project.settings.cost,
-            "fixed": project.settings.fixed,
-            "freed": project.settings.freed,
-        },
+        "settings": _settings_record(project.settings),
         "views": [_view_record(view, project) for view in project.views],
         "results": {name: result_record(result) for name, result in project.results.items()},
+    }
+
+
+def _settings_record(settings: Settings) -> dict[str, Any]:
+    plate, prior = settings.plate, settings.prior
+    return {
+        "cost": settings.cost,
+        "fixed": settings.fixed,
+        "freed": settings.freed,
+        "plate": plate_record(plate) if isinstance(plate, Plate) else plate or _AUTO,
+        "prior_mm": None if prior is None else (prior.in_plane, prior.out_of_plane),
+        "robust": settings.robust,
     }
 
 
@@ -103,7 +122,7 @@ def _lattice(project: Project) -> Target:
 
 
 def _read(node: Node) -> Project:
-    target, settings = node["target"], node["settings"]
+    target = node["target"]
     rows, cols, size = target.get("rows"), target.get("cols"), node.get("size")
     if not (square := target["square_mm"]).number() > 0:
         square.fail("a length above 0")
@@ -119,14 +138,35 @@ def _read(node: Node) -> Project:
         board=(rows.integer(), cols.integer()) if rows and cols else None,
         square=square.number(),
         unit=Unit(target["unit"].choice(list(Unit))),
-        settings=Settings(
-            cost=Cost(settings["cost"].choice(list(Cost))),
-            fixed=tuple(name.text() for name in settings["fixed"].items()),
-            freed=tuple(name.text() for name in settings["freed"].items()),
-        ),
+        settings=_read_settings(node["settings"]),
         results=MappingProxyType(_read_results(node, views)),
         digests=MappingProxyType(digests),
     )
+
+
+def _read_settings(node: Node) -> Settings:
+    prior = node.get("prior_mm")
+    return Settings(
+        cost=Cost(node["cost"].choice(list(Cost))),
+        fixed=tuple(name.text() for name in node["fixed"].items()),
+        freed=tuple(name.text() for name in node["freed"].items()),
+        plate=_read_plate(node["plate"]),
+        prior=None if prior is None else _read_prior(prior),
+        robust=node["robust"].flag(),
+    )
+
+
+def _read_plate(node: Node) -> PlateModel | Plate | None:
+    if isinstance(node.value, dict):
+        return read_plate_record(node)
+    model = node.choice([*PlateModel, _AUTO])
+    return None if model == _AUTO else PlateModel(model)
+
+
+def _read_prior(node: Node) -> Prior:
+    if not (sigma := node.numbers(2)).min() > 0:
+        node.fail("two lengths above 0")
+    return Prior(*sigma.tolist())
 
 
 def _read_results(node: Node, views: tuple[View, ...]) -> dict[str, Result]:

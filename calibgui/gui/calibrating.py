@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+from functools import partial
+
 from PySide6.QtCore import QObject, Signal
 
 from calibgui.app.calibration import calibrate_views
-from calibgui.app.project import free_name, with_result
+from calibgui.app.project import answered, free_name
 from calibgui.engine.errors import CalibrationError
 from calibgui.engine.types import Iteration, Status
 from calibgui.formats.corners_json import CornerSet
@@ -78,22 +80,25 @@ class Calibrator(QObject):
                 cost=settings.cost,
                 fix=settings.fixed,
                 free=settings.freed,
+                plate=settings.plate,
+                prior=settings.prior,
+                robust=settings.robust,
                 report=job.tell,
             )
 
         self._job = self._session.jobs.start(
             self.tr("Calibrating"),
             work,
-            self._done,
+            partial(self._done, corner_set),
             told=self.advanced.emit,
             ended=self._end,
             inputs=self._session.question,
         )
         self.began.emit()
 
-    def _done(self, result: Result) -> None:
+    def _done(self, asked: CornerSet, result: Result) -> None:
         name = free_name(self._session.project, self.tr("Calibration"))
-        self._session.edit(self.tr("Calibrate"), lambda p: with_result(p, name, result))
+        self._session.edit(self.tr("Calibrate"), lambda p: answered(p, name, asked.views, result))
         self._session.show_result(name)
         if result.calibration.status is Status.STOPPED:
             self._session.told.emit(

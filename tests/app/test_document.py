@@ -24,6 +24,7 @@ from hypothesis.stateful import (
 from calibgui.app.document import Document
 from calibgui.app.project import (
     Project,
+    Settings,
     Unit,
     free_name,
     renamed_result,
@@ -34,7 +35,7 @@ from calibgui.app.project import (
     without_views,
 )
 from calibgui.app.project_file import project_record, read_project, write_project
-from calibgui.engine.types import Cost, View, ViewStatus
+from calibgui.engine.types import Cost, PlateModel, Prior, View, ViewStatus
 from calibgui.formats.json_document import dumps
 from tests.app import examples
 
@@ -121,13 +122,23 @@ class Editing(RuleBasedStateMachine):
     def state_board(self, board: tuple[int, int] | None) -> None:
         self.edit("Board", lambda p: replace(p, board=board))
 
-    @rule(cost=st.sampled_from(Cost), fixed=st.sets(st.sampled_from(["k2", "k3", "p1"])))
-    def change_settings(self, cost: Cost, fixed: set[str]) -> None:
-        names = tuple(sorted(fixed))
-        self.edit(
-            "Settings",
-            lambda p: replace(p, settings=replace(p.settings, cost=cost, fixed=names)),
-        )
+    @rule(
+        cost=st.sampled_from(Cost),
+        fixed=st.sets(st.sampled_from(["k2", "k3", "p1"])),
+        plate=st.none() | st.sampled_from(PlateModel),
+        prior=st.none() | st.builds(Prior, st.floats(0.01, 1.0), st.floats(0.01, 1.0)),
+        robust=st.booleans(),
+    )
+    def change_settings(
+        self,
+        cost: Cost,
+        fixed: set[str],
+        plate: PlateModel | None,
+        prior: Prior | None,
+        robust: bool,
+    ) -> None:
+        settings = Settings(cost, tuple(sorted(fixed)), (), plate, prior, robust)
+        self.edit("Settings", lambda p: replace(p, settings=settings))
 
     @rule(which=st.sampled_from(["Calibration 1", "k3 held"]))
     def calibrate(self, which: str) -> None:

@@ -10,9 +10,10 @@ import numpy as np
 import pytest
 
 from calibgui.app import project_file
-from calibgui.app.project import relocated
+from calibgui.app.project import Settings, relocated
 from calibgui.app.project_file import read_project, write_project
 from calibgui.engine.errors import CalibrationError
+from calibgui.engine.types import Plate, PlateModel, Prior
 from tests.app import examples
 
 
@@ -85,6 +86,8 @@ def test_what_is_no_project_is_refused_by_name(tmp_path: Path) -> None:
         (newer, "version 99"),
         ('{"format": "something"}', "not a file of the format"),
         (text.replace('"square_mm": 30.0', '"square_mm": -1.0', 1), "a length above 0"),
+        (text.replace('"prior_mm": null', '"prior_mm": [0.1, 0]', 1), "two lengths above 0"),
+        (text.replace('"plate": "nominal"', '"plate": "round"', 1), "one of nominal"),
         (text.replace('"status": "found"', '"status": "lost"', 1), "view 1 (0.png)"),
     ):
         with pytest.raises(CalibrationError, match=re.escape(says)) as error:
@@ -102,15 +105,48 @@ def test_old_versions_are_brought_up_to_date_step_by_step(
 
     def second(content: dict) -> dict:
         square = {"square_mm": content["board_mm"]}
-        return content | {"version": 2, "target": content["target"] | square}
+        return content | {"version": first + 1, "target": content["target"] | square}
 
     def third(content: dict) -> dict:
-        assert content["version"] == 2
-        return content | {"version": 3}
+        assert content["version"] == first + 1
+        return content | {"version": first + 2}
 
-    monkeypatch.setattr(project_file, "VERSION", 3)
-    monkeypatch.setattr(project_file, "_MIGRATIONS", {1: second, 2: third})
+    first = project_file.VERSION
+    monkeypatch.setattr(project_file, "VERSION", first + 2)
+    monkeypatch.setattr(project_file, "_MIGRATIONS", {first: second, first + 1: third})
     assert read_project(broken(tmp_path, json.dumps(old))).square == 30.0
+
+
+def test_the_board_as_known_is_kept(tmp_path: Path) -> None:
+    plate = Plate(
+        PlateModel.BOW,
+        examples.BOARD.points(np.array([[0, 0], [0, 1]])),
+        np.full((2, 3), 0.1),
+        np.zeros((2, 3)),
+    )
+    project = examples.calibrated(tmp_path)
+    for settings in (
+        Settings(plate=None, robust=True),
+        Settings(plate=PlateModel.FREE, prior=Prior(0.125, 0.3)),
+        Settings(plate=plate),
+    ):
+        write_project(replace(project, settings=settings), tmp_path / "project.json")
+        again = read_project(tmp_path / "project.json").settings
+        if settings.plate is plate:
+            assert isinstance(again.plate, Plate)
+            np.testing.assert_array_equal(again.plate.deviation, plate.deviation)
+            np.testing.assert_array_equal(again.plate.nominal, plate.nominal)
+            again = replace(again, plate=plate)
+        assert again == settings
+
+
+def test_the_first_version_knew_a_nominal_plate_only(tmp_path: Path) -> None:
+    write_project(examples.calibrated(tmp_path), tmp_path / "project.json")
+    old = json.loads((tmp_path / "project.json").read_text(encoding="utf-8"))
+    old["version"] = 1
+    for name in ("plate", "prior_mm", "robust"):
+        del old["settings"][name]
+    assert read_project(broken(tmp_path, json.dumps(old))).settings == Settings(fixed=("k3",))
 
 
 def test_images_on_another_drive_keep_their_whole_path(

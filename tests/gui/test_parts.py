@@ -2,19 +2,22 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 
+import numpy as np
 import pytest
 from PySide6.QtCore import QMimeData, QPoint, QPointF, Qt, QUrl
 from PySide6.QtGui import QDropEvent, QGuiApplication
-from PySide6.QtWidgets import QApplication, QFileDialog, QInputDialog, QMessageBox
+from PySide6.QtWidgets import QApplication, QComboBox, QFileDialog, QInputDialog, QMessageBox
 from pytestqt.qtbot import QtBot
 
 from calibgui.app.document import Document
-from calibgui.app.project import Unit
+from calibgui.app.project import Unit, with_each
 from calibgui.app.recent import recent_projects
 from calibgui.engine.errors import CalibrationError
-from calibgui.engine.types import Cost, ViewStatus
+from calibgui.engine.types import Cost, Plate, PlateModel, Prior, ViewStatus
+from calibgui.formats.plate_json import write_plate
 from calibgui.gui.bug_dialog import BugDialog
 from calibgui.gui.help_dialog import HelpDialog
 from calibgui.gui.image_model import Role
@@ -136,6 +139,84 @@ def test_settings_become_arguments_of_the_calibration(full: MainWindow) -> None:
         full.session.document.undo()
     assert not panel.boxes["k3"].isChecked()
     assert panel.cost.currentData() == Cost.IMAGE
+
+
+def choose(box: QComboBox, text: str) -> None:
+    """Choose an entry as the mouse would."""
+    row = next(k for k in range(box.count()) if box.itemText(k).startswith(text))
+    box.setCurrentIndex(row)
+    box.activated.emit(row)
+
+
+def test_the_boards_shape_is_a_setting(
+    full: MainWindow, qtbot: QtBot, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    panel, session = full.settings, full.session
+    choice = panel.plate
+    assert not choice.known.isEnabled()
+    choose(choice.model, "free")
+    assert session.project.settings.plate is PlateModel.FREE
+    qtbot.mouseClick(choice.known, LEFT, pos=QPoint(8, choice.known.height() // 2))
+    assert session.project.settings.prior == Prior(0.1, 0.3)
+    choice.in_plane.setFocus()
+    choice.in_plane.selectAll()
+    qtbot.keyClicks(choice.in_plane, "0.25")
+    qtbot.keyClick(choice.in_plane, Qt.Key.Key_Return)
+    assert session.project.settings.prior == Prior(0.25, 0.3)
+    choose(choice.model, "what predicts best")
+    assert (session.project.settings.plate, session.project.settings.prior) == (None, None)
+    for prior in (Prior(0.25, 0.3), Prior(0.1, 0.3)):
+        session.document.undo()
+        assert session.project.settings.prior == prior
+        assert choice.in_plane.value() == prior.in_plane
+
+    # A plate from a file; a dialog that is left changes nothing, and nor does another file.
+    plate = Plate(PlateModel.BOW, np.zeros((1, 2)), np.full((1, 3), 0.1), np.zeros((1, 3)))
+    write_plate(plate, tmp_path / "plate.json")
+    (tmp_path / "other.json").write_text("{}")
+    for name in ("", str(tmp_path / "other.json")):
+        monkeypatch.setattr(QFileDialog, "getOpenFileName", lambda *_, name=name: (name, ""))
+        choose(choice.model, "as in a file")
+        assert session.project.settings.plate is PlateModel.FREE
+        assert choice.model.currentText().startswith("free")
+    assert "not a file of the format" in full.banner.text.text()
+    monkeypatch.setattr(
+        QFileDialog, "getOpenFileName", lambda *_: (str(tmp_path / "plate.json"), "")
+    )
+    choose(choice.model, "as in a file")
+    held = session.project.settings.plate
+    assert isinstance(held, Plate)
+    assert choice.model.currentText() == "as in a file: 0.17 mm off"
+
+    # Other costs take a board as drawn.
+    choose(panel.cost, "error on the reference plane")
+    assert session.project.settings.plate is PlateModel.NOMINAL
+    assert not choice.isEnabled()
+    session.document.undo()
+    assert session.project.settings.plate is held
+
+
+def test_outliers_left_out_are_seen_in_the_images_and_undone(
+    full: MainWindow, qtbot: QtBot
+) -> None:
+    session = full.session
+    first = session.project.views[1]
+    assert first.corners is not None
+    uv = np.array(first.corners.uv)
+    uv[20] += [6.0, -5.0]
+    moved = replace(first, corners=replace(first.corners, uv=uv))
+    session.edit("Spoil", lambda p: with_each(p, [first.image], lambda _: moved))
+    qtbot.mouseClick(full.settings.robust, LEFT, pos=QPoint(8, full.settings.robust.height() // 2))
+    assert session.project.settings.robust
+    qtbot.mouseClick(full.calibrate, LEFT)
+    qtbot.waitUntil(lambda: len(session.project.results) == 3, timeout=30_000)
+    assert session.result is not None
+    assert any("1.png loses 1 corner" in text for text in session.result.calibration.warnings)
+    assert session.project.is_current(session.result)
+    assert listed(full, Role.STATUS)[1] == "41 of 42 corners"
+    session.document.undo()
+    assert session.project.views[1] is moved
+    qtbot.waitUntil(lambda: not session.jobs.running)
 
 
 def test_results_are_chosen_compared_renamed_and_deleted(
@@ -297,7 +378,7 @@ def test_help_names_keys_that_work(qtbot: QtBot, window: MainWindow) -> None:
 
 def test_the_layout_is_remembered(qtbot: QtBot, tmp_path: Path) -> None:
     widths = []
-    for width in (330, None):
+    for width in (400, None):
         window = MainWindow()
         window.show()
         window.resize(1280, 720)  # the offscreen screen is smaller than a remembered window
@@ -309,4 +390,4 @@ def test_the_layout_is_remembered(qtbot: QtBot, tmp_path: Path) -> None:
         widths.append(window.image_dock.width())
         window.close()
         window.deleteLater()
-    assert widths[0] == widths[1] == 330
+    assert widths[0] == widths[1] == 400
