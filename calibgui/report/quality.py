@@ -20,6 +20,9 @@ from calibgui.report.tables import aligned, bullet
 
 _TABLED = (2, 3, 4, 5, 6, 8, 10, 12, 15, 20, 25, 30, 40, 50, 70, 100, 150, 200, 300, 500, 1000)
 
+_INCREDIBLE = 1.5
+"""Bootstrap over reported sigma from which the latter is too small beyond chance."""
+
 
 def where(distance: float) -> str:
     """Which points are meant, in words."""
@@ -86,7 +89,14 @@ def resampled(found: Bootstrap, calibration: Calibration) -> str:
     ]
     head = ["", "bootstrap", "reported", "ratio"]
     title = f"One sigma from {len(found.params)} resamplings of the views"
-    return f"{title}\n{aligned([head, *rows], left=(0,))}"
+    typical = float(np.nanmedian(found.ratio))
+    verdict = (
+        f"The views scatter {typical:.1f} times as much as reported: their errors are not "
+        "independent from corner to corner. Believe the larger of the two."
+        if typical > _INCREDIBLE
+        else "The views scatter no more than is reported."
+    )
+    return f"{title}\n{aligned([head, *rows], left=(0,))}\n{bullet(verdict)}"
 
 
 def difference(found: Difference, expected: float) -> str:

@@ -10,7 +10,7 @@ from calibgui.engine.difference import difference
 from calibgui.engine.noise import examine
 from calibgui.engine.projection_uncertainty import projection_uncertainty
 from calibgui.engine.types import Calibration, Observation
-from calibgui.engine.validation import bootstrap, choose_plate, cross_validate
+from calibgui.engine.validation import Bootstrap, bootstrap, choose_plate, cross_validate
 from calibgui.engine.view_count import ViewCount, study
 from calibgui.report import quality, quality_figures
 from tests.engine.scenes import barrel, scene
@@ -47,6 +47,15 @@ def test_a_held_parameter_is_not_resampled(calibrated: Calibrated) -> None:
     text = quality.resampled(bootstrap(views, barrel().size, 12, fix=["cx", "cy"]), result)
     assert "fx" in text
     assert "cx" not in text
+
+
+def test_views_that_scatter_too_much_are_told(calibrated: Calibrated) -> None:
+    result, _ = calibrated
+    params = np.array([result.camera.params])
+    for factor, said in ((1.0, "no more than is reported"), (3.0, "scatter 3.0 times as much")):
+        ratio = np.where(result.sigma > 0, factor, np.nan)
+        found = Bootstrap(params, factor * result.sigma, ratio, 0)
+        assert said in quality.resampled(found, result)
 
 
 def test_differences_are_judged_by_what_is_expected(calibrated: Calibrated) -> None:
