@@ -238,12 +238,12 @@ def _fit(
         lattice = numbered[0].lattice
         fit = edges.fit(grey, lattice)
         good = verify.described(fit, lattice.uv[lattice.found], lattice.spacing()[lattice.found])
-        if good.all():
+        if good.all() and verify.stepped(fit):
             return found, numbered, fit
         doubtful = _rejections(lattice.uv[lattice.found][~good], "not two crossing edges")
         keep = lattice.found
         keep[keep] = good
-        if not keep.any():
+        if good.all() or not keep.any():
             break
         lattice = verify.without_strays(lattice.under(keep), grey.shape)
         if len(lattice) < MIN_CORNERS or min(lattice.shape) < MIN_LINES:

@@ -61,18 +61,18 @@ def numberings(lattice: Lattice, board: Board | None) -> list[Numbering]:
     first square is required where one of the board's origins must have it and preferred
     elsewhere; then the more upright board, then the smaller offset.
     """
-    ways: list[tuple[tuple[bool, float, int, int], Numbering]] = []
+    ways: list[tuple[tuple[bool, float, float, int, int], Numbering]] = []
     for quarters in range(4):
         turn = turned(lattice, quarters)
         rows, cols = turn.shape
         if board is None and rows > cols:
             continue
         size = board or turn.shape
-        upright = _upright(turn)
+        cosine, sine = _upright(turn)
         for row in range(size[0] - rows + 1):
             for col in range(size[1] - cols + 1):
                 dark = turn.dark ^ bool((row + col) % 2)
-                key = (not dark, -upright, row, col)
+                key = (not dark, -cosine, -sine, row, col)
                 ways.append((key, Numbering(turn, size, (row, col))))
     ways.sort(key=lambda way: way[0])
     unique_origin = bool(ways) and sum(ways[0][1].board) % 2 == 1
@@ -86,9 +86,10 @@ def place(numbering: Numbering) -> tuple[IntArray, Array]:
     return cells + np.array(numbering.offset), uv
 
 
-def _upright(lattice: Lattice) -> float:
-    """Cosine between the direction in which the columns grow and the image's u axis."""
+def _upright(lattice: Lattice) -> tuple[float, float]:
+    """Cosine and sine from the image's u axis to the direction in which the columns grow."""
     cells = np.argwhere(lattice.found)
     uv = lattice.uv[cells[:, 0], cells[:, 1]]
     along = (cells[:, 1] - cells[:, 1].mean()) @ (uv - uv.mean(axis=0))
-    return float(np.round(along[0] / max(float(np.linalg.norm(along)), 1e-12), 6))
+    cosine, sine = np.round(along / max(float(np.linalg.norm(along)), 1e-12), 6)
+    return float(cosine), float(sine)

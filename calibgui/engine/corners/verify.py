@@ -27,6 +27,8 @@ _WEAKEST = 0.2
 """Least contrast over the board's median."""
 _FAILING = 0.25
 """Share of corners that may fail before the board does."""
+_WIDEST = 0.18
+"""Greatest blur of a board's edges, squares: of a sine wave it would be 0.25."""
 _MOVED = 0.1
 """Farthest that the edge fit may move a corner, squares."""
 _UNEXPLAINED = 4.0
@@ -71,6 +73,11 @@ def described(fit: Fit, start: Array, spacing: Array) -> BoolArray:
         & (fit.residual <= np.maximum(_UNEXPLAINED * typical, _MISFIT * fit.contrast))
         & np.isfinite(fit.covariance).all(axis=(1, 2))
     )
+
+
+def stepped(fit: Fit) -> bool:
+    """Whether the squares have a flat inside: waves cross like edges, only wider."""
+    return float(np.median(fit.edges.unknowns[:, 4:6] / fit.edges.size)) < _WIDEST
 
 
 def filled(lattice: Lattice, shape: tuple[int, ...]) -> Lattice:

@@ -47,7 +47,7 @@ def test_finds_every_corner_in_its_place(
     assert corners.ambiguity is Ambiguity.NONE
     error = corners.uv - truth_of(corners, drawn.uv)
     noise = scene.get("noise", 0.0) / (np.diff(scene.get("levels", (40.0, 210.0)))[0])
-    assert np.abs(error).max() < 0.04 + 2 * noise
+    assert np.abs(error).max() < 0.05 + 2 * noise
     assert np.abs(corners.estimate - corners.uv).max() < 4
 
 

@@ -1,0 +1,269 @@
+"""How near to the physical limit are the corners? Ours and others', from the same photographs.
+
+    python -m tests.benchmarks.corners [--quick] [--output FOLDER]
+
+draws boards under many conditions (`corner_scenes`), locates their corners with every method at
+hand, and prints per condition the root mean square error per axis over the Cramer-Rao bound, the
+boards found in full, and the time; `--output` also gets the table as JSON and a plot. The engine
+is told nothing but the image; the others are told the board's size, which they need.
+"""
+
+from __future__ import annotations
+
+import argparse
+import json
+import time
+from collections.abc import Callable
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import cv2
+import numpy as np
+from numpy.typing import NDArray
+
+from calibgui.engine.corners import find_corners
+from calibgui.engine.errors import NoBoardError
+from tests.benchmarks.corner_scenes import Conditions, Scene, draw
+
+Array = NDArray[np.float64]
+
+CONDITIONS: dict[str, dict[str, Any]] = {
+    "base": {},
+    "noise 0": {"noise": 0.0},
+    "noise 10": {"noise": 10.0},
+    "noise 20": {"noise": 20.0},
+    "blur 0": {"blur": 0.01},
+    "blur 2": {"blur": 2.0},
+    "blur 5": {"blur": 5.0, "square": 36.0},
+    "squares 8": {"square": 8.0, "shift": 60.0},
+    "squares 40": {"square": 40.0, "shift": 10.0},
+    "squares 100": {"square": 100.0, "size": (1280, 960)},
+    "tilt 60": {"tilt": 60.0, "square": 36.0},
+    "tilt 70": {"tilt": 70.0, "square": 45.0},
+    "barrel": {"distortion": 0.5, "square": 38.0},
+    "pincushion": {"distortion": -0.25},
+    "fisheye": {"fisheye": True, "focal": 0.4, "square": 36.0},
+    "hard light": {"light": 1.0, "noise": 1.0},
+    "gamma 2.2": {"gamma": 2.2},
+    "motion 5": {"motion": 5.0},
+    "focus 0.7-4": {"blur": 0.7, "blur_end": 4.0},
+    "ink 1.5 %": {"ink": 0.015},
+    "ink -2 %": {"ink": -0.02},
+    "ink 8 %": {"ink": 0.08},
+    "ink -8 %": {"ink": -0.08},
+    "16 bits": {"deep": True},
+    "clutter": {"clutter": True, "quiet": 0.3},
+    "all": {
+        "clutter": True,
+        "quiet": 0.5,
+        "tilt": 45.0,
+        "noise": 6.0,
+        "blur": 1.5,
+        "gamma": 2.2,
+        "light": 1.0,
+    },
+}
+
+Located = tuple[NDArray[np.int64], Array, Array | None]
+"""Grid (n, 2), positions (n, 2), covariances (n, 2, 2) where there are any."""
+Method = Callable[[NDArray[Any], tuple[int, int]], Located | None]
+
+
+@dataclass
+class Score:
+    """Of one method under one condition."""
+
+    ratio: float
+    """RMS error per axis over the bound's."""
+    rmse: float
+    """1e-3 px."""
+    bias: float
+    """Larger component of the mean error, 1e-3 px."""
+    chi2: float
+    """Mean squared error in units of the reported covariance, per degree of freedom."""
+    found: float
+    """Share of boards with every corner in its place."""
+    milliseconds: float
+
+
+def ours(method: str) -> Method:
+    def locate(image: NDArray[Any], board: tuple[int, int]) -> Located | None:
+        try:
+            corners = find_corners(image, method=method)
+        except NoBoardError:
+            return None
+        if corners.shape != board or not corners.complete:
+            return None
+        return corners.grid, corners.uv, corners.cov
+
+    return locate
+
+
+def opencv(kind: str) -> Method:
+    def locate(image: NDArray[Any], board: tuple[int, int]) -> Located | None:
+        rows, cols = board
+        grey = image if image.dtype == np.uint8 else (image // 257).astype(np.uint8)
+        if kind == "classic":
+            ok, points = cv2.findChessboardCorners(grey, (cols, rows))
+        else:
+            flags = cv2.CALIB_CB_ACCURACY | cv2.CALIB_CB_EXHAUSTIVE if kind == "accuracy" else 0
+            ok, points = cv2.findChessboardCornersSB(grey, (cols, rows), flags=flags)
+        if not ok:
+            return None
+        uv = np.asarray(points, np.float32).reshape(-1, 2)
+        if kind == "classic":
+            steps = np.linalg.norm(np.diff(uv.reshape(rows, cols, 2), axis=1), axis=2)
+            half = int(np.clip(steps.min() / 3, 2, 9))
+            stop = (cv2.TERM_CRITERIA_EPS + cv2.TERM_CRITERIA_COUNT, 50, 1e-4)
+            uv = cv2.cornerSubPix(grey, uv.reshape(-1, 1, 2), (half, half), (-1, -1), stop)
+        grid = np.argwhere(np.ones(board, bool))
+        return grid, np.asarray(uv, np.float64).reshape(-1, 2), None
+
+    return locate
+
+
+METHODS: dict[str, Method] = {
+    "ours": ours("edges"),
+    "saddle": ours("saddle"),
+    "cv subpix": opencv("classic"),
+    "cv SB": opencv("sb"),
+    "cv SB acc": opencv("accuracy"),
+}
+
+
+def score(method: Method, scenes: list[Scene], draws: int) -> Score:
+    """Run one method on `draws` noisy photographs of each scene."""
+    errors, bounds, honest, seconds, complete = [], [], [], [], 0
+    for k, scene in enumerate(scenes):
+        for i in range(draws):
+            image = scene.photograph(1000 * k + i)
+            start = time.process_time()
+            located = method(image, scene.conditions.board)
+            seconds.append(time.process_time() - start)
+            if located is None:
+                continue
+            grid, uv, cov = located
+            # Others number the board from any of its ends: the nearest corner is the one meant.
+            truth = scene.uv.reshape(-1, 2)
+            nearest = np.argmin(np.linalg.norm(uv[:, None] - truth, axis=2), axis=1)
+            error = uv - truth[nearest]
+            right = len(set(nearest)) == len(truth)
+            if method is METHODS["ours"]:
+                right &= bool(np.all(nearest == grid @ np.array([scene.uv.shape[1], 1])))
+            if not right or np.abs(error).max() > 3:
+                continue
+            complete += 1
+            errors.append(error)
+            bounds.append(scene.bound.reshape(-1, 2, 2)[nearest])
+            if cov is not None:
+                honest.append(np.einsum("ni,nij,nj->n", error, np.linalg.inv(cov), error) / 2)
+    found = complete / (len(scenes) * draws)
+    ms = 1e3 * float(np.median(seconds))
+    if not errors:
+        return Score(np.nan, np.nan, np.nan, np.nan, found, ms)
+    e, b = np.concatenate(errors), np.concatenate(bounds)
+    rmse = float(np.sqrt(np.mean(e**2)))
+    bound = float(np.sqrt(np.mean(np.trace(b, axis1=1, axis2=2) / 2)))
+    chi2 = float(np.mean(np.concatenate(honest))) if honest else np.nan
+    bias = float(np.abs(e.mean(axis=0)).max())
+    return Score(rmse / bound, 1e3 * rmse, 1e3 * bias, chi2, found, ms)
+
+
+def false_boards(count: int) -> int:
+    """Boards reported in `count` images of clutter, texture and noise that hold none."""
+    reported = 0
+    for seed in range(count):
+        try:
+            find_corners(boardless(seed))
+            reported += 1
+        except NoBoardError:
+            pass
+    return reported
+
+
+def boardless(seed: int) -> NDArray[np.uint8]:
+    """An image without a board: noise, texture, stripes, bricks, text-like blobs, clutter."""
+    rng = np.random.default_rng(seed)
+    shape = (480, 640)
+    v, u = np.mgrid[: shape[0], : shape[1]]
+    kind = seed % 6
+    if kind == 0:
+        image = rng.uniform(0, 255, shape)
+    elif kind == 1:
+        image = cv2.GaussianBlur(rng.normal(0, 1, shape), (0, 0), rng.uniform(1, 8))
+        image = 127 + 60 * image / image.std()
+    elif kind == 2:
+        a, b = rng.uniform(0.05, 0.8, 2)
+        image = 127 + 60 * np.sin(a * u + rng.uniform(0, 6)) + 60 * np.sin(b * v + 0.3 * a * u)
+    elif kind == 3:
+        height, width = rng.integers(10, 40), rng.integers(20, 80)
+        offset = (v // height % 2) * width // 2
+        image = np.where((v % height < 3) | ((u + offset) % width < 3), 220, 90).astype(float)
+    else:
+        image = np.full(shape, 127.0)
+        for _ in range(400):
+            centre = rng.uniform(0, 1, 2) * shape[::-1]
+            size = rng.uniform(4, 60)
+            if kind == 4:
+                polygon = centre + rng.uniform(-1, 1, (rng.integers(3, 7), 2)) * size
+                cv2.fillPoly(image, [polygon.astype(np.int32)], float(rng.uniform(0, 255)))
+            else:
+                corner = centre.astype(int)
+                far = corner + rng.integers(4, 40, 2)
+                cv2.rectangle(image, corner.tolist(), far.tolist(), float(rng.uniform(0, 255)), -1)
+    image = cv2.GaussianBlur(image, (0, 0), 0.7) + rng.normal(0, 3, shape)
+    return np.clip(image, 0, 255).astype(np.uint8)
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("--quick", action="store_true", help="one scene instead of three")
+    parser.add_argument("--output", type=Path, help="folder for corners.json and corners.png")
+    options = parser.parse_args()
+    scenes, draws = (1, 1) if options.quick else (3, 2)
+    cv2.setNumThreads(1)
+    table: dict[str, dict[str, Score]] = {}
+    print(f"{'':14}" + "".join(f"{name:>22}" for name in METHODS))
+    print(f"{'condition':14}" + f"{'ratio  found    ms':>22}" * len(METHODS))
+    for name, settings in CONDITIONS.items():
+        drawn = [draw(Conditions(**settings), seed) for seed in range(scenes)]
+        table[name] = {m: score(method, drawn, draws) for m, method in METHODS.items()}
+        cells = (
+            f"{s.ratio:9.2f}{100 * s.found:6.0f}%{s.milliseconds:6.0f}"
+            for s in table[name].values()
+        )
+        print(f"{name:14}" + "".join(cells), flush=True)
+    own = [row["ours"] for row in table.values()]
+    ratios = np.array([s.ratio for s in own])
+    print(f"\nours: RMSE / bound median {np.nanmedian(ratios):.3f}, worst {np.nanmax(ratios):.2f};")
+    print(f"  bias at most {max(s.bias for s in own):.2f}e-3 px;", end=" ")
+    print(f"chi2/dof {min(s.chi2 for s in own):.2f} to {max(s.chi2 for s in own):.2f}")
+    count = 20 if options.quick else 200
+    print(f"  boards reported in {count} images without one: {false_boards(count)}")
+    if options.output:
+        _write(options.output, table)
+
+
+def _write(folder: Path, table: dict[str, dict[str, Score]]) -> None:
+    """The table as JSON and as a plot."""
+    from matplotlib.figure import Figure
+
+    folder.mkdir(parents=True, exist_ok=True)
+    plain = {c: {m: vars(s) for m, s in row.items()} for c, row in table.items()}
+    (folder / "corners.json").write_text(json.dumps(plain, indent=1))
+    figure = Figure(figsize=(11, 5), layout="constrained")
+    axes = figure.add_subplot()
+    for name in METHODS:
+        axes.plot(list(table), [row[name].ratio for row in table.values()], "o-", label=name)
+    axes.axhline(1.0, color="black", linewidth=0.8)
+    axes.set_yscale("log")
+    axes.set_ylabel("RMS error / Cramer-Rao bound")
+    axes.tick_params(axis="x", rotation=70)
+    axes.legend()
+    figure.savefig(folder / "corners.png", dpi=110)
+    print(f"written: {folder / 'corners.json'}, {folder / 'corners.png'}")
+
+
+if __name__ == "__main__":
+    main()
