@@ -31,6 +31,12 @@ LIMIT = 0.25
 """Longest gap, s, on a slow machine; 0.1 is aimed at."""
 
 
+def limit() -> float:
+    """The limit, longer where other work waits for the same processors."""
+    waiting = os.getloadavg()[0] / (os.cpu_count() or 1) if hasattr(os, "getloadavg") else 1.0
+    return LIMIT * max(1.0, waiting)
+
+
 @contextmanager
 def heartbeat(what: str) -> Iterator[None]:
     """Measure the gaps while the block runs the event loop."""
@@ -43,7 +49,7 @@ def heartbeat(what: str) -> Iterator[None]:
     beats.append(time.monotonic())
     longest = max(b - a for a, b in pairwise(beats))
     print(f"\n{what}: longest gap {1000 * longest:.0f} ms in {beats[-1] - beats[0]:.1f} s")
-    assert longest < LIMIT, f"{what} stopped the window for {1000 * longest:.0f} ms"
+    assert longest < limit(), f"{what} stopped the window for {1000 * longest:.0f} ms"
 
 
 @pytest.mark.data
