@@ -9,20 +9,20 @@ from typing import Any
 
 import numpy as np
 
-from calibgui.engine import uncertainty
+from calibgui.engine import problem, uncertainty
 from calibgui.engine.degeneracy import diagnose
 from calibgui.engine.errors import CalibrationError, DegenerateError
-from calibgui.engine.lens import MODELS, Lens
+from calibgui.engine.lens import MODELS
 from calibgui.engine.levenberg_marquardt import Solution, StartError, minimise
 from calibgui.engine.observations import REFERENCE_PITCH, Observations, pack, pitch, view_names
 from calibgui.engine.outcome import estimated, poses, residuals, stage_one_table
 from calibgui.engine.plate import on_plate
 from calibgui.engine.plate_doubt import with_plate_doubt
 from calibgui.engine.plate_fit import fit_plate
-from calibgui.engine.problem import stage_two
 from calibgui.engine.stage_one import prealign
-from calibgui.engine.stage_two import State, predicted_corners
+from calibgui.engine.stage_two import State
 from calibgui.engine.start import in_paper_frame, start_of_stage_two
+from calibgui.engine.threads import on_one_blas_thread
 from calibgui.engine.types import (
     Array,
     Calibration,
@@ -55,6 +55,7 @@ def parameter_names(model: str) -> tuple[str, ...]:
     return ("fx", "fy", "cx", "cy", *MODELS[model].names)
 
 
+@on_one_blas_thread
 def calibrate(
     views: Sequence[Observation | tuple[Array, Array]],
     size: Size,
@@ -136,7 +137,7 @@ def calibrate(
     solve = partial(_solved, model=model, cost=cost, scale=scale, free=free_indices, report=report)
     solution = solve(observations, start, max_iterations=max_iterations)
     if observations.whitening is not None:
-        observations, solution = _reweighted(observations, solution, lens, solve)
+        observations, solution = _reweighted(observations, solution, model, solve)
     precision = uncertainty.precision(
         solution.normal,
         tuple(parameters[i] for i in free_indices),
@@ -146,9 +147,9 @@ def calibrate(
     diagnose(solution, tuple(parameters[i] for i in free_indices), precision)
     estimate = estimated(solution, observations, precision)
     if plate is PlateModel.NOMINAL and cost is Cost.IMAGE:
-        estimate = with_plate_doubt(estimate, observations, lens, free_indices)
+        estimate = with_plate_doubt(estimate, observations, model, free_indices)
     elif isinstance(plate, PlateModel) and plate is not PlateModel.NOMINAL:
-        estimate = fit_plate(solution, observations, lens, free_indices, plate, prior, report)
+        estimate = fit_plate(solution, observations, model, free_indices, plate, prior, report)
     covariance = np.zeros((len(parameters), len(parameters)))
     covariance[np.ix_(free_indices, free_indices)] = estimate.camera
     sigma = np.sqrt(np.diag(covariance))
@@ -159,7 +160,7 @@ def calibrate(
         covariance=covariance,
         poses=poses(estimate.state),
         pose_covariances=estimate.poses,
-        residuals=residuals(estimate.state, estimate.observations, lens, cost, scale),
+        residuals=residuals(estimate.state, estimate.observations, model, cost, scale),
         noise=float(np.sqrt(estimate.sigma2)),
         model_error=float(np.sqrt(estimate.observations.tau2)),
         reference_scale=scale,
@@ -237,7 +238,7 @@ def _solved(
 
     def run(cost: Cost, start: State, free: IntArray, report: Report | None) -> Solution:
         return minimise(
-            stage_two(observations, model, cost, scale, free),
+            problem.stage_two(observations, model, cost, scale, free),
             start,
             free,
             observations.count,
@@ -259,15 +260,15 @@ def _solved(
 
 
 def _reweighted(
-    observations: Observations, solution: Solution, lens: Lens, solve: Callable[..., Solution]
+    observations: Observations, solution: Solution, model: str, solve: Callable[..., Solution]
 ) -> tuple[Observations, Solution]:
     """The solution with the floor under the corners' covariances that its residuals call for."""
     unknowns = len(solution.normal.shared) + solution.normal.pose.size
     tau2 = 0.0
     for _ in range(_REWEIGHTINGS):
         before = tau2
-        predicted = predicted_corners(solution.state, observations, lens, Cost.IMAGE)
-        tau2 = model_variance(observations, predicted - observations.uv, unknowns)
+        miss, _ = problem.residuals(solution.state, observations, model, Cost.IMAGE)
+        tau2 = model_variance(observations, miss, unknowns)
         if solution.status is Status.STOPPED or abs(tau2 - before) <= 0.01 * before:
             break
         observations = weighted(observations, tau2)

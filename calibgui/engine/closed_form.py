@@ -60,6 +60,8 @@ def initial_poses(
     linear = _focal_lengths(M, size)
     candidates = [np.full(2, f * size[0]) for f in _LADDER] if linear is None else [linear]
     candidates = [np.where(np.isnan(known), f, known) for f in candidates]
+    if len(candidates) == 1:
+        return candidates[0], *_poses(M, candidates[0], observations)
     solutions = [(f, *_poses(M, f, observations)) for f in candidates]
     return min(solutions, key=lambda s: _reprojection(s[0], s[1], s[2], corrected, observations))
 

@@ -35,7 +35,7 @@ import numpy as np
 from scipy.optimize import brentq
 
 from calibgui.engine.frames import paper_rotation
-from calibgui.engine.types import Array
+from calibgui.engine.types import Array, IntArray
 
 _SEARCH = np.linspace(0.5, 2.0, 1501)
 """Aspect ratios among which the zero of g(r) closest to 1 is sought."""
@@ -46,26 +46,26 @@ _LEAST = 1e-6
 
 
 class ViewGeometry(NamedTuple):
-    """What one backward homography says of pose and focal lengths (eq. 25, 28)."""
+    """What backward homographies (..., 3, 3) say of pose and focal lengths (eq. 25, 28)."""
 
-    omega: float
-    phi: float
-    theta: float
+    omega: Array
+    phi: Array
+    theta: Array
     t: Array
-    """(3,) normalised translation."""
-    aspect: float
-    fx: float
-    fy: float
+    """(..., 3) normalised translation."""
+    aspect: Array
+    fx: Array
+    fy: Array
 
 
-def _normalised(backward: Array, r: float | Array, literal: bool) -> tuple[Array, ...]:
+def _normalised(backward: Array, r: Array, literal: bool) -> tuple[Array, ...]:
     """alpha11, alpha12, alpha21, alpha22, gamma1, gamma2 with the grid's anisotropy taken out."""
     s = r if literal else np.ones_like(r)
-    (a11, a12, _), (a21, a22, _), (g1, g2, _) = backward
+    (a11, a12, _), (a21, a22, _), (g1, g2, _) = np.moveaxis(backward, (-2, -1), (0, 1))
     return a11 + 0 * s, s * a12, a21 / s, a22 + 0 * s, g1 + 0 * s, s * g2
 
 
-def _angles(backward: Array, r: float | Array, literal: bool) -> tuple[Array, Array, Array]:
+def _angles(backward: Array, r: Array, literal: bool) -> tuple[Array, Array, Array]:
     """|omega|, |phi| and theta (eq. 25), NaN where the view leaves them open."""
     a11, a12, a21, a22, g1, g2 = _normalised(backward, r, literal)
     theta = np.arctan2(a12, a11)
@@ -97,20 +97,26 @@ def cosines_equation(backward: Array, r: Array, literal: bool = False) -> Array:
     )
 
 
-def aspect_ratio(backward: Array, literal: bool = False) -> float:
-    """The root of the cosines' equation; NaN if the angles are undefined.
+def aspect_ratio(backward: Array, literal: bool = False) -> Array:
+    """(...) the root of the cosines' equation; NaN if the angles are undefined.
 
     Closed-form on the metric plate; on the literal grid the zero closest to 1 in [0.5, 2].
     """
-    if not literal:
-        omega, phi, theta = _angles(backward, 1.0, literal)
-        cosines = np.cos(phi) * np.cos(theta) ** 2 / np.cos(omega)
-        return float(np.linalg.det(backward[:2, :2]) * cosines / backward[0, 0] ** 2)
+    if literal:
+        flat = backward.reshape(-1, 3, 3)
+        return np.array([_searched(H) for H in flat]).reshape(backward.shape[:-2])
+    omega, phi, theta = _angles(backward, np.ones(backward.shape[:-2]), literal)
+    cosines = np.cos(phi) * np.cos(theta) ** 2 / np.cos(omega)
+    return np.asarray(np.linalg.det(backward[..., :2, :2]) * cosines / backward[..., 0, 0] ** 2)
+
+
+def _searched(backward: Array) -> float:
+    """The zero of g(r) on the literal grid that is closest to 1; NaN if there is none."""
 
     def g(r: float) -> float:
-        return float(cosines_equation(backward, np.array([r]), literal)[0])
+        return float(cosines_equation(backward, np.array([r]), literal=True)[0])
 
-    values = cosines_equation(backward, _SEARCH, literal)
+    values = cosines_equation(backward, _SEARCH, literal=True)
     with np.errstate(invalid="ignore"):
         changes = np.flatnonzero(values[:-1] * values[1:] <= 0)
     roots = [float(brentq(g, _SEARCH[i], _SEARCH[i + 1])) for i in changes]
@@ -118,48 +124,55 @@ def aspect_ratio(backward: Array, literal: bool = False) -> float:
 
 
 def view_geometry(backward: Array, literal: bool = False) -> ViewGeometry:
-    """Angles with their signs, normalised translation and focal lengths of one view (eq. 25, 28).
+    """Angles with their signs, normalised translation and focal lengths of views (eq. 25, 28).
 
     Args:
-        backward: (3, 3) backward homography in the paper's frame, principal point at zero,
-            from reference coordinates in units that make the plate's sides alike.
+        backward: (..., 3, 3) backward homographies in the paper's frame, principal point at
+            zero, from reference coordinates in units that make the plate's sides alike.
         literal: as for `cosines_equation`.
 
     Returns:
-        All NaN where the view does not determine its aspect ratio. Of the four combinations
+        All NaN where a view does not determine its aspect ratio. Of the four combinations
         of signs the one whose homography is closest to the given one is taken.
     """
     r = aspect_ratio(backward, literal)
-    sizes = _angles(backward, np.float64(r), literal)
-    if not np.isfinite(np.array([r, *sizes])).all():
-        nan = float("nan")
-        return ViewGeometry(nan, nan, nan, np.full(3, np.nan), nan, nan, nan)
-    omega, phi, theta = map(float, sizes)
-    candidates = [
-        _with_angles(backward, r, literal, so * omega, sp * phi, theta)
-        for so, sp in product((1, -1), repeat=2)
-    ]
-    return min(candidates, key=lambda c: c[0])[1]
+    omega, phi, theta = _angles(backward, r, literal)
+    theta = np.where(np.isfinite(omega), theta, np.nan)
+    signs = np.array(list(product((1.0, -1.0), repeat=2))).reshape(4, 2, *[1] * r.ndim)
+    with np.errstate(invalid="ignore", divide="ignore"):
+        miss, candidates = _with_angles(
+            backward, r, literal, signs[:, 0] * omega, signs[:, 1] * phi, theta
+        )
+    chosen = np.argmin(np.where(np.isnan(miss), np.inf, miss), axis=0)
+    return ViewGeometry(*(_taken(value, chosen) for value in candidates))
+
+
+def _taken(values: Array, chosen: IntArray) -> Array:
+    """Of values (4, ..., m) those numbered by `chosen` (...)."""
+    index = chosen.reshape(1, *chosen.shape, *[1] * (values.ndim - 1 - chosen.ndim))
+    return np.take_along_axis(values, index, axis=0)[0]
 
 
 def _with_angles(
-    backward: Array, r: float, literal: bool, omega: float, phi: float, theta: float
-) -> tuple[float, ViewGeometry]:
-    """The view's geometry under given angles (eq. 28), and how badly it explains the homography."""
-    a11, a12, a21, a22, g1, g2 = map(float, _normalised(backward, np.float64(r), literal))
-    R = paper_rotation(omega, phi, theta)
+    backward: Array, r: Array, literal: bool, omega: Array, phi: Array, theta: Array
+) -> tuple[Array, ViewGeometry]:
+    """The views' geometry under given angles (eq. 28), and how badly it explains them."""
+    a11, a12, a21, a22, g1, g2 = _normalised(backward, r, literal)
+    R = np.moveaxis(paper_rotation(omega, phi, theta), (-2, -1), (0, 1))
     D = R[0, 0] / a11
     # Eq. 28 takes fx from gamma1 alone, which can vanish; its length is the stabler choice.
-    fx = float(np.hypot(R[2, 0], R[2, 1]) / (np.hypot(g1, g2) * D))
-    t = np.array(
+    fx = np.hypot(R[2, 0], R[2, 1]) / (np.hypot(g1, g2) * D)
+    t = np.stack(
         [
-            backward[0, 2] * D / fx - R[0, 2],
-            backward[1, 2] * D / (r * fx) - R[1, 2],
+            backward[..., 0, 2] * D / fx - R[0, 2],
+            backward[..., 1, 2] * D / (r * fx) - R[1, 2],
             D - R[2, 2],
-        ]
+        ],
+        axis=-1,
     )
-    s = 1.0 if literal else r
-    given = np.array([a11, a12, a21 / s, a22 / s, g1 * fx, g2 * fx])
-    implied = np.array([R[0, 0], R[0, 1], R[1, 0], R[1, 1], R[2, 0], R[2, 1]]) / D
-    miss = float(np.sum((given - implied) ** 2))
-    return miss, ViewGeometry(omega, phi, theta, t, r, fx, r * fx)
+    s = np.ones_like(r) if literal else r
+    given = a11 + 0 * D, a12 + 0 * D, a21 / s, a22 / s, g1 * fx, g2 * fx
+    implied = (R[i, j] / D for i in range(3) for j in range(2))
+    miss = sum((a - b) ** 2 for a, b in zip(given, implied, strict=True))
+    theta, aspect = theta + 0 * D, r + 0 * D
+    return np.asarray(miss), ViewGeometry(omega, phi, theta, t, aspect, fx, aspect * fx)

@@ -21,6 +21,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
+import numpy.typing as npt
 
 from calibgui.engine.types import Array, Pose, Size
 
@@ -94,18 +95,22 @@ def rotation(rvec: Array) -> Array:
 
 
 def rotation_vector(R: Array) -> Array:
-    """(3,) rotation vector of one rotation matrix, of length at most pi."""
-    skew = np.array([R[2, 1] - R[1, 2], R[0, 2] - R[2, 0], R[1, 0] - R[0, 1]])
-    sine, cosine = np.linalg.norm(skew) / 2, (np.trace(R) - 1) / 2
-    angle = np.arctan2(sine, cosine)
-    if cosine > -0.9:
-        return skew / (2 * np.sinc(angle / np.pi))
+    """(..., 3) rotation vectors of rotation matrices (..., 3, 3), of length at most pi."""
+    turned = np.swapaxes(R, -1, -2)
+    skew = (turned - R)[..., [1, 2, 0], [2, 0, 1]]
+    sine = np.linalg.norm(skew, axis=-1) / 2
+    cosine = (np.trace(R, axis1=-2, axis2=-1) - 1) / 2
+    angle = np.arctan2(sine, cosine)[..., None]
     # Near a half turn the skew part vanishes: take the axis from the symmetric part
     # R + R^T = 2 cos I + 2 (1 - cos) n n^T, and its sign from the skew part.
-    nn = (R + R.T) / 2 - cosine * np.eye(3)
-    axis = nn[np.argmax(np.diag(nn))]
-    axis = axis / np.linalg.norm(axis)
-    return angle * axis * (1.0 if axis @ skew >= 0 else -1.0)
+    nn = (R + turned) / 2 - cosine[..., None, None] * np.eye(3)
+    longest = np.argmax(np.diagonal(nn, axis1=-2, axis2=-1), axis=-1)[..., None, None]
+    axis = np.take_along_axis(nn, longest, axis=-2)[..., 0, :]
+    sign = np.where(np.sum(axis * skew, axis=-1, keepdims=True) >= 0, 1.0, -1.0)
+    with np.errstate(invalid="ignore", divide="ignore"):
+        half_turn = sign * angle * axis / np.linalg.norm(axis, axis=-1, keepdims=True)
+        usual = skew / (2 * np.sinc(angle / np.pi))
+    return np.asarray(np.where(cosine[..., None] > -0.9, usual, half_turn))
 
 
 def cross_matrix(w: Array) -> Array:
@@ -130,17 +135,16 @@ def rvec_by_local(rvec: Array) -> Array:
     return np.eye(3) - 0.5 * W + c * (W @ W)
 
 
-def paper_rotation(omega: float, phi: float, theta: float) -> Array:
-    """(3, 3) R = R(omega) R(phi) R(theta), eq. 7-8, in the paper's left-handed frame."""
-    so, co, sp, cp = np.sin(omega), np.cos(omega), np.sin(phi), np.cos(phi)
-    st, ct = np.sin(theta), np.cos(theta)
-    return np.array(
-        [
-            [ct * cp, st * cp, -sp],
-            [-st * co + ct * sp * so, ct * co + st * sp * so, cp * so],
-            [st * so + ct * sp * co, -ct * so + st * sp * co, cp * co],
-        ]
-    )
+def paper_rotation(omega: npt.ArrayLike, phi: npt.ArrayLike, theta: npt.ArrayLike) -> Array:
+    """(..., 3, 3) R = R(omega) R(phi) R(theta), eq. 7-8, in the paper's left-handed frame."""
+    angles = np.broadcast_arrays(*(np.asarray(a, dtype=np.float64) for a in (omega, phi, theta)))
+    (so, sp, st), (co, cp, ct) = np.sin(angles), np.cos(angles)
+    rows = [
+        [ct * cp, st * cp, -sp],
+        [-st * co + ct * sp * so, ct * co + st * sp * so, cp * so],
+        [st * so + ct * sp * co, -ct * so + st * sp * co, cp * co],
+    ]
+    return np.stack([np.stack(row, axis=-1) for row in rows], axis=-2)
 
 
 def paper_angles(R: Array) -> tuple[float, float, float]:

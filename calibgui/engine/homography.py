@@ -46,31 +46,42 @@ def dlt(source: Array, destination: Array, mask: Array) -> Array:
     Returns:
         (..., 3, 3) with unit last entry, destination ~ H source.
     """
-    to_source, to_destination = _normaliser(source, mask), _normaliser(destination, mask)
-    s, d = apply(to_source, source), apply(to_destination, destination)
-    ones = np.ones((*s.shape[:-1], 1))
-    lifted = np.concatenate([s, ones], axis=-1) * mask[..., None]
-    zero = np.zeros_like(lifted)
-    rows = np.concatenate(
+    (x, y), to_source = _normalised(source, mask)
+    (u, v), to_destination = _normalised(destination, mask)
+    squares = mask * mask
+    one = np.ones_like(x)
+    # With s = (x, y, 1) the rows are (s, 0, -u s) and (0, s, -v s), and their products are the
+    # sums of s s^T by 1, u, v and u^2 + v^2.
+    by = np.stack([squares, squares * u, squares * v, squares * (u * u + v * v)], axis=-2)
+    of = np.stack([x * x, x * y, x, y * y, y, one], axis=-1)
+    S, Su, Sv, Sq = np.moveaxis((by @ of)[..., _SYMMETRIC], -3, 0)
+    zero = np.zeros_like(S)
+    products = np.concatenate(
         [
-            np.concatenate([lifted, zero, -d[..., :1] * lifted], axis=-1),
-            np.concatenate([zero, lifted, -d[..., 1:] * lifted], axis=-1),
+            np.concatenate([S, zero, -Su], axis=-1),
+            np.concatenate([zero, S, -Sv], axis=-1),
+            np.concatenate([-Su, -Sv, Sq], axis=-1),
         ],
         axis=-2,
     )
-    vectors = np.linalg.eigh(np.swapaxes(rows, -1, -2) @ rows)[1]
+    vectors = np.linalg.eigh(products)[1]
     H = vectors[..., 0].reshape(*vectors.shape[:-2], 3, 3)
     return unit_last(np.linalg.inv(to_destination) @ H @ to_source)
 
 
-def _normaliser(points: Array, mask: Array) -> Array:
-    """(..., 3, 3) similarity that brings points to zero mean and RMS length sqrt(2)."""
-    count = mask.sum(axis=-1)[..., None]
-    mean = (points * mask[..., None]).sum(axis=-2) / count
-    square = (((points - mean[..., None, :]) * mask[..., None]) ** 2).sum(axis=(-1, -2))
-    scale = np.sqrt(2 * count[..., 0] / np.maximum(square, 1e-300))
+_SYMMETRIC = np.array([[0, 1, 2], [1, 3, 4], [2, 4, 5]])
+"""Places of a symmetric matrix's entries among its upper triangle's."""
+
+
+def _normalised(points: Array, mask: Array) -> tuple[Array, Array]:
+    """Points (2, ..., n) of zero mean and RMS length sqrt(2), and the similarity to them."""
+    count = mask.sum(axis=-1)
+    mean = (mask[..., None, :] @ points)[..., 0, :] / count[..., None]
+    centred = points - mean[..., None, :]
+    square = np.sum((mask * mask)[..., None, :] @ centred**2, axis=(-1, -2))
+    scale = np.sqrt(2 * count / np.maximum(square, 1e-300))
     T = np.zeros((*points.shape[:-2], 3, 3))
     T[..., 0, 0] = T[..., 1, 1] = scale
     T[..., :2, 2] = -scale[..., None] * mean
     T[..., 2, 2] = 1.0
-    return T
+    return scale[..., None] * np.moveaxis(centred, -1, 0), T

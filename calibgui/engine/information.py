@@ -25,8 +25,7 @@ import numpy as np
 from calibgui.engine import frames
 from calibgui.engine.calibrate import parameter_names
 from calibgui.engine.lens import MODELS
-from calibgui.engine.levenberg_marquardt import CHUNK
-from calibgui.engine.observations import Observations, pack
+from calibgui.engine.observations import Observations, chunks, pack
 from calibgui.engine.plate import on_plate
 from calibgui.engine.problem import linearised
 from calibgui.engine.stage_two import State
@@ -91,8 +90,7 @@ def view_information(
 ) -> Information:
     """The blocks of each view, chunk by chunk; the arguments are ``problem.stage_two``'s."""
     parts = []
-    for begin in range(0, len(state.R), CHUNK):
-        views = slice(begin, begin + CHUNK)
+    for views in chunks(len(state.R)):
         _, by_params, by_pose = linearised(state, observations, views, MODELS[model], cost, scale)
         Jc = by_params[..., free].reshape(len(by_params), -1, len(free))
         Jp = by_pose.reshape(len(by_pose), -1, 6)

@@ -13,8 +13,8 @@ Eliminating the poses leaves the Schur complement
     dk = -Vk^-1 (gk + Wk^T dc),
 
 a cost linear in the number of views. Marquardt's damping lambda diag(J^T J) makes the steps
-independent of the parameters' units; the matrices are further scaled to a unit diagonal
-before they are factorised.
+independent of the parameters' units; S is further scaled to a unit diagonal of J^T J before
+it is solved.
 
 The iteration has converged when the decrease that the linear model still predicts is below
 1e-12 of the cost: the unknowns are then within about 1e-6 sqrt(2N) of their standard
@@ -34,11 +34,12 @@ from typing import NamedTuple
 import numpy as np
 
 from calibgui.engine.errors import CalibrationError
+from calibgui.engine.observations import chunks
 from calibgui.engine.stage_two import Linearised, State
 from calibgui.engine.types import Array, IntArray, Iteration, Report, Status
 
-CHUNK = 64
-"""Views linearised together: their arrays still fit the processor's cache."""
+_ELIMINATED = 1024
+"""Views whose poses are eliminated together, which bounds the memory that takes."""
 _CONVERGED = 1e-12
 _SETTLED = 1e-6
 """Decrease that a full step still predicts, relative to the cost, where damped ones fail."""
@@ -69,6 +70,29 @@ class NormalEquations(NamedTuple):
     """(K, 6) gradient."""
     cost: float
     """r^T r."""
+
+
+class Reduced(NamedTuple):
+    """What is left of the normal equations without the poses."""
+
+    S: Array
+    """(P, P) Schur complement."""
+    gradient: Array
+    """(P,) gc - sum_k Wk Vk^-1 gk."""
+    roots: Array
+    """(K, 6, 6) L^-1 for Vk = L L^T."""
+    unit: Array
+    """(P,) what scales J^T J to a unit diagonal."""
+
+    @property
+    def scaled(self) -> Array:
+        """(P, P) S in these units."""
+        return self.S * np.outer(self.unit, self.unit)
+
+    def stiffened(self, added: Array) -> Reduced:
+        """With (P, P) added to the shared parameters' block of J^T J."""
+        unit = 1 / np.sqrt(self.unit**-2 + np.diag(added))
+        return self._replace(S=self.S + added, unit=unit)
 
 
 class Solution(NamedTuple):
@@ -171,8 +195,7 @@ def normal_equations(linearise: Linearise, state: State, free: IntArray) -> Norm
     K, P = len(state.R), len(free)
     U, W, V = np.zeros((P, P)), np.empty((K, P, 6)), np.empty((K, 6, 6))
     shared, pose, cost = np.zeros(P), np.empty((K, 6)), 0.0
-    for begin in range(0, K, CHUNK):
-        views = slice(begin, min(begin + CHUNK, K))
+    for views in chunks(K):
         with np.errstate(all="ignore"):  # a wild trial overflows; its cost says so
             r, by_params, by_pose = linearise(state, views)
             k = len(r)
@@ -190,28 +213,40 @@ def normal_equations(linearise: Linearise, state: State, free: IntArray) -> Norm
     return NormalEquations(U, W, V, shared, pose, cost)
 
 
-def schur(normal: NormalEquations, damping: float = 0.0) -> tuple[Array, Array, Array]:
-    """S, its right-hand side gc - sum Wk Vk^-1 gk, and Vk^-1 [Wk^T gk] (K, 6, P + 1)."""
-    diagonal = np.diagonal(normal.V, axis1=1, axis2=2)
-    unit = 1 / np.sqrt(diagonal)
-    scaled = normal.V * unit[:, :, None] * unit[:, None, :] + damping * np.eye(6)
-    right = np.concatenate([np.swapaxes(normal.W, 1, 2), normal.pose[..., None]], axis=-1)
-    eliminated = unit[..., None] * np.linalg.solve(scaled, unit[..., None] * right)
-    reduction = np.tensordot(normal.W, eliminated, axes=([0, 2], [0, 1]))
-    S = normal.U + damping * np.diag(np.diag(normal.U)) - reduction[:, :-1]
-    return (S + S.T) / 2, normal.shared - reduction[:, -1], eliminated
+def schur(normal: NormalEquations, damping: float = 0.0) -> Reduced:
+    """Eliminate the poses. With Vk = L L^T, Wk Vk^-1 Wk^T is the square of L^-1 Wk^T."""
+    V = normal.V + damping * normal.V * np.eye(6)
+    roots = np.asarray(np.linalg.inv(np.linalg.cholesky(V)))
+    reduction = np.zeros((len(normal.U) + 1, len(normal.U) + 1))
+    for begin in range(0, len(V), _ELIMINATED):
+        views = slice(begin, begin + _ELIMINATED)
+        W, g = np.swapaxes(normal.W[views], 1, 2), normal.pose[views, :, None]
+        Y = (roots[views] @ np.concatenate([W, g], axis=2)).reshape(-1, len(reduction))
+        reduction += Y.T @ Y
+    diagonal = np.diag(normal.U)
+    return Reduced(
+        S=normal.U + damping * np.diag(diagonal) - reduction[:-1, :-1],
+        gradient=normal.shared - reduction[:-1, -1],
+        roots=roots,
+        unit=1 / np.sqrt(np.maximum(diagonal, 1e-300)),
+    )
+
+
+def step(normal: NormalEquations, reduced: Reduced) -> tuple[Array, Array]:
+    """The step to the minimum of the linear model: (P,) shared and (K, 6) poses."""
+    scaled, right = reduced.scaled, reduced.unit * reduced.gradient
+    try:
+        shared = -reduced.unit * np.linalg.solve(scaled, right)
+    except np.linalg.LinAlgError:  # exactly singular: the shortest of the solutions
+        shared = -reduced.unit * np.linalg.lstsq(scaled, right, rcond=1e-15)[0]
+    right = normal.pose + np.tensordot(normal.W, shared, axes=([1], [0]))
+    halfway = reduced.roots @ right[..., None]
+    return shared, -(np.swapaxes(reduced.roots, 1, 2) @ halfway)[..., 0]
 
 
 def solve(normal: NormalEquations, damping: float) -> tuple[Array, Array]:
     """The damped step: (P,) shared and (K, 6) poses."""
-    S, gradient, eliminated = schur(normal, damping)
-    unit = 1 / np.sqrt(np.maximum(np.diag(normal.U), 1e-300))
-    scaled, right = S * np.outer(unit, unit), unit * gradient
-    try:
-        shared = -unit * np.linalg.solve(scaled, right)
-    except np.linalg.LinAlgError:  # exactly singular: the shortest of the solutions
-        shared = -unit * np.linalg.lstsq(scaled, right, rcond=1e-15)[0]
-    return shared, -(eliminated @ np.append(shared, 1.0))
+    return step(normal, schur(normal, damping))
 
 
 def _decrease(normal: NormalEquations, by_shared: Array, by_pose: Array) -> float:

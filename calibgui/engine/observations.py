@@ -14,13 +14,15 @@ import numpy as np
 from scipy.spatial import cKDTree
 
 from calibgui.engine.errors import CalibrationError
-from calibgui.engine.types import Array, Observation
+from calibgui.engine.types import Array, BoolArray, IntArray, Observation
 
 REFERENCE_PITCH = 30.0
 """Side dx' of a square on the virtual reference image, reference px (the paper's choice)."""
 
 _SAMPLED = 25
 """Views that the target's pitch is taken from."""
+CHUNK = 64
+"""Views worked on together: their arrays still fit the processor's cache."""
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -44,6 +46,11 @@ class Observations:
     def count(self) -> int:
         """Number of corners in all views."""
         return int(self.mask.sum())
+
+    @property
+    def unweighted(self) -> bool:
+        """Whether all places hold corners, and all of these weigh 1."""
+        return self.whitening is None and bool(self.mask.all())
 
     def part(self, views: slice) -> Observations:
         """Some of the views."""
@@ -77,21 +84,45 @@ def pack(
         )
     names = names or view_names(len(views))
     pairs = zip(views, names, strict=True)
-    checked = [_checked(Observation(*view), name) for view, name in pairs]
-    longest = max(len(view.uv) for view in checked)
+    shaped = [_shaped(Observation(*view), name) for view, name in pairs]
     # All or nothing: a mixture of weighted and unweighted views has no common noise level.
-    weighted = [view.cov is not None for view in checked]
-    if any(weighted) and not all(weighted):
+    cov = [view.cov for view in shaped if view.cov is not None]
+    if cov and len(cov) < len(shaped):
+        without = next(k for k, view in enumerate(shaped) if view.cov is None)
         raise CalibrationError(
-            f"{names[weighted.index(False)]} has no corner covariances but others do.",
+            f"{names[without]} has no corner covariances but others do.",
             "Give covariances for every view or for none.",
         )
-    return Observations(
-        uv=np.stack([_padded(view.uv, longest) for view in checked]),
-        xy=np.stack([_padded(view.xy, longest) for view in checked]),
-        mask=np.stack([np.arange(longest) < len(view.uv) for view in checked]).astype(np.float64),
-        cov=_covariances(checked, longest) if all(weighted) else None,
+    counts = np.array([len(view.uv) for view in shaped])
+    packed = Observations(
+        uv=_padded([view.uv for view in shaped], counts),
+        xy=_padded([view.xy for view in shaped], counts),
+        mask=(np.arange(counts.max()) < counts[:, None]).astype(np.float64),
+        cov=_padded(cov, counts) if cov else None,
     )
+    for part in chunks(len(shaped)):
+        _check_images(packed.part(part), names[part])
+    for k in boards(packed)[0].tolist():
+        _check_board(packed.xy[k, packed.view(k)], names[k])
+    return packed
+
+
+def chunks(count: int) -> list[slice]:
+    """Consecutive slices of `count` views, `CHUNK` at a time."""
+    return [slice(begin, min(begin + CHUNK, count)) for begin in range(0, count, CHUNK)]
+
+
+def boards(observations: Observations) -> tuple[IntArray, IntArray]:
+    """The first views of all that show the same corners, and which of these each view is like.
+
+    Mostly all views show the whole board, and what is asked of one need not be asked of all.
+    """
+    first: dict[bytes, int] = {}
+    counts = observations.mask.sum(axis=1).astype(int).tolist()
+    views = enumerate(zip(observations.xy, counts, strict=True))
+    like = [first.setdefault(xy[:n].tobytes(), k) for k, (xy, n) in views]
+    firsts, which = np.unique(like, return_inverse=True)
+    return firsts, which
 
 
 def view_names(count: int) -> list[str]:
@@ -107,12 +138,13 @@ def pitch(observations: Observations) -> float:
     """
     chosen = np.unique(np.linspace(0, len(observations.xy) - 1, _SAMPLED).astype(int))
     places = [observations.xy[k, observations.view(k), :2] for k in chosen.tolist()]
-    nearest = [np.asarray(cKDTree(xy).query(xy, k=2)[0])[:, 1] for xy in places]
+    unlike = {xy.tobytes(): xy for xy in places}.values()
+    nearest = [np.asarray(cKDTree(xy).query(xy, k=2)[0])[:, 1] for xy in unlike]
     return float(min(np.median(distance) for distance in nearest))
 
 
-def _checked(view: Observation, name: str) -> Observation:
-    uv, xy = (np.ascontiguousarray(points, np.float64) for points in (view.uv, view.xy))
+def _shaped(view: Observation, name: str) -> Observation:
+    uv, xy = (np.asarray(points, np.float64) for points in (view.uv, view.xy))
     if uv.ndim != 2 or uv.shape[1:] != (2,) or xy.shape != uv.shape:
         raise CalibrationError(
             f"{name}: corners of shape {uv.shape} do not match plate points of shape {xy.shape}.",
@@ -124,52 +156,74 @@ def _checked(view: Observation, name: str) -> Observation:
             f"{name}: covariances of shape {cov.shape} do not match {len(uv)} corners.",
             "They must be (n, 2, 2), px^2.",
         )
-    arrays = [uv, xy] if cov is None else [uv, xy, cov]
-    if not all(np.isfinite(array).all() for array in arrays):
-        raise CalibrationError(
-            f"{name} holds a corner that is not a finite number.",
-            "Remove that corner or the view.",
-        )
     if len(uv) < 4:
         raise CalibrationError(
             f"{name} has {len(uv)} corners; a view needs at least 4.", "Remove it."
         )
-    if not np.diff(np.sort(xy.view(np.complex128)[:, 0])).all():
-        raise CalibrationError(
-            f"{name} names the same plate point twice.", "Give each corner of the board once."
-        )
-    for points, what in ((uv, "corners"), (xy, "plate points")):
-        if not _in_general_position(points):
-            raise CalibrationError(
-                f"{name}: all {what}, or all but one, lie on one line.",
-                "Use at least two corners from each of two rows.",
-            )
-    if cov is not None and not (np.linalg.eigvalsh(cov)[:, 0] > 0).all():
-        raise CalibrationError(
-            f"{name} has a corner covariance that is not positive definite.",
-            "Leave the covariances out or correct them.",
-        )
     return Observation(uv, xy, cov)
 
 
-def _in_general_position(points: Array) -> bool:
-    """Whether at least two points (n, 2) lie off every line, as a homography needs."""
-    tolerance = 1e-6 * np.ptp(points, axis=0).max()
+def _padded(rows: Sequence[Array], counts: IntArray) -> Array:
+    """(K, N, ...) rows (n, ...) of each view, continued with copies of the first."""
+    padded = np.empty((len(rows), counts.max(), *rows[0].shape[1:]))
+    for k, given in enumerate(rows):
+        padded[k, : len(given)] = given
+        padded[k, len(given) :] = given[0]
+    return padded
+
+
+def _check_images(part: Observations, names: Sequence[str]) -> None:
+    """Refuse views with corners that cannot be calibrated from, naming the first."""
+
+    def insist(good: BoolArray, what: str, hint: str) -> None:
+        if not good.all():
+            raise CalibrationError(f"{names[int(np.argmin(good))]}{what}", hint)
+
+    arrays = [part.uv, part.xy] if part.cov is None else [part.uv, part.xy, part.cov]
+    finite = [np.isfinite(array).reshape(len(array), -1).all(axis=1) for array in arrays]
+    insist(
+        np.logical_and.reduce(finite),
+        " holds a corner that is not a finite number.",
+        "Remove that corner or the view.",
+    )
+    insist(_in_general_position(part.uv, part.mask), *_on_one_line("corners"))
+    if part.cov is not None:
+        insist(
+            np.all(np.linalg.eigvalsh(part.cov)[..., 0] > 0, axis=1),
+            " has a corner covariance that is not positive definite.",
+            "Leave the covariances out or correct them.",
+        )
+
+
+def _check_board(xy: Array, name: str) -> None:
+    """Refuse a view with plate points (n, 2) that cannot be calibrated from."""
+    if not np.diff(np.sort(np.ascontiguousarray(xy).view(np.complex128)[:, 0])).all():
+        raise CalibrationError(
+            f"{name} names the same plate point twice.", "Give each corner of the board once."
+        )
+    if not _in_general_position(xy[None], np.ones((1, len(xy)))).all():
+        what, hint = _on_one_line("plate points")
+        raise CalibrationError(f"{name}{what}", hint)
+
+
+def _on_one_line(points: str) -> tuple[str, str]:
+    return (
+        f": all {points}, or all but one, lie on one line.",
+        "Use at least two corners from each of two rows.",
+    )
+
+
+def _in_general_position(points: Array, mask: Array) -> BoolArray:
+    """(K,) whether at least two of the points (K, n, 2) lie off every line.
+
+    Without them there is no homography.
+    """
+    tolerance = 1e-6 * np.ptp(points, axis=1).max(axis=1)[:, None]
+    good = np.ones(len(points), dtype=bool)
     # A line that holds all points but one holds two of the first three.
-    base, along = points[[0, 0, 1]], points[[1, 2, 2]] - points[[0, 0, 1]]
-    (x, y), (dx, dy) = along.T[..., None], np.moveaxis(points - base[:, None], -1, 0)
-    off = np.abs(x * dy - y * dx) > tolerance * np.hypot(x, y)
-    return bool((off.sum(axis=1) >= 2).all())
-
-
-def _covariances(views: list[Observation], length: int) -> Array:
-    """(K, length, 2, 2), the unit matrix for padding."""
-    cov = np.zeros((len(views), length, 2, 2)) + np.eye(2)
-    for k, view in enumerate(views):
-        cov[k, : len(view.uv)] = view.cov
-    return cov
-
-
-def _padded(rows: Array, length: int) -> Array:
-    """`rows` continued to `length` with copies of the first row."""
-    return np.concatenate([rows, np.repeat(rows[:1], length - len(rows), axis=0)])
+    for i, j in ((0, 1), (0, 2), (1, 2)):
+        x, y = (points[:, j] - points[:, i]).T[..., None]
+        dx, dy = np.moveaxis(points - points[:, i, None], -1, 0)
+        off = (np.abs(x * dy - y * dx) > tolerance * np.hypot(x, y)) & (mask > 0)
+        good &= off.sum(axis=1) >= 2
+    return good

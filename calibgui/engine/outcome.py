@@ -4,14 +4,11 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
-import numpy as np
-
-from calibgui.engine import cosines, frames, homography, uncertainty
-from calibgui.engine.lens import Lens
+from calibgui.engine import cosines, frames, homography, problem, uncertainty
 from calibgui.engine.levenberg_marquardt import Solution
 from calibgui.engine.observations import Observations
 from calibgui.engine.stage_one import Prealignment
-from calibgui.engine.stage_two import State, image_residual, predicted_corners, reference_residual
+from calibgui.engine.stage_two import State
 from calibgui.engine.types import Array, Cost, Plate, Pose, StageOne, ViewResiduals
 
 
@@ -38,7 +35,7 @@ def estimated(
     solution: Solution, observations: Observations, precision: uncertainty.Precision
 ) -> Estimate:
     """The estimate of a solution without a plate of its own."""
-    rvecs = np.array([pose.rvec for pose in poses(solution.state)])
+    rvecs = frames.rotation_vector(solution.state.R)
     sigma2, camera, _ = precision
     spread = uncertainty.pose_covariances(solution.normal, camera, rvecs, sigma2)
     return Estimate(solution, solution.state, observations, sigma2, camera, spread)
@@ -46,29 +43,26 @@ def estimated(
 
 def poses(state: State) -> tuple[Pose, ...]:
     """The views' poses."""
-    return tuple(Pose(frames.rotation_vector(R), T) for R, T in zip(state.R, state.T, strict=True))
+    rvecs = frames.rotation_vector(state.R)
+    return tuple(Pose(rvec, T) for rvec, T in zip(rvecs, state.T, strict=True))
 
 
 def residuals(
-    state: State, observations: Observations, lens: Lens, cost: Cost, scale: float
+    state: State, observations: Observations, model: str, cost: Cost, scale: float
 ) -> tuple[ViewResiduals, ...]:
     """Residuals of every view in the image and on the reference plane.
 
-    A plate that is not flat has no reference plane to register on; its residuals in the image
-    are carried over by the derivative of the map between the two.
+    Args:
+        state: camera and poses.
+        observations: the views, with the corners where the plate has them.
+        model: the lens, a key of ``lens.MODELS``.
+        cost: what was minimised.
+        scale: reference px per mm.
     """
-    if observations.xy.shape[-1] == 3:
-        linear = image_residual(state, observations, lens)
-        image = -linear.residual
-        by_plate = linear.by_pose[..., 3:] @ state.R[:, None, :, :2]
-        registered = np.asarray(scale * np.linalg.solve(by_plate, image[..., None])[..., 0])
-    else:
-        image = observations.uv - predicted_corners(state, observations, lens, cost)
-        literal = cost is Cost.PAPER
-        registered = reference_residual(state, observations, lens, scale, literal).residual
+    image, registered = problem.residuals(state, observations, model, cost)
+    counts = observations.mask.sum(axis=1).astype(int).tolist()
     return tuple(
-        ViewResiduals(image[k, observations.view(k)], registered[k, observations.view(k)])
-        for k in range(len(image))
+        ViewResiduals(image[k, :n], scale * registered[k, :n]) for k, n in enumerate(counts)
     )
 
 
@@ -77,21 +71,17 @@ def stage_one_table(first: Prealignment, literal: bool) -> tuple[StageOne, ...]:
 
     `literal`: on the paper's grid, equal in pixels along both axes.
     """
-    rows = []
-    for k, backward in enumerate(homography.inverted(first.forward)):
-        view = cosines.view_geometry(backward, literal)
-        rows.append(
-            StageOne(
-                xp=float(first.centre[k, 0]),
-                yp=float(first.centre[k, 1]),
-                k1=float(first.k1[k]),
-                aspect=view.aspect,
-                fx=view.fx,
-                fy=view.fy,
-                iterations=int(first.iterations[k]),
-                rms=float(first.rms[k]),
-                backward=backward,
-                converged=bool(first.converged[k]),
-            )
-        )
-    return tuple(rows)
+    backward = homography.inverted(first.forward)
+    geometry = cosines.view_geometry(backward, literal)
+    columns = (
+        *first.centre.T.tolist(),
+        first.k1.tolist(),
+        geometry.aspect.tolist(),
+        geometry.fx.tolist(),
+        geometry.fy.tolist(),
+        first.iterations.tolist(),
+        first.rms.tolist(),
+        backward,
+        first.converged.tolist(),
+    )
+    return tuple(StageOne(*row) for row in zip(*columns, strict=True))

@@ -28,8 +28,8 @@ from scipy.stats import f as fisher
 
 from calibgui.engine.information import free_parameters, measured, state_of
 from calibgui.engine.lens import MODELS
-from calibgui.engine.levenberg_marquardt import CHUNK, NormalEquations, normal_equations, schur
-from calibgui.engine.observations import Observations
+from calibgui.engine.levenberg_marquardt import NormalEquations, normal_equations, schur
+from calibgui.engine.observations import Observations, chunks
 from calibgui.engine.plate import basis, corners_of, plate_problem
 from calibgui.engine.problem import linearised
 from calibgui.engine.stage_two import Linearised, State, image_residual
@@ -135,7 +135,7 @@ def by_plate(fit: Fitted, model: PlateModel) -> Explained:
     points[index] = places
     problem = plate_problem(
         fit.observations,
-        MODELS[fit.camera.model],
+        fit.camera.model,
         fit.free,
         points,
         index,
@@ -176,7 +176,7 @@ def _shared(normal: NormalEquations, fit: Fitted) -> Explained:
     """The score test of the shared columns after the camera's own."""
     # Columns that no corner depends on would be divided by 0.
     used = np.diag(normal.U) > 0
-    S, g, _ = schur(normal)
+    S, g, *_ = schur(normal)
     S, g = S[np.ix_(used, used)], g[used]
     unit = 1 / np.sqrt(np.diag(normal.U)[used])
     S, g = S * np.outer(unit, unit), g * unit
@@ -196,8 +196,7 @@ def _reduction(N: Array, b: Array) -> tuple[float, int]:
 def _own(fit: Fitted, functions: Callable[[Array], Array]) -> Explained:
     """The score test of displacements by functions of the place x (k, N, 2) in each view."""
     T, rank, cost = 0.0, 0, 0.0
-    for begin in range(0, len(fit.state.R), CHUNK):
-        views = slice(begin, begin + CHUNK)
+    for views in chunks(len(fit.state.R)):
         r, _, by_pose = fit.linear(views)
         k = len(r)
         place = fit.predicted(views) / max(fit.camera.size) - 0.5

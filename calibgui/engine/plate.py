@@ -21,25 +21,30 @@ is the noise of the corners; it is what lets few views carry a free plate.
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import replace
 
 import numpy as np
 from scipy.spatial import cKDTree
 
 from calibgui.engine.errors import CalibrationError
-from calibgui.engine.lens import Lens
-from calibgui.engine.levenberg_marquardt import CHUNK, NormalAt, NormalEquations
-from calibgui.engine.observations import Observations
-from calibgui.engine.problem import linearised
+from calibgui.engine.lens import MODELS
+from calibgui.engine.levenberg_marquardt import NormalAt, NormalEquations
+from calibgui.engine.observations import Observations, boards, chunks
+from calibgui.engine.problem import compiled, eq10, eq10_rows, linearised, transposed
 from calibgui.engine.stage_two import Linearised, State
 from calibgui.engine.types import Array, Cost, IntArray, Plate, PlateModel
+
+_TOGETHER = 512
+"""Views whose compiled products are held at once; 11 MB for 156 corners."""
 
 
 def corners_of(observations: Observations) -> tuple[Array, IntArray]:
     """The plate's distinct corners (n, 2) mm, and which of them each observation is (K, N)."""
-    flat = np.round(observations.xy[..., :2].reshape(-1, 2), 9)
+    first, like = boards(observations)
+    flat = np.round(observations.xy[first, :, :2].reshape(-1, 2), 9)
     points, index = np.unique(flat, axis=0, return_inverse=True)
-    return points, index.reshape(observations.mask.shape).astype(np.int64)
+    return points, index.reshape(len(first), -1)[like].astype(np.int64)
 
 
 def basis(model: PlateModel, points: Array) -> Array:
@@ -68,7 +73,7 @@ def gauge(points: Array) -> Array:
 
 def plate_problem(
     observations: Observations,
-    lens: Lens,
+    model: str,
     free: IntArray,
     points: Array,
     index: IntArray,
@@ -79,7 +84,7 @@ def plate_problem(
 
     Args:
         observations: the views, on the nominal plate.
-        lens: the lens model.
+        model: the lens, a key of ``lens.MODELS``.
         free: (P,) indices of the camera's parameters that may move.
         points: (n, 2) the plate's corners, mm.
         index: (K, N) which of them each observation is.
@@ -89,38 +94,75 @@ def plate_problem(
     Returns:
         A function of a state whose `params` are the camera's parameters followed by q.
     """
-    P, Q = len(free), B.shape[2]
+    P, Q, K = len(free), B.shape[2], len(index)
 
     def normal_at(state: State) -> NormalEquations:
-        camera, q = state.params[:-Q], state.params[-Q:]
+        q = state.params[-Q:]
+        camera = state._replace(params=state.params[:-Q])
         bent = deviated(observations, points, index, B @ q)
-        K = len(state.R)
         U, W, V = np.zeros((P + Q, P + Q)), np.empty((K, P + Q, 6)), np.empty((K, 6, 6))
         U[P:, P:] = stiffness
         shared, pose = np.append(np.zeros(P), stiffness @ q), np.empty((K, 6))
         cost = float(q @ stiffness @ q)
-        for begin in range(0, K, CHUNK):
-            views = slice(begin, min(begin + CHUNK, K))
-            with np.errstate(all="ignore"):  # a wild trial overflows; its cost says so
-                whole = linearised(
-                    state._replace(params=camera), bent, views, lens, Cost.IMAGE, 1.0
-                )
-            A, D = _products(whole, state.R[views], free, index[views], bent.mask[views], len(B))
+        products = corner_products(camera, bent, model, free, index, len(B))
+        for views, A, D, total in products:
             cost += float(A[:, -1, -1].sum())
-            total = _contracted(D.sum(axis=0)[None], B)[0]
             U[:P, :P] += A[:, :P, :P].sum(axis=0)
-            U[P:, :P] += total[:, :P]
-            U[P:, P:] += _own_blocks(D[..., P + 7 :].sum(axis=0), B)
-            W[views, :P] = A[:, :P, P : P + 6]
-            W[views, P:] = _contracted(D[..., P : P + 6], B)
-            V[views], pose[views] = A[:, P : P + 6, P : P + 6], A[:, P : P + 6, -1]
+            U[P:, :P] += _contracted(total[None, ..., :P], B)[0]
+            U[P:, P:] += _own_blocks(total[..., P + 1 :], B)
+            W[views, :P], W[views, P:] = A[:, :P, P:-1], _contracted(D, B)
+            V[views], pose[views] = A[:, P:-1, P:-1], A[:, P:-1, -1]
             shared[:P] += A[:, :P, -1].sum(axis=0)
-            shared[P:] += total[:, P + 6]
+            shared[P:] += _contracted(total[None, ..., P : P + 1], B)[0, :, 0]
         U[:P, P:] = U[P:, :P].T
-        finite = cost if np.isfinite(cost) else float("inf")
-        return NormalEquations(U, W, V, shared, pose, finite)
+        return NormalEquations(U, W, V, shared, pose, cost if np.isfinite(cost) else float("inf"))
 
     return normal_at
+
+
+def corner_products(
+    state: State,
+    observations: Observations,
+    model: str,
+    free: IntArray,
+    index: IntArray,
+    count: int,
+    with_poses: bool = True,
+) -> Iterator[tuple[slice, Array, Array, Array]]:
+    """Products of the columns [camera, pose, r] and of the plate's corners', some views at a time.
+
+    Args:
+        state: camera and poses.
+        observations: the views, on the plate as it is.
+        model: the lens, a key of ``lens.MODELS``.
+        free: (P,) indices of the camera's parameters that may move.
+        index: (K, N) which of the plate's corners each observation is.
+        count: n, their number.
+        with_poses: whether to form the products with the poses, which take the most room.
+
+    Returns:
+        The views, and as ``kernels.plate.products``: (k, P + 7, P + 7) of the first columns with
+        each other; (k, n, 3, 6) of the three columns of each corner with the pose's; (n, 3, P + 4)
+        of these with the camera's, with r and with themselves, summed over the views.
+    """
+    K = len(index)
+    if compiled(model):
+        from calibgui.engine.kernels import plate  # takes a while: only when used
+
+        lens, rows = eq10(model, state.params), eq10_rows(model, free)
+        for begin in range(0, K, _TOGETHER):
+            part = slice(begin, min(begin + _TOGETHER, K))
+            R, T, views = state.R[part], state.T[part], transposed(observations.part(part))
+            yield part, *plate.products(lens, R, T, views, rows, index[part], count, with_poses)
+        return
+    for part in chunks(K):
+        with np.errstate(all="ignore"):  # a wild trial overflows; its cost says so
+            whole = linearised(state, observations, part, MODELS[model], Cost.IMAGE, 1.0)
+        A, D = _products(whole, state.R[part], free, index[part], observations.mask[part], count)
+        P = len(free)
+        ours, own = [*range(P), P + 6], D[..., P + 7 :]
+        total = np.concatenate([D[..., ours], own], axis=-1).sum(axis=0)
+        yield part, A, D[..., P : P + 6], total
 
 
 def on_plate(observations: Observations, plate: Plate) -> Observations:
@@ -172,7 +214,7 @@ def _contracted(D: Array, B: Array) -> Array:
     count, _, Q = B.shape
     if 3 * count == Q:  # the free plate's basis is the identity
         return D.reshape(len(D), Q, -1)
-    return np.tensordot(D, B, axes=([1, 2], [0, 1])).swapaxes(1, 2)
+    return np.swapaxes(B.reshape(3 * count, Q), 0, 1) @ D.reshape(len(D), 3 * count, -1)
 
 
 def _own_blocks(H: Array, B: Array) -> Array:

@@ -21,14 +21,12 @@ from __future__ import annotations
 
 import numpy as np
 
-from calibgui.engine import uncertainty
-from calibgui.engine.lens import Lens
-from calibgui.engine.levenberg_marquardt import CHUNK, solve
+from calibgui.engine import frames, uncertainty
+from calibgui.engine.levenberg_marquardt import schur, step
 from calibgui.engine.observations import Observations
-from calibgui.engine.outcome import Estimate, poses
-from calibgui.engine.plate import basis, corners_of, plate_problem
-from calibgui.engine.problem import linearised
-from calibgui.engine.types import Array, Cost, IntArray, PlateModel
+from calibgui.engine.outcome import Estimate
+from calibgui.engine.plate import basis, corner_products, corners_of, plate_problem
+from calibgui.engine.types import Array, IntArray, PlateModel
 
 _SEEN = 3
 """Views that must show a corner for it to be judged."""
@@ -39,18 +37,18 @@ _ALARM = 5.0
 
 
 def with_plate_doubt(
-    estimate: Estimate, observations: Observations, lens: Lens, free: IntArray
+    estimate: Estimate, observations: Observations, model: str, free: IntArray
 ) -> Estimate:
     """The estimate with the uncertainty that an imperfect plate adds, if the residuals show one.
 
     Args:
         estimate: with the image cost on the nominal plate.
         observations: the views.
-        lens: the lens model.
+        model: the lens, a key of ``lens.MODELS``.
         free: (P,) indices of the camera's parameters that may move.
     """
     points, index = corners_of(observations)
-    g, H, seen = _scores(estimate, observations, lens, index, len(points))
+    g, H, seen = _scores(estimate, observations, model, index, len(points))
     judged = seen >= _SEEN
     if not judged.any() or not estimate.sigma2 > 0:
         return estimate
@@ -60,21 +58,19 @@ def with_plate_doubt(
     if excess < _ALARM * np.sqrt(2 * expected):
         return estimate
     s2 = excess * estimate.sigma2 / float(np.trace(H[judged], axis1=1, axis2=2).sum())
-    return _widened(estimate, observations, lens, free, points, index, s2)
+    return _widened(estimate, observations, model, free, points, index, s2)
 
 
 def _scores(
-    estimate: Estimate, observations: Observations, lens: Lens, index: IntArray, count: int
+    estimate: Estimate, observations: Observations, model: str, index: IntArray, count: int
 ) -> tuple[Array, Array, IntArray]:
     """g (n, 3), H (n, 3, 3) and the number of views of every corner of the plate."""
     g, H = np.zeros((count, 3)), np.zeros((count, 3, 3))
-    for begin in range(0, len(index), CHUNK):
-        views = slice(begin, begin + CHUNK)
-        whole = linearised(estimate.state, observations, views, lens, Cost.IMAGE, 1.0)
-        J = whole.by_pose[..., 3:] @ estimate.state.R[views, None]
-        JT = np.swapaxes(J, -1, -2)
-        np.add.at(g, index[views], (JT @ whole.residual[..., None])[..., 0])
-        np.add.at(H, index[views], JT @ J)
+    none_free = np.zeros(0, dtype=np.int64)
+    products = corner_products(estimate.state, observations, model, none_free, index, count, False)
+    for _, _, _, total in products:
+        g += total[..., 0]
+        H += total[..., 1:]
     seen = np.bincount(index[observations.mask > 0], minlength=count)
     return g, H, seen.astype(np.int64)
 
@@ -82,7 +78,7 @@ def _scores(
 def _widened(
     estimate: Estimate,
     observations: Observations,
-    lens: Lens,
+    model: str,
     free: IntArray,
     points: Array,
     index: IntArray,
@@ -92,21 +88,22 @@ def _widened(
     B = basis(PlateModel.FREE, points)
     P, Q = len(free), B.shape[2]
     state = estimate.state._replace(params=np.append(estimate.state.params, np.zeros(Q)))
-    unstiffened = plate_problem(observations, lens, free, points, index, B, np.zeros((Q, Q)))(state)
-    unknowns = P + unstiffened.pose.size + Q
+    normal = plate_problem(observations, model, free, points, index, B, np.zeros((Q, Q)))(state)
+    unknowns = P + normal.pose.size + Q
     sigma2 = estimate.sigma2
-    stiffness = np.zeros_like(unstiffened.U)
+    reduced = schur(normal)
+    stiffness = np.zeros_like(normal.U)
     for _ in range(_ROUNDS):
         stiffness[P:, P:] = np.eye(Q) * sigma2 / s2
-        normal = unstiffened._replace(U=unstiffened.U + stiffness)
-        by_shared, by_pose = solve(normal, 0.0)
+        stiffened = reduced.stiffened(stiffness)
+        by_shared, by_pose = step(normal, stiffened)
         gained = -float(by_shared @ normal.shared + np.sum(by_pose * normal.pose))
         left = uncertainty.variance(normal.cost - gained, observations.count, unknowns)
         sigma2 = left if left > 0 else sigma2
-        covariance = uncertainty.shared_covariance(normal, sigma2)
+        covariance = uncertainty.shared_covariance(stiffened, sigma2)
         s2 = float(by_shared[P:] @ by_shared[P:] + np.trace(covariance[P:, P:])) / Q
     b = by_shared[:P]
-    rvecs = np.array([pose.rvec for pose in poses(estimate.state)])
+    rvecs = frames.rotation_vector(estimate.state.R)
     shift = (uncertainty.pose_by_local(rvecs) @ by_pose[..., None])[..., 0]
     rms = float(np.sqrt(np.mean(np.sum(by_shared[P:].reshape(-1, 3) ** 2, axis=1))))
     return estimate._replace(

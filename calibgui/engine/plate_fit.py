@@ -4,14 +4,13 @@ from __future__ import annotations
 
 import numpy as np
 
-from calibgui.engine import uncertainty
+from calibgui.engine import frames, uncertainty
 from calibgui.engine.errors import CalibrationError
-from calibgui.engine.lens import Lens
-from calibgui.engine.levenberg_marquardt import Solution, minimise
+from calibgui.engine.levenberg_marquardt import Solution, minimise, schur
 from calibgui.engine.observations import Observations
-from calibgui.engine.outcome import Estimate, poses
+from calibgui.engine.outcome import Estimate
 from calibgui.engine.plate import basis, corners_of, deviated, gauge, plate_problem
-from calibgui.engine.stage_two import predicted_corners
+from calibgui.engine.problem import residuals
 from calibgui.engine.types import Array, Cost, IntArray, Plate, PlateModel, Prior, Report
 from calibgui.engine.weighting import model_variance, weighted
 
@@ -28,9 +27,9 @@ _RANK = 1e-9
 def fit_plate(
     nominal: Solution,
     observations: Observations,
-    lens: Lens,
+    model: str,
     free: IntArray,
-    model: PlateModel,
+    shape: PlateModel,
     prior: Prior | None,
     report: Report | None,
 ) -> Estimate:
@@ -39,9 +38,9 @@ def fit_plate(
     Args:
         nominal: the converged Stage II with the image cost.
         observations: the views on the nominal plate.
-        lens: the lens model.
+        model: the lens, a key of ``lens.MODELS``.
         free: (P,) indices of the camera's parameters that may move.
-        model: affine, bow or free.
+        shape: affine, bow or free.
         prior: of a free plate's corners.
         report: told of each iteration.
 
@@ -49,10 +48,10 @@ def fit_plate(
         CalibrationError: if the views cannot determine the plate, with the reason.
     """
     points, index = corners_of(observations)
-    _check(observations, index, len(points), model, prior)
-    B = basis(model, points)
+    _check(observations, index, len(points), shape, prior)
+    B = basis(shape, points)
     Q, P, K = B.shape[2], len(nominal.state.params), len(nominal.state.R)
-    lost = 0 if prior is not None or model is not PlateModel.FREE else gauge(points).shape[1]
+    lost = 0 if prior is not None or shape is not PlateModel.FREE else gauge(points).shape[1]
     unknowns = len(free) + 6 * K + Q - lost
     sigma2 = uncertainty.variance(nominal.normal.cost, observations.count, len(free) + 6 * K)
     solution = nominal._replace(
@@ -62,9 +61,9 @@ def fit_plate(
     # Prior and weights are in units of the corners' noise, which the better plate itself lowers.
     settled = prior is None and observations.cov is None
     for _ in range(1 if settled else _ROUNDS):
-        stiffness = _stiffness(model, points, prior, sigma2)
+        stiffness = _stiffness(shape, points, prior, sigma2)
         solution = minimise(
-            plate_problem(observations, lens, free, points, index, B, stiffness),
+            plate_problem(observations, model, free, points, index, B, stiffness),
             solution.state,
             shared,
             observations.count,
@@ -72,47 +71,49 @@ def fit_plate(
             report,
             earlier=solution.history,
         )
-        bent = deviated(observations, points, index, B @ solution.state.params[P:])
-        camera = solution.state._replace(params=solution.state.params[:P])
-        miss = predicted_corners(camera, bent, lens, Cost.IMAGE) - observations.uv
-        observations = weighted(observations, model_variance(observations, miss, unknowns))
+        state = solution.state._replace(params=solution.state.params[:P])
+        deviation = B @ solution.state.params[P:]
+        bent = deviated(observations, points, index, deviation)
+        if observations.cov is not None:
+            miss, _ = residuals(state, bent, model, Cost.IMAGE)
+            observations = weighted(observations, model_variance(observations, miss, unknowns))
         sigma2 = uncertainty.variance(solution.normal.cost, observations.count, unknowns)
-    if uncertainty.information_left(solution.normal)[0][0] < _RANK:
+    reduced = schur(solution.normal)
+    if not uncertainty.determined(reduced, _RANK):
         raise CalibrationError(
-            f"These views do not determine the plate's shape ({model.value}).",
+            f"These views do not determine the plate's shape ({shape.value}).",
             "Add views tilted in different directions that show the whole board, "
             "state a prior, or keep the nominal plate.",
         )
-    covariance = uncertainty.shared_covariance(solution.normal, sigma2)
+    covariance = uncertainty.shared_covariance(reduced, sigma2)
     if lost:
         covariance = _without_gauge(covariance, gauge(points), len(free))
-    deviation = B @ solution.state.params[P:]
     of_plate = covariance[len(free) :, len(free) :]
-    spread = np.einsum("iaq,iaq->ia", B @ of_plate, B)
-    state = solution.state._replace(params=solution.state.params[:P])
-    rvecs = np.array([pose.rvec for pose in poses(state)])
+    flat = B.reshape(-1, Q)
+    spread = np.diag(of_plate) if len(flat) == Q else np.sum(flat @ of_plate * flat, axis=1)
+    rvecs = frames.rotation_vector(state.R)
     return Estimate(
         solution,
         state,
-        deviated(observations, points, index, deviation),
+        bent,
         sigma2,
         covariance[: len(free), : len(free)],
         uncertainty.pose_covariances(solution.normal, covariance, rvecs, sigma2),
-        Plate(model, points, deviation, np.sqrt(np.maximum(spread, 0.0))),
+        Plate(shape, points, deviation, np.sqrt(np.maximum(spread, 0.0)).reshape(-1, 3)),
     )
 
 
 def _check(
-    observations: Observations, index: IntArray, count: int, model: PlateModel, prior: Prior | None
+    observations: Observations, index: IntArray, count: int, shape: PlateModel, prior: Prior | None
 ) -> None:
     K = len(observations.mask)
-    if prior is None and _LEAST_VIEWS[model] > K:
+    if prior is None and _LEAST_VIEWS[shape] > K:
         raise CalibrationError(
-            f"{K} views cannot carry the plate model {model.value!r}, which needs "
-            f"{_LEAST_VIEWS[model]}.",
+            f"{K} views cannot carry the plate model {shape.value!r}, which needs "
+            f"{_LEAST_VIEWS[shape]}.",
             "Add views, or keep the nominal plate.",
         )
-    if model is not PlateModel.FREE or prior is not None:
+    if shape is not PlateModel.FREE or prior is not None:
         return
     seen = np.bincount(index[observations.mask > 0], minlength=count)
     if (rare := int((seen < _LEAST_SEEN).sum())) > 0:
@@ -123,9 +124,9 @@ def _check(
         )
 
 
-def _stiffness(model: PlateModel, points: Array, prior: Prior | None, sigma2: float) -> Array:
+def _stiffness(shape: PlateModel, points: Array, prior: Prior | None, sigma2: float) -> Array:
     """(Q, Q) what is added to J^T J for the plate: the prior, or the free plate's gauge."""
-    if model is not PlateModel.FREE:
+    if shape is not PlateModel.FREE:
         return np.zeros((2, 2))
     if prior is not None:
         s = np.array([prior.in_plane, prior.in_plane, prior.out_of_plane])
@@ -136,6 +137,7 @@ def _stiffness(model: PlateModel, points: Array, prior: Prior | None, sigma2: fl
 
 def _without_gauge(covariance: Array, G: Array, P: int) -> Array:
     """The covariance with the directions of the gauge, fixed by definition, taken out."""
-    project = np.eye(len(covariance))
-    project[P:, P:] -= G @ G.T
-    return project @ covariance @ project
+    left = covariance.copy()
+    left[P:] -= G @ (G.T @ left[P:])
+    left[:, P:] -= (left[:, P:] @ G) @ G.T
+    return left

@@ -7,14 +7,26 @@ solution to rounding (``tests/engine/kernels``).
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 import numpy as np
 
 from calibgui.engine import kernels
 from calibgui.engine.lens import MODELS, Lens
 from calibgui.engine.levenberg_marquardt import NormalAt, NormalEquations, normal_equations
-from calibgui.engine.observations import Observations
-from calibgui.engine.stage_two import Linearised, State, image_residual, reference_residual
+from calibgui.engine.observations import Observations, chunks
+from calibgui.engine.stage_two import (
+    Linearised,
+    State,
+    image_residual,
+    predicted_corners,
+    reference_residual,
+    registration_error,
+)
 from calibgui.engine.types import Array, Cost, IntArray
+
+if TYPE_CHECKING:
+    from calibgui.engine.kernels import stage_two as stage_two_kernel
 
 _EQ10_ROWS = {
     "lucchese": np.arange(10),
@@ -35,13 +47,18 @@ def stage_two(
         scale: reference px per mm, for the costs on the reference plane.
         free: (P,) indices of the camera's parameters that may move.
     """
-    if kernels.COMPILED and cost is Cost.IMAGE and model in _EQ10_ROWS:
+    if compiled(model, cost):
         return _compiled(observations, model, free)
 
     def linearise(state: State, views: slice) -> Linearised:
         return linearised(state, observations, views, MODELS[model], cost, scale)
 
     return lambda state: normal_equations(linearise, state, free)
+
+
+def compiled(model: str, cost: Cost = Cost.IMAGE) -> bool:
+    """Whether there are kernels for a lens model and a cost."""
+    return kernels.COMPILED and cost is Cost.IMAGE and model in _EQ10_ROWS
 
 
 def linearised(
@@ -63,21 +80,33 @@ def linearised(
     )
 
 
+def residuals(
+    state: State, observations: Observations, model: str, cost: Cost
+) -> tuple[Array, Array]:
+    """(K, N, 2) measured minus predicted corners, px, and registered minus nominal ones, mm."""
+    if compiled(model, cost):
+        from calibgui.engine.kernels import stage_two
+
+        found = stage_two.residuals(
+            eq10(model, state.params), state.R, state.T, transposed(observations)
+        )
+        return np.swapaxes(found[0], 1, 2), np.swapaxes(found[1], 1, 2)
+    seen, registered = np.empty_like(observations.uv), np.empty_like(observations.uv)
+    for views in chunks(len(state.R)):
+        part, own = observations.part(views), state.part(views)
+        seen[views] = part.uv - predicted_corners(own, part, MODELS[model], cost)
+        registered[views] = registration_error(own, part, MODELS[model], cost)
+    return seen, registered
+
+
 def _compiled(observations: Observations, model: str, free: IntArray) -> NormalAt:
     """The kernel's sums as `NormalEquations`."""
-    from calibgui.engine.kernels.stage_two import products  # takes a while: only when used
+    from calibgui.engine.kernels import stage_two  # takes a while: only when used
 
-    to_eq10 = _EQ10_ROWS[model]
-    uv = np.ascontiguousarray(np.swapaxes(observations.uv, 1, 2))
-    xyz = np.zeros((len(uv), 3, uv.shape[2]))
-    xyz[:, : observations.xy.shape[-1]] = np.swapaxes(observations.xy, 1, 2)
-    weight = _weights(observations)
-    rows, P = to_eq10[free], len(free)
+    views, rows, P = transposed(observations), eq10_rows(model, free), len(free)
 
     def normal_at(state: State) -> NormalEquations:
-        params: Array = np.zeros(10)
-        params[to_eq10] = state.params
-        A = products(params, model == "lucchese", state.R, state.T, uv, xyz, weight, rows)
+        A = stage_two.products(eq10(model, state.params), state.R, state.T, views, rows)
         # Summed over views in a fixed order, whichever thread made them.
         total = A[:, :P, :P].sum(axis=0), A[:, :P, -1].sum(axis=0), float(A[:, -1, -1].sum())
         cost = total[2] if np.isfinite(total[2]) else float("inf")
@@ -93,13 +122,30 @@ def _compiled(observations: Observations, model: str, free: IntArray) -> NormalA
     return normal_at
 
 
-def _weights(observations: Observations) -> Array | None:
-    """(K, 4, N) whitening for the kernel; None if every view is complete and unweighted."""
+def eq10(model: str, params: Array) -> stage_two_kernel.Lens:
+    """A camera's parameters as the kernels take them."""
+    from calibgui.engine.kernels.stage_two import Lens
+
+    camera = np.zeros(10)
+    camera[_EQ10_ROWS[model]] = params
+    return Lens(tuple(camera.tolist()), model == "lucchese")
+
+
+def eq10_rows(model: str, free: IntArray) -> IntArray:
+    """(P,) places of the free parameters among eq. 10's."""
+    return _EQ10_ROWS[model][free]
+
+
+def transposed(observations: Observations) -> stage_two_kernel.Views:
+    """The views as the kernels take them."""
+    from calibgui.engine.kernels.stage_two import Views
+
     K, N = observations.mask.shape
+    xyz = np.zeros((K, 3, N))
+    xyz[:, : observations.xy.shape[-1]] = np.swapaxes(observations.xy, 1, 2)
+    weight = np.zeros((K, 4, 0 if observations.unweighted else N))
     if observations.whitening is not None:
-        return np.ascontiguousarray(np.swapaxes(observations.whitening.reshape(K, N, 4), 1, 2))
-    if observations.mask.all():
-        return None
-    weight = np.zeros((K, 4, N))
-    weight[:, 0] = weight[:, 3] = observations.mask
-    return weight
+        weight[:] = np.swapaxes(observations.whitening.reshape(K, N, 4), 1, 2)
+    elif weight.size:
+        weight[:, 0] = weight[:, 3] = observations.mask
+    return Views(np.array(np.swapaxes(observations.uv, 1, 2), order="C"), xyz, weight)

@@ -14,7 +14,6 @@ import numpy as np
 
 from calibgui.engine import closed_form
 from calibgui.engine.information import measured
-from calibgui.engine.lens import MODELS
 from calibgui.engine.levenberg_marquardt import minimise
 from calibgui.engine.observations import Observations, pack
 from calibgui.engine.outcome import residuals
@@ -49,7 +48,7 @@ def resected(calibration: Calibration, views: Sequence[Observation]) -> tuple[Vi
         observations.count,
         float(np.sum(observations.uv**2)),
     )
-    return residuals(solution.state, observations, MODELS[model], cost, scale)
+    return residuals(solution.state, observations, model, cost, scale)
 
 
 def posed(camera: Camera, observations: Observations) -> State:

@@ -21,7 +21,6 @@ the spread of the points, without which k1 (1e-7 px^-2) would ruin the normal eq
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
@@ -33,9 +32,6 @@ _MAX_ITERATIONS = 50
 _CONVERGED = 1e-10
 """Decrease of the cost that the linear model still predicts, relative to the cost."""
 _MAX_DAMPING = 1e8
-
-_NormalAt = Callable[[Array, IntArray], tuple[Array, Array, Array]]
-"""J^T J, J^T r and r^T r at unknowns z (k, 11) of the views numbered (k,)."""
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -77,8 +73,10 @@ def prealign(xy: Array, reference: Array, mask: Array) -> Prealignment:
         [H[:, i, j] for i, j in ((0, 0), (1, 0), (0, 1), (1, 1), (0, 2), (1, 2), (2, 0), (2, 1))],
         axis=1,
     )
-    normal_at = (_compiled if kernels.COMPILED else _readable)(x, goal, mask)
-    z, cost, normal, iterations, converged = _levenberg_marquardt(z, normal_at)
+    z, products, iterations, converged = (_compiled if kernels.COMPILED else iterated)(
+        z, x, goal, mask
+    )
+    normal, cost = products[:, :11, :11], products[:, 11, 11]
 
     xp, yp, k1, a11, a21, a12, a22, d1, d2, c1, c2 = z.T
     one = np.ones_like(xp)
@@ -160,62 +158,64 @@ def registration(z: Array, x: Array) -> tuple[Array, Array]:
     return np.stack([xi1, xi2], axis=-1), J / P[..., None, None]
 
 
-def _levenberg_marquardt(
-    z: Array, normal_at: _NormalAt
-) -> tuple[Array, Array, Array, IntArray, BoolArray]:
-    """Minimise |xi - x'|^2; returns z, cost, normal matrices, iterations, converged."""
-    z = z.copy()
-    K = len(z)
+def iterated(
+    z: Array, x: Array, goal: Array, mask: Array
+) -> tuple[Array, Array, IntArray, BoolArray]:
+    """Minimise |xi - x'|^2 by Levenberg-Marquardt, all views as one batch.
+
+    Args:
+        z: (K, 11) unknowns to start from.
+        x: (K, N, 2) measured points.
+        goal: (K, N, 2) points to register them on.
+        mask: (K, N) what residuals are multiplied with.
+
+    Returns:
+        z, (K, 12, 12) products of the columns [J r] there, iterations, whether it converged.
+    """
+    z, K = z.copy(), len(z)
     damping = np.full(K, 1e-3)
     iterations = np.zeros(K, dtype=np.int64)
     converged = np.zeros(K, dtype=bool)
     active = np.arange(K)
-    normal, gradient, cost = normal_at(z, active)
+    products = _products(z, x, goal, mask)
     for _ in range(_MAX_ITERATIONS):
-        diagonal = np.diagonal(normal[active], axis1=1, axis2=2)
-        damped = normal[active] + (damping[active, None] * diagonal + 1e-14)[:, :, None] * np.eye(
-            11
-        )
-        step = np.linalg.solve(damped, -gradient[active][..., None])[..., 0]
-        predicted = -np.einsum("ki,ki->k", step, gradient[active])
-        done = predicted <= _CONVERGED * cost[active] + 1e-28
+        normal, gradient = products[active, :11, :11], products[active, :11, 11]
+        cost = products[active, 11, 11]
+        diagonal = np.diagonal(normal, axis1=1, axis2=2)
+        damped = normal + (damping[active, None] * diagonal + 1e-14)[:, :, None] * np.eye(11)
+        step = np.linalg.solve(damped, -gradient[..., None])[..., 0]
+        predicted = -np.einsum("ki,ki->k", step, gradient)
+        done = predicted <= _CONVERGED * cost + 1e-28
         converged[active[done]] = True
         active, step = active[~done], step[~done]
         if active.size == 0:
             break
         trial = z[active] + step
-        new_normal, new_gradient, new_cost = normal_at(trial, active)
+        new = _products(trial, x[active], goal[active], mask[active])
         iterations[active] += 1
-        better = new_cost < cost[active]
+        better = new[:, 11, 11] < products[active, 11, 11]
         won = active[better]
-        z[won], cost[won] = trial[better], new_cost[better]
-        normal[won], gradient[won] = new_normal[better], new_gradient[better]
+        z[won], products[won] = trial[better], new[better]
         damping[won] = np.maximum(damping[won] / 10, 1e-12)
         damping[active[~better]] *= 10
-        stuck = damping[active] > _MAX_DAMPING
-        active = active[~stuck]
-    return z, cost, normal, iterations, converged
+        active = active[damping[active] <= _MAX_DAMPING]
+    return z, products, iterations, converged
 
 
-def _readable(x: Array, goal: Array, mask: Array) -> _NormalAt:
-    def normal_at(z: Array, which: IntArray) -> tuple[Array, Array, Array]:
-        with np.errstate(all="ignore"):  # a wild trial step overflows and is rejected by its cost
-            xi, J = registration(z, x[which])
-        columns = np.concatenate([J, (xi - goal[which])[..., None]], axis=-1)
-        columns = (columns * mask[which, :, None, None]).reshape(len(z), -1, 12)
-        return _split(np.swapaxes(columns, 1, 2) @ columns)
-
-    return normal_at
+def _products(z: Array, x: Array, goal: Array, mask: Array) -> Array:
+    with np.errstate(all="ignore"):  # a wild trial step overflows and is rejected by its cost
+        xi, J = registration(z, x)
+        columns = np.concatenate([J, (xi - goal)[..., None]], axis=-1) * mask[..., None, None]
+        columns = columns.reshape(len(z), -1, 12)
+        return np.swapaxes(columns, 1, 2) @ columns
 
 
-def _compiled(x: Array, goal: Array, mask: Array) -> _NormalAt:
-    from calibgui.engine.kernels.stage_one import products  # takes a while: only when used
+def _compiled(
+    z: Array, x: Array, goal: Array, mask: Array
+) -> tuple[Array, Array, IntArray, BoolArray]:
+    from calibgui.engine.kernels import stage_one  # takes a while: only when used
 
-    xT, goalT = (np.ascontiguousarray(np.swapaxes(a, 1, 2)) for a in (x, goal))
-    return lambda z, which: _split(products(z, which, xT, goalT, mask))
-
-
-def _split(products: Array) -> tuple[Array, Array, Array]:
-    """J^T J (k, 11, 11), J^T r (k, 11) and r^T r (k,), infinite where it has no value."""
-    cost = products[:, 11, 11]
-    return products[:, :11, :11], products[:, :11, 11], np.where(np.isfinite(cost), cost, np.inf)
+    xT, goalT = (np.array(np.swapaxes(a, 1, 2), order="C") for a in (x, goal))
+    return stage_one.iterated(
+        z, xT, goalT, np.array(mask), _MAX_ITERATIONS, _CONVERGED, _MAX_DAMPING
+    )

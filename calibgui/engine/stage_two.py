@@ -127,6 +127,24 @@ def predicted_corners(state: State, views: Observations, lens: Lens, cost: Cost)
     return project(n, state.params, lens).points
 
 
+def registration_error(state: State, views: Observations, lens: Lens, cost: Cost) -> Array:
+    """(K, N, 2) registered minus nominal corners, mm: `reference_residual`, not scaled.
+
+    A corner off the plate's plane is registered on the parallel plane through it. With the
+    ray's direction and origin in the plate's frame, R^T (n, 1) and -R^T T, it is a matter of
+    how far along the ray that is.
+    """
+    n = normalise(views.uv, state.params, lens).points
+    along = np.concatenate([n, np.ones((*n.shape[:-1], 1))], axis=-1) @ state.R
+    origin = np.swapaxes(state.R, 1, 2) @ -state.T[..., None]
+    height = views.xy[..., 2:] if views.xy.shape[-1] == 3 else 0.0
+    distance = (height - origin[:, None, 2]) / along[..., 2:]
+    plate = origin[:, None, :2, 0] + distance * along[..., :2]
+    if cost is Cost.PAPER:
+        plate = plate * np.array([1.0, state.params[1] / state.params[0]])
+    return np.asarray(plate - views.xy[..., :2])
+
+
 def _seen(state: State, plate: Array) -> tuple[Array, Array, Array, Array]:
     """R X (K, N, 3), depth Z (K, N), ray n (K, N, 2), Q (K, N, 2, 3) of points (K, N, 2 or 3)."""
     rotated = plate @ np.swapaxes(state.R[..., : plate.shape[-1]], 1, 2)

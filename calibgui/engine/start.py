@@ -6,7 +6,7 @@ from collections.abc import Mapping, Sequence
 
 import numpy as np
 
-from calibgui.engine import closed_form, frames, homography
+from calibgui.engine import closed_form, frames
 from calibgui.engine.errors import CalibrationError
 from calibgui.engine.lens import Lens
 from calibgui.engine.observations import Observations
@@ -105,11 +105,12 @@ def start_of_stage_two(
 
 def facing(observations: Observations) -> Array:
     """(K,) +1 where the plate's Y runs down in the image as v does, -1 where it runs up."""
-    H = homography.dlt(observations.xy, observations.uv, observations.mask)
-    point = np.concatenate([observations.xy[:, 0], np.ones((len(H), 1))], axis=1)
-    depth = np.einsum("ki,ki->k", H[:, 2], point)
-    # The orientation of a homography at a point is det H / depth^3.
-    return np.asarray(np.sign(np.linalg.det(H) * depth))
+    ones = observations.mask[..., None]
+    plate = np.concatenate([observations.xy[..., :2] * ones, ones], axis=-1)
+    image = np.concatenate([observations.uv * ones, ones], axis=-1)
+    # A camera turns all triangles of corners alike, and by Cauchy and Binet's formula the
+    # determinant is the sum over all of them of the product of both areas.
+    return np.asarray(np.sign(np.linalg.det(np.swapaxes(plate, 1, 2) @ image)))
 
 
 def _coefficients(lens: Lens, d: Array, k1: float) -> Array:

@@ -22,13 +22,17 @@ from __future__ import annotations
 from typing import NamedTuple
 
 import numpy as np
+from scipy.linalg.lapack import dpocon, dpotrf, dpotri
 
 from calibgui.engine import frames
-from calibgui.engine.levenberg_marquardt import NormalEquations, schur
+from calibgui.engine.levenberg_marquardt import NormalEquations, Reduced, schur
+from calibgui.engine.observations import chunks
 from calibgui.engine.types import Array, Calibration, Undetermined
 
 _RANK = 1e-12
 """Information left below which a combination is lost in rounding."""
+_CLEAR = 1e-6
+"""Pivots of Cholesky's factorisation above which nothing is."""
 _SHARE = 0.2
 """Of the undetermined combination's length that a parameter must contribute to be named."""
 
@@ -49,11 +53,21 @@ def variance(cost: float, corners: int, unknowns: int) -> float:
     return cost / freedom if freedom > 0 else float("nan")
 
 
-def information_left(normal: NormalEquations) -> tuple[Array, Array]:
+def information_left(reduced: Reduced) -> tuple[Array, Array]:
     """Eigenvalues (P,), ascending, and eigenvectors (P, P) of the scaled Schur complement."""
-    unit = 1 / np.sqrt(np.maximum(np.diag(normal.U), 1e-300))
-    values, vectors = np.linalg.eigh(schur(normal)[0] * np.outer(unit, unit))
+    values, vectors = np.linalg.eigh(reduced.scaled)
     return values, vectors
+
+
+def determined(reduced: Reduced, least: float) -> bool:
+    """Whether every combination of shared parameters keeps the information `least` (0 to 1).
+
+    From an estimate of the norm of the inverse, which is cheap where eigenvalues of hundreds
+    of parameters are not, and errs towards no by at most the root of their number.
+    """
+    factor, failed = dpotrf(reduced.scaled)
+    norm = np.abs(reduced.scaled).sum(axis=0).max()
+    return not failed and bool(dpocon(factor, norm)[0] * norm > least)
 
 
 def precision(
@@ -68,8 +82,9 @@ def precision(
         tolerated: (P,) standard deviations beyond which a parameter counts as undetermined.
     """
     sigma2 = variance(normal.cost, corners, len(names) + normal.pose.size)
-    shared = shared_covariance(normal, sigma2)
-    values, vectors = information_left(normal)
+    reduced = schur(normal)
+    shared = shared_covariance(reduced, sigma2)
+    values, vectors = information_left(reduced)
     lost = np.sqrt((vectors[:, values < _RANK] ** 2).sum(axis=1)) > _SHARE
     blank = np.diag(normal.U) <= 0
     vague = np.sqrt(np.diag(shared)) > tolerated
@@ -85,13 +100,17 @@ def precision(
     return Precision(sigma2, shared, undetermined)
 
 
-def shared_covariance(normal: NormalEquations, sigma2: float) -> Array:
+def shared_covariance(reduced: Reduced, sigma2: float) -> Array:
     """(P, P) covariance of the free shared parameters, without the combinations that are lost."""
-    values, vectors = information_left(normal)
-    kept = values > _RANK
-    inverse = vectors[:, kept] / values[kept] @ vectors[:, kept].T
-    unit = 1 / np.sqrt(np.maximum(np.diag(normal.U), 1e-300))
-    return np.asarray(sigma2 * inverse * np.outer(unit, unit))
+    factor, failed = dpotrf(reduced.scaled)
+    if len(factor) and not failed and (np.diag(factor) ** 2 > _CLEAR).all():
+        inverse = dpotri(factor)[0]  # its upper triangle
+        inverse = np.triu(inverse) + np.triu(inverse, 1).T
+    else:
+        values, vectors = information_left(reduced)
+        kept = values > _RANK
+        inverse = vectors[:, kept] / values[kept] @ vectors[:, kept].T
+    return np.asarray(sigma2 * inverse * np.outer(reduced.unit, reduced.unit))
 
 
 def pose_covariances(normal: NormalEquations, shared: Array, rvecs: Array, sigma2: float) -> Array:
@@ -103,9 +122,11 @@ def pose_covariances(normal: NormalEquations, shared: Array, rvecs: Array, sigma
         rvecs: (K, 3) rotation vectors of the poses.
         sigma2: variance of one residual coordinate.
     """
-    inverse = np.linalg.inv(normal.V)
-    G = inverse @ np.swapaxes(normal.W, 1, 2)
-    local = sigma2 * inverse + G @ shared @ np.swapaxes(G, 1, 2)
+    local = np.asarray(np.linalg.inv(normal.V))
+    for views in chunks(len(local)):
+        G = local[views] @ np.swapaxes(normal.W[views], 1, 2)
+        carried = np.tensordot(G, shared, axes=1)  # one product for all views
+        local[views] = sigma2 * local[views] + carried @ np.swapaxes(G, 1, 2)
     J = pose_by_local(rvecs)
     return J @ local @ np.swapaxes(J, 1, 2)
 

@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from threadpoolctl import threadpool_limits
 
 from calibgui.engine.calibrate import calibrate
 from calibgui.engine.errors import CalibrationError, Cancelled
@@ -307,3 +308,21 @@ def test_the_forward_model_agrees_with_opencv(aspect: float) -> None:
     assert np.sqrt(squares.sum(axis=1).mean()) == pytest.approx(rms, rel=1e-5)
     sd = result[5].ravel()[:9][[0, 1, 2, 3, 4, 5, 6, 7, 8]]
     np.testing.assert_allclose(found.sigma, sd, rtol=5e-3)
+
+
+@pytest.mark.parametrize(("count", "plate"), [(300, "nominal"), (12, "free")])
+def test_the_same_bits_whatever_the_number_of_threads(
+    count: int, plate: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    views = scene(barrel(), count, seed=7).noisy(0.1, np.random.default_rng(0))
+    results = []
+    for threads in (1, 2, 5):
+        monkeypatch.setattr("calibgui.engine.kernels.common.THREADS", threads)
+        with threadpool_limits(threads):
+            results.append(calibrate(views, VGA, plate=plate))
+    for other in results[1:]:
+        for name in ("sigma", "covariance", "pose_covariances", "noise"):
+            np.testing.assert_array_equal(getattr(results[0], name), getattr(other, name))
+        np.testing.assert_array_equal(results[0].camera.params, other.camera.params)
+        for ours, theirs in zip(results[0].residuals, other.residuals, strict=True):
+            np.testing.assert_array_equal(ours.image, theirs.image)

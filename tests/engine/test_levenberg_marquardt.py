@@ -8,7 +8,6 @@ import pytest
 from calibgui.engine.errors import Cancelled
 from calibgui.engine.lens import MODELS
 from calibgui.engine.levenberg_marquardt import (
-    CHUNK,
     NormalAt,
     NormalEquations,
     StartError,
@@ -17,7 +16,7 @@ from calibgui.engine.levenberg_marquardt import (
     schur,
     solve,
 )
-from calibgui.engine.observations import pack
+from calibgui.engine.observations import CHUNK, pack
 from calibgui.engine.problem import linearised, stage_two
 from calibgui.engine.stage_two import Linearised, State
 from calibgui.engine.types import Array, Cost, Iteration, Status

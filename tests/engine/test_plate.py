@@ -9,7 +9,6 @@ from calibgui.engine import plate
 from calibgui.engine.calibrate import calibrate
 from calibgui.engine.errors import CalibrationError
 from calibgui.engine.frames import rotation
-from calibgui.engine.lens import MODELS
 from calibgui.engine.observations import pack
 from calibgui.engine.projection import pixels
 from calibgui.engine.stage_two import State
@@ -55,9 +54,7 @@ def test_gradient_is_that_of_the_cost(model: PlateModel) -> None:
     Q = B.shape[2]
     stiffness = np.diag(np.linspace(0.5, 2.0, Q))
     free = np.arange(9)
-    normal_at = plate.plate_problem(
-        observations, MODELS["lucchese"], free, points, index, B, stiffness
-    )
+    normal_at = plate.plate_problem(observations, "lucchese", free, points, index, B, stiffness)
     fitted = calibrate(views, SIZE)
     rng = np.random.default_rng(2)
     state = State(

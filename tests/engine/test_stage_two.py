@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from scipy.optimize import least_squares
@@ -18,6 +20,7 @@ from calibgui.engine.stage_two import (
     image_residual,
     predicted_corners,
     reference_residual,
+    registration_error,
 )
 from calibgui.engine.types import Array, Camera, Cost
 from calibgui.engine.weighting import weighted
@@ -53,6 +56,28 @@ def residual(model: str, cost: Cost, state: State, views: Observations) -> Linea
     if cost is Cost.IMAGE:
         return image_residual(state, views, lens)
     return reference_residual(state, views, lens, SCALE, cost is Cost.PAPER)
+
+
+@pytest.mark.parametrize(("model", "cost"), CASES)
+def test_the_registration_error_is_the_residual_of_the_reference_plane(
+    model: str, cost: Cost
+) -> None:
+    made = made_with(model)
+    state, views = truth_of(made), pack(made.noisy(0.5, np.random.default_rng(0)))
+    literal = cost is Cost.PAPER
+    expected = reference_residual(state, views, MODELS[model], SCALE, literal).residual
+    found = registration_error(state, views, MODELS[model], cost)
+    np.testing.assert_allclose(SCALE * found, expected, atol=1e-10)
+
+
+def test_a_corner_off_the_plane_is_registered_beside_its_place() -> None:
+    made = made_with("lucchese")
+    state, views = truth_of(made), pack(made.views)
+    height = np.random.default_rng(0).normal(0, 3, (*views.mask.shape, 1))
+    bent = replace(views, xy=np.concatenate([views.xy, height], axis=-1))
+    seen = replace(bent, uv=predicted_corners(state, bent, MODELS["lucchese"], Cost.IMAGE))
+    found = registration_error(state, seen, MODELS["lucchese"], Cost.IMAGE)
+    np.testing.assert_allclose(found, 0.0, atol=1e-10)
 
 
 @pytest.mark.parametrize(("model", "cost"), CASES[:4])

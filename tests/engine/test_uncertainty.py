@@ -7,7 +7,7 @@ import pytest
 
 from calibgui.engine import frames, uncertainty
 from calibgui.engine.calibrate import calibrate
-from calibgui.engine.levenberg_marquardt import NormalEquations
+from calibgui.engine.levenberg_marquardt import NormalEquations, schur
 from calibgui.engine.types import Array, Calibration
 from tests.engine.scenes import barrel, central_differences, imaged, relative, scene
 
@@ -112,8 +112,26 @@ def test_what_poses_absorb_is_lost() -> None:
     found = normal(np.diag([1.0, 1.0]))
     W = np.zeros((3, 2, 6))
     W[:, 0, 0] = np.sqrt(1 / 3)  # S = 1 - 3 W^2 = 0 for the first
-    left, _ = uncertainty.information_left(found._replace(W=W))
+    left, _ = uncertainty.information_left(schur(found._replace(W=W)))
     np.testing.assert_allclose(left, [0.0, 1.0], atol=1e-12)
+
+
+@pytest.mark.parametrize("share", [1e-3, 1e-6, 1e-10])
+def test_the_cheap_check_of_rank_agrees_with_the_eigenvalues(share: float) -> None:
+    """A combination of two parameters keeps only a share of its information."""
+    found = normal(np.diag([4.0, 9.0, 1.0]))
+    W = np.zeros((3, 3, 6))
+    W[:, :2, 0] = np.sqrt((1 - share) / 6) * np.array([2.0, 3.0])
+    reduced = schur(found._replace(W=W))
+    least = uncertainty.information_left(reduced)[0][0]
+    assert least == pytest.approx(share, rel=1e-3)
+    assert uncertainty.determined(reduced, least / 3)
+    assert not uncertainty.determined(reduced, least * 1.01)
+    # A covariance by either way.
+    expected = np.linalg.inv(reduced.S)
+    np.testing.assert_allclose(
+        uncertainty.shared_covariance(reduced, 2.0), 2.0 * expected, rtol=1e-3
+    )
 
 
 def test_pose_covariance_follows_the_rotation_vector() -> None:

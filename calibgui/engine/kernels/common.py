@@ -18,16 +18,19 @@ from numba import njit
 _MATHS = {"contract", "nsz", "arcp", "reassoc"}
 """Freedoms that the compiler needs to vectorise sums; infinities and NaN stay as they are."""
 THREADS = 2
-_BLOCK = 64
+BLOCK = 64
 """Views that one thread takes at a time."""
+_WORTH = 4
+"""Blocks below which starting threads costs more than they save."""
 compiled: Any = njit(cache=True, fastmath=_MATHS, error_model="numpy", nogil=True)
 
 
 def in_blocks(count: int, run: Callable[[slice], None]) -> None:
     """Call `run` for consecutive slices of `count` views, on all threads."""
-    blocks = [slice(begin, begin + _BLOCK) for begin in range(0, count, _BLOCK)]
-    if len(blocks) == 1:
-        run(blocks[0])
+    blocks = [slice(begin, min(begin + BLOCK, count)) for begin in range(0, count, BLOCK)]
+    if len(blocks) < _WORTH or THREADS == 1:
+        for block in blocks:
+            run(block)
         return
     with ThreadPoolExecutor(THREADS) as pool:
         list(pool.map(run, blocks))

@@ -1,4 +1,4 @@
-"""Stage I's normal equations, compiled: ``stage_one.registration`` and its products.
+"""Stage I, compiled: ``stage_one.iterated`` over ``stage_one.registration``.
 
 With A = 1/P, the registered point xi and the derivatives of ``stage_one.py``.
 """
@@ -8,7 +8,7 @@ from __future__ import annotations
 import numpy as np
 
 from calibgui.engine.kernels.common import compiled, gram, in_blocks
-from calibgui.engine.types import Array, IntArray
+from calibgui.engine.types import Array, BoolArray, IntArray
 
 
 @compiled
@@ -40,29 +40,88 @@ def _registration(z, x, goal, weight, J):  # type: ignore[no-untyped-def]
 
 
 @compiled
-def _views(z, which, x, goal, weight, out):  # type: ignore[no-untyped-def]
-    """Fill out (k, 12, 12) for the views `which` (k,)."""
-    J = np.zeros((12, 2 * weight.shape[1]))
-    for k in range(which.shape[0]):
-        view = which[k]
-        _registration(z[k], x[view], goal[view], weight[view], J)
-        gram(J, out[k])
+def _step(products, damping, L, step):  # type: ignore[no-untyped-def]
+    """Fill step (11,) by Cholesky's factorisation L; the decrease that it promises."""
+    n = step.shape[0]
+    for i in range(n):
+        for j in range(i + 1):
+            s = products[i, j]
+            if i == j:
+                s += damping * s + 1e-14
+            for k in range(j):
+                s -= L[i, k] * L[j, k]
+            L[i, j] = np.sqrt(s) if i == j else s / L[j, j]
+    for i in range(n):
+        s = -products[i, n]
+        for k in range(i):
+            s -= L[i, k] * step[k]
+        step[i] = s / L[i, i]
+    for i in range(n - 1, -1, -1):
+        s = step[i]
+        for k in range(i + 1, n):
+            s -= L[k, i] * step[k]
+        step[i] = s / L[i, i]
+    decrease = 0.0
+    for i in range(n):
+        decrease -= step[i] * products[i, n]
+    return decrease
 
 
-def products(z: Array, which: IntArray, x: Array, goal: Array, weight: Array) -> Array:
-    """(k, 12, 12) products of the columns [J r] of some views.
+@compiled
+def _views(x, goal, weight, most, small, stiffest, z, products, iterations, converged):  # type: ignore[no-untyped-def]
+    """``stage_one.iterated`` for one view after another, from z (K, 11)."""
+    K, N = weight.shape
+    J, new, L = np.zeros((12, 2 * N)), np.empty((12, 12)), np.empty((11, 11))
+    step, trial = np.empty(11), np.empty(11)
+    for view in range(K):
+        damping, cost = 1e-3, np.inf
+        trial[:] = z[view]
+        for count in range(most + 1):
+            _registration(trial, x[view], goal[view], weight[view], J)
+            gram(J, new)
+            iterations[view] = count
+            if new[11, 11] < cost:
+                cost = new[11, 11]
+                z[view], products[view] = trial, new
+                damping = max(damping / 10, 1e-12) if count else damping
+            else:
+                damping *= 10
+            if not damping <= stiffest:
+                break
+            decrease = _step(products[view], damping, L, step)
+            if decrease <= small * cost + 1e-28:
+                converged[view] = True
+                break
+            for i in range(11):
+                trial[i] = z[view, i] + step[i]
+
+
+def iterated(
+    z: Array, x: Array, goal: Array, weight: Array, most: int, small: float, stiffest: float
+) -> tuple[Array, Array, IntArray, BoolArray]:
+    """Levenberg-Marquardt from z (K, 11): ``stage_one.iterated``.
 
     Args:
-        z: (k, 11) their unknowns z_r.
-        which: (k,) their numbers.
-        x: (K, 2, N) measured corners of all views.
+        z: unknowns z_r to start from.
+        x: (K, 2, N) measured corners.
         goal: (K, 2, N) corners on the reference plane.
         weight: (K, N) what residuals are multiplied with.
+        most: iterations.
+        small: decrease that counts as none, relative to the cost.
+        stiffest: damping at which to give up.
+
+    Returns:
+        z, (K, 12, 12) products of the columns [J r] there, iterations, whether it converged.
     """
-    out = np.empty((len(z), 12, 12))
+    K = len(z)
+    z, products = z.copy(), np.full((K, 12, 12), np.nan)
+    iterations, converged = np.zeros(K, dtype=np.int64), np.zeros(K, dtype=np.bool_)
 
     def run(part: slice) -> None:
-        _views(z[part], which[part], x, goal, weight, out[part])
+        _views(
+            x[part], goal[part], weight[part], most, small, stiffest,
+            z[part], products[part], iterations[part], converged[part],
+        )  # fmt: skip
 
-    in_blocks(len(z), run)
-    return out
+    in_blocks(K, run)
+    return z, products, iterations, converged

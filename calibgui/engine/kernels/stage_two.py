@@ -13,6 +13,8 @@ Padded corners carry zero weight.
 
 from __future__ import annotations
 
+from typing import NamedTuple
+
 import numpy as np
 
 from calibgui.engine.kernels.common import compiled, gram, in_blocks
@@ -132,94 +134,167 @@ def _whiten(weight, J):  # type: ignore[no-untyped-def]
 
 
 @compiled
-def _views(params, backward, R, T, uv, xyz, weight, whitened, rows, out):  # type: ignore[no-untyped-def]
-    """Fill out (K, M, M) with the products of [J_free J_pose r] of each view."""
-    K, _, N = uv.shape
-    P = rows.shape[0]
-    fx, fy, cx, cy = params[0], params[1], params[2], params[3]
-    k = (params[4], params[5], params[6], params[7], params[8], params[9])
-    fc = (fx, fy, params[7], params[8], params[9])
-    F, J = np.zeros((10, 2 * N)), np.empty((P + 7, 2 * N))
-    F[2, :N] = 1.0
-    F[3, N:] = 1.0
-    rotated, n, d = np.empty((3, N)), np.empty((2, N)), np.empty((2, N))
-    M, lead, inverse_depth = np.empty((4, N)), np.zeros((4, N)), np.empty(N)
+def workspace(N):  # type: ignore[no-untyped-def]
+    """What `image` and `jacobian` need for a view: R X, 1 / depth, n, d, M, lead and F."""
+    rotated, inverse_depth, n, d = np.empty((3, N)), np.empty(N), np.empty((2, N)), np.empty((2, N))
+    M, lead, F = np.empty((4, N)), np.zeros((4, N)), np.zeros((10, 2 * N))
     lead[0, :] = 1.0
     lead[3, :] = 1.0
+    F[2, :N] = 1.0
+    F[3, N:] = 1.0
+    return rotated, inverse_depth, n, d, M, lead, F
+
+
+@compiled
+def image(camera, backward, R, T, uv, xyz, work):  # type: ignore[no-untyped-def]
+    """Rays n of one view's corners, their images d and M = dd/dn; whether all have one."""
+    rotated, inverse_depth, n, d, M, _, _ = work
+    fx, fy, cx, cy = camera[:4]
+    X, Y, Z = xyz[0], xyz[1], xyz[2]
+    N = Z.shape[0]
+    for row in range(3):
+        r0, r1, r2 = R[row, 0], R[row, 1], R[row, 2]
+        for i in range(N):
+            rotated[row, i] = r0 * X[i] + r1 * Y[i] + r2 * Z[i]
+    behind = False
+    for i in range(N):
+        depth = rotated[2, i] + T[2]
+        behind |= not depth > 0
+        inverse_depth[i] = 1 / depth
+        n[0, i] = (rotated[0, i] + T[0]) * inverse_depth[i]
+        n[1, i] = (rotated[1, i] + T[1]) * inverse_depth[i]
+    if backward:
+        for i in range(N):
+            d[0, i] = (uv[0, i] - cx) / fx
+            d[1, i] = (uv[1, i] - cy) / fy
+        return _invert(n, camera[4:], d, M) and not behind
+    _distort(n, camera[4:], d, M)
+    return not behind
+
+
+@compiled
+def jacobian(camera, backward, uv, weight, whitened, rows, work, J):  # type: ignore[no-untyped-def]
+    """Rows of J (P + 7, 2N): whitened [J_free J_pose r] of the view that `image` has seen."""
+    rotated, inverse_depth, n, d, M, lead, F = work
+    fx, fy, cx, cy, _, _, _, p1, p2, p3 = camera
+    P, N = rows.shape[0], uv.shape[1]
+    if backward:
+        for j in range(4):
+            for i in range(N):
+                lead[j, i] = -M[j, i]
+    _by_params((fx, fy, p1, p2, p3), d if backward else n, lead, d, F)
+    for j in range(P):
+        J[j] = F[rows[j]]
+    _by_pose(fx, fy, rotated, n, M, inverse_depth, J[P : P + 6])
+    for i in range(N):
+        J[P + 6, i] = cx + fx * d[0, i] - uv[0, i]
+        J[P + 6, N + i] = cy + fy * d[1, i] - uv[1, i]
+    if whitened:
+        _whiten(weight, J)
+
+
+@compiled
+def _products(camera, backward, R, T, uv, xyz, weight, whitened, rows, out):  # type: ignore[no-untyped-def]
+    """Fill out (K, P + 7, P + 7) with the products of the rows of each view's J."""
+    K, _, N = uv.shape
+    work, J = workspace(N), np.empty((rows.shape[0] + 7, 2 * N))
     for view in range(K):
-        X, Y, Z, u, v = xyz[view, 0], xyz[view, 1], xyz[view, 2], uv[view, 0], uv[view, 1]
-        for row in range(3):
-            r0, r1, r2 = R[view, row, 0], R[view, row, 1], R[view, row, 2]
-            for i in range(N):
-                rotated[row, i] = r0 * X[i] + r1 * Y[i] + r2 * Z[i]
-        behind = False
-        for i in range(N):
-            depth = rotated[2, i] + T[view, 2]
-            behind |= not depth > 0
-            inverse_depth[i] = 1 / depth
-            n[0, i] = (rotated[0, i] + T[view, 0]) * inverse_depth[i]
-            n[1, i] = (rotated[1, i] + T[view, 1]) * inverse_depth[i]
-        failed = behind
-        if backward:
-            for i in range(N):
-                d[0, i] = (u[i] - cx) / fx
-                d[1, i] = (v[i] - cy) / fy
-            failed |= not _invert(n, k, d, M)
-            for j in range(4):
-                for i in range(N):
-                    lead[j, i] = -M[j, i]
-            _by_params(fc, d, lead, d, F)
-        else:
-            _distort(n, k, d, M)
-            _by_params(fc, n, lead, d, F)
-        for j in range(P):
-            J[j] = F[rows[j]]
-        _by_pose(fx, fy, rotated, n, M, inverse_depth, J[P : P + 6])
-        for i in range(N):
-            J[P + 6, i] = cx + fx * d[0, i] - u[i]
-            J[P + 6, N + i] = cy + fy * d[1, i] - v[i]
-        if whitened:
-            _whiten(weight[view], J)
+        good = image(camera, backward, R[view], T[view], uv[view], xyz[view], work)
+        jacobian(camera, backward, uv[view], weight[view], whitened, rows, work, J)
         gram(J, out[view])
-        if failed:
-            out[view, P + 6, P + 6] = np.inf
+        if not good:
+            out[view, -1, -1] = np.inf
 
 
-def products(
-    params: Array,
-    backward: bool,
-    R: Array,
-    T: Array,
-    uv: Array,
-    xyz: Array,
-    weight: Array | None,
-    rows: IntArray,
-) -> Array:
+@compiled
+def _residuals(camera, backward, R, T, uv, xyz, seen, registered):  # type: ignore[no-untyped-def]
+    """Fill seen and registered (K, 2, N); NaN for a view with corners that have no image."""
+    K, _, N = uv.shape
+    fx, fy, cx, cy = camera[:4]
+    work = workspace(N)
+    _, _, n, d, M, _, _ = work
+    goal, ideal = np.empty((2, N)), np.empty((2, N))
+    for view in range(K):
+        good = image(camera, backward, R[view], T[view], uv[view], xyz[view], work)
+        for i in range(N):
+            seen[view, 0, i] = uv[view, 0, i] - cx - fx * d[0, i]
+            seen[view, 1, i] = uv[view, 1, i] - cy - fy * d[1, i]
+            goal[0, i] = (uv[view, 0, i] - cx) / fx
+            goal[1, i] = (uv[view, 1, i] - cy) / fy
+        if backward:
+            _distort(goal, camera[4:], ideal, M)
+        else:
+            ideal[:] = n
+            good &= _invert(goal, camera[4:], ideal, M)
+        r, t = R[view], R[view].T @ T[view]
+        for i in range(N):
+            x, y = ideal[0, i], ideal[1, i]
+            X, Y, Z = xyz[view, 0, i], xyz[view, 1, i], xyz[view, 2, i]
+            depth = (Z + t[2]) / (r[0, 2] * x + r[1, 2] * y + r[2, 2])
+            registered[view, 0, i] = depth * (r[0, 0] * x + r[1, 0] * y + r[2, 0]) - t[0] - X
+            registered[view, 1, i] = depth * (r[0, 1] * x + r[1, 1] * y + r[2, 1]) - t[1] - Y
+        if not good:
+            seen[view] = np.nan
+            registered[view] = np.nan
+
+
+class Views(NamedTuple):
+    """K views as the kernels take them."""
+
+    uv: Array
+    """(K, 2, N) measured corners, px."""
+    xyz: Array
+    """(K, 3, N) plate points, mm."""
+    weight: Array
+    """(K, 4, N) whitening of the corners, 0 for padding; (K, 4, 0) if all weigh 1."""
+
+
+class Lens(NamedTuple):
+    """A camera in the terms of eq. 10."""
+
+    camera: tuple[float, ...]
+    """fx, fy, cx, cy, k1, k2, k3, p1, p2, p3."""
+    backward: bool
+    """Whether eq. 10 corrects (the paper) rather than distorts."""
+
+
+def products(lens: Lens, R: Array, T: Array, views: Views, rows: IntArray) -> Array:
     """(K, P + 7, P + 7) products of the columns [J_free J_pose r] of each view.
 
     Args:
-        params: (10,) fx, fy, cx, cy, k1, k2, k3, p1, p2, p3 of eq. 10.
-        backward: whether eq. 10 corrects (the paper) rather than distorts.
+        lens: the camera.
         R: (K, 3, 3) rotations.
         T: (K, 3) translations, mm.
-        uv: (K, 2, N) measured corners, px.
-        xyz: (K, 3, N) plate points, mm.
-        weight: (K, 4, N) whitening of the corners, 0 for padding; None if all weigh 1.
-        rows: (P,) places of the free parameters among `params`.
+        views: what was measured.
+        rows: (P,) places of the free parameters in ``lens.camera``.
 
     Returns:
         The squared residual, the last entry, is infinite for views with no prediction.
     """
-    K, M = len(R), len(rows) + 7
-    out = np.empty((K, M, M))
-    whitened = weight is not None
-    weights = np.empty((K, 4, 0)) if weight is None else weight
+    out = np.empty((len(R), len(rows) + 7, len(rows) + 7))
+    uv, xyz, weight = views
+    whitened = weight.shape[2] > 0
 
-    def run(views: slice) -> None:
-        _views(
-            params, backward, R[views], T[views], uv[views], xyz[views], weights[views],
-            whitened, rows, out[views],
-        )  # fmt: skip
+    def run(part: slice) -> None:
+        _products(
+            *lens, R[part], T[part], uv[part], xyz[part], weight[part], whitened, rows, out[part]
+        )
 
-    in_blocks(K, run)
+    in_blocks(len(R), run)
     return out
+
+
+def residuals(lens: Lens, R: Array, T: Array, views: Views) -> tuple[Array, Array]:
+    """(K, 2, N) measured minus predicted corners, px, and the same on the plate, mm.
+
+    The second are where the measured corners' rays meet the plate, minus where the corners
+    are, on the plane through each corner that is parallel to the plate's. Not whitened.
+    """
+    uv, xyz, _ = views
+    seen, registered = np.empty_like(uv), np.empty_like(uv)
+
+    def run(part: slice) -> None:
+        _residuals(*lens, R[part], T[part], uv[part], xyz[part], seen[part], registered[part])
+
+    in_blocks(len(R), run)
+    return seen, registered

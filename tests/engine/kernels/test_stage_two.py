@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -56,6 +58,35 @@ def test_the_compiled_sums_are_the_readable_ones(
 
 
 @pytest.mark.parametrize("model", CAMERAS)
+@pytest.mark.parametrize("flat", [True, False])
+def test_the_compiled_residuals_are_the_readable_ones(
+    model: str, flat: bool, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    state, views = scene(model, weighted=False)
+    observations = pack(views)
+    if not flat:
+        height = np.random.default_rng(1).normal(0, 2, (*observations.mask.shape, 1))
+        bent = np.concatenate([observations.xy, height], axis=-1)
+        observations = replace(observations, xy=bent)
+    compiled = problem.residuals(state, observations, model, Cost.IMAGE)
+    monkeypatch.setattr(kernels, "COMPILED", False)
+    readable = problem.residuals(state, observations, model, Cost.IMAGE)
+    for ours, truth in zip(compiled, readable, strict=True):
+        np.testing.assert_allclose(ours, truth, atol=1e-10)
+
+
+@pytest.mark.parametrize("model", CAMERAS)
+def test_views_behind_the_camera_have_no_residuals(model: str) -> None:
+    state, views = scene(model, weighted=False)
+    turned = np.array([1.0, 1.0, -1.0]) ** (np.arange(5) == 2)[:, None]
+    seen, registered = problem.residuals(
+        state._replace(T=state.T * turned), pack(views), model, Cost.IMAGE
+    )
+    for found in (seen, registered):
+        np.testing.assert_array_equal(np.isnan(found).any(axis=(1, 2)), np.arange(5) == 2)
+
+
+@pytest.mark.parametrize("model", CAMERAS)
 def test_a_board_behind_the_camera_costs_infinitely_much(model: str) -> None:
     state, views = scene(model, weighted=False)
     behind = state._replace(T=state.T * np.array([1.0, 1.0, -1.0]))
@@ -67,8 +98,8 @@ def test_the_sums_do_not_depend_on_the_number_of_threads(monkeypatch: pytest.Mon
     from calibgui.engine.kernels import common
 
     state, views = scene("lucchese", weighted=False)
-    many = 30 * views
-    wide = State(state.params, np.tile(state.R, (30, 1, 1)), np.tile(state.T, (30, 1)))
+    many = 60 * views
+    wide = State(state.params, np.tile(state.R, (60, 1, 1)), np.tile(state.T, (60, 1)))
     normal_at = problem.stage_two(pack(many), "lucchese", Cost.IMAGE, 1.0, np.arange(9))
     results = []
     for threads in (1, 2, 5):

@@ -1,0 +1,81 @@
+"""The plate's part of the normal equations, compiled: ``plate.corner_products``."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from calibgui.engine.kernels.common import BLOCK, compiled, gram, in_blocks
+from calibgui.engine.kernels.stage_two import Lens, Views, image, jacobian, workspace
+from calibgui.engine.types import Array, IntArray
+
+
+@compiled
+def _products(camera, backward, R, T, uv, xyz, weight, whitened, rows, index, A, D, total):  # type: ignore[no-untyped-def]
+    """Fill A (K, P + 7, P + 7) as in Stage II; add up D (K, n, 3, 6) and total (n, 3, P + 4)."""
+    K, _, N = uv.shape
+    P = rows.shape[0]
+    work, J, C = workspace(N), np.empty((P + 7, 2 * N)), np.empty((3, 2 * N))
+    for view in range(K):
+        good = image(camera, backward, R[view], T[view], uv[view], xyz[view], work)
+        jacobian(camera, backward, uv[view], weight[view], whitened, rows, work, J)
+        gram(J, A[view])
+        if not good:
+            A[view, -1, -1] = np.inf
+        for a in range(3):
+            r0, r1, r2 = R[view, 0, a], R[view, 1, a], R[view, 2, a]
+            for i in range(2 * N):
+                C[a, i] = r0 * J[P + 3, i] + r1 * J[P + 4, i] + r2 * J[P + 5, i]
+        for i in range(N):
+            corner = index[view, i]
+            for a in range(3):
+                cu, cv = C[a, i], C[a, N + i]
+                for m in range(P):
+                    total[corner, a, m] += cu * J[m, i] + cv * J[m, N + i]
+                total[corner, a, P] += cu * J[P + 6, i] + cv * J[P + 6, N + i]
+                for m in range(3):
+                    total[corner, a, P + 1 + m] += cu * C[m, i] + cv * C[m, N + i]
+                for m in range(6 if D.size else 0):
+                    D[view, corner, a, m] += cu * J[P + m, i] + cv * J[P + m, N + i]
+
+
+def products(
+    lens: Lens,
+    R: Array,
+    T: Array,
+    views: Views,
+    rows: IntArray,
+    index: IntArray,
+    count: int,
+    with_poses: bool,
+) -> tuple[Array, Array, Array]:
+    """Products of the columns [camera, pose, r] of some views and of those of the plate's corners.
+
+    Args:
+        lens: the camera.
+        R: (K, 3, 3) rotations.
+        T: (K, 3) translations, mm.
+        views: what was measured.
+        rows: (P,) places of the free parameters in ``lens.camera``.
+        index: (K, N) which of the plate's corners each observation is.
+        count: n, their number.
+        with_poses: whether to return the second of the results; nothing otherwise.
+
+    Returns:
+        (K, P + 7, P + 7) of the first columns with each other; (K, n, 3, 6) of the three columns
+        of each corner with the pose's; (n, 3, P + 4) of these with the camera's, with r and with
+        themselves, summed over the views.
+    """
+    K, P = len(R), len(rows)
+    A, D = np.empty((K, P + 7, P + 7)), np.zeros((K if with_poses else 0, count, 3, 6))
+    totals = np.zeros((-(-K // BLOCK), count, 3, P + 4))
+    uv, xyz, weight = views
+    whitened = weight.shape[2] > 0
+
+    def run(part: slice) -> None:
+        _products(
+            *lens, R[part], T[part], uv[part], xyz[part], weight[part], whitened, rows,
+            index[part], A[part], D[part if with_poses else slice(0)], totals[part.start // BLOCK],
+        )  # fmt: skip
+
+    in_blocks(K, run)
+    return A, D, totals.sum(axis=0)

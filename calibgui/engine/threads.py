@@ -1,0 +1,29 @@
+"""One thread for BLAS: on small matrices it is the fastest, and its results never vary."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from functools import cache, wraps
+from typing import ParamSpec, TypeVar
+
+from threadpoolctl import ThreadpoolController
+
+_P = ParamSpec("_P")
+_T = TypeVar("_T")
+
+
+@cache
+def _controller() -> ThreadpoolController:
+    """Of the libraries that are loaded; looking for them takes milliseconds."""
+    return ThreadpoolController()
+
+
+def on_one_blas_thread(function: Callable[_P, _T]) -> Callable[_P, _T]:
+    """`function` with one BLAS thread, so that it sums in the same order on every machine."""
+
+    @wraps(function)
+    def limited(*args: _P.args, **kwargs: _P.kwargs) -> _T:
+        with _controller().limit(limits=1, user_api="blas"):
+            return function(*args, **kwargs)
+
+    return limited
