@@ -50,7 +50,9 @@ def test_the_floor_is_found(floor: float) -> None:
     residual = draws + rng.normal(0, floor, draws.shape)
     observations = Observations(residual, residual, np.ones((10, 500)), cov)
     # 10,000 coordinates: the variance is known to 1.4 % of its total.
-    assert model_variance(observations, residual, 0) == pytest.approx(floor**2, abs=0.03 * (floor**2 + 0.02))
+    assert model_variance(observations, residual, 0) == pytest.approx(
+        floor**2, abs=0.03 * (floor**2 + 0.02)
+    )
 
 
 def test_weights_beat_equal_weights_where_corners_differ() -> None:

@@ -22,7 +22,15 @@ BLOCK = 64
 """Views that one thread takes at a time."""
 _WORTH = 4
 """Blocks below which starting threads costs more than they save."""
-compiled: Any = njit(cache=True, fastmath=_MATHS, error_model="numpy", nogil=True)
+
+
+def compiled(function: Callable[..., Any]) -> Any:
+    """The function compiled, and kept for the next start where there is a place to keep it."""
+    options: dict[str, Any] = {"fastmath": _MATHS, "error_model": "numpy", "nogil": True}
+    try:
+        return njit(cache=True, **options)(function)
+    except RuntimeError:  # neither the package's folder nor the user's cache can be written
+        return njit(**options)(function)
 
 
 def in_blocks(count: int, run: Callable[[slice], None]) -> None:
