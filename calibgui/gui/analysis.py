@@ -27,11 +27,13 @@ from calibgui.gui.panels.coverage import CoveragePanel
 from calibgui.gui.panels.distortion import DistortionPanel
 from calibgui.gui.panels.histograms import HistogramsPanel
 from calibgui.gui.panels.panel import Panel
+from calibgui.gui.panels.plate import PlatePanel
 from calibgui.gui.panels.poses import PosesPanel
 from calibgui.gui.panels.residuals import ResidualsPanel
 from calibgui.gui.panels.result import ResultPanel
 from calibgui.gui.panels.stage_one import StageOnePanel
 from calibgui.gui.panels.synthetic import SyntheticPanel
+from calibgui.gui.panels.uncertainty import UncertaintyPanel
 from calibgui.gui.panels.undistort import UndistortPanel
 from calibgui.gui.session import Session
 
@@ -45,6 +47,8 @@ PANELS: tuple[type[Panel], ...] = (
     UndistortPanel,
     PosesPanel,
     CoveragePanel,
+    UncertaintyPanel,
+    PlatePanel,
     SyntheticPanel,
 )
 """In the order of the list."""
@@ -80,13 +84,15 @@ class Analysis(QWidget):
         for kind in PANELS:
             self.names.addItem(QCoreApplication.translate(kind.__name__, kind.title))
             self.stack.addWidget(self._blank[kind])
-        width = self.names.sizeHintForColumn(0) + 4 * theme.SPACING
+        width = self.names.sizeHintForColumn(0) + 2 * theme.SPACING
         self.names.setFixedWidth(width)
         self.names.currentRowChanged.connect(lambda row: self.show_panel(PANELS[row]))
         below = QHBoxLayout()
+        below.setSpacing(0)  # panels have margins of their own
         below.addWidget(self.names)
         below.addWidget(self.stack, 1)
         layout = QVBoxLayout(self)
+        layout.setContentsMargins(theme.SPACING, 0, 0, theme.SPACING)
         layout.addLayout(self._make_bar())
         layout.addLayout(below, 1)
         session.changed.connect(self._project_changed)
@@ -104,6 +110,8 @@ class Analysis(QWidget):
                 panel.excluded.connect(self._exclude)
             if isinstance(panel, UndistortPanel):
                 panel.saving.connect(self.saving)
+            if isinstance(panel, PlatePanel):
+                panel.failed.connect(self._session.failed)
             panel.show_result(self._shown)
             panel.select(self._place(self._session.image), self._session.corner)
             row = PANELS.index(kind)
@@ -114,6 +122,8 @@ class Analysis(QWidget):
     def _build(self, kind: type[Panel]) -> Panel:
         if issubclass(kind, (UndistortPanel, SyntheticPanel)):
             return kind(self._session.jobs, self._session.images.read)
+        if issubclass(kind, (ResidualsPanel, CoveragePanel, UncertaintyPanel)):
+            return kind(self._session.jobs)
         return kind()
 
     def show_panel(self, kind: type[P]) -> P:
@@ -160,6 +170,7 @@ class Analysis(QWidget):
         )
         self.more.setMenu(menu)
         bar = QHBoxLayout()
+        bar.setContentsMargins(0, 0, theme.SPACING, 0)
         bar.addWidget(self.results, 1)
         bar.addWidget(self.state)
         bar.addWidget(self.more)

@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 import pyqtgraph as pg
-from PySide6.QtCore import QCoreApplication, QEvent, QPoint, Qt
+from PySide6.QtCore import QCoreApplication, QEvent, QPoint, QRectF, Qt
 from PySide6.QtGui import (
     QAction,
     QContextMenuEvent,
@@ -20,6 +20,9 @@ from PySide6.QtWidgets import QFileDialog, QMenu, QWidget
 from calibgui.gui import theme
 
 pg.setConfigOptions(antialias=True)
+
+_RIM = 8.0
+"""Above axes that end with what they enclose: half a line for their topmost number, px."""
 
 
 class Plot(pg.PlotWidget):  # type: ignore[misc]  # pyqtgraph is not typed
@@ -43,7 +46,11 @@ class Plot(pg.PlotWidget):  # type: ignore[misc]  # pyqtgraph is not typed
     ) -> None:
         super().__init__(parent)
         self._labels = _labels(x, y, x_unit, y_unit)
+        self.colour_bar: ColourBar | None = None
+        """What the colours mean, if they mean anything."""
+        self._area: QRectF | None = None
         item = self.getPlotItem()
+        item.getViewBox().sigResized.connect(self._make_room)
         item.setMenuEnabled(False)
         item.hideButtons()
         item.showGrid(x=True, y=True, alpha=0.15)
@@ -69,6 +76,26 @@ class Plot(pg.PlotWidget):  # type: ignore[misc]  # pyqtgraph is not typed
         """Say anew what the axes show."""
         self._labels = _labels(x, y, x_unit, y_unit)
         self._restyle()
+
+    def enclose(self, area: QRectF) -> None:
+        """Show all of `area` of a square plot, with axes that end where it ends."""
+        self._area = area
+        self._make_room()
+        self.getPlotItem().getViewBox().setRange(area, padding=0)
+
+    def _make_room(self) -> None:
+        """Leave the room that the enclosed area cannot fill outside the axes."""
+        if self._area is None:
+            return
+        item = self.getPlotItem()
+        box, layout = item.getViewBox(), item.layout
+        left, top, right, bottom = layout.getContentsMargins()
+        width, height = box.width() + left + right, box.height() + top + bottom - _RIM
+        scale = min(width / self._area.width(), height / self._area.height())
+        across = max(width - scale * self._area.width(), 0.0) / 2
+        below = max(height - scale * self._area.height(), 0.0)
+        if abs(across - left) > 1 or abs(below - bottom) > 1:
+            layout.setContentsMargins(across, _RIM, across, below)
 
     def set_title(self, text: str) -> None:
         """Say above the plot what it shows at present."""
@@ -103,6 +130,35 @@ class Plot(pg.PlotWidget):  # type: ignore[misc]  # pyqtgraph is not typed
             axis.setPen(colours.line)
             axis.setTextPen(colours.text)
             axis.setLabel(text, color=colours.text)
+        if self.colour_bar is not None:
+            self.colour_bar.restyle()
+
+
+class ColourBar(pg.ColorBarItem):  # type: ignore[misc]  # pyqtgraph is not typed
+    """What the colours of a plot mean, beside it.
+
+    Args:
+        plot: that the bar belongs to.
+        quantity: what the colours show, with its unit.
+        colours: the colour map.
+        image: whose values are coloured, if they are one's.
+    """
+
+    def __init__(
+        self, plot: Plot, quantity: str, colours: pg.ColorMap, image: pg.ImageItem | None = None
+    ) -> None:
+        super().__init__(width=14, interactive=False, colorMap=colours)
+        self._quantity = quantity
+        self.setImageItem([] if image is None else image, insert_in=plot.getPlotItem())
+        plot.colour_bar = self
+        self.restyle()
+
+    def restyle(self) -> None:
+        """Take the theme's colours."""
+        colours = theme.current()
+        self.axis.setPen(colours.line)
+        self.axis.setTextPen(colours.text)
+        self.getAxis("left").setLabel(self._quantity, color=colours.text)
 
 
 def save_picture(widget: QWidget, path: str | Path) -> None:

@@ -48,6 +48,8 @@ class Column:
     text: Callable[[Any], str] = str
     tip: str = ""
     """What the column means, with its unit."""
+    hidden: bool = False
+    """Whether only copies and files hold it."""
 
 
 def number(digits: int) -> Callable[[float], str]:
@@ -160,6 +162,8 @@ class Table(QTableView):
         """Show these columns; `marked` rows stand out, each with its reason as the tooltip."""
         reasons = marked if isinstance(marked, dict) else dict.fromkeys(marked, "")
         self._model.show(columns, reasons)
+        for place, column in enumerate(columns):
+            self.setColumnHidden(place, column.hidden)
 
     def select(self, row: int) -> None:
         """Highlight a row, without announcing it; none if it is negative."""

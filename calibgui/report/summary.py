@@ -17,7 +17,7 @@ import numpy as np
 
 from calibgui.engine.calibrate import parameter_names
 from calibgui.engine.statistics import summarise
-from calibgui.engine.types import Array, Calibration, Status
+from calibgui.engine.types import Array, Calibration, Plate, Status
 from calibgui.engine.uncertainty import correlations
 from calibgui.formats.result import Result
 from calibgui.report.coverage import attitudes, density
@@ -97,23 +97,31 @@ def _ending(result: Result) -> Iterator[Sentence]:
         yield Sentence(Tone.CAUTION, warning)
 
 
+def about_plate(plate: Plate) -> str:
+    """How far the board is from its drawing."""
+    across, along, out = np.sqrt(np.mean(plate.deviation**2, axis=0))
+    return (
+        f"The board deviates from its drawing by {plate.rms:.2g} mm (rms): {across:.2g} mm "
+        f"along its rows, {along:.2g} mm along its columns and {out:.2g} mm out of its plane."
+    )
+
+
+def about_plate_doubt(doubt: float) -> str:
+    """That the residuals of a nominal plate suspect it of deviations of `doubt` mm rms."""
+    return (
+        f"The residuals are not noise: over the views the board's corners are off by "
+        f"{doubt:.2g} mm (rms), as if it were not flat or not printed true. Every ± includes "
+        "what this does to the camera. Estimate the plate to remove it."
+    )
+
+
 def _plate(result: Result) -> Iterator[Sentence]:
     """What is known, or suspected, of the board's shape."""
     plate, doubt = result.calibration.plate, result.calibration.plate_doubt
     if doubt > 0:
-        yield Sentence(
-            Tone.CAUTION,
-            f"The residuals are not noise: over the views the board's corners are off by "
-            f"{doubt:.2g} mm (rms), as if it were not flat or not printed true. Every ± includes "
-            "what this does to the camera. Estimate the plate to remove it.",
-        )
+        yield Sentence(Tone.CAUTION, about_plate_doubt(doubt))
     if plate is not None:
-        across, along, out = np.sqrt(np.mean(plate.deviation**2, axis=0))
-        yield Sentence(
-            Tone.FACT,
-            f"The board deviates from its drawing by {plate.rms:.2g} mm (rms): {across:.2g} mm "
-            f"along its rows, {along:.2g} mm along its columns and {out:.2g} mm out of its plane.",
-        )
+        yield Sentence(Tone.FACT, about_plate(plate))
 
 
 def _fit(result: Result) -> Iterator[Sentence]:

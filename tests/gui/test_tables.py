@@ -62,3 +62,12 @@ def test_copy_and_csv_hold_every_digit(qtbot: QtBot, tmp_path: Path) -> None:
 def test_number_formats() -> None:
     assert number(3)(1234.5) == "1.23e+03"
     assert number(3)(math.nan) == "–"
+
+
+def test_a_hidden_column_is_for_files_only(qtbot: QtBot) -> None:
+    table = example(qtbot)
+    table.show_columns([Column("a", [1]), Column("b", [2], hidden=True)])
+    assert [table.isColumnHidden(k) for k in range(2)] == [False, True]
+    assert table.as_csv() == "a,b\n1,2\n"
+    table.show_columns([Column("a", [1]), Column("b", [2])])
+    assert not table.isColumnHidden(1)

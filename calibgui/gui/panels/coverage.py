@@ -6,11 +6,15 @@ import numpy as np
 import pyqtgraph as pg
 from PySide6.QtCore import QT_TRANSLATE_NOOP, Qt
 from PySide6.QtGui import QColor
-from PySide6.QtWidgets import QVBoxLayout
+from PySide6.QtWidgets import QLabel, QVBoxLayout
+from scipy.spatial import ConvexHull
 
+from calibgui.engine.next_view import NextView, next_views
 from calibgui.formats.result import Result
 from calibgui.gui import theme
-from calibgui.gui.panels.heat import HeatMap
+from calibgui.gui.jobs import Jobs
+from calibgui.gui.panels.heat import HeatMap, whole
+from calibgui.gui.panels.latest import Latest
 from calibgui.gui.panels.panel import Panel
 from calibgui.gui.panels.split import Split
 from calibgui.gui.plots import Plot
@@ -23,17 +27,27 @@ _RINGS = (15, 30, 45, 60)
 
 
 class CoveragePanel(Panel):
-    """Whether the views see all of the sensor, from all sides and distances."""
+    """Whether the views see all of the sensor, from all sides and distances, and what to add.
+
+    Args:
+        jobs: that look for the view that would help most.
+    """
 
     title = str(QT_TRANSLATE_NOOP("CoveragePanel", "Coverage"))
     icon = "coverage"
 
-    def __init__(self) -> None:
+    def __init__(self, jobs: Jobs) -> None:
         super().__init__()
+        self._work = Latest(jobs, self)
         self.density = HeatMap(self.tr("corners in a cell"))
         self.density.setToolTip(
             self.tr("Where corners were seen. The lens correction is extrapolated beyond them.")
         )
+        self.next_board = self.density.plot(pen=pg.mkPen("#ff3b30", width=2.5))
+        self.next_corners = pg.ScatterPlotItem(size=3, pen=None, brush="#ff3b30")
+        self.density.addItem(self.next_corners)
+        self.advice = QLabel()
+        self.advice.setWordWrap(True)
         self.tilts = Plot(
             self.tr("tilt to the right"), self.tr("tilt upwards"), "°", "°", square=True
         )
@@ -47,6 +61,7 @@ class CoveragePanel(Panel):
             self._add_ring(ring)
         self.distances = Plot(self.tr("view"), self.tr("distance"), y_unit=self.tr("mm"))
         self.distances.setToolTip(self.tr("From the camera to the middle of the corners seen."))
+        self._planned: Result | None = None
         self._points = [pg.ScatterPlotItem(size=10, pen=None) for _ in range(2)]
         self._rings = [pg.ScatterPlotItem(size=17, brush=None) for _ in range(2)]
         for plot, points, ring in zip(
@@ -56,14 +71,15 @@ class CoveragePanel(Panel):
             plot.addItem(ring)
             points.sigClicked.connect(lambda _, spots: self._pick(spots[0].data()))
         layout = QVBoxLayout(self.body)
-        sensor = Split(600, (self.density, 4), (self.distances, 3))
-        layout.addWidget(Split(800, (sensor, 1), (self.tilts, 1)))
+        sensor = Split(600, (self.density, 3), (self.distances, 2))
+        layout.addWidget(self.advice)
+        layout.addWidget(Split(800, (sensor, 3), (self.tilts, 2)), 1)
 
     def _refresh(self, result: Result) -> None:
         size = result.calibration.camera.size
         observations = result.observations()
         uv = np.concatenate([view.uv for view in observations])
-        self.density.show_values(density(uv, size, _CELLS).astype(np.float64), size)
+        self.density.show_values(density(uv, size, _CELLS).astype(np.float64), whole(size))
         self.density.fit(size)
         attitude = attitudes(result.calibration, observations)
         tilt = np.rad2deg(attitude.tilt)
@@ -82,6 +98,37 @@ class CoveragePanel(Panel):
         reach = max(48.0, 1.05 * float(np.abs(self._at[0]).max()))
         self.tilts.getPlotItem().getViewBox().setRange(
             xRange=(-reach, reach), yRange=(-reach, reach)
+        )
+
+        self._look_for_next(result)
+
+    def _look_for_next(self, result: Result) -> None:
+        if result is self._planned:
+            return
+        self._planned = result
+        self._draw_next(None)
+        self.advice.setText(self.tr("Which view would help most? Working…"))
+        self._work.start(
+            self.tr("Looking for the next view"),
+            lambda: next_views(result.calibration, result.observations(), 1)[0],
+            self._draw_next,
+            lambda error: self.advice.setText(str(error)),
+        )
+
+    def _draw_next(self, view: NextView | None) -> None:
+        """Draw where the board should be next, and say so."""
+        if view is None:
+            self.next_board.setData([], [])
+            self.next_corners.setData([], [])
+            return
+        around = ConvexHull(view.corners).vertices
+        self.next_board.setData(*view.corners[[*around, around[0]]].T)
+        self.next_corners.setData(*view.corners.T)
+        self.advice.setText(
+            self.tr(
+                "The next view (red): {0} It lowers the uncertainty over the image from "
+                "{1:.3f} to {2:.3f} px."
+            ).format(view.words, view.before, view.after)
         )
 
     def _select(self, k: int, corner: int) -> None:  # noqa: ARG002 - a view has one tilt

@@ -6,7 +6,6 @@ from collections.abc import Iterator
 
 import numpy as np
 import pyqtgraph as pg
-from contourpy import contour_generator
 from PySide6.QtCore import QT_TRANSLATE_NOOP, QPointF
 from PySide6.QtWidgets import QCheckBox, QComboBox, QHBoxLayout, QLabel, QVBoxLayout
 from scipy.spatial import Delaunay
@@ -15,7 +14,9 @@ from calibgui.engine.frames import centre_of_array
 from calibgui.engine.maps import Displacement, Part, displacement
 from calibgui.engine.types import Array, BoolArray, Size
 from calibgui.formats.result import Result
-from calibgui.gui.panels.heat import HeatMap
+from calibgui.gui.panels.arrows import arrows
+from calibgui.gui.panels.contours import Contours
+from calibgui.gui.panels.heat import HeatMap, whole
 from calibgui.gui.panels.panel import Panel
 
 _CELLS = 240
@@ -49,9 +50,8 @@ class DistortionPanel(Panel):
         self.masked.toggled.connect(self._refresh_now)
         self.plot = HeatMap(self.tr("displacement d [px]"))
         self.plot.scene().sigMouseMoved.connect(self._hover)
-        self._contours = self.plot.plot(connect="finite", pen=pg.mkPen("#ffffffc8"))
+        self.contours = Contours(self.plot, pg.mkPen("#ffffffc8"))
         self._arrows = self.plot.plot(connect="finite", pen=pg.mkPen("#ffffff90"))
-        self._labels: list[pg.TextItem] = []
         edge = pg.mkPen("#101418")
         self.centre = pg.ScatterPlotItem(symbol="+", size=18, brush="#ffe600", pen=edge)
         self.principal = pg.ScatterPlotItem(symbol="x", size=16, brush="#ff3b30", pen=edge)
@@ -79,15 +79,15 @@ class DistortionPanel(Panel):
         u, v = _cells(camera.size, _CELLS)
         d = self.displacement(_grid(u, v)).length
         d = np.where(self._shown(_grid(u, v), result), d, np.nan)
-        self.plot.show_values(d, camera.size)
+        self.plot.show_values(d, whole(camera.size))
         self.plot.fit(camera.size)
-        self._draw_contours(u, v, d)
+        self.contours.show(u, v, d, _levels(float(np.nanmax(d, initial=0.0))))
         at = _grid(*_cells(camera.size, _ARROWS)).reshape(-1, 2)
         at = at[self._shown(at, result)]
         gradient = self.displacement(at).gradient
         pitch = max(camera.size) / _ARROWS
         longest = np.linalg.norm(gradient, axis=1).max(initial=1e-12)
-        self._arrows.setData(*_arrows(at, 0.8 * pitch / longest * gradient).T)
+        self._arrows.setData(*arrows(at, 0.8 * pitch / longest * gradient).T)
         self.centre.setData(*centre_of_array(camera.size)[:, None])
         self.principal.setData(*camera.centre[:, None])
         self._hover(None)
@@ -99,46 +99,20 @@ class DistortionPanel(Panel):
         corners = np.concatenate([view.uv for view in result.observations()])
         return np.asarray(Delaunay(corners).find_simplex(uv) >= 0)
 
-    def _draw_contours(self, u: Array, v: Array, d: Array) -> None:
-        for label in self._labels:
-            self.plot.removeItem(label)
-        self._labels = []
-        gap = np.full((1, 2), np.nan)
-        lines: list[Array] = [gap]
-        contours = contour_generator(u, v, np.ma.masked_invalid(d))
-        for level in _levels(float(np.nanmax(d, initial=0.0))):
-            found = [np.asarray(line) for line in contours.lines(level)]
-            for line in found:
-                lines += [line, gap]
-            if found:
-                longest = max(found, key=len)
-                self._label(level, longest[len(longest) // 2])
-        self._contours.setData(*np.concatenate(lines).T)
-
-    def _label(self, level: float, at: Array) -> None:
-        label = pg.TextItem(
-            f"{level:g}", color="#101418", anchor=(0.5, 0.5), fill=(255, 255, 255, 170)
-        )
-        label.setPos(*at)
-        self.plot.addItem(label)
-        self._labels.append(label)
-
     def _hover(self, position: QPointF | None) -> None:
         """Say the displacement under the cursor, or the largest where there is none."""
         if self._result is None:
             return
         size = self._result.calibration.camera.size
-        if position is not None:
-            place = self.plot.getPlotItem().getViewBox().mapSceneToView(position)
-            uv = np.array([place.x(), place.y()])
-            if ((uv >= -0.5) & (uv <= np.array(size) - 0.5)).all():
-                here = self.displacement(uv)
-                self.under_cursor.setText(
-                    self.tr("u {0:.0f}, v {1:.0f}: d = {2:.2f} px ({3:+.2f}, {4:+.2f})").format(
-                        *uv, float(here.length), *here.vector
-                    )
+        uv = self.plot.pixel_at(position, size)
+        if uv is not None:
+            here = self.displacement(uv)
+            self.under_cursor.setText(
+                self.tr("u {0:.0f}, v {1:.0f}: d = {2:.2f} px ({3:+.2f}, {4:+.2f})").format(
+                    *uv, float(here.length), *here.vector
                 )
-                return
+            )
+            return
         values = self.plot.image.image
         self.under_cursor.setText(
             self.tr("d is at most {0:.2f} px: point to read it").format(
@@ -169,12 +143,3 @@ def _levels(top: float) -> Iterator[float]:
     while n * step < top:
         yield float(n * step)
         n += 1
-
-
-def _arrows(at: Array, vector: Array) -> Array:
-    """Arrows centred at (n, 2) along (n, 2) as one polyline, broken by NaN."""
-    start, tip = at - vector / 2, at + vector / 2
-    side = np.stack([-vector[:, 1], vector[:, 0]], axis=1)
-    barbs = [tip - 0.3 * vector + sign * 0.18 * side for sign in (1, -1)]
-    gap = np.full_like(at, np.nan)
-    return np.stack([start, tip, barbs[0], gap, tip, barbs[1], gap], axis=1).reshape(-1, 2)

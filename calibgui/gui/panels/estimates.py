@@ -11,7 +11,10 @@ from calibgui.report.numbers import with_sigma
 def estimate_columns(
     title: str, values: Iterable[float], sigma: Iterable[float]
 ) -> tuple[Column, Column]:
-    """A column of values ± 1σ, and one of σ alone for sorting and CSV."""
+    """A column of values ± 1σ, and a hidden one of σ alone for CSV."""
     values, sigma = [float(v) for v in values], [float(s) for s in sigma]
     texts = dict(zip(values, map(with_sigma, values, sigma), strict=True))
-    return Column(f"{title} ± 1σ", values, texts.__getitem__), Column("1σ", sigma, number(2))
+    return (
+        Column(f"{title} ± 1σ", values, texts.__getitem__),
+        Column("1σ", sigma, number(2), hidden=True),
+    )

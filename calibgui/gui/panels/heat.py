@@ -4,15 +4,19 @@ from __future__ import annotations
 
 import numpy as np
 import pyqtgraph as pg
-from PySide6.QtCore import QRectF
+from PySide6.QtCore import QPointF, QRectF
 
 from calibgui.engine.types import Array, Size
-from calibgui.gui import theme
-from calibgui.gui.plots import Plot
+from calibgui.gui.plots import ColourBar, Plot
+
+
+def whole(size: Size) -> QRectF:
+    """The pixel array, from edge to edge."""
+    return QRectF(-0.5, -0.5, *size)
 
 
 class HeatMap(Plot):
-    """Values over the pixel array; NaN is left blank.
+    """Values over the pixel array; NaN is left blank. Axes and colour bar end where it ends.
 
     Args:
         quantity: what the colours show, with its unit.
@@ -21,31 +25,31 @@ class HeatMap(Plot):
 
     def __init__(self, quantity: str, colours: str = "viridis") -> None:
         super().__init__("u", "v", "px", "px", square=True)
-        self._quantity = quantity
         item = self.getPlotItem()
         item.getViewBox().invertY(True)
         item.showGrid(x=False, y=False)
         self.image = pg.ImageItem(axisOrder="row-major")
         self.addItem(self.image)
-        self.bar = pg.ColorBarItem(width=14, interactive=False, colorMap=pg.colormap.get(colours))
-        self.bar.setImageItem(self.image, insert_in=item)
-        self._restyle()
+        self.bar = ColourBar(self, quantity, pg.colormap.get(colours), self.image)
 
-    def show_values(self, values: Array, size: Size) -> None:
-        """Spread `values` (rows, columns) over an image of `size`; colours start at 0."""
+    def show_values(self, values: Array, area: QRectF, top: float | None = None) -> None:
+        """Spread `values` (rows, columns) over an area of the image.
+
+        Colours start at 0 and end at `top`, or at the largest value.
+        """
+        if top is None:
+            top = float(np.nanmax(values, initial=0.0))
         self.image.setImage(values, autoLevels=False)
-        self.image.setRect(QRectF(-0.5, -0.5, *size))
-        self.bar.setLevels((0.0, float(np.nanmax(values, initial=1e-9))))
+        self.image.setRect(area)
+        self.bar.setLevels((0.0, max(top, 1e-9)))
 
     def fit(self, size: Size) -> None:
         """Bring the whole pixel array into view."""
-        self.getPlotItem().getViewBox().setRange(QRectF(-0.5, -0.5, *size), padding=0.01)
+        self.enclose(whole(size))
 
-    def _restyle(self) -> None:
-        super()._restyle()
-        if hasattr(self, "bar"):
-            colours = theme.current()
-            axis = self.bar.axis
-            axis.setPen(colours.line)
-            axis.setTextPen(colours.text)
-            self.bar.getAxis("left").setLabel(self._quantity, color=colours.text)
+    def pixel_at(self, position: QPointF | None, size: Size) -> Array | None:
+        """(2,) the pixel at a place of the scene; None beside the image."""
+        if position is None:
+            return None
+        place = self.getPlotItem().getViewBox().mapSceneToView(position)
+        return np.array([place.x(), place.y()]) if whole(size).contains(place) else None

@@ -54,7 +54,9 @@ class Panel(QWidget):
         self._selected = (-1, -1)
         views = () if result is None else result.views
         self._indices = tuple(i for i, view in enumerate(views) if view.usable)
-        self._stack.setCurrentIndex(0 if result is None else 1)
+        missing = self.tr(self.hint) if result is None else self._missing(result)
+        self._empty.setText(missing)
+        self._stack.setCurrentIndex(0 if missing else 1)
         self._stale = True
         self._update()
 
@@ -75,7 +77,7 @@ class Panel(QWidget):
             self._refresh_now()
 
     def _update(self) -> None:
-        if self._result is None or not self.isVisible():
+        if self._result is None or self._stack.currentIndex() == 0 or not self.isVisible():
             return
         if self._stale:
             self._refresh(self._result)
@@ -91,6 +93,10 @@ class Panel(QWidget):
     def _pick(self, k: int, corner: int = -1) -> None:
         """Announce what the user pointed at: calibrated view k and a corner."""
         self.picked.emit(self._indices[k], corner)
+
+    def _missing(self, result: Result) -> str:  # noqa: ARG002 - most panels show any
+        """What `result` lacks for this panel, and how to get it; empty if it has everything."""
+        return ""
 
     def _refresh(self, result: Result) -> None:
         """Show `result`, in the present colours."""

@@ -2,21 +2,34 @@
 
 from __future__ import annotations
 
+from functools import partial
+from html import escape
+
 import numpy as np
 from PySide6.QtCore import QT_TRANSLATE_NOOP, Qt, Signal
-from PySide6.QtWidgets import QVBoxLayout, QWidget
+from PySide6.QtWidgets import QLabel, QVBoxLayout, QWidget
 
+from calibgui.app.calibration import short_names
+from calibgui.engine.noise import NoiseReport, examine
 from calibgui.engine.statistics import summarise
 from calibgui.formats.result import Result
+from calibgui.gui.jobs import Jobs
+from calibgui.gui.panels.latest import Latest
 from calibgui.gui.panels.panel import Panel
 from calibgui.gui.panels.plane import PlaneChoice
 from calibgui.gui.panels.scatter import ResidualScatter
 from calibgui.gui.panels.split import Split
 from calibgui.gui.panels.view_errors import ViewErrors
 
+_MARKS = {True: "✓", False: "✗"}
+
 
 class ResidualsPanel(Panel):
-    """What the calibration leaves unexplained; a click on it shows where in the images it is."""
+    """What the calibration leaves unexplained; a click on it shows where in the images it is.
+
+    Args:
+        jobs: that examine whether it looks like noise.
+    """
 
     title = str(QT_TRANSLATE_NOOP("ResidualsPanel", "Residuals"))
     icon = "residuals"
@@ -24,8 +37,10 @@ class ResidualsPanel(Panel):
     excluded = Signal(tuple)
     """Indices in `Result.views` of views that the user wants out of the calibration."""
 
-    def __init__(self) -> None:
+    def __init__(self, jobs: Jobs) -> None:
         super().__init__()
+        self._work = Latest(jobs, self)
+        self._examined: Result | None = None
         self.plane = PlaneChoice()
         self.plane.currentIndexChanged.connect(self._refresh_now)
         self.scatter = ResidualScatter()
@@ -41,10 +56,14 @@ class ResidualsPanel(Panel):
         column.setContentsMargins(0, 0, 0, 0)
         column.addWidget(self.plane, 0, Qt.AlignmentFlag.AlignLeft)
         column.addWidget(self.scatter, 1)
+        self.verdict = QLabel()
+        self.verdict.setWordWrap(True)
         layout = QVBoxLayout(self.body)
-        layout.addWidget(Split(560, (left, 3), (self.views, 2)))
+        layout.addWidget(self.verdict)
+        layout.addWidget(Split(560, (left, 3), (self.views, 2)), 1)
 
     def _refresh(self, result: Result) -> None:
+        self._examine(result)
         calibration = result.calibration
         summary = summarise(calibration.residuals)
         self.views.show_views(np.array([v.rms for v in calibration.residuals]), summary.rms)
@@ -59,6 +78,36 @@ class ResidualsPanel(Panel):
                 x, summary.sigma_x, y, summary.sigma_y
             )
         )
+
+    def _examine(self, result: Result) -> None:
+        if result is self._examined:
+            return
+        self._examined = result
+        self.verdict.setText(self.tr("Do the residuals look like noise? Working…"))
+        self.verdict.setToolTip("")
+        self._work.start(
+            self.tr("Examining the residuals"),
+            partial(examine, result.calibration, result.observations(), short_names(result.used)),
+            self._judge,
+            lambda error: self.verdict.setText(str(error)),
+        )
+
+    def _judge(self, report: NoiseReport) -> None:
+        """Say what the residuals look like; every check's finding is in the tooltip."""
+        cause = report.cause
+        self.verdict.setText(
+            self.tr("The residuals look like noise: nothing speaks against the ± of the result.")
+            if cause is None
+            else self.tr("The residuals are not just noise ({0}: {1}). {2}").format(
+                cause.name, cause.finding, cause.advice
+            )
+        )
+        rows = "".join(
+            f"<tr><td>{_MARKS[check.passed]}&nbsp;</td><td>{escape(check.name)}&nbsp;</td>"
+            f"<td>{escape(check.finding)}</td></tr>"
+            for check in report.checks
+        )
+        self.verdict.setToolTip(f"<table>{rows}</table>")
 
     def _select(self, k: int, corner: int) -> None:
         self.scatter.select(k, corner)

@@ -11,7 +11,7 @@ class Split(QSplitter):
     """Parts side by side from `least` px of width on, with their shares of the room."""
 
     def __init__(self, least: int, *parts: tuple[QWidget, int]) -> None:
-        super().__init__()
+        super().__init__(Qt.Orientation.Vertical)  # asks for less width until there is room
         self._least = least
         self._shares = [share for _, share in parts]
         self.setChildrenCollapsible(False)

@@ -12,8 +12,9 @@ from calibgui.app.calibration import short_names
 from calibgui.engine.images import Image
 from calibgui.engine.undistort import FieldOfView, rectify_image, undistort_image
 from calibgui.formats.result import Result
-from calibgui.gui.jobs import Job, Jobs
+from calibgui.gui.jobs import Jobs
 from calibgui.gui.panels.before_after import BeforeAfter, Grey
+from calibgui.gui.panels.latest import Latest
 from calibgui.gui.panels.panel import Panel
 from calibgui.report.coverage import natural_scale, plate_extent
 
@@ -37,8 +38,7 @@ class UndistortPanel(Panel):
 
     def __init__(self, jobs: Jobs, read: Callable[[str], Image]) -> None:
         super().__init__()
-        self._jobs, self._read = jobs, read
-        self._job: Job | None = None
+        self._read, self._work = read, Latest(jobs, self)
         self._shown = 0
         self.way = QComboBox()
         for way, name in (
@@ -82,14 +82,12 @@ class UndistortPanel(Panel):
         self._shown = max(k, 0)
         name = short_names(result.used)[self._shown]
         self.words.setText(self.tr("{0}: working…").format(name))
-        if self._job is not None:
-            self._job.cancel()
         shown = self._shown
-        self._job = self._jobs.start(
+        self._work.start(
             self.tr("Undistorting {0}").format(name),
-            lambda _: changed(result, shown, way, self._read),
+            lambda: changed(result, shown, way, self._read),
             lambda images: self._show(name, *images),
-            failed=self._fail,
+            self._fail,
         )
 
     def _show(self, name: str, before: Grey | None, after: Grey) -> None:

@@ -13,7 +13,9 @@ from PySide6.QtWidgets import QApplication, QWidget
 from pytestqt.qtbot import QtBot
 
 from calibgui import engine
-from calibgui.engine.types import Corners, View, ViewStatus
+from calibgui.engine.frames import rotation
+from calibgui.engine.projection import pixels
+from calibgui.engine.types import Array, Camera, Corners, Pose, View, ViewStatus
 from calibgui.formats.result import Result
 from calibgui.gui.jobs import Jobs
 from calibgui.gui.panels.panel import Panel
@@ -23,19 +25,35 @@ from tests.engine import scenes
 P = TypeVar("P", bound=Panel)
 
 
-def made(seed: int = 4, count: int = 9, noise: float = 0.1, **settings: object) -> Result:
-    """A calibration of synthetic corners; the second image has no board."""
+def made(
+    seed: int = 4, count: int = 9, noise: float = 0.1, bow: float = 0.0, **settings: object
+) -> Result:
+    """A calibration of synthetic corners; the second image has no board.
+
+    The board's middle is `bow` mm nearer to the camera than its corners.
+    """
     board = scenes.BOARD
     scene = scenes.scene(scenes.barrel(), count, seed)
+    rng = np.random.default_rng(seed)
     grid = np.indices((board.rows, board.cols)).reshape(2, -1).T
-    views = [
-        View(f"view{k + 1}.png", ViewStatus.FOUND, corners=Corners((9, 12), grid, view.uv, view.uv))
-        for k, view in enumerate(scene.noisy(noise, np.random.default_rng(seed)))
-    ]
+    views = []
+    for k, pose in enumerate(scene.poses):
+        uv = bowed(scene.camera, pose, bow) + rng.normal(scale=noise, size=(len(grid), 2))
+        corners = Corners((9, 12), grid, uv, uv)
+        views.append(View(f"view{k + 1}.png", ViewStatus.FOUND, corners=corners))
     views.insert(1, View("blank.png", ViewStatus.NO_BOARD, "No checkerboard was found."))
     observations = [view.observation(board) for view in views if view.usable]
     calibration = engine.calibrate(observations, scene.size, **settings)  # type: ignore[arg-type]
     return Result(calibration, tuple(views), board)
+
+
+def bowed(camera: Camera, pose: Pose, bow: float) -> Array:
+    """(n, 2) what the camera sees of the board with its middle raised by `bow` mm."""
+    xy = scenes.BOARD.points()
+    across = 2 * (xy - (xy.min(axis=0) + xy.max(axis=0)) / 2) / np.ptp(xy, axis=0)
+    solid = np.column_stack([xy, -bow * (1 - across**2).sum(axis=1) / 2])
+    point = solid @ rotation(pose.rvec).T + pose.tvec
+    return pixels(point[:, :2] / point[:, 2:], camera)
 
 
 @pytest.fixture(scope="session")
@@ -57,14 +75,14 @@ def jobs() -> Iterator[Jobs]:
     running.close()
 
 
-Shown = Callable[[type[P], Result | None], P]
+Shown = Callable[[Callable[[], P], Result | None], P]
 
 
 @pytest.fixture
 def shown(qtbot: QtBot) -> Shown[P]:
     """Makes a panel, gives it a result and brings it on screen."""
 
-    def show(kind: type[P], result: Result | None) -> P:
+    def show(kind: Callable[[], P], result: Result | None) -> P:
         panel = kind()
         qtbot.addWidget(panel)
         panel.resize(900, 650)

@@ -2,17 +2,41 @@
 
 from __future__ import annotations
 
+from functools import partial
+
 import numpy as np
+import pytest
+from PySide6.QtWidgets import QApplication
 from pytestqt.qtbot import QtBot
 
+from calibgui.engine.next_view import NextView, next_views
 from calibgui.formats.result import Result
+from calibgui.gui.jobs import Jobs
+from calibgui.gui.panels import coverage
 from calibgui.gui.panels.coverage import CoveragePanel
 from calibgui.report.coverage import attitudes
 from tests.gui.panels.conftest import Shown, click
 
 
-def test_density_counts_the_corners(shown: Shown[CoveragePanel], result: Result) -> None:
-    panel = shown(CoveragePanel, result)
+@pytest.fixture(scope="module")
+def best(result: Result) -> NextView:
+    return next_views(result.calibration, result.observations(), 1)[0]
+
+
+@pytest.fixture
+def panel(
+    shown: Shown[CoveragePanel],
+    jobs: Jobs,
+    result: Result,
+    best: NextView,
+    monkeypatch: pytest.MonkeyPatch,
+) -> CoveragePanel:
+    """Of the result; the next view, which takes long, is found once."""
+    monkeypatch.setattr(coverage, "next_views", lambda *_: (best,))
+    return shown(partial(CoveragePanel, jobs), result)
+
+
+def test_density_counts_the_corners(panel: CoveragePanel, result: Result) -> None:
     counts = panel.density.image.image
     uv = np.concatenate([view.uv for view in result.observations()])
     inside = ((uv >= -0.5) & (uv < [639.5, 479.5])).all(axis=1)
@@ -22,8 +46,7 @@ def test_density_counts_the_corners(shown: Shown[CoveragePanel], result: Result)
     assert counts[int(one[1] / 480 * rows), int(one[0] / 640 * cols)] >= 1
 
 
-def test_tilts_and_distances(shown: Shown[CoveragePanel], result: Result) -> None:
-    panel = shown(CoveragePanel, result)
+def test_tilts_and_distances(panel: CoveragePanel, result: Result) -> None:
     attitude = attitudes(result.calibration, result.observations())
     x, y = panel._points[0].getData()
     np.testing.assert_allclose(np.hypot(x, y), np.rad2deg(attitude.tilt))
@@ -33,8 +56,7 @@ def test_tilts_and_distances(shown: Shown[CoveragePanel], result: Result) -> Non
     np.testing.assert_array_equal(distance, attitude.distance)
 
 
-def test_points_pick_their_view(shown: Shown[CoveragePanel], result: Result, qtbot: QtBot) -> None:
-    panel = shown(CoveragePanel, result)
+def test_points_pick_their_view(panel: CoveragePanel, qtbot: QtBot) -> None:
     for plot, points in zip((panel.tilts, panel.distances), panel._points, strict=True):
         x, y = np.transpose(points.getData())[7]
         with qtbot.waitSignal(panel.picked) as signal:
@@ -42,10 +64,30 @@ def test_points_pick_their_view(shown: Shown[CoveragePanel], result: Result, qtb
         assert signal.args == [8, -1]
 
 
-def test_selection_is_ringed(shown: Shown[CoveragePanel], result: Result) -> None:
-    panel = shown(CoveragePanel, result)
+def test_selection_is_ringed(panel: CoveragePanel) -> None:
     panel.select(3)
     for ring, points in zip(panel._rings, panel._points, strict=True):
         np.testing.assert_array_equal(np.ravel(ring.getData()), np.transpose(points.getData())[2])
     panel.select(-1)
     assert len(panel._rings[0].getData()[0]) == 0
+
+
+def test_the_next_view_is_drawn_and_told(
+    panel: CoveragePanel, jobs: Jobs, best: NextView, qtbot: QtBot
+) -> None:
+    qtbot.waitUntil(lambda: not jobs.running)
+    np.testing.assert_array_equal(np.transpose(panel.next_corners.getData()), best.corners)
+    line = np.transpose(panel.next_board.getData())
+    assert (line[0] == line[-1]).all()
+    assert (line.min(axis=0) == best.corners.min(axis=0)).all()
+    assert best.words in panel.advice.text()
+    assert f"{best.after:.3f} px" in panel.advice.text()
+
+
+def test_the_map_ends_with_the_image(panel: CoveragePanel, qtbot: QtBot) -> None:
+    for size in ((900, 650), (400, 700)):
+        panel.resize(*size)
+        qtbot.wait(20)
+        QApplication.processEvents()
+        (left, right), (low, high) = panel.density.getPlotItem().getViewBox().viewRange()
+        np.testing.assert_allclose([left, right, low, high], [-0.5, 639.5, -0.5, 479.5], atol=8)

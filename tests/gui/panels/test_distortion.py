@@ -73,12 +73,15 @@ def test_marks_and_contours(shown: Shown[DistortionPanel], result: Result) -> No
     np.testing.assert_array_equal(
         np.ravel(panel.principal.getData()), result.calibration.camera.centre
     )
-    line = np.transpose(panel._contours.getData())
+    line = np.transpose(panel.contours.line.getData())
     d = panel.displacement(line[np.isfinite(line[:, 0])]).length
-    levels = sorted(float(label.toPlainText()) for label in panel._labels)
+    levels = sorted(float(label.toPlainText()) for label in panel.contours.labels)
     assert len(levels) >= 3
-    nearest = np.abs(d[:, None] - levels).min(axis=1)
-    assert nearest.max() < 0.01 * levels[-1]
+    step = levels[0]
+    assert np.abs(d - step * np.rint(d / step)).max() < 0.01 * levels[-1]
+    at = np.array([[label.pos().x(), label.pos().y()] for label in panel.contours.labels])
+    apart = np.linalg.norm(at[:, None] - at, axis=2) + 640 * np.eye(len(at))
+    assert apart.min() > 60, "no label hides another"
 
 
 def test_arrows_point_up_the_slope(shown: Shown[DistortionPanel], result: Result) -> None:

@@ -2,16 +2,32 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+from functools import partial
+
 import numpy as np
 import pytest
 from PySide6.QtCore import Qt
 from pytestqt.qtbot import QtBot
 
+from calibgui.app.calibration import short_names
+from calibgui.engine.noise import NoiseReport, examine
 from calibgui.engine.statistics import stacked, summarise
 from calibgui.engine.types import Array
 from calibgui.formats.result import Result
+from calibgui.gui.jobs import Jobs
+from calibgui.gui.panels import residuals
 from calibgui.gui.panels.residuals import ResidualsPanel
 from tests.gui.panels.conftest import Shown, click, drag, made, place
+
+Show = Callable[[Result], ResidualsPanel]
+
+
+@pytest.fixture
+def show(shown: Shown[ResidualsPanel], jobs: Jobs, monkeypatch: pytest.MonkeyPatch) -> Show:
+    """Shows a result; what the residuals look like takes long, and is left to one test."""
+    monkeypatch.setattr(residuals, "examine", lambda *_: NoiseReport((), np.zeros(1)))
+    return lambda result: shown(partial(ResidualsPanel, jobs), result)
 
 
 def drawn(panel: ResidualsPanel) -> Array:
@@ -22,9 +38,9 @@ def drawn(panel: ResidualsPanel) -> Array:
 
 @pytest.mark.parametrize("on_reference", [False, True])
 def test_scatter_holds_every_residual(
-    shown: Shown[ResidualsPanel], result: Result, qtbot: QtBot, on_reference: bool
+    show: Show, result: Result, qtbot: QtBot, on_reference: bool
 ) -> None:
-    panel = shown(ResidualsPanel, result)
+    panel = show(result)
     if on_reference:
         panel.plane.setFocus()
         qtbot.keyClick(panel.plane, Qt.Key.Key_Down)
@@ -36,10 +52,8 @@ def test_scatter_holds_every_residual(
     assert f"{value:.3f}" in title
 
 
-def test_a_point_picks_its_corner(
-    shown: Shown[ResidualsPanel], result: Result, qtbot: QtBot
-) -> None:
-    panel = shown(ResidualsPanel, result)
+def test_a_point_picks_its_corner(show: Show, result: Result, qtbot: QtBot) -> None:
+    panel = show(result)
     # The point that lies farthest out has no neighbour to be mistaken for.
     lengths = [np.linalg.norm(v.image, axis=1) for v in result.calibration.residuals]
     k = int(np.argmax([length.max() for length in lengths]))
@@ -50,10 +64,8 @@ def test_a_point_picks_its_corner(
     assert signal.args[1] == corner
 
 
-def test_a_click_beside_the_points_picks_nothing(
-    shown: Shown[ResidualsPanel], result: Result, qtbot: QtBot
-) -> None:
-    panel = shown(ResidualsPanel, result)
+def test_a_click_beside_the_points_picks_nothing(show: Show, result: Result, qtbot: QtBot) -> None:
+    panel = show(result)
     with qtbot.assertNotEmitted(panel.picked, wait=50):
         box = panel.scatter.getPlotItem().getViewBox().viewRect()
         click(
@@ -61,8 +73,8 @@ def test_a_click_beside_the_points_picks_nothing(
         )
 
 
-def test_bars_are_the_views_rms(shown: Shown[ResidualsPanel], result: Result, qtbot: QtBot) -> None:
-    panel = shown(ResidualsPanel, result)
+def test_bars_are_the_views_rms(show: Show, result: Result, qtbot: QtBot) -> None:
+    panel = show(result)
     rms = [view.rms for view in result.calibration.residuals]
     np.testing.assert_array_equal(panel.views._bars.opts["height"], rms)
     assert panel.views._overall.value() == summarise(result.calibration.residuals).rms
@@ -72,9 +84,9 @@ def test_bars_are_the_views_rms(shown: Shown[ResidualsPanel], result: Result, qt
 
 
 def test_dragging_the_threshold_excludes_the_views_above(
-    shown: Shown[ResidualsPanel], result: Result, qtbot: QtBot
+    show: Show, result: Result, qtbot: QtBot
 ) -> None:
-    panel = shown(ResidualsPanel, result)
+    panel = show(result)
     views = panel.views
     rms = np.array([view.rms for view in result.calibration.residuals])
     assert views.above == () and not views.exclude.isEnabled()
@@ -90,10 +102,8 @@ def test_dragging_the_threshold_excludes_the_views_above(
     assert [result.views[i] for i in signal.args[0]] == [result.used[k] for k in worst]
 
 
-def test_the_threshold_can_be_typed(
-    shown: Shown[ResidualsPanel], result: Result, qtbot: QtBot
-) -> None:
-    panel = shown(ResidualsPanel, result)
+def test_the_threshold_can_be_typed(show: Show, result: Result, qtbot: QtBot) -> None:
+    panel = show(result)
     panel.views.threshold.setFocus()
     panel.views.threshold.selectAll()
     qtbot.keyClicks(panel.views.threshold, "0")
@@ -103,8 +113,8 @@ def test_the_threshold_can_be_typed(
     assert not panel.views.exclude.isEnabled()  # nothing would be left
 
 
-def test_selection_is_highlighted(shown: Shown[ResidualsPanel], result: Result) -> None:
-    panel = shown(ResidualsPanel, result)
+def test_selection_is_highlighted(show: Show, result: Result) -> None:
+    panel = show(result)
     panel.select(6, 17)
     image = result.calibration.residuals[5].image
     np.testing.assert_array_equal(np.transpose(panel.scatter._view.getData()), image)
@@ -113,8 +123,30 @@ def test_selection_is_highlighted(shown: Shown[ResidualsPanel], result: Result) 
     assert len(panel.scatter._view.getData()[0]) == 0
 
 
-def test_many_views_take_few_items(shown: Shown[ResidualsPanel]) -> None:
+def test_many_views_take_few_items(show: Show) -> None:
     result = made(count=70)
-    panel = shown(ResidualsPanel, result)
+    panel = show(result)
     assert len(panel.scatter._clouds) <= 56
     assert len(drawn(panel)) == 70 * 108
+
+
+def test_what_the_residuals_look_like_is_said_with_its_cause(
+    shown: Shown[ResidualsPanel], jobs: Jobs, qtbot: QtBot
+) -> None:
+    bent = made(bow=0.6)
+    panel = shown(partial(ResidualsPanel, jobs), bent)
+    assert "Working" in panel.verdict.text()
+    qtbot.waitUntil(lambda: not jobs.running, timeout=60_000)
+    report = examine(bent.calibration, bent.observations(), short_names(bent.used))
+    assert report.cause is not None
+    assert report.cause.advice in panel.verdict.text()
+    assert report.cause.finding in panel.verdict.text()
+    assert all(check.name in panel.verdict.toolTip() for check in report.checks)
+    panel.plane.setCurrentIndex(1)
+    assert not jobs.running, "another plane asks nothing new"
+
+
+def test_noise_is_called_noise(show: Show, result: Result, jobs: Jobs, qtbot: QtBot) -> None:
+    panel = show(result)
+    qtbot.waitUntil(lambda: not jobs.running)
+    assert panel.verdict.text().startswith("The residuals look like noise")

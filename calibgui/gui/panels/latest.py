@@ -1,0 +1,44 @@
+"""Work beside the window of which only the newest counts."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import TypeVar
+
+from PySide6.QtCore import QObject
+
+from calibgui.gui.jobs import Job, Jobs
+
+T = TypeVar("T")
+
+
+class Latest:
+    """A panel's work: what is asked for anew replaces what was asked for before.
+
+    Args:
+        jobs: that do the work.
+        owner: after whose end nobody wants it.
+    """
+
+    def __init__(self, jobs: Jobs, owner: QObject) -> None:
+        self._jobs, self._owner = jobs, owner
+        self._job: Job | None = None
+
+    def start(
+        self,
+        label: str,
+        work: Callable[[], T],
+        done: Callable[[T], None],
+        failed: Callable[[Exception], None],
+    ) -> None:
+        """Run `work` in a thread; what it returns or raises is handed on unless it is outdated."""
+        self.cancel()
+        self._job = self._jobs.start(
+            label, lambda _: work(), done, failed=failed, owner=self._owner
+        )
+
+    def cancel(self) -> None:
+        """Want nothing any more."""
+        if self._job is not None:
+            self._job.cancel()
+        self._job = None

@@ -1,0 +1,142 @@
+"""How far it is uncertain where the camera images a point, over the image."""
+
+from __future__ import annotations
+
+import math
+from functools import partial
+
+import numpy as np
+import pyqtgraph as pg
+from PySide6.QtCore import QT_TRANSLATE_NOOP, QPointF, QRectF
+from PySide6.QtWidgets import QDoubleSpinBox, QHBoxLayout, QLabel, QVBoxLayout
+
+from calibgui.engine.projection_uncertainty import ProjectionUncertainty, projection_uncertainty
+from calibgui.formats.result import Result
+from calibgui.gui.jobs import Jobs
+from calibgui.gui.panels.contours import Contours
+from calibgui.gui.panels.heat import HeatMap
+from calibgui.gui.panels.latest import Latest
+from calibgui.gui.panels.panel import Panel
+from calibgui.report.quality import where
+
+_LIMIT = 0.1
+"""Of the uncertainty that a user can live with, until one is stated, px."""
+_TOP = 4.0
+"""Median uncertainties at which colours end: corners without data would hide the rest."""
+
+
+class UncertaintyPanel(Panel):
+    """One standard deviation of projection, with what a moved camera would do compensated.
+
+    Args:
+        jobs: that do the work.
+    """
+
+    title = str(QT_TRANSLATE_NOOP("UncertaintyPanel", "Uncertainty"))
+    icon = "uncertainty"
+
+    def __init__(self, jobs: Jobs) -> None:
+        super().__init__()
+        self._work = Latest(jobs, self)
+        self.found: ProjectionUncertainty | None = None
+        """What is drawn; None while it is being computed."""
+        self.distance = QDoubleSpinBox(
+            decimals=0, maximum=1e7, singleStep=100, suffix=self.tr(" mm")
+        )
+        self.distance.setSpecialValueText(self.tr("far away"))
+        self.distance.setToolTip(
+            self.tr("Of the points that the camera will look at; 0 for points far away.")
+        )
+        self.limit = QDoubleSpinBox(
+            decimals=3, minimum=0.001, maximum=100, singleStep=0.01, suffix=self.tr(" px")
+        )
+        self.limit.setValue(_LIMIT)
+        self.limit.setToolTip(
+            self.tr("The uncertainty that you can live with: the red line goes around it.")
+        )
+        bar = QHBoxLayout()
+        for text, box in ((self.tr("&Points"), self.distance), (self.tr("&Limit"), self.limit)):
+            box.setKeyboardTracking(False)
+            label = QLabel(text)
+            label.setBuddy(box)
+            bar.addWidget(label)
+            bar.addWidget(box)
+        bar.addStretch(1)
+        self.distance.valueChanged.connect(self._refresh_now)
+        self.limit.valueChanged.connect(self._draw_limit)
+        self.words = QLabel()
+        self.words.setWordWrap(True)
+        self.plot = HeatMap(self.tr("one σ, worst direction [px]"))
+        self.plot.setToolTip(
+            self.tr(
+                "A point of the scene is imaged this far from where the calibration says (1σ).\n"
+                "What turning and shifting the camera would undo is taken out."
+            )
+        )
+        self.plot.scene().sigMouseMoved.connect(self._hover)
+        self.region = Contours(self.plot, pg.mkPen("#ff3b30", width=2.5))
+        self.corners = pg.ScatterPlotItem(size=2, pen=None, brush=(255, 255, 255, 110))
+        self.plot.addItem(self.corners)
+        self.under_cursor = QLabel()
+        layout = QVBoxLayout(self.body)
+        layout.addLayout(bar)
+        layout.addWidget(self.words)
+        layout.addWidget(self.plot, 1)
+        layout.addWidget(self.under_cursor)
+
+    def _refresh(self, result: Result) -> None:
+        self.found = None
+        self.words.setText(self.tr("Working…"))
+        views = result.observations()
+        self.corners.setData(*np.concatenate([view.uv for view in views]).T)
+        distance = self.distance.value() or math.inf
+        self._work.start(
+            self.tr("Propagating the uncertainty"),
+            partial(projection_uncertainty, result.calibration, views, distance),
+            self._show,
+            lambda error: self.words.setText(str(error)),
+        )
+
+    def _show(self, found: ProjectionUncertainty) -> None:
+        self.found = found
+        u, v, sigma = found.u, found.v, found.worst_direction
+        du, dv = u[1] - u[0], v[1] - v[0]
+        area = QRectF(u[0] - du / 2, v[0] - dv / 2, len(u) * du, len(v) * dv)
+        self.plot.show_values(sigma, area, min(found.worst, _TOP * found.median))
+        self.plot.fit(found.size)
+        self._draw_limit()
+        self._hover(None)
+
+    def _draw_limit(self) -> None:
+        found, limit = self.found, self.limit.value()
+        if found is None:
+            return
+        self.region.show(found.u, found.v, found.worst_direction, [limit])
+        self.words.setText(
+            self.tr(
+                "Points {0} are imaged to {1:.3f} px at the centre, {2:.3f} px in the median, "
+                "{3:.3f} px at worst (1σ). {4:.0f} % of the image is known to {5:g} px or better "
+                "(inside the red line)."
+            ).format(
+                where(found.distance),
+                found.centre,
+                found.median,
+                found.worst,
+                100 * found.fraction(limit),
+                limit,
+            )
+        )
+
+    def _hover(self, position: QPointF | None) -> None:
+        """Say the uncertainty under the cursor."""
+        found = self.found
+        uv = None if found is None else self.plot.pixel_at(position, found.size)
+        if found is None or uv is None:
+            self.under_cursor.setText(self.tr("Point at the map to read it."))
+            return
+        column, row = np.abs(found.u - uv[0]).argmin(), np.abs(found.v - uv[1]).argmin()
+        self.under_cursor.setText(
+            self.tr("u {0:.0f}, v {1:.0f}: σ = {2:.3f} px, in all directions {3:.3f} px").format(
+                *uv, found.worst_direction[row, column], found.rms[row, column]
+            )
+        )

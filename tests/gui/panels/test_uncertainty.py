@@ -1,0 +1,80 @@
+"""The map is the engine's, for points far away and near."""
+
+from __future__ import annotations
+
+from functools import partial
+
+import numpy as np
+import pytest
+from PySide6.QtCore import QPointF, Qt
+from pytestqt.qtbot import QtBot
+
+from calibgui.engine.projection_uncertainty import ProjectionUncertainty, projection_uncertainty
+from calibgui.formats.result import Result
+from calibgui.gui.jobs import Jobs
+from calibgui.gui.panels.uncertainty import UncertaintyPanel
+from tests.gui.panels.conftest import Shown
+
+
+@pytest.fixture
+def panel(
+    shown: Shown[UncertaintyPanel], jobs: Jobs, result: Result, qtbot: QtBot
+) -> UncertaintyPanel:
+    made = shown(partial(UncertaintyPanel, jobs), result)
+    qtbot.waitUntil(lambda: not jobs.running)
+    return made
+
+
+@pytest.fixture(scope="module")
+def far(result: Result) -> ProjectionUncertainty:
+    return projection_uncertainty(result.calibration, result.observations())
+
+
+def test_map_and_words_are_the_engines(panel: UncertaintyPanel, far: ProjectionUncertainty) -> None:
+    np.testing.assert_array_equal(panel.plot.image.image, far.worst_direction)
+    box = panel.plot.image.mapRectToView(panel.plot.image.boundingRect())
+    du, dv = far.u[1] - far.u[0], far.v[1] - far.v[0]
+    assert box.left() + du / 2 == pytest.approx(far.u[0])
+    assert box.bottom() - dv / 2 == pytest.approx(far.v[-1])
+    words = panel.words.text()
+    for value in (far.centre, far.median, far.worst):
+        assert f"{value:.3f} px" in words
+    assert f"{100 * far.fraction(0.1):.0f} % of the image" in words
+
+
+def test_the_limit_is_a_line_around_its_region(
+    panel: UncertaintyPanel, far: ProjectionUncertainty, qtbot: QtBot
+) -> None:
+    limit = round(1.5 * far.median, 3)
+    panel.limit.setFocus()
+    panel.limit.selectAll()
+    qtbot.keyClicks(panel.limit, f"{limit}")
+    qtbot.keyClick(panel.limit, Qt.Key.Key_Return)
+    line = np.transpose(panel.region.line.getData())
+    line = line[np.isfinite(line[:, 0])]
+    column = np.abs(far.u - line[:, :1]).argmin(axis=1)
+    row = np.abs(far.v - line[:, 1:]).argmin(axis=1)
+    assert np.abs(far.worst_direction[row, column] / limit - 1).max() < 0.3
+    assert f"{100 * far.fraction(limit):.0f} % of the image" in panel.words.text()
+
+
+def test_points_at_a_distance(
+    panel: UncertaintyPanel, result: Result, jobs: Jobs, qtbot: QtBot
+) -> None:
+    assert panel.distance.text() == "far away"
+    panel.distance.setFocus()
+    panel.distance.selectAll()
+    qtbot.keyClicks(panel.distance, "500")
+    qtbot.keyClick(panel.distance, Qt.Key.Key_Return)
+    qtbot.waitUntil(lambda: not jobs.running)
+    near = projection_uncertainty(result.calibration, result.observations(), 500.0)
+    np.testing.assert_array_equal(panel.plot.image.image, near.worst_direction)
+    assert "500 mm away" in panel.words.text()
+
+
+def test_the_value_under_the_cursor(panel: UncertaintyPanel, far: ProjectionUncertainty) -> None:
+    box = panel.plot.getPlotItem().getViewBox()
+    panel._hover(box.mapViewToScene(QPointF(far.u[7] + 1, far.v[12] - 1)))
+    assert f"σ = {far.worst_direction[12, 7]:.3f} px" in panel.under_cursor.text()
+    panel._hover(box.mapViewToScene(QPointF(-30.0, 50.0)))
+    assert panel.under_cursor.text().startswith("Point at")
