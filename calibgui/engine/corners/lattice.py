@@ -209,10 +209,22 @@ def trim(lattice: Lattice) -> Lattice | None:
 
 def crop(lattice: Lattice) -> Lattice:
     """The lattice without empty border lines."""
+    if not lattice.found.any():
+        return Lattice(lattice.uv[:0, :0], lattice.dark)
     rows, cols = (np.flatnonzero(lattice.found.any(axis=axis)) for axis in (1, 0))
     r, c = int(rows[0]), int(cols[0])
     dark = lattice.dark ^ bool((r + c) % 2)
     return Lattice(lattice.uv[r : rows[-1] + 1, c : cols[-1] + 1], dark)
+
+
+def supported(lattice: Lattice) -> Lattice:
+    """The lattice without corners that have no neighbours to tell the steps there."""
+    while True:
+        right, down = axes(lattice.uv)
+        known = np.asarray(np.isfinite(right + down).all(axis=2))
+        if known[lattice.found].all():
+            return lattice
+        lattice = lattice.under(known)
 
 
 def predict(uv: Array) -> Array:

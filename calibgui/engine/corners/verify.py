@@ -15,7 +15,15 @@ import numpy as np
 
 from calibgui.engine.corners.edges import Fit
 from calibgui.engine.corners.growth import sectors
-from calibgui.engine.corners.lattice import Lattice, axes, bordered, crop, in_steps, predict
+from calibgui.engine.corners.lattice import (
+    Lattice,
+    axes,
+    bordered,
+    crop,
+    in_steps,
+    predict,
+    supported,
+)
 from calibgui.engine.opencv import Image
 from calibgui.engine.types import Array, BoolArray
 
@@ -29,6 +37,8 @@ _FAILING = 0.25
 """Share of corners that may fail before the board does."""
 _WIDEST = 0.18
 """Greatest blur of a board's edges, squares: of a sine wave it would be 0.25."""
+_WORST_MISFIT = 0.25
+"""Greatest median residual over the contrast."""
 _MOVED = 0.1
 """Farthest that the edge fit may move a corner, squares."""
 _UNEXPLAINED = 4.0
@@ -76,8 +86,11 @@ def described(fit: Fit, start: Array, spacing: Array) -> BoolArray:
 
 
 def stepped(fit: Fit) -> bool:
-    """Whether the squares have a flat inside: waves cross like edges, only wider."""
-    return float(np.median(fit.edges.unknowns[:, 4:6] / fit.edges.size)) < _WIDEST
+    """Whether the squares are flat inside and step at their edges: waves cross likewise, only
+    wider, and are not described by steps."""
+    widths = np.median(fit.edges.unknowns[:, 4:6] / fit.edges.size, axis=0)
+    misfit = np.median(fit.residual / fit.contrast)
+    return bool(widths.max() < _WIDEST and misfit < _WORST_MISFIT)
 
 
 def filled(lattice: Lattice, shape: tuple[int, ...]) -> Lattice:
@@ -89,7 +102,7 @@ def filled(lattice: Lattice, shape: tuple[int, ...]) -> Lattice:
 
 def without_strays(lattice: Lattice, shape: tuple[int, ...]) -> Lattice:
     """The lattice less border lines of which little was found though the image shows them."""
-    lattice = crop(lattice)
+    lattice = crop(supported(lattice))
     while min(lattice.shape) > 1:
         seen = lattice.found | _inside(predict(lattice.uv), shape)
         shares = [float(lattice.found[line].sum() / max(seen[line].sum(), 1)) for line in BORDERS]
@@ -98,7 +111,7 @@ def without_strays(lattice: Lattice, shape: tuple[int, ...]) -> Lattice:
             break
         keep = np.ones(lattice.shape, dtype=np.bool_)
         keep[BORDERS[worst]] = False
-        lattice = crop(lattice.under(keep))
+        lattice = crop(supported(lattice.under(keep)))
     return lattice
 
 
