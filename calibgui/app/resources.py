@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from pathlib import Path
 
 import calibgui
 from calibgui.engine.errors import CalibrationError
+from calibgui.formats.json_document import Node, read
 
 _PACKAGE = Path(calibgui.__file__).resolve().parent
 
@@ -22,3 +24,20 @@ def resource(name: str) -> Path:
     raise CalibrationError(
         f"The program's own file {name} is missing.", "Install calibgui again, completely."
     )
+
+
+def sample_truth() -> Node:
+    """What the sample set was rendered from.
+
+    Raises:
+        CalibrationError: if it is missing.
+    """
+    return read(resource("sample") / "truth.json")
+
+
+def sample_square(images: Iterable[Path]) -> float | None:
+    """Side of the squares, mm, if `images` are the sample's; None of any others."""
+    folders = {path.absolute().parent for path in images}
+    if folders != {resource("sample")}:
+        return None
+    return sample_truth()["target"]["square_mm"].number()

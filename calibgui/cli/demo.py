@@ -9,14 +9,13 @@ from matplotlib.figure import Figure
 
 from calibgui.app.calibration import calibrate_views
 from calibgui.app.outputs import make_folder, save_figure
-from calibgui.app.resources import resource
+from calibgui.app.resources import resource, sample_truth
 from calibgui.cli.arguments import search
 from calibgui.cli.console import Console
 from calibgui.engine.calibrate import parameter_names
 from calibgui.engine.images import read_image
 from calibgui.engine.undistort import board_extent, rectify_image, undistort_image
 from calibgui.formats import export
-from calibgui.formats.json_document import read
 from calibgui.formats.result import Result
 from calibgui.formats.result_json import result_record
 from calibgui.report import figures, tables
@@ -47,7 +46,7 @@ def run(options: argparse.Namespace, console: Console) -> None:
     out: Path = options.output
     make_folder(out)
     sample = resource("sample")
-    truth = read(sample / "truth.json")
+    truth = sample_truth()
     square = truth["target"]["square_mm"].number()
     result = calibrate_views(search(console, [str(sample)]).corner_set(square))
     for name, file in _EXPORTS.items():

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Sequence
+from dataclasses import replace
 from pathlib import Path
 
 from PySide6.QtCore import QObject, Signal
@@ -11,10 +12,16 @@ from PySide6.QtWidgets import QFileDialog, QInputDialog, QLineEdit, QMessageBox,
 
 from calibgui.app.document import Document
 from calibgui.app.paths import find_images
-from calibgui.app.project import relocated, renamed_result, with_images, without_result
+from calibgui.app.project import (
+    Project,
+    relocated,
+    renamed_result,
+    with_images,
+    without_result,
+)
 from calibgui.app.relocating import find_moved, missing_images
 from calibgui.app.resampling import Written, rectify_files, undistort_files
-from calibgui.app.resources import resource
+from calibgui.app.resources import resource, sample_square
 from calibgui.engine.errors import CalibrationError
 from calibgui.engine.images import FORMATS
 from calibgui.engine.undistort import FieldOfView
@@ -205,8 +212,15 @@ class Files(QObject):
     def _add(self, images: Iterable[Path]) -> None:
         """Add images and search them; a project's first images are calibrated as well."""
         first = not self._session.project.results
-        names = [str(path.absolute()) for path in images]
-        self._session.edit(self.tr("Add images"), lambda p: with_images(p, names))
+        paths = [path.absolute() for path in images]
+        square = sample_square(paths)
+
+        def change(project: Project) -> Project:
+            if square is not None and not project.views:
+                project = replace(project, square=square)
+            return with_images(project, map(str, paths))
+
+        self._session.edit(self.tr("Add images"), change)
         if first:
             self._calibrator.calibrate()
         else:

@@ -14,7 +14,6 @@ from PySide6.QtWidgets import (
     QHBoxLayout,
     QLabel,
     QMenu,
-    QSizePolicy,
     QToolButton,
     QVBoxLayout,
     QWidget,
@@ -28,6 +27,7 @@ from calibgui.formats.result import Result
 from calibgui.gui import theme
 from calibgui.gui.actions import make_action
 from calibgui.gui.canvas import Canvas
+from calibgui.gui.elided import ElidedLabel
 from calibgui.gui.image_model import status_text
 from calibgui.gui.jobs import Job
 from calibgui.gui.layers import Layer, Marks
@@ -48,8 +48,7 @@ class ImagePage(QWidget):
         self._image: Image | None = None
         self._job: Job | None = None
         self.canvas = Canvas()
-        self.heading = QLabel()
-        self.heading.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Preferred)
+        self.heading = ElidedLabel()
         self.marker = Marker(session, self.canvas)
         self.bar = QHBoxLayout()
         self.bar.setContentsMargins(theme.SPACING, 4, theme.SPACING, 4)
@@ -244,7 +243,7 @@ class ImagePage(QWidget):
             self.canvas.show_marks(Marks())
             return
         self.heading.setText(f"{PurePath(view.image).name}  ·  {status_text(view)}")
-        self.heading.setToolTip(view.reason or view.image)
+        self.heading.setToolTip(f"{view.image}\n{view.reason or status_text(view)}")
         measured, predicted = _fitted(session.result, view)
         region = view.roi
         if region is None and view.corners is not None:

@@ -84,7 +84,7 @@ class Observer:
 
     azimuth: float = 0.6
     elevation: float = 0.4
-    zoom: float = 1.35
+    zoom: float = 1.0
 
     def turned(self, right: float, down: float) -> Observer:
         """Moved about the scene by angles; never over the poles."""
@@ -123,6 +123,13 @@ def draw(polygons: Sequence[Polygon], observer: Observer) -> tuple[Drawn, ...]:
         if far.min() > 0.1
     ]
     return tuple(sorted(drawn, key=lambda d: -d.depth))
+
+
+def fitted(polygons: Sequence[Polygon], observer: Observer) -> Observer:
+    """The observer with the zoom at which the scene, seen from there, fills a square of side 2."""
+    drawn = draw(polygons, replace(observer, zoom=1.0))
+    reach = max((float(np.abs(item.points).max()) for item in drawn), default=1.0)
+    return replace(observer, zoom=1.0 / reach)
 
 
 def project(points: Array, observer: Observer) -> tuple[Array, Array]:

@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+from pathlib import Path
+
 import pytest
 
-from calibgui.app.resources import resource
+from calibgui.app.resources import resource, sample_square
 from calibgui.engine import CalibrationError
 
 
@@ -15,3 +17,10 @@ def test_a_resource_is_found_in_this_checkout() -> None:
 def test_a_missing_resource_is_named() -> None:
     with pytest.raises(CalibrationError, match=r"nothing\.png"):
         resource("nothing.png")
+
+
+def test_the_samples_squares_are_known_and_no_others(tmp_path: Path) -> None:
+    images = sorted(resource("sample").glob("*.png"))
+    assert sample_square(images) == 25.0
+    assert sample_square([*images, tmp_path / "other.png"]) is None
+    assert sample_square([]) is None

@@ -251,6 +251,15 @@ def test_a_click_in_the_image_and_in_a_panel_select_the_same(full: MainWindow) -
     assert full.images.list.currentIndex().data() == "3.png"
 
 
+def test_a_heading_without_room_ends_in_dots(full: MainWindow) -> None:
+    heading = full.page.heading
+    heading.setText("short")
+    assert heading.shown_text() == "short"
+    heading.setText(40 * "long ")
+    assert heading.shown_text().endswith("…")
+    assert heading.fontMetrics().horizontalAdvance(heading.shown_text()) <= heading.width()
+
+
 def test_dropped_and_pasted_paths_become_images(
     window: MainWindow, qtbot: QtBot, tmp_path: Path
 ) -> None:
@@ -271,6 +280,13 @@ def test_dropped_and_pasted_paths_become_images(
     assert [v.status for v in window.session.project.views] == [ViewStatus.UNREADABLE] * 3
     window.files.open_paths([str(tmp_path / "nowhere")])
     assert "does not exist" in window.banner.text.text()
+
+
+def test_the_sample_comes_with_its_squares(window: MainWindow) -> None:
+    window.files.open_sample()
+    assert window.target.square.value() == 25.0
+    window.session.document.undo()
+    assert window.target.square.value() == 30.0
 
 
 def test_what_cannot_be_done_comes_with_a_remedy(window: MainWindow, qtbot: QtBot) -> None:

@@ -11,7 +11,7 @@ from scipy.spatial.transform import Rotation
 from calibgui import engine
 from calibgui.engine.types import Corners, View, ViewStatus
 from calibgui.formats.result import Result
-from calibgui.report.scene3d import Centre, Kind, Observer, draw, project, scene, view_at
+from calibgui.report.scene3d import Centre, Kind, Observer, draw, fitted, project, scene, view_at
 from tests.engine import scenes
 
 observers = st.builds(Observer, st.floats(-3, 3), st.floats(-1.5, 1.5), st.floats(0.5, 2.0))
@@ -66,6 +66,15 @@ def test_everything_fits_and_is_painted_back_to_front(result: Result, observer: 
     assert all(np.linalg.norm(d.points, axis=1).max() <= observer.zoom * (1 + 1e-9) for d in drawn)
     depths = [d.depth for d in drawn]
     assert depths == sorted(depths, reverse=True)
+
+
+@given(observer=observers)
+def test_a_fitted_scene_fills_the_square(result: Result, observer: Observer) -> None:
+    polygons = scene(result, Centre.BOARD)
+    there = fitted(polygons, observer)
+    assert (there.azimuth, there.elevation) == (observer.azimuth, observer.elevation)
+    reach = max(np.abs(d.points).max() for d in draw(polygons, there))
+    assert reach == pytest.approx(1.0)
 
 
 def test_straight_ahead_is_the_cameras_own_view() -> None:

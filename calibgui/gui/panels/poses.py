@@ -22,7 +22,17 @@ from calibgui.formats.result import Result
 from calibgui.gui import theme
 from calibgui.gui.panels.panel import Panel
 from calibgui.report.coverage import attitudes
-from calibgui.report.scene3d import Centre, Drawn, Kind, Observer, Polygon, draw, scene, view_at
+from calibgui.report.scene3d import (
+    Centre,
+    Drawn,
+    Kind,
+    Observer,
+    Polygon,
+    draw,
+    fitted,
+    scene,
+    view_at,
+)
 
 _FILLED = 150
 """Polygons up to which they are filled: more would be a blur, and slow."""
@@ -54,9 +64,13 @@ class SceneView(QWidget):
         self._last = QPointF()
 
     def show_scene(self, polygons: tuple[Polygon, ...]) -> None:
-        """Show these, from where the observer stands."""
+        """Show all of these, from the side where the observer stands."""
         self._polygons = polygons
-        self._redraw()
+        self.look_from(fitted(polygons, self.observer))
+
+    def go_home(self) -> None:
+        """Show all from where the observer stood first."""
+        self.look_from(fitted(self._polygons, Observer()))
 
     def look_from(self, observer: Observer) -> None:
         """Move the observer."""
@@ -161,7 +175,7 @@ class PosesPanel(Panel):
         )
         self.space.setAccessibleName(self.tr("Camera and boards in space"))
         self.space.picked.connect(self._pick)
-        self.home.clicked.connect(lambda: self.space.look_from(Observer()))
+        self.home.clicked.connect(self.space.go_home)
         self.words = QLabel()
         bar = QHBoxLayout()
         bar.addWidget(self.centre)

@@ -11,13 +11,15 @@ from pytestqt.qtbot import QtBot
 from calibgui.engine import frames
 from calibgui.formats.result import Result
 from calibgui.gui.panels.poses import PosesPanel
-from calibgui.report.scene3d import Centre, Kind, Observer, draw, scene
+from calibgui.report.scene3d import Centre, Kind, Observer, draw, fitted, scene
 from tests.gui.panels.conftest import Shown, drag
 
 
 def test_a_board_picks_its_view(shown: Shown[PosesPanel], result: Result, qtbot: QtBot) -> None:
     panel = shown(PosesPanel, result)
-    front = [d for d in draw(scene(result, Centre.CAMERA), Observer()) if d.polygon.view >= 0][-1]
+    polygons = scene(result, Centre.CAMERA)
+    drawn = draw(polygons, fitted(polygons, Observer()))
+    front = [d for d in drawn if d.polygon.view >= 0][-1]
     at = panel.space.to_widget(front.points.mean(axis=0, keepdims=True))[0].toPoint()
     with qtbot.waitSignal(panel.picked) as signal:
         qtbot.mouseClick(panel.space, Qt.MouseButton.LeftButton, pos=at)
@@ -43,18 +45,19 @@ def test_dragging_turns_and_does_not_pick(
     after = panel.space.observer
     assert after.azimuth < before.azimuth and after.elevation > before.elevation
     qtbot.mouseClick(panel.home, Qt.MouseButton.LeftButton)
-    assert panel.space.observer == Observer()
+    assert panel.space.observer == before == fitted(scene(result, Centre.CAMERA), Observer())
 
 
 def test_keys_turn_and_zoom(shown: Shown[PosesPanel], result: Result, qtbot: QtBot) -> None:
     panel = shown(PosesPanel, result)
+    before = panel.space.observer
     panel.space.setFocus()
     qtbot.keyClick(panel.space, Qt.Key.Key_Left)
-    assert panel.space.observer.azimuth > Observer().azimuth
+    assert panel.space.observer.azimuth > before.azimuth
     qtbot.keyClicks(panel.space, "+")
-    assert panel.space.observer.zoom > Observer().zoom
+    assert panel.space.observer.zoom > before.zoom
     qtbot.keyClicks(panel.space, "-")
-    assert np.isclose(panel.space.observer.zoom, Observer().zoom)
+    assert np.isclose(panel.space.observer.zoom, before.zoom)
 
 
 def test_the_wheel_zooms(shown: Shown[PosesPanel], result: Result) -> None:
@@ -65,8 +68,9 @@ def test_the_wheel_zooms(shown: Shown[PosesPanel], result: Result) -> None:
         at, panel.space.mapToGlobal(at), QPoint(), QPoint(0, 120), Qt.MouseButton.NoButton, no,
         Qt.ScrollPhase.NoScrollPhase, False,
     )  # fmt: skip
+    before = panel.space.observer
     QApplication.sendEvent(panel.space, wheel)
-    assert panel.space.observer.zoom > Observer().zoom
+    assert panel.space.observer.zoom > before.zoom
 
 
 def test_what_is_drawn_is_the_scene(shown: Shown[PosesPanel], result: Result, qtbot: QtBot) -> None:
@@ -75,7 +79,8 @@ def test_what_is_drawn_is_the_scene(shown: Shown[PosesPanel], result: Result, qt
     qtbot.keyClick(panel.centre, Qt.Key.Key_Down)
     drawn = panel.space._drawn
     assert {d.polygon.view for d in drawn if d.polygon.kind is Kind.CAMERA} == set(range(9))
-    expected = draw(scene(result, Centre.BOARD), Observer())
+    polygons = scene(result, Centre.BOARD)
+    expected = draw(polygons, fitted(polygons, Observer()))
     for one, other in zip(drawn, expected, strict=True):
         np.testing.assert_array_equal(one.points, other.points)
 
