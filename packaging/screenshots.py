@@ -14,6 +14,7 @@ import argparse
 import os
 import tempfile
 from collections.abc import Callable
+from dataclasses import replace
 from pathlib import Path
 
 from PySide6.QtCore import QEventLoop, QPoint, QSettings, Qt, QTimer
@@ -21,9 +22,11 @@ from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QApplication
 
 from calibgui.app.resources import resource
+from calibgui.engine.types import PlateModel
 from calibgui.gui import theme
 from calibgui.gui.analysis import PANELS
 from calibgui.gui.main_window import MainWindow
+from calibgui.gui.panels.plate import PlatePanel
 from calibgui.gui.panels.poses import PosesPanel
 from calibgui.gui.panels.synthetic import SyntheticPanel
 
@@ -69,12 +72,24 @@ class Photographer:
         self.take("result")
         assert window.analysis is not None
         for kind in PANELS[1:]:
+            if kind is PlatePanel:
+                self.estimate_plate()
             panel = window.analysis.show_panel(kind)
             if isinstance(panel, SyntheticPanel):
                 panel.run.click()
                 wait(lambda panel=panel: panel.check is not None)
             self.take(kind.__name__.removesuffix("Panel").lower())
         self.marking()
+
+    def estimate_plate(self) -> None:
+        """Calibrate once more, every corner of the board free."""
+        session = self.window.session
+        session.edit(
+            "Settings",
+            lambda p: replace(p, settings=replace(p.settings, plate=PlateModel.FREE)),
+        )
+        self.window.calibrate.click()
+        wait(lambda: len(session.project.results) == 2 and not session.jobs.running)
 
     def marking(self) -> None:
         """Four clicks around a board, with the loupe."""

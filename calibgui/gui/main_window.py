@@ -101,8 +101,6 @@ class MainWindow(QMainWindow):
         nothing = QLabel(self.tr("Nothing is calibrated yet."))
         nothing.setAlignment(Qt.AlignmentFlag.AlignCenter)
         self.analysis_dock = self._dock(self.tr("Results"), "results", nothing, _RIGHT)
-        self.resizeDocks([self.image_dock, self.analysis_dock], [264, 540], _HORIZONTAL)
-
         self.place = QLabel()
         self.place.setFont(theme.fixed_font())
         self.statusBar().addPermanentWidget(self.place)
@@ -186,8 +184,13 @@ class MainWindow(QMainWindow):
         self.pages.setCurrentWidget(self.welcome if empty else self.page)
         for dock in (self.image_dock, self.analysis_dock):
             dock.setVisible(not empty)
-        if not empty and (state := QSettings().value("layout")):
+        if empty:
+            return
+        if state := QSettings().value("layout"):
             self.restoreState(state)
+        else:
+            widths = [_IMAGES_WIDTH, max(_RESULTS_WIDTH, round(_RESULTS_SHARE * self.width()))]
+            self.resizeDocks([self.image_dock, self.analysis_dock], widths, _HORIZONTAL)
 
     def _keep_layout(self) -> None:
         if not self._empty:
@@ -246,6 +249,11 @@ class MainWindow(QMainWindow):
         event.accept()
 
 
+_IMAGES_WIDTH = 264
+_RESULTS_WIDTH = 540
+"""At least, px, until the user chooses another."""
+_RESULTS_SHARE = 0.4
+"""Of the window's width."""
 _LEFT = Qt.DockWidgetArea.LeftDockWidgetArea
 _RIGHT = Qt.DockWidgetArea.RightDockWidgetArea
 _HORIZONTAL = Qt.Orientation.Horizontal

@@ -80,12 +80,12 @@ LIGHT = Theme(
     bad_base="#fde5da",
 )
 DARK = Theme(
-    window="#23272d",
-    base="#1b1e23",
+    window="#2d323a",
+    base="#191c21",
     canvas="#121417",
     text="#e7eaee",
     muted="#a2abb7",
-    line="#454c56",
+    line="#525a66",
     accent="#4aa3df",
     on_accent="#0b1117",
     good="#35c79a",

@@ -71,9 +71,9 @@ class CoveragePanel(Panel):
             plot.addItem(ring)
             points.sigClicked.connect(lambda _, spots: self._pick(spots[0].data()))
         layout = QVBoxLayout(self.body)
-        sensor = Split(600, (self.density, 3), (self.distances, 2))
+        sensor = Split(900, (self.density, 3), (self.distances, 2))
         layout.addWidget(self.advice)
-        layout.addWidget(Split(800, (sensor, 3), (self.tilts, 2)), 1)
+        layout.addWidget(Split(1100, (sensor, 3), (self.tilts, 2)), 1)
 
     def _refresh(self, result: Result) -> None:
         size = result.calibration.camera.size

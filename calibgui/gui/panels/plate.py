@@ -116,7 +116,11 @@ class PlatePanel(Panel):
         self.key.setPos(corner[0] + unit * scale + 0.2 * pitch, corner[1])
         low, high = at.min(axis=0) - pitch * np.array([1.0, 2.0]), at.max(axis=0) + pitch
         self.plot.enclose(QRectF(*low, *(high - low)))
-        self.words.setText(about_plate(plate))
+        words = about_plate(plate)
+        if plate.sigma.any():
+            known = float(np.median(plate.sigma[plate.sigma > 0]))
+            words += self.tr(" Each is known to ± {0:.2g} mm (1σ, median).").format(known)
+        self.words.setText(words)
         self._hover(None)
 
     def _hover(self, position: QPointF | None) -> None:

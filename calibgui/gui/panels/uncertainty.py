@@ -112,18 +112,21 @@ class UncertaintyPanel(Panel):
         if found is None:
             return
         self.region.show(found.u, found.v, found.worst_direction, [limit])
+        share = found.fraction(limit)
+        inside = self.tr(" (inside the red line)") if 0 < share < 1 else ""
         self.words.setText(
             self.tr(
                 "Points {0} are imaged to {1:.3f} px at the centre, {2:.3f} px in the median, "
-                "{3:.3f} px at worst (1σ). {4:.0f} % of the image is known to {5:g} px or better "
-                "(inside the red line)."
+                "{3:.3f} px at worst (1σ). {4:.0f} % of the image is known to {5:g} px or "
+                "better{6}."
             ).format(
                 where(found.distance),
                 found.centre,
                 found.median,
                 found.worst,
-                100 * found.fraction(limit),
+                100 * share,
                 limit,
+                inside,
             )
         )
 

@@ -61,6 +61,7 @@ def test_words_and_the_value_under_the_cursor(
 ) -> None:
     panel = shown(PlatePanel, bent)
     assert f"{plate.rms:.2g} mm (rms)" in panel.words.text()
+    assert f"± {np.median(plate.sigma):.2g} mm" in panel.words.text()
     box = panel.plot.getPlotItem().getViewBox()
     panel._hover(box.mapViewToScene(QPointF(*(plate.nominal[40] + [3.0, -4.0]))))
     text = panel.under_cursor.text()
