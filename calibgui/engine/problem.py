@@ -84,18 +84,23 @@ def residuals(
     state: State, observations: Observations, model: str, cost: Cost
 ) -> tuple[Array, Array]:
     """(K, N, 2) measured minus predicted corners, px, and registered minus nominal ones, mm."""
+    seen, registered = np.empty_like(observations.uv), np.empty_like(observations.uv)
+    unread = list(chunks(len(state.R)))
     if compiled(model, cost):
         from calibgui.engine.kernels import stage_two
 
         found = stage_two.residuals(
             eq10(model, state.params), state.R, state.T, transposed(observations)
         )
-        return np.swapaxes(found[0], 1, 2), np.swapaxes(found[1], 1, 2)
-    seen, registered = np.empty_like(observations.uv), np.empty_like(observations.uv)
-    for views in chunks(len(state.R)):
+        seen[:], registered[:] = (np.swapaxes(part, 1, 2) for part in found)
+        # The kernel gives a view up for one corner that its Newton's method does not reach.
+        given_up = ~np.isfinite(seen + registered).all(axis=(1, 2))
+        unread = [slice(k, k + 1) for k in np.flatnonzero(given_up).tolist()]
+    for views in unread:
         part, own = observations.part(views), state.part(views)
         seen[views] = part.uv - predicted_corners(own, part, MODELS[model], cost)
-        registered[views] = registration_error(own, part, MODELS[model], cost)
+        there = registration_error(own, part, MODELS[model], cost)
+        registered[views] = np.where(np.isfinite(seen[views]), there, np.nan)
     return seen, registered
 
 

@@ -13,7 +13,7 @@ from calibgui.engine import uncertainty
 from calibgui.engine.calibrate import HELD, parameter_names
 from calibgui.engine.information import state_of
 from calibgui.engine.lens import MODELS
-from calibgui.engine.levenberg_marquardt import minimise
+from calibgui.engine.levenberg_marquardt import minimise, schur
 from calibgui.engine.observations import pack
 from calibgui.engine.problem import stage_two
 from calibgui.engine.types import Camera, Cost
@@ -39,7 +39,7 @@ def test_repeated_solves_scatter_as_reported(model: str, count: int) -> None:
         found = minimise(problem, start, free, seen.count, float(np.sum(seen.uv**2)))
         sigma2 = uncertainty.variance(found.normal.cost, seen.count, len(free) + 6 * count)
         estimates.append(found.state.params[free])
-        reported.append(np.diag(uncertainty.shared_covariance(found.normal, sigma2)))
+        reported.append(np.diag(uncertainty.shared_covariance(schur(found.normal), sigma2)))
     scatter = np.std(estimates, axis=0, ddof=1)
     ratio = scatter / np.sqrt(np.mean(reported, axis=0))
     assert ((ratio > 0.9) & (ratio < 1.1)).all()
