@@ -40,8 +40,9 @@ def summarise(residuals: Sequence[ViewResiduals]) -> Summary:
         rms=float(np.sqrt(np.mean(np.sum(image**2, axis=1)))),
         sigma_x=float(sigma[0]),
         sigma_y=float(sigma[1]),
-        reference_mean=float(length.mean()),
-        reference_sd=float(length.std()),
+        # A corner beyond the lens model's fold has an image, but no place on the plate.
+        reference_mean=float(np.nanmean(length)),
+        reference_sd=float(np.nanstd(length)),
         count=len(image),
     )
 
