@@ -48,8 +48,8 @@ class HelpDialog(QDialog):
             self.tr(
                 "<b>Doubt it</b>: residuals that point the same way, a view with a long bar, or "
                 "a synthetic check whose residuals are much smaller than the real ones show what "
-                "the model does not explain; so does the sentence above the residuals. Exclude views "
-                "above a threshold, or let the Settings leave outliers out and estimate the "
+                "the model does not explain; so does the sentence above the residuals. Exclude "
+                "views above a threshold, or let the Settings leave outliers out and estimate the "
                 "board's shape, and calibrate again; "
                 "every result keeps its name and can be compared."
             ),
