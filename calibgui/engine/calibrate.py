@@ -283,7 +283,8 @@ def _tolerated(camera: Camera, observations: Observations) -> Array:
     that moves the outermost corner by its whole distance from the centre.
     """
     f, lens = camera.focal, MODELS[camera.model]
-    outermost = np.linalg.norm((observations.uv - camera.centre) / f, axis=-1).max()
+    d = (observations.uv - camera.centre) / f
+    outermost = np.sqrt(np.max(d[..., 0] ** 2 + d[..., 1] ** 2))
     return np.concatenate([0.1 * f, 0.1 * f, outermost ** -np.array(lens.powers, float)])
 
 

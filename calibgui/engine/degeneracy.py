@@ -54,8 +54,8 @@ def parallel(R: Array, V: Array, variance: float) -> bool:
     mean = _mean(n)
     if _farthest(n, mean) < _DISTINCT:
         return True
-    # In a basis of the plane across n: turns about n itself leave it where it is.
-    across = np.linalg.svd(n[:, None, :])[2][:, 1:]
+    # By the plate's own axes, across n: turns about n itself leave it where it is.
+    across = np.swapaxes(R[:, :, :2], 1, 2)
     turn = (across @ np.cross(n, mean)[..., None])[..., 0]
     covariance = across @ np.linalg.inv(V)[:, :3, :3] @ np.swapaxes(across, 1, 2)
     squares = turn * np.linalg.solve(covariance, turn[..., None])[..., 0]

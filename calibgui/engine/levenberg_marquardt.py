@@ -32,6 +32,7 @@ from collections.abc import Callable, Sequence
 from typing import NamedTuple
 
 import numpy as np
+from scipy.linalg.lapack import dposv
 
 from calibgui.engine.errors import CalibrationError
 from calibgui.engine.observations import chunks
@@ -45,7 +46,8 @@ _SETTLED = 1e-6
 """Decrease that a full step still predicts, relative to the cost, where damped ones fail."""
 _ROUNDING = 1e-26
 """Cost below which the residuals are rounding errors, relative to the squared data."""
-_DAMPING = 1e-4
+_DAMPING = 1e-6
+"""To start with: less than the information that good views leave (``uncertainty.py``)."""
 _MAX_DAMPING = 1e12
 
 Linearise = Callable[[State, slice], Linearised]
@@ -87,7 +89,9 @@ class Reduced(NamedTuple):
     @property
     def scaled(self) -> Array:
         """(P, P) S in these units."""
-        return self.S * np.outer(self.unit, self.unit)
+        scaled = self.S * self.unit
+        scaled *= self.unit[:, None]
+        return scaled
 
     def stiffened(self, added: Array) -> Reduced:
         """With (P, P) added to the shared parameters' block of J^T J."""
@@ -127,14 +131,14 @@ def minimise(
         data_square: sum of the squared data, which sets the level of rounding errors.
         report: told of each iteration; may stop it.
         max_iterations: accepted and rejected steps together.
-        earlier: iterations of the solve that this one continues.
+        earlier: iterations of the solve that this one continues, with its last damping.
 
     Raises:
         StartError: if the residuals at the start are not finite.
         Cancelled: from `report`.
     """
     began = time.perf_counter() - (earlier[-1].seconds if earlier else 0.0)
-    state, damping = start, _DAMPING
+    state, damping = start, earlier[-1].damping if earlier else _DAMPING
     normal = normal_at(state)
     if not np.isfinite(normal.cost):
         raise StartError(
@@ -183,9 +187,10 @@ def minimise(
             barred |= not np.isfinite(trial_normal.cost)
     else:
         return ended(Status.MAX_ITERATIONS)._replace(barred=barred)
-    # Damping makes steps small as well, against a wall of states that cannot be imaged.
-    left = 0.0 if exact else _decrease(normal, *solve(normal, 0.0))
-    if left <= _SETTLED * normal.cost:
+    # Damping makes steps small as well, against a wall of states that cannot be imaged; not
+    # where it is below the information that rounding leaves (1e-12) over `_SETTLED`.
+    slight = exact or (small and damping * 1e12 <= _SETTLED / _CONVERGED)
+    if slight or _decrease(normal, *solve(normal, 0.0)) <= _SETTLED * normal.cost:
         return ended(Status.CONVERGED)
     return ended(Status.MAX_ITERATIONS)._replace(barred=barred)
 
@@ -215,33 +220,41 @@ def normal_equations(linearise: Linearise, state: State, free: IntArray) -> Norm
 
 def schur(normal: NormalEquations, damping: float = 0.0) -> Reduced:
     """Eliminate the poses. With Vk = L L^T, Wk Vk^-1 Wk^T is the square of L^-1 Wk^T."""
-    V = normal.V + damping * normal.V * np.eye(6)
+    V = normal.V * (1 + damping * np.eye(6))
     roots = np.asarray(np.linalg.inv(np.linalg.cholesky(V)))
-    reduction = np.zeros((len(normal.U) + 1, len(normal.U) + 1))
+    S, gradient = normal.U.copy(), normal.shared.copy()
+    diagonal = np.diag(normal.U)
+    S[np.diag_indices_from(S)] += damping * diagonal
     for begin in range(0, len(V), _ELIMINATED):
         views = slice(begin, begin + _ELIMINATED)
-        W, g = np.swapaxes(normal.W[views], 1, 2), normal.pose[views, :, None]
-        Y = (roots[views] @ np.concatenate([W, g], axis=2)).reshape(-1, len(reduction))
-        reduction += Y.T @ Y
-    diagonal = np.diag(normal.U)
-    return Reduced(
-        S=normal.U + damping * np.diag(diagonal) - reduction[:-1, :-1],
-        gradient=normal.shared - reduction[:-1, -1],
-        roots=roots,
-        unit=1 / np.sqrt(np.maximum(diagonal, 1e-300)),
-    )
+        Y = roots[views] @ np.swapaxes(normal.W[views], 1, 2)
+        Y = Y.reshape(6 * len(Y), len(S))
+        S -= Y.T @ Y
+        gradient -= (roots[views] @ normal.pose[views, :, None]).ravel() @ Y
+    return Reduced(S, gradient, roots, 1 / np.sqrt(np.maximum(diagonal, 1e-300)))
 
 
 def step(normal: NormalEquations, reduced: Reduced) -> tuple[Array, Array]:
     """The step to the minimum of the linear model: (P,) shared and (K, 6) poses."""
-    scaled, right = reduced.scaled, reduced.unit * reduced.gradient
-    try:
-        shared = -reduced.unit * np.linalg.solve(scaled, right)
-    except np.linalg.LinAlgError:  # exactly singular: the shortest of the solutions
-        shared = -reduced.unit * np.linalg.lstsq(scaled, right, rcond=1e-15)[0]
+    shared = -reduced.unit * _solved(reduced)
     right = normal.pose + np.tensordot(normal.W, shared, axes=([1], [0]))
     halfway = reduced.roots @ right[..., None]
     return shared, -(np.swapaxes(reduced.roots, 1, 2) @ halfway)[..., 0]
+
+
+def _solved(reduced: Reduced) -> Array:
+    """(P,) S^-1 gradient, scaled; the shortest solution if S is singular."""
+    right = reduced.unit * reduced.gradient
+    if not len(right):
+        return right
+    # S is symmetric: its transpose is in the order that LAPACK works in, without a copy.
+    _, solution, failed = dposv(reduced.scaled.T, right, overwrite_a=True)
+    if failed:
+        try:
+            solution = np.linalg.solve(reduced.scaled, right)
+        except np.linalg.LinAlgError:
+            solution = np.linalg.lstsq(reduced.scaled, right, rcond=1e-15)[0]
+    return np.asarray(solution)
 
 
 def solve(normal: NormalEquations, damping: float) -> tuple[Array, Array]:

@@ -117,6 +117,11 @@ def boards(observations: Observations) -> tuple[IntArray, IntArray]:
 
     Mostly all views show the whole board, and what is asked of one need not be asked of all.
     """
+    K = len(observations.xy)
+    if (observations.mask == observations.mask[0]).all() and (
+        observations.xy == observations.xy[0]
+    ).all():
+        return np.zeros(1, dtype=np.int64), np.zeros(K, dtype=np.int64)
     first: dict[bytes, int] = {}
     counts = observations.mask.sum(axis=1).astype(int).tolist()
     views = enumerate(zip(observations.xy, counts, strict=True))
@@ -218,12 +223,15 @@ def _in_general_position(points: Array, mask: Array) -> BoolArray:
 
     Without them there is no homography.
     """
-    tolerance = 1e-6 * np.ptp(points, axis=1).max(axis=1)[:, None]
+    tolerance = 1e-6 * np.ptp(points, axis=1).max(axis=1)
+    x, y = np.array(np.moveaxis(points, -1, 0), order="C")
     good = np.ones(len(points), dtype=bool)
     # A line that holds all points but one holds two of the first three.
     for i, j in ((0, 1), (0, 2), (1, 2)):
-        x, y = (points[:, j] - points[:, i]).T[..., None]
-        dx, dy = np.moveaxis(points - points[:, i, None], -1, 0)
-        off = (np.abs(x * dy - y * dx) > tolerance * np.hypot(x, y)) & (mask > 0)
-        good &= off.sum(axis=1) >= 2
+        along = points[:, j] - points[:, i]
+        X, Y = along.T[..., None]
+        area = X * y - Y * x - (X[:, 0] * y[:, i] - Y[:, 0] * x[:, i])[:, None]
+        limit = tolerance * np.linalg.norm(along, axis=1)
+        off = (np.abs(area) > limit[:, None]) & (mask > 0)
+        good &= np.count_nonzero(off, axis=1) >= 2
     return good

@@ -109,7 +109,7 @@ def plate_problem(
             cost += float(A[:, -1, -1].sum())
             U[:P, :P] += A[:, :P, :P].sum(axis=0)
             U[P:, :P] += _contracted(total[None, ..., :P], B)[0]
-            U[P:, P:] += _own_blocks(total[..., P + 1 :], B)
+            _add_own_blocks(U[P:, P:], total[..., P + 1 :], B)
             W[views, :P], W[views, P:] = A[:, :P, P:-1], _contracted(D, B)
             V[views], pose[views] = A[:, P:-1, P:-1], A[:, P:-1, -1]
             shared[:P] += A[:, :P, -1].sum(axis=0)
@@ -217,11 +217,11 @@ def _contracted(D: Array, B: Array) -> Array:
     return np.swapaxes(B.reshape(3 * count, Q), 0, 1) @ D.reshape(len(D), 3 * count, -1)
 
 
-def _own_blocks(H: Array, B: Array) -> Array:
-    """(Q, Q) sum over the corners of B_i^T H_i B_i, for H (n, 3, 3)."""
+def _add_own_blocks(U: Array, H: Array, B: Array) -> None:
+    """Add to U (Q, Q) the sum over the corners of B_i^T H_i B_i, for H (n, 3, 3)."""
     count, _, Q = B.shape
     if 3 * count == Q:
-        own = np.zeros((count, 3, count, 3))
-        own[np.arange(count), :, np.arange(count)] = H
-        return own.reshape(Q, Q)
-    return np.einsum("iaq,iab,ibr->qr", B, H, B)
+        place = np.arange(Q).reshape(count, 3)
+        U[place[:, :, None], place[:, None, :]] += H
+    else:
+        U += np.einsum("iaq,iab,ibr->qr", B, H, B)

@@ -78,14 +78,14 @@ def fit_plate(
             miss, _ = residuals(state, bent, model, Cost.IMAGE)
             observations = weighted(observations, model_variance(observations, miss, unknowns))
         sigma2 = uncertainty.variance(solution.normal.cost, observations.count, unknowns)
-    reduced = schur(solution.normal)
-    if not uncertainty.determined(reduced, _RANK):
+    inverse, left = uncertainty.shared_inverse(schur(solution.normal))
+    if left < _RANK:
         raise CalibrationError(
             f"These views do not determine the plate's shape ({shape.value}).",
             "Add views tilted in different directions that show the whole board, "
             "state a prior, or keep the nominal plate.",
         )
-    covariance = uncertainty.shared_covariance(reduced, sigma2)
+    covariance = sigma2 * inverse
     if lost:
         covariance = _without_gauge(covariance, gauge(points), len(free))
     of_plate = covariance[len(free) :, len(free) :]

@@ -215,7 +215,5 @@ def _compiled(
 ) -> tuple[Array, Array, IntArray, BoolArray]:
     from calibgui.engine.kernels import stage_one  # takes a while: only when used
 
-    xT, goalT = (np.array(np.swapaxes(a, 1, 2), order="C") for a in (x, goal))
-    return stage_one.iterated(
-        z, xT, goalT, np.array(mask), _MAX_ITERATIONS, _CONVERGED, _MAX_DAMPING
-    )
+    xT, goalT = np.swapaxes(x, 1, 2), np.swapaxes(goal, 1, 2)
+    return stage_one.iterated(z, xT, goalT, mask, _MAX_ITERATIONS, _CONVERGED, _MAX_DAMPING)

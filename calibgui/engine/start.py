@@ -59,10 +59,11 @@ def reference_points(observations: Observations, scale: float, sign: Array) -> A
         scale: reference px per mm.
         sign: (K,) which way each view's plate faces, see `facing`.
     """
-    corners = observations.xy[observations.mask > 0]
-    centre = (corners.min(axis=0) + corners.max(axis=0)) / 2
+    # Padding repeats a corner and moves no limit.
+    x, y = observations.xy[..., 0], observations.xy[..., 1]
+    centre = np.array([x.min() + x.max(), y.min() + y.max()]) / 2
     up = np.stack([np.ones_like(sign), -sign], axis=1)
-    return (observations.xy - centre) * scale * up[:, None]
+    return (observations.xy - centre) * (scale * up[:, None])
 
 
 def start_of_stage_two(
@@ -105,12 +106,13 @@ def start_of_stage_two(
 
 def facing(observations: Observations) -> Array:
     """(K,) +1 where the plate's Y runs down in the image as v does, -1 where it runs up."""
-    ones = observations.mask[..., None]
-    plate = np.concatenate([observations.xy[..., :2] * ones, ones], axis=-1)
-    image = np.concatenate([observations.uv * ones, ones], axis=-1)
+    weight = observations.mask[:, None] / observations.mask.sum(axis=1)[:, None, None]
+    plate, image = observations.xy[..., :2], observations.uv
+    moments = np.swapaxes(plate * np.swapaxes(weight, 1, 2), 1, 2) @ image
+    covariance = moments - np.swapaxes(weight @ plate, 1, 2) * (weight @ image)
     # A camera turns all triangles of corners alike, and by Cauchy and Binet's formula the
     # determinant is the sum over all of them of the product of both areas.
-    return np.asarray(np.sign(np.linalg.det(np.swapaxes(plate, 1, 2) @ image)))
+    return np.asarray(np.sign(np.linalg.det(covariance)))
 
 
 def _coefficients(lens: Lens, d: Array, k1: float) -> Array:

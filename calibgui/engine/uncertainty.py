@@ -22,7 +22,7 @@ from __future__ import annotations
 from typing import NamedTuple
 
 import numpy as np
-from scipy.linalg.lapack import dpocon, dpotrf, dpotri
+from scipy.linalg.lapack import dpotrf, dpotri
 
 from calibgui.engine import frames
 from calibgui.engine.levenberg_marquardt import NormalEquations, Reduced, schur
@@ -59,17 +59,6 @@ def information_left(reduced: Reduced) -> tuple[Array, Array]:
     return values, vectors
 
 
-def determined(reduced: Reduced, least: float) -> bool:
-    """Whether every combination of shared parameters keeps the information `least` (0 to 1).
-
-    From an estimate of the norm of the inverse, which is cheap where eigenvalues of hundreds
-    of parameters are not, and errs towards no by at most the root of their number.
-    """
-    factor, failed = dpotrf(reduced.scaled)
-    norm = np.abs(reduced.scaled).sum(axis=0).max()
-    return not failed and bool(dpocon(factor, norm)[0] * norm > least)
-
-
 def precision(
     normal: NormalEquations, names: tuple[str, ...], corners: int, tolerated: Array
 ) -> Precision:
@@ -102,15 +91,30 @@ def precision(
 
 def shared_covariance(reduced: Reduced, sigma2: float) -> Array:
     """(P, P) covariance of the free shared parameters, without the combinations that are lost."""
-    factor, failed = dpotrf(reduced.scaled)
-    if len(factor) and not failed and (np.diag(factor) ** 2 > _CLEAR).all():
-        inverse = dpotri(factor)[0]  # its upper triangle
-        inverse = np.triu(inverse) + np.triu(inverse, 1).T
+    return sigma2 * shared_inverse(reduced)[0]
+
+
+def shared_inverse(reduced: Reduced) -> tuple[Array, float]:
+    """S^-1 (P, P) without the combinations that are lost, and the information that is left.
+
+    The second is the least eigenvalue of S scaled, or where Cholesky's factorisation shows that
+    all is well an estimate by the inverse's norm, at most the root of P times too small:
+    for hundreds of parameters eigenvalues take ten times as long.
+    """
+    factor, failed = dpotrf(reduced.scaled.T, overwrite_a=True) if len(reduced.unit) else ([], 1)
+    if not failed and (np.diag(factor) ** 2 > _CLEAR).all():
+        lower = dpotri(factor, overwrite_c=True)[0].T
+        inverse = np.tril(lower)
+        inverse += np.tril(lower, -1).T
+        left = 1 / float(np.linalg.norm(inverse))
     else:
         values, vectors = information_left(reduced)
         kept = values > _RANK
         inverse = vectors[:, kept] / values[kept] @ vectors[:, kept].T
-    return np.asarray(sigma2 * inverse * np.outer(reduced.unit, reduced.unit))
+        left = float(values.min(initial=1.0))
+    inverse *= reduced.unit
+    inverse *= reduced.unit[:, None]
+    return inverse, left
 
 
 def pose_covariances(normal: NormalEquations, shared: Array, rvecs: Array, sigma2: float) -> Array:

@@ -1,31 +1,59 @@
-"""Our calibration against OpenCV's, from the same corners: `python -m tests.benchmarks.solve`.
+"""Our calibration against OpenCV's and mrcal's, same corners: `python -m tests.benchmarks.solve`.
 
-Both fit the forward model with k1, k2, p1, p2, k3 and end at the same minimum; ours is also
-timed with the paper's model. Ours includes everything that ``calibrate`` returns: Stage I,
-standard deviations of camera and poses, residuals in the image and on the plate. OpenCV is
-timed without standard deviations, and with them where that does not take minutes. One BLAS
-thread and one OpenCV thread; our compiled sums use two from 65 views on.
+Two comparisons, all programs on one thread.
+
+whole: from corners to result. Ours is ``calibrate`` with everything that it returns: checks,
+Stage I, start, standard deviations of camera and poses, doubt about the plate, residuals in the
+image and on the plate. OpenCV is timed as users call it, without standard deviations, and with
+them as long as that takes less than a minute.
+
+solve: from one start, ours, to the minimum. Ours includes the standard deviations of camera and
+poses; OpenCV starts from our intrinsics, mrcal from our intrinsics and poses, and both stop
+without standard deviations.
+
+All fit the forward model with k1, k2, p1, p2, k3 and end at the same minimum, whose cost is
+compared; ours is also timed with the paper's model. On a busy machine `--clock process_time`
+counts the time on the processor only.
 """
 
 from __future__ import annotations
 
 import argparse
+import os
+import subprocess
+import sys
+import tempfile
 import time
 from collections.abc import Callable
 from functools import partial
+from pathlib import Path
 
 import cv2
 import numpy as np
+from matplotlib.figure import Figure
 from threadpoolctl import threadpool_limits
 
-from calibgui.engine.calibrate import calibrate
-from calibgui.engine.types import Observation
+from calibgui.engine import frames, problem, uncertainty
+from calibgui.engine.calibrate import calibrate, parameter_names
+from calibgui.engine.kernels import common
+from calibgui.engine.lens import MODELS
+from calibgui.engine.levenberg_marquardt import minimise
+from calibgui.engine.observations import REFERENCE_PITCH, Observations, pack, pitch, view_names
+from calibgui.engine.stage_one import prealign
+from calibgui.engine.stage_two import State
+from calibgui.engine.start import in_paper_frame, start_of_stage_two
+from calibgui.engine.types import Cost, Observation
 from tests.engine.scenes import VGA, Target, brown, looking, seen
 
 BOARD = Target(rows=12, cols=13, square=30.0)
-COUNTS = (10, 25, 100, 500)
-WITH_DEVIATIONS = 100
+COUNTS = (10, 25, 50, 100, 200, 500, 2000, 5000)
+PLATES = ("affine", "bow", "free")
+LONGEST = 60.0
+"""Seconds beyond which OpenCV's standard deviations are not waited for."""
 CRITERIA = (cv2.TERM_CRITERIA_COUNT + cv2.TERM_CRITERIA_EPS, 100, 1e-12)
+MRCAL_PYTHON = Path("/usr/bin/python3")
+"""Where Debian's python3-mrcal is."""
+Timed = Callable[[], float]
 
 
 def corners(count: int) -> list[Observation]:
@@ -35,54 +63,183 @@ def corners(count: int) -> list[Observation]:
     return seen(camera, poses, board=BOARD).noisy(0.1, rng)
 
 
-def opencv(views: list[Observation], deviations: bool) -> float:
-    """RMS of OpenCV's solve."""
-    boards = [np.column_stack([v.xy, np.zeros(len(v.xy))]).astype(np.float32) for v in views]
-    uv = [v.uv.astype(np.float32).reshape(-1, 1, 2) for v in views]
-    solve = cv2.calibrateCameraExtended if deviations else cv2.calibrateCamera
-    return float(solve(boards, uv, VGA, None, None, criteria=CRITERIA)[0])
-
-
-def ours(views: list[Observation], model: str) -> float:
-    """RMS of our solve."""
-    residuals = calibrate(views, VGA, model=model).residuals
+def whole(views: list[Observation], model: str, plate: str = "nominal") -> float:
+    """RMS of our calibration, px."""
+    residuals = calibrate(views, VGA, model=model, plate=plate).residuals
     lengths = np.concatenate([np.linalg.norm(view.image, axis=1) for view in residuals])
     return float(np.sqrt(np.mean(lengths**2)))
 
 
-def best(run: Callable[[], float], repeats: int) -> tuple[float, float]:
+def started(views: list[Observation], model: str) -> tuple[Observations, State]:
+    """The views as the solver takes them, and its start."""
+    observations = pack(views)
+    scale = REFERENCE_PITCH / pitch(observations)
+    first = prealign(*in_paper_frame(observations, scale, VGA, view_names(len(views))))
+    names = parameter_names(model)
+    held: dict[str, float | None] = {"p3": None} if model == "lucchese" else {}
+    start, _ = start_of_stage_two(observations, first, VGA, MODELS[model], names, held)
+    return observations, start
+
+
+def solve(observations: Observations, start: State, model: str) -> float:
+    """RMS of our solve, px, with the standard deviations of camera and poses on the way."""
+    free = np.arange(9)
+    normal_at = problem.stage_two(observations, model, Cost.IMAGE, 1.0, free)
+    square = float(np.sum(observations.uv**2))
+    solution = minimise(normal_at, start, free, observations.count, square)
+    names = tuple(parameter_names(model)[:9])
+    found = uncertainty.precision(solution.normal, names, observations.count, np.full(9, np.inf))
+    rvecs = frames.rotation_vector(solution.state.R)
+    uncertainty.pose_covariances(solution.normal, found.shared, rvecs, found.variance)
+    return float(np.sqrt(solution.normal.cost / observations.count))
+
+
+def opencv(views: list[Observation], start: State | None = None, deviations: bool = False) -> float:
+    """RMS of OpenCV's solve, px; from the camera of a start, or from its own."""
+    boards = [np.column_stack([v.xy, np.zeros(len(v.xy))]).astype(np.float32) for v in views]
+    uv = [v.uv.astype(np.float32).reshape(-1, 1, 2) for v in views]
+    run = cv2.calibrateCameraExtended if deviations else cv2.calibrateCamera
+    if start is None:
+        return float(run(boards, uv, VGA, None, None, criteria=CRITERIA)[0])
+    fx, fy, cx, cy, *lens = start.params
+    K = np.array([[fx, 0, cx], [0, fy, cy], [0, 0, 1]])
+    flags = cv2.CALIB_USE_INTRINSIC_GUESS
+    return float(run(boards, uv, VGA, K, np.array(lens), flags=flags, criteria=CRITERIA)[0])
+
+
+def mrcal(
+    observations: Observations, start: State, repeats: int, clock: str
+) -> tuple[float, float] | None:
+    """Least time in seconds and RMS, px, of mrcal's solve; None where it is not installed."""
+    with tempfile.TemporaryDirectory() as folder:
+        given = Path(folder, "given.npz")
+        np.savez(
+            given,
+            boards=observations.uv.reshape(-1, BOARD.rows, BOARD.cols, 2),
+            params=start.params,
+            poses=np.column_stack([frames.rotation_vector(start.R), start.T]),
+            size=np.array(VGA),
+            square=BOARD.square,
+        )
+        command = [MRCAL_PYTHON, "-m", "tests.benchmarks.mrcal_solve", given, str(repeats), clock]
+        try:
+            answer = subprocess.run(
+                command,
+                capture_output=True,
+                text=True,
+                env={"OMP_NUM_THREADS": "1", "OPENBLAS_NUM_THREADS": "1"},
+                check=True,
+            )
+        except (OSError, subprocess.CalledProcessError):
+            return None
+    seconds, rms = map(float, answer.stdout.split())
+    return seconds, rms
+
+
+def best(run: Timed, repeats: int, clock: str) -> tuple[float, float]:
     """Least time in seconds, and the result."""
-    times = []
+    now, times = getattr(time, clock), []
     for _ in range(repeats):
-        began = time.perf_counter()
+        began = now()
         result = run()
-        times.append(time.perf_counter() - began)
+        times.append(now() - began)
     return min(times), result
+
+
+def exponent(times: dict[int, float]) -> float:
+    """Slope of log time over log number of views, from 100 views on."""
+    counts = [count for count in times if count >= 100]
+    if len(counts) < 2:
+        return float("nan")
+    return float(np.polyfit(np.log(counts), np.log([times[c] for c in counts]), 1)[0])
+
+
+def drawn(times: dict[str, dict[int, float]], path: Path) -> None:
+    """The growth of all times with the number of views, as a figure."""
+    figure = Figure(figsize=(7, 5), layout="constrained")
+    axes = figure.add_subplot()
+    for name, series in times.items():
+        label = f"{name} (exponent {exponent(series):.2f})"
+        axes.loglog(list(series), list(series.values()), "o-", label=label)
+    axes.set_xlabel("views of 156 corners")
+    axes.set_ylabel("seconds")
+    axes.grid(True, which="both", alpha=0.3)
+    axes.legend(fontsize=8)
+    figure.savefig(path, dpi=150)
 
 
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("--repeats", type=int, default=3)
-    repeats = parser.parse_args().repeats
+    parser.add_argument("--repeats", type=int, default=5)
+    parser.add_argument("--views", type=int, nargs="+", default=COUNTS)
+    parser.add_argument("--clock", choices=["perf_counter", "process_time"], default="perf_counter")
+    parser.add_argument("--figure", type=Path, help="file for the figure of growth")
+    arguments = parser.parse_args()
+    clock = arguments.clock
     cv2.setNumThreads(1)
-    print(f"OpenCV {cv2.__version__}, 156 corners a view, best of {repeats}, one BLAS thread")
-    print("views  ours  paper's model  OpenCV  ratio  OpenCV with SDs  ratio  difference of RMS")
+    common.THREADS = 1
+    print(
+        f"OpenCV {cv2.__version__}, 156 corners a view, one thread, {clock}, "
+        f"load {os.getloadavg()[0]:.1f} on {os.cpu_count()} processors"
+    )
+    times: dict[str, dict[int, float]] = {}
     with threadpool_limits(1):
-        ours(corners(2 * 65), "opencv")  # compiles, once
-        for count in COUNTS:
-            views = corners(count)
-            forward, rms = best(partial(ours, views, "opencv"), repeats)
-            paper, _ = best(partial(ours, views, "lucchese"), repeats)
-            plain, theirs = best(partial(opencv, views, False), repeats)
-            row = f"{count:5d} {1e3 * forward:5.0f} {1e3 * paper:14.0f} {1e3 * plain:7.0f}"
-            row += f" {plain / forward:6.1f}"
-            if count <= WITH_DEVIATIONS:
-                full, _ = best(partial(opencv, views, True), 1)
-                row += f" {1e3 * full:16.0f} {full / forward:6.1f}"
-            else:
-                row += f" {'-':>16} {'-':>6}"
-            print(f"{row} {abs(rms - theirs):18.1e}", flush=True)
-    print("times in ms")
+        solve(*started(corners(2), "lucchese"), "lucchese")  # compiles, once
+        for plate in PLATES:
+            whole(corners(8), "opencv", plate)
+        for count in arguments.views:
+            row = measured(count, arguments.repeats if count <= 500 else 3, clock, times)
+            for name, seconds in row.items():
+                times.setdefault(name, {})[count] = seconds
+            report(count, row)
+    for name, series in times.items():
+        print(f"{name:28s} grows with exponent {exponent(series):.2f}")
+    if arguments.figure:
+        drawn(times, arguments.figure)
+
+
+def measured(
+    count: int, repeats: int, clock: str, before: dict[str, dict[int, float]]
+) -> dict[str, float]:
+    """Seconds that everything takes with `count` views; checks that all end at one cost."""
+    views = corners(count)
+    run = partial(best, repeats=repeats, clock=clock)
+    row: dict[str, float] = {}
+    rms: dict[str, float] = {}
+    row["whole, paper's model"], _ = run(partial(whole, views, "lucchese"))
+    row["whole"], rms["whole"] = run(partial(whole, views, "opencv"))
+    for plate in PLATES:
+        row[f"whole, {plate} plate"], _ = run(partial(whole, views, "opencv", plate))
+    row["whole, OpenCV"], rms["OpenCV"] = run(partial(opencv, views))
+    slow = before.get("whole, OpenCV with SDs", {})
+    if all(seconds * (count / earlier) ** 3 < LONGEST for earlier, seconds in slow.items()):
+        row["whole, OpenCV with SDs"], _ = best(partial(opencv, views, None, True), 1, clock)
+    paper = started(views, "lucchese")
+    row["solve, paper's model"], _ = run(partial(solve, *paper, "lucchese"))
+    observations, start = started(views, "opencv")
+    row["solve"], rms["solve"] = run(partial(solve, observations, start, "opencv"))
+    row["solve, OpenCV"], _ = run(partial(opencv, views, start))
+    if found := mrcal(observations, start, repeats, clock):
+        row["solve, mrcal"], rms["mrcal"] = found
+    apart = max(rms.values()) - min(rms.values())
+    if apart > 1e-5:
+        print(f"RMS differ by {apart:.1e} px: {rms}", file=sys.stderr)
+    return row
+
+
+def report(count: int, row: dict[str, float]) -> None:
+    """Print the times, and how they compare."""
+    print(f"\n{count} views")
+    for name, seconds in row.items():
+        kind = name.partition(",")[0]
+        own = ["", " paper's model"]
+        ratios = [
+            f"{seconds / row[kind + (',' + model if model else '')]:.1f} times ours{model}"
+            for model in own
+        ]
+        theirs = "OpenCV" in name or "mrcal" in name
+        compared = ", ".join(ratios) if theirs else f"{seconds / row[kind]:.2f} times plain"
+        print(f"  {name:26s} {1e3 * seconds:10.1f} ms   {compared}", flush=True)
 
 
 if __name__ == "__main__":

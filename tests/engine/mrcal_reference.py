@@ -6,16 +6,22 @@ Run by ``/usr/bin/python3``, where Debian's python3-mrcal is: mrcal_reference.py
 from __future__ import annotations
 
 import sys
+from collections.abc import Mapping
+from typing import Any
 
 import mrcal
 import numpy as np
 
 
-def main(given: str, result: str) -> None:
-    data = np.load(given)
+def problem(data: Mapping[str, Any]) -> dict[str, Any]:
+    """What ``mrcal.optimize`` takes for boards (K, rows, columns, 2) seen by one camera.
+
+    Args:
+        data: "boards", "params", "poses" (K, 6), "size" and "square".
+    """
     boards = data["boards"]
     views = len(boards)
-    inputs = {
+    return {
         "lensmodel": "LENSMODEL_OPENCV5",
         "intrinsics": data["params"][None].copy(),
         "extrinsics_rt_fromref": np.zeros((0, 6)),
@@ -39,6 +45,11 @@ def main(given: str, result: str) -> None:
         "do_apply_regularization": False,
         "verbose": False,
     }
+
+
+def main(given: str, result: str) -> None:
+    data = np.load(given)
+    inputs = problem(data)
     mrcal.optimize(**inputs)
     model = mrcal.cameramodel(optimization_inputs=inputs, icam_intrinsics=0)
     rays = mrcal.unproject(data["uv"], *model.intrinsics(), normalize=True)

@@ -71,7 +71,7 @@ def test_weights_beat_equal_weights_where_corners_differ() -> None:
 
 
 def test_a_floor_above_the_covariances_makes_weights_equal() -> None:
-    views = noisy(8, 2.0, 3)
+    views = noisy(16, 2.0, 3)
     result = calibrate(views, SIZE)
     equal = calibrate([Observation(v.uv, v.xy) for v in views], SIZE)
     np.testing.assert_allclose(result.camera.params[:4], equal.camera.params[:4], atol=1.0)

@@ -2,7 +2,7 @@
 
 Their layout makes them fast: the Jacobian of one view is kept transposed, one parameter a row,
 so that every loop runs over the corners without a branch and the compiler turns it into vector
-instructions, and the products of the rows are formed four at a time while they are in the
+instructions, and the products of the rows are formed nine at a time while they are in the
 processor's first cache. Each view's result is independent of every other's, and callers add
 them in a fixed order: nothing depends on the number of threads.
 """
@@ -13,7 +13,10 @@ from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
 from typing import Any
 
+import numpy as np
 from numba import njit
+
+from calibgui.engine.types import Array
 
 _MATHS = {"contract", "nsz", "arcp", "reassoc"}
 """Freedoms that the compiler needs to vectorise sums; infinities and NaN stay as they are."""
@@ -44,31 +47,36 @@ def in_blocks(count: int, run: Callable[[slice], None]) -> None:
         list(pool.map(run, blocks))
 
 
+def plain(array: Array) -> Array:
+    """A contiguous array that may be written, copied if need be: each other kind compiles anew."""
+    return np.require(array, np.float64, ["C", "W"])
+
+
 @compiled
 def gram(J, out):  # type: ignore[no-untyped-def]
-    """out = J J^T for J (M, n), four products at a time."""
+    """out = J J^T for J (M, n), three rows by three; the last row repeats to fill up."""
     M, n = J.shape
+    for a in range(0, M, 3):
+        a1, a2 = min(a + 1, M - 1), min(a + 2, M - 1)
+        p0, p1, p2 = J[a], J[a1], J[a2]
+        for b in range(a, M, 3):
+            b1, b2 = min(b + 1, M - 1), min(b + 2, M - 1)
+            q0, q1, q2 = J[b], J[b1], J[b2]
+            s00 = s01 = s02 = s10 = s11 = s12 = s20 = s21 = s22 = 0.0
+            for i in range(n):
+                x, y, z, u, v, w = p0[i], p1[i], p2[i], q0[i], q1[i], q2[i]
+                s00 += x * u
+                s01 += x * v
+                s02 += x * w
+                s10 += y * u
+                s11 += y * v
+                s12 += y * w
+                s20 += z * u
+                s21 += z * v
+                s22 += z * w
+            out[a, b], out[a, b1], out[a, b2] = s00, s01, s02
+            out[a1, b], out[a1, b1], out[a1, b2] = s10, s11, s12
+            out[a2, b], out[a2, b1], out[a2, b2] = s20, s21, s22
     for a in range(M):
-        ja = J[a]
-        b = a
-        while b + 3 < M:
-            j0, j1, j2, j3 = J[b], J[b + 1], J[b + 2], J[b + 3]
-            s0 = s1 = s2 = s3 = 0.0
-            for i in range(n):
-                v = ja[i]
-                s0 += v * j0[i]
-                s1 += v * j1[i]
-                s2 += v * j2[i]
-                s3 += v * j3[i]
-            out[a, b] = out[b, a] = s0
-            out[a, b + 1] = out[b + 1, a] = s1
-            out[a, b + 2] = out[b + 2, a] = s2
-            out[a, b + 3] = out[b + 3, a] = s3
-            b += 4
-        while b < M:
-            jb = J[b]
-            s0 = 0.0
-            for i in range(n):
-                s0 += ja[i] * jb[i]
-            out[a, b] = out[b, a] = s0
-            b += 1
+        for b in range(a):
+            out[a, b] = out[b, a]

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from calibgui.engine.kernels.common import BLOCK, compiled, gram, in_blocks
+from calibgui.engine.kernels.common import BLOCK, compiled, gram, in_blocks, plain
 from calibgui.engine.kernels.stage_two import Lens, Views, image, jacobian, workspace
 from calibgui.engine.types import Array, IntArray
 
@@ -68,6 +68,7 @@ def products(
     K, P = len(R), len(rows)
     A, D = np.empty((K, P + 7, P + 7)), np.zeros((K if with_poses else 0, count, 3, 6))
     totals = np.zeros((-(-K // BLOCK), count, 3, P + 4))
+    R, T = plain(R), plain(T)
     uv, xyz, weight = views
     whitened = weight.shape[2] > 0
 

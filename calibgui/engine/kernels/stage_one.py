@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from calibgui.engine.kernels.common import compiled, gram, in_blocks
+from calibgui.engine.kernels.common import compiled, gram, in_blocks, plain
 from calibgui.engine.types import Array, BoolArray, IntArray
 
 
@@ -75,14 +75,19 @@ def _views(x, goal, weight, most, small, stiffest, z, products, iterations, conv
     step, trial = np.empty(11), np.empty(11)
     for view in range(K):
         damping, cost = 1e-3, np.inf
-        trial[:] = z[view]
+        for i in range(11):
+            trial[i] = z[view, i]
         for count in range(most + 1):
             _registration(trial, x[view], goal[view], weight[view], J)
             gram(J, new)
             iterations[view] = count
             if new[11, 11] < cost:
                 cost = new[11, 11]
-                z[view], products[view] = trial, new
+                for i in range(12):
+                    for j in range(12):
+                        products[view, i, j] = new[i, j]
+                for i in range(11):
+                    z[view, i] = trial[i]
                 damping = max(damping / 10, 1e-12) if count else damping
             else:
                 damping *= 10
@@ -114,6 +119,7 @@ def iterated(
         z, (K, 12, 12) products of the columns [J r] there, iterations, whether it converged.
     """
     K = len(z)
+    x, goal, weight = plain(x), plain(goal), plain(weight)
     z, products = z.copy(), np.full((K, 12, 12), np.nan)
     iterations, converged = np.zeros(K, dtype=np.int64), np.zeros(K, dtype=np.bool_)
 

@@ -17,7 +17,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from calibgui.engine.kernels.common import compiled, gram, in_blocks
+from calibgui.engine.kernels.common import compiled, gram, in_blocks, plain
 from calibgui.engine.types import Array, IntArray
 
 
@@ -56,8 +56,9 @@ def _distort(n, k, d, M):  # type: ignore[no-untyped-def]
 def _invert(n, k, d, M):  # type: ignore[no-untyped-def]
     """Solve eq10(d) = n from the given d; M = dd/dn. Returns whether all points converged.
 
-    The last step is at most 1e-8, after which the error is its square. A point that ends
-    beyond the fold of eq. 10, where det < 0, has no inverse.
+    After a step of Newton's method of at most 1e-7 the error is its square; one more step with
+    the same M takes it below rounding. A point that ends beyond the fold of eq. 10, where
+    det < 0, has no inverse.
     """
     k1, k2, k3, p1, p2, p3 = k
     for _ in range(20):
@@ -74,7 +75,13 @@ def _invert(n, k, d, M):  # type: ignore[no-untyped-def]
             d[1, i] -= s1
             M[0, i], M[1, i], M[2, i], M[3, i] = m00, m01, m10, m11
             worst = max(worst, s0 * s0 + s1 * s1)
-        if worst < 1e-16:
+        if worst < 1e-14:
+            for i in range(n.shape[1]):
+                e0, e1, _, _, _, _ = _eq10(d[0, i], d[1, i], k1, k2, k3, p1, p2, p3)
+                e0 -= n[0, i]
+                e1 -= n[1, i]
+                d[0, i] -= M[0, i] * e0 + M[1, i] * e1
+                d[1, i] -= M[2, i] * e0 + M[3, i] * e1
             return not folded
     return False
 
@@ -184,7 +191,9 @@ def jacobian(camera, backward, uv, weight, whitened, rows, work, J):  # type: ig
                 lead[j, i] = -M[j, i]
     _by_params((fx, fy, p1, p2, p3), d if backward else n, lead, d, F)
     for j in range(P):
-        J[j] = F[rows[j]]
+        row = rows[j]
+        for i in range(2 * N):
+            J[j, i] = F[row, i]
     _by_pose(fx, fy, rotated, n, M, inverse_depth, J[P : P + 6])
     for i in range(N):
         J[P + 6, i] = cx + fx * d[0, i] - uv[0, i]
@@ -224,15 +233,19 @@ def _residuals(camera, backward, R, T, uv, xyz, seen, registered):  # type: igno
         if backward:
             _distort(goal, camera[4:], ideal, M)
         else:
-            ideal[:] = n
+            for i in range(N):
+                ideal[0, i], ideal[1, i] = n[0, i], n[1, i]
             good &= _invert(goal, camera[4:], ideal, M)
-        r, t = R[view], R[view].T @ T[view]
+        r, t = R[view], T[view]
+        t0 = r[0, 0] * t[0] + r[1, 0] * t[1] + r[2, 0] * t[2]
+        t1 = r[0, 1] * t[0] + r[1, 1] * t[1] + r[2, 1] * t[2]
+        t2 = r[0, 2] * t[0] + r[1, 2] * t[1] + r[2, 2] * t[2]
         for i in range(N):
             x, y = ideal[0, i], ideal[1, i]
             X, Y, Z = xyz[view, 0, i], xyz[view, 1, i], xyz[view, 2, i]
-            depth = (Z + t[2]) / (r[0, 2] * x + r[1, 2] * y + r[2, 2])
-            registered[view, 0, i] = depth * (r[0, 0] * x + r[1, 0] * y + r[2, 0]) - t[0] - X
-            registered[view, 1, i] = depth * (r[0, 1] * x + r[1, 1] * y + r[2, 1]) - t[1] - Y
+            depth = (Z + t2) / (r[0, 2] * x + r[1, 2] * y + r[2, 2])
+            registered[view, 0, i] = depth * (r[0, 0] * x + r[1, 0] * y + r[2, 0]) - t0 - X
+            registered[view, 1, i] = depth * (r[0, 1] * x + r[1, 1] * y + r[2, 1]) - t1 - Y
         if not good:
             seen[view] = np.nan
             registered[view] = np.nan
@@ -272,6 +285,7 @@ def products(lens: Lens, R: Array, T: Array, views: Views, rows: IntArray) -> Ar
         The squared residual, the last entry, is infinite for views with no prediction.
     """
     out = np.empty((len(R), len(rows) + 7, len(rows) + 7))
+    R, T = plain(R), plain(T)
     uv, xyz, weight = views
     whitened = weight.shape[2] > 0
 
@@ -290,6 +304,7 @@ def residuals(lens: Lens, R: Array, T: Array, views: Views) -> tuple[Array, Arra
     The second are where the measured corners' rays meet the plate, minus where the corners
     are, on the plane through each corner that is parallel to the plate's. Not whitened.
     """
+    R, T = plain(R), plain(T)
     uv, xyz, _ = views
     seen, registered = np.empty_like(uv), np.empty_like(uv)
 
