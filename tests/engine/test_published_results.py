@@ -92,8 +92,6 @@ def test_the_papers_preset_on_bouguets_corners(bouguet_corners: Set) -> None:
     assert (np.abs(values - [*table, 656.66, 657.83]) < 3 * sd).all()
     # Those of xp, yp and the radial terms hardly depend on the corners.
     np.testing.assert_allclose(printed[:5], sd[:5], rtol=0.1)
-    k1 = np.mean([row.k1 for row in found.stage_one])
-    assert k1 == pytest.approx(5.9e-7, abs=0.25e-7)
     assert max(row.iterations for row in found.stage_one) <= 15
 
 
