@@ -1,0 +1,231 @@
+"""The edge model's normal equations, compiled: ``corners.edges`` over ``corners.pattern``.
+
+The pixels of a corner are taken in blocks that the processor's first cache holds. What is
+computed from them stands in rows of one array at distances that the compiler knows, so that it
+can prove the loops over a block independent and turn them into vector instructions; for the same
+reason the exponential is arithmetic,
+
+    exp(-y) = (exp(-y / 64))^64,
+
+its argument small enough for five terms of the series. All but the sums is float32.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from calibgui.engine.kernels.bands import Pixels
+from calibgui.engine.kernels.common import compiled
+from calibgui.engine.types import Array
+
+_F = np.float32
+_BLOCK = 256
+_S1, _S2, _D1, _D2, _B1, _B2, _W1, _W2, _E1, _E2, _F1, _F2, _G, _J = (
+    _BLOCK * row for row in (0, 1, 2, 3, 4, 5, 6, 7, 8, 11, 14, 17, 20, 26)
+)
+"""Where rows begin: along, distance, blur and spread of edges 1 and 2; an edge's value, slope and
+derivative by the blur, shrunk by w and grown; G and its derivatives by d_1, d_2, s_1, s_2 and
+rho; the columns of the normal equations."""
+_COLUMNS = 10
+"""Nine unknowns and the residual."""
+_ROWS = 26 + _COLUMNS
+_ZERO, _HALF, _ONE = _F(0), _F(0.5), _F(1)
+_ROOT_HALF = _F(np.sqrt(0.5))
+_ROOT_PI = _F(np.sqrt(np.pi))
+_ROOT2_PI = _F(np.sqrt(2 / np.pi))
+_THIRD = _F(1 / 3)
+_SHARPEST = _F(0.3)
+_FINEST2 = _F(0.01)
+_FAR, _PART = _F(32), _F(1 / 64)
+_C2, _C3, _C4, _C5 = _F(1 / 2), _F(1 / 6), _F(1 / 24), _F(1 / 120)
+_P, _A1, _A2, _A3, _A4, _A5 = (
+    _F(c) for c in (0.3275911, 0.254829592, -0.284496736, 1.421413741, -1.453152027, 1.061405429)
+)
+
+
+@compiled
+def _bell(x):  # type: ignore[no-untyped-def]
+    """exp(-x^2)."""
+    e = min(x * x, _FAR) * _PART
+    b = _ONE - e * (_ONE - e * (_C2 - e * (_C3 - e * (_C4 - e * _C5))))
+    b *= b
+    b *= b
+    b *= b
+    b *= b
+    b *= b
+    return b * b
+
+
+@compiled
+def _erf(x, bell):  # type: ignore[no-untyped-def]
+    """erf(x), as ``pattern._erf``."""
+    t = _ONE / (_ONE + _P * abs(x))
+    value = _ONE - t * (_A1 + t * (_A2 + t * (_A3 + t * (_A4 + t * _A5)))) * bell
+    return value if x >= _ZERO else -value
+
+
+@compiled
+def _geometry(w, u, v, t, n, kappa, blur, size, growth, m):  # type: ignore[no-untyped-def]
+    """Rows S, D, B and W of m pixels at the offsets u, v from the corner.
+
+    blur and size of both edges are value, derivative by u and by v."""
+    for p in range(m):
+        s1, s2 = t[0] * u[p] + t[1] * v[p], t[2] * u[p] + t[3] * v[p]
+        w[_S1 + p], w[_S2 + p] = s1, s2
+        w[_D1 + p] = n[0] * u[p] + n[1] * v[p] - kappa[0] * s1 * s1
+        w[_D2 + p] = n[2] * u[p] + n[3] * v[p] - kappa[1] * s2 * s2
+    for p in range(m):
+        w[_B1 + p] = max(blur[0] + blur[2] * u[p] + blur[3] * v[p], _SHARPEST)
+        w[_B2 + p] = max(blur[1] + blur[4] * u[p] + blur[5] * v[p], _SHARPEST)
+        w[_W1 + p] = growth * (size[0] + size[2] * u[p] + size[3] * v[p])
+        w[_W2 + p] = growth * (size[1] + size[4] * u[p] + size[5] * v[p])
+
+
+@compiled
+def _edge(distance, turn, spread, side, blur, box, to, m):  # type: ignore[no-untyped-def]
+    """``pattern.edge`` at turn * d + side * w: its value, slope and derivative by the blur."""
+    if box == _ZERO:
+        for p in range(m):
+            s = _ONE / blur[p]
+            y = (turn * distance[p] + side * spread[p]) * s
+            x = y * _ROOT_HALF
+            bell = _bell(x)
+            slope = bell * _ROOT2_PI * s
+            to[p] = _erf(x, bell)
+            to[_BLOCK + p] = slope
+            to[2 * _BLOCK + p] = -y * slope
+        return
+    over = _HALF / box
+    for p in range(m):
+        s = blur[p]
+        d = turn * distance[p] + side * spread[p]
+        g = np.sqrt(max(s * s - box * box * _THIRD, _FINEST2))
+        narrow = _ROOT_HALF / g
+        a, b = (d + box) * narrow, (d - box) * narrow
+        bell_a, bell_b = _bell(a), _bell(b)
+        erf_a, erf_b = _erf(a, bell_a), _erf(b, bell_b)
+        fall = bell_a - bell_b
+        to[p] = (a * erf_a - b * erf_b + fall / _ROOT_PI) * (over / narrow)
+        to[_BLOCK + p] = (erf_a - erf_b) * over
+        to[2 * _BLOCK + p] = fall * (_ROOT2_PI * over * s / g)
+
+
+@compiled
+def _meeting(w, rho, box, m):  # type: ignore[no-untyped-def]
+    """Rows G as ``pattern.meeting``."""
+    _edge(w[_D1:], _ONE, w[_W1:], _ZERO, w[_B1:], box[0], w[_E1:], m)
+    _edge(w[_D2:], _ONE, w[_W2:], _ZERO, w[_B2:], box[1], w[_E2:], m)
+    half = _HALF * rho * rho
+    for p in range(m):
+        v1, v2 = w[_E1 + p], w[_E2 + p]
+        d1, d2 = w[_E1 + _BLOCK + p], w[_E2 + _BLOCK + p]
+        both = w[_B1 + p] * w[_B2 + p]
+        by_rho = both * d1 * d2
+        w[_G + p] = v1 * v2 + by_rho * (rho + half * w[_D1 + p] * w[_D2 + p] / both)
+        w[_G + _BLOCK + p], w[_G + 2 * _BLOCK + p] = d1 * v2, v1 * d2
+        w[_G + 3 * _BLOCK + p] = w[_E1 + 2 * _BLOCK + p] * v2
+        w[_G + 4 * _BLOCK + p] = v1 * w[_E2 + 2 * _BLOCK + p]
+        w[_G + 5 * _BLOCK + p] = by_rho
+
+
+@compiled
+def _spread(w, rho, box, mirror, m):  # type: ignore[no-untyped-def]
+    """Rows G as ``pattern.spread``, for spreads w of the sign of mirror."""
+    _edge(w[_D1:], _ONE, w[_W1:], -mirror, w[_B1:], box[0], w[_E1:], m)
+    _edge(w[_D2:], mirror, w[_W2:], -mirror, w[_B2:], box[1], w[_E2:], m)
+    _edge(w[_D1:], _ONE, w[_W1:], mirror, w[_B1:], box[0], w[_F1:], m)
+    _edge(w[_D2:], mirror, w[_W2:], mirror, w[_B2:], box[1], w[_F2:], m)
+    half = _HALF * mirror
+    for p in range(m):
+        e1, e2, f1, f2 = w[_E1 + p], w[_E2 + p], w[_F1 + p], w[_F2 + p]
+        de1, de2 = w[_E1 + _BLOCK + p], w[_E2 + _BLOCK + p]
+        df1, df2 = w[_F1 + _BLOCK + p], w[_F2 + _BLOCK + p]
+        by_rho = _HALF * w[_B1 + p] * w[_B2 + p] * (de1 * de2 + df1 * df2)
+        w[_G + p] = half * (e1 * e2 + f1 * f2 + e1 - f1 + e2 - f2) + rho * by_rho
+        w[_G + _BLOCK + p] = half * (de1 * (e2 + _ONE) + df1 * (f2 - _ONE))
+        w[_G + 2 * _BLOCK + p] = _HALF * (de2 * (e1 + _ONE) + df2 * (f1 - _ONE))
+        w[_G + 5 * _BLOCK + p] = by_rho
+    for p in range(m):
+        e1, e2, f1, f2 = w[_E1 + p], w[_E2 + p], w[_F1 + p], w[_F2 + p]
+        be1, be2 = w[_E1 + 2 * _BLOCK + p], w[_E2 + 2 * _BLOCK + p]
+        bf1, bf2 = w[_F1 + 2 * _BLOCK + p], w[_F2 + 2 * _BLOCK + p]
+        w[_G + 3 * _BLOCK + p] = half * (be1 * (e2 + _ONE) + bf1 * (f2 - _ONE))
+        w[_G + 4 * _BLOCK + p] = half * (be2 * (e1 + _ONE) + bf2 * (f1 - _ONE))
+
+
+@compiled
+def _columns(w, u, v, grey, n, level, swing, sign, m):  # type: ignore[no-untyped-def]
+    """Rows J: derivatives of the model by the nine unknowns, and the residual.
+
+    level and swing are value, derivative by u and by v."""
+    for p in range(m):
+        a = sign * (swing[0] + swing[1] * u[p] + swing[2] * v[p])
+        g = w[_G + p]
+        w[_J + 7 * _BLOCK + p] = sign * g
+        w[_J + 9 * _BLOCK + p] = grey[p] - level[0] - level[1] * u[p] - level[2] * v[p] - a * g
+        by1, by2 = a * w[_G + _BLOCK + p], a * w[_G + 2 * _BLOCK + p]
+        w[_J + p] = -by1 * n[0] - by2 * n[2]
+        w[_J + _BLOCK + p] = -by1 * n[1] - by2 * n[3]
+        w[_J + 2 * _BLOCK + p] = -by1 * w[_S1 + p]  # t_1 turns n_1 away from itself,
+        w[_J + 3 * _BLOCK + p] = by2 * w[_S2 + p]  # and n_2 towards it
+    for p in range(m):
+        a = sign * (swing[0] + swing[1] * u[p] + swing[2] * v[p])
+        w[_J + 4 * _BLOCK + p] = a * w[_G + 3 * _BLOCK + p]
+        w[_J + 5 * _BLOCK + p] = a * w[_G + 4 * _BLOCK + p]
+        w[_J + 6 * _BLOCK + p] = _ONE
+        w[_J + 8 * _BLOCK + p] = a * w[_G + 5 * _BLOCK + p]
+
+
+@compiled
+def _add_products(w, m, out):  # type: ignore[no-untyped-def]
+    """Add the products of the rows J to the lower triangle of out (10, 10)."""
+    for a in range(_COLUMNS):
+        one = w[_J + a * _BLOCK : _J + (a + 1) * _BLOCK]
+        for b in range(a + 1):
+            other = w[_J + b * _BLOCK : _J + (b + 1) * _BLOCK]
+            total = _ZERO
+            for p in range(m):
+                total += one[p] * other[p]
+            out[a, b] += total
+
+
+@compiled
+def _products(first, count, base, offset, grey, centre, near, out):  # type: ignore[no-untyped-def]
+    """Fill out (n, 10, 10); near (n, 33) is laid out as `products` does."""
+    w = np.empty(_ROWS * _BLOCK, dtype=_F)
+    u, v = np.empty(_BLOCK, dtype=_F), np.empty(_BLOCK, dtype=_F)
+    for i in range(centre.shape[0]):
+        at = near[i]
+        du, dv = _F(base[i, 0] - centre[i, 0]), _F(base[i, 1] - centre[i, 1])
+        t, n, kappa = at[0:4], at[4:8], at[8:10]
+        blur, size, level, swing = at[10:16], at[16:22], at[22:25], at[25:28]
+        rho, sign, growth, box = at[28], at[29], at[30], at[31:33]
+        for begin in range(first[i], first[i] + count[i], _BLOCK):
+            m = min(first[i] + count[i] - begin, _BLOCK)
+            for p in range(m):
+                u[p], v[p] = offset[0, begin + p] + du, offset[1, begin + p] + dv
+            _geometry(w, u, v, t, n, kappa, blur, size, growth, m)
+            if growth == _ZERO:
+                _meeting(w, rho, box, m)
+            else:
+                _spread(w, rho, box, _ONE if growth > _ZERO else -_ONE, m)
+            _columns(w, u, v, grey[begin:], n, level, swing, sign, m)
+            _add_products(w, m, out[i])
+        for a in range(_COLUMNS):
+            for b in range(a):
+                out[i, b, a] = out[i, a, b]
+
+
+def products(pixels: Pixels, centre: Array, near: Array) -> Array:
+    """(n, 10, 10) products of the columns [J r] of n corners.
+
+    Args:
+        pixels: what was read around them.
+        centre: (n, 2) the corners, px.
+        near: (n, 33) t_1, t_2, n_1, n_2, kappa_1 / 2, kappa_2 / 2; blur and size of edges 1 and 2
+            (s_1, s_2, their gradients); m and gm; a and ga; rho, p, growth of the squares (+, +)
+            over the size of a square, half widths of the pixel across edges 1 and 2 or 0.
+    """
+    out = np.zeros((len(centre), _COLUMNS, _COLUMNS))
+    _products(*pixels, centre, near.astype(_F), out)
+    return out

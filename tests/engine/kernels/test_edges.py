@@ -1,0 +1,48 @@
+"""The compiled edge fit against the readable one."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+import pytest
+
+from calibgui.engine import kernels
+from calibgui.engine.corners import find_corners
+from tests.benchmarks.corner_scenes import Conditions, draw
+
+pytestmark = pytest.mark.skipif(not kernels.COMPILED, reason="numba is not installed")
+
+
+@pytest.mark.parametrize(
+    "scene",
+    [
+        {},
+        {"blur": 0.1},  # the pixel's own box counts
+        {"blur": 0.7, "blur_end": 3.0, "light": 1.0},
+        {"distortion": 0.5},
+        {"ink": 0.05},
+        {"ink": -0.05, "blur": 0.2},
+        {"square": 30.0, "board": (9, 12), "turn": 20.0},  # leaves the image
+    ],
+    ids=str,
+)
+@pytest.mark.parametrize("kind", [np.uint8, np.uint16, np.float32])
+def test_compiled_and_readable_find_the_same(
+    scene: dict[str, Any], kind: type, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    usual = {"size": (320, 240), "square": 20.0, "shift": 5.0, "board": (5, 6)}
+    image = draw(Conditions(**{**usual, **scene}), 3).photograph(0).astype(kind)
+    compiled = find_corners(image)
+    monkeypatch.setattr(kernels, "COMPILED", False)
+    readable = find_corners(image)
+    assert compiled.shape == readable.shape
+    np.testing.assert_array_equal(compiled.grid, readable.grid)
+    np.testing.assert_allclose(compiled.uv, readable.uv, atol=2e-5)  # sums in float32
+    assert compiled.cov is not None
+    assert readable.cov is not None
+    scale = np.trace(readable.cov, axis1=1, axis2=2)[:, None, None]
+    assert (np.abs(compiled.cov - readable.cov) < 2e-3 * scale).all()
+    for quantity in ("residual", "blur", "contrast"):
+        pair = getattr(compiled, quantity), getattr(readable, quantity)
+        np.testing.assert_allclose(*pair, rtol=1e-3)
