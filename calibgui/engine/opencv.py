@@ -40,10 +40,11 @@ def half(image: Image) -> Image:
 
 def smooth(image: Image, sigma: float) -> Image32:
     """`image` (h, w) blurred by a Gaussian of standard deviation `sigma` px, as float32."""
-    return np.asarray(cv2.GaussianBlur(image.astype(np.float32), (0, 0), sigma))
+    kernel = cv2.getGaussianKernel(2 * round(4 * sigma) + 1, sigma, cv2.CV_32F)
+    return separable(image, kernel, kernel)
 
 
-def separable(image: Image32, along_u: npt.ArrayLike, along_v: npt.ArrayLike) -> Image32:
+def separable(image: Image, along_u: npt.ArrayLike, along_v: npt.ArrayLike) -> Image32:
     """Correlation of `image` (h, w) with the outer product of two odd kernels, edges reflected."""
     ku, kv = (np.asarray(kernel, dtype=np.float32) for kernel in (along_u, along_v))
     return np.asarray(cv2.sepFilter2D(image, cv2.CV_32F, ku, kv))

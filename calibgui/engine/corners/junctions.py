@@ -21,16 +21,19 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from calibgui.engine import opencv
+from calibgui.engine import kernels, opencv
 from calibgui.engine.opencv import Image, Image32
-from calibgui.engine.types import Array, BoolArray
+from calibgui.engine.types import Array, BoolArray, IntArray
 
 MAX_CANDIDATES = 3000
-_RADII = (3.0, 4.5, 7.0)
-"""Circles tried in turn, px: small squares first, then those that blur has rounded."""
 _SAMPLES = 32
+_ANGLES = 2 * np.pi * np.arange(_SAMPLES) / _SAMPLES
+_CIRCLES = np.multiply.outer((3.0, 4.5, 7.0), np.column_stack([np.cos(_ANGLES), np.sin(_ANGLES)]))
+"""Circles tried in turn, px: small squares first, then those that blur has rounded."""
 _ASYMMETRY = 0.30
 """Greatest rms difference of opposite samples over the circle's contrast."""
+_OFF_MIDDLE = 0.3
+"""Greatest distance of the centre from the mid level, over the contrast."""
 _NARROWEST = np.radians(12.0)
 """Least angle between the two edges."""
 
@@ -74,28 +77,41 @@ def find_saddles(image: Image, floor: float) -> Saddles:
         floor: least contrast of a junction worth finding, grey levels.
     """
     g = opencv.smooth(image, 1.0)
-    delta, central, second = [0.0, 1.0, 0.0], [-0.5, 0.0, 0.5], [1.0, -2.0, 1.0]
-    Ixx = opencv.separable(g, second, delta)
-    Iyy = opencv.separable(g, delta, second)
-    Ixy = opencv.separable(g, central, central)
-    R = Ixy * Ixy - Ixx * Iyy
     # A crossing of contrast c, smoothed by 1 px, has R = (c / pi)^2 where it is sharp.
-    peak = (opencv.dilate(R, 5) == R) & ((0.1 * floor) ** 2 < R)
-    peak[:2], peak[-2:], peak[:, :2], peak[:, -2:] = False, False, False, False
-    where = np.flatnonzero(peak)
-    if len(where) > MAX_CANDIDATES:
-        where = where[np.argpartition(R.ravel()[where], -MAX_CANDIDATES)[-MAX_CANDIDATES:]]
-    where = where[np.argsort(-R.ravel()[where], kind="stable")]
+    where = (_compiled_peaks if kernels.COMPILED else _peaks)(g, (0.1 * floor) ** 2)
     v, u = np.divmod(where, g.shape[1])
-
-    gu = (g[v, u + 1] - g[v, u - 1]) / 2
-    gv = (g[v + 1, u] - g[v - 1, u]) / 2
-    xx, yy, xy, det = (array[v, u].astype(np.float64) for array in (Ixx, Iyy, Ixy, R))
+    near = {(i, j): g[v + j, u + i].astype(np.float64) for i in (-1, 0, 1) for j in (-1, 0, 1)}
+    gu, gv = ((near[i, j] - near[-i, -j]) / 2 for i, j in ((1, 0), (0, 1)))
+    xx, yy = (near[i, j] - 2 * near[0, 0] + near[-i, -j] for i, j in ((1, 0), (0, 1)))
+    xy = (near[1, 1] - near[1, -1] - near[-1, 1] + near[-1, -1]) / 4
+    det = xy * xy - xx * yy
     du = (yy * gu - xy * gv) / det
     dv = (xx * gv - xy * gu) / det
     inside = np.maximum(abs(du), abs(dv)) < 1.5
     uv = np.column_stack([u + du, v + dv])
     return Saddles(g, uv[inside], det[inside])
+
+
+def _peaks(g: Image32, least: float) -> IntArray:
+    """(n,) flat indices of the strongest maxima of R in the image `g`, strongest first."""
+    delta, central, second = [0.0, 1.0, 0.0], [-0.5, 0.0, 0.5], [1.0, -2.0, 1.0]
+    Ixx = opencv.separable(g, second, delta)
+    Iyy = opencv.separable(g, delta, second)
+    Ixy = opencv.separable(g, central, central)
+    R = Ixy * Ixy - Ixx * Iyy
+    R[[0, -1]] = R[:, [0, -1]] = -np.inf
+    peak = (opencv.dilate(R, 5) == R) & (least < R)
+    peak[:2], peak[-2:], peak[:, :2], peak[:, -2:] = False, False, False, False
+    where = np.flatnonzero(peak)
+    order = np.argsort(-R.ravel()[where], kind="stable")
+    return where[order[:MAX_CANDIDATES]]
+
+
+def _compiled_peaks(g: Image32, least: float) -> IntArray:
+    """`_peaks` by the compiled kernel."""
+    from calibgui.engine.kernels import junctions
+
+    return junctions.peaks(g, least, MAX_CANDIDATES)
 
 
 def classify(smooth: Image32, uv: Array, floor: float) -> tuple[BoolArray, Junctions]:
@@ -104,22 +120,28 @@ def classify(smooth: Image32, uv: Array, floor: float) -> tuple[BoolArray, Junct
     Returns:
         A mask (n,) and the junctions under it.
     """
-    passed = np.zeros(len(uv), dtype=np.bool_)
-    edges, contrast = np.zeros((len(uv), 2)), np.zeros(len(uv))
-    for radius in _RADII:
+    passed, found = (_compiled_rings if kernels.COMPILED else _rings)(smooth, uv, floor)
+    return passed, Junctions(uv[passed], found[passed, :2], found[passed, 2])
+
+
+def _rings(smooth: Image32, uv: Array, floor: float) -> tuple[BoolArray, Array]:
+    """Which points (n,) pass the test on one of the circles, and (n, 3) A, B and contrast."""
+    passed, found = np.zeros(len(uv), dtype=np.bool_), np.zeros((len(uv), 3))
+    for circle in _CIRCLES:
         rest = np.flatnonzero(~passed)
-        ok, ring_edges, ring_contrast = _ring(smooth, uv[rest], radius, floor)
-        passed[rest[ok]] = True
-        edges[rest[ok]], contrast[rest[ok]] = ring_edges[ok], ring_contrast[ok]
-    return passed, Junctions(uv[passed], edges[passed], contrast[passed])
+        passed[rest], found[rest] = _ring(smooth, uv[rest], circle, floor)
+    return passed, found
 
 
-def _ring(
-    smooth: Image32, uv: Array, radius: float, floor: float
-) -> tuple[BoolArray, Array, Array]:
-    """The test on one circle: passed (n,), edge angles (n, 2), contrast (n,)."""
-    angle = 2 * np.pi * np.arange(_SAMPLES) / _SAMPLES
-    circle = radius * np.column_stack([np.cos(angle), np.sin(angle)])
+def _compiled_rings(smooth: Image32, uv: Array, floor: float) -> tuple[BoolArray, Array]:
+    """`_rings` by the compiled kernel."""
+    from calibgui.engine.kernels import junctions
+
+    return junctions.rings(smooth, uv, _CIRCLES, floor, (_ASYMMETRY, _OFF_MIDDLE, _NARROWEST))
+
+
+def _ring(smooth: Image32, uv: Array, circle: Array, floor: float) -> tuple[BoolArray, Array]:
+    """The test on one circle (samples, 2): passed (n,) and (n, 3) A, B and contrast."""
     values = opencv.sample(smooth, uv[:, None] + circle)
     near, far = values[:, : _SAMPLES // 2], values[:, _SAMPLES // 2 :]
     half = (near + far) / 2
@@ -138,11 +160,11 @@ def _ring(
         (np.sum(down, axis=1) == 1)
         & (contrast > floor)
         & (asymmetry < _ASYMMETRY * contrast)
-        & (abs(centre - middle) < 0.3 * contrast)
+        & (abs(centre - middle) < _OFF_MIDDLE * contrast)
         & (width > _NARROWEST)
         & (width < np.pi - _NARROWEST)
     )
-    return passed, edges, contrast
+    return passed, np.column_stack([edges, contrast])
 
 
 def _crossing(level: Array, after: Array, where: BoolArray) -> Array:

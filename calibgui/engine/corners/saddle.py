@@ -23,7 +23,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from calibgui.engine import opencv
+from calibgui.engine import kernels, opencv
 from calibgui.engine.opencv import Image
 from calibgui.engine.types import Array, BoolArray
 
@@ -57,7 +57,8 @@ def refine(image: Image, uv: Array, sigma: Array, limit: Array) -> tuple[Array, 
     for narrower in (1.0, 0.5):
         rest = np.flatnonzero(~good)
         if len(rest):
-            uv[rest], good[rest] = _iterate(image, uv[rest], narrower * sigma[rest], limit[rest])
+            search = _compiled if kernels.COMPILED else _iterate
+            uv[rest], good[rest] = search(image, uv[rest], narrower * sigma[rest], limit[rest])
     return uv, good
 
 
@@ -79,9 +80,17 @@ def _iterate(image: Image, start: Array, sigma: Array, limit: Array) -> tuple[Ar
     return uv, good
 
 
+def _compiled(image: Image, start: Array, sigma: Array, limit: Array) -> tuple[Array, BoolArray]:
+    """`_iterate` by the compiled kernel."""
+    from calibgui.engine.kernels import saddle
+
+    return saddle.iterate(image, start, sigma, limit, _TOLERANCE, _MAX_ITERATIONS)
+
+
 def _newton(image: Image, uv: Array, sigma: Array) -> tuple[Array, BoolArray]:
     """Step (n, 2) px from each estimate to its fitted stationary point, and whether a saddle."""
-    half = int(np.ceil(3 * sigma.max() + 0.5))
+    reach = np.ceil(3 * sigma + 0.5)[:, None]
+    half = int(reach.max())
     tiles, origin = opencv.tiles(image, uv, half)
     height, width = image.shape
     pixel = np.arange(2 * half + 1)
@@ -89,20 +98,19 @@ def _newton(image: Image, uv: Array, sigma: Array) -> tuple[Array, BoolArray]:
     for axis, extent in ((0, width), (1, height)):
         at = origin[:, axis, None] + pixel
         x = (at - uv[:, axis, None]) / sigma[:, None]
-        w = np.exp(-0.5 * x * x) * ((at >= 0) & (at < extent))
+        w = np.exp(-0.5 * x * x) * ((at >= 0) & (at < extent) & (abs(pixel - half) <= reach))
         powers = x[:, None] ** np.arange(5)[:, None]
         moments.append(np.sum(w[:, None] * powers, axis=2))
         weighted.append(w[:, None] * powers[:, :3])
     p, q = _POWERS.T
     N = moments[0][:, p[:, None] + p] * moments[1][:, q[:, None] + q]
     projected = weighted[1] @ tiles.astype(np.float64) @ weighted[0].transpose(0, 2, 1)
-    try:
-        fit = np.linalg.solve(N, projected[:, q, p][..., None])[..., 0]
-    except np.linalg.LinAlgError:  # a window almost outside the image
-        return np.zeros_like(uv), np.zeros(len(uv), dtype=np.bool_)
+    inside = np.all((uv >= 0) & (uv <= (width - 1, height - 1)), axis=1)
+    N[~inside] = np.eye(len(_POWERS))
+    fit = np.linalg.solve(N, projected[:, q, p][..., None])[..., 0]
     _, d, e, a, b, c = fit.T
     det = 4 * a * c - b * b
-    is_saddle = det < 0
+    is_saddle = (det < 0) & inside
     det = np.where(is_saddle, det, -1.0)
     step = np.column_stack([b * e - 2 * c * d, b * d - 2 * a * e]) / det[:, None]
     step *= (sigma * is_saddle)[:, None]

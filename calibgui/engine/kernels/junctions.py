@@ -1,0 +1,145 @@
+"""X-junctions, compiled: the peaks and the ring test of ``corners.junctions``.
+
+The peaks are searched row by row in a window of five rows of R, so that nothing of the image's
+size is allocated, and only the strongest are kept on the way.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from calibgui.engine.kernels.common import compiled
+from calibgui.engine.opencv import Image32
+from calibgui.engine.types import Array, BoolArray, IntArray
+
+_F = np.float32
+_HALF, _TWO = _F(0.5), _F(2)
+
+
+@compiled
+def _determinant(g, v, row):  # type: ignore[no-untyped-def]
+    """Fill row with R of row v of the image g, but for its ends."""
+    above, here, below = g[v - 1], g[v], g[v + 1]
+    for u in range(1, row.shape[0] - 1):
+        xx = here[u - 1] - _TWO * here[u] + here[u + 1]
+        yy = above[u] - _TWO * here[u] + below[u]
+        xy = _HALF * _HALF * (below[u + 1] - below[u - 1] - above[u + 1] + above[u - 1])
+        row[u] = xy * xy - xx * yy
+
+
+@compiled
+def _peaks(g, least, most):  # type: ignore[no-untyped-def]
+    height, width = g.shape
+    R = np.full((5, width), -np.inf, dtype=_F)
+    column = np.empty(width, dtype=_F)
+    is_peak = np.empty(width, dtype=np.bool_)
+    where, value = np.empty(4 * most, dtype=np.int64), np.empty(4 * most, dtype=_F)
+    count = 0
+    for v in range(1, 4):
+        _determinant(g, v, R[v])
+    for v in range(2, height - 2):
+        if v + 2 < height - 1:
+            _determinant(g, v + 2, R[(v + 2) % 5])
+        else:
+            R[(v + 2) % 5] = -np.inf
+        r0, r1, r2, r3, r4 = R[0], R[1], R[2], R[3], R[4]
+        for u in range(width):
+            column[u] = max(max(max(r0[u], r1[u]), max(r2[u], r3[u])), r4[u])
+        here, any_peak = R[v % 5], False
+        for u in range(2, width - 2):
+            around = max(max(column[u - 2], column[u - 1]), max(column[u + 1], column[u + 2]))
+            is_peak[u] = here[u] > least and here[u] >= max(around, column[u])
+            any_peak |= is_peak[u]
+        if not any_peak:
+            continue
+        for u in range(2, width - 2):
+            if not is_peak[u]:
+                continue
+            if count == 4 * most:
+                strongest = np.argsort(-value)[:most]
+                where[:most], value[:most] = where[strongest], value[strongest]
+                count, least = most, value[most - 1]
+            where[count], value[count] = v * width + u, here[u]
+            count += 1
+    return where[:count], value[:count]
+
+
+def peaks(g: Image32, least: float, most: int) -> IntArray:
+    """(n,) flat indices of the at most `most` strongest peaks of R, strongest first."""
+    where, value = _peaks(g, _F(least), most)
+    return np.asarray(where[np.argsort(-value, kind="stable")[:most]])
+
+
+@compiled
+def _sample(g, u, v):  # type: ignore[no-untyped-def]
+    """Bilinear value of g at (u, v), the border replicated."""
+    height, width = g.shape
+    u, v = min(max(u, 0.0), width - 1.0), min(max(v, 0.0), height - 1.0)
+    i, j = min(int(u), width - 2), min(int(v), height - 2)
+    a, b = u - i, v - j
+    return (1 - b) * ((1 - a) * g[j, i] + a * g[j, i + 1]) + b * (
+        (1 - a) * g[j + 1, i] + a * g[j + 1, i + 1]
+    )
+
+
+@compiled
+def _ring(g, u, v, circle, floor, limits, found):  # type: ignore[no-untyped-def]
+    """One circle around one point; fills found with the angles A, B and the contrast."""
+    asymmetry, off_middle, narrowest = limits
+    half = circle.shape[0] // 2
+    level = np.empty(half + 1)
+    low, high, uneven = np.inf, -np.inf, 0.0
+    for k in range(half):
+        near = _sample(g, u + circle[k, 0], v + circle[k, 1])
+        far = _sample(g, u + circle[k + half, 0], v + circle[k + half, 1])
+        level[k] = (near + far) / 2
+        uneven += (near - far) ** 2
+        low, high = min(low, level[k]), max(high, level[k])
+    contrast, middle = high - low, (low + high) / 2
+    if not contrast > floor or np.sqrt(uneven / half) >= asymmetry * contrast:
+        return False
+    if abs(_sample(g, u, v) - middle) >= off_middle * contrast:
+        return False
+    level[half] = level[0]
+    falls = 0
+    for k in range(half):
+        a, b = level[k] - middle, level[k + 1] - middle
+        if a > 0 and b <= 0:
+            falls += 1
+            found[0] = (k + a / (a - b)) * np.pi / half
+        elif a <= 0 and b > 0:
+            found[1] = (k + a / (a - b)) * np.pi / half
+    if found[1] < found[0]:
+        found[1] += np.pi
+    found[2] = contrast
+    return falls == 1 and narrowest < found[1] - found[0] < np.pi - narrowest
+
+
+@compiled
+def _rings(g, uv, circles, floor, limits, passed, found):  # type: ignore[no-untyped-def]
+    for i in range(uv.shape[0]):
+        for k in range(circles.shape[0]):
+            passed[i] = _ring(g, uv[i, 0], uv[i, 1], circles[k], floor, limits, found[i])
+            if passed[i]:
+                break
+
+
+def rings(
+    g: Image32, uv: Array, circles: Array, floor: float, limits: tuple[float, float, float]
+) -> tuple[BoolArray, Array]:
+    """The ring test of points uv (n, 2) on `circles` (k, samples, 2) in turn until one passes.
+
+    Args:
+        g: (h, w) grey levels.
+        uv: (n, 2) px.
+        circles: offsets of the samples, px.
+        floor: least contrast, grey levels.
+        limits: greatest asymmetry and distance of the centre from the mid level, over the
+            contrast, and least angle between the edges, rad.
+
+    Returns:
+        Which passed (n,), and (n, 3) the angles A, B and the contrast, for those that did.
+    """
+    passed, found = np.zeros(len(uv), dtype=np.bool_), np.zeros((len(uv), 3))
+    _rings(g, uv, circles, floor, limits, passed, found)
+    return passed, found

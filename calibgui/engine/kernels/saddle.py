@@ -1,0 +1,129 @@
+"""Saddle points of the weighted quadratic fit, compiled: ``corners.saddle``'s iteration."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from calibgui.engine.kernels.common import compiled
+from calibgui.engine.opencv import Image
+from calibgui.engine.types import Array, BoolArray
+
+_POWERS = np.array([(0, 0), (1, 0), (0, 1), (2, 0), (1, 1), (0, 2)])
+
+
+@compiled
+def _moments(centre, origin, extent, sigma, weighted, moments):  # type: ignore[no-untyped-def]
+    """Along one axis: weights times powers 0 to 2 of each pixel, and their moments 0 to 4."""
+    moments[:] = 0
+    for k in range(weighted.shape[1]):
+        at = origin + k
+        x = (at - centre) / sigma
+        w = np.exp(-0.5 * x * x) if 0 <= at < extent else 0.0
+        for power in range(5):
+            moments[power] += w
+            if power < 3:
+                weighted[power, k] = w
+            w *= x
+
+
+@compiled
+def _solve(N, b):  # type: ignore[no-untyped-def]
+    """Turn b into the solution of N x = b by Cholesky's method, N into its factor."""
+    n = b.shape[0]
+    for i in range(n):
+        for j in range(i + 1):
+            s = N[i, j]
+            for k in range(j):
+                s -= N[i, k] * N[j, k]
+            N[i, j] = np.sqrt(s) if i == j else s / N[j, j]
+        for k in range(i):
+            b[i] -= N[i, k] * b[k]
+        b[i] /= N[i, i]
+    for i in range(n - 1, -1, -1):
+        for k in range(i + 1, n):
+            b[i] -= N[k, i] * b[k]
+        b[i] /= N[i, i]
+
+
+@compiled
+def _newton(image, u, v, sigma, work):  # type: ignore[no-untyped-def]
+    """Step to the fitted stationary point, at most sigma long, and whether it is a saddle."""
+    weights_u, weights_v, moments_u, moments_v, N, fit = work
+    height, width = image.shape
+    if not (0 <= u <= width - 1 and 0 <= v <= height - 1):
+        return 0.0, 0.0, False
+    half = int(np.ceil(3 * sigma + 0.5))
+    side, left, top = 2 * half + 1, int(np.rint(u)) - half, int(np.rint(v)) - half
+    wu, wv = weights_u[:, :side], weights_v[:, :side]
+    _moments(u, left, width, sigma, wu, moments_u)
+    _moments(v, top, height, sigma, wv, moments_v)
+    fit[:] = 0
+    for k in range(max(-top, 0), min(side, height - top)):
+        r0 = r1 = r2 = 0.0
+        row = image[top + k]
+        for i in range(max(-left, 0), min(side, width - left)):
+            grey = float(row[left + i])
+            r0 += grey * wu[0, i]
+            r1 += grey * wu[1, i]
+            r2 += grey * wu[2, i]
+        fit[0] += wv[0, k] * r0
+        fit[1] += wv[0, k] * r1
+        fit[2] += wv[1, k] * r0
+        fit[3] += wv[0, k] * r2
+        fit[4] += wv[1, k] * r1
+        fit[5] += wv[2, k] * r0
+    for i in range(6):
+        for j in range(6):
+            p, q = _POWERS[i, 0] + _POWERS[j, 0], _POWERS[i, 1] + _POWERS[j, 1]
+            N[i, j] = moments_u[p] * moments_v[q]
+    _solve(N, fit)
+    d, e, a, b, c = fit[1], fit[2], fit[3], fit[4], fit[5]
+    det = 4 * a * c - b * b
+    if not det < 0:
+        return 0.0, 0.0, False
+    du, dv = (b * e - 2 * c * d) / det, (b * d - 2 * a * e) / det
+    scale = sigma / max(np.sqrt(du * du + dv * dv), 1.0)
+    return scale * du, scale * dv, True
+
+
+@compiled
+def _iterate(image, start, sigma, limit, tolerance, most, uv, good):  # type: ignore[no-untyped-def]
+    side = 2 * int(np.ceil(3 * sigma.max() + 0.5)) + 1
+    work = (
+        np.empty((3, side)),
+        np.empty((3, side)),
+        np.empty(5),
+        np.empty(5),
+        np.empty((6, 6)),
+        np.empty(6),
+    )
+    for i in range(start.shape[0]):
+        u, v = start[i]
+        for _ in range(most):
+            du, dv, is_saddle = _newton(image, u, v, sigma[i], work)
+            u, v = u + du, v + dv
+            away = np.sqrt((u - start[i, 0]) ** 2 + (v - start[i, 1]) ** 2)
+            if not is_saddle or not away <= limit[i]:
+                break
+            if np.sqrt(du * du + dv * dv) <= tolerance:
+                good[i] = True
+                uv[i, 0], uv[i, 1] = u, v
+                break
+
+
+def iterate(
+    image: Image, start: Array, sigma: Array, limit: Array, tolerance: float, most: int
+) -> tuple[Array, BoolArray]:
+    """Saddle points of `image` near the estimates `start` (n, 2), and whether (n,) found.
+
+    Args:
+        image: (h, w) grey levels.
+        start: px.
+        sigma: (n,) standard deviation of the weights, px.
+        limit: (n,) farthest distance from the estimate, px.
+        tolerance: step at which an estimate stands still, px.
+        most: steps.
+    """
+    uv, good = start.copy(), np.zeros(len(start), dtype=np.bool_)
+    _iterate(image, start, sigma, limit, tolerance, most, uv, good)
+    return uv, good

@@ -1,0 +1,50 @@
+"""The compiled peaks and ring test against the readable ones."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from calibgui.engine import kernels, opencv
+from calibgui.engine.corners import junctions
+from calibgui.engine.opencv import Image32
+from tests.benchmarks.corner_scenes import Conditions, draw
+
+pytestmark = pytest.mark.skipif(not kernels.COMPILED, reason="numba is not installed")
+
+
+def board() -> Image32:
+    scene = Conditions(size=(320, 240), square=22.0, noise=6.0, clutter=True)
+    return opencv.smooth(draw(scene, 1).photograph(0), 1.0)
+
+
+def noise() -> Image32:
+    return opencv.smooth(np.random.default_rng(2).integers(0, 256, (480, 640), np.uint8), 1.0)
+
+
+@pytest.mark.parametrize("most", [3000, 50])
+@pytest.mark.parametrize(
+    "image", [board(), noise(), noise()[:9, :8].copy()], ids=["board", "noise", "9x8"]
+)
+def test_the_same_peaks(image: Image32, most: int, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(junctions, "MAX_CANDIDATES", most)
+    compiled = junctions._compiled_peaks(image, 4.0)
+    readable = junctions._peaks(image, 4.0)
+    # Equally strong ones may come in another order, as float32 rounds.
+    assert len(set(compiled) ^ set(readable)) <= 2
+    assert np.count_nonzero(compiled != readable) <= len(readable) / 10
+
+
+@pytest.mark.parametrize("image", [board(), noise()], ids=["board", "noise"])
+def test_the_same_rings(image: Image32, monkeypatch: pytest.MonkeyPatch) -> None:
+    saddles = junctions.find_saddles(image, 20.0)
+    uv = np.concatenate([saddles.uv, [[0.0, 0.0], [-3.0, 5.0], [319.0, 239.0]]])
+    compiled, seen = junctions.classify(image, uv, 20.0)
+    monkeypatch.setattr(kernels, "COMPILED", False)
+    readable, expected = junctions.classify(image, uv, 20.0)
+    assert readable.sum() >= 20
+    assert np.mean(compiled == readable) > 0.99  # OpenCV rounds to 1/32 px
+    both, other = compiled[readable], readable[compiled]
+    np.testing.assert_allclose(seen.uv[other], expected.uv[both])
+    np.testing.assert_allclose(seen.edges[other], expected.edges[both], atol=0.05)
+    np.testing.assert_allclose(seen.contrast[other], expected.contrast[both], rtol=0.03)
