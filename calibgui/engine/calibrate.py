@@ -3,24 +3,23 @@
 from __future__ import annotations
 
 import hashlib
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from functools import partial
 from typing import Any
 
 import numpy as np
 
-from calibgui.engine import problem, uncertainty
+from calibgui.engine import uncertainty
 from calibgui.engine.degeneracy import diagnose
 from calibgui.engine.errors import CalibrationError, DegenerateError
 from calibgui.engine.lens import MODELS
-from calibgui.engine.levenberg_marquardt import Solution, StartError, minimise
 from calibgui.engine.observations import REFERENCE_PITCH, Observations, pack, pitch, view_names
 from calibgui.engine.outcome import estimated, poses, residuals, stage_one_table
 from calibgui.engine.plate import on_plate
 from calibgui.engine.plate_doubt import with_plate_doubt
 from calibgui.engine.plate_fit import fit_plate
+from calibgui.engine.solving import reweighted, solved
 from calibgui.engine.stage_one import prealign
-from calibgui.engine.stage_two import State
 from calibgui.engine.start import in_paper_frame, start_of_stage_two
 from calibgui.engine.threads import on_one_blas_thread
 from calibgui.engine.types import (
@@ -28,26 +27,17 @@ from calibgui.engine.types import (
     Calibration,
     Camera,
     Cost,
-    IntArray,
-    Iteration,
     Observation,
     Plate,
     PlateModel,
     Prior,
     Report,
     Size,
-    Status,
 )
-from calibgui.engine.weighting import model_variance, weighted
-
-_REWEIGHTINGS = 4
-"""Rounds of estimating the model's own errors; each changes the weights ten times less."""
+from calibgui.engine.weighting import weighted
 
 HELD = {"lucchese": ("p3",)}
 """Coefficients held at 0 unless freed: p3 multiplies p1 and p2 and is rarely determined."""
-
-_LOWER = 6
-"""Number of the camera's parameters up to k2: focal lengths, centre, k1, k2 in every model."""
 
 
 def parameter_names(model: str) -> tuple[str, ...]:
@@ -134,10 +124,10 @@ def calibrate(
         observations = on_plate(observations, plate)
     if cost is Cost.IMAGE:  # the covariances are of corners in the image
         observations = weighted(observations)
-    solve = partial(_solved, model=model, cost=cost, scale=scale, free=free_indices, report=report)
+    solve = partial(solved, model=model, cost=cost, scale=scale, free=free_indices, report=report)
     solution = solve(observations, start, max_iterations=max_iterations)
     if observations.whitening is not None:
-        observations, solution = _reweighted(observations, solution, model, solve)
+        observations, solution = reweighted(observations, solution, model, solve)
     precision = uncertainty.precision(
         solution.normal,
         tuple(parameters[i] for i in free_indices),
@@ -214,66 +204,6 @@ def _check_size(observations: Observations, size: Size, names: Sequence[str]) ->
             f"{names[k]} has corners far outside an image of {size[0]} x {size[1]} pixels.",
             "Check the image size, given as width, height.",
         )
-
-
-def _solved(
-    observations: Observations,
-    start: State,
-    *,
-    model: str,
-    cost: Cost,
-    scale: float,
-    free: IntArray,
-    report: Report | None,
-    max_iterations: int,
-    earlier: Sequence[Iteration] = (),
-) -> Solution:
-    """Stage II, by way of the reference plane where the image bars it.
-
-    The correction of a pincushion lens folds over beyond its outermost corners, and the image
-    cost has no value where a fold comes before them: neither at a start beyond it nor on a way
-    through it. Registration always has one; with the lower terms of the lens only, its solution
-    folds well outside.
-    """
-
-    def run(cost: Cost, start: State, free: IntArray, report: Report | None) -> Solution:
-        return minimise(
-            problem.stage_two(observations, model, cost, scale, free),
-            start,
-            free,
-            observations.count,
-            float(np.sum(observations.uv**2)),
-            report,
-            max_iterations,
-            earlier,
-        )
-
-    try:
-        solution = run(cost, start, free, report)
-        if cost is not Cost.IMAGE or not solution.barred:
-            return solution
-    except StartError:
-        if cost is not Cost.IMAGE:
-            raise
-    registered = run(Cost.REFERENCE, start, free[free < _LOWER], None)
-    return run(cost, registered.state, free, report)
-
-
-def _reweighted(
-    observations: Observations, solution: Solution, model: str, solve: Callable[..., Solution]
-) -> tuple[Observations, Solution]:
-    """The solution with the floor under the corners' covariances that its residuals call for."""
-    unknowns = len(solution.normal.shared) + solution.normal.pose.size
-    tau2 = 0.0
-    for _ in range(_REWEIGHTINGS):
-        before = tau2
-        miss, _ = problem.residuals(solution.state, observations, model, Cost.IMAGE)
-        tau2 = model_variance(observations, miss, unknowns)
-        if solution.status is Status.STOPPED or abs(tau2 - before) <= 0.01 * before:
-            break
-        observations = weighted(observations, tau2)
-        solution = solve(observations, solution.state, max_iterations=100, earlier=solution.history)
-    return observations, solution
 
 
 def _tolerated(camera: Camera, observations: Observations) -> Array:

@@ -11,7 +11,7 @@ are linear in 1/fx^2 and 1/fy^2:
 
 These say for all views together what eq. 25-28 say for one; solved jointly, views that are
 nearly fronto-parallel simply weigh nothing. Where noise still makes a solution impossible,
-fx = fy is taken from a ladder of focal lengths, the one whose poses reproject best.
+``ladder.py`` has to find one.
 """
 
 from __future__ import annotations
@@ -23,8 +23,8 @@ from calibgui.engine.observations import Observations
 from calibgui.engine.stage_one import Prealignment
 from calibgui.engine.types import Array, Size
 
-_LADDER = np.geomspace(0.3, 6.0, 14)
-"""Focal lengths to try, in image widths."""
+_LEAST, _MOST = 0.3, 6.0
+"""Focal lengths that are believed, in image widths."""
 
 
 def initial_lens(stage_one: Prealignment, size: Size) -> tuple[Array, float]:
@@ -42,28 +42,17 @@ def initial_lens(stage_one: Prealignment, size: Size) -> tuple[Array, float]:
     return frames.array_from_paper(centre, size), k1
 
 
-def initial_poses(
-    observations: Observations, centre: Array, k1: float, size: Size, known: Array
-) -> tuple[Array, Array, Array]:
-    """Focal lengths (2,) px, rotations (K, 3, 3) and translations (K, 3) mm.
+def homographies(observations: Observations, centre: Array, k1: float) -> Array:
+    """(K, 3, 3) M, from the plate to the corrected image measured from the principal point.
 
     Args:
         observations: the views.
         centre: (2,) principal point, array frame, px.
         k1: first coefficient of the correction, px^-2.
-        size: of the images, px.
-        known: (2,) focal lengths that are held at a value, px; NaN where they are not.
     """
     d = observations.uv - centre
     corrected = d * (1 + k1 * np.sum(d**2, axis=-1, keepdims=True))
-    M = homography.dlt(observations.xy, corrected, observations.mask)
-    linear = _focal_lengths(M, size)
-    candidates = [np.full(2, f * size[0]) for f in _LADDER] if linear is None else [linear]
-    candidates = [np.where(np.isnan(known), f, known) for f in candidates]
-    if len(candidates) == 1:
-        return candidates[0], *_poses(M, candidates[0], observations)
-    solutions = [(f, *_poses(M, f, observations)) for f in candidates]
-    return min(solutions, key=lambda s: _reprojection(s[0], s[1], s[2], corrected, observations))
+    return homography.dlt(observations.xy, corrected, observations.mask)
 
 
 def _weighted_median(values: Array, spread: Array) -> float:
@@ -79,8 +68,13 @@ def _weighted_median(values: Array, spread: Array) -> float:
     return float(values[order][np.searchsorted(cumulative, cumulative[-1] / 2)])
 
 
-def _focal_lengths(M: Array, size: Size) -> Array | None:
-    """fx, fy from the orthogonality of r1 and r2 in all views; None if none are real."""
+def focal_lengths(M: Array, size: Size) -> Array | None:
+    """(2,) fx, fy, px, from the orthogonality of r1 and r2 in all views; None if none are real.
+
+    Args:
+        M: (K, 3, 3) as from `homographies`.
+        size: of the images, px.
+    """
     # Bring all views to one scale: |m1| |m2| in units of the image width.
     unit = M / np.array([size[0], size[0], 1.0])[:, None]
     norm = np.sqrt(np.linalg.norm(unit[:, :, 0], axis=1) * np.linalg.norm(unit[:, :, 1], axis=1))
@@ -90,15 +84,20 @@ def _focal_lengths(M: Array, size: Size) -> Array | None:
     )
     rhs = -np.concatenate([c1 * c2, c1**2 - c2**2])
     inverse_squares = np.linalg.lstsq(A, rhs, rcond=None)[0]
-    low, high = _LADDER[0] ** 2, _LADDER[-1] ** 2
-    if not ((inverse_squares > 1 / high) & (inverse_squares < 1 / low)).all():
+    if not ((inverse_squares > _MOST**-2) & (inverse_squares < _LEAST**-2)).all():
         return None
     f = size[0] / np.sqrt(inverse_squares)
     return f if 0.4 < f[1] / f[0] < 2.5 else None
 
 
-def _poses(M: Array, f: Array, observations: Observations) -> tuple[Array, Array]:
-    """Rotations and translations from homographies under known focal lengths."""
+def poses(M: Array, f: Array, observations: Observations) -> tuple[Array, Array]:
+    """Rotations (K, 3, 3) and translations (K, 3) mm under known focal lengths.
+
+    Args:
+        M: (K, 3, 3) as from `homographies`.
+        f: (2,) focal lengths, px.
+        observations: the views.
+    """
     G = M / np.array([f[0], f[1], 1.0])[:, None]
     G = (
         G
@@ -115,14 +114,3 @@ def _poses(M: Array, f: Array, observations: Observations) -> tuple[Array, Array
     sign = np.linalg.det(U @ Vt)
     U[:, :, 2] *= sign[:, None]
     return U @ Vt, G[:, :, 2]
-
-
-def _reprojection(
-    f: Array, R: Array, T: Array, corrected: Array, observations: Observations
-) -> float:
-    """Sum of squared differences between corrected and projected corners, px^2."""
-    points = observations.xy @ np.swapaxes(R[:, :, :2], 1, 2) + T[:, None]
-    with np.errstate(all="ignore"):
-        miss = (f * points[..., :2] / points[..., 2:] - corrected) * observations.mask[..., None]
-    cost = float(np.sum(miss**2))
-    return cost if np.isfinite(cost) and (points[..., 2] > 0).all() else float("inf")

@@ -72,6 +72,8 @@ class NormalEquations(NamedTuple):
     """(K, 6) gradient."""
     cost: float
     """r^T r."""
+    costs: Array
+    """(K,) of each view."""
 
 
 class Reduced(NamedTuple):
@@ -199,7 +201,7 @@ def normal_equations(linearise: Linearise, state: State, free: IntArray) -> Norm
     """Accumulate J^T J and J^T r over the views, chunk by chunk."""
     K, P = len(state.R), len(free)
     U, W, V = np.zeros((P, P)), np.empty((K, P, 6)), np.empty((K, 6, 6))
-    shared, pose, cost = np.zeros(P), np.empty((K, 6)), 0.0
+    shared, pose, costs = np.zeros(P), np.empty((K, 6)), np.empty(K)
     for views in chunks(K):
         with np.errstate(all="ignore"):  # a wild trial overflows; its cost says so
             r, by_params, by_pose = linearise(state, views)
@@ -207,15 +209,19 @@ def normal_equations(linearise: Linearise, state: State, free: IntArray) -> Norm
             r = r.reshape(k, -1, 1)
             Jc = by_params.reshape(k, -1, by_params.shape[-1])[..., free]
             Jp = by_pose.reshape(k, -1, 6)
-            cost += float(np.sum(r * r))
-            if not np.isfinite(cost):
-                return NormalEquations(U, W, V, shared, pose, float("inf"))
+            costs[views] = np.sum(r * r, axis=(1, 2))
             JcT, JpT = np.swapaxes(Jc, 1, 2), np.swapaxes(Jp, 1, 2)
             U += (JcT @ Jc).sum(axis=0)
             W[views], V[views] = JcT @ Jp, JpT @ Jp
             shared += (JcT @ r)[..., 0].sum(axis=0)
             pose[views] = (JpT @ r)[..., 0]
-    return NormalEquations(U, W, V, shared, pose, cost)
+    return NormalEquations(U, W, V, shared, pose, *summed(costs))
+
+
+def summed(costs: Array) -> tuple[float, Array]:
+    """The sum of the views' costs, and these; infinite where they have no value."""
+    costs = np.where(np.isfinite(costs), costs, np.inf)
+    return float(costs.sum()), costs
 
 
 def schur(normal: NormalEquations, damping: float = 0.0) -> Reduced:

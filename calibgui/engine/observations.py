@@ -52,7 +52,7 @@ class Observations:
         """Whether all places hold corners, and all of these weigh 1."""
         return self.whitening is None and bool(self.mask.all())
 
-    def part(self, views: slice) -> Observations:
+    def part(self, views: slice | IntArray | BoolArray) -> Observations:
         """Some of the views."""
         cov, whitening = (a if a is None else a[views] for a in (self.cov, self.whitening))
         return Observations(

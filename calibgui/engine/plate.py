@@ -29,7 +29,7 @@ from scipy.spatial import cKDTree
 
 from calibgui.engine.errors import CalibrationError
 from calibgui.engine.lens import MODELS
-from calibgui.engine.levenberg_marquardt import NormalAt, NormalEquations
+from calibgui.engine.levenberg_marquardt import NormalAt, NormalEquations, summed
 from calibgui.engine.observations import Observations, boards, chunks
 from calibgui.engine.problem import compiled, eq10, eq10_rows, linearised, transposed
 from calibgui.engine.stage_two import Linearised, State
@@ -103,10 +103,10 @@ def plate_problem(
         U, W, V = np.zeros((P + Q, P + Q)), np.empty((K, P + Q, 6)), np.empty((K, 6, 6))
         U[P:, P:] = stiffness
         shared, pose = np.append(np.zeros(P), stiffness @ q), np.empty((K, 6))
-        cost = float(q @ stiffness @ q)
+        costs = np.empty(K)
         products = corner_products(camera, bent, model, free, index, len(B))
         for views, A, D, total in products:
-            cost += float(A[:, -1, -1].sum())
+            costs[views] = A[:, -1, -1]
             U[:P, :P] += A[:, :P, :P].sum(axis=0)
             U[P:, :P] += _contracted(total[None, ..., :P], B)[0]
             _add_own_blocks(U[P:, P:], total[..., P + 1 :], B)
@@ -115,7 +115,8 @@ def plate_problem(
             shared[:P] += A[:, :P, -1].sum(axis=0)
             shared[P:] += _contracted(total[None, ..., P : P + 1], B)[0, :, 0]
         U[:P, P:] = U[P:, :P].T
-        return NormalEquations(U, W, V, shared, pose, cost if np.isfinite(cost) else float("inf"))
+        cost, costs = summed(costs)
+        return NormalEquations(U, W, V, shared, pose, cost + float(q @ stiffness @ q), costs)
 
     return normal_at
 

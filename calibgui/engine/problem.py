@@ -13,7 +13,7 @@ import numpy as np
 
 from calibgui.engine import kernels
 from calibgui.engine.lens import MODELS, Lens
-from calibgui.engine.levenberg_marquardt import NormalAt, NormalEquations, normal_equations
+from calibgui.engine.levenberg_marquardt import NormalAt, NormalEquations, normal_equations, summed
 from calibgui.engine.observations import Observations, chunks
 from calibgui.engine.stage_two import (
     Linearised,
@@ -113,15 +113,15 @@ def _compiled(observations: Observations, model: str, free: IntArray) -> NormalA
     def normal_at(state: State) -> NormalEquations:
         A = stage_two.products(eq10(model, state.params), state.R, state.T, views, rows)
         # Summed over views in a fixed order, whichever thread made them.
-        total = A[:, :P, :P].sum(axis=0), A[:, :P, -1].sum(axis=0), float(A[:, -1, -1].sum())
-        cost = total[2] if np.isfinite(total[2]) else float("inf")
+        cost, costs = summed(A[:, -1, -1])
         return NormalEquations(
-            U=total[0],
+            U=A[:, :P, :P].sum(axis=0),
             W=A[:, :P, P:-1],
             V=A[:, P:-1, P:-1],
-            shared=total[1],
+            shared=A[:, :P, -1].sum(axis=0),
             pose=A[:, P:-1, -1],
             cost=cost,
+            costs=costs,
         )
 
     return normal_at

@@ -54,6 +54,5 @@ def resected(calibration: Calibration, views: Sequence[Observation]) -> tuple[Vi
 def posed(camera: Camera, observations: Observations) -> State:
     """Poses in closed form of views of a flat plate under a known camera."""
     ideal = replace(observations, uv=rays(observations.uv, camera))
-    one, origin = np.ones(2), np.zeros(2)
-    _, R, T = closed_form.initial_poses(ideal, origin, 0.0, (1, 1), one)
-    return State(camera.params, R, T)
+    M = closed_form.homographies(ideal, np.zeros(2), 0.0)
+    return State(camera.params, *closed_form.poses(M, np.ones(2), ideal))

@@ -38,7 +38,7 @@ from calibgui.engine import frames
 from calibgui.engine.lens import Lens
 from calibgui.engine.observations import Observations
 from calibgui.engine.projection import normalise, project
-from calibgui.engine.types import Array, Cost
+from calibgui.engine.types import Array, BoolArray, Cost, IntArray
 
 
 class State(NamedTuple):
@@ -59,7 +59,7 @@ class State(NamedTuple):
             self.T + by_poses[:, 3:],
         )
 
-    def part(self, views: slice) -> State:
+    def part(self, views: slice | IntArray | BoolArray) -> State:
         """The same camera with some of the views."""
         return State(self.params, self.R[views], self.T[views])
 

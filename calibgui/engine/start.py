@@ -6,7 +6,7 @@ from collections.abc import Mapping, Sequence
 
 import numpy as np
 
-from calibgui.engine import closed_form, frames
+from calibgui.engine import closed_form, frames, ladder
 from calibgui.engine.errors import CalibrationError
 from calibgui.engine.lens import Lens
 from calibgui.engine.observations import Observations
@@ -14,6 +14,7 @@ from calibgui.engine.stage_one import Prealignment
 from calibgui.engine.stage_two import State
 from calibgui.engine.types import Array, Size
 
+_CENTRE = ((0, "cx"), (1, "cy"))
 _SAMPLED = 500
 """Corners that are enough to fit one coefficient to."""
 
@@ -86,12 +87,20 @@ def start_of_stage_two(
     """
     centre, k1 = closed_form.initial_lens(first, size)
     array_centre = frames.centre_of_array(size)
-    for i, name in enumerate(("cx", "cy")):
+    for i, name in _CENTRE:
         if name in held:
             value = held[name]
             centre[i] = array_centre[i] if value is None else value
-    known = np.array([held.get(name) or np.nan for name in ("fx", "fy")], dtype=np.float64)
-    f, R, T = closed_form.initial_poses(observations, centre, k1, size, known)
+    f = np.array([held.get(name) or np.nan for name in ("fx", "fy")], dtype=np.float64)
+    M = closed_form.homographies(observations, centre, k1)
+    if np.isnan(f).any():
+        found = closed_form.focal_lengths(M, size)
+        if found is None:
+            known = np.append(f, [centre[i] if name in held else np.nan for i, name in _CENTRE])
+            found, centre, k1 = ladder.climbed(observations, centre, k1, size, known)
+            M = closed_form.homographies(observations, centre, k1)
+        f = np.where(np.isnan(f), found, f)
+    R, T = closed_form.poses(M, f, observations)
     params = np.concatenate(
         [f, centre, _coefficients(lens, (observations.uv - centre) / f, k1 * f[0] ** 2)]
     )

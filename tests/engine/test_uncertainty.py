@@ -85,7 +85,8 @@ def normal(U: Array) -> NormalEquations:
     """Normal equations with the given shared block and nothing to trade."""
     K, P = 3, len(U)
     V = np.tile(np.eye(6), (K, 1, 1))
-    return NormalEquations(U, np.zeros((K, P, 6)), V, np.zeros(P), np.zeros((K, 6)), 20.0)
+    costs = np.full(K, 20.0 / K)
+    return NormalEquations(U, np.zeros((K, P, 6)), V, np.zeros(P), np.zeros((K, 6)), 20.0, costs)
 
 
 def test_lost_rank_and_blank_parameters_are_named() -> None:

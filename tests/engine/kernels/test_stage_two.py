@@ -51,7 +51,7 @@ def test_the_compiled_sums_are_the_readable_ones(
     compiled = problem.stage_two(*arguments)(state)
     monkeypatch.setattr(kernels, "COMPILED", False)
     readable = problem.stage_two(*arguments)(state)
-    for name in ("U", "W", "V", "shared", "pose", "cost"):
+    for name in ("U", "W", "V", "shared", "pose", "cost", "costs"):
         ours, truth = getattr(compiled, name), getattr(readable, name)
         # Newton's last step leaves the derivatives 1e-8 from the solution, the sums less.
         np.testing.assert_allclose(ours, truth, rtol=1e-7, atol=1e-9 * np.abs(truth).max())

@@ -1,0 +1,143 @@
+"""Stage II from its start to the minimum, past what can keep it from there."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from functools import partial
+
+import numpy as np
+
+from calibgui.engine import problem
+from calibgui.engine.levenberg_marquardt import NormalAt, Solution, StartError, minimise
+from calibgui.engine.observations import Observations
+from calibgui.engine.stage_two import State
+from calibgui.engine.tilts import righted
+from calibgui.engine.types import Cost, IntArray, Iteration, Report, Status
+from calibgui.engine.weighting import model_variance, weighted
+
+_REWEIGHTINGS = 4
+"""Rounds of estimating the model's own errors; each changes the weights ten times less."""
+_TURNS = 3
+"""Rounds of righting tilts: some righted better the camera that tells the others."""
+_FIRST_COEFFICIENT = 4
+_WEAKER = 0.99
+_WEAKENINGS = 10
+_LOWER = 6
+"""Number of the camera's parameters up to k2: focal lengths, centre, k1, k2 in every model."""
+
+
+def solved(
+    observations: Observations,
+    start: State,
+    *,
+    model: str,
+    cost: Cost,
+    scale: float,
+    free: IntArray,
+    report: Report | None,
+    max_iterations: int,
+    earlier: Sequence[Iteration] = (),
+) -> Solution:
+    """Stage II, with mirrored tilts righted.
+
+    Args:
+        observations: the views.
+        start: where to begin.
+        model: the lens, a key of ``lens.MODELS``.
+        cost: what is minimised.
+        scale: reference px per mm, for the costs on the reference plane.
+        free: (P,) indices of the camera's parameters that may move.
+        report: told of each iteration; may stop it.
+        max_iterations: of each round.
+        earlier: iterations of the solve that this one continues.
+
+    Raises:
+        StartError: if neither the start nor its registration reprojects the corners.
+        Cancelled: from `report`.
+    """
+
+    def problem_of(views: Observations, free: IntArray, cost: Cost = cost) -> NormalAt:
+        return problem.stage_two(views, model, cost, scale, free)
+
+    def run(
+        start: State,
+        earlier: Sequence[Iteration] = (),
+        free: IntArray = free,
+        cost: Cost = cost,
+        report: Report | None = report,
+    ) -> Solution:
+        return minimise(
+            problem_of(observations, free, cost),
+            start,
+            free,
+            observations.count,
+            float(np.sum(observations.uv**2)),
+            report,
+            max_iterations,
+            earlier,
+        )
+
+    registered = partial(run, free=free[free < _LOWER], cost=Cost.REFERENCE, report=None)
+    solution = (
+        _imaged(run, registered, free, start, earlier)
+        if cost is Cost.IMAGE
+        else run(start, earlier)
+    )
+    for _ in range(_TURNS):
+        if solution.status is Status.STOPPED:
+            break
+        turned = righted(problem_of, observations, solution)
+        if turned is None:
+            break
+        solution = run(turned, solution.history)
+    return solution
+
+
+def _imaged(
+    run: Callable[..., Solution],
+    registered: Callable[..., Solution],
+    free: IntArray,
+    start: State,
+    earlier: Sequence[Iteration],
+) -> Solution:
+    """The solution with the image cost, by way of the reference plane where the image bars it.
+
+    The correction of a pincushion lens folds over beyond its outermost corners, and the image
+    cost has no value where a fold comes before them: neither at a start beyond it nor on a way
+    through it. Registration always has one; with the lower terms of the lens only, its solution
+    mostly folds outside. For lenses on the brink of it the solution's coefficients are weakened
+    until all corners have an image.
+    """
+    try:
+        solution = run(start, earlier)
+        if not solution.barred:
+            return solution
+    except StartError:
+        pass
+    state = registered(start).state
+    lens = free[free >= _FIRST_COEFFICIENT]
+    for _ in range(_WEAKENINGS):
+        try:
+            return run(state, earlier)
+        except StartError:
+            params = state.params.copy()
+            params[lens] *= _WEAKER
+            state = state._replace(params=params)
+    return run(state, earlier)
+
+
+def reweighted(
+    observations: Observations, solution: Solution, model: str, solve: Callable[..., Solution]
+) -> tuple[Observations, Solution]:
+    """The solution with the floor under the corners' covariances that its residuals call for."""
+    unknowns = len(solution.normal.shared) + solution.normal.pose.size
+    tau2 = 0.0
+    for _ in range(_REWEIGHTINGS):
+        before = tau2
+        miss, _ = problem.residuals(solution.state, observations, model, Cost.IMAGE)
+        tau2 = model_variance(observations, miss, unknowns)
+        if solution.status is Status.STOPPED or abs(tau2 - before) <= 0.01 * before:
+            break
+        observations = weighted(observations, tau2)
+        solution = solve(observations, solution.state, max_iterations=100, earlier=solution.history)
+    return observations, solution
