@@ -17,7 +17,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from calibgui.engine.corners import profiles, surroundings
+from calibgui.engine.corners import profiles
 from calibgui.engine.corners.edge_model import (
     BLUR,
     RHO,
@@ -32,6 +32,7 @@ from calibgui.engine.corners.edge_model import (
     normal_equations,
 )
 from calibgui.engine.corners.lattice import Lattice, axes
+from calibgui.engine.corners.surroundings import Surroundings
 from calibgui.engine.opencv import Image
 from calibgui.engine.types import Array
 
@@ -74,16 +75,17 @@ class Fit:
 
 def fit(image: Image, lattice: Lattice) -> Fit:
     """Fit the edge model at every corner of `lattice`, whose positions are the start."""
-    edges = _start(image, lattice)
+    board = Surroundings(lattice.found)
+    edges = _start(image, lattice, board)
     near = replace(edges, arm=np.minimum(edges.arm, _NEAR))
     first = _step(near, normal_equations(image, near))
-    edges = _surrounded(replace(edges, unknowns=first.edges.unknowns), lattice)
+    edges = _surrounded(replace(edges, unknowns=first.edges.unknowns), lattice, board)
     equations = normal_equations(image, edges)
-    edges = _surrounded(_step(edges, equations).edges, lattice)
+    edges = _surrounded(_step(edges, equations).edges, lattice, board)
     return _step(edges, equations)
 
 
-def _start(image: Image, lattice: Lattice) -> Edges:
+def _start(image: Image, lattice: Lattice, board: Surroundings) -> Edges:
     """Parameters from the lattice and from profiles across the edges."""
     found = lattice.found
     cells = np.argwhere(found)
@@ -100,7 +102,7 @@ def _start(image: Image, lattice: Lattice) -> Edges:
         sign=np.where(lattice.dark ^ (cells.sum(axis=1) % 2 == 1), -1.0, 1.0),
         size=area[:, None] / length,
         arm=np.minimum(length / 2, max(_LONGEST, _ARMS / n)),
-        curvature=surroundings.curvatures(lattice),
+        curvature=board.curvatures(lattice.uv[found]),
         spread=np.zeros(n),
         level_gradient=np.zeros((n, 2)),
         contrast_gradient=np.zeros((n, 2)),
@@ -135,17 +137,17 @@ def _common_spread(seen: Array) -> Array:
     return np.full(len(seen), middle if clear else 0.0)
 
 
-def _surrounded(edges: Edges, lattice: Lattice) -> Edges:
+def _surrounded(edges: Edges, lattice: Lattice, board: Surroundings) -> Edges:
     """`edges` with curvature and gradients as their positions, levels and blurs now say."""
+    x, found = edges.unknowns, lattice.found
     uv = lattice.uv.copy()
-    uv[lattice.found] = edges.unknowns[C]
-    moved = Lattice(uv, lattice.dark)
-    x = edges.unknowns
+    uv[found] = x[C]
+    right, down = (step[found] for step in axes(uv))
     known = np.column_stack([x[M], x[A], x[BLUR], edges.size])
-    gradients = surroundings.gradients(moved, known)
+    gradients = board.gradients(right, down, known)
     return replace(
         edges,
-        curvature=surroundings.curvatures(moved),
+        curvature=board.curvatures(x[C]),
         level_gradient=gradients[:, 0],
         contrast_gradient=gradients[:, 1],
         blur_gradient=gradients[:, 2:4],

@@ -23,7 +23,7 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.spatial import cKDTree
 
-from calibgui.engine import opencv
+from calibgui.engine import kernels, opencv
 from calibgui.engine.corners.junctions import Junctions, Saddles
 from calibgui.engine.opencv import Image32
 from calibgui.engine.types import Array, BoolArray, IntArray
@@ -237,6 +237,10 @@ def predict(uv: Array) -> Array:
     Returns:
         Predictions (rows, cols, 2) px, NaN where there is no basis.
     """
+    if kernels.COMPILED:
+        from calibgui.engine.kernels import lattice
+
+        return lattice.predict(uv)
     shift = shifted(uv, 3)
     extrapolated = []
     for step in STEPS:
@@ -277,6 +281,10 @@ def axes(uv: Array) -> tuple[Array, Array]:
     From the nearest neighbours on the line, else from those two places away, else the mean of
     the steps of the four places around; NaN where there is none of these.
     """
+    if kernels.COMPILED:
+        from calibgui.engine.kernels import lattice
+
+        return lattice.axes(uv)
     steps = []
     shift = shifted(uv, 2)
     for step in (STEPS[0], STEPS[1]):

@@ -18,88 +18,88 @@ from __future__ import annotations
 import numpy as np
 
 from calibgui.engine import homography
-from calibgui.engine.corners.lattice import Lattice, axes
-from calibgui.engine.types import Array, IntArray
+from calibgui.engine.types import Array, BoolArray
 
 _HIGHEST = 7
 """Highest degree tried."""
+_ORDERS = ((0, 1), (1, 0), (0, 2), (2, 0))
+"""Derivatives by row and by column that are needed."""
 
 
-def curvatures(lattice: Lattice) -> Array:
-    """(n, 2) curvature of the row's and of the column's edge at each corner found, 1/px.
+class Surroundings:
+    """The polynomials over the corners of a lattice."""
 
-    An edge is p(s) = c + s t + kappa s^2 / 2 n, with the normal n of a row's edge towards the
-    next row and that of a column's edge towards the next column. Perspective keeps the edges
-    straight: p is a homography of (col, row) plus a polynomial for what the lens has bent.
-    Differentiating p d = a, with a and d linear in (col, row), twice gives p'' = -2 p' d' / d.
-    """
-    at = np.argwhere(lattice.found)
-    uv = lattice.uv[lattice.found]
-    cells = at[:, ::-1].astype(np.float64)
-    H = homography.dlt(cells, uv, np.ones(len(at)))
-    flat = homography.apply(H, cells)
-    bent = _Polynomial(at, lattice.shape, uv - flat)
-    d = cells @ H[2, :2] + H[2, 2]
-    first, second = [], []
-    for axis, order in ((0, (0, 1)), (1, (1, 0))):
-        slope = (H[:2, axis] - flat * H[2, axis]) / d[:, None]
-        first.append(slope + bent.derivative(order))
-        twice = (2 * order[0], 2 * order[1])
-        second.append(-2 * slope * (H[2, axis] / d)[:, None] + bent.derivative(twice))
-    kappa = [
-        np.sum(p2 * _normal(p1, across), axis=1) / np.sum(p1 * p1, axis=1)
-        for p1, p2, across in zip(first, second, reversed(first), strict=True)
-    ]
-    return np.column_stack(kappa)
-
-
-def gradients(lattice: Lattice, values: Array) -> Array:
-    """(n, k, 2) gradients over the image of `values` (n, k) known at the corners found, per px."""
-    right, down = axes(lattice.uv)
-    at = np.argwhere(lattice.found)
-    polynomial = _Polynomial(at, lattice.shape, values)
-    slopes = np.stack([polynomial.derivative(order) for order in ((0, 1), (1, 0))], axis=1)
-    basis = np.stack([right[lattice.found], down[lattice.found]], axis=1)
-    return np.asarray(np.linalg.solve(basis, slopes).transpose(0, 2, 1))
-
-
-def _normal(along: Array, across: Array) -> Array:
-    """Unit normal of `along` on the side of `across`."""
-    normal = np.stack([-along[..., 1], along[..., 0]], axis=-1)
-    side = np.sign(np.sum(normal * across, axis=-1, keepdims=True))
-    return np.asarray(side * normal / np.linalg.norm(normal, axis=-1, keepdims=True))
-
-
-class _Polynomial:
-    """Least-squares polynomials in row and column through k quantities at n cells (n, 2)."""
-
-    def __init__(self, cells: IntArray, shape: tuple[int, int], values: Array) -> None:
-        self._half = np.maximum(np.array(shape) - 1, 1) / 2
-        limit = np.minimum(_HIGHEST, np.ptp(cells, axis=0))
+    def __init__(self, found: BoolArray) -> None:
+        """
+        Args:
+            found: (rows, cols) where the lattice has its n corners.
+        """
+        self._at = np.argwhere(found)
+        self._half = np.maximum(np.array(found.shape) - 1, 1) / 2
+        limit = np.minimum(_HIGHEST, np.ptp(self._at, axis=0))
         powers = np.argwhere(np.ones(limit + 1))
         degree = powers.sum(axis=1)
         order = np.argsort(degree, kind="stable")
-        order = order[: max(2 * len(cells) // 3, 1)]
+        order = order[: max(2 * len(self._at) // 3, 1)]
         self._powers, degree = powers[order], degree[order]
-        x = cells / self._half - 1
+        # The terms are nested: these many make up the polynomials of one degree after another.
+        self._counts = np.searchsorted(degree, np.unique(degree[degree <= _HIGHEST]), side="right")
+        x = self._at / self._half - 1
         self._table = x[..., None] ** np.arange(_HIGHEST + 1)
-        Q, R = np.linalg.qr(self._basis((0, 0)))
-        weights = Q.T @ values
-        # The terms are nested: dropping the last ones leaves the others' weights on Q unchanged.
-        explained = np.cumsum(weights**2, axis=0)
-        counts = np.searchsorted(degree, np.unique(degree[degree <= _HIGHEST]), side="right")
-        rss = np.sum(values**2, axis=0) - explained[counts - 1]
-        score = np.maximum(rss, 0.0) / (1 - counts[:, None] / (len(cells) + 1)) ** 2
-        best = counts[np.argmin(score, axis=0)]
-        weights[np.arange(len(weights))[:, None] >= best] = 0.0
-        self._terms = np.linalg.solve(R, weights)
+        self._Q, R = np.linalg.qr(self._basis((0, 0)))
+        derivatives = np.stack([self._basis(order) for order in _ORDERS])
+        self._derivatives = np.linalg.solve(R.T, derivatives.transpose(0, 2, 1)).transpose(0, 2, 1)
 
-    def derivative(self, order: tuple[int, int]) -> Array:
-        """(n, k) derivatives at the cells, of `order` by row and by column."""
-        return np.asarray(self._basis(order) @ self._terms)
+    def curvatures(self, uv: Array) -> Array:
+        """(n, 2) curvature of the row's and of the column's edge at each corner, 1/px.
+
+        An edge is p(s) = c + s t + kappa s^2 / 2 n, with the normal n of a row's edge towards the
+        next row and that of a column's edge towards the next column. Perspective keeps the edges
+        straight: p is a homography of (col, row) plus a polynomial for what the lens has bent.
+        Differentiating p d = a, with a and d linear in (col, row), twice gives p'' = -2 p' d' / d.
+
+        Args:
+            uv: (n, 2) the corners, px.
+        """
+        cells = self._at[:, ::-1].astype(np.float64)
+        H = homography.dlt(cells, uv, np.ones(len(uv)))
+        flat = homography.apply(H, cells)
+        by_col, by_row, by_col2, by_row2 = self._differentiated(uv - flat)
+        d = cells @ H[2, :2] + H[2, 2]
+        first, second = [], []
+        for axis, once, twice in ((0, by_col, by_col2), (1, by_row, by_row2)):
+            slope = (H[:2, axis] - flat * H[2, axis]) / d[:, None]
+            first.append(slope + once)
+            second.append(-2 * slope * (H[2, axis] / d)[:, None] + twice)
+        kappa = [
+            np.sum(p2 * _normal(p1, across), axis=1) / np.sum(p1 * p1, axis=1)
+            for p1, p2, across in zip(first, second, reversed(first), strict=True)
+        ]
+        return np.column_stack(kappa)
+
+    def gradients(self, right: Array, down: Array, values: Array) -> Array:
+        """(n, k, 2) gradients over the image of `values` (n, k) known at the corners, per px.
+
+        Args:
+            right, down: (n, 2) steps to the next column and row, px.
+        """
+        slopes = self._differentiated(values)[:2].transpose(1, 0, 2)
+        basis = np.stack([right, down], axis=1)
+        return np.asarray(np.linalg.solve(basis, slopes).transpose(0, 2, 1))
+
+    def _differentiated(self, values: Array) -> Array:
+        """(4, n, k) derivatives `_ORDERS` of the polynomials through `values` (n, k)."""
+        weights = self._Q.T @ values
+        # Dropping the last terms leaves the others' weights on Q unchanged.
+        explained = np.cumsum(weights**2, axis=0)[self._counts - 1]
+        rss = np.maximum(np.sum(values**2, axis=0) - explained, 0.0)
+        score = rss / (1 - self._counts[:, None] / (len(values) + 1)) ** 2
+        best = self._counts[np.argmin(score, axis=0)]
+        weights[np.arange(len(weights))[:, None] >= best] = 0.0
+        return np.asarray(self._derivatives @ weights)
 
     def _basis(self, order: tuple[int, int]) -> Array:
-        """(n, terms) at the cells, differentiated."""
+        """(n, terms) at the corners, differentiated by row and by column."""
         basis = np.ones((len(self._table), len(self._powers)))
         for axis in (0, 1):
             power, factor = self._powers[:, axis], np.ones(len(self._powers))
@@ -107,3 +107,10 @@ class _Polynomial:
                 factor, power = factor * power / self._half[axis], np.maximum(power - 1, 0)
             basis *= factor * self._table[:, axis, power]
         return basis
+
+
+def _normal(along: Array, across: Array) -> Array:
+    """Unit normal of `along` on the side of `across`."""
+    normal = np.stack([-along[..., 1], along[..., 0]], axis=-1)
+    side = np.sign(np.sum(normal * across, axis=-1, keepdims=True))
+    return np.asarray(side * normal / np.linalg.norm(normal, axis=-1, keepdims=True))

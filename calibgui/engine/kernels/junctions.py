@@ -28,16 +28,17 @@ def _determinant(g, v, row):  # type: ignore[no-untyped-def]
 
 
 @compiled
-def _peaks(g, least, most):  # type: ignore[no-untyped-def]
+def _peaks(g, least, v, where, value):  # type: ignore[no-untyped-def]
+    """Fill where and value with peaks from row v on; their number and the next row to search."""
     height, width = g.shape
-    R = np.full((5, width), -np.inf, dtype=_F)
+    R = np.empty((5, width), dtype=_F)
+    R[:] = -np.inf
     column = np.empty(width, dtype=_F)
     is_peak = np.empty(width, dtype=np.bool_)
-    where, value = np.empty(4 * most, dtype=np.int64), np.empty(4 * most, dtype=_F)
     count = 0
-    for v in range(1, 4):
-        _determinant(g, v, R[v])
-    for v in range(2, height - 2):
+    for row in range(max(v - 2, 1), v + 2):
+        _determinant(g, row, R[row % 5])
+    while v < height - 2 and count + width <= where.shape[0]:
         if v + 2 < height - 1:
             _determinant(g, v + 2, R[(v + 2) % 5])
         else:
@@ -50,24 +51,30 @@ def _peaks(g, least, most):  # type: ignore[no-untyped-def]
             around = max(max(column[u - 2], column[u - 1]), max(column[u + 1], column[u + 2]))
             is_peak[u] = here[u] > least and here[u] >= max(around, column[u])
             any_peak |= is_peak[u]
-        if not any_peak:
-            continue
-        for u in range(2, width - 2):
-            if not is_peak[u]:
-                continue
-            if count == 4 * most:
-                strongest = np.argsort(-value)[:most]
-                where[:most], value[:most] = where[strongest], value[strongest]
-                count, least = most, value[most - 1]
-            where[count], value[count] = v * width + u, here[u]
-            count += 1
-    return where[:count], value[:count]
+        if any_peak:
+            for u in range(2, width - 2):
+                if is_peak[u]:
+                    where[count], value[count] = v * width + u, here[u]
+                    count += 1
+        v += 1
+    return count, v
 
 
 def peaks(g: Image32, least: float, most: int) -> IntArray:
     """(n,) flat indices of the at most `most` strongest peaks of R, strongest first."""
-    where, value = _peaks(g, _F(least), most)
-    return np.asarray(where[np.argsort(-value, kind="stable")[:most]])
+    where, value = np.empty(0, dtype=np.int64), np.empty(0, dtype=_F)
+    more = np.empty(4 * most + g.shape[1], dtype=np.int64)
+    its_value = np.empty(len(more), dtype=_F)
+    v = 2
+    while v < g.shape[0] - 2:
+        count, v = _peaks(g, _F(least), v, more, its_value)
+        where = np.concatenate([where, more[:count]])
+        value = np.concatenate([value, its_value[:count]])
+        strongest = np.argsort(-value, kind="stable")[:most]
+        where, value = where[strongest], value[strongest]
+        if len(value) == most:
+            least = max(least, float(value[-1]))
+    return where
 
 
 @compiled

@@ -1,0 +1,25 @@
+"""The compiled steps and predictions against the readable ones."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from calibgui.engine import kernels
+from calibgui.engine.corners.lattice import axes, predict
+
+pytestmark = pytest.mark.skipif(not kernels.COMPILED, reason="numba is not installed")
+
+
+@pytest.mark.parametrize("share", [1.0, 0.7, 0.3, 0.1])
+@pytest.mark.parametrize("shape", [(6, 9), (1, 5), (2, 2), (30, 20)])
+def test_the_same_steps_and_predictions(
+    shape: tuple[int, int], share: float, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    rng = np.random.default_rng(7)
+    uv = rng.uniform(0, 100, (*shape, 2))
+    uv[rng.random(shape) > share] = np.nan
+    (right, down), expected = axes(uv), predict(uv)
+    monkeypatch.setattr(kernels, "COMPILED", False)
+    np.testing.assert_allclose(np.stack([right, down]), np.stack(axes(uv)), atol=1e-12)
+    np.testing.assert_allclose(expected, predict(uv), atol=1e-12)
