@@ -12,7 +12,7 @@ from calibgui.app.paths import find_images
 from calibgui.app.regions import read_regions
 from calibgui.cli.console import Console
 from calibgui.engine.corners import METHODS
-from calibgui.engine.corners.finder import MIN_LINES
+from calibgui.engine.corners.lattice import MIN_LINES
 
 
 def board(text: str) -> Board:

@@ -73,6 +73,15 @@ class Rejection(NamedTuple):
     reason: str
 
 
+class OtherBoard(NamedTuple):
+    """A board seen in an image beside the wanted one."""
+
+    shape: tuple[int, int]
+    """Rows and columns of inner corners seen."""
+    outline: Array
+    """(4, 2) its outermost corners, px."""
+
+
 @dataclass(frozen=True, eq=False, slots=True)
 class Corners:
     """The X-junctions located in one image, with their places on the board."""
@@ -100,8 +109,8 @@ class Corners:
     residual: Array | None = None
     """(n,) root mean square of the grey levels that the fit leaves unexplained."""
     rejected: tuple[Rejection, ...] = ()
-    others: tuple[Array, ...] = ()
-    """(4, 2) px, the outlines of further boards in the image."""
+    others: tuple[OtherBoard, ...] = ()
+    """Further boards in the image."""
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "grid", frozen_int(self.grid))

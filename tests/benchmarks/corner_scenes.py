@@ -1,10 +1,10 @@
 """Photographs of checkerboards with exact truth, drawn independently of the engine.
 
-Each pixel is divided into 4 x 4 parts and each part is mapped to the board: through the lens (from
-the distorted to the ideal point, in closed form), the perspective and the board's own frame. A
-part is dark by the area that dark squares cover of it, exactly for straight edges. Light, point
-spread, motion and response follow in the order in which a camera applies them; noise and rounding
-last.
+Each pixel is divided into parts, 4 x 4 by default, and each part is mapped to the board: through
+the lens (from the distorted to the ideal point, in closed form), the perspective and the board's
+own frame (`corner_camera`). A part is dark by the area that dark squares cover of it, exactly for
+straight edges. What hides the board (`corner_occluders`), light, point spread, motion and response
+follow in the order in which a camera applies them; noise and rounding last.
 
 The grey levels around a corner are point symmetric but for perspective, curvature and shading,
 whatever the blur and the response: `tests/benchmarks/test_corner_scenes.py` holds the renderer
@@ -17,14 +17,16 @@ the pixels integrate it.
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import cv2
 import numpy as np
 from numpy.typing import NDArray
 
+from tests.benchmarks.corner_camera import Camera
+from tests.benchmarks.corner_occluders import occluder
+
 Array = NDArray[np.float64]
-_PARTS = 4
 
 
 @dataclass(frozen=True)
@@ -67,6 +69,12 @@ class Conditions:
     noise: float = 2.0
     deep: bool = False
     """16 bits instead of 8."""
+    centre: tuple[float, float] = (0.0, 0.0)
+    """Of the board, from the image's, before the random shift."""
+    occluder: str = ""
+    """What covers some of the board: an "object" in its middle, a "hand" at its border."""
+    parts: int = 4
+    """Into which each pixel is divided both ways. One will do where corners are only counted."""
 
 
 @dataclass(frozen=True)
@@ -76,8 +84,8 @@ class Scene:
     """(h, w) grey levels 0..255 before noise and rounding."""
     uv: Array
     """(rows, cols, 2) true corners."""
-    dark_first: bool
-    """Whether the square above and left of corner (0, 0) is dark."""
+    covered: NDArray[np.bool_]
+    """(h, w) pixels where something hides the board."""
     fisher: Array
     """(rows, cols, 2, 2) sum of (grad I)(grad I)^T, grey levels^2 per px^2."""
 
@@ -97,31 +105,46 @@ class Scene:
 
     @property
     def visible(self) -> NDArray[np.bool_]:
-        """(rows, cols) corners inside the image by a third of a square or more."""
-        margin = self.conditions.square / 3
-        limit = np.array(self.conditions.size) - 1 - margin
-        return np.all((self.uv > margin) & (self.uv < limit), axis=2)
+        """(rows, cols) corners with a third of a square all around in the image and uncovered."""
+        margin = self.spacing / 3
+        limit = np.array(self.conditions.size) - 1 - margin[..., None]
+        inside = np.all((self.uv > margin[..., None]) & (self.uv < limit), axis=2)
+        clear = cv2.distanceTransform((~self.covered).astype(np.uint8), cv2.DIST_L2, 5)
+        last = np.array(self.conditions.size) - 1
+        u, v = np.moveaxis(np.clip(np.rint(self.uv), 0, last).astype(int), -1, 0)
+        return np.asarray(inside & (clear[v, u] > margin))
+
+    @property
+    def spacing(self) -> Array:
+        """(rows, cols) distance from each corner to the nearest other, px."""
+        around = np.pad(self.uv, ((1, 1), (1, 1), (0, 0)), constant_values=np.inf)
+        steps = (around[:-2, 1:-1], around[2:, 1:-1], around[1:-1, :-2], around[1:-1, 2:])
+        return np.asarray(np.min([np.linalg.norm(p - self.uv, axis=2) for p in steps], axis=0))
 
 
 def draw(conditions: Conditions, seed: int) -> Scene:
     """A photograph's scene; the pose and what else is random follow from `seed`."""
     rng = np.random.default_rng(seed)
-    camera = _Camera(conditions, rng)
+    camera = Camera(conditions, rng)
     rows, cols = conditions.board
     width, height = conditions.size
-    fine_u = (np.arange(width * _PARTS) + 0.5) / _PARTS - 0.5
-    fine_v = (np.arange(height * _PARTS) + 0.5) / _PARTS - 0.5
+    parts = conditions.parts
+    fine_u = (np.arange(width * parts) + 0.5) / parts - 0.5
+    fine_v = (np.arange(height * parts) + 0.5) / parts - 0.5
     x, y = camera.board_from_image(*np.meshgrid(fine_u, fine_v))
-    irradiance = _paper(x, y, conditions, rng, camera.valid(x, y))
+    irradiance = _paper(x, y, conditions, rng)
+    covered = np.zeros(irradiance.shape, np.bool_)
+    if conditions.occluder:
+        covered, shade = occluder(conditions, camera, np.random.default_rng([seed, 1]))
+        irradiance[covered] = shade[covered]
     irradiance *= _light(conditions, fine_u[None], fine_v[:, None], rng)
     irradiance = _blurred(irradiance, conditions, rng)
     ideal = _response(irradiance, conditions)
-    slope_v, slope_u = np.gradient(ideal, 1 / _PARTS)
+    slope_v, slope_u = np.gradient(ideal, 1 / parts)
 
     n, m = np.meshgrid(np.arange(cols), np.arange(rows))
     uv = camera.image_from_board(n.astype(float), m.astype(float))
-    gu, gv = _pixels(slope_u), _pixels(slope_v)
-    at_x, at_y = _pixels(x), _pixels(y)
+    gu, gv, at_x, at_y = (_pixels(fine, parts) for fine in (slope_u, slope_v, x, y))
     fisher = np.zeros((rows, cols, 2, 2))
     cell = np.stack([np.rint(at_y), np.rint(at_x)], axis=-1)
     inside = (cell >= 0).all(axis=-1) & (cell < np.array([rows, cols])).all(axis=-1)
@@ -129,73 +152,14 @@ def draw(conditions: Conditions, seed: int) -> Scene:
     g = np.stack([gu[inside], gv[inside]], axis=-1)
     np.add.at(fisher, (index[:, 0], index[:, 1]), g[:, :, None] * g[:, None, :])
     fisher += 1e-12 * np.eye(2)
-    return Scene(conditions, _pixels(ideal), uv, True, fisher)
+    hidden = _pixels(covered.astype(float), parts) > 0
+    return Scene(conditions, _pixels(ideal, parts), uv, hidden, fisher)
 
 
-class _Camera:
-    """Lens and pose, both ways."""
-
-    def __init__(self, conditions: Conditions, rng: np.random.Generator) -> None:
-        self._conditions = conditions
-        width, height = conditions.size
-        self._centre = np.array([(width - 1) / 2, (height - 1) / 2])
-        self._half = np.hypot(width, height) / 2
-        self._f = conditions.focal * width
-        turn = np.radians(conditions.turn) * rng.uniform(-1, 1)
-        about = rng.uniform(0, 2 * np.pi)
-        axis = np.array([np.cos(about), np.sin(about), 0.0]) * np.radians(conditions.tilt)
-        tilt, _ = cv2.Rodrigues(axis)
-        spin, _ = cv2.Rodrigues(np.array([0.0, 0.0, turn]))
-        rows, cols = conditions.board
-        origin = np.array([(cols - 1) / 2, (rows - 1) / 2, 0.0])
-        shift = conditions.shift * rng.uniform(-1, 1, 2)
-        R = tilt @ spin
-        distance = self._f / conditions.square
-        t = distance * np.append(shift / self._f, 1.0) - R @ origin
-        self._H = np.column_stack([R[:, 0], R[:, 1], t])
-
-    def board_from_image(self, u: Array, v: Array) -> tuple[Array, Array]:
-        q = np.stack([u - self._centre[0], v - self._centre[1]], axis=-1)
-        r2 = np.sum(q * q, axis=-1)
-        if self._conditions.fisheye:
-            theta = np.sqrt(r2) / self._f
-            ray = np.concatenate(
-                [q / self._f * np.sinc(theta / np.pi)[..., None], np.cos(theta)[..., None]], axis=-1
-            )
-        else:
-            q *= (1 + self._conditions.distortion * r2 / self._half**2)[..., None]
-            ray = np.concatenate([q / self._f, np.ones((*r2.shape, 1))], axis=-1)
-        p = ray @ np.linalg.inv(self._H).T
-        with np.errstate(divide="ignore", invalid="ignore"):
-            x, y = p[..., 0] / p[..., 2], p[..., 1] / p[..., 2]
-        behind = p[..., 2] <= 0
-        x[behind] = y[behind] = np.inf
-        return x, y
-
-    def valid(self, x: Array, y: Array) -> NDArray[np.bool_]:
-        return np.isfinite(x) & np.isfinite(y)
-
-    def image_from_board(self, x: Array, y: Array) -> Array:
-        ray = np.stack([x, y, np.ones_like(x)], axis=-1) @ self._H.T
-        if self._conditions.fisheye:
-            r = np.linalg.norm(ray[..., :2], axis=-1)
-            theta = np.arctan2(r, ray[..., 2])
-            q = ray[..., :2] * (self._f * theta / np.maximum(r, 1e-300))[..., None]
-            return q + self._centre
-        ideal = self._f * ray[..., :2] / ray[..., 2:]
-        goal = np.linalg.norm(ideal, axis=-1)
-        d = self._conditions.distortion / self._half**2
-        r = goal.copy()
-        for _ in range(50):  # Newton on r (1 + d r^2) = goal
-            r -= (r * (1 + d * r * r) - goal) / (1 + 3 * d * r * r)
-        return ideal * (r / np.maximum(goal, 1e-300))[..., None] + self._centre
-
-
-def _paper(
-    x: Array, y: Array, conditions: Conditions, rng: np.random.Generator, valid: NDArray[np.bool_]
-) -> Array:
+def _paper(x: Array, y: Array, conditions: Conditions, rng: np.random.Generator) -> Array:
     """Reflectance of what each part of a pixel sees, 0 dark to 1 bright."""
     rows, cols = conditions.board
+    valid = np.isfinite(x) & np.isfinite(y)
     with np.errstate(invalid="ignore"):
         ink = abs(conditions.ink)
         (odd_x, even_x), (odd_y, even_y) = (_cover(c, ink) for c in (x, y))
@@ -239,7 +203,7 @@ def _background(shape: tuple[int, ...], conditions: Conditions, rng: np.random.G
     image = np.full(shape, 0.55, dtype=np.float64)
     if not conditions.clutter:
         return image
-    scale = conditions.square * _PARTS
+    scale = conditions.square * conditions.parts
     for _ in range(150):
         corners = rng.uniform(0, 1, 2) * np.array(shape[::-1])
         polygon = corners + rng.uniform(-2, 2, (rng.integers(3, 6), 2)) * scale
@@ -264,7 +228,7 @@ def _blurred(image: Array, conditions: Conditions, rng: np.random.Generator) -> 
     def spread(sigma: float) -> Array:
         if sigma <= 0:
             return image
-        return np.asarray(cv2.GaussianBlur(image, (0, 0), sigma * _PARTS))
+        return np.asarray(cv2.GaussianBlur(image, (0, 0), sigma * conditions.parts))
 
     result = spread(conditions.blur)
     if conditions.blur_end is not None:
@@ -278,7 +242,7 @@ def _blurred(image: Array, conditions: Conditions, rng: np.random.Generator) -> 
         result = (1 - weight) * stack[low, :, column].T + weight * stack[low + 1, :, column].T
     if conditions.motion > 0:
         about = rng.uniform(0, np.pi)
-        half = conditions.motion * _PARTS / 2
+        half = conditions.motion * conditions.parts / 2
         reach = int(np.ceil(half)) + 1
         grid = np.arange(-reach, reach + 1)
         along = grid * np.cos(about) + grid[:, None] * np.sin(about)
@@ -293,12 +257,7 @@ def _response(irradiance: Array, conditions: Conditions) -> Array:
     return np.asarray(255 * (levels / 255) ** (1 / conditions.gamma))
 
 
-def _pixels(fine: Array) -> Array:
+def _pixels(fine: Array, parts: int) -> Array:
     """Means over each pixel's parts."""
-    height, width = fine.shape[0] // _PARTS, fine.shape[1] // _PARTS
-    return np.asarray(fine.reshape(height, _PARTS, width, _PARTS).mean(axis=(1, 3)))
-
-
-def still(conditions: Conditions) -> Conditions:
-    """The same without noise."""
-    return replace(conditions, noise=0.0)
+    height, width = fine.shape[0] // parts, fine.shape[1] // parts
+    return np.asarray(fine.reshape(height, parts, width, parts).mean(axis=(1, 3)))

@@ -24,6 +24,7 @@ from numpy.typing import NDArray
 
 from calibgui.engine.corners import find_corners
 from calibgui.engine.errors import NoBoardError
+from tests.benchmarks.corner_partial import KINDS, SCENES, total
 from tests.benchmarks.corner_scenes import Conditions, Scene, draw
 
 Array = NDArray[np.float64]
@@ -239,8 +240,13 @@ def main() -> None:
     print(f"\nours: RMSE / bound median {np.nanmedian(ratios):.3f}, worst {np.nanmax(ratios):.2f};")
     print(f"  bias at most {max(s.bias for s in own):.2f}e-3 px;", end=" ")
     print(f"chi2/dof {min(s.chi2 for s in own):.2f} to {max(s.chi2 for s in own):.2f}")
+    print("\nparts of boards: visible corners found, and wrong ones; size stated, size inferred")
+    for kind in KINDS:
+        counts = [total(kind, known, 2 if options.quick else SCENES) for known in (True, False)]
+        cells = (f"{c.found:7d} of {c.visible:4d}, {c.wrong} wrong" for c in counts)
+        print(f"{kind:18}" + "".join(cells), flush=True)
     count = 20 if options.quick else 200
-    print(f"  boards reported in {count} images without one: {false_boards(count)}")
+    print(f"\nboards reported in {count} images without one: {false_boards(count)}")
     if options.output:
         _write(options.output, table)
 

@@ -13,12 +13,14 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 import numpy as np
+from scipy.spatial import cKDTree
 
 from calibgui.engine import opencv
 from calibgui.engine.corners import saddle
 from calibgui.engine.corners.growth import grow
 from calibgui.engine.corners.junctions import classify, find_saddles
-from calibgui.engine.corners.lattice import Lattice, find_lattices
+from calibgui.engine.corners.lattice import Lattice, large_enough
+from calibgui.engine.corners.links import find_lattices
 from calibgui.engine.opencv import Image
 from calibgui.engine.types import Array, BoolArray
 
@@ -28,14 +30,15 @@ _SMALLEST = 6.0
 """Squares of this side are found reliably, px."""
 _CONTRAST = 0.05
 """Least contrast of a corner over the range of the image."""
-_GROWN = 4
+_GROWN = 8
 """How many of the largest lattices of a level are grown."""
-MIN_CORNERS = 12
-MIN_LINES = 3
 
 
-def find_boards(image: Image, inside: Array | None = None) -> list[Lattice]:
+def find_boards(image: Image, inside: Array | None = None) -> Iterator[list[Lattice]]:
     """All lattices that may be boards, largest first, in full resolution but not yet verified.
+
+    As many as the image was searched for: once when a finer level could hardly add to them, and
+    then again after each level, should none of them be the board that is wanted.
 
     Args:
         image: (h, w) grey levels, uint8, uint16 or float32.
@@ -47,28 +50,47 @@ def find_boards(image: Image, inside: Array | None = None) -> list[Lattice]:
     low, high = np.percentile(levels[-1], (0.5, 99.5))
     floor = _CONTRAST * float(high - low)
     if floor <= 0:
-        return []
-    best: list[Lattice] = []
+        return
+    boards: list[Lattice] = []
+    sure = False
     for depth in reversed(range(len(levels))):
         outline = None if inside is None else (inside + 0.5) / 2**depth - 0.5
-        found = list(_search(levels[depth], floor, outline))
-        if sum(map(len, found[:1])) >= sum(map(len, best[:1])):
-            best = [_carried(lattice, levels[:depth]) for lattice in found]
-            if best and _surely_all(found[0]):
-                break
-    return best
+        found = _search(levels[depth], floor, outline)
+        boards = _distinct([_carried(lattice, levels[:depth]) for lattice in found] + boards)
+        sure = bool(found) and all(map(_surely_all, found))
+        if sure:
+            yield boards
+    if not sure:
+        yield boards
 
 
-def _search(image: Image, floor: float, outline: Array | None) -> Iterator[Lattice]:
+def _search(image: Image, floor: float, outline: Array | None) -> list[Lattice]:
     """Lattices large enough for a board in one level, largest first."""
     saddles = find_saddles(image, floor)
     if outline is not None:
         saddles = saddles.under(contains(outline, saddles.uv))
-    _, junctions = classify(saddles.smooth, saddles.uv, floor)
-    grown = [grow(lattice, saddles) for lattice in find_lattices(saddles, junctions)[:_GROWN]]
-    for lattice in sorted(grown, key=len, reverse=True):
-        if len(lattice) >= MIN_CORNERS and min(lattice.shape) >= MIN_LINES:
-            yield lattice
+    passed, junctions = classify(saddles.smooth, saddles.uv, floor)
+    at_junctions = saddles.under(passed)
+    grown: list[Lattice] = []
+    for lattice in find_lattices(saddles, junctions)[:_GROWN]:
+        if not any(_overlap(other, lattice) for other in grown):
+            grown.append(grow(lattice, saddles, at_junctions))
+    return [lattice for lattice in _distinct(grown) if large_enough(lattice)]
+
+
+def _distinct(lattices: list[Lattice]) -> list[Lattice]:
+    """Those that share no corners, the largest of those that do; largest first."""
+    kept: list[Lattice] = []
+    for lattice in sorted(lattices, key=len, reverse=True):
+        if not any(_overlap(other, lattice) for other in kept):
+            kept.append(lattice)
+    return kept
+
+
+def _overlap(one: Lattice, other: Lattice) -> bool:
+    """Whether two lattices have a corner in common, by half a step."""
+    distance, _ = cKDTree(one.uv[one.found]).query(other.uv[other.found])
+    return bool((distance < other.spacing()[other.found] / 2).any())
 
 
 def _surely_all(lattice: Lattice) -> bool:

@@ -24,6 +24,8 @@ from calibgui.engine.types import Ambiguity, Array, IntArray
 
 Board = tuple[int, int]
 """Rows and columns of inner corners."""
+Sides = tuple[bool, bool, bool, bool]
+"""Above the first row, right of the last column, below the last row, left of the first column."""
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -32,9 +34,16 @@ class Numbering:
 
     lattice: Lattice
     """Turned by quarters."""
+    quarters: int
+    """How many: see `turned`."""
     board: Board
     offset: tuple[int, int]
     """Row and column on the board of the lattice's first place."""
+
+    @property
+    def dark(self) -> bool:
+        """Whether the board's first square is."""
+        return self.lattice.dark ^ bool(sum(self.offset) % 2)
 
 
 def turned(lattice: Lattice, quarters: int) -> Lattice:
@@ -54,12 +63,19 @@ def ambiguity(board: Board) -> Ambiguity:
     return Ambiguity.HALF_TURN
 
 
-def numberings(lattice: Lattice, board: Board | None) -> list[Numbering]:
+def numberings(
+    lattice: Lattice, board: Board | None, ends: Sides = (False, False, False, False)
+) -> list[Numbering]:
     """All ways to put `lattice` on the board that its colours allow, the preferred first.
 
     Without a `board` the lattice is the board, with at least as many columns as rows. A dark
     first square is required where one of the board's origins must have it and preferred
     elsewhere; then the more upright board, then the smaller offset.
+
+    Args:
+        lattice: what was found.
+        board: that it is part of.
+        ends: the sides on which the lattice ends with the board.
     """
     ways: list[tuple[tuple[bool, float, float, int, int], Numbering]] = []
     for quarters in range(4):
@@ -69,21 +85,36 @@ def numberings(lattice: Lattice, board: Board | None) -> list[Numbering]:
             continue
         size = board or turn.shape
         cosine, sine = _upright(turn)
-        for row in range(size[0] - rows + 1):
-            for col in range(size[1] - cols + 1):
-                dark = turn.dark ^ bool((row + col) % 2)
-                key = (not dark, -cosine, -sine, row, col)
-                ways.append((key, Numbering(turn, size, (row, col))))
+        top, right, bottom, left = ends[quarters:] + ends[:quarters]
+        for row in _offsets(size[0] - rows, top, bottom):
+            for col in _offsets(size[1] - cols, left, right):
+                way = Numbering(turn, quarters, size, (row, col))
+                ways.append(((not way.dark, -cosine, -sine, row, col), way))
     ways.sort(key=lambda way: way[0])
     unique_origin = bool(ways) and sum(ways[0][1].board) % 2 == 1
-    return [way for key, way in ways if not (unique_origin and key[0])]
+    return [way for _, way in ways if way.dark or not unique_origin]
 
 
-def place(numbering: Numbering) -> tuple[IntArray, Array]:
-    """Grid indices (n, 2) = (row, col) and positions (n, 2) px of the numbered corners."""
-    cells = np.argwhere(numbering.lattice.found)
-    uv = numbering.lattice.uv[cells[:, 0], cells[:, 1]]
-    return cells + np.array(numbering.offset), uv
+def _offsets(room: int, first: bool, last: bool) -> list[int]:
+    """Where a part may start that leaves `room` lines and shows the board's first or last one."""
+    return [k for k in range(room + 1) if not (first and k > 0) and not (last and k < room)]
+
+
+def relative(ways: list[Numbering]) -> bool:
+    """Whether more than a turn that the board's pattern hides is open between the numberings."""
+    hidden = {Ambiguity.NONE: 1, Ambiguity.HALF_TURN: 2, Ambiguity.QUARTER_TURN: 4}
+    alike = [way for way in ways if way.dark == ways[0].dark]
+    return len(alike) > hidden[ambiguity(ways[0].board)]
+
+
+def place(numbering: Numbering) -> tuple[IntArray, Array, IntArray]:
+    """Grid indices (n, 2) = (row, col) and positions (n, 2) px of the numbered corners, and the
+    place (n,) of each among the corners of the lattice before it was turned."""
+    found = numbering.lattice.found
+    before = np.rot90(found, -numbering.quarters)
+    count = np.cumsum(before).reshape(before.shape) - 1
+    order = np.rot90(count, numbering.quarters)[found]
+    return np.argwhere(found) + np.array(numbering.offset), numbering.lattice.uv[found], order
 
 
 def _upright(lattice: Lattice) -> tuple[float, float]:

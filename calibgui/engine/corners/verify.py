@@ -3,8 +3,7 @@
 After refinement at full resolution every corner must
 - have converged to a saddle,
 - lie where its neighbours on the lattice expect it (regularity),
-- be surrounded by four sectors that alternate as its place requires, with a contrast
-  comparable to the board's (alternating colours).
+- look like a corner and like the board's others (`appearance`).
 Corners that fail are left out; so many failures that the rest no longer holds together, or a
 rest too small, condemn the board.
 """
@@ -13,26 +12,22 @@ from __future__ import annotations
 
 import numpy as np
 
+from calibgui.engine import opencv
+from calibgui.engine.corners.appearance import placed, typical
 from calibgui.engine.corners.edges import Fit
-from calibgui.engine.corners.growth import sectors
 from calibgui.engine.corners.lattice import (
     Lattice,
     axes,
     bordered,
-    crop,
     in_steps,
     predict,
-    supported,
 )
+from calibgui.engine.corners.ordering import Sides, turned
 from calibgui.engine.opencv import Image
 from calibgui.engine.types import Array, BoolArray
 
 _IRREGULAR = 0.2
 """Greatest distance from the neighbours' prediction, steps of the lattice."""
-_CLEAR = 0.25
-"""Least gap between dark and bright sectors over their difference."""
-_WEAKEST = 0.2
-"""Least contrast over the board's median."""
 _FAILING = 0.25
 """Share of corners that may fail before the board does."""
 _WIDEST = 0.18
@@ -41,30 +36,38 @@ _WORST_MISFIT = 0.25
 """Greatest median residual over the contrast."""
 _MOVED = 0.1
 """Farthest that the edge fit may move a corner, squares."""
+_ASIDE = float(np.sin(np.radians(3.0)))
+"""Sine of the angle that an edge may be off the step to its neighbours ..."""
+_FARTHER_ASIDE = 10.0
+"""... or the angle over the board's median, which distortion raises, whichever is more."""
+_MORE = 2.5
+"""Residual over the board's median that condemns a corner whose edges are."""
+_WEAKEST = 0.2
+"""Least contrast over the board's median."""
 _UNEXPLAINED = 4.0
 """Greatest residual of the edge fit over the board's median residual ..."""
 _MISFIT = 0.15
 """... or over the corner's contrast, whichever is more."""
-_SPARSE = 0.4
-"""Least share found of a border line's visible places."""
-BORDERS = (np.s_[0], np.s_[-1], np.s_[:, 0], np.s_[:, -1])
-"""First and last row, first and last column of a lattice."""
 _EDGE = 4.0
 """Width of the image's border in which no corner is expected to be found, px."""
-_MOSTLY = 0.9
-"""Share of a line inside the image from which it would have been seen."""
+_BESIDE, _BEFORE = 0.25, 0.2
+"""Where the ends of the outermost squares are looked at, steps from the next line's places."""
+_PRESENT = 0.4
+"""Least difference of neighbouring squares over the contrast of the board's corners."""
+_LEAST = 3
+"""Places in the image that can show where a board ends."""
+_MOSTLY = 0.6
+"""Share of a line's places in the image that must show the end."""
 
 
 def sound(lattice: Lattice, image: Image) -> BoolArray:
     """(rows, cols) which corners of a lattice pass: see the head of this module."""
-    right, down = axes(lattice.uv)
-    regular = in_steps(lattice.uv - predict(lattice.uv), right, down) < _IRREGULAR
-    at = np.nonzero(lattice.found)
-    dark = lattice.dark ^ ((at[0] + at[1]) % 2 == 1)
-    gap, contrast = sectors(image, lattice.uv[at], right[at], down[at], dark)
-    clear = np.zeros(lattice.shape, dtype=np.bool_)
-    clear[at] = (gap > _CLEAR * contrast) & (contrast > _WEAKEST * np.nanmedian(contrast))
-    return np.asarray(lattice.found & regular & clear)
+    good = lattice.found
+    good[good], _ = typical(lattice, image).shown(image, *placed(lattice))
+    # What does not look like a corner says nothing about where its neighbours should be.
+    uv = lattice.under(good).uv
+    irregular = in_steps(uv - predict(uv), *axes(uv)) >= _IRREGULAR
+    return np.asarray(good & ~irregular)
 
 
 def credible(good: BoolArray, found: BoolArray) -> bool:
@@ -72,13 +75,19 @@ def credible(good: BoolArray, found: BoolArray) -> bool:
     return bool(np.count_nonzero(found & ~good) <= _FAILING * np.count_nonzero(found))
 
 
-def described(fit: Fit, start: Array, spacing: Array) -> BoolArray:
-    """(n,) which corners the edge model describes: it stayed near the saddle point where it
-    started, its edges are as strong as the board's, and it leaves no more unexplained."""
-    moved = np.linalg.norm(fit.uv - start, axis=1)
+def described(fit: Fit, lattice: Lattice) -> BoolArray:
+    """(n,) which corners of `lattice` the edge model fitted there describes: it stayed near, its
+    edges are as strong as the board's, and it leaves no more unexplained; still less if they
+    do not point to its neighbours."""
+    found = lattice.found
+    moved = np.linalg.norm(fit.uv - lattice.uv[found], axis=1)
     typical = float(np.median(fit.residual))
+    steps = np.stack([step[found] for step in axes(lattice.uv)], axis=1)
+    aside = np.abs(np.sum(fit.edges.normals() * steps, axis=2)) / np.linalg.norm(steps, axis=2)
+    askew = (aside > np.maximum(_ASIDE, _FARTHER_ASIDE * np.median(aside, axis=0))).any(axis=1)
     return np.asarray(
-        (moved <= np.maximum(_MOVED * spacing, 1.0))
+        (moved <= np.maximum(_MOVED * lattice.spacing()[found], 1.0))
+        & ~(askew & (fit.residual > _MORE * typical))
         & (fit.contrast > _WEAKEST * np.median(fit.contrast))
         & (fit.residual <= np.maximum(_UNEXPLAINED * typical, _MISFIT * fit.contrast))
         & np.isfinite(fit.covariance).all(axis=(1, 2))
@@ -100,34 +109,39 @@ def filled(lattice: Lattice, shape: tuple[int, ...]) -> Lattice:
     return Lattice(np.where(try_here[..., None], expected, lattice.uv), lattice.dark)
 
 
-def without_strays(lattice: Lattice, shape: tuple[int, ...]) -> Lattice:
-    """The lattice less border lines of which little was found though the image shows them."""
-    lattice = crop(supported(lattice))
-    while min(lattice.shape) > 1:
-        seen = lattice.found | _inside(predict(lattice.uv), shape)
-        shares = [float(lattice.found[line].sum() / max(seen[line].sum(), 1)) for line in BORDERS]
-        worst = int(np.argmin(shares))
-        if shares[worst] >= _SPARSE:
-            break
-        keep = np.ones(lattice.shape, dtype=np.bool_)
-        keep[BORDERS[worst]] = False
-        lattice = crop(supported(lattice.under(keep)))
-    return lattice
+def ends(lattice: Lattice, image: Image) -> Sides:
+    """On which sides of the lattice the image shows that the board ends there.
 
-
-def visible_ends(lattice: Lattice, shape: tuple[int, ...]) -> tuple[tuple[bool, bool], ...]:
-    """Whether the image (h, w) = `shape` shows where the lattice ends.
-
-    Returns:
-        For the rows, then for the columns: whether the next line before the first and after the
-        last would lie inside the image, so that it would have been found if it existed.
+    Where the board leaves the image, or something hides it, that is not seen.
     """
-    expected = predict(bordered(lattice.uv, 1))
-    inside, known = _inside(expected, shape), np.isfinite(expected[..., 0])
-    top, bottom, left, right = (
-        bool(inside[line][known[line]].mean() > _MOSTLY) for line in BORDERS
-    )
-    return (top, bottom), (left, right)
+    clear = _PRESENT * typical(lattice, image).contrast
+    top, right, bottom, left = (_ends_above(turned(lattice, k), image, clear) for k in range(4))
+    return top, right, bottom, left
+
+
+def _ends_above(lattice: Lattice, image: Image, clear: float) -> bool:
+    """Whether the squares above the first row are seen in full, and no others behind them.
+
+    In front of the next line the grey levels alternate by `clear` from square to square; behind
+    it they do not, as they would if corners had been missed.
+    """
+    uv = bordered(lattice.uv, 1)
+    place = predict(uv)[0]
+    right, down = (step[0] for step in axes(uv))
+    usable = np.isfinite(place + right + down).all(axis=1) & _inside(place, image.shape)
+    if np.count_nonzero(usable) < _LEAST:
+        return False
+    left_is_dark = lattice.dark ^ (np.arange(len(place)) % 2 == 0)
+    sign = np.where(left_is_dark, 1.0, -1.0)[usable]
+    place, right, down = place[usable], _BESIDE * right[usable], _BEFORE * down[usable]
+    before = sign * _difference(image, place + down, right)
+    behind = -sign * _difference(image, place - down, right)
+    return bool(np.mean((before > clear) & (behind < clear)) > _MOSTLY)
+
+
+def _difference(image: Image, uv: Array, offset: Array) -> Array:
+    """(n,) grey levels at `uv` + `offset` less those at `uv` - `offset`, (n, 2) px."""
+    return opencv.sample(image, uv + offset) - opencv.sample(image, uv - offset)
 
 
 def _inside(uv: Array, shape: tuple[int, ...]) -> BoolArray:

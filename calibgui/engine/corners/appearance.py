@@ -1,0 +1,130 @@
+"""What the corners of a board look like, and what does not look like one.
+
+Around a corner four sectors alternate: the two opposite ones that its place requires to be dark
+are darker than the two others, by a contrast comparable to that of the other corners. And all
+corners of a board look alike, once sampled along the steps of the lattice and, at every second
+place, inverted: what is nearly a corner, where an edge of the surroundings meets the border of
+the board, has a line that turns or a sector that is not even.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from calibgui.engine import opencv
+from calibgui.engine.corners.lattice import Lattice, axes
+from calibgui.engine.opencv import Image
+from calibgui.engine.types import Array, BoolArray
+
+_INSIDE = np.array([0.12, 0.22, 0.32])
+"""Where a sector is sampled, in steps along both of its edges."""
+_AROUND = np.array([-0.3, -0.2, -0.1, 0.1, 0.2, 0.3])
+"""Where a corner's surroundings are compared, steps both ways."""
+_PLACES = np.array([(1.0, a, b) for a in _AROUND for b in _AROUND])
+_EVEN = np.linalg.qr(_PLACES)[0]
+"""(k, 3) orthonormal: what even light and its gradient do there."""
+_CLEAR = 0.25
+"""Least gap between the dark and the bright sectors over their difference."""
+_WEAKEST = 0.2
+"""Least contrast of a corner over the median of its lattice."""
+_UNLIKE = 0.05
+"""Greatest lack of correlation with the typical corner ..."""
+_UNUSUAL = 4.0
+"""... or over the median lack, whichever is more."""
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class Look:
+    """Of the corners of a lattice."""
+
+    contrast: float
+    """Median, grey levels."""
+    pattern: Array
+    """(k,) median of their surroundings, less even light, of unit standard deviation."""
+    unlike: float
+    """Median lack of correlation with the pattern."""
+
+    def shown(
+        self, image: Image, uv: Array, right: Array, down: Array, dark: BoolArray
+    ) -> tuple[BoolArray, Array]:
+        """Which of the points have it, arguments as for `sectors`; and the gap (n,) between their
+        dark and bright sectors, grey levels."""
+        gap, contrast = sectors(image, uv, right, down, dark)
+        unlike = 1 - np.mean(_surroundings(image, uv, right, down, dark) * self.pattern, axis=1)
+        has = (
+            (gap > _CLEAR * contrast)
+            & (contrast > _WEAKEST * self.contrast)
+            & (unlike <= max(_UNLIKE, _UNUSUAL * self.unlike))
+        )
+        return has, gap
+
+
+def typical(lattice: Lattice, image: Image) -> Look:
+    """The look of the corners of `lattice`."""
+    corners = placed(lattice)
+    _, contrast = sectors(image, *corners)
+    surroundings = _surroundings(image, *corners)
+    pattern = _standard(np.median(surroundings, axis=0))
+    unlike = 1 - np.mean(surroundings * pattern, axis=1)
+    return Look(float(np.median(contrast)), pattern, float(np.median(unlike)))
+
+
+def placed(lattice: Lattice) -> tuple[Array, Array, Array, BoolArray]:
+    """The corners of `lattice` as `sectors` takes them."""
+    right, down = axes(lattice.uv)
+    at = np.nonzero(lattice.found)
+    dark = lattice.dark ^ ((at[0] + at[1]) % 2 == 1)
+    return lattice.uv[at], right[at], down[at], dark
+
+
+def sectors(
+    image: Image, uv: Array, right: Array, down: Array, dark: BoolArray
+) -> tuple[Array, Array]:
+    """How clearly the four sectors around corners alternate as their places require.
+
+    Args:
+        image: (h, w) grey levels.
+        uv: (n, 2) corners, px.
+        right, down: (n, 2) steps to the next column and row, px.
+        dark: (n,) whether the squares before (-, -) and after (+, +) the corner are dark.
+
+    Returns:
+        Gap between the darkest bright and the brightest dark sector (n,), and the difference
+        of bright and dark on average (n,), both grey levels and negative where exchanged.
+    """
+    signs = np.array([(1, 1), (-1, -1), (1, -1), (-1, 1)])
+    a, b = (grid.ravel() for grid in np.meshgrid(_INSIDE, _INSIDE))
+    a, b = signs[:, :1] * a, signs[:, 1:] * b
+    offset = a[..., None] * right[:, None, None] + b[..., None] * down[:, None, None]
+    # At the border of the image the sectors are looked at nearer to the corner.
+    room = np.minimum(uv, np.array(image.shape[::-1]) - 1.0 - uv)
+    reach = np.abs(offset).max(axis=(1, 2))
+    offset *= np.clip(room / reach, 0.1, 1.0).min(axis=1)[:, None, None, None]
+    values = opencv.sample(image, uv[:, None, None] + offset).mean(axis=2)
+    values = np.where(dark[:, None], values, -values)
+    low, high = values[:, :2], values[:, 2:]
+    difference = high.mean(axis=1) - low.mean(axis=1)
+    return high.min(axis=1) - low.max(axis=1), difference
+
+
+def _surroundings(image: Image, uv: Array, right: Array, down: Array, dark: BoolArray) -> Array:
+    """(n, k) grey levels around corners, inverted where the first squares are not dark.
+
+    Outside the image those opposite stand in for them: a corner is point symmetric.
+    """
+    a, b = _PLACES[:, 1:].T[..., None]
+    offset = a * right[:, None] + b * down[:, None]
+    at = uv[:, None] + offset
+    outside = ((at < 0) | (at > np.array(image.shape[::-1]) - 1.0)).any(axis=2)
+    at[outside] -= 2 * offset[outside]
+    values = opencv.sample(image, at)
+    return _standard(np.where(dark[:, None], values, -values))
+
+
+def _standard(values: Array) -> Array:
+    """`values` (..., k) less what light that varies linearly explains, over the rest's standard
+    deviation."""
+    rest = values - values @ _EVEN @ _EVEN.T
+    return np.asarray(rest / np.maximum(rest.std(axis=-1, keepdims=True), 1e-12))

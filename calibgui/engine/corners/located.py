@@ -1,0 +1,106 @@
+"""From a lattice to a board that can be relied on: refined, verified and fitted."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from calibgui.engine.corners import edges, saddle, verify
+from calibgui.engine.corners import roi as region
+from calibgui.engine.corners.edges import Fit
+from calibgui.engine.corners.lattice import MIN_CORNERS, Lattice, large_enough, supported
+from calibgui.engine.corners.ordering import Board
+from calibgui.engine.opencv import Image
+from calibgui.engine.types import Array, BoolArray, Rejection
+
+METHODS = ("edges", "saddle")
+_ROUNDS = 4
+"""How often corners may be left out and the rest fitted again."""
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class Located:
+    """A verified board whose origin is still open."""
+
+    lattice: Lattice
+    rejected: tuple[Rejection, ...]
+    fit: Fit | None
+    """The edge model at the lattice's corners, unless the method is another."""
+
+    def __len__(self) -> int:
+        return len(self.lattice)
+
+
+def locate(grey: Image, lattice: Lattice, method: str) -> Located | None:
+    """The lattice refined, less the corners that fail, or None if it is no board.
+
+    Its gaps are tried once more, at full resolution. A corner whose squares overlap or part by
+    much has no saddle point; the edge model copes with it.
+    """
+    refined, at_saddle = _refined(grey, verify.filled(lattice, grey.shape))
+    if method == "saddle":
+        refined = refined.under(at_saddle)
+    good = verify.sound(refined, grey)
+    if not verify.credible(good, lattice.found):
+        return None
+    rejected = [
+        *_rejections(lattice.uv[lattice.found & ~refined.found], "no saddle point"),
+        *_rejections(lattice.uv[lattice.found & refined.found & ~good], "off place or colours"),
+    ]
+    return _fitted(grey, supported(refined.under(good)), rejected, method)
+
+
+def guided(grey: Image, board: Board, outline: Array, method: str) -> Located | None:
+    """The board whose outermost corners were pointed at, if half of its corners are there."""
+    parts = []
+    for guess in region.guesses(outline, board):
+        refined, at_saddle = _refined(grey, guess)
+        for dark in (True, False):
+            # Where nothing was found the guess stands in for the neighbours of what was.
+            candidate = Lattice(refined.uv, dark)
+            good = verify.sound(candidate, grey) & at_saddle
+            parts.append((candidate.under(good), guess.uv[~good]))
+    lattice, missing = max(parts, key=lambda part: len(part[0]))
+    if len(lattice) < max(MIN_CORNERS, lattice.found.size // 2):
+        return None
+    doubtful = _rejections(missing, "not found where the marked points place it")
+    return _fitted(grey, lattice, doubtful, method)
+
+
+def _fitted(
+    grey: Image, lattice: Lattice, rejected: list[Rejection], method: str
+) -> Located | None:
+    """The board with the edge model at the corners that it describes, if the method asks for it.
+
+    The others mislead what is taken from the whole board: without them it is fitted again.
+    """
+    for _ in range(_ROUNDS):
+        if not large_enough(lattice):
+            break
+        if method == "saddle":
+            return Located(lattice, tuple(rejected), None)
+        fit = edges.fit(grey, lattice)
+        good = verify.described(fit, lattice)
+        if good.all():
+            return Located(lattice, tuple(rejected), fit) if verify.stepped(fit) else None
+        keep = lattice.found
+        keep[keep] = good
+        left_out = lattice.uv[lattice.found & ~keep]
+        rejected = [*rejected, *_rejections(left_out, "not two crossing edges")]
+        lattice = supported(lattice.under(keep))
+    return None
+
+
+def _rejections(uv: Array, reason: str) -> list[Rejection]:
+    return [Rejection(float(u), float(v), reason) for u, v in uv]
+
+
+def _refined(grey: Image, lattice: Lattice) -> tuple[Lattice, BoolArray]:
+    """The lattice with its corners moved to their saddle points, and which (rows, cols) have one
+    near."""
+    found = lattice.found
+    spacing = lattice.spacing()[found]
+    uv = lattice.uv.copy()
+    uv[found], good = saddle.refine(grey, uv[found], saddle.window(spacing), spacing / 4)
+    at_saddle = found.copy()
+    at_saddle[found] = good
+    return Lattice(uv, lattice.dark), at_saddle
