@@ -13,7 +13,7 @@ the finder counts a symmetric or partly seen one.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from contextlib import closing
 from dataclasses import dataclass, replace
 from functools import partial
@@ -37,6 +37,7 @@ from calibgui.engine.types import (
     Cost,
     IntArray,
     Pose,
+    Progress,
     Target,
     View,
     ViewStatus,
@@ -47,9 +48,6 @@ BLUR = 1.0
 """Standard deviation of the rendered images' blur, px: that of a well focused photograph."""
 
 _CRASHED = "The search for its board ended abnormally."
-
-Progress = Callable[[int, int], None]
-"""Told of views done and views in all; may raise ``Cancelled``."""
 
 
 @dataclass(frozen=True, eq=False, slots=True)

@@ -27,7 +27,15 @@ from calibgui.engine.maps import project_points
 from calibgui.engine.observations import Observations
 from calibgui.engine.projection import rays
 from calibgui.engine.stage_two import State
-from calibgui.engine.types import Array, Calibration, Camera, Observation, Pose, frozen
+from calibgui.engine.types import (
+    Array,
+    Calibration,
+    Camera,
+    Observation,
+    Pose,
+    Progress,
+    frozen,
+)
 from calibgui.engine.view_design import design
 
 _PLACES = ((0.2, 0.35, 0.5, 0.65, 0.8), (0.25, 0.5, 0.75))
@@ -96,7 +104,10 @@ class NextView:
 
 
 def next_views(
-    calibration: Calibration, views: Sequence[Observation], count: int = 3
+    calibration: Calibration,
+    views: Sequence[Observation],
+    count: int = 3,
+    progress: Progress | None = None,
 ) -> tuple[NextView, ...]:
     """The views that are worth most, one after the other.
 
@@ -104,12 +115,14 @@ def next_views(
         calibration: of the camera.
         views: that it was made from.
         count: how many to propose.
+        progress: told of each imagined view.
 
     Raises:
         CalibrationError: if the camera sees the whole board from nowhere.
+        Cancelled: from `progress`.
     """
     board = np.unique(np.round(np.concatenate([view.xy for view in views]), 9), axis=0)
-    imagined = _lattice(calibration, views, board)
+    imagined = _lattice(calibration, views, board, progress)
     if not imagined:
         raise CalibrationError(
             "No imagined view shows the whole board.", "Check the calibration's focal lengths."
@@ -136,7 +149,10 @@ def next_views(
 
 
 def _lattice(
-    calibration: Calibration, views: Sequence[Observation], board: Array
+    calibration: Calibration,
+    views: Sequence[Observation],
+    board: Array,
+    progress: Progress | None,
 ) -> list[NextView]:
     """All imagined views, without what they are worth."""
     camera = calibration.camera
@@ -146,7 +162,10 @@ def _lattice(
     width = float(np.ptp(board[:, 0]))
     upright = np.diag([1.0, 1.0, 1.0] if _faces(calibration) else [1.0, -1.0, -1.0])
     found = []
-    for x, y, fill, (tilt, side) in product(*_PLACES, _FILLS, _leanings()):
+    tried = list(product(*_PLACES, _FILLS, _leanings()))
+    for done, (x, y, fill, (tilt, side)) in enumerate(tried):
+        if progress is not None:
+            progress(done, len(tried))
         place = np.array([x, y])
         angle = 2 * np.pi * (side or 0) / 8
         lean = np.deg2rad(tilt) * np.array([np.sin(angle), -np.cos(angle), 0.0])

@@ -25,7 +25,7 @@ that explains nearly as much as any does.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import partial
 from typing import Any
@@ -39,7 +39,15 @@ from calibgui.engine.calibrate import calibrate
 from calibgui.engine.observations import Observations, pitch, view_names
 from calibgui.engine.patterns import Fitted
 from calibgui.engine.statistics import summarise
-from calibgui.engine.types import Array, Calibration, Observation, PlateModel, Size, frozen
+from calibgui.engine.types import (
+    Array,
+    Calibration,
+    Observation,
+    PlateModel,
+    Progress,
+    Size,
+    frozen,
+)
 
 _CHANCE = 1e-3
 _NEARLY = 0.7
@@ -49,7 +57,7 @@ _OUTLIER = 4.5
 _ROUNDS = 3
 """Of weighting the views by what the last weights left."""
 
-_PATTERNS = (
+_PATTERNS: tuple[tuple[str, Callable[[Fitted], patterns.Explained], str], ...] = (
     (
         "squares",
         partial(patterns.by_plate, model=PlateModel.AFFINE),
@@ -143,7 +151,10 @@ class NoiseReport:
 
 
 def examine(
-    calibration: Calibration, views: Sequence[Observation], names: Sequence[str] | None = None
+    calibration: Calibration,
+    views: Sequence[Observation],
+    names: Sequence[str] | None = None,
+    progress: Progress | None = None,
 ) -> NoiseReport:
     """Examine the residuals of a calibration, in the image.
 
@@ -151,6 +162,10 @@ def examine(
         calibration: with any cost.
         views: that it was made from.
         names: of the views, for messages; numbers by default.
+        progress: told of each pattern that is looked for.
+
+    Raises:
+        Cancelled: from `progress`.
     """
     names = names or view_names(len(views))
     fit = patterns.fitted(calibration, views)
@@ -159,9 +174,14 @@ def examine(
     relative = r / sigma[:, None, None]
     seen = fit.observations.mask > 0
     even, rms = fit.weighted(sigma), summarise(calibration.residuals).rms
+    checks = []
+    for done, (name, test, advice) in enumerate(_PATTERNS):
+        if progress is not None:
+            progress(done, len(_PATTERNS))
+        checks.append(_pattern(name, test(even), rms, advice))
     return NoiseReport(
         (
-            *(_pattern(name, test(even), rms, advice) for name, test, advice in _PATTERNS),
+            *checks,
             _views(sigma, _freedom(fit), names),
             _shape(relative[seen]),
             _neighbours(relative, fit.observations),

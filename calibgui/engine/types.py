@@ -280,6 +280,9 @@ class Iteration:
 Report = Callable[[Iteration], bool]
 """Told of each iteration: False stops and keeps the best so far; raising Cancelled discards."""
 
+Progress = Callable[[int, int], None]
+"""Told how many parts of the work are done, of how many; may raise ``Cancelled``."""
+
 
 class Status(StrEnum):
     """How a solve ended."""

@@ -11,7 +11,7 @@ earnest: their estimates scatter about the one from all K views with a variance 
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from contextlib import suppress
 from dataclasses import dataclass
 
@@ -26,6 +26,7 @@ from calibgui.engine.types import (
     Cost,
     IntArray,
     Observation,
+    Progress,
     frozen,
     frozen_int,
 )
@@ -41,9 +42,6 @@ _LARGEST = 40
 """Size up to which well-chosen sets are grown."""
 _FEWEST = 3
 """Smallest set that is calibrated in earnest."""
-
-Progress = Callable[[int, int], None]
-"""Told how many sets are calibrated, of how many."""
 
 
 @dataclass(frozen=True, eq=False, slots=True)

@@ -25,6 +25,8 @@ class Detector(QObject):
         super().__init__(session)
         self._session = session
         self._job: Job | None = None
+        self._failed = False
+        """Whether the batch ended without an answer."""
         self._again = False
         """Whether images are waiting that the batch does not have."""
         self._asked: dict[str, Array | None] = {}
@@ -61,7 +63,12 @@ class Detector(QObject):
             return find_views(images, board, rois, progress, job.cancelling, project.size)
 
         self._job = self._session.jobs.start(
-            self.tr("Finding corners"), work, self._done, told=self._learn, ended=self._ended
+            self.tr("Finding corners"),
+            work,
+            self._done,
+            told=self._learn,
+            failed=self._fail,
+            ended=self._ended,
         )
 
     def search_again(self, images: Iterable[str]) -> None:
@@ -104,10 +111,16 @@ class Detector(QObject):
                 lambda p: replace(p, size=detection.size) if p.views and p.size is None else p
             )
 
+    def _fail(self, error: Exception) -> None:
+        """Report it, and do not try again: it would fail in the same way."""
+        self._failed = True
+        self._session.failed.emit(error)
+
     def _ended(self) -> None:
         cancelled = self._job is not None and self._job.cancelled
         again, self._again, self._job = self._again, False, None
-        if cancelled and not again:
+        failed, self._failed = self._failed, False
+        if failed or (cancelled and not again):
             self.finished.emit(False)
         else:
             self.search()  # what was added meanwhile

@@ -44,14 +44,13 @@ class Plot(pg.PlotWidget):  # type: ignore[misc]  # pyqtgraph is not typed
         square: bool = False,
         parent: QWidget | None = None,
     ) -> None:
-        super().__init__(parent)
+        super().__init__(parent, enableMenu=False)  # it has one of its own
         self._labels = _labels(x, y, x_unit, y_unit)
         self.colour_bar: ColourBar | None = None
         """What the colours mean, if they mean anything."""
         self._area: QRectF | None = None
         item = self.getPlotItem()
         item.getViewBox().sigResized.connect(self._make_room)
-        item.setMenuEnabled(False)
         item.hideButtons()
         item.showGrid(x=True, y=True, alpha=0.15)
         item.getViewBox().setAspectLocked(square)

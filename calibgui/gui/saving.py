@@ -150,7 +150,7 @@ class Saver(QObject):
             if document.saved or self.file != file:  # saved while this was being written
                 discard(file)
 
-        self._session.jobs.start(self.tr("Autosave"), lambda _: autosave(project, file), done)
+        self._session.jobs.start("", lambda _: autosave(project, file), done)
 
 
 def _free_slot() -> tuple[QLockFile, Path]:

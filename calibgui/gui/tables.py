@@ -16,16 +16,18 @@ from PySide6.QtCore import (
     QModelIndex,
     QPersistentModelIndex,
     QPoint,
+    QSize,
     QSortFilterProxyModel,
     Qt,
     Signal,
 )
-from PySide6.QtGui import QAction, QColor, QGuiApplication, QKeySequence
+from PySide6.QtGui import QAction, QColor, QGuiApplication, QKeySequence, QResizeEvent
 from PySide6.QtWidgets import (
     QAbstractItemView,
     QFileDialog,
     QHeaderView,
     QMenu,
+    QStyle,
     QTableView,
     QWidget,
 )
@@ -50,6 +52,10 @@ class Column:
     """What the column means, with its unit."""
     hidden: bool = False
     """Whether only copies and files hold it."""
+    optional: bool = False
+    """Whether it is left out where there is no room for all."""
+    heading: str = ""
+    """What stands over the texts, if not the title: with the unit that only they are in."""
 
 
 def number(digits: int) -> Callable[[float], str]:
@@ -109,13 +115,33 @@ class _Model(QAbstractTableModel):
     ) -> Any:
         if orientation == Qt.Orientation.Horizontal and section < len(self.columns):
             if role == Qt.ItemDataRole.DisplayRole:
-                return self.columns[section].title
+                return self.columns[section].heading or self.columns[section].title
             if role == Qt.ItemDataRole.ToolTipRole:
                 return self.columns[section].tip or None
         return None
 
 
 _RIGHT = Qt.AlignmentFlag.AlignRight
+
+
+class _Titles(QHeaderView):
+    """Titles of columns; only the one that the rows are sorted by has room for its arrow."""
+
+    def __init__(self, parent: QWidget) -> None:
+        super().__init__(Qt.Orientation.Horizontal, parent)
+        self.setSectionsClickable(True)
+        self.setHighlightSections(False)  # every row is selected as a whole
+        # Columns as wide as what is in sight: measuring thousands of rows would be felt.
+        self.setResizeContentsPrecision(0)
+        self.setSectionResizeMode(QHeaderView.ResizeMode.ResizeToContents)
+
+    def sectionSizeFromContents(self, column: int) -> QSize:  # noqa: N802 - Qt's name
+        size = super().sectionSizeFromContents(column)
+        if column != self.sortIndicatorSection():
+            metric, style = QStyle.PixelMetric, self.style()
+            arrow = style.pixelMetric(metric.PM_HeaderMarkSize, None, self)
+            size -= QSize(arrow + style.pixelMetric(metric.PM_HeaderMargin, None, self), 0)
+        return size
 
 
 class Table(QTableView):
@@ -130,17 +156,17 @@ class Table(QTableView):
         self._order = QSortFilterProxyModel(self)
         self._order.setSourceModel(self._model)
         self._order.setSortRole(_SORT_ROLE)
+        self.setHorizontalHeader(_Titles(self))
         self.setModel(self._order)
         self.setSortingEnabled(True)
         self.sortByColumn(-1, Qt.SortOrder.AscendingOrder)
         self.setSelectionBehavior(QAbstractItemView.SelectionBehavior.SelectRows)
         self.setAlternatingRowColors(True)
         self.setWordWrap(False)
+        self.setTextElideMode(Qt.TextElideMode.ElideMiddle)
         self.verticalHeader().hide()
         self.verticalHeader().setDefaultSectionSize(self.fontMetrics().height() + theme.SPACING)
-        self.horizontalHeader().setSectionResizeMode(QHeaderView.ResizeMode.ResizeToContents)
-        # Columns as wide as what is in sight: measuring thousands of rows would be felt.
-        self.horizontalHeader().setResizeContentsPrecision(0)
+        self.horizontalHeader().sortIndicatorChanged.connect(self._fit)
         self.setTabKeyNavigation(False)
         self.selectionModel().currentRowChanged.connect(self._current_changed)
         self._menu = QMenu(self)
@@ -162,8 +188,7 @@ class Table(QTableView):
         """Show these columns; `marked` rows stand out, each with its reason as the tooltip."""
         reasons = marked if isinstance(marked, dict) else dict.fromkeys(marked, "")
         self._model.show(columns, reasons)
-        for place, column in enumerate(columns):
-            self.setColumnHidden(place, column.hidden)
+        self._fit()
 
     def select(self, row: int) -> None:
         """Highlight a row, without announcing it; none if it is negative."""
@@ -205,6 +230,28 @@ class Table(QTableView):
         )
         if path:
             self.save(path if Path(path).suffix else path + ".csv")
+
+    def resizeEvent(self, event: QResizeEvent) -> None:  # noqa: N802 - Qt's name
+        super().resizeEvent(event)
+        self._fit()
+
+    def _fit(self) -> None:
+        """Spare the user sideways scrolling: leave columns out, then narrow the first one."""
+        header, columns = self.horizontalHeader(), self._model.columns
+        if not columns:
+            return
+        for place, column in enumerate(columns):
+            self.setColumnHidden(place, column.hidden)
+        header.setSectionResizeMode(0, QHeaderView.ResizeMode.ResizeToContents)
+        header.resizeSections(QHeaderView.ResizeMode.ResizeToContents)
+        room = self.viewport().width()
+        for place, column in enumerate(columns):
+            if column.optional and header.length() > room:
+                self.setColumnHidden(place, True)
+        if (excess := header.length() - room) > 0:
+            header.setSectionResizeMode(0, QHeaderView.ResizeMode.Interactive)
+            least = header.minimumSectionSize()
+            header.resizeSection(0, max(least, header.sectionSize(0) - excess))
 
     def _current_changed(self, current: QModelIndex) -> None:
         if current.isValid():

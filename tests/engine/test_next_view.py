@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from calibgui.engine.calibrate import calibrate
+from calibgui.engine.errors import Cancelled
 from calibgui.engine.next_view import next_views
 from calibgui.engine.types import Calibration, Observation
 from calibgui.engine.view_design import design
@@ -72,3 +73,17 @@ def test_another_lens_model() -> None:
     views = scene(brown(), 5, seed=1).noisy(0.2, np.random.default_rng(2))
     result = calibrate(views, SIZE, model="opencv")
     assert next_views(result, views, count=1)[0].words.startswith("Hold the board")
+
+
+def test_it_can_be_abandoned() -> None:
+    told = []
+
+    def tenth(done: int, total: int) -> None:
+        told.append(total)
+        if done == 10:
+            raise Cancelled
+
+    with pytest.raises(Cancelled):
+        next_views(*_calibrated(4), progress=tenth)
+    assert len(told) == 11
+    assert len(set(told)) == 1

@@ -9,6 +9,7 @@ import pytest
 
 from calibgui.engine import frames
 from calibgui.engine.calibrate import calibrate
+from calibgui.engine.errors import Cancelled
 from calibgui.engine.noise import calibrate_weighted, examine
 from calibgui.engine.projection import pixels
 from calibgui.engine.types import Array, Observation, Pose
@@ -133,3 +134,16 @@ def test_noise_raises_no_alarm() -> None:
         report = examine(calibrate(views, SIZE), views)
         alarms += [check.name for check in report.checks if not check.passed]
     assert len(alarms) <= 4  # 0.8 expected of 80 x 10 checks at one in a thousand
+
+
+def test_it_can_be_abandoned() -> None:
+    told = []
+
+    def twice(done: int, total: int) -> None:
+        told.append((done, total))
+        if done == 1:
+            raise Cancelled
+
+    with pytest.raises(Cancelled):
+        examine(calibrate(SCENE.views, SIZE), SCENE.views, progress=twice)
+    assert told == [(0, 6), (1, 6)]

@@ -181,3 +181,21 @@ def test_a_result_of_changed_views_is_dropped(
     qtbot.waitUntil(lambda: len(session.project.results) == 3)
     assert session.result is not None
     assert len(session.result.used) == 5
+
+
+def test_a_search_that_cannot_be_made_is_reported_once(
+    qtbot: QtBot, session: Session, monkeypatch: pytest.MonkeyPatch, tmp_path: Path
+) -> None:
+    def broken(*_: Any) -> Detection:
+        raise RuntimeError("A worker process could not be started.")
+
+    monkeypatch.setattr(detecting, "find_views", broken)
+    failures: list[Exception] = []
+    session.failed.connect(failures.append)
+    detector, _ = begun(session, tmp_path)
+    with qtbot.waitSignal(detector.finished) as finished:
+        pass
+    assert finished.args == [False]
+    qtbot.wait(50)
+    assert len(failures) == 1 and not detector.running
+    assert status(session) == [WAITING] * 3

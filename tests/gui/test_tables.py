@@ -71,3 +71,27 @@ def test_a_hidden_column_is_for_files_only(qtbot: QtBot) -> None:
     assert table.as_csv() == "a,b\n1,2\n"
     table.show_columns([Column("a", [1]), Column("b", [2])])
     assert not table.isColumnHidden(1)
+
+
+def test_columns_give_way_before_the_user_must_scroll(qtbot: QtBot) -> None:
+    table = Table()
+    qtbot.addWidget(table)
+    table.show_columns(
+        [
+            Column("view", ["photograph_of_a_board_001.png"]),
+            Column("change", [1.25], fixed(2), optional=True),
+            Column("RMS", [0.25], fixed(2), heading="RMS [px]"),
+        ]
+    )
+    table.show()
+    header = table.horizontalHeader()
+    widths = {}
+    for width in (600, 280, 150, 600):
+        table.resize(width, 200)
+        assert header.length() <= table.viewport().width()
+        widths[width] = (table.isColumnHidden(1), header.sectionSize(0))
+    assert widths[600][0] is False
+    assert widths[280] == (True, widths[600][1])
+    assert widths[150][0] is True and widths[150][1] < widths[600][1]
+    assert table.as_csv().splitlines()[0] == "view,change,RMS"
+    assert table.model().headerData(2, Qt.Orientation.Horizontal) == "RMS [px]"

@@ -110,10 +110,16 @@ class CoveragePanel(Panel):
         self.advice.setText(self.tr("Which view would help most? Working…"))
         self._work.start(
             self.tr("Looking for the next view"),
-            lambda: next_views(result.calibration, result.observations(), 1)[0],
+            lambda job: next_views(result.calibration, result.observations(), 1, job.advance)[0],
             self._draw_next,
             lambda error: self.advice.setText(str(error)),
+            self._forgo,
         )
+
+    def _forgo(self) -> None:
+        """The user does not want to wait; it is tried again when the panel is drawn anew."""
+        self._planned = None
+        self.advice.setText(self.tr("Which view would help most was not examined."))
 
     def _draw_next(self, view: NextView | None) -> None:
         """Draw where the board should be next, and say so."""

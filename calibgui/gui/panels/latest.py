@@ -7,7 +7,7 @@ from typing import TypeVar
 
 from PySide6.QtCore import QObject
 
-from calibgui.gui.jobs import Job, Jobs
+from calibgui.gui.jobs import Job, Jobs, nothing
 
 T = TypeVar("T")
 
@@ -27,14 +27,25 @@ class Latest:
     def start(
         self,
         label: str,
-        work: Callable[[], T],
+        work: Callable[[Job], T],
         done: Callable[[T], None],
         failed: Callable[[Exception], None],
+        cancelled: Callable[[], None] = nothing,
     ) -> None:
-        """Run `work` in a thread; what it returns or raises is handed on unless it is outdated."""
+        """Run `work` in a thread; what it returns or raises is handed on unless it is outdated.
+
+        Args:
+            label, work, done, failed: as for ``Jobs.start``.
+            cancelled: called if the user wants none of it.
+        """
         self.cancel()
-        self._job = self._jobs.start(
-            label, lambda _: work(), done, failed=failed, owner=self._owner
+
+        def ended() -> None:
+            if job is self._job and job.cancelled:
+                cancelled()
+
+        job = self._job = self._jobs.start(
+            label, work, done, failed=failed, ended=ended, owner=self._owner
         )
 
     def cancel(self) -> None:

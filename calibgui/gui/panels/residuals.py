@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from functools import partial
 from html import escape
 
 import numpy as np
@@ -87,10 +86,18 @@ class ResidualsPanel(Panel):
         self.verdict.setToolTip("")
         self._work.start(
             self.tr("Examining the residuals"),
-            partial(examine, result.calibration, result.observations(), short_names(result.used)),
+            lambda job: examine(
+                result.calibration, result.observations(), short_names(result.used), job.advance
+            ),
             self._judge,
             lambda error: self.verdict.setText(str(error)),
+            self._forgo,
         )
+
+    def _forgo(self) -> None:
+        """The user does not want to wait; it is tried again when the panel is drawn anew."""
+        self._examined = None
+        self.verdict.setText(self.tr("Whether the residuals look like noise was not examined."))
 
     def _judge(self, report: NoiseReport) -> None:
         """Say what the residuals look like; every check's finding is in the tooltip."""

@@ -70,6 +70,7 @@ class ResultPanel(Panel):
                     [row.change for row in rows],
                     number(3),
                     self.tr("{1} less {0}").format(*names),
+                    optional=True,
                 ),
                 Column(
                     self.tr("in σ"),

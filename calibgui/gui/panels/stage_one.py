@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from pathlib import PurePath
 from typing import Any
 
 import numpy as np
@@ -24,6 +25,7 @@ _OUTLYING = 5.0
 """Median absolute deviations from the median that mark a view."""
 _SEARCHED = np.linspace(0.6, 1.4, 401)
 """Aspect ratios over which g(r) is drawn."""
+_RAISED = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 
 
 class StageOnePanel(Panel):
@@ -91,21 +93,29 @@ class StageOnePanel(Panel):
         )
 
     def _columns(self, result: Result) -> list[Column]:
+        rows, names = result.calibration.stage_one, short_names(result.used)
+        power = _power([row.k1 for row in rows])
         shown: tuple[tuple[str, str, Callable[[Any], str], str], ...] = (
-            ("xp", "xp", fixed(2), self.tr("Principal point right of the array's centre, px")),
-            ("yp", "yp", fixed(2), self.tr("Principal point above the array's centre, px")),
-            ("k1", "k1", "{:.3e}".format, self.tr("First radial coefficient, 1/px²")),
-            ("fy / fx", "aspect", fixed(4), self.tr("Aspect ratio: root of the cosines' equation")),
-            ("fx", "fx", fixed(1), self.tr("Focal length, px")),
-            ("fy", "fy", fixed(1), self.tr("Focal length, px")),
+            ("xp", "xp", fixed(1), self.tr("Principal point right of the array's centre, px")),
+            ("yp", "yp", fixed(1), self.tr("Principal point above the array's centre, px")),
+            (
+                "k1",
+                "k1",
+                lambda k1: f"{k1 / 10.0**power:.2f}",
+                self.tr("First radial coefficient, 1/px²"),
+            ),
+            ("fy/fx", "aspect", fixed(4), self.tr("Aspect ratio: root of the cosines' equation")),
+            ("fx", "fx", fixed(0), self.tr("Focal length, px")),
+            ("fy", "fy", fixed(0), self.tr("Focal length, px")),
             (self.tr("Steps"), "iterations", str, self.tr("Iterations of Levenberg-Marquardt")),
             ("RMS", "rms", fixed(3), self.tr("Residual on the reference plane, reference px")),
         )
-        rows = result.calibration.stage_one
+        headings = {"k1": f"k1·10{str(-power).translate(_RAISED)}"}
+        alike = len({PurePath(name).suffix for name in names}) == 1
         return [
-            Column(self.tr("View"), short_names(result.used)),
+            Column(self.tr("View"), names, (lambda name: PurePath(name).stem) if alike else str),
             *(
-                Column(t, [getattr(r, name) for r in rows], text, tip)
+                Column(t, [getattr(r, name) for r in rows], text, tip, heading=headings.get(t, ""))
                 for t, name, text, tip in shown
             ),
         ]
@@ -124,6 +134,13 @@ class StageOnePanel(Panel):
             k: self.tr("Far from the other views: {0}").format(", ".join(names))
             for k, names in marked.items()
         }
+
+
+def _power(values: Sequence[float]) -> int:
+    """The power of ten that brings most of `values` between 1 and 10."""
+    size = np.abs(values)
+    known = size[np.isfinite(size) & (size > 0)]
+    return int(np.floor(np.log10(np.median(known)))) if known.size else 0
 
 
 def _far(values: Array) -> BoolArray:

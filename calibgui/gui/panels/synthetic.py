@@ -4,8 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
-import numpy as np
-import pyqtgraph as pg
 from PySide6.QtCore import QT_TRANSLATE_NOOP
 from PySide6.QtWidgets import (
     QHBoxLayout,
@@ -13,27 +11,25 @@ from PySide6.QtWidgets import (
     QPushButton,
     QTabWidget,
     QVBoxLayout,
+    QWidget,
 )
 
 from calibgui.app.calibration import short_names
 from calibgui.app.synthetic import BLUR, SyntheticCheck, synthetic_check
 from calibgui.engine.images import Image
 from calibgui.engine.render import render
-from calibgui.engine.statistics import length_histogram, stacked, summarise
+from calibgui.engine.statistics import summarise
 from calibgui.formats.result import Result
-from calibgui.gui import theme
 from calibgui.gui.jobs import Job, Jobs
 from calibgui.gui.panels.before_after import BeforeAfter, Grey
-from calibgui.gui.panels.estimates import estimate_columns
-from calibgui.gui.panels.histograms import HistogramPlot
+from calibgui.gui.panels.latest import Latest
 from calibgui.gui.panels.panel import Panel
-from calibgui.gui.panels.scatter import ResidualScatter
-from calibgui.gui.panels.split import Split
-from calibgui.gui.plots import Plot
-from calibgui.gui.tables import Column, Table, fixed, number
-from calibgui.report.comparison import compare
-
-_BINS = 50
+from calibgui.gui.panels.synthetic_figures import (
+    Histograms,
+    ParameterTable,
+    PoseErrors,
+    Scatters,
+)
 
 
 class SyntheticPanel(Panel):
@@ -51,7 +47,9 @@ class SyntheticPanel(Panel):
         super().__init__()
         self._jobs, self._read = jobs, read
         self._job: Job | None = None
-        self._pictures: Job | None = None
+        self._pictures = Latest(jobs, self)
+        self._drawn: set[QWidget] = set()
+        """Tabs that show the check already."""
         self.check: SyntheticCheck | None = None
         self.run = QPushButton(self.tr("&Render and calibrate"))
         self.run.setToolTip(
@@ -63,24 +61,24 @@ class SyntheticPanel(Panel):
         self.run.clicked.connect(self._run)
         self.words = QLabel()
         self.words.setWordWrap(True)
-        self.table = Table()
+        self.table = ParameterTable()
         self.images = BeforeAfter(self.tr("real"), self.tr("synthetic"))
-        self.scatters = (ResidualScatter(), ResidualScatter())
-        self.histograms = (HistogramPlot(), HistogramPlot())
-        self.errors = Plot(
-            self.tr("relative error of an external parameter"), self.tr("count"), "%"
-        )
-        self.errors.setToolTip(self.tr("|z real − z synthetic| / |z real| of eq. 51 (figure 14)."))
-        self._bars = self.errors.plot(stepMode="center", fillLevel=0)
+        self.errors = PoseErrors()
+        self.scatters = Scatters()
+        self.histograms = Histograms()
         self.tabs = QTabWidget(documentMode=True)
-        for widget, name in (
-            (self.table, self.tr("Table 3")),
-            (self.images, self.tr("Images")),
-            (self.errors, self.tr("Poses")),
-            (Split(500, *((plot, 1) for plot in self.scatters)), self.tr("Residuals")),
-            (Split(500, *((plot, 1) for plot in self.histograms)), self.tr("Histograms")),
+        self._draw: dict[QWidget, Callable[[SyntheticCheck], None]] = {}
+        """How each tab is drawn."""
+        for widget, name, draw in (
+            (self.table, self.tr("Table 3"), self.table.show_check),
+            (self.images, self.tr("Images"), self._render),
+            (self.errors, self.tr("Poses"), self.errors.show_check),
+            (self.scatters, self.tr("Residuals"), self._scatter),
+            (self.histograms, self.tr("Histograms"), self.histograms.show_check),
         ):
             self.tabs.addTab(widget, name)
+            self._draw[widget] = draw
+        self.tabs.currentChanged.connect(self._draw_tab)
         keeping = self.tabs.sizePolicy()
         keeping.setRetainSizeWhenHidden(True)
         self.tabs.setSizePolicy(keeping)
@@ -133,16 +131,8 @@ class SyntheticPanel(Panel):
             if self._job is None:
                 self.words.setText(self._invitation(result))
             return
-        self._show_table(check)
-        self._show_residuals(check)
-        errors = 100 * check.extrinsic_errors.ravel()
-        count, edges = np.histogram(errors, _BINS, range=(0.0, float(np.quantile(errors, 0.99))))
-        self._bars.setData(edges, count)
-        self._bars.setPen(pg.mkPen(theme.current().line))
-        self._bars.setBrush(pg.mkBrush(theme.current().line))
-        self.errors.set_title(
-            self.tr("median {0:.3g} %, largest {1:.3g} %").format(np.median(errors), errors.max())
-        )
+        self._drawn.clear()
+        self._draw_tab()
         real, made = (summarise(r.calibration.residuals) for r in (check.real, check.synthetic))
         self.words.setText(
             self.tr(
@@ -163,55 +153,34 @@ class SyntheticPanel(Panel):
             return self.tr("The target's pattern is not known, so its views cannot be rendered.")
         return self.tr("Would the method find this camera again, if it were just so?")
 
-    def _show_table(self, check: SyntheticCheck) -> None:
-        rows = compare(check.real.calibration, check.synthetic.calibration)
-        self.table.show_columns(
-            [
-                Column(self.tr("Parameter"), [row.name for row in rows]),
-                *estimate_columns(self.tr("Real"), [r.a for r in rows], [r.sigma_a for r in rows]),
-                *estimate_columns(
-                    self.tr("Synthetic"), [r.b for r in rows], [r.sigma_b for r in rows]
-                ),
-                Column(self.tr("Difference"), [row.change for row in rows], number(3)),
-                Column(
-                    self.tr("in σ"),
-                    [r.change / r.sigma_a if r.sigma_a > 0 else np.nan for r in rows],
-                    fixed(2),
-                    self.tr("The difference over the real result's standard deviation."),
-                ),
-            ]
-        )
-
-    def _show_residuals(self, check: SyntheticCheck) -> None:
-        for result, scatter, histogram, name in zip(
-            (check.real, check.synthetic),
-            self.scatters,
-            self.histograms,
-            (self.tr("real"), self.tr("synthetic")),
-            strict=True,
-        ):
-            calibration, unit = result.calibration, self.tr("reference px")
-            points = [view.reference for view in calibration.residuals]
-            scatter.show_residuals(points, "Δx′", "Δy′", unit)
-            scatter.set_title(name)
-            lengths = np.linalg.norm(stacked(calibration, on_reference=True), axis=1)
-            histogram.show_histogram(length_histogram(lengths), f"e′, {name}", unit)
+    def _draw_tab(self) -> None:
+        """Draw the tab in front, unless it is up to date; the others can wait."""
+        tab, check = self.tabs.currentWidget(), self.check
+        if check is None or tab in self._drawn:
+            return
+        self._drawn.add(tab)
+        self._draw[tab](check)
 
     def _select(self, k: int, corner: int) -> None:
         if self.check is None:
             return
-        found = np.cumsum([view.usable for view in self.check.synthetic.views]) - 1
-        self.scatters[0].select(k, corner)
-        seen = k >= 0 and self.check.synthetic.views[k].usable
-        self.scatters[1].select(int(found[k]) if seen else -1)
-        result, view = self.check.real, max(k, 0)
-        if self._pictures is not None:
-            self._pictures.cancel()
-        self._pictures = self._jobs.start(
+        if self.scatters in self._drawn:
+            self.scatters.select(self.check, k, corner)
+        self._drawn.discard(self.images)
+        self._draw_tab()
+
+    def _scatter(self, check: SyntheticCheck) -> None:
+        self.scatters.show_check(check)
+        self.scatters.select(check, *self._selected)
+
+    def _render(self, check: SyntheticCheck) -> None:
+        """Show the selected view beside its synthetic version."""
+        result, view = check.real, max(self._selected[0], 0)
+        self._pictures.start(
             self.tr("Rendering {0}").format(short_names(result.used)[view]),
             lambda _: pictures(result, view, self._read),
             lambda images: self.images.show_images(*images),
-            failed=lambda error: self.words.setText(str(error)),
+            lambda error: self.words.setText(str(error)),
         )
 
 

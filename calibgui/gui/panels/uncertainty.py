@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from functools import partial
 
 import numpy as np
 import pyqtgraph as pg
@@ -92,7 +91,7 @@ class UncertaintyPanel(Panel):
         distance = self.distance.value() or math.inf
         self._work.start(
             self.tr("Propagating the uncertainty"),
-            partial(projection_uncertainty, result.calibration, views, distance),
+            lambda _: projection_uncertainty(result.calibration, views, distance),
             self._show,
             lambda error: self.words.setText(str(error)),
         )

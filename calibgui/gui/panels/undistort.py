@@ -85,7 +85,7 @@ class UndistortPanel(Panel):
         shown = self._shown
         self._work.start(
             self.tr("Undistorting {0}").format(name),
-            lambda: changed(result, shown, way, self._read),
+            lambda _: changed(result, shown, way, self._read),
             lambda images: self._show(name, *images),
             self._fail,
         )

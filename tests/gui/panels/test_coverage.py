@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import time
 from functools import partial
+from typing import Any, NoReturn
 
 import numpy as np
 import pytest
@@ -91,3 +93,23 @@ def test_the_map_ends_with_the_image(panel: CoveragePanel, qtbot: QtBot) -> None
         QApplication.processEvents()
         (left, right), (low, high) = panel.density.getPlotItem().getViewBox().viewRange()
         np.testing.assert_allclose([left, right, low, high], [-0.5, 639.5, -0.5, 479.5], atol=8)
+
+
+def test_the_user_need_not_wait_for_the_next_view(
+    shown: Shown[CoveragePanel],
+    result: Result,
+    jobs: Jobs,
+    qtbot: QtBot,
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    def endless(*_: Any) -> NoReturn:
+        while True:
+            _[-1](0, 100)
+            time.sleep(0.001)
+
+    monkeypatch.setattr(coverage, "next_views", endless)
+    panel = shown(partial(CoveragePanel, jobs), result)
+    for job in jobs.running:
+        job.cancel()
+    qtbot.waitUntil(lambda: not jobs.running)
+    assert "not examined" in panel.advice.text()

@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import time
 from collections.abc import Callable
 from functools import partial
+from typing import cast
 
 import numpy as np
 import pytest
@@ -18,6 +20,7 @@ from calibgui.formats.result import Result
 from calibgui.gui.jobs import Jobs
 from calibgui.gui.panels import residuals
 from calibgui.gui.panels.residuals import ResidualsPanel
+from calibgui.gui.progress import Progress
 from tests.gui.panels.conftest import Shown, click, drag, made, place
 
 Show = Callable[[Result], ResidualsPanel]
@@ -149,4 +152,30 @@ def test_what_the_residuals_look_like_is_said_with_its_cause(
 def test_noise_is_called_noise(show: Show, result: Result, jobs: Jobs, qtbot: QtBot) -> None:
     panel = show(result)
     qtbot.waitUntil(lambda: not jobs.running)
+    assert panel.verdict.text().startswith("The residuals look like noise")
+
+
+def test_the_user_need_not_wait_for_the_verdict(
+    shown: Shown[ResidualsPanel],
+    result: Result,
+    jobs: Jobs,
+    qtbot: QtBot,
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    def endless(*_: object) -> NoiseReport:
+        progress = cast(Callable[[int, int], None], _[-1])
+        while True:
+            progress(0, 6)
+            time.sleep(0.001)
+
+    monkeypatch.setattr(residuals, "examine", endless)
+    panel = shown(partial(ResidualsPanel, jobs), result)
+    bar = Progress(jobs)
+    qtbot.addWidget(bar)
+    bar.cancel.click()
+    qtbot.waitUntil(lambda: not jobs.running)
+    assert "not examined" in panel.verdict.text()
+    monkeypatch.setattr(residuals, "examine", examine)
+    panel.plane.setCurrentIndex(1)
+    qtbot.waitUntil(lambda: not jobs.running, timeout=60_000)
     assert panel.verdict.text().startswith("The residuals look like noise")

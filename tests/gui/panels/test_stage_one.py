@@ -7,6 +7,7 @@ import io
 from dataclasses import replace
 
 import numpy as np
+import pytest
 from PySide6.QtCore import Qt
 from pytestqt.qtbot import QtBot
 
@@ -19,7 +20,7 @@ from tests.gui.panels.conftest import Shown, click
 def test_table_holds_stage_one(shown: Shown[StageOnePanel], result: Result) -> None:
     panel = shown(StageOnePanel, result)
     rows = list(csv.reader(io.StringIO(panel.table.as_csv())))
-    assert rows[0] == ["View", "xp", "yp", "k1", "fy / fx", "fx", "fy", "Steps", "RMS"]
+    assert rows[0] == ["View", "xp", "yp", "k1", "fy/fx", "fx", "fy", "Steps", "RMS"]
     for row, view, name in zip(
         rows[1:], result.calibration.stage_one, [v.image for v in result.used], strict=True
     ):
@@ -83,3 +84,19 @@ def test_empty_state_says_what_to_do(shown: Shown[StageOnePanel], result: Result
     assert "Calibrate" in panel._empty.text() and panel._empty.isVisible()
     panel.show_result(result)
     assert panel.table.isVisible()
+
+
+def test_the_whole_table_is_seen_in_the_least_width(
+    shown: Shown[StageOnePanel], result: Result
+) -> None:
+    panel = shown(StageOnePanel, result)
+    panel.resize(396, 600)  # what a window of 1280 px leaves
+    assert panel.table.horizontalHeader().length() <= panel.table.viewport().width()
+    texts = [panel.table.model().index(3, column).data() for column in range(9)]
+    view = result.calibration.stage_one[3]
+    power = int(panel.table.model().headerData(3, Qt.Orientation.Horizontal)[-1:].translate(_PLAIN))
+    assert float(texts[3]) * 10.0**-power == pytest.approx(view.k1, abs=0.005 * 10.0**-power)
+    assert texts[0] == "view4"
+
+
+_PLAIN = str.maketrans("⁰¹²³⁴⁵⁶⁷⁸⁹", "0123456789")

@@ -15,7 +15,7 @@ from pytestqt.qtbot import QtBot
 from calibgui.app.synthetic import BLUR, SyntheticCheck, synthetic_check
 from calibgui.engine.images import Image
 from calibgui.engine.render import render
-from calibgui.engine.statistics import length_histogram, stacked
+from calibgui.engine.statistics import component_histogram, length_histogram, stacked
 from calibgui.formats.result import Result
 from calibgui.gui.jobs import Jobs
 from calibgui.gui.panels.synthetic import SyntheticPanel, pictures
@@ -69,23 +69,44 @@ def test_tables_and_plots_hold_its_numbers(
 ) -> None:
     panel = panel_of(small, jobs, qtbot)
     panel._done(check)
+    for tab in range(panel.tabs.count()):
+        panel.tabs.setCurrentIndex(tab)
     rows = list(csv.reader(io.StringIO(panel.table.as_csv())))[1:]
     numbers = np.array([[float(row[i]) for i in (1, 2, 3, 4)] for row in rows]).T
     real, made = check.real.calibration, check.synthetic.calibration
     expected = (real.camera.params, real.sigma, made.camera.params, made.sigma)
     np.testing.assert_array_equal(numbers, expected)
 
-    edges, count = panel._bars.getData()
+    edges, count = panel.errors.bars.getData()
     errors = 100 * check.extrinsic_errors.ravel()
     assert count.sum() == np.count_nonzero(errors <= edges[-1])
     for result, scatter, histogram in zip(
-        (check.real, check.synthetic), panel.scatters, panel.histograms, strict=True
+        (check.real, check.synthetic), panel.scatters.plots, panel.histograms.plots, strict=True
     ):
         points = np.concatenate(scatter._points)
         np.testing.assert_array_equal(points, stacked(result.calibration, on_reference=True))
         lengths = length_histogram(np.linalg.norm(points, axis=1))
         np.testing.assert_array_equal(histogram.bars.getData()[1], lengths.density)
+    panel.histograms.component.setCurrentIndex(1)
+    for result, histogram in zip(
+        (check.real, check.synthetic), panel.histograms.plots, strict=True
+    ):
+        down = component_histogram(stacked(result.calibration, on_reference=True)[:, 1])
+        np.testing.assert_array_equal(histogram.bars.getData()[1], down.density)
+        assert "Δy′" in histogram.getPlotItem().getAxis("bottom").labelText
     qtbot.waitUntil(lambda: not jobs.running)
+
+
+def test_only_the_tab_in_front_is_drawn(
+    small: Result, check: SyntheticCheck, jobs: Jobs, qtbot: QtBot
+) -> None:
+    panel = panel_of(small, jobs, qtbot)
+    panel._done(check)
+    assert panel.table.model().rowCount() == 10
+    assert not panel.scatters.plots[0]._points
+    panel.tabs.setCurrentWidget(panel.scatters)
+    assert len(panel.scatters.plots[0]._points) == 5
+    assert not jobs.running
 
 
 def test_the_selected_view_is_rendered(
@@ -93,6 +114,7 @@ def test_the_selected_view_is_rendered(
 ) -> None:
     panel = panel_of(small, jobs, qtbot)
     panel._done(check)
+    panel.tabs.setCurrentWidget(panel.images)
     panel.select(4, 11)
     qtbot.waitUntil(lambda: not jobs.running)
     assert len(panel.images._images) == 2
@@ -101,7 +123,8 @@ def test_the_selected_view_is_rendered(
     assert not real.any()
     expected = render(calibration.camera, calibration.poses[3], small.target, blur=BLUR)
     np.testing.assert_array_equal(made, expected)
-    ring = np.transpose(panel.scatters[0]._ring.getData())
+    panel.tabs.setCurrentWidget(panel.scatters)
+    ring = np.transpose(panel.scatters.plots[0]._ring.getData())
     np.testing.assert_array_equal(ring, calibration.residuals[3].reference[11:12])
 
 

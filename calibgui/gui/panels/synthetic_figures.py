@@ -1,0 +1,134 @@
+"""What the synthetic check shows: Table 3, and figures 13 to 16 beside the real ones."""
+
+from __future__ import annotations
+
+import numpy as np
+import pyqtgraph as pg
+from PySide6.QtCore import Qt
+from PySide6.QtWidgets import QComboBox, QVBoxLayout, QWidget
+
+from calibgui.app.synthetic import SyntheticCheck
+from calibgui.engine.statistics import component_histogram, length_histogram, stacked
+from calibgui.gui import theme
+from calibgui.gui.panels.estimates import estimate_columns
+from calibgui.gui.panels.histograms import HistogramPlot
+from calibgui.gui.panels.scatter import ResidualScatter
+from calibgui.gui.panels.split import Split
+from calibgui.gui.plots import Plot
+from calibgui.gui.tables import Column, Table, fixed, number
+from calibgui.report.comparison import compare
+
+_BINS = 50
+_COMPONENTS = ("Δx′", "Δy′", "e′")
+
+
+class ParameterTable(Table):
+    """Table 3: the camera that was rendered, and the one that was found again."""
+
+    def show_check(self, check: SyntheticCheck) -> None:
+        """Show both results' intrinsics and how they differ."""
+        rows = compare(check.real.calibration, check.synthetic.calibration)
+        self.show_columns(
+            [
+                Column(self.tr("Parameter"), [row.name for row in rows]),
+                *estimate_columns(self.tr("Real"), [r.a for r in rows], [r.sigma_a for r in rows]),
+                *estimate_columns(
+                    self.tr("Synthetic"), [r.b for r in rows], [r.sigma_b for r in rows]
+                ),
+                Column(
+                    self.tr("Difference"), [row.change for row in rows], number(3), optional=True
+                ),
+                Column(
+                    self.tr("in σ"),
+                    [r.change / r.sigma_a if r.sigma_a > 0 else np.nan for r in rows],
+                    fixed(2),
+                    self.tr("The difference over the real result's standard deviation."),
+                ),
+            ]
+        )
+
+
+class PoseErrors(Plot):
+    """Figure 14: how far the poses that were rendered are missed."""
+
+    def __init__(self) -> None:
+        super().__init__(self.tr("relative error of an external parameter"), self.tr("count"), "%")
+        self.setToolTip(self.tr("|z real − z synthetic| / |z real| of eq. 51 (figure 14)."))
+        self.bars = self.plot(stepMode="center", fillLevel=0)
+
+    def show_check(self, check: SyntheticCheck) -> None:
+        """Show the relative errors of all poses, the largest hundredth left out."""
+        errors = 100 * check.extrinsic_errors.ravel()
+        count, edges = np.histogram(errors, _BINS, range=(0.0, float(np.quantile(errors, 0.99))))
+        self.bars.setData(edges, count)
+        self.bars.setPen(pg.mkPen(theme.current().line))
+        self.bars.setBrush(pg.mkBrush(theme.current().line))
+        self.set_title(
+            self.tr("median {0:.3g} %, largest {1:.3g} %").format(np.median(errors), errors.max())
+        )
+
+
+class Scatters(Split):
+    """Figure 15: the residuals of real and synthetic views."""
+
+    def __init__(self) -> None:
+        self.plots = ResidualScatter(), ResidualScatter()
+        super().__init__(500, *((plot, 1) for plot in self.plots))
+
+    def show_check(self, check: SyntheticCheck) -> None:
+        """Show the residuals on the reference plane."""
+        names = self.tr("real"), self.tr("synthetic")
+        for result, plot, name in zip(
+            (check.real, check.synthetic), self.plots, names, strict=True
+        ):
+            points = [view.reference for view in result.calibration.residuals]
+            plot.show_residuals(points, *_COMPONENTS[:2], self.tr("reference px"))
+            plot.set_title(name)
+
+    def select(self, check: SyntheticCheck, k: int, corner: int) -> None:
+        """Highlight calibrated view k, and one of its corners, where it was found again."""
+        found = np.cumsum([view.usable for view in check.synthetic.views]) - 1
+        seen = k >= 0 and check.synthetic.views[k].usable
+        self.plots[0].select(k, corner)
+        self.plots[1].select(int(found[k]) if seen else -1)
+
+
+class Histograms(QWidget):
+    """Figure 16: one component of the residuals of real and synthetic views, or their length."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.component = QComboBox()
+        self.component.addItems(_COMPONENTS)
+        self.component.setCurrentIndex(2)
+        self.component.setAccessibleName(self.tr("Component of the residuals"))
+        self.component.setToolTip(
+            self.tr("The residuals' components on the reference plane, or their length e′.")
+        )
+        self.component.currentIndexChanged.connect(self._draw)
+        self.plots = HistogramPlot(), HistogramPlot()
+        self._check: SyntheticCheck | None = None
+        layout = QVBoxLayout(self)
+        layout.setContentsMargins(0, theme.SPACING, 0, 0)
+        layout.addWidget(self.component, 0, Qt.AlignmentFlag.AlignLeft)
+        layout.addWidget(Split(500, *((plot, 1) for plot in self.plots)), 1)
+
+    def show_check(self, check: SyntheticCheck) -> None:
+        """Show the component that is chosen."""
+        self._check = check
+        self._draw()
+
+    def _draw(self) -> None:
+        if self._check is None:
+            return
+        which, unit = self.component.currentIndex(), self.tr("reference px")
+        names = self.tr("{0}, real"), self.tr("{0}, synthetic")
+        results = self._check.real, self._check.synthetic
+        for result, plot, name in zip(results, self.plots, names, strict=True):
+            residuals = stacked(result.calibration, on_reference=True)
+            histogram = (
+                component_histogram(residuals[:, which])
+                if which < 2
+                else length_histogram(np.linalg.norm(residuals, axis=1))
+            )
+            plot.show_histogram(histogram, name.format(_COMPONENTS[which]), unit)
