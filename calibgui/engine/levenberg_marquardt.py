@@ -18,7 +18,8 @@ it is solved.
 
 The iteration has converged when the decrease that the linear model still predicts is below
 1e-12 of the cost: the unknowns are then within about 1e-6 sqrt(2N) of their standard
-deviations of the minimum.
+deviations of the minimum. A slight step that does what was foreseen leaves J^T J as it was but
+for a hundredth: its factors serve again.
 
 Where the sums come from is the caller's choice: `normal_equations` below adds them up from
 residuals and derivatives, in chunks of views so that memory does not grow with their number;
@@ -32,7 +33,7 @@ from collections.abc import Callable, Sequence
 from typing import NamedTuple
 
 import numpy as np
-from scipy.linalg.lapack import dposv
+from scipy.linalg.lapack import dpotrf, dpotrs
 
 from calibgui.engine.errors import CalibrationError
 from calibgui.engine.observations import chunks
@@ -42,6 +43,8 @@ from calibgui.engine.types import Array, IntArray, Iteration, Report, Status
 _ELIMINATED = 1024
 """Views whose poses are eliminated together, which bounds the memory that takes."""
 _CONVERGED = 1e-12
+_SLIGHT = 1e-4
+"""Decrease of a step, relative to the cost, that leaves J^T J as it was to a hundredth."""
 _SETTLED = 1e-6
 """Decrease that a full step still predicts, relative to the cost, where damped ones fail."""
 _ROUNDING = 1e-26
@@ -101,6 +104,19 @@ class Reduced(NamedTuple):
         return self._replace(S=self.S + added, unit=unit)
 
 
+class Factored(NamedTuple):
+    """What solves reduced normal equations."""
+
+    reduced: Reduced
+    inverse: Callable[[Array], Array]
+    """From (P,) to S^-1 times it, both scaled; the shortest solution if S is singular."""
+
+    def at(self, normal: NormalEquations) -> Factored:
+        """The same J^T J with the gradient of normal equations close by."""
+        gradient = _gradient(normal, self.reduced.roots)
+        return self._replace(reduced=self.reduced._replace(gradient=gradient))
+
+
 class Solution(NamedTuple):
     """Where the iteration ended."""
 
@@ -148,7 +164,7 @@ def minimise(
             "Check that the views number their corners alike and come from one camera.",
         )
     history = list(earlier)
-    barred = False
+    barred, factored = False, None
 
     def record(step: float) -> bool:
         iteration = Iteration(
@@ -169,8 +185,10 @@ def minimise(
     if not earlier and not record(0.0):
         return ended(Status.STOPPED)
     for _ in range(max_iterations):
-        by_shared, by_pose = solve(normal, damping)
-        small = _decrease(normal, by_shared, by_pose) <= _CONVERGED * normal.cost
+        factored = factored.at(normal) if factored else _factored(schur(normal, damping))
+        by_shared, by_pose = _step(normal, factored)
+        decrease = _decrease(normal, by_shared, by_pose)
+        small = decrease <= _CONVERGED * normal.cost
         exact = normal.cost <= _ROUNDING * data_square
         if small or exact or damping > _MAX_DAMPING:
             break
@@ -180,12 +198,17 @@ def minimise(
         trial_normal = normal_at(trial)
         if trial_normal.cost < normal.cost:
             length = _scaled_length(normal, by_shared, by_pose)
+            gained = normal.cost - trial_normal.cost
+            foreseen = damping <= _DAMPING and abs(gained - decrease) <= 0.1 * decrease
+            if not foreseen or decrease > _SLIGHT * normal.cost:
+                factored = None
             state, normal = trial, trial_normal
             damping = max(damping / 10, 1e-12)
             if not record(length):
                 return ended(Status.STOPPED)
         else:
             damping *= 10
+            factored = None
             barred |= not np.isfinite(trial_normal.cost)
     else:
         return ended(Status.MAX_ITERATIONS)._replace(barred=barred)
@@ -228,39 +251,52 @@ def schur(normal: NormalEquations, damping: float = 0.0) -> Reduced:
     """Eliminate the poses. With Vk = L L^T, Wk Vk^-1 Wk^T is the square of L^-1 Wk^T."""
     V = normal.V * (1 + damping * np.eye(6))
     roots = np.asarray(np.linalg.inv(np.linalg.cholesky(V)))
-    S, gradient = normal.U.copy(), normal.shared.copy()
-    diagonal = np.diag(normal.U)
-    S[np.diag_indices_from(S)] += damping * diagonal
+    diagonal, S = np.diag(normal.U), None
     for begin in range(0, len(V), _ELIMINATED):
         views = slice(begin, begin + _ELIMINATED)
         Y = roots[views] @ np.swapaxes(normal.W[views], 1, 2)
-        Y = Y.reshape(6 * len(Y), len(S))
-        S -= Y.T @ Y
-        gradient -= (roots[views] @ normal.pose[views, :, None]).ravel() @ Y
-    return Reduced(S, gradient, roots, 1 / np.sqrt(np.maximum(diagonal, 1e-300)))
+        Y = Y.reshape(6 * len(Y), len(diagonal))
+        # In place where it can be: with hundreds of parameters new memory costs more than sums.
+        S = np.subtract(normal.U if S is None else S, square := Y.T @ Y, out=square)
+    assert S is not None
+    S[np.diag_indices_from(S)] += damping * diagonal
+    unit = 1 / np.sqrt(np.maximum(diagonal, 1e-300))
+    return Reduced(S, _gradient(normal, roots), roots, unit)
 
 
 def step(normal: NormalEquations, reduced: Reduced) -> tuple[Array, Array]:
     """The step to the minimum of the linear model: (P,) shared and (K, 6) poses."""
-    shared = -reduced.unit * _solved(reduced)
-    right = normal.pose + np.tensordot(normal.W, shared, axes=([1], [0]))
-    halfway = reduced.roots @ right[..., None]
-    return shared, -(np.swapaxes(reduced.roots, 1, 2) @ halfway)[..., 0]
+    return _step(normal, _factored(reduced))
 
 
-def _solved(reduced: Reduced) -> Array:
-    """(P,) S^-1 gradient, scaled; the shortest solution if S is singular."""
-    right = reduced.unit * reduced.gradient
-    if not len(right):
-        return right
+def _factored(reduced: Reduced) -> Factored:
+    if not len(reduced.unit):
+        return Factored(reduced, lambda right: right)
     # S is symmetric: its transpose is in the order that LAPACK works in, without a copy.
-    _, solution, failed = dposv(reduced.scaled.T, right, overwrite_a=True)
-    if failed:
-        try:
-            solution = np.linalg.solve(reduced.scaled, right)
-        except np.linalg.LinAlgError:
-            solution = np.linalg.lstsq(reduced.scaled, right, rcond=1e-15)[0]
-    return np.asarray(solution)
+    factor, failed = dpotrf(reduced.scaled.T, overwrite_a=True)
+    if not failed:
+        return Factored(reduced, lambda right: dpotrs(factor, right)[0])
+    inverse = np.linalg.pinv(reduced.scaled, rcond=1e-15, hermitian=True)
+    return Factored(reduced, lambda right: inverse @ right)
+
+
+def _step(normal: NormalEquations, factored: Factored) -> tuple[Array, Array]:
+    """The step with a matrix of these normal equations or others close to them."""
+    _, gradient, roots, unit = factored.reduced
+    shared = -unit * factored.inverse(unit * gradient)
+    right = normal.pose + np.tensordot(normal.W, shared, axes=([1], [0]))
+    return shared, -_by_own_block(roots, right)[..., 0]
+
+
+def _gradient(normal: NormalEquations, roots: Array) -> Array:
+    """(P,) gc - sum_k Wk Vk^-1 gk."""
+    by_pose = normal.W @ _by_own_block(roots, normal.pose)
+    return np.asarray(normal.shared - by_pose[..., 0].sum(axis=0))
+
+
+def _by_own_block(roots: Array, right: Array) -> Array:
+    """(K, 6, 1) Vk^-1 times (K, 6)."""
+    return np.asarray(np.swapaxes(roots, 1, 2) @ (roots @ right[..., None]))
 
 
 def solve(normal: NormalEquations, damping: float) -> tuple[Array, Array]:

@@ -51,8 +51,9 @@ def fit_plate(
     _check(observations, index, len(points), shape, prior)
     B = basis(shape, points)
     Q, P, K = B.shape[2], len(nominal.state.params), len(nominal.state.R)
-    lost = 0 if prior is not None or shape is not PlateModel.FREE else gauge(points).shape[1]
-    unknowns = len(free) + 6 * K + Q - lost
+    fixed = prior is None and shape is PlateModel.FREE
+    G = gauge(points) if fixed else np.zeros((Q, 0))
+    unknowns = len(free) + 6 * K + Q - G.shape[1]
     sigma2 = uncertainty.variance(nominal.normal.cost, observations.count, len(free) + 6 * K)
     solution = nominal._replace(
         state=nominal.state._replace(params=np.append(nominal.state.params, np.zeros(Q)))
@@ -61,7 +62,7 @@ def fit_plate(
     # Prior and weights are in units of the corners' noise, which the better plate itself lowers.
     settled = prior is None and observations.cov is None
     for _ in range(1 if settled else _ROUNDS):
-        stiffness = _stiffness(shape, points, prior, sigma2)
+        stiffness = _stiffness(shape, G, prior, sigma2)
         solution = minimise(
             plate_problem(observations, model, free, points, index, B, stiffness),
             solution.state,
@@ -86,8 +87,8 @@ def fit_plate(
             "state a prior, or keep the nominal plate.",
         )
     covariance = sigma2 * inverse
-    if lost:
-        covariance = _without_gauge(covariance, gauge(points), len(free))
+    if fixed:
+        covariance = _without_gauge(covariance, G, len(free))
     of_plate = covariance[len(free) :, len(free) :]
     flat = B.reshape(-1, Q)
     spread = np.diag(of_plate) if len(flat) == Q else np.sum(flat @ of_plate * flat, axis=1)
@@ -124,15 +125,12 @@ def _check(
         )
 
 
-def _stiffness(shape: PlateModel, points: Array, prior: Prior | None, sigma2: float) -> Array:
+def _stiffness(shape: PlateModel, G: Array, prior: Prior | None, sigma2: float) -> Array:
     """(Q, Q) what is added to J^T J for the plate: the prior, or the free plate's gauge."""
-    if shape is not PlateModel.FREE:
-        return np.zeros((2, 2))
-    if prior is not None:
-        s = np.array([prior.in_plane, prior.in_plane, prior.out_of_plane])
-        return np.diag(np.tile(sigma2 / s**2, len(points)))
-    G = gauge(points)
-    return G @ G.T
+    if shape is not PlateModel.FREE or prior is None:
+        return G @ G.T
+    s = np.array([prior.in_plane, prior.in_plane, prior.out_of_plane])
+    return np.diag(np.tile(sigma2 / s**2, len(G) // 3))
 
 
 def _without_gauge(covariance: Array, G: Array, P: int) -> Array:

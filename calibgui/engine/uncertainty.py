@@ -103,9 +103,9 @@ def shared_inverse(reduced: Reduced) -> tuple[Array, float]:
     """
     factor, failed = dpotrf(reduced.scaled.T, overwrite_a=True) if len(reduced.unit) else ([], 1)
     if not failed and (np.diag(factor) ** 2 > _CLEAR).all():
-        lower = dpotri(factor, overwrite_c=True)[0].T
-        inverse = np.tril(lower)
-        inverse += np.tril(lower, -1).T
+        lower = dpotri(factor, overwrite_c=True)[0].T  # zero above the diagonal
+        inverse = lower + lower.T
+        inverse[np.diag_indices_from(inverse)] /= 2
         left = 1 / float(np.linalg.norm(inverse))
     else:
         values, vectors = information_left(reduced)
