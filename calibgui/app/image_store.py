@@ -46,6 +46,19 @@ def read_thumbnail(path: str) -> Thumbnail:
     return Thumbnail(stretched(pixels), image.size, file_digest(path))
 
 
+Signature = tuple[int, int]
+"""Time of a file's last change, ns, and its length; zeros where there is no file."""
+
+
+def signature(path: str | Path) -> Signature:
+    """What changes when a file is written to, without reading it."""
+    try:
+        state = Path(path).stat()
+    except OSError:
+        return (0, 0)
+    return state.st_mtime_ns, state.st_size
+
+
 def file_digest(path: str | Path) -> str:
     """SHA-256 of a file's content."""
     with Path(path).open("rb") as file:

@@ -156,6 +156,13 @@ def with_digests(project: Project, digests: Mapping[str, str]) -> Project:
     return replace(project, digests=MappingProxyType({**project.digests, **digests}))
 
 
+def without_digests(project: Project, images: Iterable[str]) -> Project:
+    """The project that does not say what the files of `images` held."""
+    gone = set(images)
+    digests = {image: digest for image, digest in project.digests.items() if image not in gone}
+    return replace(project, digests=MappingProxyType(digests))
+
+
 def relocated(project: Project, moved: Mapping[str, str]) -> Project:
     """The project with images under new paths; results follow."""
 

@@ -9,7 +9,7 @@ from pathlib import Path
 from PySide6.QtCore import QObject, Signal
 
 from calibgui.app.detection import Detection, find_views, usual_board
-from calibgui.app.project import Project, with_each
+from calibgui.app.project import Project, with_each, without_digests
 from calibgui.engine.types import Array, Corners, View, ViewStatus
 from calibgui.gui.jobs import Job
 from calibgui.gui.session import Session
@@ -78,9 +78,11 @@ class Detector(QObject):
             return replace(view, status=ViewStatus.WAITING, reason="", corners=None, points=None)
 
         chosen = list(images)
-        for image in chosen:
-            self._session.images.forget(image)
-        self._session.edit(self.tr("Detect again"), lambda p: with_each(p, chosen, forget))
+
+        def change(project: Project) -> Project:
+            return without_digests(with_each(project, chosen, forget), chosen)
+
+        self._session.edit(self.tr("Detect again"), change)
         self.search()
 
     def _learn(self, found: Iterable[View]) -> None:

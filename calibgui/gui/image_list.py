@@ -34,8 +34,9 @@ from calibgui.app.project import with_each, without_views
 from calibgui.engine.types import View
 from calibgui.gui import theme
 from calibgui.gui.actions import make_action
-from calibgui.gui.image_model import THUMBNAIL, Criterion, ImageModel, Role
+from calibgui.gui.image_model import Criterion, ImageModel, Role
 from calibgui.gui.session import Session
+from calibgui.gui.thumbnails import THUMBNAIL
 
 _PAD = 4
 _BAR = 56
@@ -159,6 +160,7 @@ class ImageList(QWidget):
         super().__init__()
         self._session = session
         self._model = ImageModel(session)
+        self.thumbnails = self._model.thumbnails
         self._order = _Order(self._model)
         self.list = QListView()
         self.list.setModel(self._order)

@@ -12,22 +12,18 @@ from PySide6.QtCore import (
     QCoreApplication,
     QModelIndex,
     QPersistentModelIndex,
-    QSize,
     Qt,
 )
-from PySide6.QtGui import QColor, QImage, QPixmap
+from PySide6.QtGui import QColor
 
-from calibgui.app.image_store import Thumbnail, read_thumbnail
 from calibgui.app.paths import natural_key
-from calibgui.app.project import Project, with_digests
+from calibgui.app.project import Project
 from calibgui.engine.types import Ambiguity, View, ViewStatus
 from calibgui.formats.result import Result
 from calibgui.gui import theme
-from calibgui.gui.picture import qimage
 from calibgui.gui.session import Session
+from calibgui.gui.thumbnails import Thumbnails
 
-THUMBNAIL = QSize(56, 42)
-"""Device-independent px."""
 Index = QModelIndex | QPersistentModelIndex
 
 
@@ -92,8 +88,8 @@ class ImageModel(QAbstractListModel):
         self._session = session
         self._views = session.project.views
         self._rms: dict[str, float] = {}
-        self._thumbnails: dict[str, QPixmap] = {}
-        self._asked: set[str] = set()
+        self.thumbnails = Thumbnails(session)
+        self.thumbnails.read.connect(self._show_picture)
         session.changed.connect(self._project_changed)
         session.result_changed.connect(self._result_changed)
 
@@ -111,20 +107,43 @@ class ImageModel(QAbstractListModel):
             case Qt.ItemDataRole.DisplayRole:
                 return PurePath(view.image).name
             case Qt.ItemDataRole.DecorationRole:
-                return self._thumbnails.get(view.image)
+                return self.thumbnails.picture(view.image)
             case Qt.ItemDataRole.ToolTipRole:
-                return status_tip(view)
+                return self._tip(view)
             case Qt.ItemDataRole.AccessibleTextRole:
-                return f"{PurePath(view.image).name}, {status_text(view)}"
+                return f"{PurePath(view.image).name}, {self._status(view)}"
             case Role.STATUS:
-                return status_text(view)
+                return self._status(view)
             case Role.COLOUR:
-                return _colour(view)
+                return self._colour(view)
             case Role.RMS:
                 return self._rms.get(view.image)
             case Role.PATH:
                 return view.image
         return None
+
+    def _status(self, view: View) -> str:
+        text = status_text(view)
+        return self.tr("changed · {0}").format(text) if self._altered(view) else text
+
+    def _tip(self, view: View) -> str:
+        tip = status_tip(view)
+        if self._altered(view):
+            tip += "\n" + self.tr(
+                "The file has changed since its corners were found: detect again."
+            )
+        return tip
+
+    def _altered(self, view: View) -> bool:
+        return view.status is not ViewStatus.WAITING and self.thumbnails.altered(view.image)
+
+    def _colour(self, view: View) -> QColor:
+        colours = theme.current()
+        if not view.enabled or view.status is ViewStatus.WAITING:
+            return QColor(colours.muted)
+        if self._altered(view):
+            return QColor(colours.warning)
+        return QColor(colours.good if view.status is ViewStatus.FOUND else colours.bad)
 
     def sort_key(self, row: int, criterion: Criterion) -> tuple[object, ...]:
         """Key of an image among the others; equal ones stand in the order of their names."""
@@ -132,7 +151,7 @@ class ImageModel(QAbstractListModel):
         name = _name_key(view.image)
         match criterion:
             case Criterion.STATUS:
-                return (status_text(view), name)
+                return (self._status(view), name)
             case Criterion.ERROR:
                 return (-self._rms.get(view.image, -1.0), name)
         return (name,)
@@ -145,7 +164,7 @@ class ImageModel(QAbstractListModel):
         if not same:
             self.beginResetModel()
             self.endResetModel()
-            self._read_thumbnails()
+            self.thumbnails.read_new()
             return
         for row, (a, b) in enumerate(zip(before, after.views, strict=True)):
             if a is not b:
@@ -159,48 +178,11 @@ class ImageModel(QAbstractListModel):
         if self._views:
             self.dataChanged.emit(self.index(0), self.index(len(self._views) - 1))
 
-    def _read_thumbnails(self) -> None:
-        new = [view.image for view in self._views if view.image not in self._asked]
-        self._asked.update(new)
-        if not new:
-            return
-        digests: dict[str, str] = {}
-
-        def work(path: str) -> tuple[QImage, Thumbnail]:
-            thumbnail = read_thumbnail(path)
-            return qimage(thumbnail.grey).scaled(
-                THUMBNAIL * 2,
-                Qt.AspectRatioMode.KeepAspectRatio,
-                Qt.TransformationMode.SmoothTransformation,
-            ), thumbnail
-
-        def done(path: str, found: tuple[QImage, Thumbnail]) -> None:
-            image, thumbnail = found
-            digests[path] = thumbnail.digest
-            self._thumbnails[path] = QPixmap.fromImage(image)
-            row = self._session.project.find(path)
-            if row >= 0:
-                self.dataChanged.emit(self.index(row), self.index(row))
-
-        def ended() -> None:
-            def learn(project: Project) -> Project:
-                mine = {view.image for view in project.views} - project.digests.keys()
-                new = {path: digests[path] for path in digests.keys() & mine}
-                return with_digests(project, new) if new else project
-
-            self._session.document.learn(learn)
-
-        # An image that cannot be read is reported by the search for corners.
-        self._session.jobs.each("", new, work, done, failed=lambda _: None, ended=ended)
+    def _show_picture(self, image: str) -> None:
+        if (row := self._session.project.find(image)) >= 0:
+            self.dataChanged.emit(self.index(row), self.index(row))
 
 
 @lru_cache(8192)
 def _name_key(path: str) -> list[tuple[str, int]]:
     return natural_key(Path(path))
-
-
-def _colour(view: View) -> QColor:
-    colours = theme.current()
-    if not view.enabled or view.status is ViewStatus.WAITING:
-        return QColor(colours.muted)
-    return QColor(colours.good if view.status is ViewStatus.FOUND else colours.bad)

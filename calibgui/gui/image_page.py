@@ -67,6 +67,7 @@ class ImagePage(QWidget):
         self.canvas.stepped.connect(session.select_next)
         self.canvas.picked.connect(lambda corner: session.select(session.image, corner))
         session.selected.connect(self._selected)
+        session.renewed.connect(lambda image: self._load(image) if image == session.image else None)
         session.changed.connect(self._project_changed)
         session.result_changed.connect(lambda _: self._show_marks())
 

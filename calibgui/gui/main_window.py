@@ -6,7 +6,7 @@ from importlib import import_module
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from PySide6.QtCore import QSettings, Qt
+from PySide6.QtCore import QEvent, QSettings, Qt
 from PySide6.QtGui import QCloseEvent, QDragEnterEvent, QDropEvent
 from PySide6.QtWidgets import (
     QDockWidget,
@@ -118,7 +118,8 @@ class MainWindow(QMainWindow):
         self.session.failed.connect(self.show_failure)
         self.session.told.connect(self.banner.show_text)
         self.page.place.connect(self.place.setText)
-        self.images.search_wanted.connect(self.detector.search_again)
+        self.images.search_wanted.connect(self._search_again)
+        self.images.thumbnails.found_altered.connect(self._offer_detection)
         self.images.list.addActions(self.page.tools)
         self.target.search_wanted.connect(self.detector.search)
         self.calibrate.clicked.connect(self._calibrate_or_stop)
@@ -130,6 +131,7 @@ class MainWindow(QMainWindow):
             changed.connect(self._show_calibrate)
         self.files.recoverable.connect(self._offer_recovery)
         self.files.images_missing.connect(self._offer_search)
+        self.files.saver.opened.connect(self.images.thumbnails.look_for_changes)
         self.target.print_wanted.connect(self.files.print_board)
         self.welcome.folder_wanted.connect(self.files.ask_for_folder)
         self.welcome.images_wanted.connect(self.files.ask_for_images)
@@ -221,6 +223,19 @@ class MainWindow(QMainWindow):
             },
         )
 
+    def _search_again(self, images: list[str]) -> None:
+        """Search images anew, as their files are now."""
+        self.detector.search_again(images)
+        self.images.thumbnails.read_again(images)
+
+    def _offer_detection(self, altered: list[str]) -> None:
+        self.banner.show_text(
+            self.tr(
+                "{0} of {1} images changed since their corners were found, among them {2}."
+            ).format(len(altered), len(self.session.project.views), altered[0]),
+            {self.tr("&Detect again"): lambda: self._search_again(altered)},
+        )
+
     def _offer_search(self, missing: list[str]) -> None:
         self.banner.show_text(
             self.tr("{0} of {1} images are not where they were, among them {2}.").format(
@@ -237,6 +252,11 @@ class MainWindow(QMainWindow):
         urls = event.mimeData().urls()
         self.files.open_paths([url.toLocalFile() for url in urls if url.isLocalFile()])
         event.acceptProposedAction()
+
+    def changeEvent(self, event: QEvent) -> None:  # noqa: N802 - Qt's name
+        super().changeEvent(event)
+        if event.type() == QEvent.Type.ActivationChange and self.isActiveWindow():
+            self.images.thumbnails.look_for_changes()
 
     def closeEvent(self, event: QCloseEvent) -> None:  # noqa: N802 - Qt's name
         if not self.files.may_leave():

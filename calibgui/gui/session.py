@@ -21,6 +21,8 @@ class Session(QObject):
     """The project before and after an edit, an undo, a finding, or opening another one."""
     selected = Signal(str, int)
     """The image chosen to be looked at ("" for none), and one of its corners or -1."""
+    renewed = Signal(str)
+    """The file of an image holds another picture than before."""
     result_changed = Signal(object)
     """The result that is shown, or None."""
     failed = Signal(Exception)
@@ -77,6 +79,11 @@ class Session(QObject):
         if (image, corner) != (self.image, self.corner):
             self.image, self.corner = image, corner
             self.selected.emit(image, corner)
+
+    def renew(self, image: str) -> None:
+        """Forget the picture of an image: its file holds another one."""
+        self.images.forget(image)
+        self.renewed.emit(image)
 
     def select_next(self, step: int) -> None:
         """Look at the next image in the project's order, or the one before."""

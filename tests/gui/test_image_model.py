@@ -14,6 +14,7 @@ from calibgui.gui import image_model
 from calibgui.gui.image_list import ImageList
 from calibgui.gui.image_model import Criterion
 from calibgui.gui.session import Session
+from calibgui.gui.thumbnails import Thumbnails
 
 
 @pytest.mark.parametrize("criterion", Criterion)
@@ -21,7 +22,7 @@ def test_one_finding_among_a_thousand_looks_at_few(
     qapp: QApplication, monkeypatch: pytest.MonkeyPatch, tmp_path: Path, criterion: Criterion
 ) -> None:
     session = Session(qapp)
-    monkeypatch.setattr(image_model.ImageModel, "_read_thumbnails", lambda _: None)
+    monkeypatch.setattr(Thumbnails, "read_new", lambda _: None)
     images = ImageList(session)
     names = [str(tmp_path / f"{k:04}.png") for k in range(1000)]
     session.begin(Document(with_images(Project(), names)))
@@ -47,7 +48,7 @@ def test_names_with_numbers_are_in_the_order_people_expect(
     qapp: QApplication, monkeypatch: pytest.MonkeyPatch, tmp_path: Path
 ) -> None:
     session = Session(qapp)
-    monkeypatch.setattr(image_model.ImageModel, "_read_thumbnails", lambda _: None)
+    monkeypatch.setattr(Thumbnails, "read_new", lambda _: None)
     images = ImageList(session)
     names = [str(tmp_path / f"Image{k}.tif") for k in (10, 2, 1)]
     session.begin(Document(with_images(Project(), names)))
