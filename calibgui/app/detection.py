@@ -19,11 +19,8 @@ from calibgui.app.workers import Crashed, spread
 from calibgui.engine.corners import METHODS, find_corners
 from calibgui.engine.errors import CalibrationError, NoBoardError
 from calibgui.engine.images import image_size, read_image
-from calibgui.engine.types import Array, Size, Target, View, ViewStatus
+from calibgui.engine.types import Array, Board, Size, Target, View, ViewStatus
 from calibgui.formats.corners_json import CornerSet
-
-Board = tuple[int, int]
-"""Rows and columns of inner corners."""
 
 Progress = Callable[[int, int, View], None]
 """Told of each image done: how many are, of how many, and its view."""

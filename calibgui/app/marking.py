@@ -8,14 +8,13 @@ from typing import Any
 
 import numpy as np
 
-from calibgui.app.detection import Board
 from calibgui.engine import homography
 from calibgui.engine.corners import find_corners, saddle
 from calibgui.engine.corners.junctions import classify, find_saddles
 from calibgui.engine.corners.ordering import ambiguity
 from calibgui.engine.errors import CalibrationError, NoBoardError
 from calibgui.engine.opencv import Image
-from calibgui.engine.types import Array, Corners, IntArray
+from calibgui.engine.types import Array, Board, Corners, IntArray
 
 _CONTRAST = 0.1
 """Least contrast of a corner over the range of grey levels around the cursor."""

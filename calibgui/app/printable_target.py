@@ -11,9 +11,9 @@ from dataclasses import dataclass
 from pathlib import Path
 from xml.sax.saxutils import escape
 
-from calibgui.app.detection import Board
 from calibgui.engine.errors import CalibrationError
 from calibgui.engine.files import write_atomically
+from calibgui.engine.types import Board
 
 PAPERS = {
     "A4": (210.0, 297.0),

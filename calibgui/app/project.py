@@ -11,8 +11,8 @@ from dataclasses import dataclass, field, replace
 from enum import StrEnum
 from types import MappingProxyType
 
-from calibgui.app.detection import Board, usual_board
-from calibgui.engine.types import Cost, Plate, PlateModel, Prior, Size, Target, View
+from calibgui.app.detection import usual_board
+from calibgui.engine.types import Board, Cost, Plate, PlateModel, Prior, Size, Target, View
 from calibgui.formats.result import Result
 
 DEFAULT_SQUARE = 30.0

@@ -7,12 +7,13 @@ import re
 from collections.abc import Iterable
 from pathlib import Path
 
-from calibgui.app.detection import Board, Detection, find_views
+from calibgui.app.detection import Detection, find_views
 from calibgui.app.paths import find_images
 from calibgui.app.regions import read_regions
 from calibgui.cli.console import Console
 from calibgui.engine.corners import METHODS
 from calibgui.engine.corners.lattice import MIN_LINES
+from calibgui.engine.types import Board
 
 
 def board(text: str) -> Board:

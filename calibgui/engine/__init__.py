@@ -10,6 +10,9 @@ from calibgui.engine.maps import distort_points, project_points, undistort_point
 from calibgui.engine.refit import Refit, refit
 from calibgui.engine.render import render
 from calibgui.engine.statistics import Summary, summarise
+from calibgui.engine.targets.charuco import Charuco
+from calibgui.engine.targets.circles import Circles
+from calibgui.engine.targets.pattern import Checkerboard
 from calibgui.engine.types import (
     Ambiguity,
     Calibration,
@@ -32,6 +35,9 @@ __all__ = [
     "CalibrationError",
     "Camera",
     "Cancelled",
+    "Charuco",
+    "Checkerboard",
+    "Circles",
     "Corners",
     "Cost",
     "DegenerateError",

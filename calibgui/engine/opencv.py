@@ -12,7 +12,7 @@ import cv2
 import numpy as np
 import numpy.typing as npt
 
-from calibgui.engine.types import Array
+from calibgui.engine.types import Array, BoolArray, IntArray
 
 VERSION: str = cv2.__version__
 
@@ -135,3 +135,95 @@ def storage(suffix: str, values: Mapping[str, int | float | str | Array], commen
     for name, value in values.items():
         file.write(name, np.array(value) if isinstance(value, np.ndarray) else value)
     return str(file.releaseAndGetString())
+
+
+def dictionaries() -> dict[str, int]:
+    """Names of the predefined dictionaries of markers, and how many markers each has."""
+    names = {name.upper() for name in vars(cv2.aruco) if name.startswith("DICT_")}
+    return {name: len(_dictionary(name).bytesList) for name in sorted(names)}
+
+
+def markers(image: Image, dictionary: str) -> tuple[IntArray, Array]:
+    """The square markers of a predefined dictionary in an 8-bit image (h, w).
+
+    Returns:
+        Their numbers (n,) and corners (n, 4, 2) px: first, clockwise as printed, the upper left.
+    """
+    parameters = cv2.aruco.DetectorParameters()
+    parameters.minMarkerPerimeterRate = min(0.03, 4 * _LEAST_MARKER / max(image.shape))
+    parameters.cornerRefinementMethod = cv2.aruco.CORNER_REFINE_SUBPIX
+    detector = cv2.aruco.ArucoDetector(_dictionary(dictionary), parameters)
+    corners, ids, *_ = detector.detectMarkers(image)
+    if ids is None or not len(corners):
+        return np.zeros(0, np.int64), np.zeros((0, 4, 2))
+    return np.asarray(ids, np.int64).ravel(), np.array(corners, np.float64).reshape(-1, 4, 2)
+
+
+def marker_cells(dictionary: str, number: int) -> BoolArray:
+    """(k, k) which cells of a marker are dark, its border of one cell included."""
+    source = _dictionary(dictionary)
+    side = source.markerSize + 2
+    return np.asarray(cv2.aruco.generateImageMarker(source, number, side)) == 0
+
+
+def _dictionary(name: str) -> Any:
+    known = {key.upper(): value for key, value in vars(cv2.aruco).items() if key[:5] == "DICT_"}
+    return cv2.aruco.getPredefinedDictionary(known[name])
+
+
+_LEAST_MARKER = 10.0
+"""Side of the smallest markers that are looked for, px."""
+
+
+def dark_parts(image: Image, window: int) -> tuple[npt.NDArray[np.int32], int]:
+    """Connected parts of an 8-bit image (h, w) darker than the mean of the `window` px around.
+
+    Returns:
+        The number (h, w) of the part that each pixel belongs to, 0 for none, and the numbers' end.
+    """
+    dark = cv2.adaptiveThreshold(
+        image, 255, cv2.ADAPTIVE_THRESH_MEAN_C, cv2.THRESH_BINARY_INV, 2 * (window // 2) + 1, 8
+    )
+    count, labels, *_ = cv2.connectedComponentsWithStats(dark, connectivity=4)
+    return np.asarray(labels, np.int32), int(count)
+
+
+def circle_grid(points: Array, board: tuple[int, int], asymmetric: bool) -> Array | None:
+    """The grid of rows x columns among `points` (n, 2) px.
+
+    OpenCV takes an image only: the points are painted as discs, to scale.
+
+    Returns:
+        (rows * columns, 2) px, row by row, from whichever of the grid's corners OpenCV takes
+        first; None if there is no such grid.
+    """
+    low = points.min(axis=0)
+    scale = _CANVAS / float(np.ptp(points, axis=0).max())
+    places = (points - low) * scale + _CANVAS / 8
+    canvas = np.full((_CANVAS * 5 // 4, _CANVAS * 5 // 4), 255, np.uint8)
+    for u, v in np.rint(places).astype(int).tolist():
+        cv2.circle(canvas, (u, v), _DOT, 0, -1)
+    blobs: Any = cv2  # the stubs of some versions lack them
+    parameters = blobs.SimpleBlobDetector_Params()
+    parameters.minThreshold, parameters.maxThreshold, parameters.thresholdStep = 100, 201, 100
+    parameters.minRepeatability, parameters.minDistBetweenBlobs = 1, 1.0
+    parameters.minArea, parameters.filterByConvexity, parameters.filterByInertia = 4, False, False
+    detector = blobs.SimpleBlobDetector_create(parameters)
+    layout = cv2.CALIB_CB_ASYMMETRIC_GRID if asymmetric else cv2.CALIB_CB_SYMMETRIC_GRID
+    for strategy in (0, cv2.CALIB_CB_CLUSTERING):
+        try:
+            found, centres = cv2.findCirclesGrid(
+                canvas, board[::-1], flags=layout | strategy, blobDetector=detector
+            )
+        except cv2.error:  # what is not a grid can trip it
+            continue
+        if found and centres is not None and centres.size == 2 * board[0] * board[1]:
+            painted = np.asarray(centres, np.float64).reshape(-1, 2)
+            return (painted - _CANVAS / 8) / scale + low
+    return None
+
+
+_CANVAS = 1600
+"""Longer side of what the points are painted on, px."""
+_DOT = 4
+"""Radius of a painted point, px."""

@@ -1,20 +1,11 @@
-"""Synthetic views of a checkerboard (paper 5.2), area-sampled.
+"""Synthetic views of a target (paper 5.2), area-sampled.
 
-A pixel integrates the light that falls on its unit square. In plate coordinates counted in
-squares, (X, Y) = plate point / side, the board is made of products of functions of X and of
-Y alone. With H the unit step, q, b the boxes that hold the sheet and the squares, and
-c(X) = (-1)^floor(X) on the squares, 0 beside them, its colour is
+A pixel integrates the light that falls on its unit square. The sheet and the ink on it give the
+share of each that it sees (``targets/ink.py``), and its colour is
 
-    background + (white - background) q(X) q(Y) - (white - black) (b(X) b(Y) + c(X) c(Y)) / 2,
+    background + (white - background) sheet - (white - black) ink.
 
-so that square (-1, -1), outside corner (0, 0), is black. Within a pixel X is affine:
-X + g . e, e in [-1/2, 1/2]^2. A step's mean over the pixel is the distribution function of
-the sum of two uniform variables of widths A = |g_u|, B = |g_v|,
-
-    step(X) = [ (X + s)_+^2 - (X + m)_+^2 - (X - m)_+^2 + (X - s)_+^2 ] / (2 A B),
-
-with s = (A + B) / 2, m = |A - B| / 2 and (z)_+ = max(z, 0). It is exact for a straight edge
-at any angle. Pixels that an edge crosses are divided into `_FINE`^2 parts first, for two
+Pixels that an edge crosses are divided into `_FINE`^2 parts first, for two
 reasons: perspective and distortion bend the map by up to 1e-2 px within a pixel, and where edges
 of X and of Y meet the mean of the product is not the product of the means. What is left
 moves a corner by less than 1e-3 px in a hard case, 1e-4 in an ordinary one.
@@ -35,6 +26,7 @@ from calibgui.engine.errors import CalibrationError
 from calibgui.engine.frames import centre_of_array, rotation
 from calibgui.engine.lens import MODELS
 from calibgui.engine.projection import normalise
+from calibgui.engine.targets.ink import Ink, Raster
 from calibgui.engine.types import Array, Camera, Pose, Target
 
 _FINE = 4
@@ -51,7 +43,7 @@ class Appearance:
     white: float = 220.0
     background: float = 120.0
     quiet_zone: float = 1.0
-    """White margin around the squares, in squares."""
+    """White margin around the pattern, pitches."""
     shading: tuple[float, float] = (0.0, 0.0)
     """Relative change of the light from the left to the right edge, and from top to bottom."""
     stretch: float = 1.0
@@ -70,19 +62,20 @@ def render(
     seed: int = 0,
     appearance: Appearance | None = None,
 ) -> npt.NDArray[np.uint8]:
-    """The view (h, w) that `camera` has of a checkerboard.
+    """The view (h, w) that `camera` has of a target.
 
     Args:
         camera: intrinsics, any lens model; its size is the image's.
         pose: cam_from_plate, mm. A board seen from behind shows its pattern mirrored.
-        target: the board.
+        target: the board, of any pattern.
         blur: standard deviation of the Gaussian blur, px.
         noise: standard deviation of the Gaussian noise, grey levels.
         seed: of the noise; the same seed gives the same image.
         appearance: grey levels, margin and light.
 
     Raises:
-        CalibrationError: if the plate passes through the camera's centre.
+        CalibrationError: if the plate passes through the camera's centre, or the pattern leaves
+            something open.
     """
     levels = irradiance(camera, pose, target, blur=blur, appearance=appearance)
     if noise > 0:
@@ -103,7 +96,7 @@ def irradiance(
     (w, h), margin = camera.size, int(np.ceil(4 * blur))
     u, v = (np.arange(-margin, n + margin, dtype=np.float64) for n in camera.size)
     rows = max(1, _CHUNK // len(u))
-    scene = _Scene(camera, pose, target, look)
+    scene = _Scene(camera, pose, target, target.pattern.ink(target.board), look)
     levels = np.concatenate(
         [scene.levels(_grid(u, v[i : i + rows])) for i in range(0, len(v), rows)]
     )
@@ -141,6 +134,7 @@ class _Scene:
     camera: Camera
     pose: Pose
     target: Target
+    ink: Ink
     look: Appearance
 
     def levels(self, uv: Array) -> Array:
@@ -160,18 +154,14 @@ class _Scene:
     def _sample(self, uv: Array, width: float) -> tuple[Array, npt.NDArray[np.bool_]]:
         """Mean levels of squares of side `width` px at `uv`, and which of them edges may cross."""
         XY, gradient, visible = self._plate(uv)
-        A, B = np.moveaxis(np.abs(gradient) * width, -1, 0)
-        shape = (self.target.cols, self.target.rows)
-        sheet, board, checks, edges = zip(
-            *(self._profile(XY[..., i], A[..., i], B[..., i], shape[i]) for i in (0, 1)),
-            strict=True,
-        )
         look = self.look
-        levels = look.background + (look.white - look.background) * sheet[0] * sheet[1]
-        ink = (board[0] * board[1] + checks[0] * checks[1]) / 2
+        widths = gradient * width
+        # The paper ends far from any point: that its edges are not divided does no harm.
+        sheet, _ = _sheet(self.ink, look.quiet_zone).share(XY, widths)
+        ink, mixed = self.ink.share(XY, widths)
+        levels = look.background + (look.white - look.background) * sheet
         levels = np.where(visible, levels - (look.white - look.black) * ink, look.background)
-        coarse = (np.max(A + B, axis=-1) > 0.5) & (sheet[0] * sheet[1] > 0)
-        return levels, visible & (edges[0] | edges[1] | coarse)
+        return levels, visible & mixed
 
     def _plate(self, uv: Array) -> tuple[Array, Array, npt.NDArray[np.bool_]]:
         """Plate points (..., 2) in squares, their gradient (..., 2, 2), and where there are any."""
@@ -189,26 +179,9 @@ class _Scene:
         XY[~visible], gradient[~visible] = 0.0, 1.0
         return XY, gradient, visible
 
-    def _profile(
-        self, X: Array, A: Array, B: Array, count: int
-    ) -> tuple[Array, Array, Array, npt.NDArray[np.bool_]]:
-        """Means of q, b and c over widths A and B along one axis, and where an edge is within."""
-        margin = 1 + self.look.quiet_zone
-        sheet = _step(X + margin, A, B) - _step(X - (count - 1 + margin), A, B)
-        board = _step(X + 1, A, B) - _step(X - count, A, B)
-        k = np.clip(np.rint(X), -1, count)
-        sign = 1 - 2 * np.mod(k, 2)
-        before, after = np.where(k > -1, -sign, 0.0), np.where(k < count, sign, 0.0)
-        passed = _step(X - k, A, B)
-        checks = before + (after - before) * passed
-        return sheet, board, checks, np.abs(X - k) < (A + B) / 2
 
-
-def _step(X: Array, A: Array, B: Array) -> Array:
-    """Mean of H(X + A e1 + B e2) over e in [-1/2, 1/2]^2."""
-    s = (A + B) / 2
-    # A width of a millionth of the other changes nothing and keeps the quotient defined.
-    m = np.minimum(np.abs(A - B) / 2, s * (1 - 1e-6))
-    inside = np.clip(X, -s, s)
-    corner = np.maximum(inside - m, 0) ** 2 + np.maximum(inside + m, 0) ** 2
-    return np.asarray(np.clip(((inside + s) ** 2 - corner) / (2 * (s * s - m * m)), 0.0, 1.0))
+def _sheet(ink: Ink, margin: float) -> Raster:
+    """The paper: the pattern and the margin around it, pitches."""
+    left, top, right, bottom = ink.extent
+    x, y = np.array([left - margin, right + margin]), np.array([top - margin, bottom + margin])
+    return Raster(x, y, np.ones((1, 1), dtype=np.bool_))

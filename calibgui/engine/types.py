@@ -15,12 +15,17 @@ from typing import Any, NamedTuple
 import numpy as np
 import numpy.typing as npt
 
+from calibgui.engine.targets.pattern import CHECKERBOARD, Pattern
+
 Array = npt.NDArray[np.float64]
 IntArray = npt.NDArray[np.int64]
 BoolArray = npt.NDArray[np.bool_]
 
 Size = tuple[int, int]
 """Width and height of an image, pixels."""
+
+Board = tuple[int, int]
+"""Rows and columns of a target's points: inner corners of a checkerboard, circles of a grid."""
 
 
 def frozen(values: npt.ArrayLike) -> Array:
@@ -39,22 +44,29 @@ def frozen_int(values: npt.ArrayLike) -> IntArray:
 
 @dataclass(frozen=True, slots=True)
 class Target:
-    """A flat checkerboard with rows x cols inner corners (the paper's M x N).
+    """A flat target: by default a checkerboard with rows x cols inner corners (the paper's M x N).
 
-    Plate frame: origin at corner (0, 0), X along a row (increasing column), Y down the
+    Plate frame: origin at point (0, 0), X along a row (increasing column), Y down the
     rows, both in mm, so that an upright board seen from its front has R close to identity.
     """
 
     rows: int
     cols: int
     square: float
-    """Side of a square, mm (the paper's D_o)."""
+    """The pattern's pitch, mm: the side of a square (the paper's D_o)."""
+    pattern: Pattern = CHECKERBOARD
+    """What is printed, and how it is found."""
+
+    @property
+    def board(self) -> Board:
+        """Rows and columns."""
+        return self.rows, self.cols
 
     def points(self, grid: npt.ArrayLike | None = None) -> Array:
-        """(n, 2) plate coordinates, mm, of corners (n, 2) = (row, column); all by default."""
+        """(n, 2) plate coordinates, mm, of points (n, 2) = (row, column); all by default."""
         if grid is None:
-            grid = np.indices((self.rows, self.cols)).reshape(2, -1).T
-        return np.asarray(grid, dtype=np.float64)[:, ::-1] * self.square
+            grid = np.indices(self.board).reshape(2, -1).T
+        return self.pattern.places(np.asarray(grid, dtype=np.float64)) * self.square
 
 
 class Ambiguity(StrEnum):
@@ -84,10 +96,10 @@ class OtherBoard(NamedTuple):
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Corners:
-    """The X-junctions located in one image, with their places on the board."""
+    """The points located in one image (X-junctions or circles), with their places on the board."""
 
-    shape: tuple[int, int]
-    """Rows and columns of inner corners of the board (M, N)."""
+    shape: Board
+    """Rows and columns of the board's points (M, N)."""
     grid: IntArray
     """(n, 2) row and column of each corner."""
     uv: Array
@@ -111,6 +123,8 @@ class Corners:
     rejected: tuple[Rejection, ...] = ()
     others: tuple[OtherBoard, ...] = ()
     """Further boards in the image."""
+    pattern: Pattern = CHECKERBOARD
+    """What they are of, with all that the image tells of it."""
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "grid", frozen_int(self.grid))

@@ -13,7 +13,7 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
-from calibgui.app.detection import Board
+from calibgui.engine.types import Board
 from calibgui.gui import theme
 
 

@@ -6,10 +6,9 @@ import numpy as np
 from PySide6.QtCore import QObject, QPointF, QRectF, Qt, Signal
 from PySide6.QtGui import QKeyEvent, QMouseEvent, QPainter
 
-from calibgui.app.detection import Board
 from calibgui.app.marking import projected, snapped
 from calibgui.engine.opencv import Image
-from calibgui.engine.types import Array, Corners
+from calibgui.engine.types import Array, Board, Corners
 from calibgui.gui import layers, theme
 from calibgui.gui.canvas import Canvas
 from calibgui.gui.loupe import paint_loupe

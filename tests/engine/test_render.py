@@ -10,7 +10,8 @@ from scipy.spatial.transform import Rotation
 
 from calibgui.engine.errors import CalibrationError
 from calibgui.engine.projection import pixels
-from calibgui.engine.render import Appearance, _step, irradiance, render
+from calibgui.engine.render import Appearance, irradiance, render
+from calibgui.engine.targets.ink import step
 from calibgui.engine.types import Array, Camera, Pose, Target
 
 Lattice = tuple[int, int]
@@ -172,5 +173,5 @@ def test_step_is_the_mean_over_the_pixel(X: float, A: float, B: float) -> None:
     # Mean along the longer width in closed form, along the other by the midpoint rule.
     inner = X + min(A, B) * e
     mean = np.mean(np.clip(inner / max(A, B) + 0.5, 0, 1))
-    value = _step(np.array(X), np.array(A), np.array(B))
+    value = step(np.array(X), np.array(A), np.array(B))
     assert float(value) == pytest.approx(float(mean), abs=1e-5)

@@ -61,9 +61,10 @@ class Look:
         return has, gap
 
 
-def typical(lattice: Lattice, image: Image) -> Look:
-    """The look of the corners of `lattice`."""
-    corners = placed(lattice)
+def typical(lattice: Lattice, image: Image, plain: float = 0.5) -> Look:
+    """The look of the corners of `lattice`, near them if the squares are of one colour only up to
+    `plain` squares from their edges."""
+    corners = placed(lattice, plain)
     _, contrast = sectors(image, *corners)
     surroundings = _surroundings(image, *corners)
     pattern = _standard(np.median(surroundings, axis=0))
@@ -71,9 +72,9 @@ def typical(lattice: Lattice, image: Image) -> Look:
     return Look(float(np.median(contrast)), pattern, float(np.median(unlike)))
 
 
-def placed(lattice: Lattice) -> tuple[Array, Array, Array, BoolArray]:
-    """The corners of `lattice` as `sectors` takes them."""
-    right, down = axes(lattice.uv)
+def placed(lattice: Lattice, plain: float = 0.5) -> tuple[Array, Array, Array, BoolArray]:
+    """The corners of `lattice` as `sectors` takes them, with shorter steps if less is `plain`."""
+    right, down = (2 * plain * step for step in axes(lattice.uv))
     at = np.nonzero(lattice.found)
     dark = lattice.dark ^ ((at[0] + at[1]) % 2 == 1)
     return lattice.uv[at], right[at], down[at], dark

@@ -58,6 +58,8 @@ class Edges:
     """(n, 2) height of a square over edge 1 and over edge 2, px."""
     arm: Array
     """(n, 2) how far edges 1 and 2 are read to both sides, px."""
+    room: Array
+    """(n, 2) how far across them the squares are of one colour, px."""
     curvature: Array
     """(n, 2) kappa_1, kappa_2, 1/px."""
     spread: Array
@@ -94,7 +96,7 @@ class Edges:
     def bands(self) -> Bands:
         """The pixels to read."""
         grown = abs(self.spread)[:, None] * self.size
-        width = np.minimum(2.3 * self.unknowns[BLUR] + 0.7 + grown, self.size / 2)
+        width = np.minimum(2.3 * self.unknowns[BLUR] + 0.7 + grown, self.room)
         return Bands(
             self.unknowns[C], self.tangents(), self.normals(), self.curvature, self.arm, width
         )

@@ -45,6 +45,8 @@ _NEAR = 9.0
 _LEAST_SPREAD, _MOST_SPREAD = 0.002, 0.2
 """Spreads that are told from none and that are believed, squares."""
 _MOST_RHO = 0.95
+_BLURRED = 1.5
+"""How far from where a square's colour ends its blur is felt, blurs."""
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -73,10 +75,13 @@ class Fit:
         return 2 * self.edges.unknowns[A]
 
 
-def fit(image: Image, lattice: Lattice) -> Fit:
-    """Fit the edge model at every corner of `lattice`, whose positions are the start."""
+def fit(image: Image, lattice: Lattice, plain: float = 0.5) -> Fit:
+    """Fit the edge model at every corner of `lattice`, whose positions are the start.
+
+    The squares are of one colour up to `plain` squares from their edges.
+    """
     board = Surroundings(lattice.found)
-    edges = _start(image, lattice, board)
+    edges = _start(image, lattice, board, plain)
     near = replace(edges, arm=np.minimum(edges.arm, _NEAR))
     first = _step(near, normal_equations(image, near))
     edges = _surrounded(replace(edges, unknowns=first.edges.unknowns), lattice, board)
@@ -85,7 +90,7 @@ def fit(image: Image, lattice: Lattice) -> Fit:
     return _step(edges, equations)
 
 
-def _start(image: Image, lattice: Lattice, board: Surroundings) -> Edges:
+def _start(image: Image, lattice: Lattice, board: Surroundings, plain: float) -> Edges:
     """Parameters from the lattice and from profiles across the edges."""
     found = lattice.found
     cells = np.argwhere(found)
@@ -102,6 +107,7 @@ def _start(image: Image, lattice: Lattice, board: Surroundings) -> Edges:
         sign=np.where(lattice.dark ^ (cells.sum(axis=1) % 2 == 1), -1.0, 1.0),
         size=area[:, None] / length,
         arm=np.minimum(length / 2, max(_LONGEST, _ARMS / n)),
+        room=plain * area[:, None] / length,
         curvature=board.curvatures(lattice.uv[found]),
         spread=np.zeros(n),
         level_gradient=np.zeros((n, 2)),
@@ -112,7 +118,7 @@ def _start(image: Image, lattice: Lattice, board: Surroundings) -> Edges:
     normals = edges.normals()
     seen = [
         profiles.across_edge(
-            image, edges.unknowns[C], steps[i], steps[1 - i], edges.size[:, i], edges.sign
+            image, edges.unknowns[C], steps[i], steps[1 - i], edges.size[:, i], edges.sign, plain
         )
         for i in (0, 1)
     ]
@@ -123,6 +129,9 @@ def _start(image: Image, lattice: Lattice, board: Surroundings) -> Edges:
     unknowns[BLUR] = np.clip(blur, SHARPEST, edges.size / 4)
     unknowns[M], unknowns[A] = (high + low) / 2, (high - low) / 2
     unknowns[RHO] = np.sum(normals[:, 0] * normals[:, 1], axis=1)
+    if plain < 0.5:  # what lies beyond is blurred into the room
+        room = edges.room
+        edges = replace(edges, room=np.maximum(room - _BLURRED * unknowns[BLUR], room / 2))
     return replace(edges, spread=_common_spread(np.column_stack([side.spread for side in seen])))
 
 

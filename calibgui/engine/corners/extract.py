@@ -13,7 +13,6 @@ from calibgui.engine.corners.finder import find_boards
 from calibgui.engine.corners.lattice import MIN_LINES, Lattice
 from calibgui.engine.corners.located import METHODS, Located, guided, locate
 from calibgui.engine.corners.ordering import (
-    Board,
     Numbering,
     ambiguity,
     numberings,
@@ -22,7 +21,7 @@ from calibgui.engine.corners.ordering import (
 )
 from calibgui.engine.errors import NoBoardError
 from calibgui.engine.opencv import Image
-from calibgui.engine.types import Array, Corners, OtherBoard
+from calibgui.engine.types import Array, Board, Corners, OtherBoard
 
 _STATE_SIZE = "State the number of inner corners, rows x columns, or leave it out."
 
@@ -60,7 +59,7 @@ def find_corners(
         raise ValueError(f"method {method!r} is none of {', '.join(METHODS)}")
     if board is not None and min(board) < MIN_LINES:
         raise ValueError(f"a board needs {MIN_LINES} x {MIN_LINES} inner corners, not {board}")
-    grey = _grey(image)
+    grey = grey_levels(image)
     outline = None if roi is None else region.outline(roi)
     others: list[Located] = []
     try:
@@ -72,7 +71,8 @@ def find_corners(
     return _record(grey, found, _numbered(grey, found.lattice, board, outline), outline, others)
 
 
-def _grey(image: npt.ArrayLike) -> Image:
+def grey_levels(image: npt.ArrayLike) -> Image:
+    """The image (h, w) as uint8, uint16 or float32. Raises ValueError for what is none."""
     grey = np.asarray(image)
     if grey.ndim != 2 or min(grey.shape) < 16:
         raise ValueError(f"an image of grey levels (h, w) is needed, not of shape {grey.shape}")

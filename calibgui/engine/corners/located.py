@@ -8,9 +8,8 @@ from calibgui.engine.corners import edges, saddle, verify
 from calibgui.engine.corners import roi as region
 from calibgui.engine.corners.edges import Fit
 from calibgui.engine.corners.lattice import MIN_CORNERS, Lattice, large_enough, supported
-from calibgui.engine.corners.ordering import Board
 from calibgui.engine.opencv import Image
-from calibgui.engine.types import Array, BoolArray, Rejection
+from calibgui.engine.types import Array, Board, BoolArray, Rejection
 
 METHODS = ("edges", "saddle")
 _ROUNDS = 4
@@ -43,8 +42,8 @@ def locate(grey: Image, lattice: Lattice, method: str) -> Located | None:
     if not verify.credible(good, lattice.found):
         return None
     rejected = [
-        *_rejections(lattice.uv[lattice.found & ~refined.found], "no saddle point"),
-        *_rejections(lattice.uv[lattice.found & refined.found & ~good], "off place or colours"),
+        *rejections(lattice.uv[lattice.found & ~refined.found], "no saddle point"),
+        *rejections(lattice.uv[lattice.found & refined.found & ~good], "off place or colours"),
     ]
     return _fitted(grey, supported(refined.under(good)), rejected, method)
 
@@ -62,7 +61,7 @@ def guided(grey: Image, board: Board, outline: Array, method: str) -> Located | 
     lattice, missing = max(parts, key=lambda part: len(part[0]))
     if len(lattice) < max(MIN_CORNERS, lattice.found.size // 2):
         return None
-    doubtful = _rejections(missing, "not found where the marked points place it")
+    doubtful = rejections(missing, "not found where the marked points place it")
     return _fitted(grey, lattice, doubtful, method)
 
 
@@ -85,12 +84,13 @@ def _fitted(
         keep = lattice.found
         keep[keep] = good
         left_out = lattice.uv[lattice.found & ~keep]
-        rejected = [*rejected, *_rejections(left_out, "not two crossing edges")]
+        rejected = [*rejected, *rejections(left_out, "not two crossing edges")]
         lattice = supported(lattice.under(keep))
     return None
 
 
-def _rejections(uv: Array, reason: str) -> list[Rejection]:
+def rejections(uv: Array, reason: str) -> list[Rejection]:
+    """Corners (n, 2) px that are not trusted for one reason."""
     return [Rejection(float(u), float(v), reason) for u, v in uv]
 
 

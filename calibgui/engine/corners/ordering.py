@@ -20,10 +20,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from calibgui.engine.corners.lattice import Lattice
-from calibgui.engine.types import Ambiguity, Array, IntArray
+from calibgui.engine.types import Ambiguity, Array, Board, IntArray
 
-Board = tuple[int, int]
-"""Rows and columns of inner corners."""
 Sides = tuple[bool, bool, bool, bool]
 """Above the first row, right of the last column, below the last row, left of the first column."""
 

@@ -46,7 +46,13 @@ class Profile(NamedTuple):
 
 
 def across_edge(
-    image: Image, uv: Array, along: Array, across: Array, size: Array, sign: Array
+    image: Image,
+    uv: Array,
+    along: Array,
+    across: Array,
+    size: Array,
+    sign: Array,
+    plain: float = 0.5,
 ) -> Profile:
     """Profiles across one edge of each corner, in the direction of the other.
 
@@ -57,9 +63,11 @@ def across_edge(
         across: (n, 2) step of a square along the other edge, px.
         size: (n,) height of a square over the edge, px.
         sign: (n,) p, +1 where the square towards both steps is bright.
+        plain: how far from its edges a square is of one colour, squares.
     """
     s = np.concatenate([_ALONG, -_ALONG])
-    o = np.linspace(-_REACH, _REACH, _SAMPLES)
+    reach = _REACH * 2 * plain
+    o = np.linspace(-reach, reach, _SAMPLES)
     at = uv[:, None, None] + s[:, None, None] * along[:, None, None]
     at = at + o[:, None] * across[:, None, None]
     arm = np.repeat([1.0, -1.0], len(_ALONG))
@@ -70,7 +78,7 @@ def across_edge(
     clear = rise > _CLEAR * np.median(rise)
     share = (values - first[..., None]) / np.where(clear, rise * rising, np.inf)[..., None]
     integral = (share.sum(axis=2) - share[..., [0, -1]].mean(axis=2)) * (o[1] - o[0])
-    spread = np.where(clear.all(axis=1), np.mean((_REACH - integral) * rising, axis=1), np.nan)
+    spread = np.where(clear.all(axis=1), np.mean((reach - integral) * rising, axis=1), np.nan)
     between = ((share > 0.25) & (share < 0.75)).sum(axis=2) * (o[1] - o[0])
     blur = size * np.median(between, axis=1) / _QUARTILES
     low = np.median(np.where(rising > 0, first, last), axis=1)

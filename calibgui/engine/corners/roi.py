@@ -15,8 +15,7 @@ import numpy as np
 import numpy.typing as npt
 
 from calibgui.engine.corners.lattice import Lattice
-from calibgui.engine.corners.ordering import Board
-from calibgui.engine.types import Array
+from calibgui.engine.types import Array, Board
 
 _MARGIN = 0.08
 """How much farther than the marked points corners may lie, over the region's size."""

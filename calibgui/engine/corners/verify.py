@@ -60,10 +60,13 @@ _MOSTLY = 0.6
 """Share of a line's places in the image that must show the end."""
 
 
-def sound(lattice: Lattice, image: Image) -> BoolArray:
-    """(rows, cols) which corners of a lattice pass: see the head of this module."""
+def sound(lattice: Lattice, image: Image, plain: float = 0.5) -> BoolArray:
+    """(rows, cols) which corners of a lattice pass: see the head of this module.
+
+    The squares are of one colour up to `plain` squares from their edges.
+    """
     good = lattice.found
-    good[good], _ = typical(lattice, image).shown(image, *placed(lattice))
+    good[good], _ = typical(lattice, image, plain).shown(image, *placed(lattice, plain))
     # What does not look like a corner says nothing about where its neighbours should be.
     uv = lattice.under(good).uv
     irregular = in_steps(uv - predict(uv), *axes(uv)) >= _IRREGULAR

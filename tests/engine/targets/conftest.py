@@ -1,0 +1,47 @@
+"""Targets of every pattern, seen by a camera with known truth."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+import pytest
+
+from calibgui.engine.frames import rotation
+from calibgui.engine.maps import project_points
+from calibgui.engine.opencv import Image
+from calibgui.engine.render import render
+from calibgui.engine.types import Array, Camera, Corners, Pose, Target
+
+CAMERA = Camera((1000, 750), [860.0, 863.0, 500.0, 370.0, 0.1, 0.02, 0.0, 1e-4, 0.0, 0.0])
+
+
+@dataclass(frozen=True)
+class Scene:
+    """A target in front of a camera."""
+
+    target: Target
+    camera: Camera = CAMERA
+    rvec: tuple[float, float, float] = (0.5, 0.3, 0.2)
+    distance: float = 320.0
+    aside: tuple[float, float] = (0.0, 0.0)
+    """Of the target's middle, mm."""
+
+    @property
+    def pose(self) -> Pose:
+        R = rotation(np.array(self.rvec))
+        middle = R[:, :2] @ self.target.points().mean(axis=0)
+        return Pose(self.rvec, np.array([*self.aside, self.distance]) - middle)
+
+    def image(self, blur: float = 0.7, noise: float = 2.0, seed: int = 0) -> Image:
+        return render(self.camera, self.pose, self.target, blur=blur, noise=noise, seed=seed)
+
+    def error(self, corners: Corners) -> Array:
+        """(n, 2) px, found minus true."""
+        xy = self.target.points(corners.grid)
+        return corners.uv - project_points(xy, self.camera, self.pose)
+
+
+@pytest.fixture
+def scene() -> type[Scene]:
+    return Scene

@@ -1,0 +1,144 @@
+"""Grids of circles against rendered truth; the bias of their centres."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from calibgui.engine.errors import CalibrationError, NoBoardError
+from calibgui.engine.targets.circles import Circles
+from calibgui.engine.targets.plate_map import plate_map
+from calibgui.engine.types import Ambiguity, Camera, Target
+from tests.engine.targets.conftest import CAMERA, Scene
+
+NO_LENS = Camera(CAMERA.size, [*CAMERA.params[:4], *np.zeros(6)])
+BENT = Camera(CAMERA.size, [*CAMERA.params[:4], 0.25, 0.02, 0.0, 0.0, 0.0, 0.0])
+STEEP = (1.0, 0.1, 0.1)
+
+
+@pytest.mark.parametrize("camera", [NO_LENS, BENT], ids=["no lens", "strong lens"])
+@pytest.mark.parametrize(
+    ("pattern", "board", "rvec"),
+    [
+        (Circles(False, 0.6), (7, 9), STEEP),
+        (Circles(True, 0.9), (11, 4), (-0.9, 0.2, 0.2)),
+    ],
+)
+def test_the_bias_of_the_centres_is_corrected(
+    camera: Camera, pattern: Circles, board: tuple[int, int], rvec: tuple[float, float, float]
+) -> None:
+    """Of a large image without noise nothing but the grey levels' rounding is left."""
+    scene = Scene(Target(*board, 16.0, pattern), camera, rvec, distance=260.0)
+    corners = Circles(pattern.asymmetric).find(scene.image(noise=0.0), board)
+    assert corners.complete
+    error = scene.error(corners)
+    assert np.sqrt(np.mean(error**2)) < 0.005
+    assert abs(error.mean(axis=0)).max() < 0.002
+    seen = corners.pattern
+    assert isinstance(seen, Circles)
+    assert seen.diameter == pytest.approx(pattern.diameter, abs=0.005)
+    # Left as they are, the ellipses' centres are off many times as far.
+    xy = pattern.places(corners.grid.astype(float))
+    bias = plate_map(xy, corners.uv).bias(xy, seen.diameter / 2)
+    assert np.sqrt(np.mean((error + bias) ** 2)) > 10 * np.sqrt(np.mean(error**2))
+
+
+def test_covariances_are_honest() -> None:
+    pattern = Circles(False, 0.5)
+    scene = Scene(Target(7, 9, 16.0, pattern))
+    chi2 = []
+    for seed in range(3):
+        corners = pattern.find(scene.image(noise=5.0, seed=seed), (7, 9))
+        assert corners.cov is not None
+        error = scene.error(corners)
+        chi2.append(np.einsum("ni,nij,nj->n", error, np.linalg.inv(corners.cov), error).mean() / 2)
+    assert 0.8 < np.mean(chi2) < 1.25
+
+
+@pytest.mark.parametrize("turn", [0.0, 1.7, 3.1])
+def test_an_unique_origin_is_found(turn: float) -> None:
+    pattern = Circles(True, 0.8)
+    scene = Scene(Target(7, 4, 20.0, pattern), rvec=(0.2, 0.1, turn))
+    corners = pattern.find(scene.image(), (7, 4))
+    assert corners.ambiguity is Ambiguity.NONE
+    assert np.abs(scene.error(corners)).max() < 0.03
+
+
+@pytest.mark.parametrize(
+    ("pattern", "board", "ambiguity"),
+    [
+        (Circles(), (5, 7), Ambiguity.HALF_TURN),
+        (Circles(), (5, 5), Ambiguity.QUARTER_TURN),
+        (Circles(True), (11, 4), Ambiguity.NONE),
+        (Circles(True), (6, 4), Ambiguity.HALF_TURN),
+    ],
+)
+def test_turns_that_cannot_be_told(
+    pattern: Circles, board: tuple[int, int], ambiguity: Ambiguity
+) -> None:
+    assert pattern.ambiguity(board) is ambiguity
+    grid = np.indices(board).reshape(2, -1).T.astype(float)
+    places = pattern.places(grid)
+    turned = places.max(axis=0) - places
+    same = {tuple(p) for p in turned.tolist()} == {tuple(p) for p in places.tolist()}
+    assert same == (ambiguity is not Ambiguity.NONE)
+
+
+def test_ambiguous_grid_is_upright_or_starts_where_marked() -> None:
+    pattern = Circles(False, 0.5)
+    scene = Scene(Target(5, 7, 20.0, pattern), rvec=(0.2, 0.1, 3.0))
+    image = scene.image()
+    upright = pattern.find(image, (5, 7))
+    assert upright.ambiguity is Ambiguity.HALF_TURN
+    by_place = {tuple(g): uv for g, uv in zip(upright.grid.tolist(), upright.uv, strict=True)}
+    assert by_place[0, 6][0] > by_place[0, 0][0]
+    truth = scene.error(upright) * 0 + upright.uv - scene.error(upright)  # where truth has them
+    marked = truth[[0, 6, 34, 28]]
+    marked = marked.mean(axis=0) + 1.1 * (marked - marked.mean(axis=0))
+    corners = pattern.find(image, (5, 7), marked)
+    assert np.abs(scene.error(corners)).max() < 0.03
+
+
+def test_dark_paper_and_16_bits() -> None:
+    pattern = Circles(False, 0.5)
+    image = Scene(Target(5, 7, 20.0, pattern)).image()
+    dark = pattern.find(255 - image, (5, 7))
+    deep = pattern.find(image.astype(np.uint16) * 200, (5, 7))
+    np.testing.assert_allclose(dark.uv, deep.uv, atol=1e-3)
+
+
+@pytest.mark.parametrize("pattern", [Circles(), Circles(asymmetric=True)])
+def test_nothing_else_is_a_grid(pattern: Circles) -> None:
+    rng = np.random.default_rng(0)
+    squares = Scene(Target(6, 8, 20.0)).image()
+    noise = rng.integers(0, 255, (300, 400)).astype(np.uint8)
+    for image in (noise, squares, np.zeros((200, 200), np.uint8)):
+        with pytest.raises(NoBoardError):
+            pattern.find(image, (6, 4))
+
+
+def test_square_spots_are_not_circles() -> None:
+    image = np.full((480, 640), 220, np.uint8)
+    for i in range(5):
+        for j in range(7):
+            image[60 + 70 * i : 90 + 70 * i, 80 + 70 * j : 110 + 70 * j] = 30
+    with pytest.raises(NoBoardError):
+        Circles().find(image, (5, 7))
+
+
+def test_what_is_wrongly_stated_is_told() -> None:
+    image = Scene(Target(5, 7, 20.0, Circles(False, 0.5))).image()
+    with pytest.raises(NoBoardError, match=r"measure 0\.50 of their distance, not 0\.70"):
+        Circles(False, 0.7).find(image, (5, 7))
+    with pytest.raises(NoBoardError, match="No grid of 6 x 7"):
+        Circles().find(image, (6, 7))
+    with pytest.raises(NoBoardError, match="State the number"):
+        Circles().find(image, None)
+    with pytest.raises(CalibrationError, match="touch"):
+        Circles(False, 1.2)
+
+
+def test_images_together_tell_the_diameter() -> None:
+    seen = [Circles(False, d) for d in (0.49, 0.5, 0.53)]
+    assert Circles().completed(seen) == Circles(False, 0.5)
+    assert Circles(False, 0.6).completed(seen) == Circles(False, 0.6)
