@@ -30,8 +30,8 @@ _REWEIGHTINGS = 4
 """Rounds of estimating the model's own errors; each changes the weights ten times less."""
 _TURNS = 3
 """Rounds of righting tilts: some righted better the camera that tells the others."""
-_SLOW = 20
-"""Iterations beyond which another way is tried; one in a hundred wild problems takes as many."""
+_SLOW = 15
+"""Iterations beyond which another way is tried; one in thirty wild problems takes as many."""
 _SAME = 1e-9
 """Difference of costs, relative, that is none."""
 _FIRST_COEFFICIENT = 4

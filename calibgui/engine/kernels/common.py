@@ -9,6 +9,7 @@ them in a fixed order: nothing depends on the number of threads.
 
 from __future__ import annotations
 
+import os
 from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
 from typing import Any
@@ -20,7 +21,7 @@ from calibgui.engine.types import Array
 
 _MATHS = {"contract", "nsz", "arcp", "reassoc"}
 """Freedoms that the compiler needs to vectorise sums; infinities and NaN stay as they are."""
-THREADS = 2
+THREADS = min(os.cpu_count() or 1, 8)
 BLOCK = 64
 """Views that one thread takes at a time."""
 _WORTH = 4
