@@ -200,12 +200,19 @@ class ImageList(QWidget):
         """Leave images out of the calibration, or take them in again."""
         label = self.tr("Include {0}") if enabled else self.tr("Exclude {0}")
         change: Callable[[View], View] = lambda view: replace(view, enabled=enabled)  # noqa: E731
-        self._session.edit(label.format(_named(images)), lambda p: with_each(p, images, change))
+        self._session.edit(
+            label.format(self._named(images)), lambda p: with_each(p, images, change)
+        )
 
     def remove(self, images: list[str]) -> None:
         """Take images out of the project; the files stay."""
-        label = self.tr("Remove {0}").format(_named(images))
+        label = self.tr("Remove {0}").format(self._named(images))
         self._session.edit(label, lambda p: without_views(p, images))
+
+    def _named(self, images: list[str]) -> str:
+        """One image by name, several by number."""
+        one = len(images) == 1
+        return PurePath(images[0]).name if one else self.tr("{0} images").format(len(images))
 
     def _make_actions(self) -> list[QAction]:
         table: list[tuple[str, str | None, str, Callable[[], None]]] = [
@@ -258,8 +265,3 @@ class ImageList(QWidget):
         if index.isValid() and index != self.list.currentIndex():
             flags = QItemSelectionModel.SelectionFlag.ClearAndSelect
             self.list.selectionModel().setCurrentIndex(index, flags)
-
-
-def _named(images: list[str]) -> str:
-    """One image by name, several by number."""
-    return PurePath(images[0]).name if len(images) == 1 else f"{len(images)} images"

@@ -47,26 +47,23 @@ class Criterion(IntEnum):
 
 def status_text(view: View) -> str:
     """The state of an image in a few words."""
-
-    def tr(text: str) -> str:
-        return QCoreApplication.translate("status_text", text)
-
+    translate = QCoreApplication.translate
     words = {
-        ViewStatus.WAITING: tr("waiting"),
-        ViewStatus.NO_BOARD: tr("no board"),
-        ViewStatus.UNREADABLE: tr("unreadable"),
-        ViewStatus.WRONG_SIZE: tr("wrong size"),
-        ViewStatus.FOUND: tr("found"),
+        ViewStatus.WAITING: translate("status_text", "waiting"),
+        ViewStatus.NO_BOARD: translate("status_text", "no board"),
+        ViewStatus.UNREADABLE: translate("status_text", "unreadable"),
+        ViewStatus.WRONG_SIZE: translate("status_text", "wrong size"),
+        ViewStatus.FOUND: translate("status_text", "found"),
     }
     text = words[view.status]
     if view.corners is not None:
         rows, cols = view.corners.shape
-        text = tr("{0} of {1} corners").format(len(view.corners), rows * cols)
+        text = translate("status_text", "{0} of {1} corners").format(len(view.corners), rows * cols)
         if view.corners.ambiguity is not Ambiguity.NONE or view.corners.relative:
-            text += tr(", ambiguous")
+            text += translate("status_text", ", ambiguous")
     elif view.points is not None:
-        text = tr("{0} corners").format(len(view.points.uv))
-    return text if view.enabled else tr("excluded") + " · " + text
+        text = translate("status_text", "{0} corners").format(len(view.points.uv))
+    return text if view.enabled else translate("status_text", "excluded") + " · " + text
 
 
 def status_tip(view: View) -> str:

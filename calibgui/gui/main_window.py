@@ -31,7 +31,7 @@ from calibgui.gui.detecting import Detector
 from calibgui.gui.files import Files
 from calibgui.gui.image_list import ImageList
 from calibgui.gui.image_page import ImagePage
-from calibgui.gui.menus import make_menus
+from calibgui.gui.menus import Menus
 from calibgui.gui.progress import Progress
 from calibgui.gui.session import Session
 from calibgui.gui.settings_panel import SettingsPanel
@@ -68,7 +68,7 @@ class MainWindow(QMainWindow):
         self.calibrate.setDefault(True)
         self._lay_out()
         self._connect()
-        make_menus(self)
+        Menus(self)
         if geometry := QSettings().value("geometry"):
             self.restoreGeometry(geometry)
         self._show_parts(empty=True)

@@ -6,7 +6,7 @@ from collections.abc import Callable
 from functools import partial
 from typing import TYPE_CHECKING
 
-from PySide6.QtCore import QCoreApplication
+from PySide6.QtCore import QObject
 from PySide6.QtGui import QAction, QActionGroup, QKeySequence
 from PySide6.QtWidgets import QMenu
 
@@ -21,138 +21,170 @@ if TYPE_CHECKING:
 Key = QKeySequence.StandardKey
 
 
-def make_menus(window: MainWindow) -> None:
-    """Fill the menu bar of `window`."""
-    bar, files = window.menuBar(), window.files
+class Menus(QObject):
+    """Fills the menu bar of `window`."""
 
-    def tr(text: str) -> str:
-        return QCoreApplication.translate("menus", text)
+    def __init__(self, window: MainWindow) -> None:
+        super().__init__(window)
+        bar, files = window.menuBar(), window.files
 
-    def add(
-        menu: QMenu, text: str, key: str | Key | None, tip: str, does: Callable[[], object]
-    ) -> QAction:
-        action = make_action(window, text, key, tip, does)
-        menu.addAction(action)
-        return action
+        def add(
+            menu: QMenu, text: str, key: str | Key | None, tip: str, does: Callable[[], object]
+        ) -> QAction:
+            action = make_action(window, text, key, tip, does)
+            menu.addAction(action)
+            return action
 
-    menu = bar.addMenu(tr("&File"))
-    menu.setToolTipsVisible(True)
-    add(menu, tr("&New project"), Key.New, tr("Begin with nothing"), files.new)
-    add(menu, tr("&Open project…"), Key.Open, tr("Open a saved project"), files.ask_for_project)
-    recent = menu.addMenu(tr("Open &recent"))
-    recent.aboutToShow.connect(lambda: _fill_recent(window, recent))
-    add(
-        menu,
-        tr("Open the sa&mple"),
-        None,
-        tr("Rendered photographs, to look around"),
-        files.open_sample,
-    )
-    menu.addSeparator()
-    add(menu, tr("&Save"), Key.Save, tr("Write the project to its file"), files.save)
-    add(
-        menu,
-        tr("Save &as…"),
-        "Ctrl+Shift+S",
-        tr("Write the project to another file"),
-        files.save_as,
-    )
-    menu.addSeparator()
-    add(menu, tr("Add &images…"), "Ctrl+I", tr("Choose image files"), files.ask_for_images)
-    add(
-        menu,
-        tr("Add a &folder…"),
-        "Ctrl+Shift+I",
-        tr("Take all images of a folder"),
-        files.ask_for_folder,
-    )
-    menu.addSeparator()
-    add(menu, tr("&Quit"), "Ctrl+Q", tr("Close the window"), window.close)
-
-    menu = bar.addMenu(tr("&Edit"))
-    undo = add(
-        menu,
-        tr("&Undo"),
-        Key.Undo,
-        tr("Take the last change back"),
-        lambda: window.session.document.undo(),
-    )
-    redo = add(
-        menu,
-        tr("&Redo"),
-        Key.Redo,
-        tr("Do what was undone"),
-        lambda: window.session.document.redo(),
-    )
-    menu.addSeparator()
-    add(menu, tr("&Paste paths"), Key.Paste, tr("Add the files on the clipboard"), files.paste)
-
-    def name_edits() -> None:
-        document = window.session.document
-        for action, text, label in (
-            (undo, tr("&Undo"), document.undo_label),
-            (redo, tr("&Redo"), document.redo_label),
-        ):
-            action.setText(f"{text} “{label}”" if label else text)
-            action.setEnabled(bool(label))
-
-    window.session.changed.connect(lambda *_: name_edits())
-    name_edits()
-
-    menu = bar.addMenu(tr("&Images"))
-    menu.setToolTipsVisible(True)
-    menu.addActions(window.images.actions_for_menu)
-
-    menu.addSeparator()
-    menu.addActions(window.page.tools)
-
-    menu = bar.addMenu(tr("&Calibration"))
-    add(
-        menu,
-        tr("&Calibrate or stop"),
-        "F9",
-        tr("Do everything that is still to do"),
-        window.calibrate.click,
-    )
-    export = add(
-        menu, tr("&Export…"), "Ctrl+E", tr("Write the camera for another program"), files.export
-    )
-    export.setEnabled(False)
-    window.session.result_changed.connect(lambda result: export.setEnabled(result is not None))
-    menu.addSeparator()
-    add(menu, tr("&Print a board…"), "Ctrl+P", tr("Make a board of any size"), files.print_board)
-
-    menu = bar.addMenu(tr("&View"))
-    menu.setToolTipsVisible(True)
-    menu.addActions(window.page.zoom_actions)
-    menu.addSeparator()
-    menu.addActions(list(window.page.layers.values()))
-    menu.addSeparator()
-    for dock in (window.image_dock, window.analysis_dock):
-        menu.addAction(dock.toggleViewAction())
-
-    looks = menu.addMenu(tr("&Colours"))
-    group = QActionGroup(window)
-    for scheme, text in (
-        (theme.Scheme.SYSTEM, tr("As the &system")),
-        (theme.Scheme.LIGHT, tr("&Light")),
-        (theme.Scheme.DARK, tr("&Dark")),
-    ):
-        action = add(
-            looks, text, None, tr("Choose light or dark colours"), partial(theme.choose, scheme)
+        menu = bar.addMenu(self.tr("&File"))
+        menu.setToolTipsVisible(True)
+        add(menu, self.tr("&New project"), Key.New, self.tr("Begin with nothing"), files.new)
+        add(
+            menu,
+            self.tr("&Open project…"),
+            Key.Open,
+            self.tr("Open a saved project"),
+            files.ask_for_project,
         )
-        action.setCheckable(True)
-        action.setChecked(theme.chosen() is scheme)
-        group.addAction(action)
+        recent = menu.addMenu(self.tr("Open &recent"))
+        recent.aboutToShow.connect(lambda: _fill_recent(window, recent))
+        add(
+            menu,
+            self.tr("Open the sa&mple"),
+            None,
+            self.tr("Rendered photographs, to look around"),
+            files.open_sample,
+        )
+        menu.addSeparator()
+        add(menu, self.tr("&Save"), Key.Save, self.tr("Write the project to its file"), files.save)
+        add(
+            menu,
+            self.tr("Save &as…"),
+            "Ctrl+Shift+S",
+            self.tr("Write the project to another file"),
+            files.save_as,
+        )
+        menu.addSeparator()
+        add(
+            menu,
+            self.tr("Add &images…"),
+            "Ctrl+I",
+            self.tr("Choose image files"),
+            files.ask_for_images,
+        )
+        add(
+            menu,
+            self.tr("Add a &folder…"),
+            "Ctrl+Shift+I",
+            self.tr("Take all images of a folder"),
+            files.ask_for_folder,
+        )
+        menu.addSeparator()
+        add(menu, self.tr("&Quit"), "Ctrl+Q", self.tr("Close the window"), window.close)
 
-    menu = bar.addMenu(tr("&Help"))
-    add(
-        menu,
-        tr("&How it works"),
-        Key.HelpContents,
-        tr("The workflow on one page"),
-        lambda: show_dialog(HelpDialog(window)),
-    )
+        menu = bar.addMenu(self.tr("&Edit"))
+        undo = add(
+            menu,
+            self.tr("&Undo"),
+            Key.Undo,
+            self.tr("Take the last change back"),
+            lambda: window.session.document.undo(),
+        )
+        redo = add(
+            menu,
+            self.tr("&Redo"),
+            Key.Redo,
+            self.tr("Do what was undone"),
+            lambda: window.session.document.redo(),
+        )
+        menu.addSeparator()
+        add(
+            menu,
+            self.tr("&Paste paths"),
+            Key.Paste,
+            self.tr("Add the files on the clipboard"),
+            files.paste,
+        )
+
+        def name_edits() -> None:
+            document = window.session.document
+            for action, text, label in (
+                (undo, self.tr("&Undo"), document.undo_label),
+                (redo, self.tr("&Redo"), document.redo_label),
+            ):
+                action.setText(f"{text} “{label}”" if label else text)
+                action.setEnabled(bool(label))
+
+        window.session.changed.connect(lambda *_: name_edits())
+        name_edits()
+
+        menu = bar.addMenu(self.tr("&Images"))
+        menu.setToolTipsVisible(True)
+        menu.addActions(window.images.actions_for_menu)
+
+        menu.addSeparator()
+        menu.addActions(window.page.tools)
+
+        menu = bar.addMenu(self.tr("&Calibration"))
+        add(
+            menu,
+            self.tr("&Calibrate or stop"),
+            "F9",
+            self.tr("Do everything that is still to do"),
+            window.calibrate.click,
+        )
+        export = add(
+            menu,
+            self.tr("&Export…"),
+            "Ctrl+E",
+            self.tr("Write the camera for another program"),
+            files.export,
+        )
+        export.setEnabled(False)
+        window.session.result_changed.connect(lambda result: export.setEnabled(result is not None))
+        menu.addSeparator()
+        add(
+            menu,
+            self.tr("&Print a board…"),
+            "Ctrl+P",
+            self.tr("Make a board of any size"),
+            files.print_board,
+        )
+
+        menu = bar.addMenu(self.tr("&View"))
+        menu.setToolTipsVisible(True)
+        menu.addActions(window.page.zoom_actions)
+        menu.addSeparator()
+        menu.addActions(list(window.page.layers.values()))
+        menu.addSeparator()
+        for dock in (window.image_dock, window.analysis_dock):
+            menu.addAction(dock.toggleViewAction())
+
+        looks = menu.addMenu(self.tr("&Colours"))
+        group = QActionGroup(window)
+        for scheme, text in (
+            (theme.Scheme.SYSTEM, self.tr("As the &system")),
+            (theme.Scheme.LIGHT, self.tr("&Light")),
+            (theme.Scheme.DARK, self.tr("&Dark")),
+        ):
+            action = add(
+                looks,
+                text,
+                None,
+                self.tr("Choose light or dark colours"),
+                partial(theme.choose, scheme),
+            )
+            action.setCheckable(True)
+            action.setChecked(theme.chosen() is scheme)
+            group.addAction(action)
+
+        menu = bar.addMenu(self.tr("&Help"))
+        add(
+            menu,
+            self.tr("&How it works"),
+            Key.HelpContents,
+            self.tr("The workflow on one page"),
+            lambda: show_dialog(HelpDialog(window)),
+        )
 
 
 def _fill_recent(window: MainWindow, menu: QMenu) -> None:
