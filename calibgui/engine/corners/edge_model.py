@@ -71,7 +71,7 @@ class Edges:
     blur_gradient: Array
     """(n, 2, 2) of s_1 and s_2, px per px."""
     size_gradient: Array
-    """(n, 2, 2) of the squares' heights, px per px."""
+    """(n, 2, 2) of the squares' heights as they count for the spread, px per px."""
 
     def under(self, index: IntArray) -> Edges:
         """The model at some of the corners."""

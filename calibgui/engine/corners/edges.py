@@ -31,7 +31,7 @@ from calibgui.engine.corners.edge_model import (
     NormalEquations,
     normal_equations,
 )
-from calibgui.engine.corners.lattice import Lattice, axes
+from calibgui.engine.corners.lattice import Lattice
 from calibgui.engine.corners.surroundings import Surroundings
 from calibgui.engine.opencv import Image
 from calibgui.engine.types import Array
@@ -84,9 +84,9 @@ def fit(image: Image, lattice: Lattice, plain: float = 0.5) -> Fit:
     edges = _start(image, lattice, board, plain)
     near = replace(edges, arm=np.minimum(edges.arm, _NEAR))
     first = _step(near, normal_equations(image, near))
-    edges = _surrounded(replace(edges, unknowns=first.edges.unknowns), lattice, board)
+    edges = _surrounded(replace(edges, unknowns=first.edges.unknowns), board)
     equations = normal_equations(image, edges)
-    edges = _surrounded(_step(edges, equations).edges, lattice, board)
+    edges = _surrounded(_step(edges, equations).edges, board)
     return _step(edges, equations)
 
 
@@ -95,20 +95,18 @@ def _start(image: Image, lattice: Lattice, board: Surroundings, plain: float) ->
     found = lattice.found
     cells = np.argwhere(found)
     n = len(cells)
-    steps = [step[found] for step in axes(lattice.uv)]
-    right, down = steps
-    length = np.column_stack([np.linalg.norm(step, axis=1) for step in steps])
-    area = abs(right[:, 0] * down[:, 1] - right[:, 1] * down[:, 0])
+    steps, curvature = board.geometry(lattice.uv[found])
+    length = np.linalg.norm(steps, axis=2)
     unknowns = np.zeros((n, UNKNOWNS))
     unknowns[C] = lattice.uv[found]
-    unknowns[THETA] = np.column_stack([np.arctan2(step[:, 1], step[:, 0]) for step in steps])
+    unknowns[THETA] = np.arctan2(steps[..., 1], steps[..., 0])
     edges = Edges(
         unknowns=unknowns,
         sign=np.where(lattice.dark ^ (cells.sum(axis=1) % 2 == 1), -1.0, 1.0),
-        size=area[:, None] / length,
+        size=_heights(steps),
         arm=np.minimum(length / 2, max(_LONGEST, _ARMS / n)),
-        room=plain * area[:, None] / length,
-        curvature=board.curvatures(lattice.uv[found]),
+        room=plain * _heights(steps),
+        curvature=curvature,
         spread=np.zeros(n),
         level_gradient=np.zeros((n, 2)),
         contrast_gradient=np.zeros((n, 2)),
@@ -118,7 +116,13 @@ def _start(image: Image, lattice: Lattice, board: Surroundings, plain: float) ->
     normals = edges.normals()
     seen = [
         profiles.across_edge(
-            image, edges.unknowns[C], steps[i], steps[1 - i], edges.size[:, i], edges.sign, plain
+            image,
+            edges.unknowns[C],
+            steps[:, i],
+            steps[:, 1 - i],
+            edges.size[:, i],
+            edges.sign,
+            plain,
         )
         for i in (0, 1)
     ]
@@ -146,22 +150,30 @@ def _common_spread(seen: Array) -> Array:
     return np.full(len(seen), middle if clear else 0.0)
 
 
-def _surrounded(edges: Edges, lattice: Lattice, board: Surroundings) -> Edges:
-    """`edges` with curvature and gradients as their positions, levels and blurs now say."""
-    x, found = edges.unknowns, lattice.found
-    uv = lattice.uv.copy()
-    uv[found] = x[C]
-    right, down = (step[found] for step in axes(uv))
-    known = np.column_stack([x[M], x[A], x[BLUR], edges.size])
-    gradients = board.gradients(right, down, known)
+def _surrounded(edges: Edges, board: Surroundings) -> Edges:
+    """`edges` with geometry and gradients as their positions, levels and blurs now say."""
+    x = edges.unknowns
+    steps, curvature = board.geometry(x[C])
+    size = _heights(steps)
+    gradients = board.gradients(steps, np.column_stack([x[M], x[A], x[BLUR], size]))
+    # The edge at a fraction w of a square stands w S + w^2 S' / 2 away where the squares' height S
+    # varies: w times the height half-way to it.
+    normals, by_size = edges.normals(), gradients[:, 4:6]
+    across = np.sum(normals * by_size, axis=2, keepdims=True)
     return replace(
         edges,
-        curvature=board.curvatures(x[C]),
+        size=size,
+        curvature=curvature,
         level_gradient=gradients[:, 0],
         contrast_gradient=gradients[:, 1],
         blur_gradient=gradients[:, 2:4],
-        size_gradient=gradients[:, 4:6],
+        size_gradient=by_size - normals * across / 2,
     )
+
+
+def _heights(steps: Array) -> Array:
+    """(n, 2) heights of a square over edges 1 and 2, from the `steps` (n, 2, 2) along them."""
+    return np.asarray(abs(np.linalg.det(steps))[:, None] / np.linalg.norm(steps, axis=2))
 
 
 def _step(edges: Edges, equations: NormalEquations) -> Fit:

@@ -50,8 +50,8 @@ class Surroundings:
         derivatives = np.stack([self._basis(order) for order in _ORDERS])
         self._derivatives = np.linalg.solve(R.T, derivatives.transpose(0, 2, 1)).transpose(0, 2, 1)
 
-    def curvatures(self, uv: Array) -> Array:
-        """(n, 2) curvature of the row's and of the column's edge at each corner, 1/px.
+    def geometry(self, uv: Array) -> tuple[Array, Array]:
+        """Steps to the next column and row, and curvatures of the row's and column's edges.
 
         An edge is p(s) = c + s t + kappa s^2 / 2 n, with the normal n of a row's edge towards the
         next row and that of a column's edge towards the next column. Perspective keeps the edges
@@ -60,6 +60,9 @@ class Surroundings:
 
         Args:
             uv: (n, 2) the corners, px.
+
+        Returns:
+            (n, 2, 2) derivatives of the position by column and by row, px, and (n, 2) kappa, 1/px.
         """
         cells = self._at[:, ::-1].astype(np.float64)
         H = homography.dlt(cells, uv, np.ones(len(uv)))
@@ -75,17 +78,16 @@ class Surroundings:
             np.sum(p2 * _normal(p1, across), axis=1) / np.sum(p1 * p1, axis=1)
             for p1, p2, across in zip(first, second, reversed(first), strict=True)
         ]
-        return np.column_stack(kappa)
+        return np.stack(first, axis=1), np.column_stack(kappa)
 
-    def gradients(self, right: Array, down: Array, values: Array) -> Array:
+    def gradients(self, steps: Array, values: Array) -> Array:
         """(n, k, 2) gradients over the image of `values` (n, k) known at the corners, per px.
 
         Args:
-            right, down: (n, 2) steps to the next column and row, px.
+            steps: (n, 2, 2) to the next column and row, px.
         """
         slopes = self._differentiated(values)[:2].transpose(1, 0, 2)
-        basis = np.stack([right, down], axis=1)
-        return np.asarray(np.linalg.solve(basis, slopes).transpose(0, 2, 1))
+        return np.asarray(np.linalg.solve(steps, slopes).transpose(0, 2, 1))
 
     def _differentiated(self, values: Array) -> Array:
         """(4, n, k) derivatives `_ORDERS` of the polynomials through `values` (n, k)."""
