@@ -40,9 +40,10 @@ M, A, RHO = np.s_[:, 6], np.s_[:, 7], np.s_[:, 8]
 """Columns of the unknowns."""
 UNKNOWNS = 9
 
-NormalEquations = Callable[["Edges"], Array]
+NormalEquations = Callable[["Edges"], tuple[Array, Array]]
 """(n, 10, 10) products of the columns [J r] of each corner: derivatives of the model by the
-unknowns, and what it leaves unexplained, over the pixels that were read."""
+unknowns, and what it leaves unexplained, over the pixels that were read; and (n, 2) the odd part
+of r: the sum of (r(q) - r(-q))^2 / 2 over pairs of pixels, and their number."""
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -122,12 +123,14 @@ def normal_equations(image: Image, edges: Edges) -> NormalEquations:
         return _compiled(image, edges)
     windows = _read(image, edges)
 
-    def products(model: Edges) -> Array:
-        N = np.empty((len(model.unknowns), UNKNOWNS + 1, UNKNOWNS + 1))
+    def products(model: Edges) -> tuple[Array, Array]:
+        n = len(model.unknowns)
+        N, odd = np.empty((n, UNKNOWNS + 1, UNKNOWNS + 1)), np.empty((n, 2))
         for window in windows:
             J = _columns(model.under(window.index), window)
             N[window.index] = J @ J.transpose(0, 2, 1)
-        return N
+            odd[window.index] = _odd_part(model.unknowns[C][window.index], window, J[:, UNKNOWNS])
+        return N, odd
 
     return products
 
@@ -142,7 +145,7 @@ def _compiled(image: Image, edges: Edges) -> NormalEquations:
         image, read.uv, read.tangent, read.normal, read.curvature, read.arm, read.width
     )
 
-    def products(model: Edges) -> Array:
+    def products(model: Edges) -> tuple[Array, Array]:
         x, n = model.unknowns, len(model.unknowns)
         near = np.column_stack(
             [
@@ -207,6 +210,25 @@ def _columns(edges: Edges, window: _Window) -> Floats:
     J[:, 8] = swing * G.by_correlation
     J[:, 9] = residual
     return J
+
+
+def _odd_part(centre: Array, window: _Window, residual: Floats) -> Array:
+    """(k, 2) sum of (r(q) - r(-q))^2 / 2 over the pairs of pixels that lie opposite each other
+    to the nearest half pixel, and their number."""
+    k, side = len(centre), int(np.ptp(window.pixels, axis=1).max()) + 1
+    row, counts = np.arange(k)[:, None], window.counts > 0
+    corner = window.pixels.min(axis=1)[:, None]
+    u, v = np.moveaxis(window.pixels - corner, 2, 0)
+    square = np.full((k, side, side), np.nan)
+    square[np.broadcast_to(row, counts.shape)[counts], v[counts], u[counts]] = residual[counts]
+    mirror = np.rint(2 * centre).astype(np.int64)[:, None] - window.pixels
+    far = ((mirror < corner) | (mirror >= corner + side)).any(axis=2)
+    mu, mv = np.moveaxis(np.clip(mirror - corner, 0, side - 1), 2, 0)
+    difference = residual - square[row, mv, mu]
+    apart = (mirror != window.pixels).any(axis=2)
+    paired = counts & apart & ~far & np.isfinite(difference)
+    both = np.stack([np.where(paired, difference**2 / 2, 0.0), paired], axis=2)
+    return np.asarray(both.sum(axis=1) / 2)  # each pair was met twice
 
 
 def _pattern(edges: Edges, q: Array32, d: Pair) -> Pattern:

@@ -7,6 +7,11 @@ would be if the rest were known, the Cramer-Rao bound
 
     cov c = noise^2 (sum of (grad I)(grad I)^T)^-1.
 
+For the same reason only the odd part of what the model leaves unexplained says how well c is
+known: a blur that is not Gaussian leaves an even one. So noise^2 is half the mean square
+difference of opposite pixels, unless that is more than the mean square itself: in a sharp image
+no two pixels are quite opposite.
+
 What is odd too and would not decouple - curvature and the light's gradients gm, ga - comes from
 the whole board (`surroundings`), as does the spread w of the ink.
 """
@@ -44,6 +49,8 @@ _NEAR = 9.0
 """Arm that is read for a first approximation, px."""
 _LEAST_SPREAD, _MOST_SPREAD = 0.002, 0.2
 """Spreads that are told from none and that are believed, squares."""
+_PAIRS = 20
+"""Opposite pixels from which their differences tell the noise."""
 _MOST_RHO = 0.95
 _BLURRED = 1.5
 """How far from where a square's colour ends its blur is felt, blurs."""
@@ -178,16 +185,20 @@ def _heights(steps: Array) -> Array:
 
 def _step(edges: Edges, equations: NormalEquations) -> Fit:
     """The model after one Gauss-Newton step."""
-    products = equations(edges)
+    products, odd = equations(edges)
     N, g = products[:, :UNKNOWNS, :UNKNOWNS], products[:, :UNKNOWNS, UNKNOWNS]
     largest = np.einsum("nkk->nk", N).max(axis=1) + 1e-300
     inverse = np.linalg.inv(N + 1e-9 * largest[:, None, None] * np.eye(UNKNOWNS))
     step = np.einsum("nij,nj->ni", inverse, g)
-    count = N[:, 6, 6]  # each pixel's derivative by m is 1
     square = np.maximum(products[:, UNKNOWNS, UNKNOWNS] - np.sum(step * g, axis=1), 0.0)
+    count = N[:, 6, 6]  # each pixel's derivative by m is 1
     square /= np.maximum(count - UNKNOWNS, 1)
+    total, pairs = odd.T
+    noise = np.where(pairs > _PAIRS, total / np.maximum(pairs - 2, 1), square)
+    if np.median(noise) > np.median(square):
+        noise = square
     unknowns = edges.unknowns + _bounded(step, edges.unknowns)
-    covariance = square[:, None, None] * inverse[:, :2, :2]
+    covariance = noise[:, None, None] * inverse[:, :2, :2]
     return Fit(replace(edges, unknowns=unknowns), covariance, np.sqrt(square))
 
 

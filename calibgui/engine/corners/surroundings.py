@@ -9,8 +9,8 @@ the gradient of a quantity f known at every corner follows from its derivatives 
     (df/dcol, df/drow) = (right, down)^T grad f.
 
 Both are smoothed over the board by polynomials in column and row. Their degree is what the
-values support: the one of the least generalised cross-validation score, RSS / (1 - k/n)^2 for k
-terms and n values, which estimates how badly the polynomial would predict a corner left out.
+values support: the one of the least generalised cross-validation score, RSS / (1 - 1.4 k/n)^2 for
+k terms and n values, which estimates how badly the polynomial would predict a corner left out.
 """
 
 from __future__ import annotations
@@ -22,6 +22,9 @@ from calibgui.engine.types import Array, BoolArray
 
 _HIGHEST = 7
 """Highest degree tried."""
+_CAUTION = 1.4
+"""What a term costs in the cross-validation, as Kim and Gu (2004) advise: with 1 it takes too high
+a degree by chance now and then."""
 _ORDERS = ((0, 1), (1, 0), (0, 2), (2, 0))
 """Derivatives by row and by column that are needed."""
 
@@ -95,7 +98,7 @@ class Surroundings:
         # Dropping the last terms leaves the others' weights on Q unchanged.
         explained = np.cumsum(weights**2, axis=0)[self._counts - 1]
         rss = np.maximum(np.sum(values**2, axis=0) - explained, 0.0)
-        score = rss / (1 - self._counts[:, None] / (len(values) + 1)) ** 2
+        score = rss / (1 - _CAUTION * self._counts[:, None] / (len(values) + 1)) ** 2
         best = self._counts[np.argmin(score, axis=0)]
         weights[np.arange(len(weights))[:, None] >= best] = 0.0
         return np.asarray(self._derivatives @ weights)

@@ -24,6 +24,8 @@ class Pixels(NamedTuple):
     """(2, N) u and v of the pixels from their corner's base."""
     grey: Image32
     """(N,) their grey levels."""
+    reach: int
+    """Greatest offset."""
 
 
 @compiled
@@ -92,6 +94,7 @@ def read(
         np.empty((n, 2)),
         np.empty((2, end[-1]), dtype=np.float32),
         np.empty(end[-1], dtype=np.float32),
+        int(along.max() + across.max()),
     )
-    _read(image, uv, tangent, normal, curvature, arm, width, *pixels)
+    _read(image, uv, tangent, normal, curvature, arm, width, *pixels[:5])
     return pixels

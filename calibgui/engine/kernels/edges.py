@@ -190,8 +190,8 @@ def _add_products(w, m, out):  # type: ignore[no-untyped-def]
 
 
 @compiled
-def _products(first, count, base, offset, grey, centre, near, out):  # type: ignore[no-untyped-def]
-    """Fill out (n, 10, 10); near (n, 33) is laid out as `products` does."""
+def _products(first, count, base, offset, grey, centre, near, out, residual):  # type: ignore[no-untyped-def]
+    """Fill out (n, 10, 10) and residual (N,); near (n, 33) is laid out as `products` says."""
     w = np.empty(_ROWS * _BLOCK, dtype=_F)
     u, v = np.empty(_BLOCK, dtype=_F), np.empty(_BLOCK, dtype=_F)
     for i in range(centre.shape[0]):
@@ -211,13 +211,37 @@ def _products(first, count, base, offset, grey, centre, near, out):  # type: ign
                 _spread(w, rho, box, _ONE if growth > _ZERO else -_ONE, m)
             _columns(w, u, v, grey[begin:], n, level, swing, sign, m)
             _add_products(w, m, out[i])
+            for p in range(m):
+                residual[begin + p] = w[_J + 9 * _BLOCK + p]
         for a in range(_COLUMNS):
             for b in range(a):
                 out[i, b, a] = out[i, a, b]
 
 
-def products(pixels: Pixels, centre: Array, near: Array) -> Array:
-    """(n, 10, 10) products of the columns [J r] of n corners.
+@compiled
+def _odd(first, count, base, offset, centre, residual, reach, out):  # type: ignore[no-untyped-def]
+    """Fill out (n, 2) as ``edge_model._odd_part``; offsets are at most `reach`."""
+    r = np.empty((2 * reach + 1, 2 * reach + 1), dtype=_F)
+    r[:] = np.nan
+    for i in range(centre.shape[0]):
+        mu = int(np.rint(2 * (centre[i, 0] - base[i, 0])))
+        mv = int(np.rint(2 * (centre[i, 1] - base[i, 1])))
+        pixels = range(first[i], first[i] + count[i])
+        for p in pixels:
+            r[int(offset[1, p]) + reach, int(offset[0, p]) + reach] = residual[p]
+        for p in pixels:
+            u, v = int(offset[0, p]), int(offset[1, p])
+            far = max(abs(mu - u), abs(mv - v)) > reach
+            if far or (2 * u == mu and 2 * v == mv) or np.isnan(r[mv - v + reach, mu - u + reach]):
+                continue
+            out[i, 0] += (residual[p] - r[mv - v + reach, mu - u + reach]) ** 2 / 4
+            out[i, 1] += 0.5
+        for p in pixels:
+            r[int(offset[1, p]) + reach, int(offset[0, p]) + reach] = np.nan
+
+
+def products(pixels: Pixels, centre: Array, near: Array) -> tuple[Array, Array]:
+    """(n, 10, 10) products of the columns [J r] of n corners, and (n, 2) r's odd part.
 
     Args:
         pixels: what was read around them.
@@ -226,6 +250,9 @@ def products(pixels: Pixels, centre: Array, near: Array) -> Array:
             (s_1, s_2, their gradients); m and gm; a and ga; rho, p, growth of the squares (+, +)
             over the size of a square, half widths of the pixel across edges 1 and 2 or 0.
     """
-    out = np.zeros((len(centre), _COLUMNS, _COLUMNS))
-    _products(*pixels, centre, near.astype(_F), out)
-    return out
+    n = len(centre)
+    out, odd = np.zeros((n, _COLUMNS, _COLUMNS)), np.zeros((n, 2))
+    residual = np.empty_like(pixels.grey)
+    _products(*pixels[:5], centre, near.astype(_F), out, residual)
+    _odd(*pixels[:4], centre, residual, pixels.reach, odd)
+    return out, odd
