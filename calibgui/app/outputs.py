@@ -4,11 +4,12 @@ from __future__ import annotations
 
 import io
 import os
+from collections.abc import Iterable
 from pathlib import Path
 from typing import TYPE_CHECKING
 
 from calibgui.engine.errors import CalibrationError
-from calibgui.engine.files import write_atomically
+from calibgui.engine.files import refuse_special, unwritable, write_atomically
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure  # slow to import, and not needed to check
@@ -18,17 +19,37 @@ def check_writable(path: Path) -> None:
     """Refuse an output file that could not be written.
 
     Raises:
-        CalibrationError: if it is a folder, or its folder is missing or closed to writing.
+        CalibrationError: if it is a folder, a device or a pipe, or its folder is missing or
+            closed to writing.
     """
     folder = path.parent
-    if path.is_dir():
-        raise CalibrationError(f"{path} is a folder.", "Name a file in it.")
-    if not folder.is_dir():
-        raise CalibrationError(f"The folder {folder} does not exist.", "Create it first.")
-    if not os.access(folder, os.W_OK):
+    try:
+        if path.is_dir():
+            raise CalibrationError(f"{path} is a folder.", "Name a file in it.")
+        refuse_special(path)
+        if not folder.is_dir():
+            raise CalibrationError(f"The folder {folder} does not exist.", "Create it first.")
+    except OSError as error:  # a folder on the way is closed, or the name too long
+        raise unwritable(path, error) from error
+    if not os.access(folder, os.W_OK | os.X_OK):
         raise CalibrationError(
             f"{path} cannot be written: you may not write to {folder}.", "Choose another folder."
         )
+
+
+def check_outputs(outputs: Iterable[Path], inputs: Iterable[str | Path]) -> None:
+    """Refuse output files that could not be written, or would replace an input or one another.
+
+    Raises:
+        CalibrationError: naming the first.
+    """
+    taken = {os.path.realpath(path): "is one of the files to read" for path in inputs}
+    for path in outputs:
+        check_writable(path)
+        place = os.path.realpath(path)
+        if place in taken:
+            raise CalibrationError(f"{path} {taken[place]}.", "Choose another name to write to.")
+        taken[place] = "would be written twice"
 
 
 def make_folder(path: Path) -> None:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import glob
+import os
 import re
 import unicodedata
 from collections.abc import Iterable
@@ -19,12 +20,12 @@ def find_images(names: Iterable[str]) -> tuple[Path, ...]:
     as a pattern (*, ?, [..], ** for folders at any depth).
 
     Raises:
-        CalibrationError: if a name stands for nothing.
+        CalibrationError: if a name stands for nothing, or for what may not be looked at.
     """
-    found: dict[Path, Path] = {}
+    found: dict[str, Path] = {}
     for name in names:
         for path in _meant(name):
-            found.setdefault(path.resolve(), path)
+            found.setdefault(os.path.realpath(path), path)
     return tuple(sorted(found.values(), key=natural_key))
 
 
@@ -36,8 +37,19 @@ def natural_key(path: Path) -> list[tuple[str, int]]:
 
 def _meant(name: str) -> list[Path]:
     """The files that one name stands for."""
+    try:
+        return _listed(name)
+    except OSError as error:
+        raise CalibrationError(
+            f"{error.filename} cannot be read: {error.strerror}.",
+            "Check the name and that you may read it.",
+        ) from error
+
+
+def _listed(name: str) -> list[Path]:
+    """The files that one name stands for, as the system tells."""
     path = Path(name)
-    if path.is_dir():
+    if name and path.is_dir():
         images = [p for p in path.iterdir() if _is_image(p)]
         if not images:
             raise CalibrationError(
@@ -45,10 +57,12 @@ def _meant(name: str) -> list[Path]:
                 f"Name a folder with files that end in {', '.join(FORMATS)}.",
             )
         return images
-    if path.exists():
+    if path.is_file():
         return [path]
+    if name and path.exists():
+        raise CalibrationError(f"{name} is a device or a pipe.", "Name an image file or a folder.")
     if not glob.has_magic(name):
-        raise CalibrationError(f"{name} does not exist.", "Check its spelling.")
+        raise CalibrationError(f"{name or repr(name)} does not exist.", "Check its spelling.")
     matches = glob.glob(name, recursive=True)  # noqa: PTH207 - Path.glob takes no absolute ones
     files = [path for path in map(Path, matches) if path.is_file()]
     if not files:
@@ -57,6 +71,10 @@ def _meant(name: str) -> list[Path]:
 
 
 def _is_image(path: Path) -> bool:
-    """Whether a file of a folder is meant; hidden ones are other programs' notes."""
+    """Whether an entry of a folder is meant; hidden ones are other programs' notes.
+
+    A link to nowhere is: it would be missed if nobody told that it cannot be read.
+    """
     hidden = path.name.startswith(".")
-    return not hidden and path.suffix.lower() in FORMATS and path.is_file()
+    image = not hidden and path.suffix.lower() in FORMATS
+    return image and (path.is_file() or not path.exists())

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import argparse
 import re
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from pathlib import Path
 
 from calibgui.app.detection import Detection, find_views
@@ -45,6 +45,16 @@ def add_images(parser: argparse.ArgumentParser, nargs: str = "+") -> None:
     parser.add_argument(
         "paths", nargs=nargs, metavar="PATH", help="image, folder of images or pattern"
     )
+
+
+def is_corners_file(paths: Sequence[str]) -> bool:
+    """Whether corners to read are named, rather than photographs to search."""
+    return [Path(path).suffix.lower() for path in paths] == [".json"]
+
+
+def meant_files(paths: Sequence[str]) -> Sequence[str | Path]:
+    """The files that will be read."""
+    return paths if is_corners_file(paths) else find_images(paths)
 
 
 def add_search(parser: argparse.ArgumentParser) -> None:

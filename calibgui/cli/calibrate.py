@@ -8,8 +8,15 @@ from dataclasses import replace
 from pathlib import Path
 
 from calibgui.app.calibration import calibrate_views
-from calibgui.app.outputs import check_writable
-from calibgui.cli.arguments import add_images, add_search, positive, search
+from calibgui.app.outputs import check_outputs
+from calibgui.cli.arguments import (
+    add_images,
+    add_search,
+    is_corners_file,
+    meant_files,
+    positive,
+    search,
+)
 from calibgui.cli.console import Console
 from calibgui.engine.calibrate import HELD, parameter_names
 from calibgui.engine.errors import CalibrationError
@@ -94,13 +101,9 @@ def configure(parser: argparse.ArgumentParser) -> None:
 
 def run(options: argparse.Namespace, console: Console) -> None:
     """Search, calibrate, write and print."""
-    if both := options.fix.keys() & set(options.free):
-        options.usage_error(f"{', '.join(sorted(both))} cannot be both held and freed")
-    if options.save_plate and options.plate is PlateModel.NOMINAL:
-        options.usage_error("--save-plate needs a plate that is estimated: add --plate free")
+    _check_usage(options)
     outputs = filter(None, [options.output, options.save_plate])
-    for path in [*(path for _, path in options.export), *outputs]:
-        check_writable(path)
+    check_outputs([*outputs, *(path for _, path in options.export)], meant_files(options.paths))
     corner_set = _corner_set(options, console)
     try:
         result = calibrate_views(
@@ -130,20 +133,29 @@ def run(options: argparse.Namespace, console: Console) -> None:
         console.say("\n" + "\n".join(map(tables.bullet, written)))
 
 
+def _check_usage(options: argparse.Namespace) -> None:
+    """End the program if options do not go together."""
+    if both := options.fix.keys() & set(options.free):
+        options.usage_error(f"{', '.join(sorted(both))} cannot be both held and freed")
+    if options.save_plate and options.plate is PlateModel.NOMINAL:
+        options.usage_error("--save-plate needs a plate that is estimated: add --plate free")
+    if is_corners_file(options.paths):
+        if options.board or options.roi:
+            options.usage_error("--board and --roi are for photographs, not for a corners file")
+    elif options.square is None:
+        options.usage_error("--square MM, the side of the board's squares, is needed")
+
+
 def _corner_set(options: argparse.Namespace, console: Console) -> CornerSet:
     """The views to calibrate from, searched or read."""
-    if [Path(path).suffix.lower() for path in options.paths] == [".json"]:
+    if is_corners_file(options.paths):
         return _from_corners_file(options)
-    if options.square is None:
-        options.usage_error("--square MM, the side of the board's squares, is needed")
     detection = search(console, options.paths, options.board, options.roi, options.corners)
     return detection.corner_set(options.square)
 
 
 def _from_corners_file(options: argparse.Namespace) -> CornerSet:
     """The views of a corners.json; with --square, of a board of squares of that side."""
-    if options.board or options.roi:
-        options.usage_error("--board and --roi are for photographs, not for a corners file")
     corner_set = read_corners(options.paths[0])
     if options.square is None:
         return corner_set

@@ -4,13 +4,16 @@ from __future__ import annotations
 
 import argparse
 import contextlib
+import os
 import sys
 from collections.abc import Callable, Iterator
 from typing import Any
 
 from tqdm import tqdm
 
+from calibgui.engine.errors import CalibrationError
 from calibgui.formats.json_document import dumps
+from calibgui.report.words import printable
 
 Advance = Callable[[int, int], None]
 """Told how many are done, of how many."""
@@ -34,21 +37,21 @@ class Console:
     def say(self, text: str) -> None:
         """Print text for people."""
         if not (self.quiet or self.json):
-            print(text, flush=True)
+            _print(harmless(text))
 
     def answer(self, value: Any) -> None:
         """Print the result for programs, if they asked."""
         if self.json:
-            print(dumps(value))
+            _print(dumps(value))
 
     def problem(self, text: str) -> None:
         """Print what went wrong but ends nothing."""
-        print(text, file=sys.stderr)
+        print(harmless(text), file=sys.stderr)
 
     @contextlib.contextmanager
     def progress(self, what: str, unit: str = "image") -> Iterator[Advance]:
         """A bar on stderr while things are worked on; nothing if quiet or no terminal."""
-        hidden = self.quiet or not sys.stderr.isatty()
+        hidden = self.quiet or sys.stderr is None or not sys.stderr.isatty()
         with tqdm(desc=what, unit=unit, disable=hidden, leave=False, file=sys.stderr) as bar:
 
             def advance(done: int, total: int) -> None:
@@ -56,3 +59,32 @@ class Console:
                 bar.update(done - bar.n)
 
             yield advance
+
+
+def harmless(text: str) -> str:
+    """`text` without what would command the terminal, which a file's name may hold."""
+    return "\n".join(map(printable, text.split("\n")))
+
+
+def leave_stdout() -> None:
+    """Let what is still to be printed go nowhere, so that nothing fails when Python exits."""
+    os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+
+
+def _print(text: str) -> None:
+    """Print to stdout at once.
+
+    Raises:
+        CalibrationError: if it cannot be, as on a full disk.
+        BrokenPipeError: if its reader is gone.
+    """
+    try:
+        print(text, flush=True)
+    except BrokenPipeError:
+        raise
+    except OSError as error:
+        leave_stdout()
+        raise CalibrationError(
+            f"Standard output cannot be written: {error.strerror}.",
+            "Free some space, or send it elsewhere.",
+        ) from error

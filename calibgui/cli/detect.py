@@ -5,7 +5,8 @@ from __future__ import annotations
 import argparse
 from pathlib import Path
 
-from calibgui.app.outputs import check_writable
+from calibgui.app.outputs import check_outputs
+from calibgui.app.paths import find_images
 from calibgui.cli.arguments import add_images, add_search, positive, search
 from calibgui.cli.console import Console
 from calibgui.engine.errors import CalibrationError
@@ -29,7 +30,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
 def run(options: argparse.Namespace, console: Console) -> None:
     """Search, write and print."""
     if options.output:
-        check_writable(options.output)
+        check_outputs([options.output], find_images(options.paths))
     detection = search(console, options.paths, options.board, options.roi, options.corners)
     corner_set = detection.corner_set(options.square or 1.0)
     if not any(view.usable for view in corner_set.views):

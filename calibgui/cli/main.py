@@ -1,7 +1,7 @@
 """Entry point: choose the subcommand, run it, and turn every ending into an exit code.
 
 0 it is done; 1 it cannot be done, for the reason on stderr; 2 wrong usage; 70 a bug;
-130 interrupted (Ctrl-C); 141 the reader of our output went away.
+130 interrupted (Ctrl-C, SIGTERM); 141 the reader of our output went away.
 
 To add a subcommand, write a module in this folder with `configure(parser)` and
 `run(options, console)`, and name it in `COMMANDS`.
@@ -12,6 +12,7 @@ from __future__ import annotations
 import argparse
 import contextlib
 import os
+import signal
 import sys
 import traceback
 from collections.abc import Sequence
@@ -48,14 +49,14 @@ def main(argv: Sequence[str] | None = None) -> int:
             stream.reconfigure(errors="backslashreplace")
     try:
         code = _run(arguments)
-        sys.stdout.flush()
+        if sys.stdout is not None:  # it may be closed
+            sys.stdout.flush()
         return code
     except KeyboardInterrupt:
         print("calibgui: interrupted.", file=sys.stderr)
         return _INTERRUPTED
     except BrokenPipeError:
-        # Python flushes stdout once more when it exits.
-        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        import_module("calibgui.cli.console").leave_stdout()
         return _NO_READER
     except Exception:
         _report_bug()
@@ -87,10 +88,14 @@ def _run(arguments: list[str]) -> int:
     console.configure(parsers[chosen])
     command.configure(parsers[chosen])
     options = parser.parse_args(arguments)
+    output = console.Console(options.quiet, options.json)
+    with contextlib.suppress(ValueError):  # only the main thread may
+        # What is asked to end does so as by Ctrl-C, with its workers and temporary files.
+        signal.signal(signal.SIGTERM, signal.default_int_handler)
     try:
-        command.run(options, console.Console(options.quiet, options.json))
+        command.run(options, output)
     except errors.CalibrationError as error:
-        print(f"calibgui: {error}", file=sys.stderr)
+        output.problem(f"calibgui: {error}")
         return _CANNOT
     return 0
 

@@ -35,11 +35,11 @@ def configure(parser: argparse.ArgumentParser) -> None:
 
 def run(options: argparse.Namespace, console: Console) -> None:
     """Calibrate, render, calibrate again; write results, figures and the page."""
+    out: Path = options.output
+    make_folder(out)
     real, image_cost = _calibrated(options, console)
     with console.progress("synthetic views") as advance:
         check = synthetic_check(real, progress=advance)
-    out: Path = options.output
-    make_folder(out)
     write_result(real, out / "real.json")
     write_result(image_cost, out / "image-cost.json")
     write_result(check.synthetic, out / "synthetic.json")

@@ -12,30 +12,53 @@ from calibgui.engine.errors import CalibrationError
 def write_atomically(path: str | os.PathLike[str], content: bytes) -> None:
     """Write `content` beside `path`, flush it to the disk, then put it in the place of `path`.
 
+    A link stays: the file that it leads to is replaced.
+
     Raises:
-        CalibrationError: if the disk is full or the folder cannot be written; `path` is as before.
+        CalibrationError: if the disk is full, the folder cannot be written, or `path` is a
+            device or a pipe; it is as before.
     """
     path = Path(path)
     temporary: Path | None = None
     try:
+        refuse_special(path)
+        target = Path(os.path.realpath(path))
         with tempfile.NamedTemporaryFile(
-            dir=path.parent, prefix=f".{path.name}.", suffix=".tmp", delete=False
+            dir=target.parent, prefix=".calibgui.", suffix=".tmp", delete=False
         ) as file:
             temporary = Path(file.name)
             file.write(content)
             file.flush()
             os.fsync(file.fileno())
-        temporary.chmod(_mode(path))
-        temporary.replace(path)
+        temporary.chmod(_mode(target))
+        temporary.replace(target)
         temporary = None
     except OSError as error:
-        raise CalibrationError(
-            f"{path} cannot be written: {error.strerror or error}.",
-            "Free some space, or choose another folder that you may write to.",
-        ) from error
+        raise unwritable(path, error) from error
     finally:
         if temporary is not None:
             temporary.unlink(missing_ok=True)
+
+
+def refuse_special(path: Path) -> None:
+    """Refuse what a file must not take the place of, as /dev/null.
+
+    Raises:
+        CalibrationError: if `path` is a device, a pipe or a socket.
+        OSError: if nothing can be learnt about it.
+    """
+    if path.exists() and not (path.is_file() or path.is_dir()):
+        raise CalibrationError(
+            f"{path} cannot be written: it is a device or a pipe.", "Name a file."
+        )
+
+
+def unwritable(path: Path, error: OSError) -> CalibrationError:
+    """What `error` means to who wants to write `path`."""
+    return CalibrationError(
+        f"{path} cannot be written: {error.strerror or error}.",
+        "Free some space, or choose another name or folder that you may write to.",
+    )
 
 
 def _mode(path: Path) -> int:

@@ -20,6 +20,8 @@ from calibgui.engine.types import Size
 Data = bytes | mmap
 
 _ORIENTATION = 0x0112
+_INTEGERS = {3: "H", 4: "I", 16: "Q"}
+"""TIFF's types of unsigned integers."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -137,15 +139,19 @@ def _orientation(tags: dict[int, int]) -> int:
 
 
 def _tags(data: Data) -> dict[int, int]:
-    """First value of each 16- or 32-bit tag in the first directory of a TIFF."""
+    """First value of each 16-, 32- or 64-bit tag in the first directory of a TIFF or BigTIFF."""
     order = {b"II": "<", b"MM": ">"}.get(data[:2], "<")
-    start = struct.unpack_from(order + "I", data, 4)[0]
-    count = struct.unpack_from(order + "H", data, start)[0]
+    big = struct.unpack_from(order + "H", data, 2)[0] == 43
+    # Width of offsets, of the number of tags, of a tag, and where a tag holds its value.
+    offset, number, width, value = ("Q", "Q", 20, 12) if big else ("I", "H", 12, 8)
+    start = struct.unpack_from(order + offset, data, 8 if big else 4)[0]
+    count = struct.unpack_from(order + number, data, start)[0]
+    first = start + struct.calcsize(number)
     tags = {}
-    for at in range(start + 2, start + 2 + 12 * count, 12):
+    for at in range(first, first + width * count, width):
         tag, kind = struct.unpack_from(order + "HH", data, at)
-        if kind in (3, 4):
-            tags[tag] = struct.unpack_from(order + ("H" if kind == 3 else "I"), data, at + 8)[0]
+        if kind in _INTEGERS:
+            tags[tag] = struct.unpack_from(order + _INTEGERS[kind], data, at + value)[0]
     return tags
 
 
@@ -153,7 +159,7 @@ _PARSERS = (
     (rb"\xff\xd8\xff", _jpeg),
     (rb"\x89PNG\r\n\x1a\n", _png),
     (rb"RIFF....WEBP", _webp),
-    (rb"II\*\0|MM\0\*", _tiff),
+    (rb"II[*+]\0|MM\0[*+]", _tiff),
     (rb"BM", _bmp),
     (rb"P[1-6]\s", _pnm),
 )

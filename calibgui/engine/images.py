@@ -143,9 +143,9 @@ def _decode(path: Path, colour: bool) -> tuple[Pixels, Header]:
     pixels = opencv.decode(data, colour) if header.complete else None
     if pixels is None:
         raise CalibrationError(
-            f"{path} is cut short or damaged: its {header.format} header is there, not all of its "
-            "pixels.",
-            "Copy it from the camera again.",
+            f"{path} cannot be decoded: the {header.format} image is cut short, damaged, or packed "
+            "in a rare way.",
+            "Copy it from the camera again, or save it as PNG.",
         )
     if pixels.dtype not in (np.uint8, np.uint16):
         raise CalibrationError(f"{path} holds {pixels.dtype} samples.", _KNOWN)
@@ -168,7 +168,7 @@ def _upright(pixels: Pixels, orientation: int) -> Pixels:
 def _header(path: Path, data: bytes | mmap.mmap) -> Header:
     header = read_header(data)
     if header is None:
-        raise CalibrationError(f"{path} is not an image of a known format.", _KNOWN)
+        raise CalibrationError(f"{path} is not an image of a known format, or cut short.", _KNOWN)
     width, height = header.size
     if not 0 < width * height <= MAX_PIXELS:
         raise CalibrationError(

@@ -88,6 +88,8 @@ def decode(data: bytes, colour: bool) -> Image | None:
     flags = cv2.IMREAD_ANYDEPTH | cv2.IMREAD_IGNORE_ORIENTATION
     if colour:
         flags |= cv2.IMREAD_ANYCOLOR
+    if data[:2] in (b"P1", b"P2", b"P3"):
+        data += b"\n"  # OpenCV wants a blank behind the last number
     try:
         image = cv2.imdecode(np.frombuffer(data, np.uint8), flags)
     except cv2.error:

@@ -45,7 +45,8 @@ def write_corners_csv(
     writer.writerow(_HEADER + _COV if weighted else _HEADER)
     for view in found:
         writer.writerows(_rows(view, view.observation(target)))
-    write_atomically(path, text.getvalue().encode())
+    # A file name that is not valid Unicode is written so that every reader takes it.
+    write_atomically(path, text.getvalue().encode(errors="backslashreplace"))
 
 
 def _rows(view: View, points: Observation) -> Iterator[list[str | int | float]]:

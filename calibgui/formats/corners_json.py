@@ -22,6 +22,9 @@ from calibgui.formats.json_document import Node, read, write
 from calibgui.formats.result import Result
 from calibgui.formats.views_json import read_views, view_record
 
+_LONGEST = 1_000_000
+"""Side of an image, px; no camera's is longer."""
+
 
 @dataclass(frozen=True, eq=False, slots=True)
 class CornerSet:
@@ -84,7 +87,7 @@ def read_target(node: Node | None) -> Target | None:
 def read_size(node: Node) -> Size:
     """Width and height of an image."""
     width, height = (int(n) for n in node.integers(2))
-    if width < 1 or height < 1:
+    if not 1 <= width <= _LONGEST or not 1 <= height <= _LONGEST:
         node.fail("the width and height of an image")
     return width, height
 

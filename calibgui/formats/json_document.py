@@ -13,6 +13,7 @@ from __future__ import annotations
 import json
 import math
 import os
+import re
 import sys
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
@@ -25,6 +26,8 @@ from calibgui.engine.errors import CalibrationError
 from calibgui.engine.files import write_atomically
 from calibgui.engine.types import Array, IntArray, frozen, frozen_int
 
+_UNFINISHED = re.compile(r"(-|\.|[eE][-+]?|tr?u?|fa?l?s?|nu?l?)?\s*")
+"""What JSON's parser stumbles over at the end of a file that is cut within a number or word."""
 _LINE = 100
 """Length up to which a list of lists is kept on one line."""
 
@@ -212,13 +215,16 @@ def read(path: str | os.PathLike[str]) -> Node:
             f"{file} cannot be read: {error.strerror or error}.", "Check its name and permissions."
         ) from error
     except json.JSONDecodeError as error:
-        if error.pos >= len(error.doc.rstrip()) or error.msg.startswith("Unterminated string"):
+        rest = error.doc[error.pos :]
+        if _UNFINISHED.fullmatch(rest) or error.msg.startswith("Unterminated string"):
             raise CalibrationError(
                 f"{file} is cut short in line {error.lineno}.", "Copy or write it again."
             ) from error
         raise _not_json(file, f"{error.msg} in line {error.lineno}") from error
-    except (ValueError, RecursionError) as error:  # not UTF-8, or absurd numbers or nesting
+    except UnicodeDecodeError as error:
         raise _not_json(file, "it is not text in UTF-8") from error
+    except (ValueError, RecursionError) as error:
+        raise _not_json(file, "it holds an endless number or nests too deeply") from error
 
 
 def _not_json(file: str, reason: str) -> CalibrationError:

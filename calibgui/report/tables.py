@@ -23,6 +23,7 @@ from calibgui.formats.result import Result
 from calibgui.report.coverage import attitudes
 from calibgui.report.numbers import counted, with_sigma
 from calibgui.report.summary import summary
+from calibgui.report.words import printable, short_name
 
 WIDTH = 80
 
@@ -81,7 +82,7 @@ def views(result: Result) -> str:
     rows = [
         [
             str(number),
-            _shortened(PurePath(view.image).name, 28),
+            short_name(view.image),
             str(len(fit.image)),
             f"{fit.rms:.3f}",
             f"{distance:.0f}",
@@ -208,7 +209,7 @@ def detection(all_views: Sequence[View]) -> str:
     rows = [
         [
             str(number),
-            _shortened(PurePath(view.image).name, 28),
+            short_name(view.image),
             view.status.value,
             "" if view.corners is None else str(len(view.corners)),
             "" if view.corners is None else f"{view.corners.shape[0]} x {view.corners.shape[1]}",
@@ -231,7 +232,8 @@ def _numbers(result: Result) -> list[int]:
 def _why_unused(view: View) -> str:
     reason = view.reason or "Left out by choice."
     # Reading errors name the file already.
-    return reason if reason.startswith(view.image) else f"{PurePath(view.image).name}: {reason}"
+    named = reason.startswith(view.image)
+    return printable(reason if named else f"{PurePath(view.image).name}: {reason}")
 
 
 def _measured(calibration: Calibration, name: str, value: float, sigma: float) -> str:
@@ -244,12 +246,6 @@ def _measured(calibration: Calibration, name: str, value: float, sigma: float) -
 
 def _fixed(value: float, decimals: int) -> str:
     return f"{value:.{decimals}f}" if math.isfinite(value) else "-"
-
-
-def _shortened(text: str, width: int) -> str:
-    """`text` with its middle replaced by dots if it is longer than `width`."""
-    half = (width - 1) // 2
-    return text if len(text) <= width else f"{text[:half]}..{text[-half:]}"
 
 
 def bullet(text: str) -> str:

@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 from matplotlib.figure import Figure
 
-from calibgui.app.outputs import check_writable, make_folder, save_figure
+from calibgui.app.outputs import check_outputs, check_writable, make_folder, save_figure
 from calibgui.engine import CalibrationError
 from calibgui.engine.images import image_size
 
@@ -49,3 +49,20 @@ def test_a_figure_is_written_whole_or_not_at_all(tmp_path: Path) -> None:
     with pytest.raises(CalibrationError, match="cannot be written"):
         save_figure(figure, tmp_path / "missing" / "figure.svg")
     assert [path.name for path in tmp_path.iterdir()] == ["figure.png"]
+
+
+def test_an_output_takes_no_other_files_place(tmp_path: Path) -> None:
+    photograph = tmp_path / "a.png"
+    check_outputs([tmp_path / "r.json", tmp_path / "r.yaml"], [photograph])
+    with pytest.raises(CalibrationError, match=r"a\.png is one of the files to read"):
+        check_outputs([tmp_path / ".." / tmp_path.name / "a.png"], [photograph])
+    with pytest.raises(CalibrationError, match=r"r\.json would be written twice"):
+        check_outputs([tmp_path / "r.json", tmp_path / "." / "r.json"], [])
+
+
+@pytest.mark.skipif(os.name != "posix", reason="devices of POSIX")
+def test_a_device_and_an_endless_name_are_refused(tmp_path: Path) -> None:
+    with pytest.raises(CalibrationError, match="/dev/null cannot be written: it is a device"):
+        check_writable(Path("/dev/null"))
+    with pytest.raises(CalibrationError, match="cannot be written: File name too long"):
+        check_writable(tmp_path / ("x" * 5000))

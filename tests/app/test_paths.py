@@ -71,3 +71,45 @@ def test_what_stands_for_nothing_is_named(tmp_path: Path, what: str) -> None:
     with pytest.raises(CalibrationError, match=r"missing|empty") as caught:
         find_images([str(tmp_path / what)])
     assert caught.value.hint
+
+
+def test_an_unset_variable_does_not_mean_the_folder_one_is_in(
+    folder: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(folder)
+    with pytest.raises(CalibrationError, match="'' does not exist"):
+        find_images([""])
+
+
+@pytest.mark.skipif(os.name != "posix", reason="links, pipes and rights of POSIX")
+class TestSpecialFiles:
+    def test_a_link_to_nowhere_is_missed_if_its_folder_is_named(self, folder: Path) -> None:
+        (folder / "lost.png").symlink_to("nowhere.png")
+        (folder / "ring.png").symlink_to("ring.png")
+        assert {"lost.png", "ring.png"} < set(names(find_images([str(folder)])))
+
+    def test_a_pipe_is_no_image(self, folder: Path) -> None:
+        os.mkfifo(folder / "pipe.png")
+        assert "pipe.png" not in names(find_images([str(folder)]))
+        with pytest.raises(CalibrationError, match=r"pipe\.png is a device or a pipe"):
+            find_images([str(folder / "pipe.png")])
+
+    @pytest.mark.parametrize("what", ["", "image.png", "*.png"])
+    def test_what_may_not_be_looked_at_is_named(
+        self, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, what: str
+    ) -> None:
+        closed = tmp_path / "closed"
+        closed.mkdir()
+
+        def deny(*_: object, **__: object) -> None:
+            raise PermissionError(13, "Permission denied", str(closed))
+
+        # The administrator may look everywhere, so the system's answer is replaced.
+        monkeypatch.setattr(os, "stat" if what else "listdir", deny)
+        monkeypatch.setattr(os, "scandir", deny)
+        with pytest.raises(CalibrationError, match=r"closed.*Permission denied"):
+            find_images([str(closed / what)])
+
+    def test_a_name_that_no_file_can_have_is_named(self) -> None:
+        with pytest.raises(CalibrationError, match="cannot be read"):
+            find_images(["x" * 5000])

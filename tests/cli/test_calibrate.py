@@ -213,6 +213,10 @@ def test_outputs_are_checked_before_the_work(
     missing = tmp_path / "missing" / "result.json"
     refused([str(corners_file), "-o", str(missing)], capsys, "does not exist")
     refused([str(corners_file), "-o", str(tmp_path)], capsys, "is a folder")
+    file = tmp_path / "corners.json"
+    file.write_bytes(corners_file.read_bytes())
+    refused([str(file), "-o", str(file)], capsys, "corners.json is one of the files to read")
+    assert file.read_bytes() == corners_file.read_bytes()
     refused([str(corners_file), "--export", f"ros={missing.parent / 'a.yaml'}"], capsys, "exist")
 
 

@@ -6,6 +6,7 @@ import contextlib
 import json
 import os
 import select
+import shlex
 import signal
 import struct
 import subprocess
@@ -158,3 +159,62 @@ def test_a_terminal_without_unicode_is_served(corners_file: Path, tmp_path: Path
         check=True,
     )
     assert done.stdout.isascii() and done.stderr == b""
+
+
+@posix
+def test_a_request_to_end_is_like_ctrl_c(photographs: Path, tmp_path: Path) -> None:
+    out = tmp_path / "out"
+    out.mkdir()
+    with terminal() as (ours, theirs):
+        process = subprocess.Popen(
+            program("detect", *[photographs] * 2, "-o", out / "corners.json"),
+            stdout=subprocess.DEVNULL,
+            stderr=theirs,
+        )
+        shown_until(ours, b"searching")
+        process.terminate()
+        shown_until(ours, b"calibgui: interrupted.")
+        assert process.wait(60) == 130
+    assert list(out.iterdir()) == []
+
+
+@posix
+def test_a_full_disk_behind_stdout_is_no_bug(corners_file: Path) -> None:
+    if not Path("/dev/full").exists():
+        pytest.skip("this system has no /dev/full")
+    for option in ("--json", "--robust"):
+        with Path("/dev/full").open("w") as full:
+            done = subprocess.run(
+                program("calibrate", corners_file, option),
+                stdout=full,
+                stderr=subprocess.PIPE,
+                check=False,
+                text=True,
+            )
+        assert done.returncode == 1
+        assert done.stderr.startswith("calibgui: Standard output cannot be written: No space left")
+
+
+@posix
+def test_closed_streams_are_no_bug(corners_file: Path, tmp_path: Path) -> None:
+    file = tmp_path / "result.json"
+    command = shlex.join(program("calibrate", corners_file, "-o", file))
+    assert subprocess.run(["sh", "-c", command + " <&- >&- 2>&-"], check=False).returncode == 0
+    assert file.exists()
+
+
+def test_names_do_not_command_the_terminal(
+    corners_file: Path, tmp_path: Path, capsys: Capture
+) -> None:
+    content = json.loads(corners_file.read_text())
+    content["views"][0]["image"] = "\x1b[31mred\n.png"
+    content["views"][1] = {"image": "\x1b[2J.png", "uv": [], "board": []}
+    file = tmp_path / "corners.json"
+    file.write_text(json.dumps(content))
+    assert main(["calibrate", str(file)]) == 0
+    printed = capsys.readouterr().out
+    assert "\x1b" not in printed
+    assert r"\x1b[31mred\n.png" in printed
+    assert r"\x1b[2J.png" in printed
+    assert main(["calibrate", "\x1b[2J.json"]) == 1
+    assert "\x1b" not in capsys.readouterr().err

@@ -58,6 +58,7 @@ def test_orientation(name: str, orientation: int) -> None:
         ("JPEG", {"progressive": True}),
         ("WebP", {"lossless": False}),
         ("TIFF", {"compression": "tiff_lzw"}),
+        ("TIFF", {"big_tiff": True}),
     ],
 )
 def test_other_encodings(name: str, options: dict[str, object]) -> None:

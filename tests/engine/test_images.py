@@ -136,6 +136,12 @@ def test_truncated_files_are_refused(tmp_path: Path, suffix: str, kept: float) -
     assert "cut short" in str(caught.value) or "not an image" in str(caught.value)
 
 
+def test_numbers_written_out_may_end_the_file(tmp_path: Path) -> None:
+    path = tmp_path / "a.pgm"
+    path.write_bytes(b"P2 3 2 255\n0 1 2\n30 40 255")
+    assert np.array_equal(read_image(path).pixels, [[0, 1, 2], [30, 40, 255]])
+
+
 def test_a_preallocated_download_is_refused(tmp_path: Path) -> None:
     path = tmp_path / "half.jpg"
     write_image(path, np.random.default_rng(1).integers(0, 255, (120, 160)).astype(np.uint8))

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import csv
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -93,3 +94,12 @@ def test_a_missing_file_is_named(tmp_path: Path) -> None:
 def test_views_without_corners_have_no_rows(tmp_path: Path) -> None:
     write_corners_csv([View("a.png")], None, tmp_path / "corners.csv")
     assert (tmp_path / "corners.csv").read_text() == _HEADER
+
+
+def test_a_name_that_is_not_unicode_is_written_for_every_reader(
+    tmp_path: Path, result: Result
+) -> None:
+    first = next(view for view in result.views if view.status is ViewStatus.FOUND)
+    file = tmp_path / "corners.csv"
+    write_corners_csv([replace(first, image="bad\udcff.png")], result.target, file)
+    assert {view.image for view in read_corners_csv(file)} == {"bad\\udcff.png"}

@@ -113,7 +113,9 @@ def test_a_byte_order_mark_is_no_error(tmp_path: Path) -> None:
         (b"", "is cut short"),
         (b"%YAML 1.2\n---\n", "is not a JSON file"),
         (b"\x89PNG\r\n\x1a\n\xff", "is not a JSON file"),
-        (b"[" * 100_000, "is not a JSON file"),
+        *((content, "is cut short") for content in (b"[12.", b"[1e-", b"[-", b"[fals", b"[1,\n")),
+        (b"[" * 100_000, "nests too deeply"),
+        (b"[" + b"9" * 5000 + b"]", "endless number"),
     ],
 )
 def test_files_that_are_not_json_are_named(tmp_path: Path, content: bytes, message: str) -> None:
