@@ -15,6 +15,23 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure  # slow to import, and not needed to check
 
 
+FIGURES = (".png", ".svg", ".pdf")
+"""Suffixes of the files that `save_figure` writes."""
+
+
+def check_figure(path: Path) -> None:
+    """Refuse a figure's file that could not be written.
+
+    Raises:
+        CalibrationError: if its format is unknown, or as `check_writable`.
+    """
+    if path.suffix.lower() not in FIGURES:
+        raise CalibrationError(
+            f"{path} is not named as a figure.", f"Give it the suffix {' or '.join(FIGURES)}."
+        )
+    check_writable(path)
+
+
 def check_writable(path: Path) -> None:
     """Refuse an output file that could not be written.
 

@@ -43,9 +43,8 @@ def configure(parser: argparse.ArgumentParser) -> None:
     )
     parser.add_argument(
         "--cost",
-        type=Cost,
-        choices=list(Cost),
-        default=Cost.IMAGE,
+        choices=[cost.value for cost in Cost],
+        default=Cost.IMAGE.value,
         help="minimise the reprojection error in the image (default), the registration error on "
         "the reference plane, or the paper's formulation to the letter",
     )
@@ -108,7 +107,7 @@ def run(options: argparse.Namespace, console: Console) -> None:
     try:
         result = calibrate_views(
             corner_set,
-            cost=options.cost,
+            cost=Cost(options.cost),
             fix=options.fix,
             free=options.free,
             plate=options.plate,
@@ -116,7 +115,8 @@ def run(options: argparse.Namespace, console: Console) -> None:
             robust=options.robust,
         )
     except CalibrationError:
-        console.problem(tables.unused(corner_set.views))
+        if unused := tables.unused(corner_set.views):
+            console.problem(unused)
         raise
     written = []
     if options.output:
@@ -139,9 +139,13 @@ def _check_usage(options: argparse.Namespace) -> None:
         options.usage_error(f"{', '.join(sorted(both))} cannot be both held and freed")
     if options.save_plate and options.plate is PlateModel.NOMINAL:
         options.usage_error("--save-plate needs a plate that is estimated: add --plate free")
+    if options.prior and options.plate not in (PlateModel.FREE, None):
+        options.usage_error("--prior is of a free plate: add --plate free or auto")
     if is_corners_file(options.paths):
         if options.board or options.roi:
             options.usage_error("--board and --roi are for photographs, not for a corners file")
+    elif any(is_corners_file([path]) for path in options.paths):
+        options.usage_error("a corners file is calibrated by itself")
     elif options.square is None:
         options.usage_error("--square MM, the side of the board's squares, is needed")
 
@@ -208,8 +212,11 @@ def _plate(text: str) -> PlateModel | Plate | None:
 
 def _prior(text: str) -> Prior:
     """Standard deviations from "0.1,0.3"."""
-    in_plane, _, out_of_plane = text.partition(",")
-    return Prior(positive(in_plane), positive(out_of_plane))
+    try:
+        in_plane, out_of_plane = map(positive, text.split(","))
+    except (ValueError, argparse.ArgumentTypeError) as error:
+        raise argparse.ArgumentTypeError(f"{text!r} is not XY,Z in mm, as 0.1,0.3") from error
+    return Prior(in_plane, out_of_plane)
 
 
 def _export(text: str) -> tuple[str, Path]:

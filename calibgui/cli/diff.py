@@ -8,7 +8,7 @@ from pathlib import Path
 
 import numpy as np
 
-from calibgui.app.outputs import check_writable, save_figure
+from calibgui.app.outputs import check_figure, save_figure
 from calibgui.cli.arguments import positive
 from calibgui.cli.console import Console
 from calibgui.engine.difference import Difference, difference
@@ -37,13 +37,15 @@ def configure(parser: argparse.ArgumentParser) -> None:
         action="store_true",
         help="compare only where A's views have corners, not over the whole image",
     )
-    parser.add_argument("-o", "--output", type=Path, metavar="FILE", help="draw the map (.png ...)")
+    parser.add_argument(
+        "-o", "--output", type=Path, metavar="FILE", help="draw the map (.png, .svg, .pdf)"
+    )
 
 
 def run(options: argparse.Namespace, console: Console) -> None:
     """Read both, compare, draw and print."""
     if options.output:
-        check_writable(options.output)
+        check_figure(options.output)
     a, b = read_result(options.a), read_result(options.b)
     found = difference(
         a.calibration.camera,

@@ -9,7 +9,7 @@ from pathlib import Path
 from threadpoolctl import threadpool_limits
 
 from calibgui.app.calibration import short_names
-from calibgui.app.outputs import check_writable, save_figure
+from calibgui.app.outputs import check_figure, save_figure
 from calibgui.cli.arguments import positive
 from calibgui.cli.console import Console
 from calibgui.engine.noise import examine
@@ -45,13 +45,15 @@ def configure(parser: argparse.ArgumentParser) -> None:
         help="calibrate again without some of the views and try these, with every model of the "
         "plate, and from resampled views",
     )
-    parser.add_argument("-o", "--output", type=Path, metavar="FILE", help="draw the map (.png ...)")
+    parser.add_argument(
+        "-o", "--output", type=Path, metavar="FILE", help="draw the map (.png, .svg, .pdf)"
+    )
 
 
 def run(options: argparse.Namespace, console: Console) -> None:
     """Read, propagate, examine, draw and print."""
     if options.output:
-        check_writable(options.output)
+        check_figure(options.output)
     result = read_result(options.result)
     views = result.observations()
     with threadpool_limits(1):

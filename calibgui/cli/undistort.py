@@ -21,9 +21,8 @@ def configure(parser: argparse.ArgumentParser) -> None:
     add_output(parser)
     parser.add_argument(
         "--view",
-        type=FieldOfView,
-        choices=list(FieldOfView),
-        default=FieldOfView.ALL,
+        choices=[view.value for view in FieldOfView],
+        default=FieldOfView.ALL.value,
         help="show all of the photograph with some border (default), as much as fits without a "
         "border, or keep the scale in the middle",
     )
@@ -38,7 +37,7 @@ def run(options: argparse.Namespace, console: Console) -> None:
             camera,
             images,
             options.output,
-            options.view,
+            FieldOfView(options.view),
             progress=lambda done, total, _: advance(done, total),
         )
     show_written(written, options.output, console)

@@ -7,7 +7,7 @@ from pathlib import Path
 
 from threadpoolctl import threadpool_limits
 
-from calibgui.app.outputs import check_writable, save_figure
+from calibgui.app.outputs import check_figure, save_figure
 from calibgui.cli.arguments import positive
 from calibgui.cli.console import Console
 from calibgui.engine.next_view import next_views
@@ -29,7 +29,9 @@ def configure(parser: argparse.ArgumentParser) -> None:
         metavar="PX",
         help="uncertainty to reach (default 0.5)",
     )
-    parser.add_argument("-o", "--output", type=Path, metavar="FILE", help="draw the curves")
+    parser.add_argument(
+        "-o", "--output", type=Path, metavar="FILE", help="draw the curves (.png, .svg, .pdf)"
+    )
     parser.add_argument(
         "--next", type=Path, metavar="FILE", help="draw where to hold the board next"
     )
@@ -38,7 +40,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
 def run(options: argparse.Namespace, console: Console) -> None:
     """Read, study, propose, draw and print."""
     for path in filter(None, [options.output, options.next]):
-        check_writable(path)
+        check_figure(path)
     result = read_result(options.result)
     calibration, views = result.calibration, result.observations()
     with threadpool_limits(1), console.progress("calibrating", "size") as advance:

@@ -16,6 +16,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+from calibgui.engine.errors import CalibrationError
 from calibgui.engine.types import Size, Target, View
 from calibgui.formats.exporter import Exporter, ExportReport
 from calibgui.formats.json_document import Node, read, write
@@ -62,6 +63,11 @@ def read_corners(path: str | os.PathLike[str]) -> CornerSet:
             and entry.
     """
     node = read(path)
+    if (other := node.get("format")) is not None:
+        raise CalibrationError(
+            f"{node.file} is a file of the format {other.value!r}, not corners.json.",
+            "Name the corners: `calibgui detect -o` writes them, and `--export corners=`.",
+        )
     target = read_target(node.get("target"))
     return CornerSet(read_size(node["size"]), read_views(node["views"], target), target)
 

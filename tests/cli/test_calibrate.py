@@ -238,6 +238,9 @@ def test_outputs_are_checked_before_the_work(
         ["a.png", "--square", "30", "--export", "opencv"],
         ["a.png", "--square", "30", "--export", "none=a.json"],
         ["a.png", "--square", "30", "--export", "ros=a.txt"],
+        ["a.png", "--square", "30", "--plate", "free", "--prior", "0.1"],
+        ["a.png", "--square", "30", "--plate", "bow", "--prior", "0.1,0.3"],
+        ["a.png", "b.json", "--square", "30"],
         ["corners.json", "--board", "6x7"],
     ],
 )

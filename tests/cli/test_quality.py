@@ -101,3 +101,5 @@ def test_a_place_that_cannot_be_written_is_told_first(
 ) -> None:
     assert main([command, str(result_file), "-o", str(tmp_path / "no" / "map.png")]) == 1
     assert "does not exist" in capsys.readouterr().err
+    assert main([command, str(result_file), "-o", str(tmp_path / "map.txt")]) == 1
+    assert "Give it the suffix .png or .svg or .pdf" in capsys.readouterr().err
