@@ -34,6 +34,7 @@ from calibgui.engine.types import (
     Report,
     Size,
 )
+from calibgui.engine.view_scatter import with_view_scatter
 from calibgui.engine.weighting import weighted
 
 HELD = {"lucchese": ("p3",)}
@@ -140,14 +141,23 @@ def calibrate(
         estimate = with_plate_doubt(estimate, observations, model, free_indices)
     elif isinstance(plate, PlateModel) and plate is not PlateModel.NOMINAL:
         estimate = fit_plate(solution, observations, model, free_indices, plate, prior, report)
-    covariance = np.zeros((len(parameters), len(parameters)))
-    covariance[np.ix_(free_indices, free_indices)] = estimate.camera
-    sigma = np.sqrt(np.diag(covariance))
-    sigma[[parameters.index(u.name) for u in precision.undetermined]] = np.nan
+    if cost is Cost.IMAGE:
+        estimate = with_view_scatter(estimate, model, free_indices)
+    lost = [parameters.index(u.name) for u in precision.undetermined]
+
+    def deviations(covariance: Array) -> tuple[Array, Array]:
+        whole = np.zeros((len(parameters), len(parameters)))
+        whole[np.ix_(free_indices, free_indices)] = covariance
+        sigma = np.sqrt(np.diag(whole))
+        sigma[lost] = np.nan
+        return whole, sigma
+
+    covariance, sigma = deviations(estimate.camera)
     return Calibration(
         camera=Camera(size, estimate.state.params, model),
         sigma=sigma,
         covariance=covariance,
+        sigma_by_noise=deviations(estimate.by_noise)[1],
         poses=poses(estimate.state),
         pose_covariances=estimate.poses,
         residuals=residuals(estimate.state, estimate.observations, model, cost, scale),
@@ -162,6 +172,7 @@ def calibrate(
         undetermined=precision.undetermined,
         plate=plate if isinstance(plate, Plate) else estimate.plate,
         plate_doubt=estimate.plate_doubt,
+        view_scatter=estimate.view_scatter,
         settings=settings,
         digest=_digest(observations, settings),
     )

@@ -26,9 +26,17 @@ class Estimate(NamedTuple):
     """(P, P) covariance of the camera's free parameters."""
     poses: Array
     """(K, 6, 6) covariances of (rvec, tvec)."""
+    by_noise: Array
+    """(P, P) covariance of the camera's free parameters from the corners' noise alone."""
     plate: Plate | None = None
+    plate_unknowns: int = 0
+    """Of an estimated plate, without its gauge."""
+    following: problem.Following | None = None
+    """How an estimated plate moves with the camera."""
     plate_doubt: float = 0.0
     """As ``Calibration.plate_doubt``."""
+    view_scatter: float = 0.0
+    """As ``Calibration.view_scatter``."""
 
 
 def estimated(
@@ -38,7 +46,7 @@ def estimated(
     rvecs = frames.rotation_vector(solution.state.R)
     sigma2, camera, _ = precision
     spread = uncertainty.pose_covariances(solution.normal, camera, rvecs, sigma2)
-    return Estimate(solution, solution.state, observations, sigma2, camera, spread)
+    return Estimate(solution, solution.state, observations, sigma2, camera, spread, camera)
 
 
 def poses(state: State) -> tuple[Pose, ...]:

@@ -10,7 +10,7 @@ from calibgui.engine.levenberg_marquardt import Solution, minimise, schur
 from calibgui.engine.observations import Observations
 from calibgui.engine.outcome import Estimate
 from calibgui.engine.plate import basis, corners_of, deviated, gauge, plate_problem
-from calibgui.engine.problem import residuals
+from calibgui.engine.problem import Following, residuals
 from calibgui.engine.types import Array, Cost, IntArray, Plate, PlateModel, Prior, Report
 from calibgui.engine.weighting import model_variance, weighted
 
@@ -93,14 +93,19 @@ def fit_plate(
     flat = B.reshape(-1, Q)
     spread = np.diag(of_plate) if len(flat) == Q else np.sum(flat @ of_plate * flat, axis=1)
     rvecs = frames.rotation_vector(state.R)
+    camera = covariance[: len(free), : len(free)]
+    motion = np.linalg.solve(camera, covariance[: len(free), len(free) :]).T
     return Estimate(
         solution,
         state,
         bent,
         sigma2,
-        covariance[: len(free), : len(free)],
+        camera,
         uncertainty.pose_covariances(solution.normal, covariance, rvecs, sigma2),
+        camera,
         Plate(shape, points, deviation, np.sqrt(np.maximum(spread, 0.0)).reshape(-1, 3)),
+        Q - G.shape[1],
+        Following(B @ motion, index),
     )
 
 

@@ -7,7 +7,7 @@ solution to rounding (``tests/engine/kernels``).
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
 
@@ -33,6 +33,15 @@ _EQ10_ROWS = {
     "opencv": np.array([0, 1, 2, 3, 4, 5, 8, 7, 6]),  # k1 k2 p1 p2 k3; its p1 is eq. 10's p2
 }
 """Place of each camera parameter among fx, fy, cx, cy, k1, k2, k3, p1, p2, p3."""
+
+
+class Following(NamedTuple):
+    """How the corners of an estimated plate move with the camera's parameters."""
+
+    motion: Array
+    """(n, 3, P) mm per unit of each."""
+    corner: IntArray
+    """(K, N) which of the plate's corners each observation is."""
 
 
 def stage_two(
@@ -125,6 +134,44 @@ def _compiled(observations: Observations, model: str, free: IntArray) -> NormalA
         )
 
     return normal_at
+
+
+def view_products(
+    state: State,
+    observations: Observations,
+    model: str,
+    free: IntArray,
+    following: Following | None = None,
+) -> Array:
+    """(K, P + 7, P + 7) products of each view's columns [camera, pose, r], with the image cost.
+
+    Args:
+        state: camera and poses.
+        observations: the views, on the plate as it is.
+        model: the lens, a key of ``lens.MODELS``.
+        free: (P,) indices of the camera's parameters that may move.
+        following: how an estimated plate moves with the camera; that counts as the camera's part.
+    """
+    if following is None and compiled(model):
+        from calibgui.engine.kernels import stage_two
+
+        lens, rows = eq10(model, state.params), eq10_rows(model, free)
+        return np.asarray(
+            stage_two.products(lens, state.R, state.T, transposed(observations), rows)
+        )
+    parts = []
+    for views in chunks(len(state.R)):
+        r, by_params, by_pose = linearised(
+            state, observations, views, MODELS[model], Cost.IMAGE, 1.0
+        )
+        by_camera = by_params[..., free]
+        if following is not None:
+            by_corner = by_pose[..., 3:] @ state.R[views, None]
+            by_camera = by_camera + by_corner @ following.motion[following.corner[views]]
+        J = np.concatenate([by_camera, by_pose, r[..., None]], axis=-1)
+        J = J.reshape(len(J), -1, J.shape[-1])
+        parts.append(np.swapaxes(J, 1, 2) @ J)
+    return np.concatenate(parts)
 
 
 def eq10(model: str, params: Array) -> stage_two_kernel.Lens:

@@ -394,6 +394,9 @@ class Calibration:
     """One standard deviation of each of `camera.params`; 0 where held, NaN where undetermined."""
     covariance: Array
     """Covariance of `camera.params`."""
+    sigma_by_noise: Array
+    """`sigma` as the corners' noise alone would make it, if it were independent from corner to
+    corner and board and lens were as modelled."""
     poses: tuple[Pose, ...]
     pose_covariances: Array
     """(K, 6, 6) covariance of (rvec, tvec) of each view, rad and mm."""
@@ -418,11 +421,15 @@ class Calibration:
     plate_doubt: float = 0.0
     """By how much, mm rms, the corners of a nominal plate seem to be off, if the residuals say
     so; the uncertainties then include what this does to the camera."""
+    view_scatter: float = 0.0
+    """How many times as much the views disagree about the camera as the corners' noise explains
+    (``view_scatter.py``), if that is beyond chance; the uncertainties then include it. 0
+    otherwise."""
     warnings: tuple[str, ...] = ()
     settings: Mapping[str, Any] = field(default_factory=dict)
     digest: str = ""
     """SHA-256 of the observations and settings that this answers."""
 
     def __post_init__(self) -> None:
-        for name in ("sigma", "covariance", "pose_covariances"):
+        for name in ("sigma", "covariance", "sigma_by_noise", "pose_covariances"):
             object.__setattr__(self, name, frozen(getattr(self, name)))

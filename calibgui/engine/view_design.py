@@ -7,8 +7,8 @@ solving anything,
 
 where C_0 is what is known of any camera beforehand, far weaker than two good views, and keeps
 sets finite that determine nothing. D is the part of the reported covariance that is not the
-corners' noise: with a nominal plate its doubt, which more views do not remove; with an
-estimated plate the plate's share, taken to fall as the number of views rises.
+corners' noise: with a nominal plate its doubt, which more views do not remove; otherwise an
+estimated plate's share and the views' disagreement, taken to fall as the number of views rises.
 
 A set is judged by the variance of projection of distant points (``projection_uncertainty.py``),
 averaged over the image: what the user of the camera will suffer from.
@@ -24,7 +24,7 @@ import numpy as np
 from calibgui.engine.information import Information, free_parameters, information
 from calibgui.engine.lens import MODELS
 from calibgui.engine.projection_uncertainty import propagated, sensitivity
-from calibgui.engine.types import Array, Calibration, Camera, IntArray, Observation, PlateModel
+from calibgui.engine.types import Array, Calibration, Camera, IntArray, Observation
 
 _MESH = (8, 6)
 """Pixels at which projection is judged, columns and rows."""
@@ -104,14 +104,13 @@ def design(calibration: Calibration, views: Sequence[Observation]) -> Design:
     uv = np.stack(np.meshgrid(u, v), axis=-1).reshape(-1, 2)
     by_params, by_motion = sensitivity(camera, uv, np.inf)
     good = np.isfinite(by_params).all(axis=(1, 2))
-    plate = calibration.plate
     noise_only = Design(
         camera=camera,
         free=free,
         noise=calibration.noise,
         views=found,
         doubt=np.zeros((len(free), len(free))),
-        doubt_falls=plate is not None and plate.model is not PlateModel.NOMINAL,
+        doubt_falls=calibration.plate_doubt == 0,
         by_params=by_params[good][..., free],
         by_motion=by_motion[good],
     )

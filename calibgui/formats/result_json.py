@@ -76,6 +76,7 @@ def result_record(result: Result) -> dict[str, Any]:
             "size": calibration.camera.size,
             "params": dict(zip(names, calibration.camera.params, strict=True)),
             "sigma": dict(zip(names, calibration.sigma, strict=True)),
+            "sigma_by_noise": dict(zip(names, calibration.sigma_by_noise, strict=True)),
             "fixed": calibration.fixed,
         },
         "paper": _paper_record(calibration),
@@ -99,6 +100,7 @@ def result_record(result: Result) -> dict[str, Any]:
         "target": None if result.target is None else target_record(result.target),
         "plate": None if calibration.plate is None else plate_record(calibration.plate),
         "plate_doubt_mm": calibration.plate_doubt,
+        "view_scatter": calibration.view_scatter,
         "stage_one": _stage_one_records(result),
         "history": [{k: getattr(i, k) for k in _ITERATION} for i in calibration.history],
         "views": _view_records(result),
@@ -204,6 +206,7 @@ def _read_calibration(node: Node, used: list[Node]) -> Calibration:
         camera=Camera(read_size(camera["size"]), _by_name(camera["params"], names), model),
         sigma=_by_name(camera["sigma"], names),
         covariance=node["covariance"]["matrix"].numbers(len(names), len(names), nullable=True),
+        sigma_by_noise=_by_name(camera.get("sigma_by_noise") or camera["sigma"], names),
         poses=tuple(Pose(v["rvec"].numbers(3), v["tvec_mm"].numbers(3)) for v in used),
         pose_covariances=np.stack(
             [v["pose_covariance"].numbers(6, 6, nullable=True) for v in used]
@@ -223,6 +226,7 @@ def _read_calibration(node: Node, used: list[Node]) -> Calibration:
         ),
         plate=_read_plate(node.get("plate")),
         plate_doubt=doubt.number() if (doubt := node.get("plate_doubt_mm")) else 0.0,
+        view_scatter=scatter.number() if (scatter := node.get("view_scatter")) else 0.0,
         warnings=tuple(n.text() for n in node["warnings"].items()),
         settings=_read_settings(node["settings"]),
         digest=node["inputs_sha256"].text(),

@@ -115,13 +115,24 @@ def about_plate_doubt(doubt: float) -> str:
     )
 
 
+def about_view_scatter(scatter: float) -> str:
+    """That the views disagree `scatter` times as much as the corners' noise explains."""
+    return (
+        f"The views disagree about the camera {scatter:.1f} times as much as the scatter of their "
+        "corners explains: the errors within a view hang together. Every ± is therefore what the "
+        "views' disagreement shows, where that is more."
+    )
+
+
 def _plate(result: Result) -> Iterator[Sentence]:
-    """What is known, or suspected, of the board's shape."""
+    """What is known, or suspected, of the board's shape, and whether the views agree."""
     plate, doubt = result.calibration.plate, result.calibration.plate_doubt
     if doubt > 0:
         yield Sentence(Tone.CAUTION, about_plate_doubt(doubt))
     if plate is not None:
         yield Sentence(Tone.FACT, about_plate(plate))
+    if (scatter := result.calibration.view_scatter) > 0:
+        yield Sentence(Tone.CAUTION, about_view_scatter(scatter))
 
 
 def _fit(result: Result) -> Iterator[Sentence]:

@@ -307,7 +307,7 @@ def test_the_forward_model_agrees_with_opencv(aspect: float) -> None:
     squares = np.concatenate([r.image for r in found.residuals]) ** 2
     assert np.sqrt(squares.sum(axis=1).mean()) == pytest.approx(rms, rel=1e-5)
     sd = result[5].ravel()[:9][[0, 1, 2, 3, 4, 5, 6, 7, 8]]
-    np.testing.assert_allclose(found.sigma, sd, rtol=5e-3)
+    np.testing.assert_allclose(found.sigma_by_noise, sd, rtol=5e-3)
 
 
 @pytest.mark.parametrize(("count", "plate"), [(300, "nominal"), (12, "free")])
