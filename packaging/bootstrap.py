@@ -230,6 +230,16 @@ class Environment:
         stamp = {"source": self.source(), "extra": extra}
         self.stamp.write_text(json.dumps(stamp), encoding="utf-8")
 
+    def compile(self) -> None:
+        """Calibrate the sample, so that the first calibration need not wait for its kernels.
+
+        Nothing is lost where that fails: they are compiled when they are needed.
+        """
+        say("compiling what is slow in Python (half a minute, once)")
+        sample = ROOT / "resources" / "sample"
+        calibrate = ["-m", "calibgui", "calibrate", sample, "--square", "25", "--quiet"]
+        succeeds(self.python, *calibrate, env=self.variables())
+
     def pip(self, *arguments: str) -> None:
         """Run pip; where nobody watches it work, only what it says of a failure is shown."""
         watched = sys.stdout.isatty()
@@ -333,6 +343,7 @@ def set_up(extra: str, purposes: set[str]) -> Environment:
         provide(environment, venv_package() + missing_libraries(environment, purposes))
         environment.create()
         environment.install(extra)
+        environment.compile()
         return environment
     provide(environment, missing_libraries(environment, purposes))
     if extra and not held:

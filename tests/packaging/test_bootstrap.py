@@ -13,7 +13,8 @@ from types import ModuleType
 
 import pytest
 
-SCRIPT = Path(__file__).resolve().parents[2] / "packaging" / "bootstrap.py"
+PACKAGE = str(Path(__file__).resolve().parents[2])
+SCRIPT = Path(PACKAGE, "packaging", "bootstrap.py")
 
 
 def load() -> ModuleType:
@@ -122,6 +123,17 @@ class TestEnvironment:
         variables = bootstrap.Environment(tmp_path).variables()
         assert variables["PIP_INDEX_URL"] == "https://index.example/simple"
         assert "PYTHONPATH" not in variables
+
+    def test_compiles_the_kernels_by_a_calibration_that_works(
+        self, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+    ) -> None:
+        environment, ended = bootstrap.Environment(tmp_path), []
+        environment.python = Path(sys.executable)
+        succeeds = bootstrap.succeeds
+        monkeypatch.setattr(bootstrap, "succeeds", lambda *a, **k: ended.append(succeeds(*a, **k)))
+        monkeypatch.setattr(environment, "variables", lambda: os.environ | {"PYTHONPATH": PACKAGE})
+        environment.compile()
+        assert ended == [True]
 
     def test_finds_libraries_unpacked_for_it(self, tmp_path: Path) -> None:
         libraries = tmp_path / "debian" / "usr" / "lib" / "x86_64-linux-gnu"
