@@ -29,6 +29,8 @@ _CLEAR = 0.25
 """Least gap between the dark and the bright sectors over their difference."""
 _WEAKEST = 0.2
 """Least contrast of a corner over the median of its lattice."""
+_EVENLY = 0.3
+"""Greatest difference of grey levels within a square seen, over the contrast."""
 _UNLIKE = 0.05
 """Greatest lack of correlation with the typical corner ..."""
 _UNUSUAL = 4.0
@@ -59,6 +61,20 @@ class Look:
             & (unlike <= max(_UNLIKE, _UNUSUAL * self.unlike))
         )
         return has, gap
+
+    def contradicted(
+        self, image: Image, uv: Array, right: Array, down: Array, dark: BoolArray
+    ) -> BoolArray:
+        """(n,) points around which squares of the board's contrast are seen, evenly filled, that
+        do not alternate: there is no corner, rather than one that something hides."""
+        values = _sectors(image, uv, right, down)
+        level, spread = values.mean(axis=2), np.ptp(values, axis=2).max(axis=1)
+        low, high = level.min(axis=1), level.max(axis=1)
+        aside = np.minimum(level - low[:, None], high[:, None] - level).max(axis=1)
+        even = np.maximum(spread, aside) < _EVENLY * self.contrast
+        mixed = abs(high - low - self.contrast) < self.contrast / 2
+        gap, _ = sectors(image, uv, right, down, dark)
+        return np.asarray(even & mixed & (gap < 0))
 
 
 def typical(lattice: Lattice, image: Image, plain: float = 0.5) -> Look:
@@ -95,6 +111,15 @@ def sectors(
         Gap between the darkest bright and the brightest dark sector (n,), and the difference
         of bright and dark on average (n,), both grey levels and negative where exchanged.
     """
+    values = _sectors(image, uv, right, down).mean(axis=2)
+    values = np.where(dark[:, None], values, -values)
+    low, high = values[:, :2], values[:, 2:]
+    difference = high.mean(axis=1) - low.mean(axis=1)
+    return high.min(axis=1) - low.max(axis=1), difference
+
+
+def _sectors(image: Image, uv: Array, right: Array, down: Array) -> Array:
+    """(n, 4, k) grey levels in the squares (+, +), (-, -), (+, -) and (-, +) around corners."""
     signs = np.array([(1, 1), (-1, -1), (1, -1), (-1, 1)])
     a, b = (grid.ravel() for grid in np.meshgrid(_INSIDE, _INSIDE))
     a, b = signs[:, :1] * a, signs[:, 1:] * b
@@ -103,11 +128,7 @@ def sectors(
     room = np.minimum(uv, np.array(image.shape[::-1]) - 1.0 - uv)
     reach = np.abs(offset).max(axis=(1, 2))
     offset *= np.clip(room / reach, 0.1, 1.0).min(axis=1)[:, None, None, None]
-    values = opencv.sample(image, uv[:, None, None] + offset).mean(axis=2)
-    values = np.where(dark[:, None], values, -values)
-    low, high = values[:, :2], values[:, 2:]
-    difference = high.mean(axis=1) - low.mean(axis=1)
-    return high.min(axis=1) - low.max(axis=1), difference
+    return opencv.sample(image, uv[:, None, None] + offset)
 
 
 def _surroundings(image: Image, uv: Array, right: Array, down: Array, dark: BoolArray) -> Array:

@@ -23,6 +23,8 @@ from calibgui.engine.errors import NoBoardError
 from calibgui.engine.opencv import Image
 from calibgui.engine.types import Array, Board, Corners, OtherBoard
 
+_SMALLEST = 16
+"""Short side of an image that can show a board, px."""
 _STATE_SIZE = "State the number of inner corners, rows x columns, or leave it out."
 
 
@@ -74,8 +76,13 @@ def find_corners(
 def grey_levels(image: npt.ArrayLike) -> Image:
     """The image (h, w) as uint8, uint16 or float32. Raises ValueError for what is none."""
     grey = np.asarray(image)
-    if grey.ndim != 2 or min(grey.shape) < 16:
+    if grey.ndim != 2:
         raise ValueError(f"an image of grey levels (h, w) is needed, not of shape {grey.shape}")
+    if min(grey.shape) < _SMALLEST:
+        raise NoBoardError(
+            f"An image of {grey.shape[1]} x {grey.shape[0]} pixels is too small for a board.",
+            "Take the original picture, not a thumbnail of it.",
+        )
     if grey.dtype in (np.uint8, np.uint16):
         return np.ascontiguousarray(grey)
     grey = np.ascontiguousarray(grey, dtype=np.float32)

@@ -47,9 +47,10 @@ def find_boards(image: Image, inside: Array | None = None) -> Iterator[list[Latt
     levels = [image]
     while min(levels[-1].shape) > _COARSEST:
         levels.append(opencv.half(levels[-1]))
-    low, high = np.percentile(levels[-1], (0.5, 99.5))
-    floor = _CONTRAST * float(high - low)
-    if floor <= 0:
+    # A coarse level may even out squares that fill the image.
+    ranges = (np.diff(np.percentile(level, (0.5, 99.5)))[0] for level in reversed(levels))
+    floor = _CONTRAST * next((float(contrast) for contrast in ranges if contrast > 0), 0.0)
+    if floor == 0:
         return
     boards: list[Lattice] = []
     sure = False

@@ -73,6 +73,7 @@ def _fitted(
     The others mislead what is taken from the whole board: without them it is fitted again.
     """
     for _ in range(_ROUNDS):
+        lattice = verify.unbroken(lattice, grey) if large_enough(lattice) else lattice
         if not large_enough(lattice):
             break
         if method == "saddle":

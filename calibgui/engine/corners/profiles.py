@@ -75,7 +75,7 @@ def across_edge(
     values = opencv.sample(image, at)
     first, last = values[..., :_ENDS].mean(axis=2), values[..., -_ENDS:].mean(axis=2)
     rise = (last - first) * rising
-    clear = rise > _CLEAR * np.median(rise)
+    clear = rise > max(_CLEAR * float(np.median(rise)), 0.0)
     share = (values - first[..., None]) / np.where(clear, rise * rising, np.inf)[..., None]
     integral = (share.sum(axis=2) - share[..., [0, -1]].mean(axis=2)) * (o[1] - o[0])
     spread = np.where(clear.all(axis=1), np.mean((reach - integral) * rising, axis=1), np.nan)

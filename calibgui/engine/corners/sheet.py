@@ -18,7 +18,7 @@ from calibgui.engine import homography
 from calibgui.engine.corners.lattice import Lattice
 from calibgui.engine.types import Array, IntArray
 
-_DEGREES = np.array([(1, 16), (2, 24), (3, 40)])
+_DEGREES = np.array([(1, 16), (2, 20), (3, 26), (4, 45)])
 """Degree of the polynomial, and the corners from which on it is used."""
 
 

@@ -13,6 +13,7 @@ from __future__ import annotations
 import numpy as np
 
 from calibgui.engine import opencv
+from calibgui.engine.corners import sheet
 from calibgui.engine.corners.appearance import placed, typical
 from calibgui.engine.corners.edges import Fit
 from calibgui.engine.corners.lattice import (
@@ -21,6 +22,7 @@ from calibgui.engine.corners.lattice import (
     bordered,
     in_steps,
     predict,
+    supported,
 )
 from calibgui.engine.corners.ordering import Sides, turned
 from calibgui.engine.opencv import Image
@@ -30,6 +32,10 @@ _IRREGULAR = 0.2
 """Greatest distance from the neighbours' prediction, steps of the lattice."""
 _FAILING = 0.25
 """Share of corners that may fail before the board does."""
+_UNEVEN = 0.1
+"""Greatest rms distance of a board's corners from the smooth sheet through them, steps."""
+_BROKEN = 0.1
+"""Places between a board's corners, over these, that may show squares but no corner."""
 _WIDEST = 0.18
 """Greatest blur of a board's edges, squares: of a sine wave it would be 0.25."""
 _WORST_MISFIT = 0.25
@@ -76,6 +82,46 @@ def sound(lattice: Lattice, image: Image, plain: float = 0.5) -> BoolArray:
 def credible(good: BoolArray, found: BoolArray) -> bool:
     """Whether enough of the corners found are good for their board to be trusted."""
     return bool(np.count_nonzero(found & ~good) <= _FAILING * np.count_nonzero(found))
+
+
+def unbroken(lattice: Lattice, image: Image) -> Lattice:
+    """The lattice without border lines where squares are seen that form no corners in more places
+    than corners; empty if many such places are left, or if the corners lie on no smooth sheet.
+
+    Something may hide a corner, but where even squares are seen that do not alternate there is
+    none: beyond the border of the board, and in textures of squares at random.
+    """
+    cells = np.argwhere(lattice.found).astype(np.float64)
+    off = np.linalg.norm(sheet.fitted(lattice).at(cells) - lattice.uv[lattice.found], axis=1)
+    if np.sqrt(np.mean((off / lattice.spacing()[lattice.found]) ** 2)) > _UNEVEN:
+        return supported(lattice.under(np.zeros(lattice.shape, dtype=np.bool_)))
+    broken = _broken(lattice, image)
+    kept = np.ones(lattice.shape, dtype=np.bool_)
+    while kept.any():
+        rows, cols = np.flatnonzero(kept.any(axis=1)), np.flatnonzero(kept.any(axis=0))
+        borders = ((rows[0], cols), (rows[-1], cols), (rows, cols[0]), (rows, cols[-1]))
+        excess = [int(broken[line].sum() - lattice.found[line].sum()) for line in borders]
+        if max(excess) <= 0:
+            break
+        kept[borders[int(np.argmax(excess))]] = False
+    if np.count_nonzero(broken & kept) > _BROKEN * np.count_nonzero(lattice.found & kept):
+        kept[:] = False
+    return supported(lattice.under(kept))
+
+
+def _broken(lattice: Lattice, image: Image) -> BoolArray:
+    """(rows, cols) where there is no corner, and nothing hides one."""
+    right, down = axes(lattice.uv)
+    missing = ~lattice.found & np.isfinite(right + down).all(axis=2)
+    places = np.argwhere(missing)
+    if not len(places):
+        return missing
+    uv = sheet.fitted(lattice).at(places.astype(np.float64))
+    dark = lattice.dark ^ (places.sum(axis=1) % 2 == 1)
+    look = typical(lattice, image)
+    none = look.contradicted(image, uv, right[missing], down[missing], dark)
+    missing[missing] = none & _inside(uv, image.shape)
+    return np.asarray(missing)
 
 
 def described(fit: Fit, lattice: Lattice) -> BoolArray:

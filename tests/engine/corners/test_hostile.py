@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import contextlib
+from collections.abc import Callable
+from typing import Any
 
 import numpy as np
 import pytest
@@ -11,27 +13,97 @@ from hypothesis import strategies as st
 from hypothesis.extra import numpy as hnp
 from numpy.typing import NDArray
 
-from calibgui.engine.corners import find_corners
+from calibgui.engine.corners import edges, find_corners, finder, growth, junctions
 from calibgui.engine.errors import NoBoardError
+
+SHAPE = (900, 1200)
+V, U = np.mgrid[: SHAPE[0], : SHAPE[1]]
+
+
+def checkers(period: float, angle: float = 0.0) -> NDArray[np.uint8]:
+    c, s = np.cos(np.radians(angle)), np.sin(np.radians(angle))
+    x, y = c * U + s * V, c * V - s * U
+    return (255 * ((np.floor(x / period) + np.floor(y / period)) % 2)).astype(np.uint8)
+
+
+def random_squares(side: int) -> NDArray[np.uint8]:
+    few = np.random.default_rng(1).integers(0, 2, (SHAPE[0] // side, SHAPE[1] // side))
+    return np.kron(255 * few, np.ones((side, side))).astype(np.uint8)
+
+
+def many_boards() -> NDArray[np.uint8]:
+    image = np.full(SHAPE, 255, np.uint8)
+    for row in range(10, 800, 110):
+        for col in range(10, 1100, 110):
+            image[row : row + 90, col : col + 90] = checkers(10 + row // 110)[:90, :90]
+    return image
+
+
+HOSTILE: dict[str, Callable[[], NDArray[Any]]] = {
+    **{f"checkers {p}": lambda p=p: checkers(p) for p in (1, 2, 3, 4, 5, 6, 8, 10, 13, 16, 20)},
+    "checkers turned": lambda: checkers(7.3, 5.0),
+    "noise": lambda: np.random.default_rng(0).integers(0, 256, SHAPE).astype(np.uint8),
+    "stripes": lambda: (255 * (U // 8 % 2)).astype(np.uint8),
+    "ramp": lambda: (U * 50 + V).astype(np.uint16),
+    "moire": lambda: (127 + 60 * np.sin(U * U / 2e3) + 60 * np.sin(V * V / 2e3)).astype(np.uint8),
+    "sine grid": lambda: (127 + 120 * np.sin(U / 9) * np.sin(V / 9)).astype(np.uint8),
+    "dot screen": lambda: (255 * (np.hypot(U % 12 - 6, V % 12 - 6) < 4)).astype(np.uint8),
+    "random squares": lambda: random_squares(10),
+    "many boards": many_boards,
+}
+
+
+@pytest.mark.parametrize("name", HOSTILE)
+def test_work_is_bounded(name: str, monkeypatch: pytest.MonkeyPatch) -> None:
+    """In candidates, rounds of growth and fitted corners, whatever is looked for."""
+    candidates, rounds, fitted = [], [], []
+
+    def counted(module: Any, function: str, note: Callable[[Any, Any], None]) -> None:
+        original = getattr(module, function)
+
+        def wrapper(*args: Any) -> Any:
+            result = original(*args)
+            note(args, result)
+            return result
+
+        monkeypatch.setattr(module, function, wrapper)
+
+    counted(finder, "find_saddles", lambda _, saddles: candidates.append(len(saddles.uv)))
+    counted(growth, "_fill", lambda args, _: rounds.append(len(args[0])))
+    counted(edges, "fit", lambda args, _: fitted.append(len(args[1])))
+    for board in (None, (6, 9)):
+        with contextlib.suppress(NoBoardError):
+            find_corners(HOSTILE[name](), board)
+    levels = 4
+    assert len(candidates) <= 2 * levels
+    assert max(candidates, default=0) <= junctions.MAX_CANDIDATES
+    assert len(rounds) <= 500
+    assert sum(fitted) <= 8 * junctions.MAX_CANDIDATES
 
 
 @settings(max_examples=40)
 @given(
-    hnp.arrays(np.uint8, st.tuples(st.integers(16, 48), st.integers(16, 48))),
+    hnp.arrays(
+        st.sampled_from([np.uint8, np.uint16]), st.tuples(st.integers(1, 48), st.integers(1, 48))
+    ),
     st.integers(1, 8),
 )
-def test_any_image_gets_an_answer(image: NDArray[np.uint8], zoom: int) -> None:
+def test_any_image_gets_an_answer(image: NDArray[Any], zoom: int) -> None:
     with contextlib.suppress(NoBoardError):
-        find_corners(np.kron(image, np.ones((zoom, zoom), np.uint8)))
+        find_corners(np.kron(image, np.ones((zoom, zoom), image.dtype)))
+
+
+@pytest.mark.parametrize("value", [0, 1, 255, 65535])
+def test_nothing_to_see(value: int) -> None:
+    with pytest.raises(NoBoardError):
+        find_corners(np.full((300, 400), value, np.uint16))
 
 
 @pytest.mark.parametrize("period", [1, 2, 3, 4])
 @pytest.mark.parametrize("method", ["edges", "saddle"])
 def test_endless_fine_checkers(period: int, method: str) -> None:
-    v, u = np.mgrid[:300, :400]
-    image = (255 * ((u // period + v // period) % 2)).astype(np.uint8)
     with contextlib.suppress(NoBoardError):
-        find_corners(image, method=method)
+        find_corners(checkers(period)[:300, :400], method=method)
 
 
 @pytest.mark.parametrize("shape", [(16, 2000), (2000, 16), (17, 17)])
@@ -41,8 +113,20 @@ def test_odd_shapes(shape: tuple[int, int]) -> None:
         find_corners(image)
 
 
+@pytest.mark.parametrize("shape", [(1, 1), (15, 4000), (0, 7)])
+def test_an_image_too_small_is_told(shape: tuple[int, int]) -> None:
+    with pytest.raises(NoBoardError, match="too small"):
+        find_corners(np.zeros(shape, np.uint8))
+
+
 def test_saturated_halves() -> None:
     image = np.zeros((200, 300), np.uint16)
     image[:, 150:] = 65535
     with pytest.raises(NoBoardError):
         find_corners(image)
+
+
+@pytest.mark.parametrize("side", [6, 10, 17])
+def test_squares_at_random_are_no_board(side: int) -> None:
+    with pytest.raises(NoBoardError):
+        find_corners(random_squares(side))
