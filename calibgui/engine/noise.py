@@ -9,6 +9,7 @@ bow         the board is bowed
 rows        a shift from row to row, each view's own
 lens        a smooth displacement of the image that all views share
 bending     a quadratic displacement, each view's own
+lines       a shift along the rows that wanders from row to row, each view's own
 board       corners of the board that are not where they should be
 
 and then
@@ -86,6 +87,13 @@ _PATTERNS: tuple[tuple[str, Callable[[Fitted], patterns.Explained], str], ...] =
         patterns.by_bending,
         "The board bends from view to view, as paper in the hand does: mount it on something "
         "stiff.",
+    ),
+    (
+        "lines",
+        patterns.by_lines,
+        "The image's rows are shifted sideways against each other: an analogue camera's lines do "
+        "not start evenly, or the camera trembled while a rolling shutter read them. Many views "
+        "average it; a digital or steady camera avoids it.",
     ),
     (
         "board",

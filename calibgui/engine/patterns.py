@@ -46,6 +46,10 @@ from calibgui.engine.types import (
 
 CELLS = 8
 """Cells along the image's longer side of the displacements that a lens is allowed."""
+_LINES = 1 / 16
+"""Distance of the knots between which rows are shifted, in the image's longer side."""
+_KNOTS = np.arange(-16, 17)
+"""Of rows counted from the board's mean."""
 _RANK = 1e-9
 
 
@@ -172,6 +176,11 @@ def by_bending(fit: Fitted) -> Explained:
     return _own(fit, lambda x: np.stack([x[..., 0] ** 2, np.prod(x, -1), x[..., 1] ** 2], axis=-1))
 
 
+def by_lines(fit: Fitted) -> Explained:
+    """By a shift along the rows that wanders from row to row, another in each view."""
+    return _own(fit, lambda x: np.maximum(1 - np.abs(x[..., 1:] / _LINES - _KNOTS), 0.0), (0,))
+
+
 def _shared(normal: NormalEquations, fit: Fitted) -> Explained:
     """The score test of the shared columns after the camera's own."""
     # Columns that no corner depends on would be divided by 0.
@@ -193,8 +202,13 @@ def _reduction(N: Array, b: Array) -> tuple[float, int]:
     return float(np.sum((b @ vectors[:, good]) ** 2 / values[good])), int(good.sum())
 
 
-def _own(fit: Fitted, functions: Callable[[Array], Array]) -> Explained:
-    """The score test of displacements by functions of the place x (k, N, 2) in each view."""
+def _own(
+    fit: Fitted, functions: Callable[[Array], Array], axes: Sequence[int] = (0, 1)
+) -> Explained:
+    """The score test of displacements by functions of the place x (k, N, 2) in each view.
+
+    `axes`: u, v or both, along which the displacements are.
+    """
     T, rank, cost = 0.0, 0, 0.0
     for views in chunks(len(fit.state.R)):
         r, _, by_pose = fit.linear(views)
@@ -202,9 +216,10 @@ def _own(fit: Fitted, functions: Callable[[Array], Array]) -> Explained:
         place = fit.predicted(views) / max(fit.camera.size) - 0.5
         f = functions(place - place.mean(axis=1, keepdims=True))[..., None, :]
         weight = fit.weight(views)
-        X = np.concatenate([weight[..., :1] * f, weight[..., 1:] * f], axis=-1)
+        X = np.concatenate([weight[..., [axis]] * f for axis in axes], axis=-1)
         Jp, X = (M.reshape(k, -1, M.shape[-1]) for M in (by_pose, X))
-        Jp, X = (M / np.linalg.norm(M, axis=1, keepdims=True) for M in (Jp, X))
+        # Columns that no corner depends on would be divided by 0.
+        Jp, X = (M / np.maximum(np.linalg.norm(M, axis=1, keepdims=True), 1e-12) for M in (Jp, X))
         Q = np.linalg.qr(Jp)[0]
         X = X - Q @ (np.swapaxes(Q, 1, 2) @ X)
         N, b = np.swapaxes(X, 1, 2) @ X, np.swapaxes(X, 1, 2) @ r.reshape(k, -1, 1)

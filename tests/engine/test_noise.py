@@ -54,10 +54,17 @@ def _images(fault: str, rng: np.random.Generator) -> list[Array]:
         exact = [bent["none"](pose) for pose in poses]
         blurred = [uv + rng.normal(scale=0.6, size=(len(uv), 1)) * [0.8, 0.3] for uv in exact[:3]]
         return blurred + exact[3:]
+    if fault == "lines":
+        rows = np.linspace(0, SIZE[1], 12)
+        images = [bent["none"](pose) for pose in poses]
+        shifts = [np.interp(uv[:, 1], rows, rng.normal(scale=0.2, size=12)) for uv in images]
+        return [uv + np.outer(shift, [1, 0]) for uv, shift in zip(images, shifts, strict=True)]
     return [bent[fault if fault in bent else "none"](pose) for pose in poses]
 
 
-@pytest.mark.parametrize("fault", ["squares", "bow", "rows", "bending", "board", "views", "lens"])
+@pytest.mark.parametrize(
+    "fault", ["squares", "bow", "rows", "bending", "lines", "board", "views", "lens"]
+)
 def test_a_fault_is_named(fault: str) -> None:
     rng = np.random.default_rng(0)
     views = [
@@ -146,4 +153,4 @@ def test_it_can_be_abandoned() -> None:
 
     with pytest.raises(Cancelled):
         examine(calibrate(SCENE.views, SIZE), SCENE.views, progress=twice)
-    assert told == [(0, 6), (1, 6)]
+    assert told == [(0, 7), (1, 7)]

@@ -56,7 +56,7 @@ def test_every_cost_can_be_examined(cost: Cost) -> None:
     fit = patterns.fitted(calibrate(views, SIZE, cost=cost), views)
     residual = fit.linear(slice(0, 8)).residual
     assert np.sqrt(np.mean(residual**2)) == pytest.approx(0.1, rel=0.1)
-    for test in (patterns.by_lens, patterns.by_rows, patterns.by_bending):
+    for test in (patterns.by_lens, patterns.by_rows, patterns.by_bending, patterns.by_lines):
         assert test(fit).probability > 0.001
 
 
