@@ -6,7 +6,8 @@
     enabled  whether the user wants it          roi     (4, 2) px, where given by the user
 
 and for corners found on a board of known layout their `grid` (row, column), the board's
-`shape`, first `estimate`, `ambiguity`, `relative`, `method` and the searched `outline`.
+`shape`, first `estimate`, `ambiguity`, `relative`, `method` and the searched `outline`; also
+`others`, further boards in the image, each with its `shape` and `outline`.
 `image`, `uv` and `board` suffice: the others have defaults.
 """
 
@@ -20,6 +21,7 @@ from calibgui.engine.types import (
     Ambiguity,
     Corners,
     Observation,
+    OtherBoard,
     Target,
     View,
     ViewStatus,
@@ -59,6 +61,8 @@ def _corners_record(corners: Corners) -> dict[str, Any]:
     }
     if corners.roi is not None:
         record["outline"] = corners.roi
+    if corners.others:
+        record["others"] = [other._asdict() for other in corners.others]
     return record
 
 
@@ -112,6 +116,7 @@ def _read_corners(node: Node, points: Observation) -> Corners | None:
     rows, cols = shape.integers(2)
     estimate, outline = node.get("estimate"), node.get("outline")
     ambiguity, relative = node.get("ambiguity"), node.get("relative")
+    others = node.get("others")
     n = len(points.uv)
     return Corners(
         shape=(int(rows), int(cols)),
@@ -123,4 +128,10 @@ def _read_corners(node: Node, points: Observation) -> Corners | None:
         roi=outline.numbers(4, 2) if outline else None,
         method=method.text() if (method := node.get("method")) else "",
         relative=relative.flag() if relative else False,
+        others=tuple(map(_read_other, others.items())) if others else (),
     )
+
+
+def _read_other(node: Node) -> OtherBoard:
+    rows, cols = node["shape"].integers(2)
+    return OtherBoard((int(rows), int(cols)), node["outline"].numbers(4, 2))

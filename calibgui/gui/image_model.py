@@ -74,6 +74,10 @@ def status_tip(view: View) -> str:
         tip += "\n" + QCoreApplication.translate(
             "status_tip", "A turn of the board by {0} cannot be seen in its pattern."
         ).format(turn)
+    for rows, cols in [] if view.corners is None else [o.shape for o in view.corners.others]:
+        tip += "\n" + QCoreApplication.translate(
+            "status_tip", "Another board is seen here, of {0} x {1} inner corners."
+        ).format(rows, cols)
     return f"{view.image}\n{tip}"
 
 

@@ -220,8 +220,22 @@ def detection(all_views: Sequence[View]) -> str:
     parts = ["Images\n" + aligned([head, *rows], left=(1, 2)), unused(all_views)]
     found = sum(view.status is ViewStatus.FOUND for view in all_views)
     remarks = [f"The board was found in {found} of {counted(len(all_views), 'image')}."]
-    parts.append("\n".join(map(bullet, [*remarks, *symmetry(all_views)])))
+    remarks += [*map(_others, all_views), *symmetry(all_views)]
+    parts.append("\n".join(map(bullet, filter(None, remarks))))
     return "\n\n".join(part for part in parts if part)
+
+
+def _others(view: View) -> str:
+    """The further boards in an image, by size and place; nothing where there are none."""
+    if view.corners is None or not view.corners.others:
+        return ""
+    boards = [
+        f"{rows} x {cols} inner corners around ({u:.0f}, {v:.0f})"
+        for (rows, cols), (u, v) in (
+            (other.shape, other.outline.mean(axis=0)) for other in view.corners.others
+        )
+    ]
+    return f"{short_name(view.image)} shows further boards: {', '.join(boards)}."
 
 
 def _numbers(result: Result) -> list[int]:

@@ -8,7 +8,16 @@ import numpy as np
 import pytest
 
 from calibgui import engine
-from calibgui.engine.types import Ambiguity, Camera, Corners, Observation, Target, View, ViewStatus
+from calibgui.engine.types import (
+    Ambiguity,
+    Camera,
+    Corners,
+    Observation,
+    OtherBoard,
+    Target,
+    View,
+    ViewStatus,
+)
 from calibgui.formats.result import Result
 from tests.engine import scenes
 
@@ -43,6 +52,7 @@ def _found(image: str, points: Observation, weighted: bool) -> View:
         ambiguity=Ambiguity.HALF_TURN,
         roi=np.array([[1.5, 2], [600, 3], [610, 470], [5, 460]]),
         relative=len(points.uv) < BOARD.rows * BOARD.cols,
+        others=(OtherBoard((4, 5), np.array([[9.5, 8], [90, 7], [95, 60], [8, 70]])),),
     )
     return View(image, ViewStatus.FOUND, corners=corners)
 

@@ -5,11 +5,13 @@ from __future__ import annotations
 from dataclasses import replace
 from pathlib import Path
 
+import numpy as np
 import pytest
 from PySide6.QtWidgets import QApplication
 
 from calibgui.app.document import Document
 from calibgui.app.project import Project, with_each, with_images
+from calibgui.engine.types import Corners, OtherBoard, View, ViewStatus
 from calibgui.gui import image_model
 from calibgui.gui.image_list import ImageList
 from calibgui.gui.image_model import Criterion
@@ -58,3 +60,10 @@ def test_names_with_numbers_are_in_the_order_people_expect(
     session.jobs.close()
     images.deleteLater()
     session.deleteLater()
+
+
+def test_further_boards_are_told() -> None:
+    uv, outline = np.zeros((2, 2)), np.zeros((4, 2))
+    corners = Corners((6, 9), [[0, 0], [0, 1]], uv, uv, others=(OtherBoard((4, 5), outline),))
+    tip = image_model.status_tip(View("a.png", ViewStatus.FOUND, corners=corners))
+    assert "Another board is seen here, of 4 x 5 inner corners." in tip

@@ -10,7 +10,7 @@ import pytest
 from calibgui import engine
 from calibgui.app.calibration import calibrate_views
 from calibgui.engine import Ambiguity, Corners, Cost, Target, View, ViewStatus
-from calibgui.engine.types import Undetermined
+from calibgui.engine.types import OtherBoard, Undetermined
 from calibgui.formats.corners_json import CornerSet
 from calibgui.formats.result import Result
 from calibgui.report import tables
@@ -161,3 +161,13 @@ def test_detection_lists_every_image(result: Result) -> None:
     assert "no-board" in table and "8 x 11" in table
     assert "The board was found in 8 of 9 images." in table
     assert max(map(len, table.splitlines())) <= tables.WIDTH
+
+
+def test_detection_tells_further_boards() -> None:
+    outline = np.array([[100.0, 50], [180, 50], [180, 110], [100, 110]])
+    uv = np.zeros((2, 2))
+    corners = Corners((6, 9), [[0, 0], [0, 1]], uv, uv, others=(OtherBoard((4, 5), outline),))
+    table = tables.detection([View("a.png", ViewStatus.FOUND, corners=corners)])
+    assert "a.png shows further boards: 4 x 5 inner corners around (140, 80)." in " ".join(
+        table.split()
+    )

@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from numpy.typing import NDArray
 
 from calibgui.engine.corners import find_corners
 from calibgui.engine.errors import NoBoardError
@@ -102,6 +103,49 @@ def test_a_wrong_size_is_answered_with_the_right_one(draw: Any) -> None:
             find_corners(image, wrong)
 
 
+def two_boards(draw: Any) -> NDArray[np.uint8]:
+    """A 5 x 7 board on the left, a 4 x 6 one on the right, in 800 x 400 pixels."""
+    left, right = draw((5, 7), (400, 400), turn=4.0), draw((4, 6), (400, 400))
+    return np.hstack([left.image, right.image])
+
+
+def test_the_stated_board_is_chosen_else_the_largest_and_the_others_are_told(draw: Any) -> None:
+    image = two_boards(draw)
+    for board, shape, other in ((None, (5, 7), (4, 6)), ((4, 6), (4, 6), (5, 7))):
+        corners = find_corners(image, board)
+        assert corners.shape == shape
+        (seen,) = corners.others
+        assert seen.shape == other
+        assert (seen.outline.mean(axis=0)[0] > 400) == (other == (4, 6))
+    with pytest.raises(NoBoardError, match="5 x 7, 4 x 6 inner corners, not 8 x 9"):
+        find_corners(image, (8, 9))
+
+
+def test_a_stated_board_of_much_smaller_squares_is_searched_for(draw: Any) -> None:
+    large = draw((4, 5), (1280, 960), step=150.0, shift=(-250.0, 0.0))
+    small = draw((6, 9), (320, 320), step=14.0, turn=10.0)
+    image = large.image.copy()
+    image[600:920, 940:1260] = small.image
+    corners = find_corners(image, (6, 9))
+    assert corners.shape == (6, 9)
+    assert corners.complete
+    assert [seen.shape for seen in corners.others] == [(4, 5)]
+
+
+def test_a_part_too_large_for_the_stated_board_is_told_as_a_part(draw: Any) -> None:
+    image = draw((6, 9), shift=(190.0, 0.0)).image
+    with pytest.raises(NoBoardError, match="at least 6 x 8 inner corners, not 4 x 5"):
+        find_corners(image, (4, 5))
+
+
+def test_a_part_that_shows_two_ends_has_its_place(draw: Any) -> None:
+    drawn = draw((6, 9), shift=(190.0, 0.0))
+    corners = find_corners(drawn.image, (6, 9))
+    assert not corners.relative
+    middle = draw((6, 9), step=90.0)  # only the middle is in view
+    assert find_corners(middle.image, (6, 9)).relative
+
+
 def test_part_of_a_board_is_returned_as_part(draw: Any) -> None:
     drawn = draw((6, 9), shift=(190.0, 0.0))
     visible = (drawn.uv[..., 0] < 634).sum()
@@ -137,8 +181,7 @@ def test_grey_levels_of_any_depth(draw: Any, dtype: Any) -> None:
 
 
 def test_marked_points_choose_between_boards_and_origins(draw: Any) -> None:
-    left, right = draw((5, 7), (400, 400), turn=4.0), draw((4, 6), (400, 400))
-    image = np.hstack([left.image, right.image])
+    image, right = two_boards(draw), draw((4, 6), (400, 400))
     ends = right.uv[[0, 0, -1, -1], [0, -1, -1, 0]] + np.array([400.0, 0.0])
     for first in (0, 2):
         roi = np.roll(ends, -first, axis=0) + np.array([3.0, -4.0])
