@@ -5,11 +5,13 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
+from calibgui.engine import levenberg_marquardt
 from calibgui.engine.errors import Cancelled
 from calibgui.engine.lens import MODELS
 from calibgui.engine.levenberg_marquardt import (
     NormalAt,
     NormalEquations,
+    Reduced,
     StartError,
     minimise,
     normal_equations,
@@ -103,6 +105,22 @@ def test_the_minimum_does_not_depend_on_the_start() -> None:
     np.testing.assert_allclose(far.state.params, near.state.params, rtol=1e-5, atol=1e-6)
     held = np.setdiff1d(np.arange(10), FREE)
     np.testing.assert_array_equal(far.state.params[held], TRUTH.params[held])
+
+
+def test_factors_serve_again_after_a_slight_step(monkeypatch: pytest.MonkeyPatch) -> None:
+    factored: list[float] = []
+
+    def counted(normal: NormalEquations, damping: float) -> Reduced:
+        factored.append(damping)
+        return schur(normal, damping)
+
+    monkeypatch.setattr(levenberg_marquardt, "schur", counted)
+    sparing, with_spared = run(away(1.0)), len(factored)
+    monkeypatch.setattr(levenberg_marquardt, "_SLIGHT", 0.0)
+    lavish = run(away(1.0))
+    assert with_spared < len(sparing.history) <= len(factored) - with_spared
+    assert sparing.status is lavish.status is Status.CONVERGED
+    assert sparing.normal.cost == pytest.approx(lavish.normal.cost, rel=1e-11)
 
 
 def test_history_descends_and_says_what_happened() -> None:
