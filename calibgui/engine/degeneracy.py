@@ -47,7 +47,7 @@ def parallel(R: Array, V: Array, variance: float) -> bool:
 
     Args:
         R: (K, 3, 3) rotations cam_from_plate.
-        V: (K, 6, 6) normal matrices of the poses (w, tau), as in ``levenberg_marquardt``.
+        V: (K, 6, 6) normal matrices of the poses (w, tau), as in ``arrow``.
         variance: of one residual coordinate.
     """
     n = normals(R)

@@ -1,6 +1,6 @@
 """What each view says of the camera, and how its pose answers to the camera's changes.
 
-In the blocks of ``levenberg_marquardt.py``, view k alone contributes Uk = Jc_k^T Jc_k, Wk and
+In the blocks of ``arrow.py``, view k alone contributes Uk = Jc_k^T Jc_k, Wk and
 Vk. Eliminating its own pose leaves
 
     Sk = Uk - Wk Vk^-1 Wk^T,

@@ -26,9 +26,9 @@ from typing import NamedTuple
 import numpy as np
 from scipy.stats import f as fisher
 
+from calibgui.engine.arrow import NormalEquations, normal_equations, schur
 from calibgui.engine.information import free_parameters, measured, state_of
 from calibgui.engine.lens import MODELS
-from calibgui.engine.levenberg_marquardt import NormalEquations, normal_equations, schur
 from calibgui.engine.observations import Observations, chunks
 from calibgui.engine.plate import basis, corners_of, plate_problem
 from calibgui.engine.problem import linearised

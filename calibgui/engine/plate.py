@@ -8,7 +8,7 @@ deviation (mm) with unknowns q that all views share:
 `free`    every corner by itself, in the plane and out of it.
 
 Beside the camera's parameters, q is one more set of shared unknowns in the arrow-shaped normal
-equations of ``levenberg_marquardt.py``. A corner's 3-D place enters its image through X_cam
+equations of ``arrow.py``. A corner's 3-D place enters its image through X_cam
 alone, so d(u, v)/dX_i = (d(u, v)/dX_cam) R, and d/dq = (d(u, v)/dX_i) B_i.
 
 Gauge. Moving, turning or scaling the free plate is undone by the poses, seven directions
@@ -27,9 +27,9 @@ from dataclasses import replace
 import numpy as np
 from scipy.spatial import cKDTree
 
+from calibgui.engine.arrow import NormalAt, NormalEquations, summed
 from calibgui.engine.errors import CalibrationError
 from calibgui.engine.lens import MODELS
-from calibgui.engine.levenberg_marquardt import NormalAt, NormalEquations, summed
 from calibgui.engine.observations import Observations, boards, chunks
 from calibgui.engine.problem import compiled, eq10, eq10_rows, linearised, transposed
 from calibgui.engine.stage_two import Linearised, State

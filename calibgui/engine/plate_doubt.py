@@ -22,7 +22,7 @@ from __future__ import annotations
 import numpy as np
 
 from calibgui.engine import frames, uncertainty
-from calibgui.engine.levenberg_marquardt import schur, step
+from calibgui.engine.arrow import schur, step
 from calibgui.engine.observations import Observations
 from calibgui.engine.outcome import Estimate
 from calibgui.engine.plate import basis, corner_products, corners_of, plate_problem

@@ -5,8 +5,9 @@ from __future__ import annotations
 import numpy as np
 
 from calibgui.engine import frames, uncertainty
+from calibgui.engine.arrow import schur
 from calibgui.engine.errors import CalibrationError
-from calibgui.engine.levenberg_marquardt import Solution, minimise, schur
+from calibgui.engine.levenberg_marquardt import Solution, minimise
 from calibgui.engine.observations import Observations
 from calibgui.engine.outcome import Estimate
 from calibgui.engine.plate import basis, corners_of, deviated, gauge, plate_problem

@@ -12,8 +12,8 @@ from typing import TYPE_CHECKING, NamedTuple
 import numpy as np
 
 from calibgui.engine import kernels
+from calibgui.engine.arrow import NormalAt, NormalEquations, normal_equations, summed
 from calibgui.engine.lens import MODELS, Lens
-from calibgui.engine.levenberg_marquardt import NormalAt, NormalEquations, normal_equations, summed
 from calibgui.engine.observations import Observations, chunks
 from calibgui.engine.stage_two import (
     Linearised,

@@ -19,7 +19,8 @@ from collections.abc import Callable, Sequence
 import numpy as np
 
 from calibgui.engine import problem
-from calibgui.engine.levenberg_marquardt import NormalAt, Solution, StartError, minimise
+from calibgui.engine.arrow import NormalAt
+from calibgui.engine.levenberg_marquardt import Solution, StartError, minimise
 from calibgui.engine.observations import Observations
 from calibgui.engine.stage_two import State
 from calibgui.engine.tilts import righted

@@ -21,7 +21,8 @@ from dataclasses import replace
 
 import numpy as np
 
-from calibgui.engine.levenberg_marquardt import NormalAt, Solution, minimise
+from calibgui.engine.arrow import NormalAt
+from calibgui.engine.levenberg_marquardt import Solution, minimise
 from calibgui.engine.observations import Observations, boards
 from calibgui.engine.stage_two import State
 from calibgui.engine.types import IntArray

@@ -2,7 +2,7 @@
 
 With independent residuals of standard deviation sigma, estimated by
 sigma^2 = r^T r / (2N - P - 6K), the covariance of all unknowns is sigma^2 (J^T J)^-1. In the
-blocks of ``levenberg_marquardt.py``
+blocks of ``arrow.py``
 
     cov(shared)  = sigma^2 S^-1
     cov(pose k)  = sigma^2 (Vk^-1 + Vk^-1 Wk^T S^-1 Wk Vk^-1).
@@ -25,7 +25,7 @@ import numpy as np
 from scipy.linalg.lapack import dpotrf, dpotri
 
 from calibgui.engine import frames
-from calibgui.engine.levenberg_marquardt import NormalEquations, Reduced, schur
+from calibgui.engine.arrow import NormalEquations, Reduced, schur
 from calibgui.engine.observations import chunks
 from calibgui.engine.types import Array, Calibration, Undetermined
 

@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 from calibgui.engine import problem
+from calibgui.engine.arrow import NormalAt
 from calibgui.engine.calibrate import calibrate
-from calibgui.engine.levenberg_marquardt import NormalAt
 from calibgui.engine.observations import Observations
 from calibgui.engine.problem import stage_two
 from calibgui.engine.types import Camera, Cost, Status

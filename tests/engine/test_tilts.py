@@ -6,7 +6,8 @@ import numpy as np
 import pytest
 
 from calibgui.engine import problem
-from calibgui.engine.levenberg_marquardt import NormalAt, Solution, minimise
+from calibgui.engine.arrow import NormalAt
+from calibgui.engine.levenberg_marquardt import Solution, minimise
 from calibgui.engine.observations import Observations, pack
 from calibgui.engine.projection import pixels
 from calibgui.engine.stage_two import State

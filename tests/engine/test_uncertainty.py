@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 from calibgui.engine import frames, uncertainty
+from calibgui.engine.arrow import NormalEquations, schur
 from calibgui.engine.calibrate import calibrate
-from calibgui.engine.levenberg_marquardt import NormalEquations, schur
 from calibgui.engine.types import Array, Calibration
 from tests.engine.scenes import barrel, central_differences, imaged, relative, scene
 

@@ -1,6 +1,6 @@
 """Stage II's normal equations with the image cost, compiled.
 
-The same sums as ``levenberg_marquardt.normal_equations`` over
+The same sums as ``arrow.normal_equations`` over
 ``stage_two.image_residual``, which stay as the readable reference that this file is tested
 against.
 
