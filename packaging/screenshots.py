@@ -15,6 +15,7 @@ import os
 import tempfile
 from collections.abc import Callable
 from dataclasses import replace
+from functools import partial
 from pathlib import Path
 
 from PySide6.QtCore import QEventLoop, QPoint, QSettings, Qt, QTimer
@@ -30,7 +31,7 @@ from calibgui.gui.panels.plate import PlatePanel
 from calibgui.gui.panels.poses import PosesPanel
 from calibgui.gui.panels.synthetic import SyntheticPanel
 
-_PATIENCE = 60.0
+_PATIENCE = 600.0
 
 
 def pause(seconds: float) -> None:
@@ -77,7 +78,7 @@ class Photographer:
             panel = window.analysis.show_panel(kind)
             if isinstance(panel, SyntheticPanel):
                 panel.run.click()
-                wait(lambda panel=panel: panel.check is not None)
+                wait(partial(getattr, panel, "check"))
             self.take(kind.__name__.removesuffix("Panel").lower())
         self.marking()
 

@@ -84,7 +84,7 @@ class Analysis(QWidget):
         for kind in PANELS:
             self.names.addItem(QCoreApplication.translate(kind.__name__, kind.title))
             self.stack.addWidget(self._blank[kind])
-        width = self.names.sizeHintForColumn(0) + 2 * theme.SPACING
+        width = self.names.sizeHintForColumn(0) + theme.SPACING
         self.names.setFixedWidth(width)
         self.names.currentRowChanged.connect(lambda row: self.show_panel(PANELS[row]))
         below = QHBoxLayout()

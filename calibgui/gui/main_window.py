@@ -28,6 +28,7 @@ from calibgui.gui.banner import Banner
 from calibgui.gui.bug_dialog import BugDialog
 from calibgui.gui.calibrating import Calibrator
 from calibgui.gui.detecting import Detector
+from calibgui.gui.dock import Dock
 from calibgui.gui.files import Files
 from calibgui.gui.image_list import ImageList
 from calibgui.gui.image_page import ImagePage
@@ -107,9 +108,7 @@ class MainWindow(QMainWindow):
         self.statusBar().addPermanentWidget(Progress(self.session.jobs))
 
     def _dock(self, title: str, name: str, widget: QWidget, area: Qt.DockWidgetArea) -> QDockWidget:
-        dock = QDockWidget(title, self)
-        dock.setObjectName(name)
-        dock.setWidget(widget)
+        dock = Dock(title, name, widget, self)
         self.addDockWidget(area, dock)
         return dock
 
@@ -270,7 +269,7 @@ class MainWindow(QMainWindow):
 
 
 _IMAGES_WIDTH = 264
-_RESULTS_WIDTH = 540
+_RESULTS_WIDTH = 556
 """At least, px, until the user chooses another."""
 _RESULTS_SHARE = 0.4
 """Of the window's width."""

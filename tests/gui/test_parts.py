@@ -8,8 +8,16 @@ from pathlib import Path
 import numpy as np
 import pytest
 from PySide6.QtCore import QMimeData, QPoint, QPointF, Qt, QUrl
-from PySide6.QtGui import QDropEvent, QGuiApplication
-from PySide6.QtWidgets import QApplication, QComboBox, QFileDialog, QInputDialog, QMessageBox
+from PySide6.QtGui import QColor, QDropEvent, QGuiApplication
+from PySide6.QtWidgets import (
+    QAbstractButton,
+    QApplication,
+    QComboBox,
+    QFileDialog,
+    QInputDialog,
+    QMessageBox,
+    QWidget,
+)
 from pytestqt.qtbot import QtBot
 
 from calibgui.app.document import Document
@@ -18,11 +26,13 @@ from calibgui.app.recent import recent_projects
 from calibgui.engine.errors import CalibrationError
 from calibgui.engine.types import Cost, Plate, PlateModel, Prior, ViewStatus
 from calibgui.formats.plate_json import write_plate
+from calibgui.gui import theme
 from calibgui.gui.bug_dialog import BugDialog
 from calibgui.gui.help_dialog import HelpDialog
 from calibgui.gui.image_model import Role
 from calibgui.gui.main_window import MainWindow
 from calibgui.gui.panels.result import ResultPanel
+from calibgui.gui.panels.split import Split
 from calibgui.gui.print_dialog import PrintDialog
 from tests.app import examples
 
@@ -407,3 +417,30 @@ def test_the_layout_is_remembered(qtbot: QtBot, tmp_path: Path) -> None:
         window.close()
         window.deleteLater()
     assert widths[0] == widths[1] == 400
+
+
+def test_a_split_is_upright_where_it_is_not_wide(qtbot: QtBot) -> None:
+    split = Split(500, (QWidget(), 1), (QWidget(), 1))
+    qtbot.addWidget(split)
+    split.show()
+    for width, height, across in ((900, 400, True), (640, 900, False), (400, 300, False)):
+        split.resize(width, height)
+        assert (split.orientation() is Qt.Orientation.Horizontal) is across
+        one, other = split.sizes()
+        assert abs(one - other) <= 2
+
+
+@pytest.mark.parametrize("scheme", [theme.Scheme.LIGHT, theme.Scheme.DARK])
+def test_the_buttons_of_a_part_show_on_its_title(
+    window: MainWindow, qapp: QApplication, scheme: theme.Scheme
+) -> None:
+    theme.apply(qapp, scheme)
+    qapp.processEvents()
+    ground = QColor(theme.current().window).lightness()
+    for name in ("qt_dockwidget_floatbutton", "qt_dockwidget_closebutton"):
+        button = window.analysis_dock.findChild(QAbstractButton, name)
+        assert button is not None
+        icon = button.icon().pixmap(10, 10).toImage()
+        inks = [icon.pixelColor(x, y) for x in range(10) for y in range(10)]
+        drawn = [ink.lightness() for ink in inks if ink.alpha() > 200]
+        assert drawn and abs(np.mean(drawn) - ground) > 70

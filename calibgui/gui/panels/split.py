@@ -8,7 +8,7 @@ from PySide6.QtWidgets import QSplitter, QWidget
 
 
 class Split(QSplitter):
-    """Parts side by side from `least` px of width on, with their shares of the room."""
+    """Parts side by side if there are `least` px and more width than height, with their shares."""
 
     def __init__(self, least: int, *parts: tuple[QWidget, int]) -> None:
         super().__init__(Qt.Orientation.Vertical)  # asks for less width until there is room
@@ -19,10 +19,11 @@ class Split(QSplitter):
             self.addWidget(part)
 
     def resizeEvent(self, event: QResizeEvent) -> None:  # noqa: N802 - Qt's name
-        wide = event.size().width() >= self._least
+        width, height = event.size().width(), event.size().height()
+        wide = width >= self._least and width > height
         orientation = Qt.Orientation.Horizontal if wide else Qt.Orientation.Vertical
         if orientation is not self.orientation() or not event.oldSize().isValid():
             self.setOrientation(orientation)
-            length = event.size().width() if wide else event.size().height()
+            length = width if wide else height
             self.setSizes([length * share // sum(self._shares) for share in self._shares])
         super().resizeEvent(event)

@@ -94,6 +94,7 @@ class StageOnePanel(Panel):
 
     def _columns(self, result: Result) -> list[Column]:
         rows, names = result.calibration.stage_one, short_names(result.used)
+        steps = self.tr("Steps")
         power = _power([row.k1 for row in rows])
         shown: tuple[tuple[str, str, Callable[[Any], str], str], ...] = (
             ("xp", "xp", fixed(1), self.tr("Principal point right of the array's centre, px")),
@@ -107,10 +108,10 @@ class StageOnePanel(Panel):
             ("fy/fx", "aspect", fixed(4), self.tr("Aspect ratio: root of the cosines' equation")),
             ("fx", "fx", fixed(0), self.tr("Focal length, px")),
             ("fy", "fy", fixed(0), self.tr("Focal length, px")),
-            (self.tr("Steps"), "iterations", str, self.tr("Iterations of Levenberg-Marquardt")),
+            (steps, "iterations", str, self.tr("Iterations of Levenberg-Marquardt")),
             ("RMS", "rms", fixed(3), self.tr("Residual on the reference plane, reference px")),
         )
-        headings = {"k1": f"k1·10{str(-power).translate(_RAISED)}"}
+        headings = {"k1": f"k1·10{str(-power).translate(_RAISED)}", steps: "n"}
         alike = len({PurePath(name).suffix for name in names}) == 1
         return [
             Column(self.tr("View"), names, (lambda name: PurePath(name).stem) if alike else str),
