@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from pathlib import PurePath
 
@@ -78,8 +78,19 @@ def calibrate_views(
             report=report,
             names=short_names(used),
         )
-    calibration = replace(calibration, warnings=(*calibration.warnings, *said))
+    said = (*calibration.warnings, *said, *_unplaced(used))
+    calibration = replace(calibration, warnings=said)
     return Result(calibration, views, corner_set.target)
+
+
+def _unplaced(used: Sequence[View]) -> Iterator[str]:
+    """A sentence on parts of the board of which it is open what parts they are."""
+    parts = [view for view in used if view.corners is not None and view.corners.relative]
+    if parts:
+        yield (
+            f"What part of the board is seen is open in {', '.join(short_names(parts))}: the "
+            "pose there may be off by whole squares, the camera of a flat board is not."
+        )
 
 
 def _screened(

@@ -7,6 +7,7 @@ import math
 from dataclasses import replace
 from pathlib import Path
 
+from calibgui.app.again import calibrate_twice
 from calibgui.app.calibration import calibrate_views
 from calibgui.app.outputs import check_outputs
 from calibgui.cli.arguments import (
@@ -69,6 +70,12 @@ def configure(parser: argparse.ArgumentParser) -> None:
         help="leave out corners and views that do not fit, and name them",
     )
     parser.add_argument(
+        "--once",
+        action="store_true",
+        help="leave out the search, once the camera is known, of images without a board and of "
+        "boards found in part, and the second calibration from what that gains",
+    )
+    parser.add_argument(
         "--plate",
         type=_plate,
         default=PlateModel.NOMINAL,
@@ -105,7 +112,10 @@ def run(options: argparse.Namespace, console: Console) -> None:
     check_outputs([*outputs, *(path for _, path in options.export)], meant_files(options.paths))
     corner_set = _corner_set(options, console)
     try:
-        result = calibrate_views(
+        solve = (
+            calibrate_views if options.once or is_corners_file(options.paths) else calibrate_twice
+        )
+        result = solve(
             corner_set,
             cost=Cost(options.cost),
             fix=options.fix,

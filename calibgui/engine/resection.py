@@ -20,7 +20,7 @@ from calibgui.engine.outcome import residuals
 from calibgui.engine.problem import stage_two
 from calibgui.engine.projection import rays
 from calibgui.engine.stage_two import State
-from calibgui.engine.types import Calibration, Camera, Observation, ViewResiduals
+from calibgui.engine.types import Calibration, Camera, Cost, Observation, ViewResiduals
 
 
 def resected(calibration: Calibration, views: Sequence[Observation]) -> tuple[ViewResiduals, ...]:
@@ -40,15 +40,26 @@ def resected(calibration: Calibration, views: Sequence[Observation]) -> tuple[Vi
         calibration.cost,
         calibration.reference_scale,
     )
+    state = solved(start, observations, model, cost, scale)
+    return residuals(state, observations, model, cost, scale)
+
+
+def solved(
+    start: State, observations: Observations, model: str, cost: Cost, scale: float = 1.0
+) -> State:
+    """The poses that cost least from `start` on, its camera held; see ``problem.stage_two``.
+
+    Raises:
+        CalibrationError: if the start does not reproject the corners.
+    """
     none_free = np.zeros(0, dtype=np.int64)
-    solution = minimise(
+    return minimise(
         stage_two(observations, model, cost, scale, none_free),
         start,
         none_free,
         observations.count,
         float(np.sum(observations.uv**2)),
-    )
-    return residuals(solution.state, observations, model, cost, scale)
+    ).state
 
 
 def posed(camera: Camera, observations: Observations) -> State:

@@ -173,6 +173,8 @@ class View:
     status: ViewStatus = ViewStatus.WAITING
     reason: str = ""
     """Why the image cannot be used, and the remedy; empty if it can."""
+    note: str = ""
+    """How its corners came about, where that is worth knowing."""
     corners: Corners | None = None
     """Corners found on a target of known layout."""
     points: Observation | None = None

@@ -4,6 +4,7 @@
     status   see ViewStatus                     board   (n, 2) mm on the plate
     reason   why it cannot be used              cov     (n, 2, 2) px^2, where known
     enabled  whether the user wants it          roi     (4, 2) px, where given by the user
+    note     how its corners came about, if worth knowing
 
 and for corners found on a board of known layout their `grid` (row, column), the board's
 `shape`, first `estimate`, `ambiguity`, `relative`, `method` and the searched `outline`; also
@@ -37,6 +38,8 @@ def view_record(view: View, target: Target | None) -> dict[str, Any]:
         "reason": view.reason,
         "enabled": view.enabled,
     }
+    if view.note:
+        record["note"] = view.note
     if view.roi is not None:
         record["roi"] = view.roi
     if view.points is None and view.corners is None:
@@ -89,6 +92,7 @@ def _read_view(node: Node, k: int, target: Target | None) -> View:
         image=image,
         status=_read_status(node, found=len(uv) > 0),
         reason=reason.text() if (reason := node.get("reason")) else "",
+        note=note.text() if (note := node.get("note")) else "",
         corners=corners,
         points=points if len(uv) and not on_target else None,
         roi=roi.numbers(4, 2) if (roi := node.get("roi")) else None,

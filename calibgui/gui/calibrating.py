@@ -1,4 +1,6 @@
-"""Calibrating in the background, once every image has been searched."""
+"""Calibrating in the background, once every image has been searched.
+
+Where the camera then lets more be found, the corners come with the result, in one edit."""
 
 from __future__ import annotations
 
@@ -6,7 +8,7 @@ from functools import partial
 
 from PySide6.QtCore import QObject, Signal
 
-from calibgui.app.calibration import calibrate_views
+from calibgui.app.again import calibrate_twice
 from calibgui.app.project import answered, free_name
 from calibgui.engine.errors import CalibrationError
 from calibgui.engine.types import Iteration, Status
@@ -75,7 +77,7 @@ class Calibrator(QObject):
         settings = project.settings
 
         def work(job: Job) -> Result:
-            return calibrate_views(
+            return calibrate_twice(
                 corner_set,
                 cost=settings.cost,
                 fix=settings.fixed,
@@ -84,6 +86,7 @@ class Calibrator(QObject):
                 prior=settings.prior,
                 robust=settings.robust,
                 report=job.tell,
+                stop=job.cancelling,
             )
 
         self._job = self._session.jobs.start(

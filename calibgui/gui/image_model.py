@@ -69,6 +69,12 @@ def status_text(view: View) -> str:
 def status_tip(view: View) -> str:
     """The state of an image in sentences."""
     tip = view.reason or status_text(view)
+    if view.note:
+        tip += "\n" + view.note
+    if view.corners is not None and view.corners.relative:
+        tip += "\n" + QCoreApplication.translate(
+            "status_tip", "Which part of the board is seen cannot be told from it."
+        )
     if view.corners is not None and view.corners.ambiguity is not Ambiguity.NONE:
         turn = "180°" if view.corners.ambiguity is Ambiguity.HALF_TURN else "90°"
         tip += "\n" + QCoreApplication.translate(

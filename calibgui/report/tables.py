@@ -169,6 +169,7 @@ def residuals(calibration: Calibration) -> str:
 def notes(result: Result) -> str:
     """In words: what is determined and what is not, warnings, and what would improve it."""
     texts = [*(sentence.text for sentence in summary(result)), *symmetry(result.used)]
+    texts += [f"{PurePath(view.image).name}: {view.note}" for view in result.used if view.note]
     return "\n".join(map(bullet, texts))
 
 

@@ -37,7 +37,7 @@ from calibgui.engine.corners.edge_model import (
     normal_equations,
 )
 from calibgui.engine.corners.lattice import Lattice
-from calibgui.engine.corners.surroundings import Surroundings
+from calibgui.engine.corners.surroundings import Foreseen, Surroundings
 from calibgui.engine.opencv import Image
 from calibgui.engine.types import Array
 
@@ -82,12 +82,19 @@ class Fit:
         return 2 * self.edges.unknowns[A]
 
 
-def fit(image: Image, lattice: Lattice, plain: float = 0.5) -> Fit:
+def fit(image: Image, lattice: Lattice, plain: float = 0.5, expected: Array | None = None) -> Fit:
     """Fit the edge model at every corner of `lattice`, whose positions are the start.
 
-    The squares are of one colour up to `plain` squares from their edges.
+    Args:
+        image: (h, w) grey levels.
+        lattice: the corners.
+        plain: how far from their edges the squares are of one colour, squares.
+        expected: (rows, cols, 2) px, where a calibrated camera expects the corners of the whole
+            board, NaN where it has none: edges run and bend as these say.
     """
     board = Surroundings(lattice.found)
+    if expected is not None:
+        board = Foreseen(lattice.found, np.where(np.isnan(expected), lattice.uv, expected))
     edges = _start(image, lattice, board, plain)
     near = replace(edges, arm=np.minimum(edges.arm, _NEAR))
     first = _step(near, normal_equations(image, near))

@@ -70,7 +70,7 @@ def find_corners(
         if outline is None or board is None:
             raise
         found = _guided(grey, board, outline, method)
-    return _record(grey, found, _numbered(grey, found.lattice, board, outline), outline, others)
+    return record(grey, found, _numbered(grey, found.lattice, board, outline), outline, others)
 
 
 def grey_levels(image: npt.ArrayLike) -> Image:
@@ -173,7 +173,7 @@ def _numbered(
     return numbered
 
 
-def _record(
+def record(
     grey: Image,
     found: Located,
     numbered: list[Numbering],

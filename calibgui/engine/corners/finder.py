@@ -10,7 +10,7 @@ Pixel (u, v) of a level covers the block around (2u + 1/2, 2v + 1/2) of the next
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 
 import numpy as np
 from scipy.spatial import cKDTree
@@ -34,7 +34,11 @@ _GROWN = 8
 """How many of the largest lattices of a level are grown."""
 
 
-def find_boards(image: Image, inside: Array | None = None) -> Iterator[list[Lattice]]:
+def find_boards(
+    image: Image,
+    inside: Array | None = None,
+    enough: Callable[[Lattice], bool] = large_enough,
+) -> Iterator[list[Lattice]]:
     """All lattices that may be boards, largest first, in full resolution but not yet verified.
 
     As many as the image was searched for: once when a finer level could hardly add to them, and
@@ -43,6 +47,7 @@ def find_boards(image: Image, inside: Array | None = None) -> Iterator[list[Latt
     Args:
         image: (h, w) grey levels, uint8, uint16 or float32.
         inside: (4, 2) convex outline, px, that the corners must not leave.
+        enough: whether so much of a lattice may be a board.
     """
     levels = [image]
     while min(levels[-1].shape) > _COARSEST:
@@ -56,7 +61,7 @@ def find_boards(image: Image, inside: Array | None = None) -> Iterator[list[Latt
     sure = False
     for depth in reversed(range(len(levels))):
         outline = None if inside is None else (inside + 0.5) / 2**depth - 0.5
-        found = _search(levels[depth], floor, outline)
+        found = _search(levels[depth], floor, outline, enough)
         boards = _distinct([_carried(lattice, levels[:depth]) for lattice in found] + boards)
         sure = bool(found) and all(map(_surely_all, found))
         if sure:
@@ -65,7 +70,9 @@ def find_boards(image: Image, inside: Array | None = None) -> Iterator[list[Latt
         yield boards
 
 
-def _search(image: Image, floor: float, outline: Array | None) -> list[Lattice]:
+def _search(
+    image: Image, floor: float, outline: Array | None, enough: Callable[[Lattice], bool]
+) -> list[Lattice]:
     """Lattices large enough for a board in one level, largest first."""
     saddles = find_saddles(image, floor)
     if outline is not None:
@@ -76,7 +83,7 @@ def _search(image: Image, floor: float, outline: Array | None) -> list[Lattice]:
     for lattice in find_lattices(saddles, junctions)[:_GROWN]:
         if not any(_overlap(other, lattice) for other in grown):
             grown.append(grow(lattice, saddles, at_junctions))
-    return [lattice for lattice in _distinct(grown) if large_enough(lattice)]
+    return [lattice for lattice in _distinct(grown) if enough(lattice)]
 
 
 def _distinct(lattices: list[Lattice]) -> list[Lattice]:

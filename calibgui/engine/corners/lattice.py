@@ -74,11 +74,11 @@ def supported(lattice: Lattice) -> Lattice:
     while True:
         known = np.isfinite(np.sum(axes(lattice.uv), axis=0)).all(axis=2)
         if known[lattice.found].all():
-            return _crop(lattice)
+            return crop(lattice)
         lattice = lattice.under(np.asarray(known))
 
 
-def _crop(lattice: Lattice) -> Lattice:
+def crop(lattice: Lattice) -> Lattice:
     """The lattice without empty border lines."""
     if not lattice.found.any():
         return Lattice(lattice.uv[:0, :0], lattice.dark)

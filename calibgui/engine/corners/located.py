@@ -35,7 +35,7 @@ def locate(grey: Image, lattice: Lattice, method: str) -> Located | None:
     Its gaps are tried once more, at full resolution. A corner whose squares overlap or part by
     much has no saddle point; the edge model copes with it.
     """
-    refined, at_saddle = _refined(grey, verify.filled(lattice, grey.shape))
+    refined, at_saddle = at_saddles(grey, verify.filled(lattice, grey.shape))
     if method == "saddle":
         refined = refined.under(at_saddle)
     good = verify.sound(refined, grey)
@@ -52,10 +52,10 @@ def guided(grey: Image, board: Board, outline: Array, method: str) -> Located | 
     """The board whose outermost corners were pointed at, if half of its corners are there."""
     parts = []
     for guess in region.guesses(outline, board):
-        refined, at_saddle = _refined(grey, guess)
+        moved, at_saddle = at_saddles(grey, guess)
         for dark in (True, False):
             # Where nothing was found the guess stands in for the neighbours of what was.
-            candidate = Lattice(refined.uv, dark)
+            candidate = Lattice(moved.uv, dark)
             good = verify.sound(candidate, grey) & at_saddle
             parts.append((candidate.under(good), guess.uv[~good]))
     lattice, missing = max(parts, key=lambda part: len(part[0]))
@@ -95,7 +95,7 @@ def rejections(uv: Array, reason: str) -> list[Rejection]:
     return [Rejection(float(u), float(v), reason) for u, v in uv]
 
 
-def _refined(grey: Image, lattice: Lattice) -> tuple[Lattice, BoolArray]:
+def at_saddles(grey: Image, lattice: Lattice) -> tuple[Lattice, BoolArray]:
     """The lattice with its corners moved to their saddle points, and which (rows, cols) have one
     near."""
     found = lattice.found

@@ -114,6 +114,25 @@ class Surroundings:
         return basis
 
 
+class Foreseen(Surroundings):
+    """The same with steps and curvatures of the whole board that a calibrated camera expects."""
+
+    def __init__(self, found: BoolArray, expected: Array) -> None:
+        """
+        Args:
+            found: as above.
+            expected: (rows, cols, 2) px, NaN where there is no such corner; none of those found.
+        """
+        super().__init__(found)
+        whole = np.isfinite(expected[..., 0])
+        steps, curvatures = Surroundings(whole).geometry(expected[whole])
+        self._geometry = steps[found[whole]], curvatures[found[whole]]
+
+    def geometry(self, uv: Array) -> tuple[Array, Array]:
+        """As expected, wherever the corners were found."""
+        return self._geometry
+
+
 def _normal(along: Array, across: Array) -> Array:
     """Unit normal of `along` on the side of `across`."""
     normal = np.stack([-along[..., 1], along[..., 0]], axis=-1)

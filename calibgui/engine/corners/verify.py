@@ -120,22 +120,25 @@ def _broken(lattice: Lattice, image: Image) -> BoolArray:
     dark = lattice.dark ^ (places.sum(axis=1) % 2 == 1)
     look = typical(lattice, image)
     none = look.contradicted(image, uv, right[missing], down[missing], dark)
-    missing[missing] = none & _inside(uv, image.shape)
+    missing[missing] = none & in_image(uv, image.shape)
     return np.asarray(missing)
 
 
-def described(fit: Fit, lattice: Lattice) -> BoolArray:
+def described(fit: Fit, lattice: Lattice, expected: Array | None = None) -> BoolArray:
     """(n,) which corners of `lattice` the edge model fitted there describes: it stayed near, its
     edges are as strong as the board's, and it leaves no more unexplained; still less if they
-    do not point to its neighbours."""
+    do not point to its neighbours, or to where these are `expected` (rows, cols, 2) px."""
     found = lattice.found
     moved = np.linalg.norm(fit.uv - lattice.uv[found], axis=1)
     typical = float(np.median(fit.residual))
-    steps = np.stack([step[found] for step in axes(lattice.uv)], axis=1)
+    around = lattice.uv if expected is None else expected
+    right, down = (step[found] for step in axes(around))
+    steps = np.stack([right, down], axis=1)
+    spacing = np.fmin(np.linalg.norm(right, axis=1), np.linalg.norm(down, axis=1))
     aside = np.abs(np.sum(fit.edges.normals() * steps, axis=2)) / np.linalg.norm(steps, axis=2)
     askew = (aside > np.maximum(_ASIDE, _FARTHER_ASIDE * np.median(aside, axis=0))).any(axis=1)
     return np.asarray(
-        (moved <= np.maximum(_MOVED * lattice.spacing()[found], 1.0))
+        (moved <= np.maximum(_MOVED * spacing, 1.0))
         & ~(askew & (fit.residual > _MORE * typical))
         & (fit.contrast > _WEAKEST * np.median(fit.contrast))
         & (fit.residual <= np.maximum(_UNEXPLAINED * typical, _MISFIT * fit.contrast))
@@ -154,7 +157,7 @@ def stepped(fit: Fit) -> bool:
 def filled(lattice: Lattice, shape: tuple[int, ...]) -> Lattice:
     """The lattice with its gaps where the neighbours expect their corners, inside the image."""
     expected = predict(lattice.uv)
-    try_here = ~lattice.found & _inside(expected, shape)
+    try_here = ~lattice.found & in_image(expected, shape)
     return Lattice(np.where(try_here[..., None], expected, lattice.uv), lattice.dark)
 
 
@@ -177,7 +180,7 @@ def _ends_above(lattice: Lattice, image: Image, clear: float) -> bool:
     uv = bordered(lattice.uv, 1)
     place = predict(uv)[0]
     right, down = (step[0] for step in axes(uv))
-    usable = np.isfinite(place + right + down).all(axis=1) & _inside(place, image.shape)
+    usable = np.isfinite(place + right + down).all(axis=1) & in_image(place, image.shape)
     if np.count_nonzero(usable) < _LEAST:
         return False
     left_is_dark = lattice.dark ^ (np.arange(len(place)) % 2 == 0)
@@ -193,7 +196,7 @@ def _difference(image: Image, uv: Array, offset: Array) -> Array:
     return opencv.sample(image, uv + offset) - opencv.sample(image, uv - offset)
 
 
-def _inside(uv: Array, shape: tuple[int, ...]) -> BoolArray:
+def in_image(uv: Array, shape: tuple[int, ...]) -> BoolArray:
     """Which positions (..., 2) lie in an image of `shape` (h, w), a little off its border."""
     limit = np.array(shape[::-1]) - 1.0 - _EDGE
     return np.asarray(np.all((uv > _EDGE) & (uv < limit), axis=-1))
