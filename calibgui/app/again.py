@@ -1,6 +1,6 @@
-"""Images searched again with the camera that the first calibration found.
+"""What a first calibration lets be done better: images searched again, and views counted alike.
 
-Only those are read again in which something may be gained: no board was found, corners are
+Only those images are read again in which something may be gained: no board was found, corners are
 missing that the image should show, or it is open which part of the board is seen.
 """
 
@@ -16,15 +16,20 @@ import numpy as np
 
 from calibgui.app.calibration import calibrate_views, short_names
 from calibgui.app.workers import Crashed, spread
+from calibgui.engine.calibrate import calibrate
 from calibgui.engine.corners.ordering import Board
 from calibgui.engine.errors import CalibrationError
+from calibgui.engine.identity import Placing, identified
 from calibgui.engine.images import read_image
 from calibgui.engine.maps import project_points
 from calibgui.engine.reextract import find_again
+from calibgui.engine.repetition import settings_of
 from calibgui.engine.types import (
+    Ambiguity,
     Calibration,
     Corners,
     Cost,
+    PlateModel,
     Pose,
     Report,
     Status,
@@ -49,7 +54,7 @@ def calibrate_twice(
     stop: Event | None = None,
     **settings: Any,
 ) -> Result:
-    """Calibrate, search again, and calibrate again if that gained anything.
+    """Calibrate, search again, count all views alike, and calibrate again if that changed any.
 
     Args:
         corner_set, settings: as for ``calibrate_views``.
@@ -64,9 +69,13 @@ def calibrate_twice(
     if result.calibration.status is Status.STOPPED:
         return result
     more, said = search_again(corner_set, result, stop)
-    if not said:
-        return result
-    result = calibrate_views(more, report=report, **settings)
+    if said:
+        result = calibrate_views(more, report=report, **settings)
+    alike = counted_alike(result)
+    if _same_places(alike, result.views):
+        result = replace(result, views=alike)
+    else:
+        result = calibrate_views(replace(more, views=alike), report=report, **settings)
     warnings = (*result.calibration.warnings, *said)
     return replace(result, calibration=replace(result.calibration, warnings=warnings))
 
@@ -106,6 +115,54 @@ def search_again(
     before = [corner_set.views[k] for k in changed]
     said = _gained(before, [views[k] for k in changed])
     return replace(corner_set, views=tuple(views)), (said,)
+
+
+def counted_alike(result: Result) -> tuple[View, ...]:
+    """The views of a result with their corners counted alike, as far as that is open and the
+    board's deviations from its drawing tell how."""
+    target, used = result.target, result.used
+    corners = [view.corners for view in used if view.corners is not None and view.points is None]
+    if (
+        target is None
+        or len(corners) < len(used)
+        or not any(map(_is_open, corners))
+        or result.calibration.cost is not Cost.IMAGE
+    ):
+        return result.views
+    nominal = result.calibration
+    if nominal.plate is not None:
+        settings = {**settings_of(nominal), "plate": PlateModel.NOMINAL}
+        nominal = calibrate(result.observations(), nominal.camera.size, **settings)
+    placed = dict(zip(map(id, used), identified(nominal, corners, target), strict=True))
+    return tuple(
+        _counted(view, placed[id(view)]) if id(view) in placed else view for view in result.views
+    )
+
+
+def _same_places(one: Sequence[View], other: Sequence[View]) -> bool:
+    """Whether two states of the same views count their corners alike."""
+    pairs = zip(one, other, strict=True)
+    return all(
+        a is b or (a.corners and b.corners and np.array_equal(a.corners.grid, b.corners.grid))
+        for a, b in pairs
+    )
+
+
+def _is_open(corners: Corners) -> bool:
+    return corners.relative or corners.ambiguity is not Ambiguity.NONE
+
+
+def _counted(view: View, placing: Placing) -> View:
+    """The view with its corners where they belong, if that was open and is certain."""
+    corners = view.corners
+    if corners is None or not placing.certain or not _is_open(corners):
+        return view
+    as_before = np.array_equal(corners.grid, placing.grid)
+    corners = replace(corners, grid=placing.grid, relative=False, ambiguity=Ambiguity.NONE)
+    if as_before:
+        return replace(view, corners=corners)
+    note = f"{view.note} Its corners are counted as the board's deviations from its drawing tell."
+    return replace(view, corners=corners, note=note.lstrip())
 
 
 def view_again(view: View, calibration: Calibration, board: Board) -> View:

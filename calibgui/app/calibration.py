@@ -14,6 +14,8 @@ from calibgui.app.marking import removed
 from calibgui.engine.errors import CalibrationError
 from calibgui.engine.screening import screen
 from calibgui.engine.types import (
+    Ambiguity,
+    Calibration,
     Cost,
     IntArray,
     Observation,
@@ -78,18 +80,24 @@ def calibrate_views(
             report=report,
             names=short_names(used),
         )
-    said = (*calibration.warnings, *said, *_unplaced(used))
+    said = (*calibration.warnings, *said, *_unplaced(used, calibration))
     calibration = replace(calibration, warnings=said)
     return Result(calibration, views, corner_set.target)
 
 
-def _unplaced(used: Sequence[View]) -> Iterator[str]:
-    """A sentence on parts of the board of which it is open what parts they are."""
+def _unplaced(used: Sequence[View], calibration: Calibration) -> Iterator[str]:
+    """Sentences on views of which it is open which corner is which."""
     parts = [view for view in used if view.corners is not None and view.corners.relative]
     if parts:
         yield (
             f"What part of the board is seen is open in {', '.join(short_names(parts))}: the "
-            "pose there may be off by whole squares, the camera of a flat board is not."
+            "pose there may be off by whole squares. The camera does not depend on it."
+        )
+    turned = {view.corners.ambiguity for view in used if view.corners is not None}
+    if calibration.plate is not None and (parts or turned - {Ambiguity.NONE}):
+        yield (
+            "Not all views are known to count the board's corners alike: its estimated shape may "
+            "be a mixture of what these took for the same corner."
         )
 
 
