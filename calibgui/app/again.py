@@ -17,15 +17,16 @@ import numpy as np
 from calibgui.app.calibration import calibrate_views, short_names
 from calibgui.app.workers import Crashed, spread
 from calibgui.engine.calibrate import calibrate
-from calibgui.engine.corners.ordering import Board
 from calibgui.engine.errors import CalibrationError
 from calibgui.engine.identity import Placing, identified
 from calibgui.engine.images import read_image
 from calibgui.engine.maps import project_points
 from calibgui.engine.reextract import find_again
 from calibgui.engine.repetition import settings_of
+from calibgui.engine.targets.pattern import CHECKERBOARD
 from calibgui.engine.types import (
     Ambiguity,
+    Board,
     Calibration,
     Corners,
     Cost,
@@ -97,7 +98,7 @@ def search_again(
         Cancelled: if `stop` was set.
     """
     calibration, target = result.calibration, corner_set.target
-    if target is None or calibration.cost is not Cost.IMAGE:
+    if target is None or target.pattern != CHECKERBOARD or calibration.cost is not Cost.IMAGE:
         return corner_set, ()
     poses = dict(zip((view.image for view in result.used), calibration.poses, strict=True))
     which = [
@@ -124,6 +125,7 @@ def counted_alike(result: Result) -> tuple[View, ...]:
     corners = [view.corners for view in used if view.corners is not None and view.points is None]
     if (
         target is None
+        or target.pattern != CHECKERBOARD
         or len(corners) < len(used)
         or not any(map(_is_open, corners))
         or result.calibration.cost is not Cost.IMAGE
@@ -184,8 +186,8 @@ def view_again(view: View, calibration: Calibration, board: Board) -> View:
 
 def _promising(view: View, target: Target, calibration: Calibration, pose: Pose | None) -> bool:
     """Whether another search can gain something."""
-    if not view.enabled or view.points is not None:
-        return False
+    if not view.enabled or view.points is not None or view.roi is not None:
+        return False  # not wanted, not ours, or the user has said where to search
     if view.corners is None:
         return view.status is ViewStatus.NO_BOARD
     if view.corners.method != "edges" or view.corners.complete or pose is None:

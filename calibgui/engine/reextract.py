@@ -28,12 +28,12 @@ from calibgui.engine.corners.extract import grey_levels, record
 from calibgui.engine.corners.finder import find_boards
 from calibgui.engine.corners.lattice import Lattice, axes, bordered, crop, large_enough, supported
 from calibgui.engine.corners.located import Located, at_saddles
-from calibgui.engine.corners.ordering import Board, Numbering, Sides, numberings
+from calibgui.engine.corners.ordering import Numbering, Sides, numberings
 from calibgui.engine.corners.saddle import refine, window
 from calibgui.engine.errors import CalibrationError, NoBoardError
 from calibgui.engine.opencv import Image
 from calibgui.engine.prediction import Sight, sight
-from calibgui.engine.types import Array, BoolArray, Calibration, Corners
+from calibgui.engine.types import Array, Board, BoolArray, Calibration, Corners
 
 _SURE = 1 / 12
 """Greatest standard deviation of a prediction that is looked at, squares."""

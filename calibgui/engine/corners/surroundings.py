@@ -130,6 +130,7 @@ class Foreseen(Surroundings):
 
     def geometry(self, uv: Array) -> tuple[Array, Array]:
         """As expected, wherever the corners were found."""
+        del uv
         return self._geometry
 
 
