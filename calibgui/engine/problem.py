@@ -152,13 +152,14 @@ def view_products(
         free: (P,) indices of the camera's parameters that may move.
         following: how an estimated plate moves with the camera; that counts as the camera's part.
     """
-    if following is None and compiled(model):
-        from calibgui.engine.kernels import stage_two
+    if compiled(model):
+        from calibgui.engine.kernels import plate, stage_two
 
         lens, rows = eq10(model, state.params), eq10_rows(model, free)
-        return np.asarray(
-            stage_two.products(lens, state.R, state.T, transposed(observations), rows)
-        )
+        given = lens, state.R, state.T, transposed(observations), rows
+        if following is None:
+            return stage_two.products(*given)
+        return plate.followed(*given, following.corner, following.motion)
     parts = []
     for views in chunks(len(state.R)):
         r, by_params, by_pose = linearised(

@@ -10,6 +10,7 @@ import pytest
 from calibgui.engine import kernels
 from calibgui.engine.observations import Observations, pack
 from calibgui.engine.plate import corner_products, corners_of
+from calibgui.engine.problem import Following, view_products
 from calibgui.engine.stage_two import State
 from calibgui.engine.types import Array
 from calibgui.engine.weighting import weighted
@@ -44,6 +45,22 @@ def test_the_compiled_products_are_the_readable_ones(
     for ours, truth in zip(compiled, readable, strict=True):
         assert ours.shape == truth.shape
         np.testing.assert_allclose(ours, truth, rtol=1e-7, atol=1e-9 * np.abs(truth).max())
+
+
+@pytest.mark.parametrize("model", CAMERAS)
+@pytest.mark.parametrize("cov", [False, True])
+def test_a_plate_that_follows_gives_the_readable_products(
+    model: str, cov: bool, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    state, views = scene(model, cov)
+    observations = weighted(pack(views))
+    points, index = corners_of(observations)
+    motion = np.random.default_rng(0).normal(size=(len(points), 3, len(FREE)))
+    given = state, observations, model, FREE, Following(motion, index)
+    compiled = view_products(*given)
+    monkeypatch.setattr(kernels, "COMPILED", False)
+    readable = view_products(*given)
+    np.testing.assert_allclose(compiled, readable, rtol=1e-7, atol=1e-9 * np.abs(readable).max())
 
 
 def test_the_sums_do_not_depend_on_the_number_of_threads(monkeypatch: pytest.MonkeyPatch) -> None:
