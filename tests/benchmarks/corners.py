@@ -3,18 +3,17 @@
     python -m tests.benchmarks.corners [--quick] [--output FOLDER]
 
 draws boards under many conditions (`corner_scenes`), locates their corners with every method at
-hand, and prints per condition the root mean square error per axis over the Cramer-Rao bound, the
-boards found in full, and the time; `--output` also gets the table as JSON and a plot. The engine
-is told nothing but the image; the others are told the board's size, which they need.
+hand (`corner_methods`), and prints per condition the root mean square error per axis over the
+Cramer-Rao bound, the boards found in full, and the time. The engine is told nothing but the image;
+the others are told the board's size, which they need. Then ours are counted where only a part of
+the board is seen (`corner_partial`), under conditions drawn at random (`corner_unseen`), and in
+images without a board. `--output` also gets all of it as JSON and a plot.
 """
 
 from __future__ import annotations
 
 import argparse
-import json
 import time
-from collections.abc import Callable
-from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
@@ -24,10 +23,11 @@ from numpy.typing import NDArray
 
 from calibgui.engine.corners import find_corners
 from calibgui.engine.errors import NoBoardError
-from tests.benchmarks.corner_partial import KINDS, SCENES, total
+from tests.benchmarks import corner_partial, corner_unseen
+from tests.benchmarks.corner_methods import METHODS, Method
+from tests.benchmarks.corner_partial import Count
+from tests.benchmarks.corner_report import Report, Score, write
 from tests.benchmarks.corner_scenes import Conditions, Scene, draw
-
-Array = NDArray[np.float64]
 
 CONDITIONS: dict[str, dict[str, Any]] = {
     "base": {},
@@ -66,72 +66,6 @@ CONDITIONS: dict[str, dict[str, Any]] = {
     },
 }
 
-Located = tuple[NDArray[np.int64], Array, Array | None]
-"""Grid (n, 2), positions (n, 2), covariances (n, 2, 2) where there are any."""
-Method = Callable[[NDArray[Any], tuple[int, int]], Located | None]
-
-
-@dataclass
-class Score:
-    """Of one method under one condition."""
-
-    ratio: float
-    """RMS error per axis over the bound's."""
-    rmse: float
-    """1e-3 px."""
-    bias: float
-    """Larger component of the mean error, 1e-3 px."""
-    chi2: float
-    """Mean squared error in units of the reported covariance, per degree of freedom."""
-    found: float
-    """Share of boards with every corner in its place."""
-    milliseconds: float
-
-
-def ours(method: str) -> Method:
-    def locate(image: NDArray[Any], board: tuple[int, int]) -> Located | None:
-        try:
-            corners = find_corners(image, method=method)
-        except NoBoardError:
-            return None
-        if corners.shape != board or not corners.complete:
-            return None
-        return corners.grid, corners.uv, corners.cov
-
-    return locate
-
-
-def opencv(kind: str) -> Method:
-    def locate(image: NDArray[Any], board: tuple[int, int]) -> Located | None:
-        rows, cols = board
-        grey = image if image.dtype == np.uint8 else (image // 257).astype(np.uint8)
-        if kind == "classic":
-            ok, points = cv2.findChessboardCorners(grey, (cols, rows))
-        else:
-            flags = cv2.CALIB_CB_ACCURACY | cv2.CALIB_CB_EXHAUSTIVE if kind == "accuracy" else 0
-            ok, points = cv2.findChessboardCornersSB(grey, (cols, rows), flags=flags)
-        if not ok:
-            return None
-        uv = np.asarray(points, np.float32).reshape(-1, 2)
-        if kind == "classic":
-            steps = np.linalg.norm(np.diff(uv.reshape(rows, cols, 2), axis=1), axis=2)
-            half = int(np.clip(steps.min() / 3, 2, 9))
-            stop = (cv2.TERM_CRITERIA_EPS + cv2.TERM_CRITERIA_COUNT, 50, 1e-4)
-            uv = cv2.cornerSubPix(grey, uv.reshape(-1, 1, 2), (half, half), (-1, -1), stop)
-        grid = np.argwhere(np.ones(board, bool))
-        return grid, np.asarray(uv, np.float64).reshape(-1, 2), None
-
-    return locate
-
-
-METHODS: dict[str, Method] = {
-    "ours": ours("edges"),
-    "saddle": ours("saddle"),
-    "cv subpix": opencv("classic"),
-    "cv SB": opencv("sb"),
-    "cv SB acc": opencv("accuracy"),
-}
-
 
 def score(method: Method, scenes: list[Scene], draws: int) -> Score:
     """Run one method on `draws` noisy photographs of each scene."""
@@ -150,7 +84,7 @@ def score(method: Method, scenes: list[Scene], draws: int) -> Score:
             nearest = np.argmin(np.linalg.norm(uv[:, None] - truth, axis=2), axis=1)
             error = uv - truth[nearest]
             right = len(set(nearest)) == len(truth)
-            if method is METHODS["ours"]:
+            if grid is not None:
                 right &= bool(np.all(nearest == grid @ np.array([scene.uv.shape[1], 1])))
             if not right or np.abs(error).max() > 3:
                 continue
@@ -219,10 +153,11 @@ def boardless(seed: int) -> NDArray[np.uint8]:
 
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("--quick", action="store_true", help="one scene instead of three")
+    parser.add_argument("--quick", action="store_true", help="a few scenes of each kind")
     parser.add_argument("--output", type=Path, help="folder for corners.json and corners.png")
     options = parser.parse_args()
-    scenes, draws = (1, 1) if options.quick else (3, 2)
+    quick = options.quick
+    scenes, draws = (1, 1) if quick else (3, 2)
     cv2.setNumThreads(1)
     table: dict[str, dict[str, Score]] = {}
     print(f"{'':14}" + "".join(f"{name:>22}" for name in METHODS))
@@ -240,35 +175,25 @@ def main() -> None:
     print(f"\nours: RMSE / bound median {np.nanmedian(ratios):.3f}, worst {np.nanmax(ratios):.2f};")
     print(f"  bias at most {max(s.bias for s in own):.2f}e-3 px;", end=" ")
     print(f"chi2/dof {min(s.chi2 for s in own):.2f} to {max(s.chi2 for s in own):.2f}")
+
     print("\nparts of boards: visible corners found, and wrong ones; size stated, size inferred")
-    for kind in KINDS:
-        counts = [total(kind, known, 2 if options.quick else SCENES) for known in (True, False)]
-        cells = (f"{c.found:7d} of {c.visible:4d}, {c.wrong} wrong" for c in counts)
+    parts: dict[str, list[Count]] = {}
+    for kind in corner_partial.KINDS:
+        amount = 2 if quick else corner_partial.SCENES
+        parts[kind] = [corner_partial.total(kind, known, amount) for known in (True, False)]
+        cells = (f"{c.found:7d} of {c.visible:4d}, {c.wrong} wrong" for c in parts[kind])
         print(f"{kind:18}" + "".join(cells), flush=True)
-    count = 20 if options.quick else 200
-    print(f"\nboards reported in {count} images without one: {false_boards(count)}")
+
+    unseen = corner_unseen.total(6 if quick else corner_unseen.SCENES)
+    c = unseen.corners
+    print(f"\nunder random conditions: {unseen.found} of {unseen.whole} whole boards in full,")
+    print(f"  {c.found} of {c.visible} visible corners, {c.wrong} wrong")
+    count = 20 if quick else 200
+    false = false_boards(count)
+    print(f"boards reported in {count} images without one: {false}")
     if options.output:
-        _write(options.output, table)
-
-
-def _write(folder: Path, table: dict[str, dict[str, Score]]) -> None:
-    """The table as JSON and as a plot."""
-    from matplotlib.figure import Figure
-
-    folder.mkdir(parents=True, exist_ok=True)
-    plain = {c: {m: vars(s) for m, s in row.items()} for c, row in table.items()}
-    (folder / "corners.json").write_text(json.dumps(plain, indent=1))
-    figure = Figure(figsize=(11, 5), layout="constrained")
-    axes = figure.add_subplot()
-    for name in METHODS:
-        axes.plot(list(table), [row[name].ratio for row in table.values()], "o-", label=name)
-    axes.axhline(1.0, color="black", linewidth=0.8)
-    axes.set_yscale("log")
-    axes.set_ylabel("RMS error / Cramer-Rao bound")
-    axes.tick_params(axis="x", rotation=70)
-    axes.legend()
-    figure.savefig(folder / "corners.png", dpi=110)
-    print(f"written: {folder / 'corners.json'}, {folder / 'corners.png'}")
+        write(options.output, Report(table, parts, unseen, false))
+        print(f"written: {options.output / 'corners.json'}, {options.output / 'corners.png'}")
 
 
 if __name__ == "__main__":
