@@ -21,7 +21,7 @@ class HelpDialog(QDialog):
         layout = QVBoxLayout(self)
         layout.addWidget(self.text)
         layout.addWidget(buttons)
-        self.resize(680, 560)
+        self.resize(680, 600)
 
     def _page(self) -> str:
         steps = (
@@ -39,7 +39,8 @@ class HelpDialog(QDialog):
             self.tr(
                 "<b>Look at the list</b>: images without a board say why. <i>Mark board</i> (M) "
                 "takes four clicks on the outermost inner corners; the loupe shows where a click "
-                "will go. <i>Edit corners</i> (E) moves, removes and restores single ones."
+                "will go. <i>Edit corners</i> (E) moves, removes and restores single ones. An "
+                "image whose file has changed since says so: <i>detect again</i> (F5)."
             ),
             self.tr(
                 "<b>Read the result</b>: every value with its standard deviation, what is badly "
@@ -63,7 +64,10 @@ class HelpDialog(QDialog):
             ("M / E", self.tr("mark board / edit corners")),
             (self.tr("Space"), self.tr("exclude or include the selected images")),
             (self.tr("← →"), self.tr("previous and next image, with the image in focus")),
-            (self.tr("Wheel, + −"), self.tr("zoom; Ctrl+0 fits, Ctrl+1 shows pixels")),
+            (
+                self.tr("Wheel, + −"),
+                self.tr("zoom, before and after as well; Ctrl+0 fits, Ctrl+1 shows pixels"),
+            ),
             ("Shift+1 … 6", self.tr("layers over the image")),
             ("Ctrl+Z / Ctrl+Shift+Z", self.tr("undo and redo: everything can be taken back")),
         )

@@ -173,7 +173,7 @@ class ImageList(QWidget):
         self.sorting = QComboBox()
         self.sorting.addItems([self.tr("name"), self.tr("status"), self.tr("largest error")])
         self.sorting.currentIndexChanged.connect(self._sort_by)
-        label = QLabel(self.tr("&Sort by"))
+        label = QLabel(self.tr("Sort b&y"))
         label.setBuddy(self.sorting)
         self.count = QLabel()
         head = QHBoxLayout()

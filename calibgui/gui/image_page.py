@@ -119,37 +119,37 @@ class ImagePage(QWidget):
         for layer, name, key, tip in (
             (
                 Layer.REGION,
-                self.tr("Region of interest"),
+                self.tr("&Region of interest"),
                 "Shift+1",
                 self.tr("The part of the image that was searched (yellow outline)"),
             ),
             (
                 Layer.ESTIMATES,
-                self.tr("First estimates"),
+                self.tr("First &estimates"),
                 "Shift+2",
                 self.tr("Corners to the nearest pixel, by Harris' detector (red +)"),
             ),
             (
                 Layer.CORNERS,
-                self.tr("Refined corners"),
+                self.tr("Refi&ned corners"),
                 "Shift+3",
                 self.tr("Corners at the saddle point of the grey levels (yellow +)"),
             ),
             (
                 Layer.ORDER,
-                self.tr("Order and axes"),
+                self.tr("&Order and axes"),
                 "Shift+4",
                 self.tr("The numbering of the corners: origin, rows, and the board's axes"),
             ),
             (
                 Layer.REPROJECTION,
-                self.tr("Reprojection"),
+                self.tr("Re&projection"),
                 "Shift+5",
                 self.tr("Where the calibration expects the corners (blue circles)"),
             ),
             (
                 Layer.RESIDUALS,
-                self.tr("Residuals"),
+                self.tr("Re&siduals"),
                 "Shift+6",
                 self.tr("Arrows from expected to measured corners, magnified"),
             ),

@@ -199,7 +199,7 @@ class MainWindow(QMainWindow):
 
     def _show_calibrate(self) -> None:
         running = self.calibrator.running
-        self.calibrate.setText(self.tr("&Stop") if running else self.tr("&Calibrate"))
+        self.calibrate.setText(self.tr("&Stop") if running else self.tr("C&alibrate"))
         self.calibrate.setToolTip(
             self.tr("End with the best camera so far")
             if running

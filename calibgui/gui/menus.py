@@ -124,7 +124,7 @@ class Menus(QObject):
         menu.addSeparator()
         menu.addActions(window.page.tools)
 
-        menu = bar.addMenu(self.tr("&Calibration"))
+        menu = bar.addMenu(self.tr("Cali&bration"))
         add(
             menu,
             self.tr("&Calibrate or stop"),
@@ -156,8 +156,13 @@ class Menus(QObject):
         menu.addSeparator()
         menu.addActions(list(window.page.layers.values()))
         menu.addSeparator()
-        for dock in (window.image_dock, window.analysis_dock):
-            menu.addAction(dock.toggleViewAction())
+        for dock, text in (
+            (window.image_dock, self.tr("&Images")),
+            (window.analysis_dock, self.tr("Resul&ts")),
+        ):
+            toggle = dock.toggleViewAction()
+            toggle.setText(text)
+            menu.addAction(toggle)
 
         looks = menu.addMenu(self.tr("&Colours"))
         group = QActionGroup(window)

@@ -86,7 +86,7 @@ class PlateChoice(QWidget):
         row.addWidget(self.out_of_plane, 1)
         form = QFormLayout(self)
         form.setContentsMargins(0, 0, 0, 0)
-        form.addRow(self.tr("&Board is"), self.model)
+        form.addRow(self.tr("Boar&d is"), self.model)
         form.addRow(self.known, row)
         self.model.activated.connect(self._choose)
         self.known.clicked.connect(self._edit_known)

@@ -51,7 +51,7 @@ class Welcome(QWidget):
         icon = QStyle.StandardPixmap
         self.buttons = [
             self._link(
-                self.tr("Open a &folder of images"),
+                self.tr("Open a f&older of images"),
                 self.tr("Corners are found and the camera is calibrated at once."),
                 self.folder_wanted,
                 icon.SP_DirOpenIcon,

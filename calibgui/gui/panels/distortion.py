@@ -43,7 +43,7 @@ class DistortionPanel(Panel):
             self.part.addItem(name, part)
         self.part.setAccessibleName(self.tr("Part of the distortion"))
         self.part.currentIndexChanged.connect(self._refresh_now)
-        self.masked = QCheckBox(self.tr("Only where &corners were seen"))
+        self.masked = QCheckBox(self.tr("&Only where corners were seen"))
         self.masked.setToolTip(
             self.tr("Beyond the corners' convex hull the correction is an extrapolation.")
         )

@@ -54,7 +54,7 @@ class UncertaintyPanel(Panel):
             self.tr("The uncertainty that you can live with: the red line goes around it.")
         )
         bar = QHBoxLayout()
-        for text, box in ((self.tr("&Points"), self.distance), (self.tr("&Limit"), self.limit)):
+        for text, box in ((self.tr("P&oints"), self.distance), (self.tr("Limi&t"), self.limit)):
             box.setKeyboardTracking(False)
             label = QLabel(text)
             label.setBuddy(box)

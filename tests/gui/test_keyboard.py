@@ -1,0 +1,101 @@
+"""Everything can be done without the mouse: no letter means two things, and Tab goes everywhere."""
+
+from __future__ import annotations
+
+from collections import defaultdict
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+from PySide6.QtCore import Qt
+from PySide6.QtGui import QAction, QKeySequence
+from PySide6.QtWidgets import QAbstractButton, QApplication, QLabel, QMenu, QTabWidget, QWidget
+from pytestqt.qtbot import QtBot
+
+from calibgui.app.document import Document
+from calibgui.gui.analysis import PANELS
+from calibgui.gui.main_window import MainWindow
+from calibgui.gui.panels.panel import Panel
+from tests.app import examples
+
+
+@pytest.fixture
+def full(window: MainWindow, qtbot: QtBot, tmp_path: Path) -> MainWindow:
+    window.session.begin(Document(examples.calibrated(tmp_path)))
+    qtbot.waitUntil(lambda: not window.session.jobs.running)
+    return window
+
+
+def labels(window: MainWindow) -> Iterator[str]:
+    """The texts in sight whose marked letter does something together with Alt."""
+    yield from (action.text() for action in window.menuBar().actions())
+    for widget in window.findChildren(QWidget):
+        if not widget.isVisible():
+            continue
+        if isinstance(widget, QAbstractButton) or (
+            isinstance(widget, QLabel) and widget.buddy() is not None
+        ):
+            yield widget.text()
+        elif isinstance(widget, QTabWidget):
+            yield from map(widget.tabText, range(widget.count()))
+
+
+def clashes(texts: Iterator[str]) -> dict[str, set[str]]:
+    meant: defaultdict[str, set[str]] = defaultdict(set)
+    for text in texts:
+        if letter := QKeySequence.mnemonic(text).toString():
+            meant[letter].add(text)
+    return {letter: several for letter, several in meant.items() if len(several) > 1}
+
+
+def test_no_letter_means_two_things_in_the_empty_window(window: MainWindow) -> None:
+    assert clashes(labels(window)) == {}
+
+
+@pytest.mark.parametrize("kind", PANELS, ids=lambda kind: kind.__name__)
+def test_no_letter_means_two_things_beside_a_panel(
+    full: MainWindow, qtbot: QtBot, kind: type[Panel]
+) -> None:
+    full.need_analysis().show_panel(kind)
+    how = next(tabs for tabs in full.image_dock.findChildren(QTabWidget))
+    for tab in range(how.count()):
+        how.setCurrentIndex(tab)
+        assert clashes(labels(full)) == {}
+    qtbot.waitUntil(lambda: not full.session.jobs.running, timeout=60_000)
+
+
+def test_every_entry_of_a_menu_has_its_letter(full: MainWindow) -> None:
+    for menu in full.menuBar().findChildren(QMenu):
+        texts = [a.text() for a in menu.actions() if a.text() and a.menu() is not menu]
+        if menu.title() in ("", "Open &recent"):
+            continue
+        assert clashes(iter(texts)) == {}, menu.title()
+        assert all(QKeySequence.mnemonic(text).toString() for text in texts), texts
+
+
+def test_no_shortcut_means_two_things(full: MainWindow) -> None:
+    meant: defaultdict[str, list[str]] = defaultdict(list)
+    for action in full.findChildren(QAction):
+        if action.shortcutContext() is Qt.ShortcutContext.WindowShortcut:
+            for keys in action.shortcuts():
+                meant[keys.toString()].append(action.text())
+    assert {keys: texts for keys, texts in meant.items() if len(texts) > 1} == {}
+
+
+def test_tab_goes_through_all_parts(full: MainWindow, qtbot: QtBot) -> None:
+    analysis = full.need_analysis()
+    full.activateWindow()
+    full.images.list.setFocus()
+    reached = set()
+    for _ in range(80):
+        reached.add(QApplication.focusWidget())
+        qtbot.keyClick(QApplication.focusWidget() or full, Qt.Key.Key_Tab)
+    wanted = (
+        full.images.list,
+        full.images.sorting,
+        full.calibrate,
+        full.page.canvas,
+        analysis.results,
+        analysis.names,
+    )
+    assert {type(widget).__name__ for widget in wanted if widget not in reached} == set()
