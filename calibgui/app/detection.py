@@ -1,9 +1,10 @@
-"""From photographs to views: read each image and search it for the board.
+"""From photographs to views: read each image and search it for the target.
 
 What goes wrong with one image is recorded in its view and stops nothing. One camera has one
 image size: the most frequent one counts, images of another are left out unread. If the
 board's size is not given, the most frequent one among the boards seen whole is taken to be
-it, and images in which something else was counted are searched again for that size.
+it, and images in which something else was counted are searched again for that size. What a
+pattern leaves open, as the dictionary of its markers, is settled in the same way.
 """
 
 from __future__ import annotations
@@ -16,10 +17,11 @@ from pathlib import Path
 from threading import Event
 
 from calibgui.app.workers import Crashed, spread
-from calibgui.engine.corners import METHODS, find_corners
+from calibgui.engine.corners import METHODS
 from calibgui.engine.errors import CalibrationError, NoBoardError
 from calibgui.engine.images import image_size, read_image
-from calibgui.engine.types import Array, Board, Size, Target, View, ViewStatus
+from calibgui.engine.targets.pattern import CHECKERBOARD, Pattern
+from calibgui.engine.types import Array, Board, Corners, Size, Target, View, ViewStatus
 from calibgui.formats.corners_json import CornerSet
 
 Progress = Callable[[int, int, View], None]
@@ -36,6 +38,8 @@ class Detection:
     """Of the images, px; None if none could be read."""
     board: Board | None
     """As given, or as most frequently seen; None if no board was seen whole."""
+    pattern: Pattern = CHECKERBOARD
+    """As given, with what the images tell of it."""
 
     def corner_set(self, square: float) -> CornerSet:
         """The views as a calibration takes them, on a board of squares of side `square` mm.
@@ -48,7 +52,7 @@ class Detection:
                 "None of the files can be read as an image.",
                 f"The first: {self.views[0].reason}",
             )
-        target = None if self.board is None else Target(*self.board, square)
+        target = None if self.board is None else Target(*self.board, square, self.pattern)
         return CornerSet(self.size, self.views, target)
 
 
@@ -60,6 +64,7 @@ def find_views(
     stop: Event | None = None,
     size: Size | None = None,
     method: str = METHODS[0],
+    pattern: Pattern = CHECKERBOARD,
 ) -> Detection:
     """Search all images for the board, on all processors.
 
@@ -71,6 +76,7 @@ def find_views(
         stop: abandons the search within 0.2 s when set.
         size: width and height of the camera's images; the most frequent ones if None.
         method: of locating corners, one of ``corners.METHODS``.
+        pattern: of the target; what it leaves open is inferred over the whole set.
 
     Raises:
         Cancelled: if `stop` was set.
@@ -81,7 +87,9 @@ def find_views(
 
     def search(which: Sequence[int], board: Board | None, before: int = 0) -> None:
         items = [views[k] for k in which]
-        results = spread(partial(search_view, board=board, method=method), items, stop)
+        results = spread(
+            partial(search_view, board=board, method=method, pattern=pattern), items, stop
+        )
         for done, (i, view) in enumerate(results, start=before + 1):
             views[which[i]] = _crashed(items[i]) if isinstance(view, Crashed) else view
             if progress is not None:
@@ -90,36 +98,60 @@ def find_views(
     readable = [k for k, view in enumerate(views) if view.status is ViewStatus.WAITING]
     search(readable, board)
     if board is None and (board := usual_board(views)) is not None:
-        again = [k for k, view in enumerate(views) if _worth_another_look(view, board)]
+        pattern = usual_pattern(views, pattern)
+        again = [k for k, view in enumerate(views) if _worth_another_look(view, board, pattern)]
         search(again, board, before=len(readable))
-    return Detection(tuple(views), size, board)
+    return Detection(tuple(views), size, board, usual_pattern(views, pattern))
 
 
-def search_view(view: View, board: Board | None = None, method: str = METHODS[0]) -> View:
+def search_view(
+    view: View,
+    board: Board | None = None,
+    method: str = METHODS[0],
+    pattern: Pattern = CHECKERBOARD,
+) -> View:
     """The view with the corners found in its image, or with the reason why there are none."""
     try:
         pixels = read_image(view.image).pixels
     except CalibrationError as error:
         return _without_corners(view, ViewStatus.UNREADABLE, str(error))
     try:
-        corners = find_corners(pixels, board, view.roi, method)
+        corners = pattern.find(pixels, board, view.roi, method)
     except NoBoardError as error:
         return _without_corners(view, ViewStatus.NO_BOARD, str(error))
     return replace(view, status=ViewStatus.FOUND, reason="", corners=corners)
 
 
 def usual_board(views: Iterable[View]) -> Board | None:
-    """The most frequent size of boards seen whole, of equally frequent ones the largest."""
+    """The most frequent size of boards seen whole, of equally frequent ones the largest.
+
+    Where corners say which they are the largest part seen is the board, or as much as is known.
+    """
     found = [view.corners for view in views if view.corners is not None]
+    if found and all(corners.pattern.identified for corners in found):
+        return largest_part(found)
     seen = Counter(corners.shape for corners in found if corners.complete)
     return max(seen, key=lambda shape: (seen[shape], shape[0] * shape[1]), default=None)
 
 
-def _worth_another_look(view: View, board: Board) -> bool:
+def largest_part(found: Sequence[Corners]) -> Board | None:
+    """Rows and columns that parts of a board, perhaps never seen whole, amount to at least."""
+    rows, cols = (max((corners.shape[i] for corners in found), default=0) for i in (0, 1))
+    return (rows, cols) if rows and cols else None
+
+
+def usual_pattern(views: Iterable[View], stated: Pattern) -> Pattern:
+    """The `stated` pattern with what it leaves open as the images show it."""
+    found = [view.corners.pattern for view in views if view.corners is not None]
+    return stated.completed([pattern for pattern in found if pattern.kind == stated.kind])
+
+
+def _worth_another_look(view: View, board: Board, pattern: Pattern) -> bool:
     """Whether knowing the board can give a view other corners: fewer, more or renumbered."""
     if view.corners is not None:
         return view.corners.shape != board
-    return view.status is ViewStatus.NO_BOARD and view.roi is not None
+    known = view.roi is not None or pattern.identified
+    return view.status is ViewStatus.NO_BOARD and known
 
 
 def _sized(views: Iterable[View], size: Size | None) -> tuple[list[View], Size | None]:

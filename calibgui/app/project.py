@@ -11,7 +11,8 @@ from dataclasses import dataclass, field, replace
 from enum import StrEnum
 from types import MappingProxyType
 
-from calibgui.app.detection import usual_board
+from calibgui.app.detection import largest_part, usual_board, usual_pattern
+from calibgui.engine.targets.pattern import CHECKERBOARD, Pattern
 from calibgui.engine.types import Board, Cost, Plate, PlateModel, Prior, Size, Target, View
 from calibgui.formats.result import Result
 
@@ -58,8 +59,10 @@ class Project:
     """One per image, under its absolute path."""
     size: Size | None = None
     """Width and height of the images, px; None until one has been read."""
+    pattern: Pattern = CHECKERBOARD
+    """What is printed on the target, as stated by the user."""
     board: Board | None = None
-    """Rows and columns of inner corners as stated by the user; inferred if None."""
+    """Rows and columns of inner corners or circles as stated by the user; inferred if None."""
     square: float = DEFAULT_SQUARE
     """Side of a square, mm."""
     unit: Unit = Unit.MM
@@ -72,8 +75,10 @@ class Project:
     @property
     def target(self) -> Target | None:
         """The board as stated or as seen; None while nothing is known of it."""
-        board = self.board or usual_board(self.views) or _largest_part(self.views)
-        return None if board is None else Target(*board, self.square)
+        found = [view.corners for view in self.views if view.corners is not None]
+        board = self.board or usual_board(self.views) or largest_part(found)
+        pattern = usual_pattern(self.views, self.pattern)
+        return None if board is None else Target(*board, self.square, pattern)
 
     @property
     def usable(self) -> tuple[View, ...]:
@@ -89,13 +94,6 @@ class Project:
     def find(self, image: str) -> int:
         """Place of the view of `image`; -1 if there is none."""
         return next((k for k, view in enumerate(self.views) if view.image == image), -1)
-
-
-def _largest_part(views: Iterable[View]) -> Board | None:
-    """Rows and columns that parts of a board, never seen whole, amount to at least."""
-    shapes = [view.corners.shape for view in views if view.corners is not None]
-    rows, cols = (max((shape[i] for shape in shapes), default=0) for i in (0, 1))
-    return (rows, cols) if rows and cols else None
 
 
 def with_images(project: Project, images: Iterable[str]) -> Project:

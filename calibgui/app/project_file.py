@@ -1,7 +1,8 @@
 """A project as a JSON file beside its images.
 
-    format, version     "calibgui-project", 2
-    target              rows, cols (null: inferred from the images), square_mm, unit
+    format, version     "calibgui-project", 3
+    target              rows, cols (null: inferred from the images), square_mm, unit and
+                        pattern as in ``pattern_json.py``
     size                width and height of the images, px
     settings            cost, fixed, freed; plate (a model, "auto" or a plate as in
                         ``plate_json.py``), prior_mm (in the plane and out of it, or null), robust
@@ -25,16 +26,18 @@ from types import MappingProxyType
 from typing import Any
 
 from calibgui.app.project import Project, Settings, Unit, relocated
+from calibgui.engine.targets.pattern import CHECKERBOARD
 from calibgui.engine.types import Cost, Plate, PlateModel, Prior, Target, View
 from calibgui.formats.corners_json import read_size
 from calibgui.formats.json_document import Node, check_format, read, write
+from calibgui.formats.pattern_json import pattern_record, read_pattern
 from calibgui.formats.plate_json import plate_record, read_plate_record
 from calibgui.formats.result import Result
 from calibgui.formats.result_json import result_from, result_record
 from calibgui.formats.views_json import read_views, view_record
 
 FORMAT = "calibgui-project"
-VERSION = 2
+VERSION = 3
 _AUTO = "auto"
 
 
@@ -44,7 +47,16 @@ def _nominal_plate(content: dict[str, Any]) -> dict[str, Any]:
     return content | {"version": 2, "settings": content["settings"] | settings}
 
 
-_MIGRATIONS: Mapping[int, Callable[[dict[str, Any]], dict[str, Any]]] = {1: _nominal_plate}
+def _checkerboard(content: dict[str, Any]) -> dict[str, Any]:
+    """Version 2 knew no other pattern."""
+    pattern = {"pattern": pattern_record(CHECKERBOARD)}
+    return content | {"version": 3, "target": content["target"] | pattern}
+
+
+_MIGRATIONS: Mapping[int, Callable[[dict[str, Any]], dict[str, Any]]] = {
+    1: _nominal_plate,
+    2: _checkerboard,
+}
 """By the version that they take: to the content of the next one."""
 
 
@@ -62,10 +74,11 @@ def project_record(project: Project, folder: Path) -> dict[str, Any]:
     project = _with_paths(project, lambda image: _relative(image, folder))
     rows, cols = project.board or (None, None)
     square = {"square_mm": project.square, "unit": project.unit}
+    pattern = {"pattern": pattern_record(project.pattern)}
     return {
         "format": FORMAT,
         "version": VERSION,
-        "target": {"rows": rows, "cols": cols, **square},
+        "target": {"rows": rows, "cols": cols, **square, **pattern},
         "size": project.size,
         "settings": _settings_record(project.settings),
         "views": [_view_record(view, project) for view in project.views],
@@ -118,7 +131,7 @@ def _view_record(view: View, project: Project) -> dict[str, Any]:
 
 def _lattice(project: Project) -> Target:
     """Where found corners lie on the plate: that takes the squares' side, not their number."""
-    return project.target or Target(2, 2, project.square)
+    return project.target or Target(2, 2, project.square, project.pattern)
 
 
 def _read(node: Node) -> Project:
@@ -126,7 +139,8 @@ def _read(node: Node) -> Project:
     rows, cols, size = target.get("rows"), target.get("cols"), node.get("size")
     if not (square := target["square_mm"]).number() > 0:
         square.fail("a length above 0")
-    views = read_views(node["views"], Target(2, 2, square.number()))
+    pattern = read_pattern(target["pattern"])
+    views = read_views(node["views"], Target(2, 2, square.number(), pattern))
     digests = {
         view.image: digest.text()
         for view, item in zip(views, node["views"].items(), strict=True)
@@ -135,6 +149,7 @@ def _read(node: Node) -> Project:
     return Project(
         views=views,
         size=read_size(size) if size else None,
+        pattern=pattern,
         board=(rows.integer(), cols.integer()) if rows and cols else None,
         square=square.number(),
         unit=Unit(target["unit"].choice(list(Unit))),

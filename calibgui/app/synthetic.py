@@ -25,7 +25,7 @@ from scipy.spatial import cKDTree
 from calibgui import engine
 from calibgui.app.workers import Crashed, spread
 from calibgui.engine.calibrate import HELD
-from calibgui.engine.corners import METHODS, find_corners
+from calibgui.engine.corners import METHODS
 from calibgui.engine.errors import CalibrationError, NoBoardError
 from calibgui.engine.maps import project_points
 from calibgui.engine.render import Appearance, render
@@ -84,7 +84,7 @@ def synthetic_check(
     """Render the views of `result`, and calibrate from the rendered images.
 
     Args:
-        result: of a checkerboard target.
+        result: of a target of known pattern.
         blur: standard deviation of the images' blur, px.
         noise: standard deviation of the images' noise, grey levels.
         progress: told of each view.
@@ -97,7 +97,7 @@ def synthetic_check(
     if target is None:
         raise CalibrationError(
             "The views cannot be rendered: the target's pattern is not known.",
-            "Calibrate from images of a checkerboard, or state its rows, columns and square.",
+            "Calibrate from images of the target, or state its rows, columns and square.",
         )
     camera, poses, views = result.calibration.camera, result.calibration.poses, [*result.used]
     again = partial(_found_again, camera, target, _board_of(result.calibration), blur, noise)
@@ -134,10 +134,11 @@ def _found_again(
     image = render(camera, pose, target, blur=blur, noise=noise, seed=k, appearance=board)
     observed = real.observation(target)
     predicted = project_points(observed.xy, camera, pose)
-    grid = np.rint(observed.xy[:, ::-1] / target.square).astype(np.int64)
+    grid = np.indices(target.board).reshape(2, -1).T
+    grid = grid[np.asarray(cKDTree(target.points(grid)).query(observed.xy)[1])]
     try:
         method = METHODS[0] if real.corners is None else real.corners.method
-        found = find_corners(image, (target.rows, target.cols), method=method)
+        found = target.pattern.find(image, target.board, method=method)
         return replace(real, corners=_numbered(found, grid, predicted), points=None)
     except NoBoardError as error:
         return _lost(real, str(error))

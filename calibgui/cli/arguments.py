@@ -13,6 +13,7 @@ from calibgui.app.regions import read_regions
 from calibgui.cli.console import Console
 from calibgui.engine.corners import METHODS
 from calibgui.engine.corners.lattice import MIN_LINES
+from calibgui.engine.targets.pattern import CHECKERBOARD, Pattern
 from calibgui.engine.types import Board
 
 
@@ -63,7 +64,8 @@ def add_search(parser: argparse.ArgumentParser) -> None:
         "--board",
         type=board,
         metavar="ROWSxCOLS",
-        help="inner corners of the board (squares minus one each way); inferred if left out",
+        help="inner corners of the board (squares minus one each way), inferred if left out; or "
+        "circles of a grid",
     )
     parser.add_argument(
         "--roi",
@@ -92,6 +94,7 @@ def search(
     board: Board | None = None,
     roi: Path | None = None,
     corners: str = METHODS[0],
+    pattern: Pattern = CHECKERBOARD,
 ) -> Detection:
     """Find the images that are meant and search them for the board, showing progress.
 
@@ -102,5 +105,10 @@ def search(
     rois = read_regions(roi, images) if roi else {}
     with console.progress("searching") as advance:
         return find_views(
-            images, board, rois, lambda done, total, _: advance(done, total), method=corners
+            images,
+            board,
+            rois,
+            lambda done, total, _: advance(done, total),
+            method=corners,
+            pattern=pattern,
         )

@@ -1,4 +1,4 @@
-"""Calibrate a camera from photographs of a checkerboard, or from a corners.json file."""
+"""Calibrate a camera from photographs of a target, or from a corners.json file."""
 
 from __future__ import annotations
 
@@ -19,6 +19,7 @@ from calibgui.cli.arguments import (
     search,
 )
 from calibgui.cli.console import Console
+from calibgui.cli.targets import add_target, pattern_of
 from calibgui.engine.calibrate import HELD, parameter_names
 from calibgui.engine.errors import CalibrationError
 from calibgui.engine.types import Cost, Plate, PlateModel, Prior
@@ -27,15 +28,16 @@ from calibgui.formats.corners_json import CornerSet, read_corners
 from calibgui.formats.plate_json import read_plate, write_plate
 from calibgui.formats.result_json import result_record, write_result
 from calibgui.report import tables
+from calibgui.report.targets import learnt
 
 NAMES = parameter_names("lucchese")
 
 
 def configure(parser: argparse.ArgumentParser) -> None:
     """Describe the arguments."""
-    parser.set_defaults(usage_error=parser.error)
     add_images(parser)
     add_search(parser)
+    add_target(parser)
     parser.add_argument(
         "--square",
         type=positive,
@@ -152,20 +154,26 @@ def _check_usage(options: argparse.Namespace) -> None:
     if options.prior and options.plate not in (PlateModel.FREE, None):
         options.usage_error("--prior is of a free plate: add --plate free or auto")
     if is_corners_file(options.paths):
-        if options.board or options.roi:
-            options.usage_error("--board and --roi are for photographs, not for a corners file")
+        if options.board or options.roi or options.target != "checkerboard":
+            options.usage_error(
+                "--board, --roi and --target are for photographs, not for a corners file"
+            )
     elif any(is_corners_file([path]) for path in options.paths):
         options.usage_error("a corners file is calibrated by itself")
     elif options.square is None:
-        options.usage_error("--square MM, the side of the board's squares, is needed")
+        options.usage_error("--square MM, side of a square or distance of circles, is needed")
 
 
 def _corner_set(options: argparse.Namespace, console: Console) -> CornerSet:
     """The views to calibrate from, searched or read."""
     if is_corners_file(options.paths):
         return _from_corners_file(options)
-    detection = search(console, options.paths, options.board, options.roi, options.corners)
-    return detection.corner_set(options.square)
+    pattern = pattern_of(options)
+    detection = search(console, options.paths, options.board, options.roi, options.corners, pattern)
+    corner_set = detection.corner_set(options.square)
+    if words := learnt(pattern, corner_set.target):
+        console.say(words + "\n")
+    return corner_set
 
 
 def _from_corners_file(options: argparse.Namespace) -> CornerSet:

@@ -21,7 +21,7 @@ from importlib import import_module
 from calibgui import __version__
 
 COMMANDS = {
-    "calibrate": "calibrate a camera from photographs of a checkerboard",
+    "calibrate": "calibrate a camera from photographs of a checkerboard or another target",
     "detect": "locate the board's corners in photographs",
     "undistort": "write photographs without lens distortion",
     "rectify": "write the board as seen from straight above",

@@ -158,9 +158,10 @@ def rectify_image(
 
 
 def board_extent(target: Target) -> Extent:
-    """The rectangle of the board's squares on the plate, mm."""
+    """The rectangle on the plate that holds the board's points and a square around them, mm."""
     side = target.square
-    return -side, -side, target.cols * side, target.rows * side
+    right, bottom = (target.points().max(axis=0) + side).tolist()
+    return -side, -side, right, bottom
 
 
 def _check(image: Pixels, camera: Camera) -> None:

@@ -4,8 +4,8 @@
 
 Reader: `read_corners`, and any JSON reader. Positions are pixels in the array frame (0-based,
 integer at pixel centres, v down), `board` millimetres on the plate, `cov` (optional) 2 x 2
-covariances in px^2. This program adds the board as `target` and per view what
-``views_json.py`` lists; a reader may ignore all of it. Views without corners have empty lists.
+covariances in px^2. This program adds the board as `target` (``pattern_json.py``) and per view
+what ``views_json.py`` lists; a reader may ignore all of it. Views without corners have empty lists.
 Cannot hold: a calibration (see ``result_json.py``).
 """
 
@@ -20,6 +20,7 @@ from calibgui.engine.errors import CalibrationError
 from calibgui.engine.types import Size, Target, View
 from calibgui.formats.exporter import Exporter, ExportReport
 from calibgui.formats.json_document import Node, read, write
+from calibgui.formats.pattern_json import read_target, target_record
 from calibgui.formats.result import Result
 from calibgui.formats.views_json import read_views, view_record
 
@@ -70,24 +71,6 @@ def read_corners(path: str | os.PathLike[str]) -> CornerSet:
         )
     target = read_target(node.get("target"))
     return CornerSet(read_size(node["size"]), read_views(node["views"], target), target)
-
-
-def target_record(target: Target) -> dict[str, Any]:
-    """The JSON object of a board."""
-    return {"rows": target.rows, "cols": target.cols, "square_mm": target.square}
-
-
-def read_target(node: Node | None) -> Target | None:
-    """The board of a JSON object."""
-    if node is None:
-        return None
-    rows, cols, square = node["rows"], node["cols"], node["square_mm"]
-    if not square.number() > 0:
-        square.fail("a length above 0")
-    for side in (rows, cols):
-        if not side.integer() >= 2:
-            side.fail("a number of corners above 1")
-    return Target(rows.integer(), cols.integer(), square.number())
 
 
 def read_size(node: Node) -> Size:

@@ -38,9 +38,10 @@ from calibgui.engine.types import (
     View,
     ViewResiduals,
 )
-from calibgui.formats.corners_json import read_size, read_target, target_record
+from calibgui.formats.corners_json import read_size
 from calibgui.formats.exporter import Exporter, ExportReport
 from calibgui.formats.json_document import Node, check_format, read, write
+from calibgui.formats.pattern_json import read_target, target_record
 from calibgui.formats.plate_json import plate_record, read_plate_record
 from calibgui.formats.result import Result
 from calibgui.formats.views_json import read_views, view_record

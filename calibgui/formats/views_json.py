@@ -8,7 +8,8 @@
 
 and for corners found on a board of known layout their `grid` (row, column), the board's
 `shape`, first `estimate`, `ambiguity`, `relative`, `method` and the searched `outline`; also
-`others`, further boards in the image, each with its `shape` and `outline`.
+`others`, further boards in the image, each with its `shape` and `outline`, and the `pattern` as
+the image shows it, unless it is a checkerboard.
 `image`, `uv` and `board` suffice: the others have defaults.
 """
 
@@ -18,6 +19,7 @@ from typing import Any
 
 import numpy as np
 
+from calibgui.engine.targets.pattern import CHECKERBOARD
 from calibgui.engine.types import (
     Ambiguity,
     Corners,
@@ -28,6 +30,7 @@ from calibgui.engine.types import (
     ViewStatus,
 )
 from calibgui.formats.json_document import Node
+from calibgui.formats.pattern_json import pattern_record, read_pattern
 
 
 def view_record(view: View, target: Target | None) -> dict[str, Any]:
@@ -66,6 +69,8 @@ def _corners_record(corners: Corners) -> dict[str, Any]:
         record["outline"] = corners.roi
     if corners.others:
         record["others"] = [other._asdict() for other in corners.others]
+    if corners.pattern != CHECKERBOARD:
+        record["pattern"] = pattern_record(corners.pattern)
     return record
 
 
@@ -133,6 +138,7 @@ def _read_corners(node: Node, points: Observation) -> Corners | None:
         method=method.text() if (method := node.get("method")) else "",
         relative=relative.flag() if relative else False,
         others=tuple(map(_read_other, others.items())) if others else (),
+        pattern=read_pattern(node.get("pattern")),
     )
 
 

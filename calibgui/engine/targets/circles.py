@@ -143,7 +143,7 @@ class Circles:
         if not self.asymmetric:
             beside = np.array([(0.5, 0.5), (-0.5, 0.5), (0.5, -0.5), (-0.5, -0.5)])
         fit = ellipses.fit(grey, first, start.jacobian(xy), self.reach, beside)
-        good, uv, radius = _verified(fit, xy)
+        good, uv, radius = _verified(fit, xy, grey)
         if self.diameter is not None and abs(2 * radius - self.diameter) > _DIFFERENT:
             raise NoBoardError(
                 f"The circles measure {2 * radius:.2f} of their distance, not {self.diameter:.2f}.",
@@ -222,34 +222,34 @@ def _grid(board: Board) -> np.ndarray:
     return np.indices(board).reshape(2, -1).T
 
 
-def _verified(fit: Ellipses, xy: Array) -> tuple[BoolArray, Array, float]:
+def _verified(fit: Ellipses, xy: Array, image: Image) -> tuple[BoolArray, Array, float]:
     """Which circles pass, the images of their centres (n, 2) px, and their radius, pitches.
 
-    Every ellipse must be what a circle of the common radius looks like there, where the others
-    expect it, with a contrast like theirs and no more unexplained.
+    Every ellipse must lie inside the image, be what a circle of the common radius looks like there,
+    where the others expect it, with a contrast like theirs and no more unexplained.
     """
-    finite = np.isfinite(fit.unknowns).all(axis=1) & np.isfinite(fit.covariance).all(axis=(1, 2))
-    if not finite.all():
+    if not (np.isfinite(fit.unknowns).all() and np.isfinite(fit.covariance).all()):
         raise _untrusted()
-    uv, radius = fit.uv, 0.0
+    half = np.sqrt(np.einsum("nii->ni", fit.spread)) + fit.blur[:, None]
+    good = ((fit.uv > half) & (fit.uv + half < np.array(image.shape[::-1]) - 1)).all(axis=1)
+    contrast, residual = fit.contrast, fit.residual
+    sign = np.sign(np.median(fit.unknowns[:, 7]))
+    good &= (sign * fit.unknowns[:, 7] > 0) & (contrast > _WEAKEST * np.median(contrast))
+    good &= residual < np.maximum(_UNEXPLAINED * np.median(residual), _MISFIT * contrast)
+    uv = fit.uv
     for _ in range(_TURNS):
-        through = plate_map(xy, uv)
+        # What fails is not to bend the map for the others.
+        if np.count_nonzero(~good) > _FAILING * len(good):
+            raise _untrusted()
+        through = plate_map(xy[good], uv[good])
         J = through.jacobian(xy)
         spread = np.linalg.solve(J, np.linalg.solve(J, fit.spread).transpose(0, 2, 1))
         radii2 = np.sqrt(np.maximum(np.linalg.det(spread), 0.0))
-        radius = float(np.sqrt(np.median(radii2)))
+        radius = float(np.sqrt(np.median(radii2[good])))
         uv = fit.uv - through.bias(xy, radius)
-    off = np.linalg.solve(J, (uv - through.at(xy))[..., None])[..., 0]
-    shape = np.abs(spread / radius**2 - np.eye(2)).max(axis=(1, 2))
-    sign = np.sign(np.median(fit.unknowns[:, 7]))
-    contrast, residual = fit.contrast, fit.residual
-    good = (
-        (np.linalg.norm(off, axis=1) < _MISPLACED)
-        & (shape < _MISSHAPEN)
-        & (sign * fit.unknowns[:, 7] > 0)
-        & (contrast > _WEAKEST * np.median(contrast))
-        & (residual < np.maximum(_UNEXPLAINED * np.median(residual), _MISFIT * contrast))
-    )
+        off = np.linalg.solve(J, (uv - through.at(xy))[..., None])[..., 0]
+        shape = np.abs(spread / radius**2 - np.eye(2)).max(axis=(1, 2))
+        good = good & (np.linalg.norm(off, axis=1) < _MISPLACED) & (shape < _MISSHAPEN)
     enough = np.count_nonzero(~good) <= _FAILING * len(good)
     if not enough or np.median(residual / contrast) > _MISFIT:
         raise _untrusted()

@@ -5,9 +5,11 @@ c and S symmetric and positive definite
 
     rho = sqrt(q^T S q),    d = (1 - rho) rho / |S q|
 
-is to first order the distance of q inside the curve rho = 1, and the blurred image is
+is to first order the distance of q inside the curve rho = 1. Of an edge that bends inwards with
+the curvature kappa = rho^2 det S / |S q|^3 a blur s leaves less, as if it were kappa s^2 / 2
+farther in, and the blurred image is
 
-    I(q) = m + gm.q + a E(d),
+    I(q) = m + gm.q + a E(d - kappa s^2 / 2),
 
 E the blurred edge of ``corners/pattern.py``. The unknowns c, S (3), blur, m and a are found by
 Gauss-Newton steps on the pixels near the edge, all circles at once. Under point reflection
@@ -139,7 +141,8 @@ def _portion(
     """Unknowns, covariances and residuals of some discs after a step."""
     grey, qu, qv, weight = _read(image, x, band, half)
     su, sv, rho, slope = _conic(x, qu, qv)
-    d = (1 - rho) * rho / slope
+    bend = (x[:, 2] * x[:, 4] - x[:, 3] ** 2)[:, None] * (rho / slope) ** 2 / slope
+    d = (1 - rho) * rho / slope - bend * x[_BLUR][:, None] ** 2 / 2
     box = np.maximum(abs(su), abs(sv)) / slope / 2
     E = edge(d, np.broadcast_to(x[_BLUR][:, None], d.shape), box)
     a = x[_A][:, None]

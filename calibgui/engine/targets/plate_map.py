@@ -97,8 +97,8 @@ def plate_map(xy: Array, uv: Array) -> PlateMap:
     middle, unit = (xy.min(axis=0) + xy.max(axis=0)) / 2, float(np.ptp(xy, axis=0).max()) / 2
     flat = PlateMap(H, middle, unit, np.zeros((len(_POWERS), 2)))
     degrees = _POWERS.sum(axis=1)
-    # The highest degree with at least two points a term; with less than 3, a lens has no effect.
-    carried = [k for k in range(3, _HIGHEST + 1) if 2 * np.count_nonzero(degrees <= k) <= len(xy)]
+    # The highest degree with half as many points again as terms; below 3, a lens has no effect.
+    carried = [k for k in range(3, _HIGHEST + 1) if 1.5 * np.count_nonzero(degrees <= k) <= len(xy)]
     if not carried:
         return flat
     count = np.count_nonzero(degrees <= carried[-1])

@@ -1,0 +1,78 @@
+"""A target and its pattern as JSON objects, the same in every file that holds them.
+
+rows, cols      of inner corners, or of circles
+square_mm       side of a square, distance of circles (of rows of an asymmetric grid)
+pattern         left out for a checkerboard; else its `kind` and what is known of it:
+  charuco             dictionary (OpenCV's name), marker (over the square), legacy (layout)
+  circles             diameter (over the distance)
+  asymmetric-circles  diameter (over the distance of the rows)
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import fields, replace
+from typing import Any
+
+from calibgui.engine.errors import CalibrationError
+from calibgui.engine.targets.kinds import KINDS
+from calibgui.engine.targets.pattern import CHECKERBOARD, Pattern
+from calibgui.engine.types import Target
+from calibgui.formats.json_document import Node
+
+
+def pattern_record(pattern: Pattern) -> dict[str, Any]:
+    """The JSON object of a pattern."""
+    usual: Any = KINDS[pattern.kind]
+    known = {field.name: getattr(pattern, field.name) for field in fields(usual)}
+    return {"kind": pattern.kind} | {
+        name: value for name, value in known.items() if value != getattr(usual, name)
+    }
+
+
+def read_pattern(node: Node | None) -> Pattern:
+    """The pattern of a JSON object; a checkerboard where there is none."""
+    if node is None:
+        return CHECKERBOARD
+    usual: Any = KINDS[node["kind"].choice(list(KINDS))]
+    known = {}
+    for field in fields(usual):
+        if (value := node.get(field.name)) is not None:
+            known[field.name] = _READERS[field.name](value)
+    try:
+        pattern: Pattern = replace(usual, **known)
+    except CalibrationError as error:
+        node.fail(str(error))
+    return pattern
+
+
+_READERS: Mapping[str, Callable[[Node], str | float | bool]] = {
+    "dictionary": Node.text,
+    "marker": Node.number,
+    "legacy": Node.flag,
+    "diameter": Node.number,
+    "asymmetric": Node.flag,
+}
+"""By the name of a pattern's field."""
+
+
+def target_record(target: Target) -> dict[str, Any]:
+    """The JSON object of a target."""
+    record = {"rows": target.rows, "cols": target.cols, "square_mm": target.square}
+    if target.pattern == CHECKERBOARD:
+        return record
+    return record | {"pattern": pattern_record(target.pattern)}
+
+
+def read_target(node: Node | None) -> Target | None:
+    """The target of a JSON object."""
+    if node is None:
+        return None
+    rows, cols, square = node["rows"], node["cols"], node["square_mm"]
+    if not square.number() > 0:
+        square.fail("a length above 0")
+    for side in (rows, cols):
+        if not side.integer() >= 2:
+            side.fail("a number of corners above 1")
+    pattern = read_pattern(node.get("pattern"))
+    return Target(rows.integer(), cols.integer(), square.number(), pattern)

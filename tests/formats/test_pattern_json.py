@@ -1,0 +1,56 @@
+"""Targets of every pattern read back as they were written, and nothing else is taken for one."""
+
+from __future__ import annotations
+
+import json
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from calibgui.engine.errors import CalibrationError
+from calibgui.engine.targets.charuco import Charuco
+from calibgui.engine.targets.circles import Circles
+from calibgui.engine.targets.kinds import KINDS
+from calibgui.engine.targets.pattern import Pattern
+from calibgui.engine.types import Target
+from calibgui.formats.json_document import dumps, read
+from calibgui.formats.pattern_json import pattern_record, read_target, target_record
+
+PATTERNS = [
+    *KINDS.values(),
+    Charuco("DICT_6X6_250", 0.7, True),
+    Charuco(legacy=False),
+    Circles(True, 0.8),
+    Circles(False, 0.25),
+]
+
+
+@pytest.mark.parametrize("pattern", PATTERNS)
+def test_read_back(tmp_path: Path, pattern: Pattern) -> None:
+    target = Target(6, 9, 12.5, pattern)
+    (tmp_path / "t.json").write_text(dumps(target_record(target)))
+    assert read_target(read(tmp_path / "t.json")) == target
+
+
+@pytest.mark.parametrize(
+    "wrong",
+    [
+        {"kind": "dots"},
+        {"kind": "charuco", "dictionary": "DICT_3X3_50"},
+        {"kind": "charuco", "marker": "big"},
+        {"kind": "charuco", "marker": 1.2},
+        {"kind": "circles", "diameter": 0},
+        {},
+    ],
+)
+def test_what_is_wrong_is_named(tmp_path: Path, wrong: dict[str, Any]) -> None:
+    record = target_record(Target(6, 9, 12.5)) | {"pattern": wrong}
+    (tmp_path / "t.json").write_text(json.dumps(record))
+    with pytest.raises(CalibrationError, match=r"t\.json"):
+        read_target(read(tmp_path / "t.json"))
+
+
+def test_a_checkerboard_needs_no_pattern() -> None:
+    assert "pattern" not in target_record(Target(6, 9, 12.5))
+    assert pattern_record(KINDS["circles"]) == {"kind": "circles"}
