@@ -20,6 +20,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from calibgui.engine.corners.surroundings import curvatures
 from calibgui.engine.lens import MODELS
 from calibgui.engine.observations import Observations, pack
 from calibgui.engine.problem import residuals
@@ -28,6 +29,8 @@ from calibgui.engine.stage_two import Linearised, State, image_residual
 from calibgui.engine.types import Array, Calibration, Cost, Observation
 from calibgui.engine.weighting import weighted
 
+_DIFFERENCE = 0.05
+"""Of places on the plate for derivatives by them, squares."""
 _RAYLEIGH = 2 * float(np.log(2))
 """Median of the squared length of two normal deviates."""
 
@@ -64,6 +67,22 @@ class Sight:
         cov = J @ self.calibration.covariance @ np.swapaxes(J, 1, 2)
         cov += P @ self.spread @ np.swapaxes(P, 1, 2)
         return line.residual[0].reshape(xy.shape), cov.reshape(*xy.shape, 2)
+
+    def geometry(self, xy: Array, square: float) -> tuple[Array, Array]:
+        """How a board's edges run and bend, by differences over a twentieth of a square.
+
+        Args:
+            xy: (n, 2) corners on the plate.
+            square: the side of a square.
+
+        Returns:
+            As ``Surroundings.geometry``.
+        """
+        around = _DIFFERENCE * square * np.array([(0, 0), (1, 0), (-1, 0), (0, 1), (0, -1)])
+        at, right, left, down, up = np.moveaxis(self.expected(xy[:, None] + around)[0], 1, 0)
+        first = np.stack([right - left, down - up], axis=1) / (2 * _DIFFERENCE)
+        second = np.stack([right + left - 2 * at, down + up - 2 * at], axis=1) / _DIFFERENCE**2
+        return first, curvatures(first, second)
 
 
 def sight(calibration: Calibration, uv: Array, xy: Array, cov: Array) -> Sight:

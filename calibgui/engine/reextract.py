@@ -206,10 +206,11 @@ def _located(
 ) -> Located | None:
     """The corners that the edge model describes where the camera expects them, or those `kept`
     not far from there."""
-    expected, _ = _view(calibration, _consistent(calibration, lattice)).expected(_plate(lattice))
+    view = _view(calibration, _consistent(calibration, lattice))
+    expected, _ = view.expected(_plate(lattice))
     far = _GROSS * np.fmin(*(np.linalg.norm(step, axis=2) for step in axes(expected)))
     for _ in range(_ROUNDS):
-        fit = edges.fit(grey, lattice, expected=expected)
+        fit = edges.fit(grey, lattice, geometry=view.geometry(_plate(lattice)[lattice.found], 1.0))
         good = verify.described(fit, lattice, expected)
         part = _moved(lattice, fit, good)
         agreed = _consistent(calibration, part, fit.covariance[good]).found

@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 
 from calibgui.engine.calibrate import calibrate
+from calibgui.engine.corners.surroundings import Surroundings
 from calibgui.engine.prediction import sight
 from calibgui.engine.types import Calibration, Observation
 from tests.engine import scenes
@@ -59,3 +60,14 @@ def test_a_wrong_corner_stands_out(calibration: Calibration) -> None:
     view = sight(calibration, uv, PLATE[PART], cov)
     assert int(np.argmax(view.deviation)) == 3
     assert view.deviation[3] > 10
+
+
+def test_edges_run_and_bend_as_the_camera_sees_them(calibration: Calibration) -> None:
+    uv = scenes.imaged(calibration.camera, calibration.poses[0], PLATE)
+    cov = np.broadcast_to(1e-4 * np.eye(2), (len(PLATE), 2, 2))
+    steps, kappa = sight(calibration, uv, PLATE, cov).geometry(PLATE, scenes.BOARD.square)
+    found = np.ones((scenes.BOARD.rows, scenes.BOARD.cols), dtype=np.bool_)
+    by_corners = Surroundings(found).geometry(uv)
+    np.testing.assert_allclose(steps, by_corners[0], atol=0.02)
+    np.testing.assert_allclose(kappa, by_corners[1], atol=2e-5)
+    assert abs(kappa).max() > 2e-4

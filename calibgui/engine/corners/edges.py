@@ -82,19 +82,24 @@ class Fit:
         return 2 * self.edges.unknowns[A]
 
 
-def fit(image: Image, lattice: Lattice, plain: float = 0.5, expected: Array | None = None) -> Fit:
+def fit(
+    image: Image,
+    lattice: Lattice,
+    plain: float = 0.5,
+    geometry: tuple[Array, Array] | None = None,
+) -> Fit:
     """Fit the edge model at every corner of `lattice`, whose positions are the start.
 
     Args:
         image: (h, w) grey levels.
         lattice: the corners.
         plain: how far from their edges the squares are of one colour, squares.
-        expected: (rows, cols, 2) px, where a calibrated camera expects the corners of the whole
-            board, NaN where it has none: edges run and bend as these say.
+        geometry: how edges run and bend where a camera that is known tells it better than the
+            corners found; see ``Surroundings.geometry``.
     """
     board = Surroundings(lattice.found)
-    if expected is not None:
-        board = Foreseen(lattice.found, np.where(np.isnan(expected), lattice.uv, expected))
+    if geometry is not None:
+        board = Foreseen(lattice.found, geometry)
     edges = _start(image, lattice, board, plain)
     near = replace(edges, arm=np.minimum(edges.arm, _NEAR))
     first = _step(near, normal_equations(image, near))

@@ -77,11 +77,8 @@ class Surroundings:
             slope = (H[:2, axis] - flat * H[2, axis]) / d[:, None]
             first.append(slope + once)
             second.append(-2 * slope * (H[2, axis] / d)[:, None] + twice)
-        kappa = [
-            np.sum(p2 * _normal(p1, across), axis=1) / np.sum(p1 * p1, axis=1)
-            for p1, p2, across in zip(first, second, reversed(first), strict=True)
-        ]
-        return np.stack(first, axis=1), np.column_stack(kappa)
+        steps = np.stack(first, axis=1)
+        return steps, curvatures(steps, np.stack(second, axis=1))
 
     def gradients(self, steps: Array, values: Array) -> Array:
         """(n, k, 2) gradients over the image of `values` (n, k) known at the corners, per px.
@@ -115,23 +112,28 @@ class Surroundings:
 
 
 class Foreseen(Surroundings):
-    """The same with steps and curvatures of the whole board that a calibrated camera expects."""
+    """The same with steps and curvatures that a calibrated camera expects."""
 
-    def __init__(self, found: BoolArray, expected: Array) -> None:
+    def __init__(self, found: BoolArray, geometry: tuple[Array, Array]) -> None:
         """
         Args:
             found: as above.
-            expected: (rows, cols, 2) px, NaN where there is no such corner; none of those found.
+            geometry: what is expected, as below.
         """
         super().__init__(found)
-        whole = np.isfinite(expected[..., 0])
-        steps, curvatures = Surroundings(whole).geometry(expected[whole])
-        self._geometry = steps[found[whole]], curvatures[found[whole]]
+        self._geometry = geometry
 
     def geometry(self, uv: Array) -> tuple[Array, Array]:
         """As expected, wherever the corners were found."""
         del uv
         return self._geometry
+
+
+def curvatures(first: Array, second: Array) -> Array:
+    """(n, 2) kappa, 1/px, of lines from the first and second derivatives (n, 2, 2) of positions by
+    column and by row, px."""
+    normal = _normal(first, first[:, ::-1])
+    return np.asarray(np.sum(second * normal, axis=2) / np.sum(first * first, axis=2))
 
 
 def _normal(along: Array, across: Array) -> Array:
