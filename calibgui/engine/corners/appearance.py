@@ -3,7 +3,7 @@
 Around a corner four sectors alternate: the two opposite ones that its place requires to be dark
 are darker than the two others, by a contrast comparable to that of the other corners. And all
 corners of a board look alike, once sampled along the steps of the lattice and, at every second
-place, inverted: what is nearly a corner, where an edge of the surroundings meets the border of
+place, mirrored: what is nearly a corner, where an edge of the surroundings meets the border of
 the board, has a line that turns or a sector that is not even.
 """
 
@@ -132,17 +132,18 @@ def _sectors(image: Image, uv: Array, right: Array, down: Array) -> Array:
 
 
 def _surroundings(image: Image, uv: Array, right: Array, down: Array, dark: BoolArray) -> Array:
-    """(n, k) grey levels around corners, inverted where the first squares are not dark.
+    """(n, k) grey levels around corners, mirrored where the first squares are not dark.
 
     Outside the image those opposite stand in for them: a corner is point symmetric.
     """
     a, b = _PLACES[:, 1:].T[..., None]
+    right = np.where(dark[:, None], right, -right)
     offset = a * right[:, None] + b * down[:, None]
     at = uv[:, None] + offset
     outside = ((at < 0) | (at > np.array(image.shape[::-1]) - 1.0)).any(axis=2)
     at[outside] -= 2 * offset[outside]
     values = opencv.sample(image, at)
-    return _standard(np.where(dark[:, None], values, -values))
+    return _standard(values)
 
 
 def _standard(values: Array) -> Array:

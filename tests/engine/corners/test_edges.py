@@ -1,0 +1,38 @@
+"""Positions and covariances of the edge fit, against drawn boards and their physical limit."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+import pytest
+
+from calibgui.engine.corners import find_corners
+from tests.benchmarks.corner_scenes import Conditions, draw
+
+
+@pytest.mark.parametrize(
+    "condition",
+    [
+        {},
+        {"motion": 5.0},  # a blur that is not Gaussian
+        {"ink": 0.08},  # squares that overlap
+        {"ink": -0.08},  # and that part
+        {"blur": 5.0, "square": 36.0},  # neighbours' edges are near
+    ],
+    ids=str,
+)
+def test_errors_are_the_bound_and_what_the_covariance_says(condition: dict[str, Any]) -> None:
+    scene = draw(Conditions(**condition), 2)
+    squares, limits, honest = [], [], []
+    for seed in range(4):
+        corners = find_corners(scene.photograph(seed))
+        assert corners.shape == scene.conditions.board
+        at = corners.grid[:, 0], corners.grid[:, 1]
+        error = corners.uv - scene.uv[at]
+        assert corners.cov is not None
+        squares.append(error**2)
+        limits.append(np.trace(scene.bound[at], axis1=1, axis2=2) / 2)
+        honest.append(np.einsum("ni,nij,nj->n", error, np.linalg.inv(corners.cov), error) / 2)
+    assert np.sqrt(np.mean(squares) / np.mean(limits)) < 1.15
+    assert 0.75 < np.mean(honest) < 1.25
