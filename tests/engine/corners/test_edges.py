@@ -34,5 +34,5 @@ def test_errors_are_the_bound_and_what_the_covariance_says(condition: dict[str, 
         squares.append(error**2)
         limits.append(np.trace(scene.bound[at], axis1=1, axis2=2) / 2)
         honest.append(np.einsum("ni,nij,nj->n", error, np.linalg.inv(corners.cov), error) / 2)
-    assert np.sqrt(np.mean(squares) / np.mean(limits)) < 1.15
-    assert 0.75 < np.mean(honest) < 1.25
+    assert np.sqrt(np.mean(np.concatenate(squares)) / np.mean(np.concatenate(limits))) < 1.15
+    assert 0.75 < np.mean(np.concatenate(honest)) < 1.25
