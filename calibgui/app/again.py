@@ -10,11 +10,11 @@ from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from functools import partial
 from threading import Event
-from typing import Any
 
 import numpy as np
 
 from calibgui.app.calibration import calibrate_views, short_names
+from calibgui.app.settings import USUAL, Settings
 from calibgui.app.workers import Crashed, spread
 from calibgui.engine.calibrate import calibrate
 from calibgui.engine.errors import CalibrationError
@@ -50,10 +50,9 @@ _BORDER = 8.0
 
 def calibrate_twice(
     corner_set: CornerSet,
-    *,
+    settings: Settings = USUAL,
     report: Report | None = None,
     stop: Event | None = None,
-    **settings: Any,
 ) -> Result:
     """Calibrate, search again, count all views alike, and calibrate again if that changed any.
 
@@ -66,17 +65,17 @@ def calibrate_twice(
         CalibrationError: as ``calibrate_views``.
         Cancelled: from `report`, or if `stop` was set.
     """
-    result = calibrate_views(corner_set, report=report, **settings)
+    result = calibrate_views(corner_set, settings, report)
     if result.calibration.status is Status.STOPPED:
         return result
     more, said = search_again(corner_set, result, stop)
     if said:
-        result = calibrate_views(more, report=report, **settings)
+        result = calibrate_views(more, settings, report)
     alike = counted_alike(result)
     if _same_places(alike, result.views):
         result = replace(result, views=alike)
     else:
-        result = calibrate_views(replace(more, views=alike), report=report, **settings)
+        result = calibrate_views(replace(more, views=alike), settings, report)
     warnings = (*result.calibration.warnings, *said)
     return replace(result, calibration=replace(result.calibration, warnings=warnings))
 

@@ -2,16 +2,19 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from pathlib import PurePath
+from typing import Any
 
 import numpy as np
 from threadpoolctl import threadpool_limits
 
 from calibgui import engine
 from calibgui.app.marking import removed
+from calibgui.app.settings import USUAL, Settings
 from calibgui.engine.errors import CalibrationError
+from calibgui.engine.noise import calibrate_weighted
 from calibgui.engine.screening import screen
 from calibgui.engine.types import (
     Ambiguity,
@@ -19,9 +22,6 @@ from calibgui.engine.types import (
     Cost,
     IntArray,
     Observation,
-    Plate,
-    PlateModel,
-    Prior,
     Report,
     View,
 )
@@ -32,57 +32,89 @@ from calibgui.report.numbers import counted
 
 
 def calibrate_views(
-    corner_set: CornerSet,
-    *,
-    cost: Cost | str = Cost.IMAGE,
-    fix: Mapping[str, float | None] | Iterable[str] = (),
-    free: Iterable[str] = (),
-    plate: PlateModel | Plate | None = PlateModel.NOMINAL,
-    prior: Prior | None = None,
-    robust: bool = False,
-    report: Report | None = None,
+    corner_set: CornerSet, settings: Settings = USUAL, report: Report | None = None
 ) -> Result:
-    """Calibrate from the usable views of a set; the arguments are ``engine.calibrate``'s.
+    """Calibrate from the usable views of a set.
 
-    Without a `plate` (None) the model that predicts unseen views best is chosen, and the
-    result's warnings say why. `robust` leaves outliers out first (``engine.screening``): the
-    result's views are without them, and its warnings name them.
+    Where the plate is left open the result's warnings say why which model was chosen. Outliers
+    are left out first (``engine.screening``): the result's views are without them, and its
+    warnings name them. Where views are weighed, the result's views have the covariances with
+    which they were.
 
     Raises:
         CalibrationError: as ``engine.calibrate``, naming images, or if no view is usable.
         Cancelled: from `report`.
     """
-    views = corner_set.views
+    views, size = corner_set.views, corner_set.size
     if not any(view.usable for view in views):
         raise CalibrationError(
             "None of the images can be used.",
             "Photograph the whole board, sharp and evenly lit, at least 3 times from different "
             "directions.",
         )
+    if settings.weigh_views and settings.cost is not Cost.IMAGE:
+        raise CalibrationError(
+            f"The cost {settings.cost.value!r} weighs all corners alike.",
+            "Weigh views by their noise with the cost 'image'.",
+        )
     # The matrices are small: threads would cost more than they bring.
     with threadpool_limits(1):
         said: tuple[str, ...] = ()
-        if robust:
-            views, said = _screened(corner_set, fix, free)
+        if settings.robust:
+            views, said = _screened(corner_set, settings)
         used = [view for view in views if view.usable]
         observations = [view.observation(corner_set.target) for view in used]
+        camera: dict[str, Any] = {"fix": settings.fixed, "free": settings.freed}
+        plate = settings.plate
         if plate is None:
-            choice = choose_plate(observations, corner_set.size, fix=fix, free=free)
+            choice = choose_plate(observations, size, **camera)
             plate, said = choice.model, (choice.words, *said)
-        calibration = engine.calibrate(
-            observations,
-            corner_set.size,
-            cost=cost,
-            fix=fix,
-            free=free,
-            plate=plate,
-            prior=prior,
-            report=report,
-            names=short_names(used),
-        )
+        everything = camera | {
+            "cost": settings.cost,
+            "plate": plate,
+            "prior": settings.prior,
+            "report": report,
+            "names": short_names(used),
+        }
+        if settings.weigh_views:
+            calibration, observations = calibrate_weighted(observations, size, **everything)
+            views = _with_covariances(views, observations)
+            said = (*said, _about_weights(observations, everything["names"]))
+        else:
+            calibration = engine.calibrate(observations, size, **everything)
     said = (*calibration.warnings, *said, *_unplaced(used, calibration))
     calibration = replace(calibration, warnings=said)
     return Result(calibration, views, corner_set.target)
+
+
+def _with_covariances(
+    views: Sequence[View], observations: Sequence[Observation]
+) -> tuple[View, ...]:
+    """The views, the usable ones with the covariances of these observations."""
+    left = iter(observations)
+    return tuple(_with_covariance(view, next(left)) if view.usable else view for view in views)
+
+
+def _with_covariance(view: View, weighed: Observation) -> View:
+    if view.points is not None:
+        return replace(view, points=weighed)
+    assert view.corners is not None  # usable views have corners
+    return replace(view, corners=replace(view.corners, cov=weighed.cov))
+
+
+def _about_weights(weighed: Sequence[Observation], names: Sequence[str]) -> str:
+    """Between what the views' noise lies, and the noisiest."""
+    sigma = [
+        float(np.sqrt(np.median(np.trace(view.cov, axis1=1, axis2=2)) / 2))
+        for view in weighed
+        if view.cov is not None
+    ]
+    noisiest = int(np.argmax(sigma))
+    return (
+        f"The views are weighed by their noise, {min(sigma):.2g} to {max(sigma):.2g} px at a "
+        f"typical corner, {np.median(sigma):.2g} px in the median view, most in "
+        f"{names[noisiest]}."
+    )
 
 
 def _unplaced(used: Sequence[View], calibration: Calibration) -> Iterator[str]:
@@ -102,16 +134,16 @@ def _unplaced(used: Sequence[View], calibration: Calibration) -> Iterator[str]:
 
 
 def _screened(
-    corner_set: CornerSet,
-    fix: Mapping[str, float | None] | Iterable[str],
-    free: Iterable[str],
+    corner_set: CornerSet, settings: Settings
 ) -> tuple[tuple[View, ...], tuple[str, ...]]:
     """The views without outliers, and a sentence for each that lost any."""
     places = [k for k, view in enumerate(corner_set.views) if view.usable]
     used = [corner_set.views[k] for k in places]
     names = short_names(used)
     observations = [view.observation(corner_set.target) for view in used]
-    screening = screen(observations, corner_set.size, names=names, fix=fix, free=free)
+    screening = screen(
+        observations, corner_set.size, names=names, fix=settings.fixed, free=settings.freed
+    )
     views, sentences = list(corner_set.views), []
     for rejected in screening.rejected:
         view, name = used[rejected.view], names[rejected.view]

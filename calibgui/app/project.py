@@ -12,8 +12,9 @@ from enum import StrEnum
 from types import MappingProxyType
 
 from calibgui.app.detection import largest_part, usual_board, usual_pattern
+from calibgui.app.settings import Settings
 from calibgui.engine.targets.pattern import CHECKERBOARD, Pattern
-from calibgui.engine.types import Board, Cost, Plate, PlateModel, Prior, Size, Target, View
+from calibgui.engine.types import Board, Size, Target, View
 from calibgui.formats.result import Result
 
 DEFAULT_SQUARE = 30.0
@@ -31,24 +32,6 @@ class Unit(StrEnum):
     def mm(self) -> float:
         """Its length, mm."""
         return {"mm": 1.0, "cm": 10.0, "inch": 25.4}[self]
-
-
-@dataclass(frozen=True, slots=True)
-class Settings:
-    """How to calibrate; see ``calibrate_views``."""
-
-    cost: Cost = Cost.IMAGE
-    fixed: tuple[str, ...] = ()
-    """Names of intrinsics to hold."""
-    freed: tuple[str, ...] = ()
-    """Names of intrinsics to estimate that are held by default."""
-    plate: PlateModel | Plate | None = PlateModel.NOMINAL
-    """The board's shape: a model to estimate, a plate to hold, or None for the model that
-    predicts unseen views best."""
-    prior: Prior | None = None
-    """What is known of a free plate."""
-    robust: bool = False
-    """Whether to leave outliers out."""
 
 
 @dataclass(frozen=True, eq=False, slots=True)

@@ -5,7 +5,8 @@
                         pattern as in ``pattern_json.py``
     size                width and height of the images, px
     settings            cost, fixed, freed; plate (a model, "auto" or a plate as in
-                        ``plate_json.py``), prior_mm (in the plane and out of it, or null), robust
+                        ``plate_json.py``), prior_mm (in the plane and out of it, or null), robust,
+                        weigh_views (false where it is missing)
     views               as in ``views_json.py``, and the image file's sha256 where known
     results             by name, each as a result.json is (``result_json.py``)
 
@@ -25,7 +26,8 @@ from pathlib import Path, PurePath
 from types import MappingProxyType
 from typing import Any
 
-from calibgui.app.project import Project, Settings, Unit, relocated
+from calibgui.app.project import Project, Unit, relocated
+from calibgui.app.settings import Settings
 from calibgui.engine.targets.pattern import CHECKERBOARD
 from calibgui.engine.types import Cost, Plate, PlateModel, Prior, Target, View
 from calibgui.formats.corners_json import read_size
@@ -95,6 +97,7 @@ def _settings_record(settings: Settings) -> dict[str, Any]:
         "plate": plate_record(plate) if isinstance(plate, Plate) else plate or _AUTO,
         "prior_mm": None if prior is None else (prior.in_plane, prior.out_of_plane),
         "robust": settings.robust,
+        "weigh_views": settings.weigh_views,
     }
 
 
@@ -168,6 +171,7 @@ def _read_settings(node: Node) -> Settings:
         plate=_read_plate(node["plate"]),
         prior=None if prior is None else _read_prior(prior),
         robust=node["robust"].flag(),
+        weigh_views=weigh.flag() if (weigh := node.get("weigh_views")) else False,
     )
 
 

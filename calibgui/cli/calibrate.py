@@ -10,6 +10,7 @@ from pathlib import Path
 from calibgui.app.again import calibrate_twice
 from calibgui.app.calibration import calibrate_views
 from calibgui.app.outputs import check_outputs
+from calibgui.app.settings import Settings
 from calibgui.cli.arguments import (
     add_images,
     add_search,
@@ -78,6 +79,12 @@ def configure(parser: argparse.ArgumentParser) -> None:
         "boards found in part, and the second calibration from what that gains",
     )
     parser.add_argument(
+        "--weigh-views",
+        action="store_true",
+        help="weigh every view by the noise that is found in it, so that poor views spoil less; "
+        "best with an estimated plate",
+    )
+    parser.add_argument(
         "--plate",
         type=_plate,
         default=PlateModel.NOMINAL,
@@ -112,20 +119,19 @@ def run(options: argparse.Namespace, console: Console) -> None:
     _check_usage(options)
     outputs = filter(None, [options.output, options.save_plate])
     check_outputs([*outputs, *(path for _, path in options.export)], meant_files(options.paths))
+    settings = Settings(
+        cost=Cost(options.cost),
+        fixed=options.fix,
+        freed=options.free,
+        plate=options.plate,
+        prior=options.prior,
+        robust=options.robust,
+        weigh_views=options.weigh_views,
+    )
     corner_set = _corner_set(options, console)
     try:
-        solve = (
-            calibrate_views if options.once or is_corners_file(options.paths) else calibrate_twice
-        )
-        result = solve(
-            corner_set,
-            cost=Cost(options.cost),
-            fix=options.fix,
-            free=options.free,
-            plate=options.plate,
-            prior=options.prior,
-            robust=options.robust,
-        )
+        once = options.once or is_corners_file(options.paths)
+        result = (calibrate_views if once else calibrate_twice)(corner_set, settings)
     except CalibrationError:
         if unused := tables.unused(corner_set.views):
             console.problem(unused)
@@ -134,6 +140,8 @@ def run(options: argparse.Namespace, console: Console) -> None:
     if options.output:
         write_result(result, options.output)
         written.append(f"Wrote {options.output}.")
+    if options.weigh_views and options.cost != Cost.IMAGE:
+        options.usage_error("--weigh-views is for the cost 'image'")
     if options.save_plate and result.calibration.plate is not None:
         write_plate(result.calibration.plate, options.save_plate)
         written.append(f"Wrote {options.save_plate}.")

@@ -8,6 +8,7 @@ from pathlib import Path
 
 from calibgui.app.calibration import calibrate_views
 from calibgui.app.outputs import make_folder, save_figure
+from calibgui.app.settings import Settings
 from calibgui.app.synthetic import synthetic_check
 from calibgui.cli.arguments import add_method, search
 from calibgui.cli.console import Console
@@ -65,4 +66,4 @@ def _calibrated(options: argparse.Namespace, console: Console) -> tuple[Result, 
     images = [str(options.folder / "Image[0-9]*")]
     detection = search(console, images, _BOARD, corners=options.corners)
     corner_set = detection.corner_set(_SQUARE)
-    return calibrate_views(corner_set, cost=Cost.PAPER), calibrate_views(corner_set)
+    return calibrate_views(corner_set, Settings(cost=Cost.PAPER)), calibrate_views(corner_set)

@@ -120,6 +120,7 @@ def calibrate(
         "fixed": values,
         "max_iterations": max_iterations,
         "plate": plate.model.value if isinstance(plate, Plate) else plate.value,
+        "plate_held": isinstance(plate, Plate),
     }
     if isinstance(plate, Plate):
         observations = on_plate(observations, plate)

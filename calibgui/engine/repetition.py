@@ -16,12 +16,16 @@ def settings_of(calibration: Calibration) -> dict[str, Any]:
     camera = calibration.camera
     values = dict(zip(parameter_names(camera.model), camera.params.tolist(), strict=True))
     held = {name: values[name] for name in calibration.fixed}
+    plate: Plate | PlateModel = PlateModel.NOMINAL
+    if calibration.plate is not None:
+        held_plate = calibration.settings.get("plate_held", False)
+        plate = calibration.plate if held_plate else calibration.plate.model
     return {
         "cost": calibration.cost,
         "model": camera.model,
         "fix": held,
         "free": [name for name in values if name not in held],
-        "plate": PlateModel.NOMINAL if calibration.plate is None else calibration.plate.model,
+        "plate": plate,
     }
 
 

@@ -23,7 +23,10 @@ class Summary:
     """Root mean square length in the image, px."""
     sigma_x: float
     sigma_y: float
-    """Standard deviations of the image residual's components, px."""
+    """Standard deviations of the image residual's components, px, of all corners alike."""
+    typical_x: float
+    typical_y: float
+    """The same in the median view, which single poor views do not raise."""
     reference_mean: float
     reference_sd: float
     """Mean and standard deviation of the length e' on the reference plane, reference px."""
@@ -36,10 +39,13 @@ def summarise(residuals: Sequence[ViewResiduals]) -> Summary:
     image = np.concatenate([view.image for view in residuals])
     length = np.linalg.norm(np.concatenate([view.reference for view in residuals]), axis=1)
     sigma = image.std(axis=0)
+    typical = np.median([view.image.std(axis=0) for view in residuals], axis=0)
     return Summary(
         rms=float(np.sqrt(np.mean(np.sum(image**2, axis=1)))),
         sigma_x=float(sigma[0]),
         sigma_y=float(sigma[1]),
+        typical_x=float(typical[0]),
+        typical_y=float(typical[1]),
         # A corner beyond the lens model's fold has an image, but no place on the plate.
         reference_mean=float(np.nanmean(length)),
         reference_sd=float(np.nanstd(length)),

@@ -85,6 +85,8 @@ def result_record(result: Result) -> dict[str, Any]:
             "rms_px": summary.rms,
             "sigma_x_px": summary.sigma_x,
             "sigma_y_px": summary.sigma_y,
+            "median_view_sigma_x_px": summary.typical_x,
+            "median_view_sigma_y_px": summary.typical_y,
             "reference_mean_px": summary.reference_mean,
             "reference_sd_px": summary.reference_sd,
             "count": summary.count,

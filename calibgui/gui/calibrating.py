@@ -77,17 +77,7 @@ class Calibrator(QObject):
         settings = project.settings
 
         def work(job: Job) -> Result:
-            return calibrate_twice(
-                corner_set,
-                cost=settings.cost,
-                fix=settings.fixed,
-                free=settings.freed,
-                plate=settings.plate,
-                prior=settings.prior,
-                robust=settings.robust,
-                report=job.tell,
-                stop=job.cancelling,
-            )
+            return calibrate_twice(corner_set, settings, job.tell, job.cancelling)
 
         self._job = self._session.jobs.start(
             self.tr("Calibrating"),

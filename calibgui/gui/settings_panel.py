@@ -13,7 +13,7 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
-from calibgui.app.project import Settings
+from calibgui.app.settings import Settings
 from calibgui.engine.calibrate import HELD, parameter_names
 from calibgui.engine.types import Cost, PlateModel
 from calibgui.gui import theme

@@ -157,6 +157,7 @@ def residuals(calibration: Calibration) -> str:
         f"Residuals of {counted(fit.count, 'corner')} in {counted(len(calibration.poses), 'view')}",
         f"  in the image            rms {fit.rms:.4f} px, "
         f"sigma_x {fit.sigma_x:.4f} px, sigma_y {fit.sigma_y:.4f} px",
+        f"  in the median view      sigma_x {fit.typical_x:.4f} px, sigma_y {fit.typical_y:.4f} px",
         f"  on the reference plane  mean e' {fit.reference_mean:.4f}, "
         f"SD {fit.reference_sd:.4f} reference px",
         f"Stage II: {calibration.status} after "

@@ -10,6 +10,7 @@ import numpy as np
 
 from calibgui.app.calibration import calibrate_views
 from calibgui.app.project import Project, with_result
+from calibgui.app.settings import Settings
 from calibgui.engine.types import Camera, Corners, Target, View, ViewStatus
 from calibgui.formats.corners_json import CornerSet
 from tests.engine import scenes
@@ -38,7 +39,7 @@ def calibrated(folder: Path) -> Project:
     project = Project(views=views(folder), size=CAMERA.size)
     for name, fixed in (("Calibration 1", ()), ("k3 held", ("k3",))):
         corner_set = CornerSet(CAMERA.size, project.views, project.target)
-        result = calibrate_views(corner_set, fix=fixed)
+        result = calibrate_views(corner_set, Settings(fixed=fixed))
         project = with_result(project, name, result)
     settings = replace(project.settings, fixed=("k3",))
     first = project.views[0].image

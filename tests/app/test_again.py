@@ -11,6 +11,7 @@ import pytest
 from calibgui.app.again import calibrate_twice, search_again, view_again
 from calibgui.app.calibration import calibrate_views
 from calibgui.app.detection import find_views
+from calibgui.app.settings import Settings
 from calibgui.engine.images import read_image, write_image
 from calibgui.engine.types import Corners, Cost, View, ViewStatus
 from calibgui.formats.corners_json import CornerSet
@@ -73,7 +74,7 @@ def test_nothing_to_gain_leaves_everything_as_it_was(damaged: CornerSet) -> None
     complete = replace(damaged, views=damaged.views[1:])
     result = calibrate_views(complete)
     assert search_again(complete, result) == (complete, ())
-    registered = calibrate_views(damaged, cost=Cost.REFERENCE)
+    registered = calibrate_views(damaged, Settings(cost=Cost.REFERENCE))
     assert search_again(damaged, registered) == (damaged, ())
 
 

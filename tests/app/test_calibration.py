@@ -8,10 +8,12 @@ import numpy as np
 import pytest
 
 from calibgui.app.calibration import calibrate_views, short_names
+from calibgui.app.settings import Settings
 from calibgui.engine import CalibrationError, Cancelled, Iteration, Observation, View, ViewStatus
+from calibgui.engine.calibrate import calibrate
 from calibgui.engine.frames import rotation
 from calibgui.engine.projection import pixels
-from calibgui.engine.types import Array
+from calibgui.engine.types import Array, Cost
 from calibgui.formats.corners_json import CornerSet
 from tests.engine import scenes
 from tests.photographs import BOARD, CAMERA, poses
@@ -31,7 +33,7 @@ def test_unusable_views_stay_in_the_result_but_out_of_the_solve() -> None:
     blank = View("a/blank.png", ViewStatus.NO_BOARD, "No checkerboard was found.")
     switched_off = replace(found.views[2], enabled=False)
     views = (blank, *found.views[:2], switched_off, *found.views[3:])
-    result = calibrate_views(replace(found, views=views), fix=("k2", "k3"))
+    result = calibrate_views(replace(found, views=views), Settings(fixed=("k2", "k3")))
     assert result.views == views
     assert len(result.calibration.poses) == len(found.views) - 1
     assert result.calibration.fixed == ("k2", "k3", "p3")
@@ -92,7 +94,7 @@ def test_outliers_are_left_out_by_name() -> None:
     assert mirrored is not None
     flipped = mirrored.uv.reshape(BOARD.rows, BOARD.cols, 2)[:, ::-1].reshape(-1, 2)
     views[7] = replace(views[7], points=Observation(flipped, mirrored.xy))
-    result = calibrate_views(replace(spoilt, views=tuple(views)), robust=True)
+    result = calibrate_views(replace(spoilt, views=tuple(views)), Settings(robust=True))
     assert [view.image for view in result.views if not view.usable] == ["7.png"]
     assert "mirrored" in result.views[7].reason
     kept = result.views[1].points
@@ -100,10 +102,30 @@ def test_outliers_are_left_out_by_name() -> None:
     assert [sentence.split()[0] for sentence in result.calibration.warnings] == ["1.png", "7.png"]
 
 
+def test_views_are_weighed_by_their_noise() -> None:
+    corners = noisy()
+    poor = corners.views[3].points
+    assert poor is not None
+    blurred = poor.uv + np.random.default_rng(7).normal(0, 0.5, poor.uv.shape)
+    views = list(corners.views)
+    views[3] = replace(views[3], points=Observation(blurred, poor.xy))
+    spoilt = replace(corners, views=tuple(views))
+    alike, weighed = (calibrate_views(spoilt, Settings(weigh_views=w)) for w in (False, True))
+    assert (weighed.calibration.sigma[:4] < 0.7 * alike.calibration.sigma[:4]).all()
+    assert "median view, most in 3.png" in weighed.calibration.warnings[0]
+    # What is kept of the views is what they were weighed with: solved again it gives the same.
+    again = calibrate(weighed.observations(), spoilt.size)
+    np.testing.assert_allclose(
+        again.camera.params[:4], weighed.calibration.camera.params[:4], atol=1e-3
+    )
+    with pytest.raises(CalibrationError, match="alike"):
+        calibrate_views(spoilt, Settings(Cost.REFERENCE, weigh_views=True))
+
+
 def test_the_best_plate_is_chosen_and_said() -> None:
     bow = 0.004 * (BOARD.points()[:, 0] - BOARD.points()[:, 0].mean()) ** 2
     bent = np.column_stack([np.zeros((len(bow), 2)), bow / 5])
-    result = calibrate_views(noisy(bent), plate=None)
+    result = calibrate_views(noisy(bent), Settings(plate=None))
     assert result.calibration.plate is not None
     assert "unseen views" in result.calibration.warnings[0]
-    assert calibrate_views(noisy(), plate=None).calibration.plate is None
+    assert calibrate_views(noisy(), Settings(plate=None)).calibration.plate is None

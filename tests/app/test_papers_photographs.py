@@ -13,8 +13,9 @@ from scipy.spatial import cKDTree
 from calibgui import engine
 from calibgui.app.calibration import calibrate_views
 from calibgui.app.detection import find_views
+from calibgui.app.settings import Settings
 from calibgui.app.synthetic import synthetic_check
-from calibgui.engine.types import Array, Target
+from calibgui.engine.types import Array, Cost, Target
 from calibgui.engine.uncertainty import paper_table
 from calibgui.formats.corners_json import CornerSet
 from calibgui.formats.result import Result
@@ -43,7 +44,7 @@ def found(request: pytest.FixtureRequest, bouguet: Path) -> Found:
         request.param,
         corners,
         calibrate_views(corners),
-        calibrate_views(corners, cost="paper"),
+        calibrate_views(corners, Settings(cost=Cost.PAPER)),
     )
 
 

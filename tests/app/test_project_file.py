@@ -10,8 +10,9 @@ import numpy as np
 import pytest
 
 from calibgui.app import project_file
-from calibgui.app.project import Settings, relocated
+from calibgui.app.project import relocated
 from calibgui.app.project_file import read_project, write_project
+from calibgui.app.settings import Settings
 from calibgui.engine.errors import CalibrationError
 from calibgui.engine.types import Plate, PlateModel, Prior
 from tests.app import examples
@@ -126,7 +127,7 @@ def test_the_board_as_known_is_kept(tmp_path: Path) -> None:
     )
     project = examples.calibrated(tmp_path)
     for settings in (
-        Settings(plate=None, robust=True),
+        Settings(plate=None, robust=True, weigh_views=True),
         Settings(plate=PlateModel.FREE, prior=Prior(0.125, 0.3)),
         Settings(plate=plate),
     ):

@@ -11,6 +11,7 @@ from calibgui.engine.errors import CalibrationError
 from calibgui.engine.frames import rotation
 from calibgui.engine.observations import pack
 from calibgui.engine.projection import pixels
+from calibgui.engine.repetition import settings_of
 from calibgui.engine.stage_two import State
 from calibgui.engine.types import Array, Camera, Observation, PlateModel, Prior, Target
 
@@ -111,6 +112,9 @@ def test_a_held_plate_gives_the_camera_that_it_was_estimated_with() -> None:
     estimated = calibrate(views, SIZE, plate="free")
     assert estimated.plate is not None
     held = calibrate(views, SIZE, plate=estimated.plate)
+    assert [one.settings["plate_held"] for one in (estimated, held)] == [False, True]
+    assert settings_of(held)["plate"] is held.plate
+    assert settings_of(estimated)["plate"] is PlateModel.FREE
     np.testing.assert_allclose(
         held.camera.params, estimated.camera.params, atol=1e-3 * estimated.sigma.max()
     )

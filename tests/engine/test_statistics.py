@@ -20,6 +20,8 @@ def test_summary_is_of_all_corners_of_all_views() -> None:
     assert found.count == 80
     assert found.rms == pytest.approx(np.sqrt((both**2).sum(axis=1).mean()))
     assert (found.sigma_x, found.sigma_y) == pytest.approx(tuple(both.std(axis=0)))
+    typical = (a.std(axis=0) + b.std(axis=0)) / 2  # the median of two
+    assert (found.typical_x, found.typical_y) == pytest.approx(tuple(typical))
     length = 2 * np.hypot(*both.T)
     assert (found.reference_mean, found.reference_sd) == pytest.approx(
         (length.mean(), length.std())

@@ -194,15 +194,15 @@ def test_from_photographs_to_an_exported_camera(
     assert all(view.enabled for view in session.project.views)
 
     # A solve that is stopped keeps its best, and says so.
-    def slowly(*args: Any, report: Any, **options: Any) -> Any:
+    def slowly(corner_set: Any, settings: Any, report: Any, stop: Any) -> Any:
         def slow(iteration: Any) -> bool:
             time.sleep(0.1)
             return report(iteration)
 
-        return calibrate_views(*args, report=slow, **options)
+        return calibrate_twice(corner_set, settings, slow, stop)
 
-    calibrate_views = calibrating.calibrate_views
-    monkeypatch.setattr(calibrating, "calibrate_views", slowly)
+    calibrate_twice = calibrating.calibrate_twice
+    monkeypatch.setattr(calibrating, "calibrate_twice", slowly)
     hand.click_button(window.calibrate)
     assert window.calibrate.text() == "&Stop"
     convergence = window.analysis.panel(ConvergencePanel)
@@ -211,7 +211,7 @@ def test_from_photographs_to_an_exported_camera(
     hand.wait(lambda: len(session.project.results) == 3)
     assert session.result.calibration.status is Status.STOPPED
     assert "best so far" in window.banner.text.text()
-    monkeypatch.setattr(calibrating, "calibrate_views", calibrate_views)
+    monkeypatch.setattr(calibrating, "calibrate_twice", calibrate_twice)
     hand.wait(lambda: not session.jobs.running)
 
     # Undo all, redo all.

@@ -9,6 +9,7 @@ import pytest
 
 from calibgui import engine
 from calibgui.app.calibration import calibrate_views
+from calibgui.app.settings import Settings
 from calibgui.engine import Ambiguity, Corners, Cost, Target, View, ViewStatus
 from calibgui.engine.types import OtherBoard, Undetermined
 from calibgui.formats.corners_json import CornerSet
@@ -31,7 +32,7 @@ def calibrated(ambiguity: Ambiguity = Ambiguity.NONE, cost: Cost = Cost.IMAGE) -
         views.append(View(f"folder/view{k}.png", ViewStatus.FOUND, corners=found))
     views[2] = replace(views[2], enabled=False)
     blank = View("folder/blank.png", ViewStatus.NO_BOARD, "No checkerboard was found. " * 5)
-    return calibrate_views(CornerSet(camera.size, (*views, blank), BOARD), cost=cost)
+    return calibrate_views(CornerSet(camera.size, (*views, blank), BOARD), Settings(cost=cost))
 
 
 @pytest.fixture(scope="module")
