@@ -44,7 +44,9 @@ class ConvergencePanel(Panel):
         self._stack.setCurrentWidget(self.body)
 
     def add(self, iteration: Iteration) -> None:
-        """One more iteration of the running calibration."""
+        """One more iteration of the running calibration; it may solve more than once."""
+        if self._iterations and iteration.index <= self._iterations[-1].index:
+            self._iterations = []
         self._iterations.append(iteration)
         self._draw()
         self.words.setText(

@@ -35,6 +35,16 @@ def test_grows_while_it_runs(shown: Shown[ConvergencePanel], result: Result) -> 
     assert panel._curve.getOriginalDataset()[0] is None
 
 
+def test_another_solve_begins_anew(shown: Shown[ConvergencePanel], result: Result) -> None:
+    """A calibration that searches the images again solves twice."""
+    panel = shown(ConvergencePanel, None)
+    panel.start()
+    history = result.calibration.history
+    for iteration in (*history, *history[:2]):
+        panel.add(iteration)
+    assert panel._curve.getOriginalDataset()[0].tolist() == [0, 1]
+
+
 @pytest.mark.parametrize(
     ("status", "words"),
     [
