@@ -47,6 +47,14 @@ from tests.engine.scenes import VGA, Target, brown, looking, seen
 
 BOARD = Target(rows=12, cols=13, square=30.0)
 COUNTS = (10, 25, 50, 100, 200, 500, 1000, 2000, 5000)
+DRAWN = {
+    "solve": "ours, forward model, with standard deviations",
+    "solve, paper's model": "ours, the paper's model, with standard deviations",
+    "solve, OpenCV": "OpenCV",
+    "solve, mrcal": "mrcal",
+    "whole, OpenCV with SDs": "OpenCV with standard deviations",
+}
+"""What the figure shows, and how it is called there."""
 PLATES = ("affine", "bow", "free")
 LONGEST = 20.0
 """Seconds beyond which OpenCV's standard deviations are not waited for."""
@@ -159,13 +167,13 @@ def drawn(times: dict[str, dict[int, float]], path: Path) -> None:
     figure = Figure(figsize=(7, 5), layout="constrained")
     axes = figure.add_subplot()
     for name, series in times.items():
-        if name.startswith("solve") or name == "whole, OpenCV with SDs":
-            label = f"{name.removeprefix('solve, ')} (exponent {exponent(series):.2f})"
+        if label := DRAWN.get(name):
+            label = f"{label}: grows with exponent {exponent(series):.2f}"
             axes.loglog(list(series), list(series.values()), "o-", label=label)
     axes.set_xlabel("views of 156 corners")
     axes.set_ylabel("processor's seconds")
     axes.grid(True, which="both", alpha=0.3)
-    axes.legend(fontsize=8)
+    figure.legend(loc="outside lower center", fontsize=8)
     figure.savefig(path, dpi=150)
 
 
