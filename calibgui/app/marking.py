@@ -9,11 +9,12 @@ from typing import Any
 import numpy as np
 
 from calibgui.engine import homography
-from calibgui.engine.corners import find_corners, saddle
+from calibgui.engine.corners import saddle
 from calibgui.engine.corners.junctions import classify, find_saddles
 from calibgui.engine.corners.ordering import ambiguity
 from calibgui.engine.errors import CalibrationError, NoBoardError
 from calibgui.engine.opencv import Image
+from calibgui.engine.targets.pattern import CHECKERBOARD, Pattern
 from calibgui.engine.types import Array, Board, Corners, IntArray
 
 _CONTRAST = 0.1
@@ -49,7 +50,13 @@ def refined(image: Image, uv: Array, limit: float) -> Array | None:
     return at[0] if good[0] else None
 
 
-def marked(image: Image, points: Array, board: Board | None, usual: Board | None) -> Corners:
+def marked(
+    image: Image,
+    points: Array,
+    board: Board | None,
+    usual: Board | None,
+    pattern: Pattern = CHECKERBOARD,
+) -> Corners:
     """The corners of the board whose four outermost ones are `points` (4, 2) px.
 
     Args:
@@ -57,17 +64,18 @@ def marked(image: Image, points: Array, board: Board | None, usual: Board | None
         points: in order around the board; the first is the origin where the pattern allows it.
         board: rows and columns if the user states them; counted if None.
         usual: rows and columns to suppose where counting fails.
+        pattern: of the target.
 
     Raises:
         NoBoardError: nothing there fits.
         CalibrationError: the points do not go around a region.
     """
     try:
-        return find_corners(image, board, points)
+        return pattern.find(image, board, points)
     except NoBoardError:
         if board is not None or usual is None:
             raise
-        return find_corners(image, usual, points)
+        return pattern.find(image, usual, points)
     except ValueError as error:
         raise CalibrationError(
             "The four points do not go around the board.",

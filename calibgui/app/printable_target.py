@@ -1,4 +1,4 @@
-"""A checkerboard to print, as PDF or SVG in true size, with a bar to check the print by.
+"""A target to print, as PDF or SVG in true size, with a bar to check the print by.
 
 The board has one square more each way than inner corners, its first square is dark, and at
 least half a square of white around it, which the corner finder needs. Printers scale: the bar
@@ -7,13 +7,19 @@ below it is measured with a ruler before anything is believed.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from xml.sax.saxutils import escape
 
+from calibgui.engine import opencv
 from calibgui.engine.errors import CalibrationError
 from calibgui.engine.files import write_atomically
-from calibgui.engine.types import Board
+from calibgui.engine.targets.charuco import Charuco
+from calibgui.engine.targets.circles import Circles
+from calibgui.engine.targets.ink import Discs, Raster
+from calibgui.engine.targets.pattern import Pattern
+from calibgui.engine.types import Board, Target
+from calibgui.report.targets import described
 
 PAPERS = {
     "A4": (210.0, 297.0),
@@ -34,20 +40,25 @@ _BARS = (1000.0, 500.0, 200.0, 100.0, 50.0, 20.0)
 """Lengths that the bar may have, mm."""
 _TEXT = 3.2
 """Height of the text, mm."""
+_ADVANCE = 0.5
+"""Mean advance of the text's letters over their height."""
 _POINT = 72 / 25.4
 """PDF's units in a mm."""
 
 Rectangle = tuple[float, float, float, float]
 """Left, top, width, height on the sheet, mm."""
+Disc = tuple[float, float, float]
+"""Centre and radius on the sheet, mm."""
 
 
 @dataclass(frozen=True, slots=True)
 class Sheet:
-    """What is printed where: black rectangles and a line of text."""
+    """What is printed where: black rectangles and discs, and a line of text."""
 
     size: tuple[float, float]
     """Width and height of the sheet, mm."""
     rectangles: tuple[Rectangle, ...]
+    discs: tuple[Disc, ...]
     bar: float
     """Length of the bar, mm."""
     text: str
@@ -60,6 +71,9 @@ class Sheet:
         shapes = "".join(
             f'<rect x="{x:.4f}" y="{y:.4f}" width="{w:.4f}" height="{h:.4f}"/>\n'
             for x, y, w, h in self.rectangles
+        )
+        shapes += "".join(
+            f'<circle cx="{x:.4f}" cy="{y:.4f}" r="{r:.4f}"/>\n' for x, y, r in self.discs
         )
         x, y = self.text_at
         return (
@@ -77,6 +91,7 @@ class Sheet:
         squares = "".join(
             f"{x:.4f} {height - y - h:.4f} {w:.4f} {h:.4f} re\n" for x, y, w, h in self.rectangles
         )
+        squares += "".join(_circle(x, height - y, r) for x, y, r in self.discs)
         x, y = self.text_at
         text = self.text.replace("\\", "\\\\").replace("(", "\\(").replace(")", "\\)")
         drawing = (
@@ -95,38 +110,72 @@ class Sheet:
         return _pdf_file(objects)
 
 
-def sheet(board: Board, square: float, paper: str) -> Sheet:
-    """A board of rows x cols inner corners with squares of side `square` mm on a sheet.
+def settled(pattern: Pattern, board: Board) -> Pattern:
+    """The pattern with what it leaves open as it is usually printed, for a board of that size."""
+    if isinstance(pattern, Charuco):
+        needed = (board[0] + 1) * (board[1] + 1) // 2
+        sizes = opencv.dictionaries()
+        usual = [name for name in sizes if name.startswith("DICT_4X4_") and sizes[name] >= needed]
+        dictionary = min(usual or ["DICT_4X4_1000"], key=lambda name: sizes[name])
+        return Charuco(
+            pattern.dictionary or dictionary, pattern.marker or 0.75, bool(pattern.legacy)
+        )
+    if isinstance(pattern, Circles):
+        return replace(pattern, diameter=pattern.diameter or pattern.reach)
+    return pattern
+
+
+def sheet(target: Target, paper: str) -> Sheet:
+    """A target in true size on a sheet of paper.
 
     Raises:
-        CalibrationError: it does not fit, with what would.
+        CalibrationError: it does not fit, with what would, or something of it is open.
     """
-    rows, cols = board[0] + 1, board[1] + 1
+    ink = target.pattern.ink(target.board)
+    left, top, right, bottom = ink.extent
+    across, down, side = right - left, bottom - top, target.square
     short, long = PAPERS[paper]
-    width, height = (long, short) if cols > rows else (short, long)
-    largest = min((width - 2 * _EDGE) / (cols + 1), (height - 2 * _EDGE - _FOOT) / (rows + 1))
-    if square > largest:
+    width, height = (long, short) if across > down else (short, long)
+    largest = min((width - 2 * _EDGE) / (across + 1), (height - 2 * _EDGE - _FOOT) / (down + 1))
+    if side > largest:
         raise CalibrationError(
-            f"{rows} x {cols} squares of {square:g} mm do not fit on {paper}.",
-            f"Use squares of at most {largest:.1f} mm, or larger paper.",
+            f"{described(target)} does not fit on {paper} with {side:g} mm.",
+            f"Use at most {largest:.1f} mm, or larger paper.",
         )
-    left = (width - cols * square) / 2
-    top = (height - _FOOT - rows * square) / 2
-    squares = [
-        (left + col * square, top + row * square, square, square)
-        for row in range(rows)
-        for col in range(cols)
-        if (row + col) % 2 == 0
-    ]
+    x0 = (width - across * side) / 2 - left * side
+    y0 = (height - _FOOT - down * side) / 2 - top * side
+    rectangles: list[Rectangle] = []
+    discs: list[Disc] = []
+    if isinstance(ink, Raster):
+        for u, v, w, z in (side * ink.rectangles()).tolist():
+            rectangles.append((x0 + u, y0 + v, w - u, z - v))
+    if isinstance(ink, Discs):
+        discs = [(x0 + u, y0 + v, side * ink.radius) for u, v in (side * ink.centres).tolist()]
     bar = next(length for length in _BARS if length <= width - 2 * _EDGE)
     x, y = (width - bar) / 2, height - _EDGE - _FOOT / 2
     step = bar / 10
     ruler = [(x + 2 * k * step, y, step, 2.0) for k in range(5)] + [(x, y + 2.0, bar, 0.3)]
+    unit = "squares" if target.pattern.counted else "distance"
     text = (
-        f"{bar:g} mm. Print without scaling and measure the bar. Board: {rows} x {cols} squares "
-        f"of {square:g} mm, {board[0]} x {board[1]} inner corners."
+        f"{bar:g} mm. Print without scaling and measure the bar. {described(target)}, {unit} of "
+        f"{side:g} mm."
     )
-    return Sheet((width, height), (*squares, *ruler), bar, text, (x, y + 2.3 + 1.4 * _TEXT))
+    text_at = (min(x, width - _EDGE - _ADVANCE * _TEXT * len(text)), y + 2.3 + 1.4 * _TEXT)
+    return Sheet((width, height), (*rectangles, *ruler), tuple(discs), bar, text, text_at)
+
+
+def _circle(x: float, y: float, r: float) -> str:
+    """A disc in PDF: four Bezier curves, true to 3e-4 of its radius."""
+    k = 0.5522847 * r
+    path = f"{x + r:.4f} {y:.4f} m\n"
+    for c, s, e, f in ((1, 0, 0, 1), (0, 1, -1, 0), (-1, 0, 0, -1), (0, -1, 1, 0)):
+        points = (
+            (x + r * c + k * e, y + r * s + k * f),
+            (x + r * e + k * c, y + r * f + k * s),
+            (x + r * e, y + r * f),
+        )
+        path += " ".join(f"{u:.4f} {v:.4f}" for u, v in points) + " c\n"
+    return path + "h\n"
 
 
 def write_sheet(content: Sheet, path: Path) -> None:

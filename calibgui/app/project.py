@@ -13,12 +13,20 @@ from types import MappingProxyType
 
 from calibgui.app.detection import largest_part, usual_board, usual_pattern
 from calibgui.app.settings import Settings
+from calibgui.engine.errors import CalibrationError
+from calibgui.engine.targets.charuco import Charuco
+from calibgui.engine.targets.circles import Circles
+from calibgui.engine.targets.kinds import KINDS
 from calibgui.engine.targets.pattern import CHECKERBOARD, Pattern
-from calibgui.engine.types import Board, Size, Target, View
+from calibgui.engine.types import Board, Size, Target, View, ViewStatus
 from calibgui.formats.result import Result
 
 DEFAULT_SQUARE = 30.0
 """Side of a square until the user states it, mm. Only the poses' lengths depend on it."""
+
+
+_USUAL_GRIDS = {"circles": (7, 10), "asymmetric-circles": (11, 4)}
+"""Rows and columns of circles until the user states them."""
 
 
 class Unit(StrEnum):
@@ -77,6 +85,44 @@ class Project:
     def find(self, image: str) -> int:
         """Place of the view of `image`; -1 if there is none."""
         return next((k for k, view in enumerate(self.views) if view.image == image), -1)
+
+
+def with_square(project: Project, square: float) -> Project:
+    """The project with squares (or distances of circles) of `square` mm; what else is printed
+    keeps its size, or is to be found out if it does not fit."""
+    ratio = project.square / square
+    try:
+        pattern = _scaled(project.pattern, ratio)
+    except CalibrationError:
+        pattern = KINDS[project.pattern.kind]
+    return replace(project, square=square, pattern=pattern)
+
+
+def _scaled(pattern: Pattern, ratio: float) -> Pattern:
+    """The pattern with its own lengths times `ratio`. Raises CalibrationError for none."""
+    if isinstance(pattern, Charuco) and pattern.marker is not None:
+        return replace(pattern, marker=pattern.marker * ratio)
+    if isinstance(pattern, Circles) and pattern.diameter is not None:
+        return replace(pattern, diameter=pattern.diameter * ratio)
+    return pattern
+
+
+def with_pattern(project: Project, pattern: Pattern) -> Project:
+    """The project with another pattern: what was found of the one before is searched anew.
+
+    Circles are counted by the user; what was counted of another kind does not stay.
+    """
+
+    def again(view: View) -> View:
+        searched = view.status in (ViewStatus.FOUND, ViewStatus.NO_BOARD)
+        if view.points is not None or not searched:
+            return view
+        return replace(view, status=ViewStatus.WAITING, reason="", corners=None)
+
+    board = project.board
+    if pattern.kind != project.pattern.kind:
+        board = None if pattern.counted else _USUAL_GRIDS[pattern.kind]
+    return replace(project, pattern=pattern, board=board, views=tuple(map(again, project.views)))
 
 
 def with_images(project: Project, images: Iterable[str]) -> Project:

@@ -8,7 +8,7 @@ from pathlib import Path
 
 from PySide6.QtCore import QObject, Signal
 
-from calibgui.app.detection import Detection, find_views, usual_board
+from calibgui.app.detection import Detection, find_views, usual_board, usual_pattern
 from calibgui.app.project import Project, with_each, without_digests
 from calibgui.engine.types import Array, Corners, View, ViewStatus
 from calibgui.gui.jobs import Job
@@ -33,6 +33,8 @@ class Detector(QObject):
         """Images of the batch, with the regions that are searched."""
         self._given: dict[str, Corners | None] = {}
         """What the batch found in them so far."""
+        self._pattern = session.project.pattern
+        """The pattern that the batch searches for."""
 
     @property
     def running(self) -> bool:
@@ -44,7 +46,8 @@ class Detector(QObject):
         project = self._session.project
         asked = tuple(view for view in project.views if view.status is ViewStatus.WAITING)
         if self.running:
-            self._again = any(view.image not in self._asked for view in asked)
+            other = project.pattern != self._pattern
+            self._again = other or any(view.image not in self._asked for view in asked)
             return
         if not asked:
             self.finished.emit(True)
@@ -52,6 +55,8 @@ class Detector(QObject):
         self._asked = {view.image: view.roi for view in asked}
         self._given = dict.fromkeys(self._asked)
         board = project.board or usual_board(project.views)
+        self._pattern = project.pattern
+        pattern = usual_pattern(project.views, project.pattern)
         rois = {Path(image): roi for image, roi in self._asked.items() if roi is not None}
 
         def work(job: Job) -> Detection:
@@ -60,7 +65,9 @@ class Detector(QObject):
                 job.tell([view])
 
             images = [Path(view.image) for view in asked]
-            return find_views(images, board, rois, progress, job.cancelling, project.size)
+            return find_views(
+                images, board, rois, progress, job.cancelling, project.size, pattern=pattern
+            )
 
         self._job = self._session.jobs.start(
             self.tr("Finding corners"),
@@ -99,6 +106,8 @@ class Detector(QObject):
             return replace(view, status=new.status, reason=new.reason, corners=new.corners)
 
         def change(project: Project) -> Project:
+            if project.pattern != self._pattern:
+                return project  # another question
             views = tuple(map(answered, project.views))
             same = all(a is b for a, b in zip(views, project.views, strict=True))
             return project if same else replace(project, views=views)

@@ -125,7 +125,8 @@ class Marker(QObject):
         tool = self._roi
         assert tool is not None
         target = self._session.project.target
-        usual = None if target is None else (target.rows, target.cols)
+        usual = None if target is None else target.board
+        pattern = self._session.project.pattern if target is None else target.pattern
         tool.board = board or usual
         if self._job is not None:
             self._job.cancel()
@@ -134,7 +135,7 @@ class Marker(QObject):
         self.roi_bar.words.setText(self.tr("Counting…"))
         self._job = self._session.jobs.start(
             "",
-            lambda _: marking.marked(image, points, board, usual),
+            lambda _: marking.marked(image, points, board, usual, pattern),
             self._found,
             failed=self._not_found,
         )

@@ -21,10 +21,11 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
-from calibgui.app.printable_target import PAPERS, Sheet, sheet, write_sheet
+from calibgui.app.printable_target import PAPERS, Sheet, settled, sheet, write_sheet
 from calibgui.engine.errors import CalibrationError
 from calibgui.engine.types import Target
 from calibgui.gui import theme
+from calibgui.gui.pattern_choice import PatternChoice
 
 _DEFAULT = Target(7, 10, 25.0)
 
@@ -62,8 +63,12 @@ class PrintDialog(QDialog):
         self.setWindowTitle(self.tr("Board to print"))
         target = target or _DEFAULT
         self.rows, self.cols = (QSpinBox(minimum=3, maximum=200) for _ in range(2))
-        self.rows.setValue(target.rows + 1)
-        self.cols.setValue(target.cols + 1)
+        squares_more = 1 if target.pattern.counted else 0
+        self.rows.setValue(target.rows + squares_more)
+        self.cols.setValue(target.cols + squares_more)
+        self.pattern = PatternChoice(self.tr("usual"))
+        self.pattern.show_pattern(target.pattern, target.square)
+        self.counted, self.side = QLabel(), QLabel()
         self.square = QDoubleSpinBox(decimals=2, minimum=1.0, maximum=500.0, suffix=self.tr(" mm"))
         self.square.setValue(target.square)
         self.paper = QComboBox()
@@ -76,17 +81,15 @@ class PrintDialog(QDialog):
         squares.addWidget(QLabel("×"))
         squares.addWidget(self.cols)
         form = QFormLayout()
-        form.addRow(self.tr("Squares"), squares)
-        form.addRow(self.tr("&Side of a square"), self.square)
+        form.addRow(self.pattern)
+        form.addRow(self.counted, squares)
+        form.addRow(self.side, self.square)
         form.addRow(self.tr("&Paper"), self.paper)
         form.addRow(self.words)
-        form.addRow(
-            QLabel(
-                self.tr(
-                    "An odd and an even number of squares\nlets every view find the same origin."
-                )
-            )
+        self.odd_and_even = QLabel(
+            self.tr("An odd and an even number of squares\nlets every view find the same origin.")
         )
+        form.addRow(self.odd_and_even)
         buttons = QDialogButtonBox(QDialogButtonBox.StandardButton.Close)
         self.save = buttons.addButton(
             self.tr("&Save as PDF or SVG…"), QDialogButtonBox.ButtonRole.ActionRole
@@ -101,17 +104,26 @@ class PrintDialog(QDialog):
         layout.addWidget(buttons)
         for box in (self.rows, self.cols, self.square):
             box.valueChanged.connect(self._refresh)
+        self.pattern.changed.connect(self._refresh)
+        self.pattern.failed.connect(lambda error: self.words.setText(str(error)))
         self.paper.currentIndexChanged.connect(self._refresh)
         self.resize(760, 440)
         self._refresh()
 
     def content(self) -> Sheet:
         """The sheet as chosen. Raises CalibrationError if it does not fit the paper."""
-        board = (self.rows.value() - 1, self.cols.value() - 1)
-        return sheet(board, self.square.value(), self.paper.currentText())
+        pattern, more = self.pattern.pattern, 1 if self.pattern.pattern.counted else 0
+        board = (self.rows.value() - more, self.cols.value() - more)
+        target = Target(*board, self.square.value(), settled(pattern, board))
+        return sheet(target, self.paper.currentText())
 
     def _refresh(self) -> None:
         colours = theme.current()
+        circles = not self.pattern.pattern.counted
+        self.counted.setText(self.tr("Circles") if circles else self.tr("Squares"))
+        self.side.setText(self.tr("Distance") if circles else self.tr("Side of a square"))
+        self.odd_and_even.setVisible(self.pattern.pattern.kind == "checkerboard")
+        self.pattern.show_pattern(self.pattern.pattern, self.square.value())
         try:
             content: Sheet | None = self.content()
             text, colour = self.tr("Fits."), colours.good

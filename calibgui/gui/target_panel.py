@@ -17,9 +17,10 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
-from calibgui.app.project import Project, Unit
+from calibgui.app.project import Project, Unit, with_pattern, with_square
 from calibgui.engine.types import View, ViewStatus
 from calibgui.gui import theme
+from calibgui.gui.pattern_choice import PatternChoice
 from calibgui.gui.session import Session
 
 
@@ -59,6 +60,8 @@ class TargetPanel(QWidget):
         self.print = QPushButton(self.tr("&Print a board…"))
         self.print.setToolTip(self.tr("Make a PDF or SVG of a board of any size."))
 
+        self.pattern = PatternChoice(self.tr("read from the images"))
+        self.counted, self.side = QLabel(), QLabel()
         corners = QHBoxLayout()
         corners.addWidget(self.rows, 1)
         corners.addWidget(QLabel("×"))
@@ -68,11 +71,14 @@ class TargetPanel(QWidget):
         side.addWidget(self.unit)
         form = QFormLayout(self)
         form.setContentsMargins(theme.SPACING, theme.SPACING, theme.SPACING, theme.SPACING)
-        form.addRow(self.tr("Inner corners"), corners)
+        form.addRow(self.pattern)
+        form.addRow(self.counted, corners)
         form.addRow("", self.inferred)
-        form.addRow(self.tr("Square"), side)
+        form.addRow(self.side, side)
         form.addRow("", self.print)
 
+        self.pattern.changed.connect(self._edit_pattern)
+        self.pattern.failed.connect(session.failed)
         self.inferred.clicked.connect(self._edit_board)
         for box in (self.rows, self.cols):
             box.editingFinished.connect(self._edit_board)
@@ -87,6 +93,11 @@ class TargetPanel(QWidget):
         project = self._session.project
         target = project.target
         inferred = project.board is None
+        self.pattern.show_pattern(project.pattern, project.square / project.unit.mm)
+        circles = not project.pattern.counted
+        self.counted.setText(self.tr("Circles") if circles else self.tr("Inner corners"))
+        self.side.setText(self.tr("Distance") if circles else self.tr("Square"))
+        self.inferred.setEnabled(not circles)
         self.inferred.setChecked(inferred)
         for box, value in (
             (self.rows, target and target.rows),
@@ -124,16 +135,19 @@ class TargetPanel(QWidget):
         if seen is None or stated != (seen.rows, seen.cols):
             self.search_wanted.emit()
 
+    def _edit_pattern(self) -> None:
+        pattern = self.pattern.pattern
+        self._session.edit(self.tr("Pattern"), lambda p: with_pattern(p, pattern))
+        self.search_wanted.emit()
+
     def _edit_square(self, value: float) -> None:
         mm = value * self._session.project.unit.mm
-        self._session.edit(
-            self.tr("Size of squares"), lambda p: replace(p, square=mm), sliding=True
-        )
+        self._session.edit(self.tr("Size of squares"), lambda p: with_square(p, mm), sliding=True)
 
     def _edit_unit(self) -> None:
         unit = Unit(self.unit.currentText())
         mm = self.square.value() * unit.mm
         if unit is not self._session.project.unit:
             self._session.edit(
-                self.tr("Unit of squares"), lambda p: replace(p, unit=unit, square=mm)
+                self.tr("Unit of squares"), lambda p: replace(with_square(p, mm), unit=unit)
             )

@@ -8,11 +8,13 @@ from xml.etree import ElementTree
 
 import numpy as np
 import pytest
+from scipy.ndimage import gaussian_filter
 
-from calibgui.app.printable_target import PAPERS, Sheet, sheet, write_sheet
+from calibgui.app.printable_target import PAPERS, Sheet, settled, sheet, write_sheet
 from calibgui.engine.corners import find_corners
 from calibgui.engine.errors import CalibrationError
-from calibgui.engine.types import Array
+from calibgui.engine.targets.kinds import KINDS
+from calibgui.engine.types import Array, Target
 
 _PER_MM = 4
 
@@ -28,12 +30,16 @@ def rasterised(content: Sheet) -> Array:
                 round(_PER_MM * float(rect.attrib[k])) for k in ("x", "y", "width", "height")
             )
             image[y : y + h, x : x + w] = 0
+    v, u = np.indices(image.shape)
+    for disc in root.iter("{http://www.w3.org/2000/svg}circle"):
+        x, y, r = (_PER_MM * float(disc.attrib[k]) for k in ("cx", "cy", "r"))
+        image[np.hypot(u + 0.5 - x, v + 0.5 - y) < r] = 0
     return image
 
 
 @pytest.mark.parametrize("board", [(6, 9), (9, 6)])
 def test_the_finder_sees_the_board_in_its_size(board: tuple[int, int]) -> None:
-    content = sheet(board, 20.0, "A4")
+    content = sheet(Target(*board, 20.0), "A4")
     corners = find_corners(rasterised(content), board)
     assert corners.complete
     row = corners.uv[corners.grid[:, 0] == 0]
@@ -43,7 +49,7 @@ def test_the_finder_sees_the_board_in_its_size(board: tuple[int, int]) -> None:
 
 
 def test_pdf_and_svg_hold_the_same_rectangles(tmp_path: Path) -> None:
-    content = sheet((5, 8), 22.5, "A4")
+    content = sheet(Target(5, 8, 22.5), "A4")
     for name in ("board.pdf", "board.svg"):
         write_sheet(content, tmp_path / name)
     pdf = (tmp_path / "board.pdf").read_bytes().decode("cp1252")
@@ -64,15 +70,33 @@ def test_pdf_and_svg_hold_the_same_rectangles(tmp_path: Path) -> None:
 @pytest.mark.parametrize("paper", PAPERS)
 def test_everything_is_on_the_sheet_with_white_around(paper: str) -> None:
     with pytest.raises(CalibrationError) as error:
-        sheet((6, 9), 5000.0, paper)
+        sheet(Target(6, 9, 5000.0), paper)
     largest = float(re.search(r"at most ([\d.]+) mm", error.value.hint)[1])
-    content = sheet((6, 9), largest - 0.1, paper)
-    squares = np.array([r for r in content.rectangles if r[2] == r[3]])
+    content = sheet(Target(6, 9, largest - 0.1), paper)
+    squares = np.array([r for r in content.rectangles if np.isclose(r[2], r[3])])
     width, height = content.size
     left, top = squares[:, :2].min(axis=0)
     right, bottom = (squares[:, :2] + squares[:, 2:]).max(axis=0)
     margin = squares[0, 2] / 2
     assert min(left, top, width - right) > margin
-    bar_top = min(r[1] for r in content.rectangles if r[2] != r[3])
+    bar_top = min(r[1] for r in content.rectangles if not np.isclose(r[2], r[3]))
     assert bottom + margin < bar_top < height - 8
     assert content.bar in (20, 50, 100, 200, 500, 1000)
+
+
+@pytest.mark.parametrize("kind", ["charuco", "circles", "asymmetric-circles"])
+def test_other_patterns_are_found_on_their_sheet(kind: str, tmp_path: Path) -> None:
+    board = (9, 4)
+    target = Target(*board, 15.0, settled(KINDS[kind], board))
+    content = sheet(target, "A4")
+    seen = gaussian_filter(rasterised(content), 1.5)
+    corners = KINDS[kind].find(seen, board)
+    assert corners.complete
+    assert corners.pattern.kind == kind
+    size = np.linalg.norm(np.ptp(corners.uv, axis=0))
+    assert size == pytest.approx(
+        _PER_MM * np.linalg.norm(np.ptp(target.points(), axis=0)), rel=0.01
+    )
+    write_sheet(content, tmp_path / "board.pdf")
+    pdf = (tmp_path / "board.pdf").read_bytes()
+    assert pdf.count(b" c\n") == 4 * len(content.discs)

@@ -33,7 +33,7 @@ class Search:
         self.findings: queue.SimpleQueue[View | None] = queue.SimpleQueue()
 
     def __call__(
-        self, images: list[Path], _: Any, __: Any, progress: Any, stop: Event, ___: Any
+        self, images: list[Path], _: Any, __: Any, progress: Any, stop: Event, ___: Any, **____: Any
     ) -> Detection:
         self.asked.append([image.name for image in images])
         found: dict[str, View] = {}

@@ -69,11 +69,19 @@ class Raster:
         return self.x[0], self.y[0], self.x[-1], self.y[-1]
 
     def rectangles(self) -> Array:
-        """(n, 4) left, top, right and bottom of the ink, joined along the rows."""
+        """(n, 4) left, top, right and bottom of the ink, as few as runs along the rows allow."""
         padded = np.pad(self.dark, ((0, 0), (1, 1)))
         rows, starts = np.nonzero(padded[:, 1:] & ~padded[:, :-1])
         _, ends = np.nonzero(padded[:, :-1] & ~padded[:, 1:])
-        return np.column_stack([self.x[starts], self.y[rows], self.x[ends], self.y[rows + 1]])
+        # Runs below each other become one, lest a line of paper show between them.
+        order = np.lexsort((rows, ends, starts))
+        runs = np.column_stack([starts, ends, rows])[order]
+        same = (np.diff(runs, axis=0) == (0, 0, 1)).all(axis=1)
+        first, last = np.append(True, ~same), np.append(~same, True)
+        left, right, top = runs[first].T
+        return np.column_stack(
+            [self.x[left], self.y[top], self.x[right], self.y[runs[last, 2] + 1]]
+        )
 
     def share(self, XY: Array, gradient: Array) -> tuple[Array, BoolArray]:
         """See ``Ink``."""
