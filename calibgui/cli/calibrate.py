@@ -148,7 +148,7 @@ def run(options: argparse.Namespace, console: Console) -> None:
     for name, path in options.export:
         written.append(f"Wrote {path}. {export(result, name, path).note}")
     console.answer(result_record(result))
-    console.say(tables.report(result))
+    console.say(tables.report(result), otherwise=tables.unused(result.views))
     if written:
         console.say("\n" + "\n".join(map(tables.bullet, written)))
 

@@ -34,10 +34,12 @@ class Console:
         self.quiet = quiet
         self.json = json
 
-    def say(self, text: str) -> None:
-        """Print text for people."""
+    def say(self, text: str, otherwise: str = "") -> None:
+        """Print text for people, or if they want problems only, `otherwise`."""
         if not (self.quiet or self.json):
             _print(harmless(text))
+        elif otherwise and not self.json:
+            self.problem(otherwise)
 
     def answer(self, value: Any) -> None:
         """Print the result for programs, if they asked."""

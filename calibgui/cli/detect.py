@@ -45,7 +45,7 @@ def run(options: argparse.Namespace, console: Console) -> None:
             "Photograph the whole board, sharp and evenly lit, or mark its corners with --roi.",
         )
     console.answer(corners_record(corner_set))
-    console.say(tables.detection(corner_set.views))
+    console.say(tables.detection(corner_set.views), otherwise=tables.unused(corner_set.views))
     if words := learnt(pattern, corner_set.target):
         console.say(tables.bullet(words))
     if options.output:

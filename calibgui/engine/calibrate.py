@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 
 from calibgui.engine import uncertainty
-from calibgui.engine.degeneracy import diagnose
+from calibgui.engine.degeneracy import diagnose, misfits
 from calibgui.engine.errors import CalibrationError, DegenerateError
 from calibgui.engine.lens import MODELS
 from calibgui.engine.observations import REFERENCE_PITCH, Observations, pack, pitch, view_names
@@ -136,7 +136,8 @@ def calibrate(
         observations.count,
         _tolerated(Camera(size, solution.state.params, model), observations)[free_indices],
     )
-    diagnose(solution, tuple(parameters[i] for i in free_indices), precision)
+    suspects = [names[k] for k in misfits(first.rms).tolist()]
+    diagnose(solution, tuple(parameters[i] for i in free_indices), precision, suspects)
     estimate = estimated(solution, observations, precision)
     if plate is PlateModel.NOMINAL and cost is Cost.IMAGE:
         estimate = with_plate_doubt(estimate, observations, model, free_indices)

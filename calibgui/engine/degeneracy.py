@@ -18,11 +18,13 @@ What differing planes still leave open, ``uncertainty.precision`` finds.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import numpy as np
 
-from calibgui.engine.errors import DegenerateError
+from calibgui.engine.errors import CalibrationError, DegenerateError
 from calibgui.engine.levenberg_marquardt import Solution
-from calibgui.engine.types import Array
+from calibgui.engine.types import Array, IntArray
 from calibgui.engine.uncertainty import Precision
 
 PINHOLE = ("fx", "fy", "cx", "cy")
@@ -34,6 +36,10 @@ _AXIS = np.array([0.0, 0.0, 1.0])
 """The camera's optical axis, the normal of planes parallel to the sensor."""
 _CLOSE = np.deg2rad(3.0)
 """Angle below which a diagnosis calls directions the same."""
+_MISFIT = 10.0
+"""Stage I residual, in those of the median view, beyond which corners are not of the board."""
+_LEAST_MISFIT = 1.0
+"""Least such residual, reference px, of which a square has 30."""
 
 
 def normals(R: Array) -> Array:
@@ -62,16 +68,28 @@ def parallel(R: Array, V: Array, variance: float) -> bool:
     return bool(squares.sum() / (2 * (len(n) - 1)) < _SIGNIFICANT * variance)
 
 
-def diagnose(solution: Solution, names: tuple[str, ...], precision: Precision) -> None:
+def misfits(rms: Array) -> IntArray:
+    """The views whose corners fit no flat board, by their Stage I residuals (K,), reference px.
+
+    One such view makes all the noise that hides what the others determine.
+    """
+    return np.flatnonzero(rms > np.maximum(_MISFIT * np.median(rms), _LEAST_MISFIT))
+
+
+def diagnose(
+    solution: Solution, names: tuple[str, ...], precision: Precision, suspects: Sequence[str]
+) -> None:
     """Refuse a solution whose focal lengths or centre the views do not determine.
 
     Args:
         solution: of Stage II.
         names: (P,) of the free parameters.
         precision: of the solution.
+        suspects: names of the views that are `misfits`.
 
     Raises:
         DegenerateError: with the cause, and what to photograph instead.
+        CalibrationError: if suspects are the cause.
     """
     if not np.isfinite(precision.variance):
         raise DegenerateError(
@@ -86,6 +104,12 @@ def diagnose(solution: Solution, names: tuple[str, ...], precision: Precision) -
     if not lost:
         return
     what = ", ".join(lost)
+    if suspects:
+        raise CalibrationError(
+            f"No camera sees a flat board as in {', '.join(suspects)}, which leaves {what} "
+            "undetermined.",
+            "Number their corners as in the other views, or leave them out.",
+        )
     if _farthest(n, _AXIS) < _CLOSE:
         raise DegenerateError(
             f"All views are parallel to the sensor, which leaves {what} undetermined.",

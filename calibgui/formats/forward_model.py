@@ -13,6 +13,8 @@ from calibgui.engine.refit import Refit, refit
 from calibgui.formats.result import Result
 
 MODEL = "opencv"
+_USEFUL = 2.0
+"""Error where corners were seen, px, from which on an export is of no use."""
 
 
 def forward(result: Result) -> Refit:
@@ -38,7 +40,10 @@ def refit_note(result: Result, fitted: Refit) -> str:
         if math.isfinite(fitted.largest_error)
         else "an unlimited amount in parts of the image that no corner covers"
     )
+    caution = (
+        "" if fitted.covered_error < _USEFUL else " It cannot follow this lens: do not use it."
+    )
     return (
         f"Forward distortion model (k1 k2 p1 p2 k3), refitted on the same corners; differs by "
-        f"at most {fitted.covered_error:.3g} px where corners were seen and {whole}."
+        f"at most {fitted.covered_error:.3g} px where corners were seen and {whole}.{caution}"
     )

@@ -161,6 +161,17 @@ def test_a_terminal_without_unicode_is_served(corners_file: Path, tmp_path: Path
     assert done.stdout.isascii() and done.stderr == b""
 
 
+def test_quiet_still_names_what_was_left_out(
+    corners_file: Path, tmp_path: Path, capsys: Capture
+) -> None:
+    content = json.loads(corners_file.read_text())
+    content["views"].append({"image": "dark.png", "uv": [], "board": [], "reason": "Too dark."})
+    file = tmp_path / "corners.json"
+    file.write_text(json.dumps(content))
+    assert main(["calibrate", str(file), "--quiet"]) == 0
+    assert capsys.readouterr() == ("", "Left out\n  dark.png: Too dark.\n")
+
+
 @posix
 def test_a_request_to_end_is_like_ctrl_c(photographs: Path, tmp_path: Path) -> None:
     out = tmp_path / "out"

@@ -7,7 +7,7 @@ import pytest
 
 from calibgui.engine import degeneracy
 from calibgui.engine.calibrate import calibrate
-from calibgui.engine.errors import DegenerateError
+from calibgui.engine.errors import CalibrationError, DegenerateError
 from calibgui.engine.types import Observation
 from tests.engine.scenes import Scene, barrel, looking, scene, seen
 
@@ -103,3 +103,14 @@ def test_one_orientation_is_enough_with_a_known_centre() -> None:
 def test_normals_face_away_from_the_camera() -> None:
     R = np.stack([np.eye(3), np.diag([1.0, -1.0, -1.0])])
     np.testing.assert_array_equal(degeneracy.normals(R), [[0, 0, 1], [0, 0, 1]])
+
+
+def test_one_misnumbered_view_is_named_rather_than_what_it_hides() -> None:
+    made = scene(CAMERA, 8, seed=4)
+    views = made.noisy(0.1, np.random.default_rng(2))
+    wrong = views[3]
+    views[3] = Observation(wrong.uv, np.roll(wrong.xy, 1, axis=0))
+    with pytest.raises(CalibrationError, match="No camera sees a flat board as in View 4") as told:
+        calibrate(views, made.size)
+    assert not isinstance(told.value, DegenerateError)
+    assert np.isfinite(calibrate(views[:3] + views[4:], made.size).sigma[:4]).all()

@@ -64,3 +64,9 @@ def test_what_was_held_stays_held() -> None:
 def test_a_model_that_cannot_follow_says_so(result: Result) -> None:
     fitted = Refit(forward(result).calibration, float("nan"), 0.05)
     assert "unlimited" in refit_note(result, fitted)
+
+
+def test_a_model_that_cannot_follow_the_lens_is_not_recommended(result: Result) -> None:
+    camera = forward(result).calibration
+    assert "do not use it" in refit_note(result, Refit(camera, 190.0, 35.0))
+    assert "do not use it" not in refit_note(result, Refit(camera, 0.3, 0.05))
