@@ -206,7 +206,7 @@ def _read_calibration(node: Node, used: list[Node]) -> Calibration:
     names = parameter_names(model)
     residuals = node["residuals"]
     return Calibration(
-        camera=Camera(read_size(camera["size"]), _by_name(camera["params"], names), model),
+        camera=_read_camera(camera, model),
         sigma=_by_name(camera["sigma"], names),
         covariance=node["covariance"]["matrix"].numbers(len(names), len(names), nullable=True),
         sigma_by_noise=_by_name(camera.get("sigma_by_noise") or camera["sigma"], names),
@@ -244,6 +244,15 @@ def _read_settings(node: Node) -> dict[str, Any]:
 def _read_plate(node: Node | None) -> Plate | None:
     """The plate, which results written before plates were estimated do not have."""
     return None if node is None or node.value is None else read_plate_record(node)
+
+
+def _read_camera(node: Node, model: str) -> Camera:
+    params = node["params"]
+    for name in ("fx", "fy"):
+        if not params[name].number() > 0:
+            params[name].fail("a focal length above 0")
+    values = np.array([params[name].number() for name in parameter_names(model)])
+    return Camera(read_size(node["size"]), values, model)
 
 
 def _by_name(node: Node, names: tuple[str, ...]) -> Array:

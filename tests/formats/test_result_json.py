@@ -191,6 +191,25 @@ def test_files_that_cannot_be_used_say_why(
     assert caught.value.hint
 
 
+@pytest.mark.parametrize(
+    ("name", "value", "message"),
+    [
+        ("fx", 0, "camera.params.fx is not a focal length above 0"),
+        ("fy", -5.0, "camera.params.fy is not a focal length above 0"),
+        ("k1", None, "camera.params.k1 is not a finite number"),
+    ],
+)
+def test_a_camera_that_cannot_be_is_refused(
+    tmp_path: Path, result: Result, name: str, value: float | None, message: str
+) -> None:
+    content = _content(result)
+    content["camera"]["params"][name] = value
+    file = tmp_path / "result.json"
+    file.write_text(json.dumps(content))
+    with pytest.raises(CalibrationError, match=message):
+        read_result(file)
+
+
 def test_a_file_cut_anywhere_is_refused(tmp_path: Path, result: Result) -> None:
     text = dumps(result_record(result))
     for length in np.linspace(0, len(text) - 1, 60).astype(int):
