@@ -125,6 +125,7 @@ def restored(image: Image, corners: Corners, place: IntArray) -> Corners:
     Raises:
         NoBoardError: there is no corner where it should be.
     """
+    _check_squares(corners)
     expected = _expected(corners, place)
     spacing = np.sort(np.linalg.norm(corners.uv - expected, axis=1))[1]
     uv = refined(image, expected, spacing / 3)
@@ -143,6 +144,7 @@ def restored(image: Image, corners: Corners, place: IntArray) -> Corners:
 
 def turned(corners: Corners) -> Corners:
     """The same corners counted from the board's next corner: a quarter turn of its axes."""
+    _check_squares(corners)
     rows, cols = corners.shape
     grid = np.column_stack([corners.grid[:, 1], rows - 1 - corners.grid[:, 0]])
     return replace(corners, shape=(cols, rows), grid=grid, ambiguity=ambiguity((cols, rows)))
@@ -150,9 +152,20 @@ def turned(corners: Corners) -> Corners:
 
 def flipped(corners: Corners) -> Corners:
     """The same corners with columns counted from the other end: for mirrored images."""
+    _check_squares(corners)
     grid = corners.grid.copy()
     grid[:, 1] = corners.shape[1] - 1 - grid[:, 1]
     return replace(corners, grid=grid)
+
+
+def _check_squares(corners: Corners) -> None:
+    """Refuse what only a checkerboard allows: other points say which they are, or are no
+    corners."""
+    if corners.pattern != CHECKERBOARD:
+        raise CalibrationError(
+            "Only a checkerboard's corners can be counted anew or put in by hand.",
+            "Detect the image again, or remove what is wrong.",
+        )
 
 
 def _expected(corners: Corners, place: IntArray) -> Array:

@@ -11,6 +11,7 @@ from calibgui.app import marking
 from calibgui.engine.corners import find_corners
 from calibgui.engine.errors import CalibrationError, NoBoardError
 from calibgui.engine.render import render
+from calibgui.engine.targets.circles import Circles
 from calibgui.engine.types import Array, Camera, Corners, Target
 from tests.engine import scenes
 
@@ -115,3 +116,17 @@ def test_a_turn_keeps_the_numbering_right_handed(corners: Corners) -> None:
 def test_without_any_missing_there_is_nothing_to_restore(corners: Corners) -> None:
     grid, expected = marking.missing(replace(corners))
     assert len(grid) == len(expected) == 0
+
+
+def test_only_a_checkerboard_is_counted_anew() -> None:
+    grid = np.indices((3, 4)).reshape(2, -1).T
+    uv = 20.0 * grid[:, ::-1] + 10.0
+    circles = Corners((3, 4), grid, uv, uv, pattern=Circles())
+    image = np.zeros((90, 100), np.uint8)
+    for change in (
+        marking.turned,
+        marking.flipped,
+        lambda corners: marking.restored(image, corners, grid[0]),
+    ):
+        with pytest.raises(CalibrationError, match="Only a checkerboard"):
+            change(circles)

@@ -18,7 +18,7 @@ with an even number of rows of squares began with a white one (``legacy``).
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Collection, Iterable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -29,33 +29,24 @@ from calibgui.engine.corners import edges, harris, saddle, verify
 from calibgui.engine.corners import roi as region
 from calibgui.engine.corners.edges import Fit
 from calibgui.engine.corners.extract import grey_levels
-from calibgui.engine.corners.finder import contains
 from calibgui.engine.corners.lattice import Lattice
 from calibgui.engine.corners.located import rejections
 from calibgui.engine.errors import CalibrationError, NoBoardError
 from calibgui.engine.images import stretched
 from calibgui.engine.opencv import Image
 from calibgui.engine.targets.ink import Ink, Raster
-from calibgui.engine.targets.markers import LAYOUTS, Layout, Markers, on_board
+from calibgui.engine.targets.markers import LAYOUTS, Layout, Markers
 from calibgui.engine.targets.pattern import Pattern, squares
-from calibgui.engine.types import Ambiguity, Array, Board, Corners, IntArray, Rejection
+from calibgui.engine.targets.reader import Reader, Seen, family
+from calibgui.engine.types import Ambiguity, Array, Board, Corners, Rejection
 
 MIN_CORNERS = 6
 _NEAREST = 4
 """Markers whose corners place an inner corner."""
 _ADJACENT = 0.8
 """Farthest that one of them must be, squares."""
-_COARSE = 1600
-"""Longer side of the image in which markers are looked for first, px."""
 _DIFFERENT = 0.1
 """Difference of a marker's side from the stated one that is no error of measurement, squares."""
-_USUAL = (
-    *(f"DICT_{k}X{k}" for k in (4, 5, 6, 7)),
-    "DICT_ARUCO_ORIGINAL",
-    "DICT_APRILTAG_36H11",
-    "DICT_ARUCO_MIP_36H12",
-)
-"""Families of dictionaries that are tried where none is stated; others take longer."""
 _ROUNDS = 4
 """How often corners may be left out and the rest fitted again."""
 
@@ -105,14 +96,10 @@ class Charuco:
         boards = [pattern for pattern in seen if isinstance(pattern, Charuco)]
         if not boards:
             return self
-        names = Counter(_family(one.dictionary) for one in boards if one.dictionary)
-        family = max(names, key=lambda name: names[name])
+        names = Counter(family(one.dictionary) for one in boards if one.dictionary)
+        most = max(names, key=lambda name: names[name])
         largest = max(
-            (
-                one.dictionary
-                for one in boards
-                if one.dictionary and _family(one.dictionary) == family
-            ),
+            (one.dictionary for one in boards if one.dictionary and family(one.dictionary) == most),
             key=lambda name: opencv.dictionaries()[name],
         )
         legacy = Counter(one.legacy for one in boards).most_common(1)[0][0]
@@ -177,12 +164,12 @@ class Charuco:
         seen = Charuco(dictionary, markers.side, legacy)
         return _record(grey, lattice, fit, outline, rejected, seen)
 
-    def _read(self, image: Image, board: Board | None, outline: Array | None) -> _Seen:
+    def _read(self, image: Image, board: Board | None, outline: Array | None) -> Seen:
         """The dictionary and the board's markers in an 8-bit image (h, w).
 
         What is stated is tried first; if it does not fit, what does is told.
         """
-        read = _Reader(image, outline)
+        read = Reader(image, outline)
         layouts = self._layouts(board)
         found = read.board([self.dictionary], layouts) if self.dictionary else read.unknown(layouts)
         if found is None:
@@ -207,7 +194,7 @@ class Charuco:
         both = (True, False) if (board[0] + 1) % 2 == 0 else (True,)
         return [Layout(board[1] + 1, dark) for dark in both]
 
-    def _wrong(self, read: _Reader, board: Board | None) -> NoBoardError:
+    def _wrong(self, read: Reader, board: Board | None) -> NoBoardError:
         """What is there instead of the board stated."""
         nothing = NoBoardError(
             "No ChArUco board was found.",
@@ -219,7 +206,7 @@ class Charuco:
         if found is None:
             return nothing
         dictionary, markers = found
-        if self.dictionary and _family(dictionary) != _family(self.dictionary):
+        if self.dictionary and family(dictionary) != family(self.dictionary):
             return NoBoardError(
                 f"The markers are of {dictionary}, not of {self.dictionary}.",
                 "State that dictionary, or leave it out.",
@@ -232,75 +219,6 @@ class Charuco:
             + ("dark." if markers.layout.first_dark else "white, as before OpenCV 4.6."),
             "State the other layout, or leave it out.",
         )
-
-
-_Seen = tuple[str, Markers]
-"""A dictionary and the board's markers."""
-
-
-class _Reader:
-    """Reads the markers of an image, coarsely first."""
-
-    def __init__(self, image: Image, outline: Array | None) -> None:
-        self._levels = [image]
-        while max(self._levels[-1].shape) > _COARSE:
-            self._levels.append(opencv.half(self._levels[-1]))
-        self._outline = None if outline is None else region.enlarged(outline)
-        self._read: dict[tuple[int, str], tuple[IntArray, Array]] = {}
-
-    def board(self, names: Iterable[str], layouts: Collection[Layout]) -> _Seen | None:
-        """The first dictionary, and its markers on a board of one of the layouts."""
-        for depth in reversed(range(len(self._levels))):
-            for name in names:
-                markers = on_board(*self._markers(depth, name), layouts)
-                if markers is not None:
-                    return name, markers
-        return None
-
-    def unknown(self, layouts: Collection[Layout]) -> _Seen | None:
-        """The same for a dictionary that is not stated: the smallest of its family that reads
-        the most."""
-        best = self.board(_of_family(0), layouts) or self.board(_of_family(2), layouts)
-        for larger in _larger(best[0]) if best is not None else ():
-            found = self.board([larger], layouts)
-            if best is None or found is None or len(found[1].numbers) <= len(best[1].numbers):
-                break
-            best = found
-        return best
-
-    def _markers(self, depth: int, name: str) -> tuple[IntArray, Array]:
-        if (depth, name) not in self._read:
-            numbers, corners = opencv.markers(self._levels[depth], name)
-            corners = (corners + 0.5) * 2**depth - 0.5
-            if self._outline is not None and len(numbers):
-                inside = contains(self._outline, corners.mean(axis=1))
-                numbers, corners = numbers[inside], corners[inside]
-            self._read[depth, name] = numbers, corners
-        return self._read[depth, name]
-
-
-def _family(dictionary: str) -> str:
-    """The dictionary without its size: dictionaries of one family begin alike."""
-    stem, _, size = dictionary.rpartition("_")
-    return stem if size.isdigit() else dictionary
-
-
-def _sizes(family: str) -> list[str]:
-    """The dictionaries of a family, smallest first."""
-    sizes = opencv.dictionaries()
-    same = [name for name in sizes if _family(name) == family]
-    return sorted(same, key=lambda name: sizes[name])
-
-
-def _of_family(rank: int) -> list[str]:
-    """One dictionary of each of the usual families, the smallest for rank 0."""
-    return [_sizes(family)[min(rank, len(_sizes(family)) - 1)] for family in _USUAL]
-
-
-def _larger(dictionary: str) -> list[str]:
-    """The larger dictionaries of the same family."""
-    same = _sizes(_family(dictionary))
-    return same[same.index(dictionary) + 1 :]
 
 
 def _other_size(found: Board, stated: Board) -> NoBoardError:

@@ -1,0 +1,94 @@
+"""Reads the markers of an image: of a dictionary that is known, or of whichever it may be.
+
+OpenCV's dictionaries of one family begin alike: the markers of the smallest are the first of all.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Iterable
+
+from calibgui.engine import opencv
+from calibgui.engine.corners import roi as region
+from calibgui.engine.corners.finder import contains
+from calibgui.engine.opencv import Image
+from calibgui.engine.targets.markers import Layout, Markers, on_board
+from calibgui.engine.types import Array, IntArray
+
+_COARSE = 1600
+"""Longer side of the image in which markers are looked for first, px."""
+_USUAL = (
+    *(f"DICT_{k}X{k}" for k in (4, 5, 6, 7)),
+    "DICT_ARUCO_ORIGINAL",
+    "DICT_APRILTAG_36H11",
+    "DICT_ARUCO_MIP_36H12",
+)
+"""Families of dictionaries that are tried where none is stated; others take longer."""
+
+
+Seen = tuple[str, Markers]
+"""A dictionary and the board's markers."""
+
+
+class Reader:
+    """Reads the markers of an image, coarsely first."""
+
+    def __init__(self, image: Image, outline: Array | None) -> None:
+        self._levels = [image]
+        while max(self._levels[-1].shape) > _COARSE:
+            self._levels.append(opencv.half(self._levels[-1]))
+        self._outline = None if outline is None else region.enlarged(outline)
+        self._read: dict[tuple[int, str], tuple[IntArray, Array]] = {}
+
+    def board(self, names: Iterable[str], layouts: Collection[Layout]) -> Seen | None:
+        """The first dictionary, and its markers on a board of one of the layouts."""
+        for depth in reversed(range(len(self._levels))):
+            for name in names:
+                markers = on_board(*self._markers(depth, name), layouts)
+                if markers is not None:
+                    return name, markers
+        return None
+
+    def unknown(self, layouts: Collection[Layout]) -> Seen | None:
+        """The same for a dictionary that is not stated: the smallest of its family that reads
+        the most."""
+        best = self.board(_offamily(0), layouts) or self.board(_offamily(2), layouts)
+        for larger in _larger(best[0]) if best is not None else ():
+            found = self.board([larger], layouts)
+            if best is None or found is None or len(found[1].numbers) <= len(best[1].numbers):
+                break
+            best = found
+        return best
+
+    def _markers(self, depth: int, name: str) -> tuple[IntArray, Array]:
+        if (depth, name) not in self._read:
+            numbers, corners = opencv.markers(self._levels[depth], name)
+            corners = (corners + 0.5) * 2**depth - 0.5
+            if self._outline is not None and len(numbers):
+                inside = contains(self._outline, corners.mean(axis=1))
+                numbers, corners = numbers[inside], corners[inside]
+            self._read[depth, name] = numbers, corners
+        return self._read[depth, name]
+
+
+def family(dictionary: str) -> str:
+    """The dictionary without its size: dictionaries of one family begin alike."""
+    stem, _, size = dictionary.rpartition("_")
+    return stem if size.isdigit() else dictionary
+
+
+def _sizes(stem: str) -> list[str]:
+    """The dictionaries of a family, smallest first."""
+    sizes = opencv.dictionaries()
+    same = [name for name in sizes if family(name) == stem]
+    return sorted(same, key=lambda name: sizes[name])
+
+
+def _offamily(rank: int) -> list[str]:
+    """One dictionary of each of the usual families, the smallest for rank 0."""
+    return [_sizes(stem)[min(rank, len(_sizes(stem)) - 1)] for stem in _USUAL]
+
+
+def _larger(dictionary: str) -> list[str]:
+    """The larger dictionaries of the same family."""
+    same = _sizes(family(dictionary))
+    return same[same.index(dictionary) + 1 :]
