@@ -145,25 +145,17 @@ def axes(uv: Array) -> tuple[Array, Array]:
     if kernels.COMPILED:
         from calibgui.engine.kernels import lattice
 
-        right, down = lattice.axes(uv)
-    else:
-        right, down = _steps(uv)
-    for _ in range(REACH - 1):
-        right, down = _spread(right), _spread(down)
-    return right, down
-
-
-def _steps(uv: Array) -> tuple[Array, Array]:
-    """`axes` from up to one place away."""
+        return lattice.axes(uv, REACH)
     steps = []
     shift = shifted(uv, 2)
     for step in (STEPS[0], STEPS[1]):
         near = _nanmean([shift(step) - uv, uv - shift(-step)])
         far = _nanmean([(shift(2 * step) - uv) / 2, (uv - shift(-2 * step)) / 2])
         around = (shift(step) - shift(-step)) / 2
-        steps.append(
-            _spread(np.where(np.isnan(near), np.where(np.isnan(around), far, around), near))
-        )
+        own = np.where(np.isnan(near), np.where(np.isnan(around), far, around), near)
+        for _ in range(REACH):
+            own = _spread(own)
+        steps.append(own)
     return steps[0], steps[1]
 
 

@@ -27,7 +27,7 @@ def _mean(values):  # type: ignore[no-untyped-def]
 
 
 @compiled
-def _steps(uv, dr, dc, out):  # type: ignore[no-untyped-def]
+def _steps(uv, dr, dc, reach, out):  # type: ignore[no-untyped-def]
     rows, cols, _ = uv.shape
     own = np.empty((rows, cols, 2))
     for r in range(rows):
@@ -42,20 +42,20 @@ def _steps(uv, dr, dc, out):  # type: ignore[no-untyped-def]
                     after = _at(uv, r + 2 * dr, c + 2 * dc, k)
                     before = _at(uv, r - 2 * dr, c - 2 * dc, k)
                     step = _mean(((after - here) / 2, (here - before) / 2))
-                own[r, c, k] = step
-    for r in range(rows):
-        for c in range(cols):
-            for k in range(2):
-                step = own[r, c, k]
-                if np.isnan(step):
-                    beside = (
-                        _at(own, r, c + 1, k),
-                        _at(own, r + 1, c, k),
-                        _at(own, r, c - 1, k),
-                        _at(own, r - 1, c, k),
-                    )
-                    step = _mean(beside)
-                out[r, c, k] = step
+                own[r, c, k] = out[r, c, k] = step
+    for _ in range(reach):
+        for r in range(rows):
+            for c in range(cols):
+                for k in range(2):
+                    if np.isnan(own[r, c, k]):
+                        beside = (
+                            _at(own, r, c + 1, k),
+                            _at(own, r + 1, c, k),
+                            _at(own, r, c - 1, k),
+                            _at(own, r - 1, c, k),
+                        )
+                        out[r, c, k] = _mean(beside)
+        own[:] = out
 
 
 @compiled
@@ -90,12 +90,13 @@ def _predict(uv, out):  # type: ignore[no-untyped-def]
                 out[r, c, k] = expected
 
 
-def axes(uv: Array) -> tuple[Array, Array]:
-    """Steps (rows, cols, 2) to the next column and to the next row of a lattice, px."""
+def axes(uv: Array, reach: int) -> tuple[Array, Array]:
+    """Steps (rows, cols, 2) to the next column and to the next row of a lattice, px, where they
+    are unknown from up to `reach` places away."""
     uv = np.ascontiguousarray(uv)
     right, down = np.empty_like(uv), np.empty_like(uv)
-    _steps(uv, 0, 1, right)
-    _steps(uv, 1, 0, down)
+    _steps(uv, 0, 1, reach, right)
+    _steps(uv, 1, 0, reach, down)
     return right, down
 
 
