@@ -33,7 +33,7 @@ from typing import Any
 
 import numpy as np
 from scipy.spatial import cKDTree
-from scipy.stats import chi2, kurtosistest, norm
+from scipy.special import chdtri, ndtri
 
 from calibgui.engine import patterns
 from calibgui.engine.calibrate import calibrate
@@ -249,6 +249,8 @@ def _pattern(name: str, found: patterns.Explained, rms: float, advice: str) -> C
 
 def _shape(relative: Array) -> Check:
     """Gaussian or not, from residuals (n, 2) of unit variance."""
+    from scipy.stats import kurtosistest  # takes 0.3 s to import, which the window starts without
+
     square = np.sum(relative**2, axis=1)
     excess = float(np.mean(relative**4) / np.mean(relative**2) ** 2 - 3)
     # The median's square is 2 ln 2 sigma^2, which outliers do not move.
@@ -268,7 +270,7 @@ def _views(sigma: Array, freedom: Array, names: Sequence[str]) -> Check:
     bartlett = total * np.log(np.sum(freedom * sigma**2) / total)
     bartlett -= np.sum(freedom * np.log(sigma**2))
     bartlett /= 1 + (np.sum(1 / freedom) - 1 / total) / (3 * (K - 1))
-    passed = bool(bartlett < chi2.isf(_CHANCE, K - 1))
+    passed = bool(bartlett < chdtri(K - 1, _CHANCE))
     finding = f"sigma {sigma.min():.2g} to {sigma.max():.2g} px"
     if not passed:
         order = np.argsort(sigma)[::-1][:5].tolist()
@@ -288,7 +290,7 @@ def _neighbours(relative: Array, observations: Observations) -> Check:
         products += float(np.sum(r[near[:, 0]] * r[near[:, 1]]))
         pairs += len(near)
     correlation = products / max(2 * pairs, 1)
-    passed = bool(correlation * np.sqrt(2 * pairs) < norm.isf(_CHANCE))
+    passed = bool(correlation * np.sqrt(2 * pairs) < -ndtri(_CHANCE))
     return Check("neighbours", passed, f"correlation {correlation:+.2f}", _SMOOTH)
 
 
@@ -296,7 +298,7 @@ def _directions(residual: Array) -> Check:
     C = residual.T @ residual / len(residual)
     values, vectors = np.linalg.eigh(C)
     sphericity = -len(residual) * np.log(4 * np.linalg.det(C) / np.trace(C) ** 2)
-    passed = bool(sphericity < chi2.isf(_CHANCE, 2))
+    passed = bool(sphericity < chdtri(2, _CHANCE))
     low, high = np.sqrt(values)
     finding = f"sigma {low:.2g} to {high:.2g} px"
     if not passed:

@@ -24,7 +24,7 @@ from dataclasses import replace
 from typing import NamedTuple
 
 import numpy as np
-from scipy.stats import f as fisher
+from scipy.special import fdtrc
 
 from calibgui.engine.arrow import NormalEquations, normal_equations, schur
 from calibgui.engine.information import free_parameters, measured, state_of
@@ -126,7 +126,7 @@ def explained(T: float, rank: int, cost: float, freedom: int) -> Explained:
         return Explained(1.0, 0.0)
     variance = max(cost - T, 0.0) / rest
     ratio = T / rank / max(variance, 1e-300)
-    return Explained(float(fisher.sf(ratio, rank, rest)), max(T - rank * variance, 0.0) / cost)
+    return Explained(float(fdtrc(rank, rest, ratio)), max(T - rank * variance, 0.0) / cost)
 
 
 def by_plate(fit: Fitted, model: PlateModel) -> Explained:

@@ -119,6 +119,9 @@ def test_an_empty_window_is_there_at_once(tmp_path: Path) -> None:
         "window = MainWindow(); window.show(); app.processEvents()\n"
         "print(time.monotonic() - begun[0], time.process_time() - begun[1])\n"
         "window.close()\n"
+        "import sys\n"
+        "heavy = {'scipy.stats', 'numba', 'pyqtgraph', 'matplotlib'} & set(sys.modules)\n"
+        "assert not heavy, heavy\n"
     )
     env = {**os.environ, "QT_QPA_PLATFORM": "offscreen"}
     env |= dict.fromkeys(("XDG_STATE_HOME", "XDG_CONFIG_HOME"), str(tmp_path))
