@@ -6,7 +6,7 @@ from importlib import import_module
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from PySide6.QtCore import QEvent, QSettings, Qt
+from PySide6.QtCore import QEvent, QSettings, Qt, QTimer
 from PySide6.QtGui import QCloseEvent, QDragEnterEvent, QDropEvent
 from PySide6.QtWidgets import (
     QDockWidget,
@@ -155,8 +155,9 @@ class MainWindow(QMainWindow):
         self.session.jobs.start("", lambda _: import_module("calibgui.gui.analysis"))
 
     def _result_changed(self, result: Result | None) -> None:
-        if result is not None:
-            self.need_analysis()
+        if result is not None and self.analysis is None:
+            # In a turn of its own: what has been opened is on screen by then.
+            QTimer.singleShot(0, self, self.need_analysis)
 
     def show_failure(self, error: BaseException) -> None:
         """Say what cannot be done; report what should not have happened."""
