@@ -24,6 +24,8 @@ _ALONG = np.array([0.2, 0.3, 0.4])
 """Where on an arm profiles are taken, squares from the corner."""
 _REACH = 0.35
 """R, squares across the edge."""
+_CLOSE = 6.0
+"""Half width of the profile that tells the blur, px: samples of large squares lie too far apart."""
 _SAMPLES = 33
 _ENDS = 4
 """Samples at either end that give lo and hi."""
@@ -76,10 +78,15 @@ def across_edge(
     first, last = values[..., :_ENDS].mean(axis=2), values[..., -_ENDS:].mean(axis=2)
     rise = (last - first) * rising
     clear = rise > max(_CLEAR * float(np.median(rise)), 0.0)
-    share = (values - first[..., None]) / np.where(clear, rise * rising, np.inf)[..., None]
+    rise = np.where(clear, rise * rising, np.inf)[..., None]
+    share = (values - first[..., None]) / rise
     integral = (share.sum(axis=2) - share[..., [0, -1]].mean(axis=2)) * (o[1] - o[0])
     spread = np.where(clear.all(axis=1), np.mean((reach - integral) * rising, axis=1), np.nan)
-    between = ((share > 0.25) & (share < 0.75)).sum(axis=2) * (o[1] - o[0])
+    close = np.minimum(reach, _CLOSE / size)[:, None, None] * np.linspace(-1, 1, _SAMPLES)
+    at = uv[:, None, None] + s[:, None, None] * along[:, None, None]
+    at = at + ((reach - integral)[..., None] + close)[..., None] * across[:, None, None]
+    share = (opencv.sample(image, at) - first[..., None]) / rise
+    between = ((share > 0.25) & (share < 0.75)).sum(axis=2) * np.ptp(close, axis=2) / (_SAMPLES - 1)
     blur = size * np.median(between, axis=1) / _QUARTILES
     low = np.median(np.where(rising > 0, first, last), axis=1)
     high = np.median(np.where(rising > 0, last, first), axis=1)
