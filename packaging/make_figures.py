@@ -15,13 +15,13 @@ from calibgui.app.detection import find_views
 from calibgui.app.outputs import save_figure
 from calibgui.app.paths import find_images
 from calibgui.engine.calibrate import calibrate
-from calibgui.engine.difference import difference
+from calibgui.engine.estimation.projection import pixels
 from calibgui.engine.frames import rotation
-from calibgui.engine.next_view import next_views
-from calibgui.engine.projection import pixels
-from calibgui.engine.projection_uncertainty import projection_uncertainty
+from calibgui.engine.quality.difference import difference
+from calibgui.engine.quality.next_view import next_views
+from calibgui.engine.quality.projection_uncertainty import projection_uncertainty
+from calibgui.engine.quality.view_count import study
 from calibgui.engine.types import Camera, Observation, Target
-from calibgui.engine.view_count import study
 from calibgui.report import figures, quality_figures
 
 RESOURCES = Path(__file__).resolve().parents[1] / "resources"

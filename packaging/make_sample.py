@@ -20,9 +20,9 @@ import numpy.typing as npt
 from calibgui.engine.files import write_atomically
 from calibgui.engine.frames import rotation, rotation_vector
 from calibgui.engine.images import write_image
+from calibgui.engine.imaging.maps import project_points
+from calibgui.engine.imaging.render import Appearance, render
 from calibgui.engine.lens import MODELS
-from calibgui.engine.maps import project_points
-from calibgui.engine.render import Appearance, render
 from calibgui.engine.types import Array, Camera, Pose, Target
 
 FOLDER = Path(__file__).resolve().parents[1] / "resources" / "sample"

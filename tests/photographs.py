@@ -7,7 +7,7 @@ from pathlib import Path
 import numpy as np
 
 from calibgui.engine.images import write_image
-from calibgui.engine.render import render
+from calibgui.engine.imaging.render import render
 from calibgui.engine.types import Camera, Pose, Target
 from tests.engine import scenes
 

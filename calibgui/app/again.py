@@ -17,12 +17,12 @@ from calibgui.app.calibration import calibrate_views, short_names
 from calibgui.app.settings import USUAL, Settings
 from calibgui.app.workers import Crashed, spread
 from calibgui.engine.calibrate import calibrate
+from calibgui.engine.corners.identity import Placing, identified
+from calibgui.engine.corners.reextract import find_again
 from calibgui.engine.errors import CalibrationError
-from calibgui.engine.identity import Placing, identified
 from calibgui.engine.images import read_image
-from calibgui.engine.maps import project_points
-from calibgui.engine.reextract import find_again
-from calibgui.engine.repetition import settings_of
+from calibgui.engine.imaging.maps import project_points
+from calibgui.engine.quality.repetition import settings_of
 from calibgui.engine.targets.pattern import CHECKERBOARD
 from calibgui.engine.types import (
     Ambiguity,

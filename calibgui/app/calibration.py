@@ -14,8 +14,9 @@ from calibgui import engine
 from calibgui.app.marking import removed
 from calibgui.app.settings import USUAL, Settings
 from calibgui.engine.errors import CalibrationError
-from calibgui.engine.noise import calibrate_weighted
-from calibgui.engine.screening import screen
+from calibgui.engine.quality.noise import calibrate_weighted
+from calibgui.engine.quality.screening import screen
+from calibgui.engine.quality.validation import choose_plate
 from calibgui.engine.types import (
     Ambiguity,
     Calibration,
@@ -25,7 +26,6 @@ from calibgui.engine.types import (
     Report,
     View,
 )
-from calibgui.engine.validation import choose_plate
 from calibgui.formats.corners_json import CornerSet
 from calibgui.formats.result import Result
 from calibgui.report.numbers import counted
@@ -37,7 +37,7 @@ def calibrate_views(
     """Calibrate from the usable views of a set.
 
     Where the plate is left open the result's warnings say why which model was chosen. Outliers
-    are left out first (``engine.screening``): the result's views are without them, and its
+    are left out first (``engine.quality.screening``): the result's views are without them, and its
     warnings name them. Where views are weighed, the result's views have the covariances with
     which they were.
 

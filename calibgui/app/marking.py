@@ -8,11 +8,11 @@ from typing import Any
 
 import numpy as np
 
-from calibgui.engine import homography
 from calibgui.engine.corners import saddle
 from calibgui.engine.corners.junctions import classify, find_saddles
 from calibgui.engine.corners.ordering import ambiguity
 from calibgui.engine.errors import CalibrationError, NoBoardError
+from calibgui.engine.estimation import homography
 from calibgui.engine.opencv import Image
 from calibgui.engine.targets.pattern import CHECKERBOARD, Pattern
 from calibgui.engine.types import Array, Board, Corners, IntArray

@@ -17,13 +17,13 @@ from calibgui.app.outputs import make_folder
 from calibgui.app.paths import natural_key
 from calibgui.engine.errors import CalibrationError
 from calibgui.engine.images import Pixels, read_colour, write_image
-from calibgui.engine.types import Array, Camera, Pose, Size
-from calibgui.engine.undistort import (
+from calibgui.engine.imaging.undistort import (
     FieldOfView,
     Resampled,
     rectify_image,
     undistort_image,
 )
+from calibgui.engine.types import Array, Camera, Pose, Size
 from calibgui.formats.resampled_json import write_resampled
 from calibgui.formats.result import Result
 from calibgui.report.coverage import natural_scale, plate_extent

@@ -27,8 +27,8 @@ from calibgui.app.workers import Crashed, spread
 from calibgui.engine.calibrate import HELD
 from calibgui.engine.corners import METHODS
 from calibgui.engine.errors import CalibrationError, NoBoardError
-from calibgui.engine.maps import project_points
-from calibgui.engine.render import Appearance, render
+from calibgui.engine.imaging.maps import project_points
+from calibgui.engine.imaging.render import Appearance, render
 from calibgui.engine.types import (
     Array,
     Calibration,
@@ -115,7 +115,8 @@ def synthetic_check(
 def _board_of(calibration: Calibration) -> Appearance:
     """The board that the calibration believes in.
 
-    The paper's own grid makes its squares fx / fy as high as wide (``engine/stage_two.py``).
+    The paper's own grid makes its squares fx / fy as high as wide
+    (``engine/estimation/stage_two.py``).
     """
     fx, fy = calibration.camera.focal
     return Appearance(stretch=fx / fy if calibration.cost is Cost.PAPER else 1.0)

@@ -14,7 +14,7 @@ from calibgui.cli.arguments import search
 from calibgui.cli.console import Console
 from calibgui.engine.calibrate import parameter_names
 from calibgui.engine.images import read_image
-from calibgui.engine.undistort import board_extent, rectify_image, undistort_image
+from calibgui.engine.imaging.undistort import board_extent, rectify_image, undistort_image
 from calibgui.formats import export
 from calibgui.formats.result import Result
 from calibgui.formats.result_json import result_record

@@ -11,8 +11,8 @@ import numpy as np
 from calibgui.app.outputs import check_figure, save_figure
 from calibgui.cli.arguments import positive
 from calibgui.cli.console import Console
-from calibgui.engine.difference import Difference, difference
-from calibgui.engine.projection_uncertainty import projection_uncertainty
+from calibgui.engine.quality.difference import Difference, difference
+from calibgui.engine.quality.projection_uncertainty import projection_uncertainty
 from calibgui.formats.result import Result
 from calibgui.formats.result_json import read_result
 from calibgui.report import quality

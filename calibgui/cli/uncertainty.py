@@ -12,11 +12,11 @@ from calibgui.app.calibration import short_names
 from calibgui.app.outputs import check_figure, save_figure
 from calibgui.cli.arguments import positive
 from calibgui.cli.console import Console
-from calibgui.engine.noise import examine
-from calibgui.engine.projection_uncertainty import projection_uncertainty
-from calibgui.engine.repetition import settings_of
+from calibgui.engine.quality.noise import examine
+from calibgui.engine.quality.projection_uncertainty import projection_uncertainty
+from calibgui.engine.quality.repetition import settings_of
+from calibgui.engine.quality.validation import bootstrap, choose_plate, cross_validate
 from calibgui.engine.types import PlateModel
-from calibgui.engine.validation import bootstrap, choose_plate, cross_validate
 from calibgui.formats.result import Result
 from calibgui.formats.result_json import read_result
 from calibgui.report import quality

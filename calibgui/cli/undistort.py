@@ -10,7 +10,7 @@ from calibgui.app.resampling import undistort_files
 from calibgui.cli.arguments import add_images
 from calibgui.cli.console import Console
 from calibgui.cli.resampled import add_output, show_written
-from calibgui.engine.undistort import FieldOfView
+from calibgui.engine.imaging.undistort import FieldOfView
 from calibgui.formats.result_json import read_result
 
 

@@ -10,8 +10,8 @@ from threadpoolctl import threadpool_limits
 from calibgui.app.outputs import check_figure, save_figure
 from calibgui.cli.arguments import positive
 from calibgui.cli.console import Console
-from calibgui.engine.next_view import next_views
-from calibgui.engine.view_count import QUANTITIES, study
+from calibgui.engine.quality.next_view import next_views
+from calibgui.engine.quality.view_count import QUANTITIES, study
 from calibgui.formats.result_json import read_result
 from calibgui.report import quality
 

@@ -6,10 +6,11 @@ from calibgui.engine.calibrate import calibrate
 from calibgui.engine.corners import find_corners
 from calibgui.engine.errors import CalibrationError, Cancelled, DegenerateError, NoBoardError
 from calibgui.engine.images import Image, read_image
-from calibgui.engine.maps import distort_points, project_points, undistort_points
+from calibgui.engine.imaging.maps import distort_points, project_points, undistort_points
+from calibgui.engine.imaging.render import render
+from calibgui.engine.imaging.undistort import rectify_image, undistort_image
+from calibgui.engine.quality.statistics import Summary, summarise
 from calibgui.engine.refit import Refit, refit
-from calibgui.engine.render import render
-from calibgui.engine.statistics import Summary, summarise
 from calibgui.engine.targets.charuco import Charuco
 from calibgui.engine.targets.circles import Circles
 from calibgui.engine.targets.pattern import Checkerboard
@@ -27,7 +28,6 @@ from calibgui.engine.types import (
     View,
     ViewStatus,
 )
-from calibgui.engine.undistort import rectify_image, undistort_image
 
 __all__ = [
     "Ambiguity",

@@ -9,18 +9,26 @@ from typing import Any
 
 import numpy as np
 
-from calibgui.engine import uncertainty
-from calibgui.engine.degeneracy import diagnose, misfits
 from calibgui.engine.errors import CalibrationError, DegenerateError
+from calibgui.engine.estimation import uncertainty
+from calibgui.engine.estimation.degeneracy import diagnose, misfits
+from calibgui.engine.estimation.observations import (
+    REFERENCE_PITCH,
+    Observations,
+    pack,
+    pitch,
+    view_names,
+)
+from calibgui.engine.estimation.outcome import estimated, poses, residuals, stage_one_table
+from calibgui.engine.estimation.solving import reweighted, solved
+from calibgui.engine.estimation.stage_one import prealign
+from calibgui.engine.estimation.start import in_paper_frame, start_of_stage_two
+from calibgui.engine.estimation.weighting import weighted
 from calibgui.engine.lens import MODELS
-from calibgui.engine.observations import REFERENCE_PITCH, Observations, pack, pitch, view_names
-from calibgui.engine.outcome import estimated, poses, residuals, stage_one_table
-from calibgui.engine.plate import on_plate
-from calibgui.engine.plate_doubt import with_plate_doubt
-from calibgui.engine.plate_fit import fit_plate
-from calibgui.engine.solving import reweighted, solved
-from calibgui.engine.stage_one import prealign
-from calibgui.engine.start import in_paper_frame, start_of_stage_two
+from calibgui.engine.plate.deviations import on_plate
+from calibgui.engine.plate.doubt import with_plate_doubt
+from calibgui.engine.plate.fit import fit_plate
+from calibgui.engine.quality.view_scatter import with_view_scatter
 from calibgui.engine.threads import on_one_blas_thread
 from calibgui.engine.types import (
     Array,
@@ -34,8 +42,6 @@ from calibgui.engine.types import (
     Report,
     Size,
 )
-from calibgui.engine.view_scatter import with_view_scatter
-from calibgui.engine.weighting import weighted
 
 HELD = {"lucchese": ("p3",)}
 """Coefficients held at 0 unless freed: p3 multiplies p1 and p2 and is rarely determined."""

@@ -15,7 +15,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from calibgui.engine.calibrate import calibrate
-from calibgui.engine.projection import pixels, rays
+from calibgui.engine.estimation.projection import pixels, rays
 from calibgui.engine.types import Array, Calibration, Camera, Observation, PlateModel
 
 _STEPS = 64

@@ -16,7 +16,7 @@ import numpy as np
 
 from calibgui.engine import opencv
 from calibgui.engine.files import write_atomically
-from calibgui.engine.statistics import summarise
+from calibgui.engine.quality.statistics import summarise
 from calibgui.engine.types import Array, Calibration
 from calibgui.formats.exporter import Exporter, ExportReport
 from calibgui.formats.forward_model import forward, refit_note

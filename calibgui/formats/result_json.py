@@ -20,10 +20,11 @@ from typing import Any
 
 import numpy as np
 
-from calibgui.engine import frames, uncertainty
+from calibgui.engine import frames
 from calibgui.engine.calibrate import parameter_names
+from calibgui.engine.estimation import uncertainty
 from calibgui.engine.lens import MODELS, Lucchese
-from calibgui.engine.statistics import summarise
+from calibgui.engine.quality.statistics import summarise
 from calibgui.engine.types import (
     Array,
     Calibration,

@@ -24,7 +24,7 @@ from calibgui.app.resampling import Written, rectify_files, undistort_files
 from calibgui.app.resources import resource, sample_square
 from calibgui.engine.errors import CalibrationError
 from calibgui.engine.images import FORMATS
-from calibgui.engine.undistort import FieldOfView
+from calibgui.engine.imaging.undistort import FieldOfView
 from calibgui.gui.actions import show_dialog
 from calibgui.gui.calibrating import Calibrator
 from calibgui.gui.detecting import Detector

@@ -15,8 +15,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from calibgui.engine import frames
+from calibgui.engine.imaging.undistort import Extent, board_extent
 from calibgui.engine.types import Array, Calibration, IntArray, Observation, Size
-from calibgui.engine.undistort import Extent, board_extent
 from calibgui.formats.result import Result
 
 CELLS = (9, 6)

@@ -15,8 +15,10 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.ticker import MaxNLocator
 
-from calibgui.engine import cosines, frames, maps
-from calibgui.engine.statistics import (
+from calibgui.engine import frames
+from calibgui.engine.estimation import cosines
+from calibgui.engine.imaging import maps
+from calibgui.engine.quality.statistics import (
     Histogram,
     component_histogram,
     length_histogram,

@@ -5,9 +5,9 @@ from __future__ import annotations
 from matplotlib.figure import Figure
 
 from calibgui.engine.images import read_image
-from calibgui.engine.render import render
+from calibgui.engine.imaging.render import render
+from calibgui.engine.imaging.undistort import board_extent, rectify_image, undistort_image
 from calibgui.engine.types import Array
-from calibgui.engine.undistort import board_extent, rectify_image, undistort_image
 from calibgui.formats.result import Result
 from calibgui.report import figures
 from calibgui.report.printed import SHOWN_VIEW

@@ -7,10 +7,10 @@ from html import escape
 
 import numpy as np
 
+from calibgui.engine.estimation.uncertainty import paper_table
 from calibgui.engine.frames import PAPER_NAMES
-from calibgui.engine.statistics import summarise
+from calibgui.engine.quality.statistics import summarise
 from calibgui.engine.types import Array, Calibration
-from calibgui.engine.uncertainty import paper_table
 from calibgui.report import printed
 
 _UNITS = ("px", "px", "px⁻²", "px⁻⁴", "px⁻⁶", "px⁻¹", "px⁻¹", "px⁻²", "px", "px")

@@ -8,13 +8,13 @@ from collections.abc import Sequence
 import numpy as np
 
 from calibgui.engine.calibrate import parameter_names
-from calibgui.engine.difference import Difference
-from calibgui.engine.next_view import NextView
-from calibgui.engine.noise import NoiseReport
-from calibgui.engine.projection_uncertainty import ProjectionUncertainty
+from calibgui.engine.quality.difference import Difference
+from calibgui.engine.quality.next_view import NextView
+from calibgui.engine.quality.noise import NoiseReport
+from calibgui.engine.quality.projection_uncertainty import ProjectionUncertainty
+from calibgui.engine.quality.validation import Bootstrap, CrossValidation, PlateChoice
+from calibgui.engine.quality.view_count import QUANTITIES, ViewCount
 from calibgui.engine.types import Calibration
-from calibgui.engine.validation import Bootstrap, CrossValidation, PlateChoice
-from calibgui.engine.view_count import QUANTITIES, ViewCount
 from calibgui.report.numbers import counted
 from calibgui.report.tables import aligned, bullet
 

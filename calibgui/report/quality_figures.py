@@ -10,11 +10,11 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import FuncFormatter, MaxNLocator
 from scipy.spatial import ConvexHull
 
-from calibgui.engine.difference import Difference
-from calibgui.engine.next_view import NextView
-from calibgui.engine.projection_uncertainty import ProjectionUncertainty
+from calibgui.engine.quality.difference import Difference
+from calibgui.engine.quality.next_view import NextView
+from calibgui.engine.quality.projection_uncertainty import ProjectionUncertainty
+from calibgui.engine.quality.view_count import QUANTITIES, ViewCount
 from calibgui.engine.types import Array, Observation, Size
-from calibgui.engine.view_count import QUANTITIES, ViewCount
 from calibgui.report.quality import where
 
 _WIDTH = 6.4

@@ -16,9 +16,9 @@ from itertools import combinations
 import numpy as np
 
 from calibgui.engine.calibrate import parameter_names
-from calibgui.engine.statistics import summarise
+from calibgui.engine.estimation.uncertainty import correlations
+from calibgui.engine.quality.statistics import summarise
 from calibgui.engine.types import Array, Calibration, Plate, Status
-from calibgui.engine.uncertainty import correlations
 from calibgui.formats.result import Result
 from calibgui.report.coverage import attitudes, density
 from calibgui.report.numbers import counted, with_sigma

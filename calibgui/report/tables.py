@@ -13,11 +13,11 @@ from pathlib import PurePath
 
 import numpy as np
 
-from calibgui.engine import uncertainty
 from calibgui.engine.calibrate import parameter_names
+from calibgui.engine.estimation import uncertainty
 from calibgui.engine.frames import PAPER_NAMES
 from calibgui.engine.lens import MODELS, Lucchese
-from calibgui.engine.statistics import summarise
+from calibgui.engine.quality.statistics import summarise
 from calibgui.engine.types import Ambiguity, Calibration, Cost, View, ViewStatus
 from calibgui.formats.result import Result
 from calibgui.report.coverage import attitudes

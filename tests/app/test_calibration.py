@@ -11,8 +11,8 @@ from calibgui.app.calibration import calibrate_views, short_names
 from calibgui.app.settings import Settings
 from calibgui.engine import CalibrationError, Cancelled, Iteration, Observation, View, ViewStatus
 from calibgui.engine.calibrate import calibrate
+from calibgui.engine.estimation.projection import pixels
 from calibgui.engine.frames import rotation
-from calibgui.engine.projection import pixels
 from calibgui.engine.types import Array, Cost
 from calibgui.formats.corners_json import CornerSet
 from tests.engine import scenes

@@ -14,7 +14,7 @@ from calibgui.app.detection import Detection, find_views, search_view, usual_boa
 from calibgui.app.paths import find_images
 from calibgui.engine import Ambiguity, CalibrationError, Cancelled, Corners, View, ViewStatus
 from calibgui.engine.images import read_image, write_image
-from calibgui.engine.maps import project_points
+from calibgui.engine.imaging.maps import project_points
 from calibgui.engine.types import frozen
 from tests.photographs import BOARD, CAMERA, COUNT, poses
 

@@ -10,7 +10,7 @@ import pytest
 from calibgui.app import marking
 from calibgui.engine.corners import find_corners
 from calibgui.engine.errors import CalibrationError, NoBoardError
-from calibgui.engine.render import render
+from calibgui.engine.imaging.render import render
 from calibgui.engine.targets.circles import Circles
 from calibgui.engine.types import Array, Camera, Corners, Target
 from tests.engine import scenes

@@ -15,8 +15,8 @@ from calibgui.app.calibration import calibrate_views
 from calibgui.app.detection import find_views
 from calibgui.app.settings import Settings
 from calibgui.app.synthetic import synthetic_check
+from calibgui.engine.estimation.uncertainty import paper_table
 from calibgui.engine.types import Array, Cost, Target
-from calibgui.engine.uncertainty import paper_table
 from calibgui.formats.corners_json import CornerSet
 from calibgui.formats.result import Result
 

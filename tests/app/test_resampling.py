@@ -15,8 +15,8 @@ from calibgui.app.resampling import GEOMETRY, Written, rectify_files, undistort_
 from calibgui.engine import CalibrationError, Cancelled, Corners, View, ViewStatus
 from calibgui.engine.corners import find_corners
 from calibgui.engine.images import read_image, write_image
-from calibgui.engine.maps import distort_points
-from calibgui.engine.undistort import FieldOfView
+from calibgui.engine.imaging.maps import distort_points
+from calibgui.engine.imaging.undistort import FieldOfView
 from calibgui.formats.corners_json import CornerSet
 from calibgui.formats.result import Result
 from tests.engine import scenes

@@ -33,15 +33,22 @@ import numpy as np
 from matplotlib.figure import Figure
 from threadpoolctl import threadpool_limits
 
-from calibgui.engine import frames, problem, uncertainty
+from calibgui.engine import frames
 from calibgui.engine.calibrate import calibrate, parameter_names
+from calibgui.engine.estimation import problem, uncertainty
+from calibgui.engine.estimation.levenberg_marquardt import minimise
+from calibgui.engine.estimation.observations import (
+    REFERENCE_PITCH,
+    Observations,
+    pack,
+    pitch,
+    view_names,
+)
+from calibgui.engine.estimation.stage_one import prealign
+from calibgui.engine.estimation.stage_two import State
+from calibgui.engine.estimation.start import in_paper_frame, start_of_stage_two
 from calibgui.engine.kernels import common
 from calibgui.engine.lens import MODELS
-from calibgui.engine.levenberg_marquardt import minimise
-from calibgui.engine.observations import REFERENCE_PITCH, Observations, pack, pitch, view_names
-from calibgui.engine.stage_one import prealign
-from calibgui.engine.stage_two import State
-from calibgui.engine.start import in_paper_frame, start_of_stage_two
 from calibgui.engine.types import Cost, Observation
 from tests.engine.scenes import VGA, Target, brown, looking, seen
 

@@ -14,7 +14,7 @@ import pytest
 from calibgui.cli.main import main
 from calibgui.engine.calibrate import parameter_names
 from calibgui.engine.images import write_image
-from calibgui.engine.maps import project_points
+from calibgui.engine.imaging.maps import project_points
 from calibgui.engine.types import Pose
 from calibgui.formats.result_json import read_result
 from tests.photographs import BOARD, CAMERA, COUNT

@@ -12,7 +12,7 @@ import pytest
 from calibgui.app.synthetic import synthetic_check
 from calibgui.cli.main import main
 from calibgui.engine.images import write_image
-from calibgui.engine.render import render
+from calibgui.engine.imaging.render import render
 from calibgui.engine.targets.charuco import Charuco
 from calibgui.engine.targets.circles import Circles
 from calibgui.engine.types import Camera, Target

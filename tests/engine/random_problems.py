@@ -14,10 +14,10 @@ from scipy.spatial.transform import Rotation
 
 from calibgui.engine.calibrate import calibrate
 from calibgui.engine.errors import CalibrationError
-from calibgui.engine.levenberg_marquardt import minimise
-from calibgui.engine.observations import pack
-from calibgui.engine.problem import stage_two
-from calibgui.engine.stage_two import State
+from calibgui.engine.estimation.levenberg_marquardt import minimise
+from calibgui.engine.estimation.observations import pack
+from calibgui.engine.estimation.problem import stage_two
+from calibgui.engine.estimation.stage_two import State
 from calibgui.engine.types import Camera, Cost, Observation, Pose, Size, Status
 from tests.engine.scenes import Scene, looking, seen
 

@@ -10,7 +10,7 @@ from pathlib import Path
 import numpy as np
 from scipy.spatial.transform import Rotation
 
-from calibgui.engine.projection import pixels
+from calibgui.engine.estimation.projection import pixels
 from calibgui.engine.types import Array, Camera, Observation, Pose, Size, Target
 
 VGA: Size = (640, 480)

@@ -10,16 +10,16 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from calibgui.engine import uncertainty
 from calibgui.engine.calibrate import HELD, parameter_names
-from calibgui.engine.information import state_of
+from calibgui.engine.estimation import uncertainty
+from calibgui.engine.estimation.levenberg_marquardt import minimise
+from calibgui.engine.estimation.observations import pack
+from calibgui.engine.estimation.outcome import estimated
+from calibgui.engine.estimation.problem import stage_two
 from calibgui.engine.lens import MODELS
-from calibgui.engine.levenberg_marquardt import minimise
-from calibgui.engine.observations import pack
-from calibgui.engine.outcome import estimated
-from calibgui.engine.problem import stage_two
+from calibgui.engine.quality.information import state_of
+from calibgui.engine.quality.view_scatter import with_view_scatter
 from calibgui.engine.types import Camera, Cost
-from calibgui.engine.view_scatter import with_view_scatter
 from tests.engine.scenes import barrel, brown, scene
 
 DRAWS = 500

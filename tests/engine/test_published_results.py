@@ -9,9 +9,9 @@ import pytest
 from scipy.io import loadmat
 
 from calibgui.engine.calibrate import calibrate
-from calibgui.engine.statistics import summarise
+from calibgui.engine.estimation.uncertainty import paper_table
+from calibgui.engine.quality.statistics import summarise
 from calibgui.engine.types import Array, Calibration, Observation, Size, Status
-from calibgui.engine.uncertainty import paper_table
 from tests.engine.scenes import stored
 
 pytestmark = pytest.mark.data

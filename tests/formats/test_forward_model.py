@@ -6,7 +6,7 @@ import cv2
 import numpy as np
 import pytest
 
-from calibgui.engine.projection import rays
+from calibgui.engine.estimation.projection import rays
 from calibgui.engine.refit import Refit
 from calibgui.engine.types import Array
 from calibgui.formats.forward_model import forward, refit_note

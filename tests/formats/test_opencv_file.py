@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 
 from calibgui.engine import frames
-from calibgui.engine.projection import pixels
+from calibgui.engine.estimation.projection import pixels
 from calibgui.engine.types import Array
 from calibgui.formats.forward_model import forward
 from calibgui.formats.opencv_file import storage, write_opencv

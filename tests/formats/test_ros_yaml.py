@@ -11,7 +11,7 @@ import yaml
 from hypothesis import given
 from hypothesis import strategies as st
 
-from calibgui.engine.projection import pixels
+from calibgui.engine.estimation.projection import pixels
 from calibgui.formats.forward_model import forward
 from calibgui.formats.result import Result
 from calibgui.formats.ros_yaml import _number, write_ros

@@ -31,7 +31,7 @@ from pytestqt.qtbot import QtBot
 import calibgui.gui
 from calibgui.app.document import Document
 from calibgui.engine.images import Image
-from calibgui.engine.noise import NoiseReport
+from calibgui.engine.quality.noise import NoiseReport
 from calibgui.engine.types import Target
 from calibgui.formats import EXPORTERS
 from calibgui.gui import app

@@ -13,7 +13,7 @@ import pytest
 
 from calibgui.engine.frames import rotation
 from calibgui.engine.images import read_image
-from calibgui.engine.maps import project_points
+from calibgui.engine.imaging.maps import project_points
 
 ROOT = Path(__file__).resolve().parents[2]
 FOLDER = ROOT / "resources" / "sample"

@@ -6,12 +6,12 @@ import numpy as np
 import pytest
 
 from calibgui.engine.calibrate import calibrate
-from calibgui.engine.difference import difference
-from calibgui.engine.noise import examine
-from calibgui.engine.projection_uncertainty import projection_uncertainty
+from calibgui.engine.quality.difference import difference
+from calibgui.engine.quality.noise import examine
+from calibgui.engine.quality.projection_uncertainty import projection_uncertainty
+from calibgui.engine.quality.validation import Bootstrap, bootstrap, choose_plate, cross_validate
+from calibgui.engine.quality.view_count import ViewCount, study
 from calibgui.engine.types import Calibration, Observation
-from calibgui.engine.validation import Bootstrap, bootstrap, choose_plate, cross_validate
-from calibgui.engine.view_count import ViewCount, study
 from calibgui.report import quality, quality_figures
 from tests.engine.scenes import barrel, scene
 

@@ -14,8 +14,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from calibgui.engine import homography
 from calibgui.engine.corners.lattice import Lattice
+from calibgui.engine.estimation import homography
 from calibgui.engine.types import Array, IntArray
 
 _DEGREES = np.array([(1, 16), (2, 20), (3, 26), (4, 45)])

@@ -17,7 +17,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from calibgui.engine import homography
+from calibgui.engine.estimation import homography
 from calibgui.engine.types import Array, BoolArray
 
 _HIGHEST = 7

@@ -1,6 +1,7 @@
 """The plate's part of the normal equations, compiled.
 
-``plate.corner_products``, and ``problem.view_products`` of a plate that follows the camera.
+``plate.deviations.corner_products``, and ``problem.view_products`` of a plate that follows the
+camera.
 """
 
 from __future__ import annotations

@@ -24,7 +24,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from scipy.spatial import cKDTree
 
-from calibgui.engine import homography, opencv
+from calibgui.engine import opencv
 from calibgui.engine.corners import edges, harris, saddle, verify
 from calibgui.engine.corners import roi as region
 from calibgui.engine.corners.edges import Fit
@@ -32,6 +32,7 @@ from calibgui.engine.corners.extract import grey_levels
 from calibgui.engine.corners.lattice import Lattice
 from calibgui.engine.corners.located import rejections
 from calibgui.engine.errors import CalibrationError, NoBoardError
+from calibgui.engine.estimation import homography
 from calibgui.engine.images import stretched
 from calibgui.engine.opencv import Image
 from calibgui.engine.targets.ink import Ink, Raster

@@ -29,7 +29,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from calibgui.engine import homography
+from calibgui.engine.estimation import homography
 from calibgui.engine.types import Array
 
 _HIGHEST = 5

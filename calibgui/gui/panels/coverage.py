@@ -9,7 +9,7 @@ from PySide6.QtGui import QColor
 from PySide6.QtWidgets import QLabel, QVBoxLayout
 from scipy.spatial import ConvexHull
 
-from calibgui.engine.next_view import NextView, next_views
+from calibgui.engine.quality.next_view import NextView, next_views
 from calibgui.formats.result import Result
 from calibgui.gui import theme
 from calibgui.gui.jobs import Jobs

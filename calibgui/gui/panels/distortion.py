@@ -11,7 +11,7 @@ from PySide6.QtWidgets import QCheckBox, QComboBox, QHBoxLayout, QLabel, QVBoxLa
 from scipy.spatial import Delaunay
 
 from calibgui.engine.frames import centre_of_array
-from calibgui.engine.maps import Displacement, Part, displacement
+from calibgui.engine.imaging.maps import Displacement, Part, displacement
 from calibgui.engine.types import Array, BoolArray, Size
 from calibgui.formats.result import Result
 from calibgui.gui.panels.arrows import arrows

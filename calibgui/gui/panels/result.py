@@ -10,8 +10,8 @@ from PySide6.QtCore import QT_TRANSLATE_NOOP
 from PySide6.QtWidgets import QTabWidget, QTextBrowser, QVBoxLayout
 
 from calibgui.engine.calibrate import parameter_names
+from calibgui.engine.estimation.uncertainty import correlations, paper_table
 from calibgui.engine.frames import PAPER_NAMES
-from calibgui.engine.uncertainty import correlations, paper_table
 from calibgui.formats.result import Result
 from calibgui.gui import theme
 from calibgui.gui.panels.estimates import estimate_columns

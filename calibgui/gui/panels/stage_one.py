@@ -12,7 +12,7 @@ from PySide6.QtCore import QT_TRANSLATE_NOOP
 from PySide6.QtWidgets import QVBoxLayout
 
 from calibgui.app.calibration import short_names
-from calibgui.engine.cosines import cosines_equation
+from calibgui.engine.estimation.cosines import cosines_equation
 from calibgui.engine.types import Array, BoolArray, Cost, StageOne
 from calibgui.formats.result import Result
 from calibgui.gui import theme

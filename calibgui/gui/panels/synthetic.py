@@ -17,8 +17,8 @@ from PySide6.QtWidgets import (
 from calibgui.app.calibration import short_names
 from calibgui.app.synthetic import BLUR, SyntheticCheck, synthetic_check
 from calibgui.engine.images import Image
-from calibgui.engine.render import render
-from calibgui.engine.statistics import summarise
+from calibgui.engine.imaging.render import render
+from calibgui.engine.quality.statistics import summarise
 from calibgui.formats.result import Result
 from calibgui.gui.jobs import Job, Jobs
 from calibgui.gui.panels.before_after import BeforeAfter, Grey

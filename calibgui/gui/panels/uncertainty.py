@@ -9,7 +9,10 @@ import pyqtgraph as pg
 from PySide6.QtCore import QT_TRANSLATE_NOOP, QPointF, QRectF
 from PySide6.QtWidgets import QDoubleSpinBox, QHBoxLayout, QLabel, QVBoxLayout
 
-from calibgui.engine.projection_uncertainty import ProjectionUncertainty, projection_uncertainty
+from calibgui.engine.quality.projection_uncertainty import (
+    ProjectionUncertainty,
+    projection_uncertainty,
+)
 from calibgui.formats.result import Result
 from calibgui.gui.jobs import Jobs
 from calibgui.gui.panels.contours import Contours

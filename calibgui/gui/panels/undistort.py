@@ -10,7 +10,7 @@ from PySide6.QtWidgets import QComboBox, QHBoxLayout, QLabel, QPushButton, QVBox
 
 from calibgui.app.calibration import short_names
 from calibgui.engine.images import Image
-from calibgui.engine.undistort import FieldOfView, rectify_image, undistort_image
+from calibgui.engine.imaging.undistort import FieldOfView, rectify_image, undistort_image
 from calibgui.formats.result import Result
 from calibgui.gui.jobs import Jobs
 from calibgui.gui.panels.before_after import BeforeAfter, Grey

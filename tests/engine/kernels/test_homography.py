@@ -5,7 +5,8 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from calibgui.engine import homography, kernels
+from calibgui.engine import kernels
+from calibgui.engine.estimation import homography
 
 pytestmark = pytest.mark.skipif(not kernels.COMPILED, reason="numba is not installed")
 

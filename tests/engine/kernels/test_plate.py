@@ -8,12 +8,12 @@ import numpy as np
 import pytest
 
 from calibgui.engine import kernels
-from calibgui.engine.observations import Observations, pack
-from calibgui.engine.plate import corner_products, corners_of
-from calibgui.engine.problem import Following, view_products
-from calibgui.engine.stage_two import State
+from calibgui.engine.estimation.observations import Observations, pack
+from calibgui.engine.estimation.problem import Following, view_products
+from calibgui.engine.estimation.stage_two import State
+from calibgui.engine.estimation.weighting import weighted
+from calibgui.engine.plate.deviations import corner_products, corners_of
 from calibgui.engine.types import Array
-from calibgui.engine.weighting import weighted
 from tests.engine.kernels.test_stage_two import CAMERAS, scene
 
 pytestmark = pytest.mark.skipif(not kernels.COMPILED, reason="numba is not installed")

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from calibgui.engine import kernels
-from calibgui.engine.stage_one import prealign
+from calibgui.engine.estimation.stage_one import prealign
 
 pytestmark = pytest.mark.skipif(not kernels.COMPILED, reason="numba is not installed")
 

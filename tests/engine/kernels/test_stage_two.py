@@ -7,12 +7,13 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from calibgui.engine import kernels, problem
+from calibgui.engine import kernels
 from calibgui.engine.calibrate import parameter_names
+from calibgui.engine.estimation import problem
+from calibgui.engine.estimation.observations import pack
+from calibgui.engine.estimation.projection import pixels
+from calibgui.engine.estimation.stage_two import State
 from calibgui.engine.frames import rotation
-from calibgui.engine.observations import pack
-from calibgui.engine.projection import pixels
-from calibgui.engine.stage_two import State
 from calibgui.engine.types import Camera, Cost, Observation, Target
 
 pytestmark = pytest.mark.skipif(not kernels.COMPILED, reason="numba is not installed")

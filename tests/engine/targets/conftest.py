@@ -8,9 +8,9 @@ import numpy as np
 import pytest
 
 from calibgui.engine.frames import rotation
-from calibgui.engine.maps import project_points
+from calibgui.engine.imaging.maps import project_points
+from calibgui.engine.imaging.render import render
 from calibgui.engine.opencv import Image
-from calibgui.engine.render import render
 from calibgui.engine.types import Array, Camera, Corners, Pose, Target
 
 CAMERA = Camera((1000, 750), [860.0, 863.0, 500.0, 370.0, 0.1, 0.02, 0.0, 1e-4, 0.0, 0.0])

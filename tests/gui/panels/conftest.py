@@ -13,8 +13,8 @@ from PySide6.QtWidgets import QApplication, QWidget
 from pytestqt.qtbot import QtBot
 
 from calibgui import engine
+from calibgui.engine.estimation.projection import pixels
 from calibgui.engine.frames import rotation
-from calibgui.engine.projection import pixels
 from calibgui.engine.types import Array, Camera, Corners, Pose, View, ViewStatus
 from calibgui.formats.result import Result
 from calibgui.gui.jobs import Jobs

@@ -7,7 +7,7 @@ import pytest
 from PySide6.QtCore import Qt
 from pytestqt.qtbot import QtBot
 
-from calibgui.engine.statistics import component_histogram, length_histogram, stacked
+from calibgui.engine.quality.statistics import component_histogram, length_histogram, stacked
 from calibgui.formats.result import Result
 from calibgui.gui.panels.histograms import HistogramsPanel
 from tests.gui.panels.conftest import Shown

@@ -13,8 +13,8 @@ from PySide6.QtCore import Qt
 from pytestqt.qtbot import QtBot
 
 from calibgui.app.calibration import short_names
-from calibgui.engine.noise import NoiseReport, examine
-from calibgui.engine.statistics import stacked, summarise
+from calibgui.engine.quality.noise import NoiseReport, examine
+from calibgui.engine.quality.statistics import stacked, summarise
 from calibgui.engine.types import Array
 from calibgui.formats.result import Result
 from calibgui.gui.jobs import Jobs

@@ -11,8 +11,8 @@ import pytest
 from PySide6.QtCore import QPoint, Qt
 from pytestqt.qtbot import QtBot
 
+from calibgui.engine.estimation.uncertainty import correlations, paper_table
 from calibgui.engine.types import Undetermined
-from calibgui.engine.uncertainty import correlations, paper_table
 from calibgui.formats.result import Result
 from calibgui.gui.panels.result import ResultPanel
 from calibgui.gui.tables import Table

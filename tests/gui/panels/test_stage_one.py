@@ -11,7 +11,7 @@ import pytest
 from PySide6.QtCore import Qt
 from pytestqt.qtbot import QtBot
 
-from calibgui.engine.cosines import cosines_equation
+from calibgui.engine.estimation.cosines import cosines_equation
 from calibgui.formats.result import Result
 from calibgui.gui.panels.stage_one import StageOnePanel
 from tests.gui.panels.conftest import Shown, click

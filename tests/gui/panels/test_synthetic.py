@@ -14,8 +14,8 @@ from pytestqt.qtbot import QtBot
 
 from calibgui.app.synthetic import BLUR, SyntheticCheck, synthetic_check
 from calibgui.engine.images import Image
-from calibgui.engine.render import render
-from calibgui.engine.statistics import component_histogram, length_histogram, stacked
+from calibgui.engine.imaging.render import render
+from calibgui.engine.quality.statistics import component_histogram, length_histogram, stacked
 from calibgui.formats.result import Result
 from calibgui.gui.jobs import Jobs
 from calibgui.gui.panels.synthetic import SyntheticPanel, pictures

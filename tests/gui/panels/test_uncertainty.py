@@ -9,7 +9,10 @@ import pytest
 from PySide6.QtCore import QPointF, Qt
 from pytestqt.qtbot import QtBot
 
-from calibgui.engine.projection_uncertainty import ProjectionUncertainty, projection_uncertainty
+from calibgui.engine.quality.projection_uncertainty import (
+    ProjectionUncertainty,
+    projection_uncertainty,
+)
 from calibgui.formats.result import Result
 from calibgui.gui.jobs import Jobs
 from calibgui.gui.panels.uncertainty import UncertaintyPanel

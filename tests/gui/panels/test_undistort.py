@@ -13,8 +13,8 @@ from pytestqt.qtbot import QtBot
 
 from calibgui.engine.errors import CalibrationError
 from calibgui.engine.images import Image
+from calibgui.engine.imaging.undistort import rectify_image, undistort_image
 from calibgui.engine.types import Array
-from calibgui.engine.undistort import rectify_image, undistort_image
 from calibgui.formats.result import Result
 from calibgui.gui.jobs import Jobs
 from calibgui.gui.panels.undistort import RECTIFIED, UndistortPanel

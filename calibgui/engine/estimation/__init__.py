@@ -1,0 +1,1 @@
+"""The paper's two stages as an estimator: start, joint solve, covariances."""

@@ -1,0 +1,159 @@
+"""Levenberg-Marquardt for arrow-shaped normal equations (``arrow.py``).
+
+Marquardt's damping lambda diag(J^T J) makes the steps independent of the parameters' units.
+
+The iteration has converged when the decrease that the linear model still predicts is below
+1e-12 of the cost: the unknowns are then within about 1e-6 sqrt(2N) of their standard
+deviations of the minimum. A slight step that does what was foreseen leaves J^T J as it was but
+for a hundredth: its factors serve again.
+"""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Sequence
+from typing import NamedTuple
+
+import numpy as np
+
+from calibgui.engine.errors import CalibrationError
+from calibgui.engine.estimation.arrow import NormalAt, NormalEquations, factored, schur, solve
+from calibgui.engine.estimation.stage_two import State
+from calibgui.engine.types import Array, IntArray, Iteration, Report, Status
+
+_CONVERGED = 1e-12
+_SLIGHT = 1e-4
+"""Decrease of a step, relative to the cost, that leaves J^T J as it was to a hundredth."""
+_SETTLED = 1e-6
+"""Decrease that a full step still predicts, relative to the cost, where damped ones fail."""
+_ROUNDING = 1e-26
+"""Cost below which the residuals are rounding errors, relative to the squared data."""
+_DAMPING = 1e-6
+"""To start with: less than the information that good views leave (``uncertainty.py``)."""
+_MAX_DAMPING = 1e12
+
+
+class StartError(CalibrationError):
+    """The residuals at the start have no value."""
+
+
+class Solution(NamedTuple):
+    """Where the iteration ended."""
+
+    state: State
+    normal: NormalEquations
+    """At `state`, undamped."""
+    history: tuple[Iteration, ...]
+    status: Status
+    barred: bool = False
+    """Whether it did not converge and states without residuals barred its way."""
+
+
+def minimise(
+    normal_at: NormalAt,
+    start: State,
+    free: IntArray,
+    count: int,
+    data_square: float,
+    report: Report | None = None,
+    max_iterations: int = 100,
+    earlier: Sequence[Iteration] = (),
+) -> Solution:
+    """Minimise the sum of squared residuals.
+
+    Args:
+        normal_at: the problem.
+        start: where to begin.
+        free: (P,) indices of the shared parameters that may move.
+        count: number of corners, for the RMS of the iteration records.
+        data_square: sum of the squared data, which sets the level of rounding errors.
+        report: told of each iteration; may stop it.
+        max_iterations: accepted and rejected steps together.
+        earlier: iterations of the solve that this one continues, with its last damping.
+
+    Raises:
+        StartError: if the residuals at the start are not finite.
+        Cancelled: from `report`.
+    """
+    began = time.perf_counter() - (earlier[-1].seconds if earlier else 0.0)
+    state, damping = start, earlier[-1].damping if earlier else _DAMPING
+    normal = normal_at(state)
+    if not np.isfinite(normal.cost):
+        raise StartError(
+            "The closed-form start does not reproject the corners.",
+            "Check that the views number their corners alike and come from one camera.",
+        )
+    history = list(earlier)
+    barred, kept = False, None
+
+    def record(step: float) -> bool:
+        iteration = Iteration(
+            index=len(history),
+            cost=normal.cost,
+            rms=float(np.sqrt(normal.cost / count)),
+            gradient=_scaled_gradient(normal),
+            step=step,
+            damping=damping,
+            seconds=time.perf_counter() - began,
+        )
+        history.append(iteration)
+        return report is None or report(iteration)
+
+    def ended(status: Status) -> Solution:
+        return Solution(state, normal, tuple(history), status)
+
+    if not earlier and not record(0.0):
+        return ended(Status.STOPPED)
+    for _ in range(max_iterations):
+        kept = kept.at(normal) if kept else factored(schur(normal, damping))
+        by_shared, by_pose = kept.step(normal)
+        decrease = _decrease(normal, by_shared, by_pose)
+        small = decrease <= _CONVERGED * normal.cost
+        exact = normal.cost <= _ROUNDING * data_square
+        if small or exact or damping > _MAX_DAMPING:
+            break
+        full = np.zeros(len(state.params))
+        full[free] = by_shared
+        trial = state.moved(full, by_pose)
+        trial_normal = normal_at(trial)
+        if trial_normal.cost < normal.cost:
+            length = _scaled_length(normal, by_shared, by_pose)
+            gained = normal.cost - trial_normal.cost
+            foreseen = damping <= _DAMPING and abs(gained - decrease) <= 0.1 * decrease
+            if not foreseen or decrease > _SLIGHT * normal.cost:
+                kept = None
+            state, normal = trial, trial_normal
+            damping = max(damping / 10, 1e-12)
+            if not record(length):
+                return ended(Status.STOPPED)
+        else:
+            damping *= 10
+            kept = None
+            barred |= not np.isfinite(trial_normal.cost)
+    else:
+        return ended(Status.MAX_ITERATIONS)._replace(barred=barred)
+    # Damping makes steps small as well, against a wall of states that cannot be imaged; not
+    # where it is below the information that rounding leaves (1e-12) over `_SETTLED`.
+    slight = exact or (small and damping * 1e12 <= _SETTLED / _CONVERGED)
+    if slight or _decrease(normal, *solve(normal, 0.0)) <= _SETTLED * normal.cost:
+        return ended(Status.CONVERGED)
+    return ended(Status.MAX_ITERATIONS)._replace(barred=barred)
+
+
+def _decrease(normal: NormalEquations, by_shared: Array, by_pose: Array) -> float:
+    """Decrease of the cost that the linear model predicts of a step, without its curvature."""
+    return -float(by_shared @ normal.shared + np.sum(by_pose * normal.pose))
+
+
+def _scaled_gradient(normal: NormalEquations) -> float:
+    """Largest gradient entry, unknowns scaled to a unit diagonal of J^T J."""
+    shared = np.abs(normal.shared) / np.sqrt(np.maximum(np.diag(normal.U), 1e-300))
+    poses = np.abs(normal.pose) / np.sqrt(np.diagonal(normal.V, axis1=1, axis2=2))
+    return float(max(shared.max(initial=0.0), poses.max(initial=0.0)))
+
+
+def _scaled_length(normal: NormalEquations, by_shared: Array, by_pose: Array) -> float:
+    """Root mean square change of the residuals' scale that a step makes, unknowns scaled alike."""
+    square = np.sum(np.diag(normal.U) * by_shared**2)
+    square += np.sum(np.diagonal(normal.V, axis1=1, axis2=2) * by_pose**2)
+    return float(np.sqrt(square))

@@ -1,0 +1,151 @@
+"""Stage II from its start to the minimum, past what can keep it from there.
+
+Tilts that the start mistook for their mirror images are righted (``tilts.py``).
+
+The correction of a pincushion lens folds over beyond its outermost corners, and the image cost
+has no value where a fold comes before them: neither at a start beyond it nor on a way through
+it. Registration on the reference plane always has one; with the lower terms of the lens only,
+its solution mostly folds outside. For lenses on the brink of it the solution's coefficients are
+weakened until all corners have an image.
+
+The same detour is taken where the solve was slow. It has then crept along a valley that the
+views hardly bar, of which there can be several in few and noisy views, and the lower end counts.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+
+import numpy as np
+
+from calibgui.engine.estimation import problem
+from calibgui.engine.estimation.arrow import NormalAt
+from calibgui.engine.estimation.levenberg_marquardt import Solution, StartError, minimise
+from calibgui.engine.estimation.observations import Observations
+from calibgui.engine.estimation.stage_two import State
+from calibgui.engine.estimation.tilts import righted
+from calibgui.engine.estimation.weighting import model_variance, weighted
+from calibgui.engine.types import Cost, IntArray, Iteration, Report, Status
+
+_REWEIGHTINGS = 4
+"""Rounds of estimating the model's own errors; each changes the weights ten times less."""
+_TURNS = 3
+"""Rounds of righting tilts: some righted better the camera that tells the others."""
+_SLOW = 15
+"""Iterations beyond which another way is tried; one in thirty wild problems takes as many."""
+_SAME = 1e-9
+"""Difference of costs, relative, that is none."""
+_FIRST_COEFFICIENT = 4
+_WEAKER = 0.99
+_WEAKENINGS = 10
+_LOWER = 6
+"""Number of the camera's parameters up to k2: focal lengths, centre, k1, k2 in every model."""
+
+
+def solved(
+    observations: Observations,
+    start: State,
+    *,
+    model: str,
+    cost: Cost,
+    scale: float,
+    free: IntArray,
+    report: Report | None,
+    max_iterations: int,
+    earlier: Sequence[Iteration] = (),
+) -> Solution:
+    """Stage II.
+
+    Args:
+        observations: the views.
+        start: where to begin.
+        model: the lens, a key of ``lens.MODELS``.
+        cost: what is minimised.
+        scale: reference px per mm, for the costs on the reference plane.
+        free: (P,) indices of the camera's parameters that may move.
+        report: told of each iteration; may stop it.
+        max_iterations: of each round.
+        earlier: iterations of the solve that this one continues.
+
+    Raises:
+        StartError: if neither the start nor its registration reprojects the corners.
+        Cancelled: from `report`.
+    """
+
+    def problem_of(views: Observations, free: IntArray, cost: Cost = cost) -> NormalAt:
+        return problem.stage_two(views, model, cost, scale, free)
+
+    def run(
+        start: State,
+        earlier: Sequence[Iteration] = earlier,
+        free: IntArray = free,
+        cost: Cost = cost,
+        report: Report | None = report,
+    ) -> Solution:
+        return minimise(
+            problem_of(observations, free, cost),
+            start,
+            free,
+            observations.count,
+            float(np.sum(observations.uv**2)),
+            report,
+            max_iterations,
+            earlier,
+        )
+
+    def righted_run(start: State) -> Solution:
+        solution = run(start)
+        for _ in range(_TURNS):
+            if solution.status is Status.STOPPED:
+                break
+            turned = righted(problem_of, observations, solution)
+            if turned is None:
+                break
+            solution = run(turned, solution.history)
+        return solution
+
+    def by_way_of_the_plate() -> Solution:
+        registered = run(start, (), free[free < _LOWER], Cost.REFERENCE, None)
+        return _weakened(righted_run, registered.state, free)
+
+    try:
+        solution = righted_run(start)
+    except StartError:
+        return by_way_of_the_plate()
+    slow = len(solution.history) - len(earlier) > _SLOW
+    if solution.status is Status.STOPPED or not (slow or solution.barred):
+        return solution
+    try:
+        other = by_way_of_the_plate()
+    except StartError:
+        return solution
+    return other if other.normal.cost <= (1 + _SAME) * solution.normal.cost else solution
+
+
+def _weakened(run: Callable[[State], Solution], start: State, free: IntArray) -> Solution:
+    """The solution from a start whose lens is weakened, if need be, until all corners are seen."""
+    for _ in range(_WEAKENINGS):
+        try:
+            return run(start)
+        except StartError:
+            params = start.params.copy()
+            params[free[free >= _FIRST_COEFFICIENT]] *= _WEAKER
+            start = start._replace(params=params)
+    return run(start)
+
+
+def reweighted(
+    observations: Observations, solution: Solution, model: str, solve: Callable[..., Solution]
+) -> tuple[Observations, Solution]:
+    """The solution with the floor under the corners' covariances that its residuals call for."""
+    unknowns = len(solution.normal.shared) + solution.normal.pose.size
+    tau2 = 0.0
+    for _ in range(_REWEIGHTINGS):
+        before = tau2
+        miss, _ = problem.residuals(solution.state, observations, model, Cost.IMAGE)
+        tau2 = model_variance(observations, miss, unknowns)
+        if solution.status is Status.STOPPED or abs(tau2 - before) <= 0.01 * before:
+            break
+        observations = weighted(observations, tau2)
+        solution = solve(observations, solution.state, max_iterations=100, earlier=solution.history)
+    return observations, solution

@@ -1,0 +1,1 @@
+"""Images and the camera: maps, undistortion, rectification, rendering."""

@@ -1,0 +1,1 @@
+"""The plate as it is, not as it was drawn."""

@@ -1,0 +1,1 @@
+"""How far a calibration is to be trusted, and what would make it better."""

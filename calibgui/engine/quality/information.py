@@ -1,0 +1,107 @@
+"""What each view says of the camera, and how its pose answers to the camera's changes.
+
+In the blocks of ``arrow.py``, view k alone contributes Uk = Jc_k^T Jc_k, Wk and
+Vk. Eliminating its own pose leaves
+
+    Sk = Uk - Wk Vk^-1 Wk^T,
+
+what the view says of the camera. These add up: S = sum_k Sk, so the covariance from any
+subset of the views is a sum and an inverse away. Given the camera's error dc, the pose is
+
+    (w, tau)_k = -Vk^-1 Wk^T dc + e_k,      cov(e_k) = sigma^2 Vk^-1,
+
+e_k independent of dc and of each other. The local rotation w turns about the plate's origin,
+at T_k from the camera; as a motion of camera space, x -> x + w x X + t, it reads
+t = tau + T_k x w, so that the motions of all views are in one frame and can be averaged.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import NamedTuple
+
+import numpy as np
+
+from calibgui.engine import frames
+from calibgui.engine.calibrate import parameter_names
+from calibgui.engine.estimation.observations import Observations, chunks, pack
+from calibgui.engine.estimation.problem import linearised
+from calibgui.engine.estimation.stage_two import State
+from calibgui.engine.estimation.weighting import weighted
+from calibgui.engine.lens import MODELS
+from calibgui.engine.plate.deviations import on_plate
+from calibgui.engine.types import Array, Calibration, Camera, Cost, IntArray, Observation, Pose
+
+
+class Information(NamedTuple):
+    """What views say of the camera's free parameters, for residuals of unit variance."""
+
+    camera: Array
+    """(K, P, P) Sk."""
+    answer: Array
+    """(K, 6, P) motion (w, t) of view k with the camera's error, with the sign above."""
+    own: Array
+    """(K, 6, 6) covariance of the motion that is the view's own."""
+
+    def chosen(self, views: IntArray) -> Information:
+        """That of some of the views."""
+        return Information(self.camera[views], self.answer[views], self.own[views])
+
+
+def free_parameters(calibration: Calibration) -> IntArray:
+    """Indices of the camera's parameters that were estimated."""
+    names = parameter_names(calibration.camera.model)
+    return np.flatnonzero([name not in calibration.fixed for name in names])
+
+
+def measured(calibration: Calibration, views: Sequence[Observation]) -> Observations:
+    """Views as a calibration takes them: weighed, on the plate that it found or was given."""
+    observations = pack(views)
+    if calibration.cost is Cost.IMAGE:
+        observations = weighted(observations, calibration.model_error**2)
+    return observations if calibration.plate is None else on_plate(observations, calibration.plate)
+
+
+def state_of(camera: Camera, poses: Sequence[Pose]) -> State:
+    """Camera and poses as the solver takes them."""
+    R = frames.rotation(np.array([pose.rvec for pose in poses]))
+    return State(camera.params, R, np.array([pose.tvec for pose in poses]))
+
+
+def information(calibration: Calibration, views: Sequence[Observation]) -> Information:
+    """What each of the views that a calibration was made from says of its camera."""
+    return view_information(
+        state_of(calibration.camera, calibration.poses),
+        measured(calibration, views),
+        calibration.camera.model,
+        free_parameters(calibration),
+        calibration.cost,
+        calibration.reference_scale,
+    )
+
+
+def view_information(
+    state: State,
+    observations: Observations,
+    model: str,
+    free: IntArray,
+    cost: Cost = Cost.IMAGE,
+    scale: float = 1.0,
+) -> Information:
+    """The blocks of each view, chunk by chunk; the arguments are ``problem.stage_two``'s."""
+    parts = []
+    for views in chunks(len(state.R)):
+        _, by_params, by_pose = linearised(state, observations, views, MODELS[model], cost, scale)
+        Jc = by_params[..., free].reshape(len(by_params), -1, len(free))
+        Jp = by_pose.reshape(len(by_pose), -1, 6)
+        W = np.swapaxes(Jc, 1, 2) @ Jp
+        inverse = np.linalg.inv(np.swapaxes(Jp, 1, 2) @ Jp)
+        G = inverse @ np.swapaxes(W, 1, 2)
+        M = np.broadcast_to(np.eye(6), (len(W), 6, 6)).copy()
+        M[:, 3:, :3] = frames.cross_matrix(state.T[views])
+        parts.append(
+            Information(
+                np.swapaxes(Jc, 1, 2) @ Jc - W @ G, -M @ G, M @ inverse @ np.swapaxes(M, 1, 2)
+            )
+        )
+    return Information(*(np.concatenate(blocks) for blocks in zip(*parts, strict=True)))

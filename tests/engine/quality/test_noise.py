@@ -1,0 +1,156 @@
+"""Whether residuals look like noise: no alarms on noise, and every usual fault by its name."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import numpy as np
+import pytest
+
+from calibgui.engine import frames
+from calibgui.engine.calibrate import calibrate
+from calibgui.engine.errors import Cancelled
+from calibgui.engine.estimation.projection import pixels
+from calibgui.engine.quality.noise import calibrate_weighted, examine
+from calibgui.engine.types import Array, Observation, Pose
+from tests.engine.scenes import BOARD, barrel, scene
+
+SIZE = barrel().size
+XY = BOARD.points()
+SCENE = scene(barrel(), 12, seed=1)
+Z = np.zeros((len(XY), 1))
+BOW = 1 - ((XY[:, :1] - XY[:, 0].mean()) / (np.ptp(XY[:, 0]) / 2)) ** 2
+
+
+def _solid(pose: Pose, board: Array) -> Array:
+    """(n, 2) the image of a board's corners (n, 3)."""
+    p = board @ frames.rotation(pose.rvec).T + pose.tvec
+    return pixels(p[:, :2] / p[:, 2:], SCENE.camera)
+
+
+def _rolling(pose: Pose, velocity: Array) -> Array:
+    """(n, 2) the image while the board moves by `velocity`, mm from the first row to the last."""
+    uv = _solid(pose, np.hstack([XY, Z]))
+    p = np.hstack([XY, Z]) @ frames.rotation(pose.rvec).T + pose.tvec
+    for _ in range(5):
+        q = p + (uv[:, 1:] / SIZE[1] - 0.5) * velocity
+        uv = pixels(q[:, :2] / q[:, 2:], SCENE.camera)
+    return uv
+
+
+def _images(fault: str, rng: np.random.Generator) -> list[Array]:
+    poses = SCENE.poses
+    bent: dict[str, Callable[[Pose], Array]] = {
+        "none": lambda pose: _solid(pose, np.hstack([XY, Z])),
+        "squares": lambda pose: _solid(pose, np.hstack([XY * [1.003, 1.0], Z])),
+        "bow": lambda pose: _solid(pose, np.hstack([XY, 0.5 * BOW])),
+        "rows": lambda pose: _rolling(pose, rng.normal(scale=0.5, size=3)),
+        "bending": lambda pose: _solid(pose, np.hstack([XY, rng.normal() * BOW])),
+    }
+    if fault == "board":
+        true = np.hstack([XY, Z]) + rng.normal(scale=0.1, size=(len(XY), 3))
+        return [_solid(pose, true) for pose in poses]
+    if fault == "views":
+        exact = [bent["none"](pose) for pose in poses]
+        blurred = [uv + rng.normal(scale=0.6, size=(len(uv), 1)) * [0.8, 0.3] for uv in exact[:3]]
+        return blurred + exact[3:]
+    if fault == "lines":
+        rows = np.linspace(0, SIZE[1], 12)
+        images = [bent["none"](pose) for pose in poses]
+        shifts = [np.interp(uv[:, 1], rows, rng.normal(scale=0.2, size=12)) for uv in images]
+        return [uv + np.outer(shift, [1, 0]) for uv, shift in zip(images, shifts, strict=True)]
+    return [bent[fault if fault in bent else "none"](pose) for pose in poses]
+
+
+@pytest.mark.parametrize(
+    "fault", ["squares", "bow", "rows", "bending", "lines", "board", "views", "lens"]
+)
+def test_a_fault_is_named(fault: str) -> None:
+    rng = np.random.default_rng(0)
+    views = [
+        Observation(uv + rng.normal(scale=0.1, size=uv.shape), XY) for uv in _images(fault, rng)
+    ]
+    held = ["k2", "k3"] if fault == "lens" else []
+    report = examine(calibrate(views, SIZE, fix=held), views)
+    assert not report.passed
+    assert report.cause is not None
+    assert report.cause.name == fault
+
+
+def test_outliers_and_rounding_are_told_apart() -> None:
+    rng = np.random.default_rng(0)
+    rounded = [Observation(np.round(2 * view.uv) / 2, view.xy) for view in SCENE.views]
+    report = examine(calibrate(rounded, SIZE), rounded)
+    assert report.cause is not None
+    assert "rounded" in report.cause.advice
+    displaced = SCENE.noisy(0.1, rng)
+    for k, view in enumerate(displaced):
+        uv = np.array(view.uv)
+        uv[rng.integers(len(uv))] += 3.0
+        displaced[k] = view._replace(uv=uv)
+    report = examine(calibrate(displaced, SIZE), displaced)
+    assert report.cause is not None
+    assert report.cause.name == "shape"
+    assert "misplaced" in report.cause.advice
+
+
+def test_blurred_views_are_listed_and_weigh_less() -> None:
+    rng = np.random.default_rng(3)
+    exact = scene(barrel(), 12, seed=1)
+    noise = np.where(np.arange(12) < 4, 1.0, 0.1)
+    views = [
+        Observation(view.uv + rng.normal(scale=s, size=view.uv.shape), view.xy)
+        for view, s in zip(exact.views, noise, strict=True)
+    ]
+    plain = calibrate(views, SIZE)
+    report = examine(plain, views)
+    found = next(check for check in report.checks if check.name == "views")
+    assert not found.passed
+    listed = found.finding.split("most in ")[1].split(", ")
+    assert sorted(listed) == ["View 1", "View 2", "View 3", "View 4"]
+    result, used = calibrate_weighted(views, SIZE)
+    assert result.noise == pytest.approx(0.1, rel=0.05)  # of the median corner, px
+    assert examine(result, used).passed
+    assert (result.sigma[:4] < 0.5 * plain.sigma[:4]).all()
+    assert report.view_sigma == pytest.approx(noise, rel=0.35)
+
+
+def test_covariances_count_in_the_weights() -> None:
+    rng = np.random.default_rng(3)
+    far = np.arange(len(XY)) % 3 == 0
+    cov = np.where(far, 0.5, 0.05)[:, None, None] ** 2 * np.eye(2)
+    views = [
+        Observation(
+            view.uv + rng.normal(size=view.uv.shape) * np.where(far, 0.5, 0.05)[:, None], XY, cov
+        )
+        for view in SCENE.views
+    ]
+    result = calibrate(views, SIZE)
+    assert examine(result, views).passed
+    _, used = calibrate_weighted(views, SIZE)
+    assert used[0].cov is not None
+    assert used[0].cov[0, 0, 0] / used[0].cov[1, 0, 0] == pytest.approx(100, rel=0.1)
+
+
+@pytest.mark.slow
+def test_noise_raises_no_alarm() -> None:
+    alarms = []
+    for seed in range(80):
+        true = scene(barrel(), (4, 8, 16)[seed % 3], seed)
+        views = true.noisy(0.2, np.random.default_rng(seed))
+        report = examine(calibrate(views, SIZE), views)
+        alarms += [check.name for check in report.checks if not check.passed]
+    assert len(alarms) <= 4  # 0.8 expected of 80 x 10 checks at one in a thousand
+
+
+def test_it_can_be_abandoned() -> None:
+    told = []
+
+    def twice(done: int, total: int) -> None:
+        told.append((done, total))
+        if done == 1:
+            raise Cancelled
+
+    with pytest.raises(Cancelled):
+        examine(calibrate(SCENE.views, SIZE), SCENE.views, progress=twice)
+    assert told == [(0, 7), (1, 7)]
