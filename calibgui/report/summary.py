@@ -37,6 +37,8 @@ _TILTED = np.deg2rad(15)
 _FEW_VIEWS = 8
 _DISTANCES = 1.3
 """Farthest over nearest board that counts as different distances."""
+_STRIKING = 1.5
+"""Times that the views disagree more than noise explains, above which it asks for attention."""
 _REGIONS = (
     ("upper left", "top", "upper right"),
     ("left", "middle", "right"),
@@ -132,7 +134,8 @@ def _plate(result: Result) -> Iterator[Sentence]:
     if plate is not None:
         yield Sentence(Tone.FACT, about_plate(plate))
     if (scatter := result.calibration.view_scatter) > 0:
-        yield Sentence(Tone.CAUTION, about_view_scatter(scatter))
+        tone = Tone.CAUTION if scatter > _STRIKING else Tone.FACT
+        yield Sentence(tone, about_view_scatter(scatter))
 
 
 def _fit(result: Result) -> Iterator[Sentence]:

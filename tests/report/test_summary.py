@@ -123,3 +123,11 @@ def test_a_coefficient_near_zero_is_said_to_be(good: Result) -> None:
     params[6] = 0.5 * calibration.sigma[6]
     near = replace(calibration, camera=replace(calibration.camera, params=params))
     assert "Not told from zero: k3 = " in texts(replace(good, calibration=near), Tone.CAUTION)
+
+
+@pytest.mark.parametrize(("scatter", "tone"), [(1.2, Tone.FACT), (3.0, Tone.CAUTION)])
+def test_views_that_disagree_are_told_and_stand_out_if_they_do_so_by_much(
+    good: Result, scatter: float, tone: Tone
+) -> None:
+    result = replace(good, calibration=replace(good.calibration, view_scatter=scatter))
+    assert f"disagree about the camera {scatter} times" in texts(result, tone)

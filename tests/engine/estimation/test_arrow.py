@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from tests.engine.test_stage_two import truth_of
 
 from calibgui.engine.estimation.arrow import factored, normal_equations, schur, solve
 from calibgui.engine.estimation.observations import CHUNK, pack
@@ -12,6 +11,7 @@ from calibgui.engine.estimation.problem import linearised, stage_two
 from calibgui.engine.estimation.stage_two import Linearised, State
 from calibgui.engine.lens import MODELS
 from calibgui.engine.types import Array, Cost
+from tests.engine.estimation.test_stage_two import truth_of
 from tests.engine.scenes import barrel, scene
 
 MADE = scene(barrel(), 5, seed=4)

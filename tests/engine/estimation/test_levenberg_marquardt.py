@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from tests.engine.test_arrow import COST, FREE, MADE, TRUTH, VIEWS
 
 from calibgui.engine.errors import Cancelled
 from calibgui.engine.estimation import levenberg_marquardt
@@ -14,6 +13,7 @@ from calibgui.engine.estimation.observations import pack
 from calibgui.engine.estimation.problem import stage_two
 from calibgui.engine.estimation.stage_two import State
 from calibgui.engine.types import Cost, Iteration, Status
+from tests.engine.estimation.test_arrow import COST, FREE, MADE, TRUTH, VIEWS
 
 
 def away(by: float) -> State:

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from tests.engine.test_stage_two import truth_of
 
 from calibgui.engine.estimation import problem
 from calibgui.engine.estimation.arrow import NormalAt
@@ -14,6 +13,7 @@ from calibgui.engine.estimation.projection import pixels
 from calibgui.engine.estimation.stage_two import State
 from calibgui.engine.estimation.tilts import mirrored, righted
 from calibgui.engine.types import Camera, Cost, IntArray
+from tests.engine.estimation.test_stage_two import truth_of
 from tests.engine.random_problems import outcome
 from tests.engine.scenes import VGA, Scene, scene
 

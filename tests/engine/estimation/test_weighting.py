@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from tests.engine.test_plate import CAMERA, NOMINAL, SIZE, photographed
 
 from calibgui.engine.calibrate import calibrate
 from calibgui.engine.estimation.observations import Observations, pack
 from calibgui.engine.estimation.weighting import model_variance, weighted
 from calibgui.engine.types import Array, Observation
+from tests.engine.plate.test_deviations import CAMERA, NOMINAL, SIZE, photographed
 
 
 def covariances(count: int, seed: int) -> Array:

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from tests.engine.test_plate import CAMERA, SIZE, deviation, photographed
 
 from calibgui.engine.calibrate import calibrate
 from calibgui.engine.types import Array
+from tests.engine.plate.test_deviations import CAMERA, SIZE, deviation, photographed
 
 
 def errors(count: int, rms: float, draws: int) -> tuple[Array, int]:

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-from tests.engine.test_plate import CAMERA, CENTRE, NOMINAL, SIZE
 
 from calibgui.engine.calibrate import calibrate
 from calibgui.engine.estimation.projection import pixels
 from calibgui.engine.frames import rotation
 from calibgui.engine.types import Array, Observation
+from tests.engine.plate.test_deviations import CAMERA, CENTRE, NOMINAL, SIZE
 
 FLAT = np.column_stack([NOMINAL, np.zeros(len(NOMINAL))])
 ACROSS = (NOMINAL - CENTRE) / np.abs(NOMINAL - CENTRE).max(axis=0)
