@@ -125,6 +125,17 @@ def settled(pattern: Pattern, board: Board) -> Pattern:
     return pattern
 
 
+def paper_for(target: Target) -> str:
+    """The first of `PAPERS` that holds the target in true size; the largest if none does."""
+    for paper in PAPERS:
+        try:
+            sheet(replace(target, pattern=settled(target.pattern, target.board)), paper)
+        except CalibrationError:
+            continue
+        return paper
+    return max(PAPERS, key=lambda paper: PAPERS[paper])
+
+
 def sheet(target: Target, paper: str) -> Sheet:
     """A target in true size on a sheet of paper.
 

@@ -21,7 +21,7 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
-from calibgui.app.printable_target import PAPERS, Sheet, settled, sheet, write_sheet
+from calibgui.app.printable_target import PAPERS, Sheet, paper_for, settled, sheet, write_sheet
 from calibgui.engine.errors import CalibrationError
 from calibgui.engine.types import Target
 from calibgui.gui import theme
@@ -73,6 +73,7 @@ class PrintDialog(QDialog):
         self.square.setValue(target.square)
         self.paper = QComboBox()
         self.paper.addItems(list(PAPERS))
+        self.paper.setCurrentText(paper_for(target))
         self.words = QLabel()
         self.words.setWordWrap(True)
         self.preview = _Preview()

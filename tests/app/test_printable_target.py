@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 from scipy.ndimage import gaussian_filter
 
-from calibgui.app.printable_target import PAPERS, Sheet, settled, sheet, write_sheet
+from calibgui.app.printable_target import PAPERS, Sheet, paper_for, settled, sheet, write_sheet
 from calibgui.engine.corners import find_corners
 from calibgui.engine.errors import CalibrationError
 from calibgui.engine.targets.kinds import KINDS
@@ -100,3 +100,16 @@ def test_other_patterns_are_found_on_their_sheet(kind: str, tmp_path: Path) -> N
     write_sheet(content, tmp_path / "board.pdf")
     pdf = (tmp_path / "board.pdf").read_bytes()
     assert pdf.count(b" c\n") == 4 * len(content.discs)
+
+
+@pytest.mark.parametrize(
+    ("target", "paper"),
+    [
+        (Target(6, 9, 20.0), "A4"),
+        (Target(7, 10, 25.0), "A3"),
+        (Target(8, 12, 50.0), "A1"),
+        (Target(30, 40, 100.0), "A0"),
+    ],
+)
+def test_paper_is_as_large_as_the_target_asks_for(target: Target, paper: str) -> None:
+    assert paper_for(target) == paper

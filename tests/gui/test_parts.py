@@ -373,6 +373,8 @@ def test_a_board_is_printed_in_the_size_chosen(
     qtbot.addWidget(dialog)
     dialog.show()
     assert (dialog.rows.value(), dialog.cols.value(), dialog.square.value()) == (7, 8, 30.0)
+    assert dialog.paper.currentText() == "A3" and dialog.save.isEnabled()
+    dialog.paper.setCurrentText("A4")
     assert not dialog.save.isEnabled(), "8 squares of 30 mm need larger paper"
     assert "at most" in dialog.words.text()
     dialog.paper.setCurrentText("A3")
