@@ -21,8 +21,8 @@ from calibgui.gui.panels.split import Split
 from calibgui.gui.plots import Plot
 from calibgui.gui.tables import Column, Table, fixed
 
-_OUTLYING = 5.0
-"""Median absolute deviations from the median that mark a view."""
+_OUTLYING = 3.0
+"""Distances between the quartiles beyond them that mark a view (Tukey's "far out")."""
 _SEARCHED = np.linspace(0.6, 1.4, 401)
 """Aspect ratios over which g(r) is drawn."""
 _RAISED = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
@@ -145,6 +145,7 @@ def _power(values: Sequence[float]) -> int:
 
 
 def _far(values: Array) -> BoolArray:
-    """Which values are far from the median, in median absolute deviations."""
-    distance = np.abs(values - np.nanmedian(values))
-    return np.asarray(distance > _OUTLYING * np.nanmedian(distance))
+    """Which values are far outside the quartiles of all."""
+    low, high = np.nanquantile(values, [0.25, 0.75])
+    reach = _OUTLYING * (high - low)
+    return np.asarray((values < low - reach) | (values > high + reach))
