@@ -51,7 +51,8 @@ _LEAST_SPREAD, _MOST_SPREAD = 0.002, 0.2
 """Spreads that are told from none and that are believed, squares."""
 _PAIRS = 20
 """Opposite pixels from which their differences tell the noise."""
-_MOST_RHO = 0.95
+_MOST_RHO, _RHO_SPREAD = 0.95, 0.3
+"""Largest rho, and how far it is expected from that of a blur alike in all directions."""
 _BLURRED = 1.5
 """How far from where a square's colour ends its blur is felt, blurs."""
 
@@ -199,6 +200,10 @@ def _step(edges: Edges, equations: NormalEquations) -> Fit:
     """The model after one Gauss-Newton step."""
     products, odd = equations(edges)
     N, g = products[:, :UNKNOWNS, :UNKNOWNS], products[:, :UNKNOWNS, UNKNOWNS]
+    # In a sharp image few pixels know rho: it stays near that of a blur alike in all directions.
+    normals, weight = edges.normals(), products[:, UNKNOWNS, UNKNOWNS] / N[:, 6, 6] / _RHO_SPREAD**2
+    N[:, 8, 8] += weight
+    g[:, 8] += weight * (np.sum(normals[:, 0] * normals[:, 1], axis=1) - edges.unknowns[RHO])
     largest = np.einsum("nkk->nk", N).max(axis=1) + 1e-300
     inverse = np.linalg.inv(N + 1e-9 * largest[:, None, None] * np.eye(UNKNOWNS))
     step = np.einsum("nij,nj->ni", inverse, g)

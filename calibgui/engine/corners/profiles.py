@@ -82,11 +82,13 @@ def across_edge(
     share = (values - first[..., None]) / rise
     integral = (share.sum(axis=2) - share[..., [0, -1]].mean(axis=2)) * (o[1] - o[0])
     spread = np.where(clear.all(axis=1), np.mean((reach - integral) * rising, axis=1), np.nan)
-    close = np.minimum(reach, _CLOSE / size)[:, None, None] * np.linspace(-1, 1, _SAMPLES)
+    close = np.minimum(reach, _CLOSE / size)[:, None]
+    middle = np.clip(reach - integral, close - reach, reach - close)
+    o = middle[..., None] + close[..., None] * np.linspace(-1, 1, _SAMPLES)
     at = uv[:, None, None] + s[:, None, None] * along[:, None, None]
-    at = at + ((reach - integral)[..., None] + close)[..., None] * across[:, None, None]
+    at = at + o[..., None] * across[:, None, None]
     share = (opencv.sample(image, at) - first[..., None]) / rise
-    between = ((share > 0.25) & (share < 0.75)).sum(axis=2) * np.ptp(close, axis=2) / (_SAMPLES - 1)
+    between = ((share > 0.25) & (share < 0.75)).sum(axis=2) * 2 * close / (_SAMPLES - 1)
     blur = size * np.median(between, axis=1) / _QUARTILES
     low = np.median(np.where(rising > 0, first, last), axis=1)
     high = np.median(np.where(rising > 0, last, first), axis=1)

@@ -92,13 +92,16 @@ def test_bootstrap_confirms_the_sigma_of_good_data() -> None:
 
 
 @pytest.mark.slow
-def test_bootstrap_exposes_errors_that_corners_share() -> None:
+def test_bootstrap_confirms_what_the_views_disagreement_says() -> None:
+    """Errors that corners of a view share: the corners' noise alone would be too little."""
     rng = np.random.default_rng(5)
     views = [  # the board bends anew in every view
         Observation(view.uv + 0.4 * rng.normal(size=2) * np.sin(view.xy / 60), view.xy)
         for view in _views(25)
     ]
-    assert np.median(bootstrap(views, SIZE, draws=60).ratio[:9]) > 1.3
+    found, reported = bootstrap(views, SIZE, draws=60), calibrate(views, SIZE)
+    assert 0.7 < np.median(found.ratio[:9]) < 1.3
+    assert np.median(found.sigma[:9] / reported.sigma_by_noise[:9]) > 1.3
 
 
 def test_bootstrap_counts_draws_that_fail() -> None:
