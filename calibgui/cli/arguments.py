@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+import math
 import re
 from collections.abc import Iterable, Sequence
 from pathlib import Path
@@ -85,6 +86,20 @@ def add_method(parser: argparse.ArgumentParser) -> None:
         default=METHODS[0],
         help="locate corners by their edges (default), or as the paper does, by the saddle point "
         "of the grey levels",
+    )
+
+
+def add_map(parser: argparse.ArgumentParser, points: str) -> None:
+    """The distance of the `points` that a map over the image is for, and its file."""
+    parser.add_argument(
+        "--distance",
+        type=positive,
+        default=math.inf,
+        metavar="MM",
+        help=f"of the points that {points} (default: far away)",
+    )
+    parser.add_argument(
+        "-o", "--output", type=Path, metavar="FILE", help="draw the map (.png, .svg, .pdf)"
     )
 
 

@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 
 from calibgui.app.outputs import check_figure, save_figure
-from calibgui.cli.arguments import positive
+from calibgui.cli.arguments import add_map
 from calibgui.cli.console import Console
 from calibgui.engine.quality.difference import Difference, difference
 from calibgui.engine.quality.projection_uncertainty import projection_uncertainty
@@ -25,20 +25,11 @@ def configure(parser: argparse.ArgumentParser) -> None:
     """Describe the arguments."""
     parser.add_argument("a", type=Path, metavar="A", help="result.json of a camera")
     parser.add_argument("b", type=Path, metavar="B", help="another result.json of it")
-    parser.add_argument(
-        "--distance",
-        type=positive,
-        default=math.inf,
-        metavar="MM",
-        help="of the points that are compared (default: far away)",
-    )
+    add_map(parser, "are compared")
     parser.add_argument(
         "--covered",
         action="store_true",
         help="compare only where A's views have corners, not over the whole image",
-    )
-    parser.add_argument(
-        "-o", "--output", type=Path, metavar="FILE", help="draw the map (.png, .svg, .pdf)"
     )
 
 

@@ -10,7 +10,7 @@ from threadpoolctl import threadpool_limits
 
 from calibgui.app.calibration import short_names
 from calibgui.app.outputs import check_figure, save_figure
-from calibgui.cli.arguments import positive
+from calibgui.cli.arguments import add_map, positive
 from calibgui.cli.console import Console
 from calibgui.engine.quality.noise import examine
 from calibgui.engine.quality.projection_uncertainty import projection_uncertainty
@@ -25,13 +25,7 @@ from calibgui.report import quality
 def configure(parser: argparse.ArgumentParser) -> None:
     """Describe the arguments."""
     parser.add_argument("result", type=Path, metavar="RESULT", help="result.json of the camera")
-    parser.add_argument(
-        "--distance",
-        type=positive,
-        default=math.inf,
-        metavar="MM",
-        help="of the points that the camera will look at (default: far away)",
-    )
+    add_map(parser, "the camera will look at")
     parser.add_argument(
         "--limit",
         type=positive,
@@ -44,9 +38,6 @@ def configure(parser: argparse.ArgumentParser) -> None:
         action="store_true",
         help="calibrate again without some of the views and try these, with every model of the "
         "plate, and from resampled views",
-    )
-    parser.add_argument(
-        "-o", "--output", type=Path, metavar="FILE", help="draw the map (.png, .svg, .pdf)"
     )
 
 
