@@ -11,8 +11,6 @@ from calibgui.engine import kernels
 from calibgui.engine.corners import find_corners
 from tests.benchmarks.corner_scenes import Conditions, draw
 
-pytestmark = pytest.mark.skipif(not kernels.COMPILED, reason="numba is not installed")
-
 
 @pytest.mark.parametrize(
     "scene",

@@ -11,10 +11,6 @@ from typing import Any
 
 import pytest
 
-from calibgui.engine import kernels
-
-pytestmark = pytest.mark.skipif(not kernels.COMPILED, reason="numba is not installed")
-
 ROOT = Path(__file__).parents[3]
 
 

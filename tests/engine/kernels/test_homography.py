@@ -3,12 +3,8 @@
 from __future__ import annotations
 
 import numpy as np
-import pytest
 
-from calibgui.engine import kernels
 from calibgui.engine.estimation import homography
-
-pytestmark = pytest.mark.skipif(not kernels.COMPILED, reason="numba is not installed")
 
 
 def test_the_compiled_sums_are_the_readable_ones() -> None:

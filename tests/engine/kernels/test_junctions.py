@@ -10,8 +10,6 @@ from calibgui.engine.corners import junctions
 from calibgui.engine.opencv import Image32
 from tests.benchmarks.corner_scenes import Conditions, draw
 
-pytestmark = pytest.mark.skipif(not kernels.COMPILED, reason="numba is not installed")
-
 
 def board() -> Image32:
     scene = Conditions(size=(320, 240), square=22.0, noise=6.0, clutter=True)

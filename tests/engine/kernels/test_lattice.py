@@ -8,8 +8,6 @@ import pytest
 from calibgui.engine import kernels
 from calibgui.engine.corners.lattice import axes, predict
 
-pytestmark = pytest.mark.skipif(not kernels.COMPILED, reason="numba is not installed")
-
 
 @pytest.mark.parametrize("share", [1.0, 0.7, 0.3, 0.1])
 @pytest.mark.parametrize("shape", [(6, 9), (1, 5), (2, 2), (30, 20)])

@@ -16,7 +16,6 @@ from calibgui.engine.plate.deviations import corner_products, corners_of
 from calibgui.engine.types import Array
 from tests.engine.kernels.test_stage_two import CAMERAS, scene
 
-pytestmark = pytest.mark.skipif(not kernels.COMPILED, reason="numba is not installed")
 FREE = np.array([0, 1, 2, 4, 6])
 
 

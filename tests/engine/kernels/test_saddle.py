@@ -9,8 +9,6 @@ from calibgui.engine import kernels
 from calibgui.engine.corners import saddle
 from tests.benchmarks.corner_scenes import Conditions, draw
 
-pytestmark = pytest.mark.skipif(not kernels.COMPILED, reason="numba is not installed")
-
 
 @pytest.mark.parametrize("kind", [np.uint8, np.uint16, np.float32])
 def test_the_same_saddle_points(kind: type, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -8,8 +8,6 @@ import pytest
 from calibgui.engine import kernels
 from calibgui.engine.estimation.stage_one import prealign
 
-pytestmark = pytest.mark.skipif(not kernels.COMPILED, reason="numba is not installed")
-
 
 def test_compiled_and_readable_find_the_same(monkeypatch: pytest.MonkeyPatch) -> None:
     rng = np.random.default_rng(5)

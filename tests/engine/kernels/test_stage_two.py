@@ -16,8 +16,6 @@ from calibgui.engine.estimation.stage_two import State
 from calibgui.engine.frames import rotation
 from calibgui.engine.types import Camera, Cost, Observation, Target
 
-pytestmark = pytest.mark.skipif(not kernels.COMPILED, reason="numba is not installed")
-
 CAMERAS = {
     "lucchese": Camera((640, 480), [650, 600, 310, 250, 0.25, 0.06, -0.05, 1e-3, -2e-3, 0.4]),
     "opencv": Camera((640, 480), [650, 600, 310, 250, -0.25, 0.1, 1e-3, -2e-3, -0.05], "opencv"),
