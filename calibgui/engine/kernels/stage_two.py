@@ -56,17 +56,18 @@ def _distort(n, k, d, M):  # type: ignore[no-untyped-def]
 def _invert(n, k, d, M):  # type: ignore[no-untyped-def]
     """Solve eq10(d) = n from the given d; M = dd/dn. Returns whether all points converged.
 
-    After a step of Newton's method of at most 1e-7 the error is its square; one more step with
-    the same M takes it below rounding. A point that ends beyond the fold of eq. 10, where
-    det < 0, has no inverse.
+    After a step of Newton's method of at most 1e-7, all points together, the error is its square;
+    one more step with the same M takes it below rounding. A point that ends beyond the fold of
+    eq. 10, where det < 0, has no inverse. Sums instead of a maximum and a truth value let the
+    loop become vector instructions.
     """
     k1, k2, k3, p1, p2, p3 = k
     for _ in range(20):
-        worst, folded = 0.0, False
+        moved, folds = 0.0, 0.0
         for i in range(n.shape[1]):
             e0, e1, j00, j01, j10, j11 = _eq10(d[0, i], d[1, i], k1, k2, k3, p1, p2, p3)
             det = 1 / (j00 * j11 - j01 * j10)
-            folded |= not det > 0
+            folds += 0.0 if det > 0 else 1.0
             m00, m01, m10, m11 = j11 * det, -j01 * det, -j10 * det, j00 * det
             e0 -= n[0, i]
             e1 -= n[1, i]
@@ -74,15 +75,15 @@ def _invert(n, k, d, M):  # type: ignore[no-untyped-def]
             d[0, i] -= s0
             d[1, i] -= s1
             M[0, i], M[1, i], M[2, i], M[3, i] = m00, m01, m10, m11
-            worst = max(worst, s0 * s0 + s1 * s1)
-        if worst < 1e-14:
+            moved += s0 * s0 + s1 * s1
+        if moved < 1e-14:
             for i in range(n.shape[1]):
                 e0, e1, _, _, _, _ = _eq10(d[0, i], d[1, i], k1, k2, k3, p1, p2, p3)
                 e0 -= n[0, i]
                 e1 -= n[1, i]
                 d[0, i] -= M[0, i] * e0 + M[1, i] * e1
                 d[1, i] -= M[2, i] * e0 + M[3, i] * e1
-            return not folded
+            return folds == 0
     return False
 
 
