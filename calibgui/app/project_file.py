@@ -31,7 +31,7 @@ from calibgui.app.settings import Settings
 from calibgui.engine.targets.pattern import CHECKERBOARD
 from calibgui.engine.types import Cost, Plate, PlateModel, Prior, Target, View
 from calibgui.formats.corners_json import read_size
-from calibgui.formats.json_document import Node, check_format, read, write
+from calibgui.formats.json_document import Node, check_format, read, same, write
 from calibgui.formats.pattern_json import pattern_record, read_pattern
 from calibgui.formats.plate_json import plate_record, read_plate_record
 from calibgui.formats.result import Result
@@ -197,7 +197,7 @@ def _read_results(node: Node, views: tuple[View, ...]) -> dict[str, Result]:
 
     def shared(view: View, item: dict[str, Any]) -> View:
         mine, record = own.get(view.image, (view, {}))
-        return mine if all(item.get(key) == record[key] for key in record) else view
+        return mine if all(same(item.get(key), record[key]) for key in record) else view
 
     results = {}
     for name, record in node["results"].value.items():

@@ -6,6 +6,8 @@ line by line.
 
 Read: `Node` is a value with its place in the file ("views[2].uv[17]"). Each of its readers
 returns a checked value or raises a CalibrationError with file, place and what was expected.
+Tables of numbers become arrays while the file is parsed: as hundreds of thousands of small lists
+they would hold up the garbage collector, and with it every thread.
 """
 
 from __future__ import annotations
@@ -17,6 +19,7 @@ import re
 import sys
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from itertools import chain
 from pathlib import Path
 from typing import Any, NoReturn
 
@@ -116,9 +119,9 @@ class Node:
 
     def items(self) -> list[Node]:
         """The entries of this list."""
-        if not isinstance(self.value, list):
+        if not isinstance(values := _plain(self.value), list):
             self.fail("a list")
-        return [Node(v, f"{self.where}[{i}]", self.file) for i, v in enumerate(self.value)]
+        return [Node(v, f"{self.where}[{i}]", self.file) for i, v in enumerate(values)]
 
     def members(self) -> dict[str, Node]:
         """The members of this object."""
@@ -140,9 +143,9 @@ class Node:
 
     def choice(self, allowed: Sequence[str]) -> str:
         """This text, one of `allowed`."""
-        if self.value not in allowed:
+        if not isinstance(self.value, str) or self.value not in allowed:
             self.fail(f"one of {', '.join(allowed)}")
-        return str(self.value)
+        return self.value
 
     def number(self, nullable: bool = False) -> float:
         """This finite number; NaN for null if `nullable`."""
@@ -160,10 +163,11 @@ class Node:
 
         Null is NaN if `nullable`.
         """
-        misfit = _misfit(self.value, shape, nullable)
-        if misfit is not None:
-            place, expected = misfit
-            self.named(self.where + place).fail(expected)
+        if not (isinstance(self.value, np.ndarray) and _fits(self.value, shape)):
+            misfit = _misfit(_plain(self.value), shape, nullable)
+            if misfit is not None:
+                place, expected = misfit
+                self.named(self.where + place).fail(expected)
         # An empty list hides the lengths of its entries.
         lengths = [len(self.value) if n is None else n for n in shape]
         return frozen(np.reshape(np.array(self.value, dtype=np.float64), lengths))
@@ -174,6 +178,17 @@ class Node:
         if (numbers != np.rint(numbers)).any():
             self.fail("an array of integers")
         return frozen_int(numbers)
+
+
+def _plain(value: Any) -> Any:
+    """`value`, a table of numbers as the lists that are in the file."""
+    return value.tolist() if isinstance(value, np.ndarray) else value
+
+
+def _fits(table: Array, shape: tuple[int | None, ...]) -> bool:
+    return table.ndim == len(shape) and all(
+        wanted in (None, length) for wanted, length in zip(shape, table.shape, strict=True)
+    )
 
 
 def _misfit(value: Any, shape: tuple[int | None, ...], nullable: bool) -> tuple[str, str] | None:
@@ -208,8 +223,8 @@ def read(path: str | os.PathLike[str]) -> Node:
     file = os.fspath(path)
     try:
         text = Path(path).read_text(encoding="utf-8-sig")
-        # The hook lets other threads run between objects; the parser itself holds them all up.
-        return Node(json.loads(text, object_hook=lambda members: members), "", file)
+        # Between objects other threads can run; the parser itself holds them all up.
+        return Node(json.loads(text, object_hook=_with_arrays), "", file)
     except OSError as error:
         raise CalibrationError(
             f"{file} cannot be read: {error.strerror or error}.", "Check its name and permissions."
@@ -227,6 +242,33 @@ def read(path: str | os.PathLike[str]) -> Node:
         raise _not_json(file, "it holds an endless number or nests too deeply") from error
 
 
+def _with_arrays(members: dict[str, Any]) -> dict[str, Any]:
+    """The members of an object, those that are tables of finite numbers as arrays."""
+    return {key: _as_array(value) for key, value in members.items()}
+
+
+def _as_array(value: Any) -> Any:
+    leaves = value
+    while isinstance(leaves, list) and all(isinstance(leaf, list) for leaf in leaves) and leaves:
+        leaves = list(chain.from_iterable(leaves))
+    if leaves is value or not set(map(type, leaves)) <= {int, float}:
+        return value
+    try:
+        table = np.array(value, dtype=np.float64)
+    except (ValueError, OverflowError):  # rows of different lengths, or too large a number
+        return value
+    return table if np.isfinite(table).all() else value
+
+
+def same(a: Any, b: Any) -> bool:
+    """Whether two values read from files are the same, number for number."""
+    if isinstance(a, dict) and isinstance(b, dict):
+        return a.keys() == b.keys() and all(same(a[key], b[key]) for key in a)
+    if isinstance(a, list) and isinstance(b, list):
+        return len(a) == len(b) and all(map(same, a, b))
+    return np.array_equal(a, b)
+
+
 def _not_json(file: str, reason: str) -> CalibrationError:
     return CalibrationError(f"{file} is not a JSON file: {reason}.", "Choose another file.")
 
@@ -238,7 +280,7 @@ def check_format(node: Node, name: str, version: int) -> None:
         CalibrationError: with what to do instead.
     """
     found = node.get("format")
-    if found is None or found.value != name:
+    if found is None or str(found.value) != name:
         raise CalibrationError(
             f"{node.file} is not a file of the format {name!r}.", "Choose another file."
         )

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import gc
 from importlib import import_module
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -151,8 +152,14 @@ class MainWindow(QMainWindow):
         return self.analysis
 
     def prepare(self) -> None:
-        """Import beside the main thread what will be needed."""
-        self.session.jobs.start("", lambda _: import_module("calibgui.gui.analysis"))
+        """Import beside the main thread what will be needed.
+
+        What is there by then stays: going through it at every full collection of garbage would
+        stop the window for longer than a frame.
+        """
+        self.session.jobs.start(
+            "", lambda _: import_module("calibgui.gui.analysis"), lambda _: gc.freeze()
+        )
 
     def _result_changed(self, result: Result | None) -> None:
         if result is not None and self.analysis is None:

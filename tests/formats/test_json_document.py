@@ -12,7 +12,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from calibgui.engine.errors import CalibrationError
-from calibgui.formats.json_document import Node, check_format, dumps, read
+from calibgui.formats.json_document import Node, check_format, dumps, read, same
 
 _SCALARS = (
     st.none()
@@ -97,6 +97,50 @@ def test_values_are_read() -> None:
     assert np.array_equal(node["c"].numbers(1, 2, nullable=True), [[1, np.nan]], equal_nan=True)
     assert node["d"].numbers(None, 2).shape == (0, 2)
     assert node["e"].flag() and node["f"].choice(["x"]) == "x"
+
+
+_ROWS = st.lists(
+    st.lists(st.integers(-9, 9) | st.floats(width=16) | st.booleans() | st.none(), max_size=2),
+    max_size=3,
+)
+
+
+@given(_ROWS | st.lists(_ROWS, max_size=2) | st.just([[10**400]]) | st.just([[1], "ab", {}]))
+def test_a_table_is_read_alike_as_lists_and_as_the_array_that_a_file_holds(
+    tmp_path_factory: pytest.TempPathFactory, value: object
+) -> None:
+    file = tmp_path_factory.mktemp("table") / "a.json"
+    file.write_text(json.dumps({"a": value}))
+
+    def answer(node: Node, shape: tuple[int | None, ...]) -> object:
+        try:
+            return node.numbers(*shape, nullable=len(shape) == 3).tolist()
+        except CalibrationError as error:
+            return error.message
+
+    tables = read(file)["a"], Node(value, "a", str(file))
+    for shape in ((), (None,), (None, 2), (2, 1), (None, 2, 2)):
+        assert repr(answer(tables[0], shape)) == repr(answer(tables[1], shape))
+
+
+def test_points_of_a_file_are_an_array_at_once(tmp_path: Path) -> None:
+    """As lists they would be many enough for the garbage collector to be felt."""
+    file = tmp_path / "a.json"
+    file.write_text('{"uv": [[1, 2.5], [3, 4]], "size": [640, 480], "mixed": [[1, true]]}')
+    node = read(file)
+    assert isinstance(node["uv"].value, np.ndarray)
+    assert [row.numbers(2).tolist() for row in node["uv"].items()] == [[1.0, 2.5], [3.0, 4.0]]
+    assert node["size"].value == [640, 480]
+    assert node["mixed"].value == [[1, True]]
+
+
+def test_values_are_the_same_number_for_number(tmp_path: Path) -> None:
+    file = tmp_path / "a.json"
+    file.write_text('{"a": {"uv": [[1, 2]], "o": [{"uv": [[3, 4]]}]}, "b": {"uv": [[1, 2.5]]}}')
+    a, b = read(file)["a"].value, read(file)["b"].value
+    assert same(a, read(file)["a"].value)
+    assert not same(a, b) and not same(a["uv"], b["uv"]) and not same(a["uv"], None)
+    assert not same(a["o"], a["o"] * 2)
 
 
 def test_a_byte_order_mark_is_no_error(tmp_path: Path) -> None:
