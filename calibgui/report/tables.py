@@ -104,17 +104,7 @@ def views(result: Result) -> str:
 
 def unused(all_views: Iterable[View]) -> str:
     """The images that were left out, each with the reason; empty if there are none."""
-    lines = [
-        textwrap.fill(
-            _why_unused(view),
-            WIDTH,
-            initial_indent="  ",
-            subsequent_indent="    ",
-            break_on_hyphens=False,
-        )
-        for view in all_views
-        if not view.usable
-    ]
+    lines = [_filled(_why_unused(view), "  ", "    ") for view in all_views if not view.usable]
     return "\n".join(["Left out", *lines]) if lines else ""
 
 
@@ -266,8 +256,18 @@ def _fixed(value: float, decimals: int) -> str:
 
 def bullet(text: str) -> str:
     """A remark in lines of at most 80 characters."""
+    return _filled(text, "- ", "  ")
+
+
+def _filled(text: str, first: str, others: str) -> str:
+    """In lines that fit the terminal and begin as said; a path longer than that stays whole."""
     return textwrap.fill(
-        text, WIDTH, initial_indent="- ", subsequent_indent="  ", break_on_hyphens=False
+        text,
+        WIDTH,
+        initial_indent=first,
+        subsequent_indent=others,
+        break_long_words=False,
+        break_on_hyphens=False,
     )
 
 

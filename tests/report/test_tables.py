@@ -97,6 +97,12 @@ def test_every_image_left_out_has_its_reason(result: Result) -> None:
     assert tables.unused([view for view in result.views if view.usable]) == ""
 
 
+def test_a_long_path_can_be_copied() -> None:
+    path = "/a" + 50 * "/b" + "/view.png"
+    view = View(path, ViewStatus.UNREADABLE, f"{path} is not an image.")
+    assert f"{path} is not" in " ".join(tables.unused([view]).split())
+
+
 def test_intrinsics_have_their_uncertainty_in_both_frames(result: Result) -> None:
     calibration = result.calibration
     _, head, *rows = lines(tables.intrinsics(calibration))
