@@ -371,11 +371,12 @@ def run() -> int:
 
 
 def test(arguments: list[str]) -> int:
-    """Run the test suite; pytest's exit code."""
+    """Run the test suite on all processors; pytest's exit code."""
     environment = set_up("dev", {"qt"})
     env = {"QT_QPA_PLATFORM": "offscreen", **environment.variables()}
     cache = [] if os.access(ROOT, os.W_OK) else ["-p", "no:cacheprovider"]
-    command: list[str | Path] = [environment.python, "-m", "pytest", *cache, *arguments]
+    parallel = ["-n", "auto", "--maxprocesses", "8", "--dist", "worksteal"]
+    command = [environment.python, "-m", "pytest", *parallel, *cache, *arguments]
     return subprocess.call(command, cwd=ROOT, env=env)
 
 
