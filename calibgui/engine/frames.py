@@ -6,6 +6,7 @@ array frame (u, v)   pixels, 0-based, integer coordinates at pixel centres, u ri
 paper's frame (x, y) pixels, origin at the centre of the pixel array, x right, y up:
                      x = u - (W - 1) / 2, y = (H - 1) / 2 - v. Its camera frame is
                      left-handed: X right, Y up, Z forward. Used by Stage I and for display.
+corner frame         pixels, 0-based, integer coordinates at pixel corners: photogrammetry's.
 plate frame          millimetres in the plane of the target, as the caller numbers it.
 
 `b_from_a` names a transform of coordinates in a to coordinates in b.
@@ -42,6 +43,11 @@ def paper_from_array(uv: Array, size: Size) -> Array:
 def array_from_paper(xy: Array, size: Size) -> Array:
     """(..., 2) image points in the array frame."""
     return xy * _FLIP[:2] + centre_of_array(size)
+
+
+def corner_from_array(uv: Array) -> Array:
+    """(..., 2) image points in the corner frame."""
+    return uv + 0.5
 
 
 PAPER_NAMES = ("xp", "yp", "k1", "k2", "k3", "p1", "p2", "p3", "fx", "fy")

@@ -14,9 +14,11 @@ from pathlib import Path
 
 from calibgui.engine.errors import CalibrationError
 from calibgui.formats import (
+    colmap_cameras,
     corners_csv,
     corners_json,
     engine_python,
+    mrcal_model,
     opencv_file,
     opencv_python,
     result_json,
@@ -31,6 +33,8 @@ EXPORTERS: dict[str, Exporter] = {
         result_json,
         opencv_file,
         ros_yaml,
+        mrcal_model,
+        colmap_cameras,
         engine_python,
         opencv_python,
         corners_json,

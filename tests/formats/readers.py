@@ -9,8 +9,11 @@ import subprocess
 import tempfile
 from typing import Any
 
+import numpy as np
 import pytest
 
+RAYS = np.array([[0.0, 0.0, 1.0], [0.3, 0.2, 1.0], [-0.6, 0.4, 1.5], [0.1, -0.7, 2.0]])
+"""Points in front of a camera, which every reader is asked to project."""
 _CANDIDATES = (os.environ.get("CALIBGUI_OTHER_PYTHON", ""), "/usr/bin/python3")
 """Interpreters with other programs' libraries, the first that serves is taken."""
 

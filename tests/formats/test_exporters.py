@@ -17,6 +17,8 @@ import pytest
 from calibgui.engine.errors import CalibrationError
 from calibgui.engine.types import Calibration, Camera, ViewResiduals
 from calibgui.formats import EXPORTERS, export, find_exporter
+from calibgui.formats.colmap_cameras import cameras
+from calibgui.formats.mrcal_model import cameramodel
 from calibgui.formats.opencv_file import storage
 from calibgui.formats.result import Result
 from calibgui.formats.result_json import read_result
@@ -105,3 +107,8 @@ def test_other_programs_files_are_written_as_they_always_were(golden: Result) ->
     assert xml == (_GOLDEN / "opencv.xml").read_text()
     info = camera_info(calibration.camera, "camera", "How it was refitted.")
     assert info == (_GOLDEN / "camera_info.yaml").read_text()
+    region = np.array([[0.0, 0.5], [600.0, 1.0], [20.0, 470.25]])
+    model = cameramodel(calibration.camera, region, "How it was refitted.")
+    assert model == (_GOLDEN / "camera.cameramodel").read_text()
+    listed = cameras(calibration.camera, "How it was refitted.")
+    assert listed == (_GOLDEN / "cameras.txt").read_text()

@@ -15,11 +15,10 @@ from calibgui.engine.estimation.projection import pixels
 from calibgui.formats.forward_model import forward
 from calibgui.formats.result import Result
 from calibgui.formats.ros_yaml import _number, write_ros
-from tests.formats.readers import in_other_python
+from tests.formats.readers import RAYS, in_other_python
 
 _YAML_1_1 = re.compile(r"[-+]?([0-9][0-9_]*)\.[0-9_]*([eE][-+][0-9]+)?")
 """A float with a decimal point and a signed exponent: what both YAML versions agree on."""
-_RAYS = np.array([[0.0, 0.0, 1.0], [0.3, 0.2, 1.0], [-0.6, 0.4, 1.5], [0.1, -0.7, 2.0]])
 
 
 @given(st.floats(allow_nan=False, allow_infinity=False))
@@ -45,8 +44,8 @@ def test_a_yaml_reader_gets_the_refitted_camera(tmp_path: Path, result: Result) 
     K, D = matrix("camera_matrix"), matrix("distortion_coefficients")
     assert np.array_equal(matrix("rectification_matrix"), np.eye(3))
     assert np.array_equal(matrix("projection_matrix"), np.hstack([K, np.zeros((3, 1))]))
-    theirs = cv2.projectPoints(_RAYS, np.zeros(3), np.zeros(3), K, D)[0].reshape(-1, 2)
-    assert np.abs(theirs - pixels(_RAYS[:, :2] / _RAYS[:, 2:], camera)).max() < 1e-9
+    theirs = cv2.projectPoints(RAYS, np.zeros(3), np.zeros(3), K, D)[0].reshape(-1, 2)
+    assert np.abs(theirs - pixels(RAYS[:, :2] / RAYS[:, 2:], camera)).max() < 1e-9
 
 
 _ROS = """
@@ -77,10 +76,10 @@ def test_ros_projects_what_it_reads_to_our_pixels(tmp_path: Path, result: Result
     file = tmp_path / "camera.yaml"
     write_ros(result, file)
     read = in_other_python(
-        _ROS, file, _RAYS.tolist(), needs="import camera_calibration_parsers, image_geometry"
+        _ROS, file, RAYS.tolist(), needs="import camera_calibration_parsers, image_geometry"
     )
     camera = forward(result).calibration.camera
-    n = _RAYS[:, :2] / _RAYS[:, 2:]
+    n = RAYS[:, :2] / RAYS[:, 2:]
     assert (read["name"], read["model"], tuple(read["size"])) == (
         "camera",
         "plumb_bob",

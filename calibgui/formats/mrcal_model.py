@@ -1,0 +1,59 @@
+"""mrcal's camera model, with the lens LENSMODEL_OPENCV5.
+
+Reader: mrcal 2, its command-line tools and its Python module; what newer ones call rt_cam_ref is
+written beside the older `extrinsics`. Pixels are OpenCV's (0-based, integer at pixel centres),
+and so are the five coefficients. The camera is its own reference. `valid_intrinsics_region` is
+the convex hull of the corners that were seen: the refit has nothing to hold on to beyond.
+Cannot hold: the paper's correction (its forward counterpart is refitted), standard deviations,
+poses, corners.
+"""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+from scipy.spatial import ConvexHull
+
+from calibgui.engine.files import write_atomically
+from calibgui.engine.types import Array, Camera
+from calibgui.formats.exporter import Exporter, ExportReport
+from calibgui.formats.forward_model import forward, refit_note
+from calibgui.formats.result import Result
+
+
+def write_mrcal(result: Result, path: Path) -> ExportReport:
+    """Write a .cameramodel file."""
+    fitted = forward(result)
+    note = refit_note(result, fitted)
+    corners = np.concatenate([view.uv for view in result.observations()])
+    hull = corners[ConvexHull(corners).vertices]
+    write_atomically(path, cameramodel(fitted.calibration.camera, hull, note).encode())
+    return ExportReport(path, note, fitted.largest_error)
+
+
+def cameramodel(camera: Camera, region: Array, note: str) -> str:
+    """The text of the file; `camera` is in OpenCV's model, `region` (n, 2) px an open contour."""
+    contour = [*region.tolist(), region[0].tolist()]
+    return f"""\
+# {note}
+# Pixels count from 0 at the centre of the first pixel, u right, v down.
+{{
+    'lensmodel': 'LENSMODEL_OPENCV5',
+    # fx, fy, cx, cy, k1, k2, p1, p2, k3
+    'intrinsics': {camera.params.tolist()},
+    'valid_intrinsics_region': {contour},
+    'extrinsics': {[0.0] * 6},
+    'rt_cam_ref': {[0.0] * 6},
+    'imagersize': {list(camera.size)},
+}}
+"""
+
+
+EXPORTER = Exporter(
+    name="mrcal",
+    title="mrcal camera model",
+    suffixes=(".cameramodel",),
+    limits="Forward distortion model (OPENCV5) refitted; no standard deviations, no poses.",
+    write=write_mrcal,
+)
