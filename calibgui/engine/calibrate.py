@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import hashlib
 from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import replace
 from functools import partial
 from typing import Any
 
@@ -11,7 +12,15 @@ import numpy as np
 
 from calibgui.engine.errors import CalibrationError, DegenerateError
 from calibgui.engine.estimation import uncertainty
-from calibgui.engine.estimation.degeneracy import diagnose, misfits
+from calibgui.engine.estimation.assumed import estimate_partly
+from calibgui.engine.estimation.degeneracy import (
+    PINHOLE,
+    copies,
+    diagnosed,
+    in_one_spot,
+    misfits,
+    undetermined,
+)
 from calibgui.engine.estimation.observations import (
     REFERENCE_PITCH,
     Observations,
@@ -19,9 +28,10 @@ from calibgui.engine.estimation.observations import (
     pitch,
     view_names,
 )
-from calibgui.engine.estimation.outcome import estimated, poses, residuals, stage_one_table
+from calibgui.engine.estimation.outcome import Asked, estimated, reported
 from calibgui.engine.estimation.solving import reweighted, solved
 from calibgui.engine.estimation.stage_one import prealign
+from calibgui.engine.estimation.stage_two import State
 from calibgui.engine.estimation.start import in_paper_frame, start_of_stage_two
 from calibgui.engine.estimation.weighting import weighted
 from calibgui.engine.lens import MODELS
@@ -89,7 +99,8 @@ def calibrate(
 
     Raises:
         CalibrationError: for views that cannot be used, naming them.
-        DegenerateError: if the views do not determine the camera, with what to photograph.
+        DegenerateError: if the views do not determine the camera, with what to photograph and,
+            in `partial`, what they do determine.
         Cancelled: from `report`.
     """
     cost = Cost(cost)
@@ -111,15 +122,9 @@ def calibrate(
     observations = pack(views, names)
     _check_size(observations, size, names)
     scale = REFERENCE_PITCH / pitch(observations)
-    if len(views) < 2:
-        raise DegenerateError(
-            "One view does not determine a camera.",
-            "Add at least two more views with the board tilted in different directions.",
-        )
     first = prealign(*in_paper_frame(observations, scale, size, names))
     lens = MODELS[model]
     start, values = start_of_stage_two(observations, first, size, lens, parameters, held)
-    free_indices = np.flatnonzero([name not in held for name in parameters])
     settings = {
         "cost": cost.value,
         "model": model,
@@ -128,22 +133,32 @@ def calibrate(
         "plate": plate.model.value if isinstance(plate, Plate) else plate.value,
         "plate_held": isinstance(plate, Plate),
     }
-    if isinstance(plate, Plate):
-        observations = on_plate(observations, plate)
+    held_plate = plate if isinstance(plate, Plate) else None
+    asked = Asked(size, model, cost, scale, parameters, values, first, held_plate, settings)
+    if held_plate is not None:
+        observations = on_plate(observations, held_plate)
     if cost is Cost.IMAGE:  # the covariances are of corners in the image
         observations = weighted(observations)
+    if not copies(observations).any():
+        # One plane gives two equations on these.
+        unheld = [name for name in PINHOLE if name not in held]
+        _refuse(observations, asked, start, unheld if len(unheld) > 2 else ())
+    free_indices = asked.free
     solve = partial(solved, model=model, cost=cost, scale=scale, free=free_indices, report=report)
     solution = solve(observations, start, max_iterations=max_iterations)
     if observations.whitening is not None:
         observations, solution = reweighted(observations, solution, model, solve)
+    free_names = tuple(parameters[i] for i in free_indices)
     precision = uncertainty.precision(
         solution.normal,
-        tuple(parameters[i] for i in free_indices),
+        free_names,
         observations.count,
         _tolerated(Camera(size, solution.state.params, model), observations)[free_indices],
     )
     suspects = [names[k] for k in misfits(first.rms).tolist()]
-    diagnose(solution, tuple(parameters[i] for i in free_indices), precision, suspects)
+    lost = undetermined(solution, free_names, precision, suspects)
+    if lost or in_one_spot(observations, size):
+        _refuse(observations, asked, solution.state, lost)
     estimate = estimated(solution, observations, precision)
     if plate is PlateModel.NOMINAL and cost is Cost.IMAGE:
         estimate = with_plate_doubt(estimate, observations, model, free_indices)
@@ -151,38 +166,37 @@ def calibrate(
         estimate = fit_plate(solution, observations, model, free_indices, plate, prior, report)
     if cost is Cost.IMAGE:
         estimate = with_view_scatter(estimate, model, free_indices)
-    lost = [parameters.index(u.name) for u in precision.undetermined]
+    digest = _digest(observations, settings)
+    return reported(estimate, asked, precision.undetermined, digest)
 
-    def deviations(covariance: Array) -> tuple[Array, Array]:
-        whole = np.zeros((len(parameters), len(parameters)))
-        whole[np.ix_(free_indices, free_indices)] = covariance
-        sigma = np.sqrt(np.diag(whole))
-        sigma[lost] = np.nan
-        return whole, sigma
 
-    covariance, sigma = deviations(estimate.camera)
-    return Calibration(
-        camera=Camera(size, estimate.state.params, model),
-        sigma=sigma,
-        covariance=covariance,
-        sigma_by_noise=deviations(estimate.by_noise)[1],
-        poses=poses(estimate.state),
-        pose_covariances=estimate.poses,
-        residuals=residuals(estimate.state, estimate.observations, model, cost, scale),
-        noise=float(np.sqrt(estimate.sigma2)),
-        model_error=float(np.sqrt(estimate.observations.tau2)),
-        reference_scale=scale,
-        stage_one=stage_one_table(first, literal=cost is Cost.PAPER),
-        history=estimate.solution.history,
-        status=estimate.solution.status,
-        cost=cost,
-        fixed=tuple(name for name in parameters if name in held),
-        undetermined=precision.undetermined,
-        plate=plate if isinstance(plate, Plate) else estimate.plate,
-        plate_doubt=estimate.plate_doubt,
-        view_scatter=estimate.view_scatter,
-        settings=settings,
-        digest=_digest(observations, settings),
+def _refuse(observations: Observations, asked: Asked, state: State, lost: Sequence[str]) -> None:
+    """Raise DegenerateError with what the views do determine; return if that is everything.
+
+    Args:
+        observations: the views.
+        asked: of them.
+        state: camera and poses, as far as they are known.
+        lost: focal lengths and coordinates of the centre that the views do not determine.
+    """
+    like = copies(observations)
+    partly = estimate_partly(observations, like, asked, state.params)
+    if partly is None:
+        diagnosis = diagnosed(observations, asked.size, like, state, lost)
+        raise DegenerateError(diagnosis.message, diagnosis.hint)
+    estimate, assumed = partly
+    if not (lost or assumed):
+        return
+    lost = [quantity.name for quantity in assumed] or lost
+    diagnosis = diagnosed(observations, asked.size, like, estimate.state, lost)
+    if asked.plate is None and asked.settings["plate"] != PlateModel.NOMINAL:
+        said = f"{diagnosis.message} The board's shape is not estimated."
+        diagnosis = replace(diagnosis, message=said)
+    calibration = reported(estimate, asked, (), _digest(observations, asked.settings))
+    raise DegenerateError(
+        diagnosis.message,
+        diagnosis.hint,
+        replace(calibration, diagnosis=replace(diagnosis, assumed=assumed)),
     )
 
 

@@ -2,6 +2,11 @@
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from calibgui.engine.types import Calibration
+
 
 class CalibrationError(Exception):
     """An operation that cannot be done, said so that its reader can act.
@@ -25,7 +30,18 @@ class NoBoardError(CalibrationError):
 
 
 class DegenerateError(CalibrationError):
-    """The views do not determine the camera, whatever their accuracy."""
+    """The views do not determine the camera, whatever their accuracy.
+
+    Args:
+        message: the cause.
+        hint: what to photograph.
+        partial: what they do determine, with the rest assumed (``Calibration.diagnosis``); None
+            if that is nothing.
+    """
+
+    def __init__(self, message: str, hint: str, partial: Calibration | None = None) -> None:
+        super().__init__(message, hint)
+        self.partial = partial
 
 
 class Cancelled(Exception):  # noqa: N818 - a request, not an error

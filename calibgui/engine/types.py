@@ -304,6 +304,8 @@ class Status(StrEnum):
     """How a solve ended."""
 
     CONVERGED = "converged"
+    PARTIAL = "partial"
+    """Converged, with quantities assumed that the views do not determine (`Diagnosis`)."""
     MAX_ITERATIONS = "max-iterations"
     STOPPED = "stopped"
 
@@ -368,6 +370,44 @@ class Undetermined:
     reason: str
 
 
+class Degeneracy(StrEnum):
+    """Kinds of sets of views that do not determine a camera."""
+
+    ONE_VIEW = "one-view"
+    COPIES = "copies"
+    """The same corners in every view."""
+    PARALLEL_TO_SENSOR = "parallel-to-sensor"
+    ONE_PLACE = "one-place"
+    """The board at one place in one orientation, at most turned about its normal."""
+    ONE_ORIENTATION = "one-orientation"
+    ONE_SPOT = "one-spot"
+    """All corners in a small part of the image."""
+    TOO_LITTLE = "too-little"
+    """Views that differ, but too few or by too little."""
+
+
+@dataclass(frozen=True, slots=True)
+class Assumed:
+    """A quantity that the views do not determine, and what is taken for it."""
+
+    name: str
+    """Of a parameter, or "fy/fx". With fx assumed, fy follows it, and so do the coefficients."""
+    value: float
+    doubt: float
+    """One standard deviation of what the value may be off by."""
+
+
+@dataclass(frozen=True, slots=True)
+class Diagnosis:
+    """Why views do not determine the camera, and what was made of them."""
+
+    kind: Degeneracy
+    message: str
+    hint: str
+    """What to photograph."""
+    assumed: tuple[Assumed, ...] = ()
+
+
 @dataclass(frozen=True, eq=False, slots=True)
 class ViewResiduals:
     """What the calibration leaves unexplained in one view."""
@@ -418,6 +458,9 @@ class Calibration:
     fixed: tuple[str, ...]
     """Names of the intrinsics that were held."""
     undetermined: tuple[Undetermined, ...] = ()
+    diagnosis: Diagnosis | None = None
+    """Of views that do not determine the camera (`Status.PARTIAL`); every uncertainty then includes
+    what the assumptions may be off by."""
     plate: Plate | None = None
     """The target's shape, where it was estimated or held."""
     plate_doubt: float = 0.0

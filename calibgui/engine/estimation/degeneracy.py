@@ -13,7 +13,8 @@ about 1, whatever the focal length has become, because all parallel planes keep 
 line. Measured over 2 to 40 views at 0.05 to 1 px: at most 5 for parallel planes, 120 for two
 planes 1.4 degrees apart, thousands for tilts of 2 to 5 degrees.
 
-What differing planes still leave open, ``uncertainty.precision`` finds.
+What differing planes still leave open, ``uncertainty.precision`` finds; what the views of a
+degenerate set do determine, ``assumed.py``.
 """
 
 from __future__ import annotations
@@ -22,10 +23,12 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from calibgui.engine.errors import CalibrationError, DegenerateError
+from calibgui.engine.errors import CalibrationError
 from calibgui.engine.estimation.levenberg_marquardt import Solution
+from calibgui.engine.estimation.observations import Observations
+from calibgui.engine.estimation.stage_two import State
 from calibgui.engine.estimation.uncertainty import Precision
-from calibgui.engine.types import Array, IntArray
+from calibgui.engine.types import Array, Degeneracy, Diagnosis, IntArray, Size
 
 PINHOLE = ("fx", "fy", "cx", "cy")
 _SIGNIFICANT = 50.0
@@ -40,6 +43,10 @@ _MISFIT = 10.0
 """Stage I residual, in those of the median view, beyond which corners are not of the board."""
 _LEAST_MISFIT = 1.0
 """Least such residual, reference px, of which a square has 30."""
+_SPOT = 1 / 3
+"""Of the image's width and height, below which corners lie in one spot."""
+_THERE = 0.03
+"""Of the distance, by which a board in one place may seem to move."""
 
 
 def normals(R: Array) -> Array:
@@ -76,10 +83,10 @@ def misfits(rms: Array) -> IntArray:
     return np.flatnonzero(rms > np.maximum(_MISFIT * np.median(rms), _LEAST_MISFIT))
 
 
-def diagnose(
+def undetermined(
     solution: Solution, names: tuple[str, ...], precision: Precision, suspects: Sequence[str]
-) -> None:
-    """Refuse a solution whose focal lengths or centre the views do not determine.
+) -> tuple[str, ...]:
+    """The focal lengths and coordinates of the centre that the views do not determine.
 
     Args:
         solution: of Stage II.
@@ -88,43 +95,105 @@ def diagnose(
         suspects: names of the views that are `misfits`.
 
     Raises:
-        DegenerateError: with the cause, and what to photograph instead.
         CalibrationError: if suspects are the cause.
     """
+    pinhole = tuple(name for name in names if name in PINHOLE)
     if not np.isfinite(precision.variance):
-        raise DegenerateError(
+        return pinhole
+    # One orientation gives two equations: enough if the other two parameters are held.
+    same = len(pinhole) > 2 and parallel(solution.state.R, solution.normal.V, precision.variance)
+    found = pinhole if same else tuple(u.name for u in precision.undetermined if u.name in PINHOLE)
+    if found and suspects:
+        raise CalibrationError(
+            f"No camera sees a flat board as in {', '.join(suspects)}, which leaves "
+            f"{', '.join(found)} undetermined.",
+            "Number their corners as in the other views, or leave them out.",
+        )
+    return found
+
+
+def copies(observations: Observations) -> IntArray:
+    """(K,) of each view the first with the very same corners: itself, or what it is a copy of."""
+    first: dict[bytes, int] = {}
+    views = zip(observations.uv, observations.xy, strict=True)
+    keys = [uv.tobytes() + xy.tobytes() for uv, xy in views]
+    return np.array([first.setdefault(key, k) for k, key in enumerate(keys)], dtype=np.int64)
+
+
+def in_one_spot(observations: Observations, size: Size) -> bool:
+    """Whether all corners lie in a small part of the image."""
+    return bool((_extent(observations, size) < _SPOT).all())
+
+
+def diagnosed(
+    observations: Observations, size: Size, like: IntArray, state: State, lost: Sequence[str]
+) -> Diagnosis:
+    """The kind of a degenerate set, why it leaves the camera open, and what to photograph.
+
+    Args:
+        observations: the views.
+        size: of the images, px.
+        like: (K,) as from `copies`.
+        state: camera and poses, as far as they are known.
+        lost: names of what is undetermined.
+    """
+    K, n = len(like), normals(state.R)
+    tilt = "the board tilted by 20 to 45 degrees"
+    so = f", which leaves {', '.join(lost)} undetermined." if lost else "."
+    if not like.any():
+        kind = Degeneracy.ONE_VIEW if K == 1 else Degeneracy.COPIES
+        said = (
+            f"All {K} views are copies of one" if K > 1 else "One view does not determine a camera"
+        )
+        hint = f"Add at least two more views with {tilt} in different directions."
+        return Diagnosis(kind, said + so, hint)
+    if 2 * observations.count <= len(lost) + 6 * K:
+        return Diagnosis(
+            Degeneracy.TOO_LITTLE,
             "There are no more corner coordinates than unknowns.",
             "Add views, or views that show more corners.",
         )
-    pinhole = [name for name in names if name in PINHOLE]
-    R, n = solution.state.R, normals(solution.state.R)
-    # One orientation gives two equations: enough if the other two parameters are held.
-    same = len(pinhole) > 2 and parallel(R, solution.normal.V, precision.variance)
-    lost = pinhole if same else [u.name for u in precision.undetermined if u.name in PINHOLE]
-    if not lost:
-        return
-    what = ", ".join(lost)
-    if suspects:
-        raise CalibrationError(
-            f"No camera sees a flat board as in {', '.join(suspects)}, which leaves {what} "
-            "undetermined.",
-            "Number their corners as in the other views, or leave them out.",
+    if _farthest(n, _mean(n)) < _CLOSE:
+        hint = f"Add views with {tilt} in other directions."
+        if _in_one_place(observations, state):
+            kind = Degeneracy.ONE_PLACE
+            said = "All views show the board in one orientation and place, or turned in its plane"
+        elif _farthest(n, _AXIS) < _CLOSE:
+            kind = Degeneracy.PARALLEL_TO_SENSOR
+            said = "All views are parallel to the sensor"
+            hint = f"Add views with {tilt}, to the left, right, top and bottom."
+        else:
+            kind = Degeneracy.ONE_ORIENTATION
+            said = "All views show the board in one orientation"
+        return Diagnosis(kind, said + so, hint)
+    if in_one_spot(observations, size):
+        w, h = (100 * _extent(observations, size)).tolist()
+        return Diagnosis(
+            Degeneracy.ONE_SPOT,
+            f"All corners lie in one spot, {w:.0f} x {h:.0f} % of the image{so}",
+            "Fill the image with the board, or bring it into every part of the image.",
         )
-    if _farthest(n, _AXIS) < _CLOSE:
-        raise DegenerateError(
-            f"All views are parallel to the sensor, which leaves {what} undetermined.",
-            "Tilt the board by 20 to 45 degrees, to the left, right, top and bottom.",
-        )
-    if same or _farthest(n, _mean(n)) < _CLOSE:
-        raise DegenerateError(
-            f"All views show the board in one orientation, which leaves {what} undetermined.",
-            "Add views with the board tilted by 20 to 45 degrees in other directions.",
-        )
-    raise DegenerateError(
-        f"These {len(n)} views leave {what} undetermined.",
-        "Add views with the board tilted by 20 to 45 degrees in different directions, "
-        "some of them near the image's corners.",
+    return Diagnosis(
+        Degeneracy.TOO_LITTLE,
+        f"These {K} views leave {', '.join(lost)} undetermined.",
+        f"Add views with {tilt} in different directions, some of them near the image's corners.",
     )
+
+
+def _extent(observations: Observations, size: Size) -> Array:
+    """(2,) width and height over which corners lie, of the image's."""
+    # Padding repeats a corner.
+    return np.asarray(np.ptp(observations.uv.reshape(-1, 2), axis=0) / np.array(size))
+
+
+def _in_one_place(observations: Observations, state: State) -> bool:
+    """Whether the plate's middle stays where it is, seen from the camera."""
+    xy = observations.xy.reshape(-1, observations.xy.shape[-1])[:, :2]
+    middle = (xy.min(axis=0) + xy.max(axis=0)) / 2
+    place = state.R[:, :, :2] @ middle + state.T
+    distance = np.linalg.norm(place, axis=1)
+    away = np.linalg.norm(place - place.mean(axis=0), axis=1)
+    return bool(away.max() < _THERE * distance.mean())
 
 
 def _mean(n: Array) -> Array:

@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
-from typing import NamedTuple
+from collections.abc import Mapping
+from typing import Any, NamedTuple
+
+import numpy as np
 
 from calibgui.engine import frames
 from calibgui.engine.estimation import cosines, homography, problem, uncertainty
@@ -10,7 +13,45 @@ from calibgui.engine.estimation.levenberg_marquardt import Solution
 from calibgui.engine.estimation.observations import Observations
 from calibgui.engine.estimation.stage_one import Prealignment
 from calibgui.engine.estimation.stage_two import State
-from calibgui.engine.types import Array, Cost, Plate, Pose, StageOne, ViewResiduals
+from calibgui.engine.types import (
+    Array,
+    Calibration,
+    Camera,
+    Cost,
+    IntArray,
+    Plate,
+    Pose,
+    Size,
+    StageOne,
+    Undetermined,
+    ViewResiduals,
+)
+
+
+class Asked(NamedTuple):
+    """What is asked of some views, whatever they answer."""
+
+    size: Size
+    """Of the images, px."""
+    model: str
+    """The lens, a key of ``lens.MODELS``."""
+    cost: Cost
+    scale: float
+    """Reference px per mm."""
+    names: tuple[str, ...]
+    """(P,) of the camera's parameters."""
+    held: Mapping[str, float]
+    """Those that the user holds, with their values."""
+    first: Prealignment
+    """Stage I of the views."""
+    plate: Plate | None
+    """To be held."""
+    settings: Mapping[str, Any]
+
+    @property
+    def free(self) -> IntArray:
+        """Places of the parameters to estimate."""
+        return np.flatnonzero([name not in self.held for name in self.names])
 
 
 class Estimate(NamedTuple):
@@ -48,6 +89,54 @@ def estimated(
     sigma2, camera, _ = precision
     spread = uncertainty.pose_covariances(solution.normal, camera, rvecs, sigma2)
     return Estimate(solution, solution.state, observations, sigma2, camera, spread, camera)
+
+
+def reported(
+    estimate: Estimate, asked: Asked, undetermined: tuple[Undetermined, ...], digest: str
+) -> Calibration:
+    """The calibration as it is handed over: all parameters, held ones included.
+
+    Args:
+        estimate: of what is asked.
+        asked: by the user.
+        undetermined: parameters whose standard deviations are not to be believed.
+        digest: of the observations and settings.
+    """
+    P, free, cost = len(asked.names), asked.free, asked.cost
+    lost = [asked.names.index(u.name) for u in undetermined]
+
+    def deviations(covariance: Array) -> tuple[Array, Array]:
+        whole = np.zeros((P, P))
+        whole[np.ix_(free, free)] = covariance
+        sigma = np.sqrt(np.diag(whole))
+        sigma[lost] = np.nan
+        return whole, sigma
+
+    state, observations = estimate.state, estimate.observations
+    covariance, sigma = deviations(estimate.camera)
+    return Calibration(
+        camera=Camera(asked.size, state.params, asked.model),
+        sigma=sigma,
+        covariance=covariance,
+        sigma_by_noise=deviations(estimate.by_noise)[1],
+        poses=poses(state),
+        pose_covariances=estimate.poses,
+        residuals=residuals(state, observations, asked.model, cost, asked.scale),
+        noise=float(np.sqrt(estimate.sigma2)),
+        model_error=float(np.sqrt(observations.tau2)),
+        reference_scale=asked.scale,
+        stage_one=stage_one_table(asked.first, literal=cost is Cost.PAPER),
+        history=estimate.solution.history,
+        status=estimate.solution.status,
+        cost=cost,
+        fixed=tuple(name for name in asked.names if name in asked.held),
+        undetermined=undetermined,
+        plate=asked.plate or estimate.plate,
+        plate_doubt=estimate.plate_doubt,
+        view_scatter=estimate.view_scatter,
+        settings=asked.settings,
+        digest=digest,
+    )
 
 
 def poses(state: State) -> tuple[Pose, ...]:

@@ -1,4 +1,4 @@
-"""Sets of views that do not determine a camera: each is refused by name, none answered."""
+"""Sets of views that do not determine a camera: each is refused by name."""
 
 from __future__ import annotations
 
@@ -49,7 +49,8 @@ def test_ten_copies_of_one_view(own: bool, noise: float) -> None:
     made = scene(CAMERA, 1)
     copies = seen(CAMERA, [made.poses[0]] * 10)
     views = copies.noisy(noise, np.random.default_rng(2))
-    with pytest.raises(DegenerateError, match="in one orientation"):
+    said = "in one orientation and place" if own and noise else "All 10 views are copies of one"
+    with pytest.raises(DegenerateError, match=said):
         calibrate(views if own else [views[0]] * 10, made.size)
 
 
@@ -78,7 +79,7 @@ def test_planes_that_differ_but_say_too_little() -> None:
     rng = np.random.default_rng(5)
     poses = [looking(CAMERA, rng, (25, 45), roll=0.0, towards=180 * i) for i in range(2)]
     made = seen(CAMERA, poses, partial=True)
-    with pytest.raises(DegenerateError, match="2 views leave fx"):
+    with pytest.raises(DegenerateError, match="2 views leave fy/fx"):
         calibrate(made.noisy(1.0, np.random.default_rng(0)), made.size)
 
 
