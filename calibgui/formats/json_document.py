@@ -54,17 +54,18 @@ def dumps(value: Any, depth: int = 0) -> str:
 
 def _list(items: list[str], depth: int) -> str:
     nested = any(item[0] in "[{" for item in items)
+    if nested and sum(len(item) + 2 for item in items) > _LINE:
+        return _block("[", items, "]", depth)
     line = f"[{', '.join(items)}]"
-    if not nested or (len(line) <= _LINE and "\n" not in line):
-        return line
-    return _block("[", items, "]", depth)
+    return _block("[", items, "]", depth) if nested and "\n" in line else line
 
 
 def _block(opening: str, lines: list[str], closing: str, depth: int) -> str:
     if not lines:
         return opening + closing
     inner, outer = "\n" + " " * (depth + 1), "\n" + " " * depth
-    return opening + inner + f",{inner}".join(lines) + outer + closing
+    content = f",{inner}".join(lines)
+    return f"{opening}{inner}{content}{outer}{closing}"
 
 
 def write(path: str | os.PathLike[str], value: Any) -> None:

@@ -135,7 +135,8 @@ class Analysis(QWidget):
 
     def began(self) -> None:
         """A calibration starts: its progress is shown."""
-        self.show_panel(ConvergencePanel).start()
+        self.panel(ConvergencePanel).start()  # before it would draw the last one
+        self.show_panel(ConvergencePanel)
 
     def advanced(self, iteration: Iteration) -> None:
         """A calibration has come one iteration further."""
@@ -144,9 +145,9 @@ class Analysis(QWidget):
     def ended(self) -> None:
         """A calibration is over: what came of it is shown."""
         convergence = self.panel(ConvergencePanel)
-        convergence.show_result(self._session.result)
         if self.stack.currentWidget() is convergence and self._session.result is not None:
             self.show_panel(ResultPanel)
+        convergence.show_result(self._session.result)
 
     def _make_bar(self) -> QHBoxLayout:
         self.results = QComboBox()

@@ -163,8 +163,8 @@ class MainWindow(QMainWindow):
 
     def _result_changed(self, result: Result | None) -> None:
         if result is not None and self.analysis is None:
-            # In a turn of its own: what has been opened is on screen by then.
-            QTimer.singleShot(0, self, self.need_analysis)
+            # A frame later, not in the same turn: what has been opened is on screen by then.
+            QTimer.singleShot(_FRAME, self, self.need_analysis)
 
     def show_failure(self, error: BaseException) -> None:
         """Say what cannot be done; report what should not have happened."""
@@ -276,6 +276,8 @@ class MainWindow(QMainWindow):
         event.accept()
 
 
+_FRAME = 16
+"""Between two pictures on the screen, ms."""
 _IMAGES_WIDTH = 264
 _RESULTS_WIDTH = 556
 """At least, px, until the user chooses another."""

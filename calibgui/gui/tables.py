@@ -21,7 +21,7 @@ from PySide6.QtCore import (
     Qt,
     Signal,
 )
-from PySide6.QtGui import QAction, QColor, QGuiApplication, QKeySequence, QResizeEvent
+from PySide6.QtGui import QAction, QColor, QGuiApplication, QKeySequence, QResizeEvent, QShowEvent
 from PySide6.QtWidgets import (
     QAbstractItemView,
     QFileDialog,
@@ -231,6 +231,10 @@ class Table(QTableView):
         if path:
             self.save(path if Path(path).suffix else path + ".csv")
 
+    def showEvent(self, event: QShowEvent) -> None:  # noqa: N802 - Qt's name
+        super().showEvent(event)
+        self._fit()
+
     def resizeEvent(self, event: QResizeEvent) -> None:  # noqa: N802 - Qt's name
         super().resizeEvent(event)
         self._fit()
@@ -238,10 +242,10 @@ class Table(QTableView):
     def _fit(self) -> None:
         """Spare the user sideways scrolling: leave columns out, then narrow the first one."""
         header, columns = self.horizontalHeader(), self._model.columns
-        if not columns:
-            return
         for place, column in enumerate(columns):
             self.setColumnHidden(place, column.hidden)
+        if not columns or not self.isVisible():
+            return
         header.setSectionResizeMode(0, QHeaderView.ResizeMode.ResizeToContents)
         header.resizeSections(QHeaderView.ResizeMode.ResizeToContents)
         room = self.viewport().width()
