@@ -66,7 +66,7 @@ def calibrate_twice(
         Cancelled: from `report`, or if `stop` was set.
     """
     result = calibrate_views(corner_set, settings, report)
-    if result.calibration.status is Status.STOPPED:
+    if result.calibration.status is Status.STOPPED or result.calibration.diagnosis is not None:
         return result
     more, said = search_again(corner_set, result, stop)
     if said:

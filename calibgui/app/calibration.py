@@ -13,7 +13,7 @@ from threadpoolctl import threadpool_limits
 from calibgui import engine
 from calibgui.app.marking import removed
 from calibgui.app.settings import USUAL, Settings
-from calibgui.engine.errors import CalibrationError
+from calibgui.engine.errors import CalibrationError, DegenerateError
 from calibgui.engine.quality.noise import calibrate_weighted
 from calibgui.engine.quality.screening import screen
 from calibgui.engine.quality.validation import choose_plate
@@ -23,6 +23,7 @@ from calibgui.engine.types import (
     Cost,
     IntArray,
     Observation,
+    PlateModel,
     Report,
     View,
 )
@@ -39,14 +40,15 @@ def calibrate_views(
     Where the plate is left open the result's warnings say why which model was chosen. Outliers
     are left out first (``engine.quality.screening``): the result's views are without them, and its
     warnings name them. Where views are weighed, the result's views have the covariances with
-    which they were.
+    which they were. Copies of a view are left out. Of views that do not determine the camera the
+    result is partial (``Calibration.diagnosis``), without looking for outliers or weighing.
 
     Raises:
-        CalibrationError: as ``engine.calibrate``, naming images, or if no view is usable.
+        CalibrationError: as ``engine.calibrate``, naming images, or if no view is usable;
+            DegenerateError if the views determine nothing at all.
         Cancelled: from `report`.
     """
-    views, size = corner_set.views, corner_set.size
-    if not any(view.usable for view in views):
+    if not any(view.usable for view in corner_set.views):
         raise CalibrationError(
             "None of the images can be used.",
             "Photograph the whole board, sharp and evenly lit, at least 3 times from different "
@@ -57,34 +59,75 @@ def calibrate_views(
             f"The cost {settings.cost.value!r} weighs all corners alike.",
             "Weigh views by their noise with the cost 'image'.",
         )
+    corner_set = replace(corner_set, views=_each_once(corner_set))
     # The matrices are small: threads would cost more than they bring.
     with threadpool_limits(1):
-        said: tuple[str, ...] = ()
-        if settings.robust:
-            views, said = _screened(corner_set, settings)
-        used = [view for view in views if view.usable]
-        observations = [view.observation(corner_set.target) for view in used]
-        camera: dict[str, Any] = {"fix": settings.fixed, "free": settings.freed}
-        plate = settings.plate
-        if plate is None:
-            choice = choose_plate(observations, size, **camera)
-            plate, said = choice.model, (choice.words, *said)
-        everything = camera | {
-            "cost": settings.cost,
-            "plate": plate,
-            "prior": settings.prior,
-            "report": report,
-            "names": short_names(used),
-        }
-        if settings.weigh_views:
-            calibration, observations = calibrate_weighted(observations, size, **everything)
-            views = _with_covariances(views, observations)
-            said = (*said, _about_weights(observations, everything["names"]))
-        else:
-            calibration = engine.calibrate(observations, size, **everything)
+        try:
+            return _calibrated(corner_set, settings, report)
+        except DegenerateError:
+            partial = _partly(corner_set, settings, report)
+            if partial is None:
+                raise
+            return partial
+
+
+def _calibrated(corner_set: CornerSet, settings: Settings, report: Report | None) -> Result:
+    """As `calibrate_views`, if the views determine the camera."""
+    views, size = corner_set.views, corner_set.size
+    said: tuple[str, ...] = ()
+    if settings.robust:
+        views, said = _screened(corner_set, settings)
+    used = [view for view in views if view.usable]
+    observations = [view.observation(corner_set.target) for view in used]
+    camera: dict[str, Any] = {"fix": settings.fixed, "free": settings.freed}
+    plate = settings.plate
+    if plate is None:
+        choice = choose_plate(observations, size, **camera)
+        plate, said = choice.model, (choice.words, *said)
+    everything = camera | {
+        "cost": settings.cost,
+        "plate": plate,
+        "prior": settings.prior,
+        "report": report,
+        "names": short_names(used),
+    }
+    if settings.weigh_views:
+        calibration, observations = calibrate_weighted(observations, size, **everything)
+        views = _with_covariances(views, observations)
+        said = (*said, _about_weights(observations, everything["names"]))
+    else:
+        calibration = engine.calibrate(observations, size, **everything)
     said = (*calibration.warnings, *said, *_unplaced(used, calibration))
     calibration = replace(calibration, warnings=said)
     return Result(calibration, views, corner_set.target)
+
+
+def _partly(corner_set: CornerSet, settings: Settings, report: Report | None) -> Result | None:
+    """What views that do not determine the camera say of it, as they are; None if nothing."""
+    plain = replace(
+        settings, robust=False, weigh_views=False, plate=settings.plate or PlateModel.NOMINAL
+    )
+    try:
+        _calibrated(corner_set, plain, report)
+    except DegenerateError as error:
+        if error.partial is not None:
+            return Result(error.partial, corner_set.views, corner_set.target)
+    return None
+
+
+def _each_once(corner_set: CornerSet) -> tuple[View, ...]:
+    """The views, of which those are left out that repeat another's very corners, unless all do."""
+    first: dict[bytes, View] = {}
+    views = []
+    for view in corner_set.views:
+        if view.usable:
+            uv, xy, _ = view.observation(corner_set.target)
+            original = first.setdefault(uv.tobytes() + xy.tobytes(), view)
+            if original is not view:
+                reason = f"A copy of {original.image}, which counts once."
+                view = replace(view, enabled=False, reason=reason)
+        views.append(view)
+    return tuple(views) if len(first) > 1 else corner_set.views
 
 
 def _with_covariances(

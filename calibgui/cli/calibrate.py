@@ -22,7 +22,7 @@ from calibgui.cli.arguments import (
 from calibgui.cli.console import Console
 from calibgui.cli.targets import add_target, pattern_of
 from calibgui.engine.calibrate import HELD, parameter_names
-from calibgui.engine.errors import CalibrationError
+from calibgui.engine.errors import CalibrationError, DegenerateError
 from calibgui.engine.types import Cost, Plate, PlateModel, Prior
 from calibgui.formats import EXPORTERS, export, find_exporter
 from calibgui.formats.corners_json import CornerSet, read_corners
@@ -145,12 +145,18 @@ def run(options: argparse.Namespace, console: Console) -> None:
     if options.save_plate and result.calibration.plate is not None:
         write_plate(result.calibration.plate, options.save_plate)
         written.append(f"Wrote {options.save_plate}.")
+    diagnosis = result.calibration.diagnosis
     for name, path in options.export:
-        written.append(f"Wrote {path}. {export(result, name, path).note}")
+        if diagnosis is not None and not EXPORTERS[name].partial:
+            written.append(f"{path} is not written: it could not say that this is partial.")
+        else:
+            written.append(f"Wrote {path}. {export(result, name, path).note}")
     console.answer(result_record(result))
     console.say(tables.report(result), otherwise=tables.unused(result.views))
     if written:
         console.say("\n" + "\n".join(map(tables.bullet, written)))
+    if diagnosis is not None:  # not what was asked for
+        raise DegenerateError(diagnosis.message, diagnosis.hint, result.calibration)
 
 
 def _check_usage(options: argparse.Namespace) -> None:

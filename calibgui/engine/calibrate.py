@@ -157,7 +157,7 @@ def calibrate(
     )
     suspects = [names[k] for k in misfits(first.rms).tolist()]
     lost = undetermined(solution, free_names, precision, suspects)
-    if lost or in_one_spot(observations, size):
+    if lost or in_one_spot(observations.uv, size):  # padding repeats a corner
         _refuse(observations, asked, solution.state, lost)
     estimate = estimated(solution, observations, precision)
     if plate is PlateModel.NOMINAL and cost is Cost.IMAGE:

@@ -48,10 +48,17 @@ def export(result: Result, name: str, path: str | os.PathLike[str]) -> ExportRep
     """Write `result` as the file `path` in the format `name`.
 
     Raises:
-        CalibrationError: for an unknown format, a suffix that is not the format's, or a file
-            that cannot be written.
+        CalibrationError: for an unknown format, a suffix that is not the format's, a file
+            that cannot be written, or a partial calibration that the format would pass for whole.
     """
     exporter = find_exporter(name, path)
+    diagnosis = result.calibration.diagnosis
+    if diagnosis is not None and not exporter.partial:
+        raise CalibrationError(
+            f"{os.fspath(path)} is not written: readers of the format {name!r} would take a "
+            f"partial calibration for a whole one. {diagnosis.message}",
+            diagnosis.hint,
+        )
     return exporter.write(result, Path(path))
 
 

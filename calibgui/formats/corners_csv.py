@@ -122,4 +122,5 @@ EXPORTER = Exporter(
     suffixes=(".csv",),
     limits="Corners and their places on the plate; no calibration, no images without corners.",
     write=_export,
+    partial=True,
 )

@@ -93,4 +93,5 @@ EXPORTER = Exporter(
     suffixes=(".json",),
     limits="Corners of all images and their places on the plate; no calibration.",
     write=_export,
+    partial=True,
 )

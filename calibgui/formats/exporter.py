@@ -35,3 +35,5 @@ class Exporter:
     """Conventions, what is refitted and what the format cannot hold."""
     write: Callable[[Result, Path], ExportReport]
     """Raises CalibrationError if the file cannot be written."""
+    partial: bool = False
+    """Whether it says of a camera what was assumed, or holds no camera."""

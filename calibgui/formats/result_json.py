@@ -4,8 +4,9 @@ Reader: `read_result`, and any JSON reader; described by resources/schema/result
 Pixels are in the array frame (0-based, integer at pixel centres, v down; OpenCV's), lengths
 millimetres, angles radians; `paper` is in the paper's centred frame, y up, and pixel units.
 A standard deviation is one sigma: 0 for a parameter that was held, null for one that the
-data do not determine. Unused views have null poses. `covariance.matrix` and a view's
-`pose_covariance` (of rvec, tvec) complete the standard deviations.
+data do not determine. Where `status` is partial, `diagnosis` says what was assumed, and every
+standard deviation includes what that may be off by. Unused views have null poses.
+`covariance.matrix` and a view's `pose_covariance` (of rvec, tvec) complete the standard deviations.
 Cannot hold: the images; settings other than JSON's types.
 
 A change that old programs could misread takes a new version: raise `VERSION`, write a schema
@@ -27,9 +28,12 @@ from calibgui.engine.lens import MODELS, Lucchese
 from calibgui.engine.quality.statistics import summarise
 from calibgui.engine.types import (
     Array,
+    Assumed,
     Calibration,
     Camera,
     Cost,
+    Degeneracy,
+    Diagnosis,
     Iteration,
     Plate,
     Pose,
@@ -96,6 +100,7 @@ def result_record(result: Result) -> dict[str, Any]:
             "reference_px_per_mm": calibration.reference_scale,
         },
         "undetermined": [{"name": u.name, "reason": u.reason} for u in calibration.undetermined],
+        "diagnosis": _diagnosis_record(calibration.diagnosis),
         "warnings": calibration.warnings,
         "covariance": {"parameters": names, "matrix": calibration.covariance},
         "settings": calibration.settings,
@@ -120,6 +125,19 @@ def _paper_record(calibration: Calibration) -> dict[str, Any] | None:
         for column in uncertainty.paper_table(calibration)
     )
     return values | {"sigma": sigma, "sd_as_printed": printed}
+
+
+def _diagnosis_record(diagnosis: Diagnosis | None) -> dict[str, Any] | None:
+    if diagnosis is None:
+        return None
+    return {
+        "kind": diagnosis.kind,
+        "message": diagnosis.message,
+        "hint": diagnosis.hint,
+        "assumed": [
+            {"name": a.name, "value": a.value, "sigma": a.doubt} for a in diagnosis.assumed
+        ],
+    }
 
 
 def _stage_one_records(result: Result) -> list[dict[str, Any]]:
@@ -228,6 +246,7 @@ def _read_calibration(node: Node, used: list[Node]) -> Calibration:
             Undetermined(n["name"].choice(names), n["reason"].text())
             for n in node["undetermined"].items()
         ),
+        diagnosis=_read_diagnosis(node.get("diagnosis")),
         plate=_read_plate(node.get("plate")),
         plate_doubt=doubt.number() if (doubt := node.get("plate_doubt_mm")) else 0.0,
         view_scatter=scatter.number() if (scatter := node.get("view_scatter")) else 0.0,
@@ -245,6 +264,21 @@ def _read_settings(node: Node) -> dict[str, Any]:
 def _read_plate(node: Node | None) -> Plate | None:
     """The plate, which results written before plates were estimated do not have."""
     return None if node is None or node.value is None else read_plate_record(node)
+
+
+def _read_diagnosis(node: Node | None) -> Diagnosis | None:
+    """The diagnosis, which older results do not have."""
+    if node is None or node.value is None:
+        return None
+    return Diagnosis(
+        Degeneracy(node["kind"].choice(list(Degeneracy))),
+        node["message"].text(),
+        node["hint"].text(),
+        tuple(
+            Assumed(n["name"].text(), n["value"].number(), n["sigma"].number())
+            for n in node["assumed"].items()
+        ),
+    )
 
 
 def _read_camera(node: Node, model: str) -> Camera:
@@ -297,4 +331,5 @@ EXPORTER = Exporter(
     suffixes=(".json",),
     limits="Complete: camera, poses, residuals, corners, settings; can be solved again.",
     write=_export,
+    partial=True,
 )

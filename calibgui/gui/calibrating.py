@@ -98,6 +98,14 @@ class Calibrator(QObject):
                 self.tr("Stopped: “{0}” is the best so far, not the optimum.").format(name)
             )
 
+        if (diagnosis := result.calibration.diagnosis) is not None:
+            self._session.failed.emit(
+                CalibrationError(
+                    self.tr("“{0}” is partial. {1}").format(name, diagnosis.message),
+                    diagnosis.hint,
+                )
+            )
+
     def _end(self) -> None:
         self._job = None
         self.ended.emit()

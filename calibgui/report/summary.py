@@ -16,10 +16,12 @@ from itertools import combinations
 import numpy as np
 
 from calibgui.engine.calibrate import parameter_names
+from calibgui.engine.estimation.degeneracy import in_one_spot
 from calibgui.engine.estimation.uncertainty import correlations
 from calibgui.engine.quality.statistics import summarise
 from calibgui.engine.types import Array, Calibration, Plate, Status
 from calibgui.formats.result import Result
+from calibgui.report import partial
 from calibgui.report.coverage import attitudes, density
 from calibgui.report.numbers import counted, with_sigma
 
@@ -67,7 +69,17 @@ def summary(result: Result) -> tuple[Sentence, ...]:
     """The calibration in words, the most important first."""
     return tuple(
         sentence
-        for part in (_basis, _ending, _plate, _fit, _determined, _correlated, _outlying, _advice)
+        for part in (
+            _basis,
+            _diagnosed,
+            _ending,
+            _plate,
+            _fit,
+            _determined,
+            _correlated,
+            _outlying,
+            _advice,
+        )
         for sentence in part(result)
     )
 
@@ -79,6 +91,24 @@ def _basis(result: Result) -> Iterator[Sentence]:
     left_out = len(result.views) - used
     text += f"; {counted(left_out, 'image')} left out." if left_out else ", every image used."
     yield Sentence(Tone.FACT, text)
+
+
+def _diagnosed(result: Result) -> Iterator[Sentence]:
+    """Why the views do not determine the camera, or only a part of the image."""
+    calibration = result.calibration
+    uv = np.concatenate([view.uv for view in result.observations()])
+    if (diagnosis := calibration.diagnosis) is not None:
+        yield Sentence(Tone.CAUTION, f"A partial calibration. {diagnosis.message}")
+        yield Sentence(Tone.ADVICE, diagnosis.hint)
+        yield Sentence(Tone.CAUTION, partial.about_assumed(diagnosis))
+        if partial.scale_assumed(diagnosis):
+            yield Sentence(Tone.GOOD, partial.about_determined(calibration))
+    elif in_one_spot(uv, calibration.camera.size):
+        yield Sentence(
+            Tone.CAUTION,
+            "All corners lie in one spot of the image: what is said of the lens elsewhere is "
+            "extrapolated from there.",
+        )
 
 
 def _ending(result: Result) -> Iterator[Sentence]:
@@ -142,6 +172,8 @@ def _fit(result: Result) -> Iterator[Sentence]:
     calibration = result.calibration
     fit = summarise(calibration.residuals)
     unknowns = int(np.count_nonzero(calibration.sigma)) + 6 * len(calibration.poses)
+    if calibration.diagnosis is not None:
+        unknowns -= len(calibration.diagnosis.assumed)
     if calibration.plate is not None:
         unknowns += int(np.count_nonzero(calibration.plate.sigma))
     yield Sentence(
@@ -163,6 +195,10 @@ def _determined(result: Result) -> Iterator[Sentence]:
     relative = dict(zip(names[:4], sigma[:4] / scale, strict=True))
     free = [n for n in names if n not in calibration.fixed]
     missing = {u.name for u in calibration.undetermined}
+    if calibration.diagnosis is not None:
+        missing |= {a.name for a in calibration.diagnosis.assumed}
+    if partial.scale_assumed(calibration.diagnosis):
+        missing |= {"fx", "fy", *names[4:]}
 
     def listed(chosen: list[str]) -> str:
         return ", ".join(f"{name} = {texts[name]}" for name in chosen)

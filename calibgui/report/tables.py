@@ -247,7 +247,9 @@ def _measured(calibration: Calibration, name: str, value: float, sigma: float) -
         return f"{value:.6g} (held)"
     if name in {u.name for u in calibration.undetermined}:
         return "not determined"
-    return with_sigma(value, sigma)
+    diagnosis = calibration.diagnosis
+    assumed = diagnosis is not None and name in {a.name for a in diagnosis.assumed}
+    return with_sigma(value, sigma) + " (assumed)" * assumed
 
 
 def _fixed(value: float, decimals: int) -> str:

@@ -14,8 +14,6 @@ import pytest
 from calibgui.cli.main import main
 from calibgui.engine.calibrate import parameter_names
 from calibgui.engine.images import write_image
-from calibgui.engine.imaging.maps import project_points
-from calibgui.engine.types import Pose
 from calibgui.formats.result_json import read_result
 from tests.photographs import BOARD, CAMERA, COUNT
 
@@ -183,22 +181,6 @@ def test_a_truncated_corners_file(corners_file: Path, tmp_path: Path, capsys: Ca
     file = tmp_path / "corners.json"
     file.write_text(corners_file.read_text()[:5000])
     refused([str(file)], capsys, "corners.json is cut short")
-
-
-def test_one_view(content: Any, tmp_path: Path, capsys: Capture) -> None:
-    content["views"] = content["views"][:1]
-    refused([write(content, tmp_path)], capsys, "One view does not", "Add at least two more")
-
-
-def test_parallel_views(tmp_path: Path, capsys: Capture) -> None:
-    rng = np.random.default_rng(1)
-    views = []
-    for k in range(5):
-        pose = Pose([0.0, 0.0, 0.2 * k], [-100.0 + 8 * k, -80.0, 350.0 + 30 * k])
-        uv = project_points(BOARD.points(), CAMERA, pose) + rng.normal(scale=0.05, size=(42, 2))
-        views.append({"image": f"{k}.png", "uv": uv.tolist(), "board": BOARD.points().tolist()})
-    file = write({"size": CAMERA.size, "views": views}, tmp_path)
-    refused([file], capsys, "parallel to the sensor", "Tilt the board")
 
 
 def test_a_mirrored_view_is_named(content: Any, tmp_path: Path, capsys: Capture) -> None:

@@ -16,8 +16,10 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from calibgui import engine
-from calibgui.engine.errors import CalibrationError
+from calibgui.engine.calibrate import calibrate
+from calibgui.engine.errors import CalibrationError, DegenerateError
 from calibgui.engine.types import Cost, Undetermined, View, ViewStatus
+from calibgui.formats import export
 from calibgui.formats.json_document import dumps
 from calibgui.formats.result import Result
 from calibgui.formats.result_json import read_result, result_record, write_result
@@ -52,6 +54,23 @@ def test_every_bit_reads_back(tmp_path: Path, name: str, request: pytest.Fixture
     result = request.getfixturevalue(name)
     write_result(result, tmp_path / "result.json")
     assert same(read_result(tmp_path / "result.json"), result)
+
+
+def test_a_partial_calibration_reads_back_as_such(tmp_path: Path) -> None:
+    made = scenes.scene(scenes.barrel(), 1)
+    with pytest.raises(DegenerateError) as caught:
+        calibrate(made.noisy(0.3, np.random.default_rng(0)), made.size)
+    partial = caught.value.partial
+    assert partial is not None
+    assert partial.diagnosis is not None
+    assert partial.diagnosis.assumed
+    view = View("0.png", ViewStatus.FOUND, points=made.views[0])
+    result = Result(partial, (view,), None)
+    _validator().validate(_content(result))
+    write_result(result, tmp_path / "result.json")
+    assert same(read_result(tmp_path / "result.json"), result)
+    with pytest.raises(CalibrationError, match="would take a partial calibration for a whole"):
+        export(result, "ros", tmp_path / "camera.yaml")
 
 
 def test_what_is_undetermined_reads_back_as_such(tmp_path: Path, result: Result) -> None:

@@ -120,9 +120,9 @@ def copies(observations: Observations) -> IntArray:
     return np.array([first.setdefault(key, k) for k, key in enumerate(keys)], dtype=np.int64)
 
 
-def in_one_spot(observations: Observations, size: Size) -> bool:
-    """Whether all corners lie in a small part of the image."""
-    return bool((_extent(observations, size) < _SPOT).all())
+def in_one_spot(uv: Array, size: Size) -> bool:
+    """Whether all corners (..., 2) lie in a small part of the image."""
+    return bool((_extent(uv, size) < _SPOT).all())
 
 
 def diagnosed(
@@ -166,8 +166,8 @@ def diagnosed(
             kind = Degeneracy.ONE_ORIENTATION
             said = "All views show the board in one orientation"
         return Diagnosis(kind, said + so, hint)
-    if in_one_spot(observations, size):
-        w, h = (100 * _extent(observations, size)).tolist()
+    if in_one_spot(observations.uv, size):
+        w, h = (100 * _extent(observations.uv, size)).tolist()
         return Diagnosis(
             Degeneracy.ONE_SPOT,
             f"All corners lie in one spot, {w:.0f} x {h:.0f} % of the image{so}",
@@ -180,10 +180,9 @@ def diagnosed(
     )
 
 
-def _extent(observations: Observations, size: Size) -> Array:
-    """(2,) width and height over which corners lie, of the image's."""
-    # Padding repeats a corner.
-    return np.asarray(np.ptp(observations.uv.reshape(-1, 2), axis=0) / np.array(size))
+def _extent(uv: Array, size: Size) -> Array:
+    """(2,) width and height over which corners (..., 2) lie, of the image's."""
+    return np.asarray(np.ptp(uv.reshape(-1, 2), axis=0) / np.array(size))
 
 
 def _in_one_place(observations: Observations, state: State) -> bool:

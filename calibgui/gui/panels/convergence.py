@@ -73,6 +73,9 @@ class ConvergencePanel(Panel):
     def _ending(self, status: Status) -> str:
         return {
             Status.CONVERGED: self.tr("Converged after {0} iterations."),
+            Status.PARTIAL: self.tr(
+                "Converged after {0} iterations, with assumptions on what the views leave open."
+            ),
             Status.STOPPED: self.tr(
                 "Stopped after {0} iterations: the best so far is kept, but it is not the optimum."
             ),

@@ -132,6 +132,8 @@ class ResultPanel(Panel):
         """What there is to say of each parameter beside its value."""
         calibration = result.calibration
         missing = {u.name for u in calibration.undetermined}
+        diagnosis = calibration.diagnosis
+        assumed = set() if diagnosis is None else {a.name for a in diagnosis.assumed}
         remarks = []
         for name, value, sigma in zip(
             names, calibration.camera.params, calibration.sigma, strict=True
@@ -140,6 +142,8 @@ class ResultPanel(Panel):
                 remarks.append(self.tr("held"))
             elif name in missing:
                 remarks.append(self.tr("not determined"))
+            elif name in assumed:
+                remarks.append(self.tr("assumed"))
             elif name not in names[:4] and abs(value) < 2 * sigma:
                 remarks.append(self.tr("not told from 0"))
             else:
