@@ -53,6 +53,11 @@ class Document:
         return self._steps[self._index].project
 
     @property
+    def edits(self) -> int:
+        """How many edits lead to what is shown."""
+        return self._index
+
+    @property
     def saved(self) -> bool:
         """Whether the file holds what is shown."""
         return self.project is self._saved

@@ -128,7 +128,9 @@ def restored(image: Image, corners: Corners, place: IntArray) -> Corners:
     _check_squares(corners)
     expected = _expected(corners, place)
     spacing = np.sort(np.linalg.norm(corners.uv - expected, axis=1))[1]
-    uv = refined(image, expected, spacing / 3)
+    uv = snapped(image, expected, spacing / 3)  # a neighbour out of place misleads by some px
+    if uv is None:  # too blurred to look like a corner from afar
+        uv = refined(image, expected, spacing / 3)
     if uv is None:
         raise NoBoardError(
             f"There is no corner in row {place[0]}, column {place[1]}.",

@@ -22,6 +22,7 @@ def run(arguments: Sequence[str]) -> int:
     """Open the window, with a folder, images or a project if they are named; its exit code."""
     app = QApplication([sys.argv[0]])
     app.setApplicationName("calibgui")
+    app.setApplicationDisplayName("calibgui")
     app.setOrganizationName("calibgui")
     app.setDesktopFileName("calibgui")
     with contextlib.suppress(CalibrationError):  # a window without its icon is still a window
@@ -32,7 +33,7 @@ def run(arguments: Sequence[str]) -> int:
     window = MainWindow()
     sys.excepthook = lambda kind, error, trace: _report(window, kind, error, trace)
     signal.signal(signal.SIGINT, signal.SIG_DFL)
-    window.show()
+    window.open_up()
     QTimer.singleShot(0, window, window.prepare)
     if arguments:
         QTimer.singleShot(0, window, lambda: window.files.open_paths(arguments))

@@ -13,7 +13,7 @@ from calibgui.gui import theme
 
 
 class Banner(QFrame):
-    """Shown until it is dismissed or the next message comes."""
+    """Shown until it is dismissed or the next message comes; a failure until work goes on."""
 
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
@@ -49,6 +49,11 @@ class Banner(QFrame):
             button.clicked.connect(lambda _=False, does=does: does())
             self._row.insertWidget(self._row.count() - 1, button)
             self.buttons.append(button)
+
+    def hide_failure(self) -> None:
+        """What could not be done is past; a question stays."""
+        if self._failure:
+            self.hide()
 
     def _show(self, text: str, *, failure: bool) -> None:
         for button in self.buttons:

@@ -63,6 +63,7 @@ class MainWindow(QMainWindow):
         self.settings = SettingsPanel(self.session)
         self.analysis: Analysis | None = None
         self._empty = True
+        self._at = (self.session.document, 0)
         self.welcome = Welcome()
         self.banner = Banner()
         self.calibrate = QPushButton()
@@ -71,11 +72,20 @@ class MainWindow(QMainWindow):
         self._lay_out()
         self._connect()
         Menus(self)
-        if geometry := QSettings().value("geometry"):
-            self.restoreGeometry(geometry)
         self._show_parts(empty=True)
         self._refresh()
         self.files.saver.check_slot()
+
+    def open_up(self) -> None:
+        """Show it as it was left; the first time on most of the screen, or all of a small one."""
+        if geometry := QSettings().value("geometry"):
+            self.restoreGeometry(geometry)
+        else:
+            room = self.screen().availableSize()
+            self.resize(room * _SHARE_OF_SCREEN)
+            if room.width() < _SMALL_SCREEN:
+                self.setWindowState(Qt.WindowState.WindowMaximized)
+        self.show()
 
     def _lay_out(self) -> None:
         self.pages = QStackedWidget()
@@ -105,6 +115,7 @@ class MainWindow(QMainWindow):
         self.analysis_dock = self._dock(self.tr("Results"), "results", nothing, _RIGHT)
         self.place = QLabel()
         self.place.setFont(theme.fixed_font())
+        self.place.setContentsMargins(0, 0, theme.SPACING, 0)
         self.statusBar().addPermanentWidget(self.place)
         self.statusBar().addPermanentWidget(Progress(self.session.jobs))
 
@@ -136,6 +147,7 @@ class MainWindow(QMainWindow):
         self.welcome.folder_wanted.connect(self.files.ask_for_folder)
         self.welcome.images_wanted.connect(self.files.ask_for_images)
         self.welcome.sample_wanted.connect(self.files.open_sample)
+        self.welcome.board_wanted.connect(self.files.print_board)
         self.welcome.project_wanted.connect(self.files.open_project)
 
     def need_analysis(self) -> Analysis:
@@ -176,6 +188,9 @@ class MainWindow(QMainWindow):
 
     def _refresh(self) -> None:
         document = self.session.document
+        if (document, document.edits) != self._at:
+            self._at = (document, document.edits)
+            self.banner.hide_failure()
         empty = not self.session.project.views
         if empty is not self._empty:
             self._show_parts(empty)
@@ -278,6 +293,9 @@ class MainWindow(QMainWindow):
 
 _FRAME = 16
 """Between two pictures on the screen, ms."""
+_SHARE_OF_SCREEN = 0.8
+_SMALL_SCREEN = 1600
+"""Width below which the window fills the screen, px."""
 _IMAGES_WIDTH = 264
 _RESULTS_WIDTH = 556
 """At least, px, until the user chooses another."""

@@ -105,25 +105,32 @@ class Marker(QObject):
         tool = self._roi
         if tool is None:
             return
-        tool.preview = None
-        self.roi_bar.accept.setEnabled(False)
         if tool.complete:
             self._search(None)
-        else:
-            self.roi_bar.words.setText(
-                self.tr("Click the board's outermost inner corners, in order: {0} of 4.").format(
-                    len(tool.points)
-                )
+            return
+        self._forget_preview(tool)
+        self.roi_bar.words.setText(
+            self.tr("Click the board's outermost inner corners, in order: {0} of 4.").format(
+                len(tool.points)
             )
+            + (self.tr(" Backspace takes one back.") if tool.points else "")
+        )
 
     def _board_stated(self) -> None:
-        if self._roi is not None and self._roi.complete:
-            self._search(self.roi_bar.board)
+        tool, board = self._roi, self.roi_bar.board
+        if tool is not None and tool.complete and board != tool.board:
+            self._search(board)
+
+    def _forget_preview(self, tool: RoiTool) -> None:
+        tool.preview = None
+        self.roi_bar.accept.setEnabled(False)
+        self._canvas.viewport().update()
 
     def _search(self, board: tuple[int, int] | None) -> None:
         """Find the corners between the four points, beside the main thread."""
         tool = self._roi
         assert tool is not None
+        self._forget_preview(tool)
         target = self._session.project.target
         usual = None if target is None else target.board
         pattern = self._session.project.pattern if target is None else target.pattern
@@ -152,9 +159,7 @@ class Marker(QObject):
         )
         target = self._session.project.target
         if target is not None and (target.rows, target.cols) != corners.shape:
-            text += self.tr(" The other images show {0} × {1} squares.").format(
-                target.rows + 1, target.cols + 1
-            )
+            text += self.tr(" The other images show {0} × {1}.").format(target.rows, target.cols)
         self.roi_bar.words.setText(text)
         self.roi_bar.accept.setEnabled(True)
         self._canvas.viewport().update()

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from PySide6.QtCore import Signal
+from PySide6.QtCore import Qt, Signal
+from PySide6.QtGui import QKeyEvent
 from PySide6.QtWidgets import (
     QFrame,
     QHBoxLayout,
@@ -18,10 +19,11 @@ from calibgui.gui import theme
 
 
 class _Bar(QFrame):
-    """Words over buttons."""
+    """Words over buttons; Enter and Esc mean what they mean on the image."""
 
-    def __init__(self) -> None:
+    def __init__(self, accept: QPushButton, leave: QPushButton) -> None:
         super().__init__()
+        self.accept, self.leave = accept, leave
         self.setFrameShape(QFrame.Shape.NoFrame)
         self.setAutoFillBackground(True)
         self.setBackgroundRole(self.backgroundRole().AlternateBase)
@@ -39,46 +41,55 @@ class _Bar(QFrame):
         for widget in widgets:
             self.row.addWidget(widget)
 
+    def keyPressEvent(self, event: QKeyEvent) -> None:  # noqa: N802 - Qt's name
+        match event.key():
+            case Qt.Key.Key_Return | Qt.Key.Key_Enter:
+                self.accept.click()
+            case Qt.Key.Key_Escape:
+                self.leave.click()
+            case _:
+                super().keyPressEvent(event)
+
 
 class RoiBar(_Bar):
-    """Says what to click next, and how many squares there are."""
+    """Says what to click next, and how many corners there are."""
 
     board_changed = Signal()
 
     def __init__(self) -> None:
-        super().__init__()
-        self.squares = tuple(QSpinBox(minimum=3, maximum=201) for _ in range(2))
-        for box, name in zip(
-            self.squares, (self.tr("Squares down"), self.tr("Squares across")), strict=True
-        ):
+        super().__init__(QPushButton(self.tr("&Accept")), QPushButton(self.tr("Lea&ve")))
+        self.counts = tuple(QSpinBox(minimum=2, maximum=200) for _ in range(2))
+        names = (self.tr("rows of inner corners"), self.tr("columns of inner corners"))
+        for box, name in zip(self.counts, names, strict=True):
             box.setAccessibleName(name)
             box.setToolTip(
-                self.tr("Squares between the clicks and one more on each side, as counted.")
+                self.tr(
+                    "As counted between the clicks, with those clicked. State it if the count is "
+                    "wrong."
+                )
             )
             box.valueChanged.connect(self.board_changed)
-        self.accept = QPushButton(self.tr("&Accept"))
         self.accept.setToolTip(self.tr("Keep these corners and go on (Enter)"))
-        self.leave = QPushButton(self.tr("Lea&ve"))
         self.leave.setToolTip(self.tr("Leave the image as it was (Esc)"))
         self.add(
-            QLabel(self.tr("Squares")),
-            self.squares[0],
+            QLabel(self.tr("Inner corners")),
+            self.counts[0],
             QLabel("×"),
-            self.squares[1],
+            self.counts[1],
             self.accept,
             self.leave,
         )
 
     @property
     def board(self) -> Board:
-        """Rows and columns of inner corners: one fewer than squares."""
-        return self.squares[0].value() - 1, self.squares[1].value() - 1
+        """Rows and columns of inner corners."""
+        return self.counts[0].value(), self.counts[1].value()
 
     def show_board(self, board: Board) -> None:
         """Show a board's size without announcing it."""
-        for box, count in zip(self.squares, board, strict=True):
+        for box, count in zip(self.counts, board, strict=True):
             box.blockSignals(True)
-            box.setValue(count + 1)
+            box.setValue(count)
             box.blockSignals(False)
 
 
@@ -90,7 +101,8 @@ class CornerBar(_Bar):
     left = Signal()
 
     def __init__(self) -> None:
-        super().__init__()
+        done = QPushButton(self.tr("&Done"))
+        super().__init__(done, done)
         self.words.setText(
             self.tr(
                 "Drag a corner to move it, Delete removes it, a click on a red ring finds it "
@@ -101,7 +113,6 @@ class CornerBar(_Bar):
         self.turn.setToolTip(self.tr("Count from the board's next corner"))
         self.flip = QPushButton(self.tr("F&lip"))
         self.flip.setToolTip(self.tr("Count columns from the other end: for mirrored images"))
-        self.leave = QPushButton(self.tr("&Done"))
         self.turn.clicked.connect(self.turn_wanted)
         self.flip.clicked.connect(self.flip_wanted)
         self.leave.clicked.connect(self.left)

@@ -46,7 +46,7 @@ class Menus(QObject):
             files.ask_for_project,
         )
         recent = menu.addMenu(self.tr("Open &recent"))
-        recent.aboutToShow.connect(lambda: _fill_recent(window, recent))
+        recent.aboutToShow.connect(lambda: self._fill_recent(window, recent))
         add(
             menu,
             self.tr("Open the sa&mple"),
@@ -125,6 +125,7 @@ class Menus(QObject):
         menu.addActions(window.page.tools)
 
         menu = bar.addMenu(self.tr("Cali&bration"))
+        menu.setToolTipsVisible(True)
         add(
             menu,
             self.tr("&Calibrate or stop"),
@@ -191,9 +192,9 @@ class Menus(QObject):
             lambda: show_dialog(HelpDialog(window)),
         )
 
-
-def _fill_recent(window: MainWindow, menu: QMenu) -> None:
-    menu.clear()
-    for path in recent_projects():
-        menu.addAction(str(path), partial(window.files.open_project, path))
-    menu.setEnabled(True)
+    def _fill_recent(self, window: MainWindow, menu: QMenu) -> None:
+        menu.clear()
+        for path in recent_projects():
+            menu.addAction(str(path), partial(window.files.open_project, path))
+        if menu.isEmpty():
+            menu.addAction(self.tr("None yet")).setEnabled(False)

@@ -28,6 +28,7 @@ class Welcome(QWidget):
     folder_wanted = Signal()
     images_wanted = Signal()
     sample_wanted = Signal()
+    board_wanted = Signal()
     project_wanted = Signal(Path)
 
     def __init__(self) -> None:
@@ -41,7 +42,7 @@ class Welcome(QWidget):
             self.tr(
                 "Drop photographs of a flat checkerboard here: 10 to 30 of them, all of the "
                 "board in view, tilted in different directions, and reaching into the "
-                "image's corners."
+                "image's corners. A saved project can be dropped as well."
             )
         )
         words.setWordWrap(True)
@@ -67,6 +68,12 @@ class Welcome(QWidget):
                 self.tr("Fourteen rendered photographs, to look around."),
                 self.sample_wanted,
                 icon.SP_FileDialogContentsView,
+            ),
+            self._link(
+                self.tr("&Print a board"),
+                self.tr("A checkerboard, ChArUco board or grid of circles in true size."),
+                self.board_wanted,
+                icon.SP_FileDialogDetailedView,
             ),
         ]
         column = QWidget()

@@ -83,6 +83,13 @@ def test_a_removed_corner_is_found_again_in_its_place(image: Array, corners: Cor
         marking.restored(blank, less, grid[0])
 
 
+def test_a_corner_is_restored_beside_one_out_of_place(image: Array, corners: Corners) -> None:
+    for k in range(16, 24):
+        wrong = marking.moved(corners, k + 1, corners.uv[k + 1] + [15.0, 12.0])
+        again = marking.restored(image, marking.removed(wrong, k), corners.grid[k])
+        assert np.linalg.norm(again.uv[-1] - corners.uv[k]) < 0.1
+
+
 def test_a_moved_corner_leaves_the_others(corners: Corners) -> None:
     other = marking.moved(corners, 3, np.array([1.0, 2.0]))
     assert other.uv[3].tolist() == [1.0, 2.0]

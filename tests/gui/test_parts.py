@@ -305,6 +305,9 @@ def test_what_cannot_be_done_comes_with_a_remedy(window: MainWindow, qtbot: QtBo
     assert window.banner.text.text() == "It cannot be.\nDo otherwise."
     qtbot.mouseClick(window.banner.dismiss, LEFT)
     assert not window.banner.isVisible()
+    window.session.failed.emit(CalibrationError("It cannot be.", "Do otherwise."))
+    window.session.edit("Set squares", lambda p: replace(p, square=p.square + 1))
+    assert not window.banner.isVisible(), "the failure is past"
 
 
 def test_a_bug_is_shown_with_its_traceback_and_the_work_is_kept(

@@ -13,6 +13,7 @@ import numpy as np
 import pytest
 from PySide6.QtCore import QEvent, QPoint, QPointF, Qt
 from PySide6.QtGui import QMouseEvent
+from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QApplication, QFileDialog, QPushButton
 from pytestqt.qtbot import QtBot
 
@@ -146,8 +147,18 @@ def test_from_photographs_to_an_exported_camera(
     for point in points[1:]:
         hand.click(point + np.array([1.5, 1.5]))
     hand.wait(window.page.marker.roi_bar.accept.isEnabled)
-    assert window.page.marker.roi_bar.board == before.shape
-    hand.key(Qt.Key.Key_Return)
+    bar = window.page.marker.roi_bar
+    assert bar.board == before.shape
+
+    # A wrong count is not accepted; the right one is, from the box it was typed into.
+    bar.counts[1].stepDown()
+    hand.wait(lambda: f"{before.shape[0]} x {before.shape[1] - 1}" in bar.words.text())
+    assert not bar.accept.isEnabled()
+    QTest.keyClick(bar.counts[1], Qt.Key.Key_Return)
+    assert hand.corners() is before
+    bar.counts[1].stepUp()
+    hand.wait(bar.accept.isEnabled)
+    QTest.keyClick(bar.counts[1], Qt.Key.Key_Return)
     assert session.document.undo_label == "Mark board"
     marked = hand.corners()
     assert marked is not before

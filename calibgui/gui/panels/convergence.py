@@ -65,9 +65,7 @@ class ConvergencePanel(Panel):
         self.words.setText(
             self._ending(calibration.status).format(last.index)
             + " "
-            + self.tr("RMS residual {0:.4f} {1}; {2:.0f} ms.").format(
-                last.rms, unit, 1e3 * last.seconds
-            )
+            + self.tr("RMS residual {0:.4f} {1}; {2:.2f} s.").format(last.rms, unit, last.seconds)
         )
 
     def _ending(self, status: Status) -> str:

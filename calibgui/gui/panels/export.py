@@ -55,12 +55,12 @@ class ExportDialog(QDialog):
         self.formats.addItems([exporter.title for exporter in EXPORTERS.values()])
         self.formats.setAccessibleName(self.tr("Formats"))
         self.formats.setMaximumWidth(self.formats.sizeHintForColumn(0) + 4 * theme.SPACING)
-        self.limits, self.note, self.error = (QLabel(wordWrap=True) for _ in range(3))
+        self.limits, self.note, self.error, self.saved = (QLabel(wordWrap=True) for _ in range(4))
         self.text = QPlainTextEdit(readOnly=True)
         self.text.setFont(theme.fixed_font())
         self.text.setLineWrapMode(QPlainTextEdit.LineWrapMode.NoWrap)
         self.text.setAccessibleName(self.tr("The file's text"))
-        facts = QFormLayout()
+        self._facts = facts = QFormLayout()
         facts.addRow(self.tr("Holds"), self.limits)
         facts.addRow(self.tr("Camera"), self.note)
         facts.addRow(self.tr("Largest error"), self.error)
@@ -70,7 +70,7 @@ class ExportDialog(QDialog):
         columns = QHBoxLayout()
         columns.addWidget(self.formats)
         columns.addLayout(right, 1)
-        self.copy = QPushButton(self.tr("&Copy text"))
+        self.copy = QPushButton(self.tr("&Copy text"), autoDefault=False)
         self.save = QPushButton(self.tr("&Save…"), default=True)
         buttons = QDialogButtonBox(QDialogButtonBox.StandardButton.Close)
         buttons.button(QDialogButtonBox.StandardButton.Close).setAutoDefault(False)
@@ -81,7 +81,10 @@ class ExportDialog(QDialog):
         self.save.clicked.connect(self._save)
         layout = QVBoxLayout(self)
         layout.addLayout(columns, 1)
-        layout.addWidget(buttons)
+        last = QHBoxLayout()
+        last.addWidget(self.saved, 1)
+        last.addWidget(buttons)
+        layout.addLayout(last)
         self.resize(880, 520)
         self.formats.currentRowChanged.connect(self._chosen)
         self.formats.setCurrentRow(0)
@@ -101,10 +104,12 @@ class ExportDialog(QDialog):
     def _chosen(self) -> None:
         exporter = self.exporter
         self.limits.setText(exporter.limits)
+        self.saved.clear()
         if exporter.name in self._drafts:
             self._show(self._drafts[exporter.name])
             return
         self.note.setText(self.tr("working…"))
+        self._facts.setRowVisible(self.note, True)
         self.error.clear()
         self.text.clear()
         for button in (self.copy, self.save):
@@ -127,6 +132,7 @@ class ExportDialog(QDialog):
 
     def _show(self, report: ExportReport) -> None:
         self.note.setText(report.note)
+        self._facts.setRowVisible(self.note, report.note != self.limits.text())
         self.error.setText(self._error(report.largest_error_px))
         with report.path.open(encoding="utf-8") as file:
             shown = file.read(_SHOWN)
@@ -145,6 +151,7 @@ class ExportDialog(QDialog):
     def _copy(self) -> None:
         text = self._drafts[self.exporter.name].path.read_text(encoding="utf-8")
         QGuiApplication.clipboard().setText(text)
+        self.saved.setText(self.tr("The text is on the clipboard."))
 
     def _save(self) -> None:
         exporter = self.exporter
@@ -163,10 +170,10 @@ class ExportDialog(QDialog):
             self.tr("Writing {0}").format(path),
             lambda _: export(self._result, exporter.name, path),
             self._saved,
-            failed=lambda error: self.note.setText(str(error)),
+            failed=lambda error: self.saved.setText(str(error)),
             owner=self,
         )
 
     def _saved(self, report: ExportReport) -> None:
-        self.note.setText(self.tr("Saved as {0}. {1}").format(report.path, report.note))
+        self.saved.setText(self.tr("Saved as {0}").format(report.path))
         self.exported.emit(report)

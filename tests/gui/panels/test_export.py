@@ -47,6 +47,7 @@ def test_shows_and_copies_the_file(
     assert dialog.text.toPlainText().removesuffix("\n…") == text[:20_000]
     assert dialog.limits.text() == exporter.limits
     assert dialog.note.text() == report.note
+    assert dialog.note.isVisible() is (report.note != exporter.limits)
     qtbot.mouseClick(dialog.copy, Qt.MouseButton.LeftButton)
     assert QGuiApplication.clipboard().text() == text
 
@@ -75,7 +76,7 @@ def test_saves_under_the_chosen_name(
         qtbot.mouseClick(dialog.save, Qt.MouseButton.LeftButton)
     assert signal.args[0].path == wanted.with_suffix(".yaml")
     assert "camera_matrix" in wanted.with_suffix(".yaml").read_text()
-    assert "Saved as" in dialog.note.text()
+    assert "Saved as" in dialog.saved.text()
 
 
 def test_a_wrong_suffix_is_explained(
@@ -88,7 +89,7 @@ def test_a_wrong_suffix_is_explained(
     monkeypatch.setattr(QFileDialog, "getSaveFileName", lambda *_: (str(tmp_path / "a.txt"), ""))
     qtbot.mouseClick(dialog.save, Qt.MouseButton.LeftButton)
     qtbot.waitUntil(lambda: not jobs.running)
-    assert "Give it the suffix .json" in dialog.note.text()
+    assert "Give it the suffix .json" in dialog.saved.text()
     assert not list(tmp_path.iterdir())
 
 
