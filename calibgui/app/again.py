@@ -54,7 +54,8 @@ def calibrate_twice(
     report: Report | None = None,
     stop: Event | None = None,
 ) -> Result:
-    """Calibrate, search again, count all views alike, and calibrate again if that changed any.
+    """Calibrate; unless asked for once, search again, count all views alike, and calibrate again
+    if that changed any.
 
     Args:
         corner_set, settings: as for ``calibrate_views``.
@@ -66,7 +67,9 @@ def calibrate_twice(
         Cancelled: from `report`, or if `stop` was set.
     """
     result = calibrate_views(corner_set, settings, report)
-    if result.calibration.status is Status.STOPPED or result.calibration.diagnosis is not None:
+    calibration = result.calibration
+    ended = calibration.status is Status.STOPPED or calibration.diagnosis is not None
+    if settings.once or ended:
         return result
     more, said = search_again(corner_set, result, stop)
     if said:

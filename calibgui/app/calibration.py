@@ -98,7 +98,8 @@ def _calibrated(corner_set: CornerSet, settings: Settings, report: Report | None
     else:
         calibration = engine.calibrate(observations, size, **everything)
     said = (*calibration.warnings, *said, *_unplaced(used, calibration))
-    calibration = replace(calibration, warnings=said)
+    asked = {"robust": settings.robust, "weigh_views": settings.weigh_views}
+    calibration = replace(calibration, warnings=said, settings={**calibration.settings, **asked})
     return Result(calibration, views, corner_set.target)
 
 

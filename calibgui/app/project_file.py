@@ -4,9 +4,10 @@
     target              rows, cols (null: inferred from the images), square_mm, unit and
                         pattern as in ``pattern_json.py``
     size                width and height of the images, px
-    settings            cost, fixed, freed; plate (a model, "auto" or a plate as in
-                        ``plate_json.py``), prior_mm (in the plane and out of it, or null), robust,
-                        weigh_views (false where it is missing)
+    settings            cost, freed, fixed (names, or an object of them with their values or
+                        null); plate (a model, "auto" or a plate as in ``plate_json.py``),
+                        prior_mm (in the plane and out of it, or null), robust; weigh_views and
+                        once (false where they are missing)
     views               as in ``views_json.py``, and the image file's sha256 where known
     results             by name, each as a result.json is (``result_json.py``)
 
@@ -27,7 +28,7 @@ from types import MappingProxyType
 from typing import Any
 
 from calibgui.app.project import Project, Unit, relocated
-from calibgui.app.settings import Settings
+from calibgui.app.settings import NAMES, Settings
 from calibgui.engine.targets.pattern import CHECKERBOARD
 from calibgui.engine.types import Cost, Plate, PlateModel, Prior, Target, View
 from calibgui.formats.corners_json import read_size
@@ -90,14 +91,17 @@ def project_record(project: Project, folder: Path) -> dict[str, Any]:
 
 def _settings_record(settings: Settings) -> dict[str, Any]:
     plate, prior = settings.plate, settings.prior
+    # Versions that knew no values read the names as long as there are none.
+    at_values = any(value is not None for value in settings.fixed.values())
     return {
         "cost": settings.cost,
-        "fixed": settings.fixed,
+        "fixed": settings.fixed if at_values else list(settings.fixed),
         "freed": settings.freed,
         "plate": plate_record(plate) if isinstance(plate, Plate) else plate or _AUTO,
         "prior_mm": None if prior is None else (prior.in_plane, prior.out_of_plane),
         "robust": settings.robust,
         "weigh_views": settings.weigh_views,
+        "once": settings.once,
     }
 
 
@@ -166,13 +170,25 @@ def _read_settings(node: Node) -> Settings:
     prior = node.get("prior_mm")
     return Settings(
         cost=Cost(node["cost"].choice(list(Cost))),
-        fixed=tuple(name.text() for name in node["fixed"].items()),
-        freed=tuple(name.text() for name in node["freed"].items()),
+        fixed=_read_fixed(node["fixed"]),
+        freed=tuple(name.choice(NAMES) for name in node["freed"].items()),
         plate=_read_plate(node["plate"]),
         prior=None if prior is None else _read_prior(prior),
         robust=node["robust"].flag(),
         weigh_views=weigh.flag() if (weigh := node.get("weigh_views")) else False,
+        once=once.flag() if (once := node.get("once")) else False,
     )
+
+
+def _read_fixed(node: Node) -> dict[str, float | None]:
+    if isinstance(node.value, list):
+        return dict.fromkeys(name.choice(NAMES) for name in node.items())
+    for name in node.members():
+        Node(name, node.where, node.file).choice(NAMES)
+    return {
+        name: None if value.value is None else value.number()
+        for name, value in node.members().items()
+    }
 
 
 def _read_plate(node: Node) -> PlateModel | Plate | None:

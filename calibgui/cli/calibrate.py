@@ -3,14 +3,14 @@
 from __future__ import annotations
 
 import argparse
-import math
+from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
+from typing import TypeVar
 
 from calibgui.app.again import calibrate_twice
-from calibgui.app.calibration import calibrate_views
 from calibgui.app.outputs import check_outputs
-from calibgui.app.settings import Settings
+from calibgui.app.settings import NAMES, Settings, held_in, names_in
 from calibgui.cli.arguments import (
     add_images,
     add_search,
@@ -21,7 +21,7 @@ from calibgui.cli.arguments import (
 )
 from calibgui.cli.console import Console
 from calibgui.cli.targets import add_target, pattern_of
-from calibgui.engine.calibrate import HELD, parameter_names
+from calibgui.engine.calibrate import HELD
 from calibgui.engine.errors import CalibrationError, DegenerateError
 from calibgui.engine.types import Cost, Plate, PlateModel, Prior
 from calibgui.formats import EXPORTERS, export, find_exporter
@@ -31,7 +31,7 @@ from calibgui.formats.result_json import result_record, write_result
 from calibgui.report import tables
 from calibgui.report.targets import learnt
 
-NAMES = parameter_names("lucchese")
+T = TypeVar("T")
 
 
 def configure(parser: argparse.ArgumentParser) -> None:
@@ -127,11 +127,11 @@ def run(options: argparse.Namespace, console: Console) -> None:
         prior=options.prior,
         robust=options.robust,
         weigh_views=options.weigh_views,
+        once=options.once or is_corners_file(options.paths),
     )
     corner_set = _corner_set(options, console)
     try:
-        once = options.once or is_corners_file(options.paths)
-        result = (calibrate_views if once else calibrate_twice)(corner_set, settings)
+        result = calibrate_twice(corner_set, settings)
     except CalibrationError:
         if unused := tables.unused(corner_set.views):
             console.problem(unused)
@@ -140,8 +140,6 @@ def run(options: argparse.Namespace, console: Console) -> None:
     if options.output:
         write_result(result, options.output)
         written.append(f"Wrote {options.output}.")
-    if options.weigh_views and options.cost != Cost.IMAGE:
-        options.usage_error("--weigh-views is for the cost 'image'")
     if options.save_plate and result.calibration.plate is not None:
         write_plate(result.calibration.plate, options.save_plate)
         written.append(f"Wrote {options.save_plate}.")
@@ -165,6 +163,8 @@ def _check_usage(options: argparse.Namespace) -> None:
         options.usage_error(f"{', '.join(sorted(both))} cannot be both held and freed")
     if options.save_plate and options.plate is PlateModel.NOMINAL:
         options.usage_error("--save-plate needs a plate that is estimated: add --plate free")
+    if options.weigh_views and options.cost != Cost.IMAGE:
+        options.usage_error("--weigh-views is for the cost 'image'")
     if options.prior and options.plate not in (PlateModel.FREE, None):
         options.usage_error("--prior is of a free plate: add --plate free or auto")
     if is_corners_file(options.paths):
@@ -203,30 +203,19 @@ def _from_corners_file(options: argparse.Namespace) -> CornerSet:
 
 
 def _fixed(text: str) -> dict[str, float | None]:
-    """Names to hold, with values where given, from "k3,p1=0"."""
-    parts = [part.partition("=") for part in text.split(",")]
-    return {_name(name): _value(name, value) if equals else None for name, equals, value in parts}
-
-
-def _value(name: str, text: str) -> float:
-    try:
-        value = float(text)
-    except ValueError:
-        value = math.nan
-    if not math.isfinite(value) or (name.strip() in ("fx", "fy") and value <= 0):
-        raise argparse.ArgumentTypeError(f"{text!r} cannot be the value of {name}")
-    return value
+    return _usable(held_in, text)
 
 
 def _names(text: str) -> tuple[str, ...]:
-    return tuple(_name(part) for part in text.split(","))
+    return _usable(names_in, text)
 
 
-def _name(text: str) -> str:
-    name = text.strip()
-    if name not in NAMES:
-        raise argparse.ArgumentTypeError(f"{name!r} is none of {', '.join(NAMES)}")
-    return name
+def _usable(read: Callable[[str], T], text: str) -> T:
+    """What `read` takes from an argument; what it refuses is an error of usage."""
+    try:
+        return read(text)
+    except CalibrationError as error:
+        raise argparse.ArgumentTypeError(str(error)) from error
 
 
 def _plate(text: str) -> PlateModel | Plate | None:

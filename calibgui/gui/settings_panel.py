@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import replace
 
 from PySide6.QtWidgets import (
@@ -9,24 +10,27 @@ from PySide6.QtWidgets import (
     QFormLayout,
     QGridLayout,
     QLabel,
+    QLineEdit,
     QVBoxLayout,
     QWidget,
 )
 
-from calibgui.app.settings import Settings
-from calibgui.engine.calibrate import HELD, parameter_names
+from calibgui.app.settings import NAMES, Settings, held_in
+from calibgui.engine.calibrate import HELD
+from calibgui.engine.errors import CalibrationError
 from calibgui.engine.types import Cost, PlateModel
 from calibgui.gui import theme
 from calibgui.gui.narrow_combo import NarrowCombo
 from calibgui.gui.plate_choice import PlateChoice
 from calibgui.gui.session import Session
 
-_MODEL = "lucchese"
+_HELD = HELD["lucchese"]
+"""Held unless the user frees them."""
 _PER_ROW = 5
 
 
 class SettingsPanel(QWidget):
-    """The cost, the board's shape, and a box for every intrinsic."""
+    """The cost, the board's shape, what to do about poor views, and a box for every intrinsic."""
 
     def __init__(self, session: Session) -> None:
         super().__init__()
@@ -58,7 +62,7 @@ class SettingsPanel(QWidget):
             self.cost.addItem(text, cost)
             self.cost.setItemData(self.cost.count() - 1, tip, 3)
         self.cost.setAccessibleName(self.tr("Minimise"))
-        self.boxes = {name: QCheckBox(name) for name in parameter_names(_MODEL)}
+        self.boxes = {name: QCheckBox(name) for name in NAMES}
         grid = QGridLayout()
         grid.setHorizontalSpacing(theme.SPACING)
         for k, (name, box) in enumerate(self.boxes.items()):
@@ -75,6 +79,31 @@ class SettingsPanel(QWidget):
                 "brings them back. The result names them."
             )
         )
+        self.weigh = QCheckBox(self.tr("&Weigh views by their noise"))
+        self.weigh.setToolTip(
+            self.tr(
+                "Poor views then spoil less. Best with an estimated shape of the board, which "
+                "would else pass for noise."
+            )
+        )
+        self.again = QCheckBox(self.tr("Search a&gain with the camera"))
+        self.again.setToolTip(
+            self.tr(
+                "Once the camera is known, search the images without a board and the boards found "
+                "in part again, and calibrate from what that gains."
+            )
+        )
+        self.values = QLineEdit()
+        self.values.setPlaceholderText("fx=650, p1=0")
+        self.values.setAccessibleName(self.tr("Values of held parameters"))
+        self.values.setToolTip(
+            self.tr(
+                "Parameters that are held at values of their own, as fx=650, p1=0. Of the others "
+                "that are held coefficients are 0, the centre is the image's and focal lengths "
+                "are those of the closed form."
+            )
+        )
+        self.values.editingFinished.connect(self._hold)
         label = QLabel(self.tr("&Minimise"))
         label.setBuddy(self.cost)
         label.setMinimumWidth(self.plate.known.sizeHint().width())  # in line with what follows
@@ -83,11 +112,16 @@ class SettingsPanel(QWidget):
         layout = QVBoxLayout(self)
         layout.addLayout(first)
         layout.addWidget(self.plate)
-        layout.addWidget(self.robust)
+        for box in (self.robust, self.weigh, self.again):
+            layout.addWidget(box)
         layout.addWidget(QLabel(self.tr("Estimate")))
         layout.addLayout(grid)
+        last = QFormLayout()
+        last.addRow(self.tr("Held at"), self.values)
+        layout.addLayout(last)
         layout.addStretch(1)
-        for edited in (self.cost.activated, self.plate.changed, self.robust.clicked):
+        choices = (self.robust.clicked, self.weigh.clicked, self.again.clicked)
+        for edited in (self.cost.activated, self.plate.changed, *choices):
             edited.connect(lambda: self._edit())
         self.plate.slid.connect(lambda: self._edit(sliding=True))
         self.plate.failed.connect(session.failed)
@@ -103,23 +137,50 @@ class SettingsPanel(QWidget):
             "" if self.plate.isEnabled() else self.tr("The error in the image takes any board.")
         )
         self.robust.setChecked(settings.robust)
+        self.weigh.setChecked(settings.weigh_views)
+        self.weigh.setEnabled(settings.cost is Cost.IMAGE)
+        self.again.setChecked(not settings.once)
         for name, box in self.boxes.items():
-            held = name in settings.fixed or (name in HELD[_MODEL] and name not in settings.freed)
-            box.setChecked(not held)
+            box.setChecked(
+                name not in settings.fixed and (name not in _HELD or name in settings.freed)
+            )
+        stated = {name: value for name, value in settings.fixed.items() if value is not None}
+        self.values.setText(", ".join(f"{name}={value:.12g}" for name, value in stated.items()))
 
-    def _edit(self, *, sliding: bool = False) -> None:
-        default, cost = HELD[_MODEL], Cost(self.cost.currentData())
+    def _hold(self) -> None:
+        """Hold parameters at the values that were typed."""
+        if not self.values.isModified():
+            return
+        text = self.values.text()
+        try:
+            typed = held_in(text) if text.strip() else {}
+        except CalibrationError as error:
+            self._session.failed.emit(error)
+            self._refresh()
+            return
+        for name in typed:
+            self.boxes[name].setChecked(False)
+        self._edit(typed)
+
+    def _edit(
+        self, values: Mapping[str, float | None] | None = None, *, sliding: bool = False
+    ) -> None:
+        """Make what the widgets show the settings; what is held is at `values`, or as before."""
+        values = self._session.project.settings.fixed if values is None else values
+        held = [name for name, box in self.boxes.items() if not box.isChecked()]
+        stated = {name: values.get(name) for name in held}
+        cost = Cost(self.cost.currentData())
         # Only the error in the image takes another board than the one that was drawn.
-        any_plate = cost is Cost.IMAGE
+        in_image = cost is Cost.IMAGE
         settings = Settings(
             cost=cost,
-            fixed=tuple(
-                n for n, box in self.boxes.items() if not box.isChecked() and n not in default
-            ),
-            freed=tuple(n for n in default if self.boxes[n].isChecked()),
-            plate=self.plate.plate if any_plate else PlateModel.NOMINAL,
-            prior=self.plate.prior if any_plate else None,
+            fixed={n: v for n, v in stated.items() if n not in _HELD or v is not None},
+            freed=tuple(name for name in _HELD if name not in held),
+            plate=self.plate.plate if in_image else PlateModel.NOMINAL,
+            prior=self.plate.prior if in_image else None,
             robust=self.robust.isChecked(),
+            weigh_views=self.weigh.isChecked() and in_image,
+            once=not self.again.isChecked(),
         )
         if settings != self._session.project.settings:
             self._session.edit(

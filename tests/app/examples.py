@@ -37,10 +37,10 @@ def views(folder: Path) -> tuple[View, ...]:
 def calibrated(folder: Path) -> Project:
     """A project of those views with two results."""
     project = Project(views=views(folder), size=CAMERA.size)
-    for name, fixed in (("Calibration 1", ()), ("k3 held", ("k3",))):
+    for name, fixed in (("Calibration 1", {}), ("k3 held", {"k3": None})):
         corner_set = CornerSet(CAMERA.size, project.views, project.target)
         result = calibrate_views(corner_set, Settings(fixed=fixed))
         project = with_result(project, name, result)
-    settings = replace(project.settings, fixed=("k3",))
+    settings = replace(project.settings, fixed={"k3": None})
     first = project.views[0].image
     return replace(project, settings=settings, digests={first: "ab" * 32})

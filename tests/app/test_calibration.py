@@ -33,7 +33,7 @@ def test_unusable_views_stay_in_the_result_but_out_of_the_solve() -> None:
     blank = View("a/blank.png", ViewStatus.NO_BOARD, "No checkerboard was found.")
     switched_off = replace(found.views[2], enabled=False)
     views = (blank, *found.views[:2], switched_off, *found.views[3:])
-    result = calibrate_views(replace(found, views=views), Settings(fixed=("k2", "k3")))
+    result = calibrate_views(replace(found, views=views), Settings(fixed={"k2": None, "k3": 0.0}))
     assert result.views == views
     assert len(result.calibration.poses) == len(found.views) - 1
     assert result.calibration.fixed == ("k2", "k3", "p3")
@@ -113,6 +113,11 @@ def test_views_are_weighed_by_their_noise() -> None:
     alike, weighed = (calibrate_views(spoilt, Settings(weigh_views=w)) for w in (False, True))
     assert (weighed.calibration.sigma[:4] < 0.7 * alike.calibration.sigma[:4]).all()
     assert "median view, most in 3.png" in weighed.calibration.warnings[0]
+    assert (alike.calibration.settings["weigh_views"], alike.calibration.settings["robust"]) == (
+        False,
+        False,
+    )
+    assert weighed.calibration.settings["weigh_views"]
     # What is kept of the views is what they were weighed with: solved again it gives the same.
     again = calibrate(weighed.observations(), spoilt.size)
     np.testing.assert_allclose(

@@ -124,20 +124,20 @@ class Editing(RuleBasedStateMachine):
 
     @rule(
         cost=st.sampled_from(Cost),
-        fixed=st.sets(st.sampled_from(["k2", "k3", "p1"])),
+        fixed=st.dictionaries(st.sampled_from(["k2", "k3", "p1"]), st.none() | st.floats(-1, 1)),
         plate=st.none() | st.sampled_from(PlateModel),
         prior=st.none() | st.builds(Prior, st.floats(0.01, 1.0), st.floats(0.01, 1.0)),
-        robust=st.booleans(),
+        flags=st.tuples(*[st.booleans()] * 3),
     )
     def change_settings(
         self,
         cost: Cost,
-        fixed: set[str],
+        fixed: dict[str, float | None],
         plate: PlateModel | None,
         prior: Prior | None,
-        robust: bool,
+        flags: tuple[bool, bool, bool],
     ) -> None:
-        settings = Settings(cost, tuple(sorted(fixed)), (), plate, prior, robust)
+        settings = Settings(cost, fixed, (), plate, prior, *flags)
         self.edit("Settings", lambda p: replace(p, settings=settings))
 
     @rule(which=st.sampled_from(["Calibration 1", "k3 held"]))

@@ -127,7 +127,8 @@ def test_the_board_as_known_is_kept(tmp_path: Path) -> None:
     )
     project = examples.calibrated(tmp_path)
     for settings in (
-        Settings(plate=None, robust=True, weigh_views=True),
+        Settings(plate=None, robust=True, weigh_views=True, once=True),
+        Settings(fixed={"k3": None, "fx": 650.25}, freed=("p3",)),
         Settings(plate=PlateModel.FREE, prior=Prior(0.125, 0.3)),
         Settings(plate=plate),
     ):
@@ -145,9 +146,9 @@ def test_the_first_version_knew_a_nominal_plate_only(tmp_path: Path) -> None:
     write_project(examples.calibrated(tmp_path), tmp_path / "project.json")
     old = json.loads((tmp_path / "project.json").read_text(encoding="utf-8"))
     old["version"] = 1
-    for name in ("plate", "prior_mm", "robust"):
+    for name in ("plate", "prior_mm", "robust", "weigh_views", "once"):
         del old["settings"][name]
-    assert read_project(broken(tmp_path, json.dumps(old))).settings == Settings(fixed=("k3",))
+    assert read_project(broken(tmp_path, json.dumps(old))).settings == Settings(fixed={"k3": None})
 
 
 def test_images_on_another_drive_keep_their_whole_path(

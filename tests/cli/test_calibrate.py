@@ -5,15 +5,19 @@ from __future__ import annotations
 import json
 import math
 import shutil
+from dataclasses import fields
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pytest
 
+from calibgui.app.settings import Settings
 from calibgui.cli.main import main
 from calibgui.engine.calibrate import parameter_names
+from calibgui.engine.errors import CalibrationError
 from calibgui.engine.images import write_image
+from calibgui.engine.types import Cost, PlateModel, Prior
 from calibgui.formats.result_json import read_result
 from tests.photographs import BOARD, CAMERA, COUNT
 
@@ -36,6 +40,44 @@ def test_photographs_give_the_camera_that_took_them(
         assert heading in printed
     # Only the name of a file may be longer than a line.
     assert all(len(line) <= 80 or str(file) in line for line in printed.splitlines())
+
+
+def test_every_setting_has_its_option(corners_file: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """The window offers the same record: see tests/gui/test_parts.py."""
+    asked: list[Settings] = []
+
+    def noted(_: object, settings: Settings) -> None:
+        asked.append(settings)
+        raise CalibrationError("noted", "")
+
+    monkeypatch.setattr("calibgui.cli.calibrate.calibrate_twice", noted)
+    options = [
+        "--fix",
+        "k3,fx=650",
+        "--free",
+        "p3",
+        "--robust",
+        "--weigh-views",
+        "--plate",
+        "free",
+        "--prior",
+        "0.1,0.3",
+    ]
+    main(["calibrate", str(corners_file), *options])
+    main(["calibrate", str(corners_file), "--cost", "reference"])
+    changed, other = asked
+    assert other.cost is Cost.REFERENCE
+    assert changed == Settings(
+        fixed={"k3": None, "fx": 650.0},
+        freed=("p3",),
+        plate=PlateModel.FREE,
+        prior=Prior(0.1, 0.3),
+        robust=True,
+        weigh_views=True,
+        once=True,
+    )
+    names = {field.name for field in fields(Settings)} - {"cost"}
+    assert all(getattr(changed, name) != getattr(Settings(), name) for name in names)
 
 
 def test_corners_need_no_square(corners_file: Path, tmp_path: Path) -> None:

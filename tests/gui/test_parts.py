@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
+from dataclasses import fields, replace
 from pathlib import Path
 
 import numpy as np
@@ -23,6 +23,7 @@ from pytestqt.qtbot import QtBot
 from calibgui.app.document import Document
 from calibgui.app.project import Unit, with_each
 from calibgui.app.recent import recent_projects
+from calibgui.app.settings import Settings
 from calibgui.engine.errors import CalibrationError
 from calibgui.engine.types import Cost, Plate, PlateModel, Prior, ViewStatus
 from calibgui.formats.plate_json import write_plate
@@ -141,7 +142,7 @@ def test_settings_become_arguments_of_the_calibration(full: MainWindow) -> None:
     panel.boxes["p3"].click()
     panel.boxes["cx"].click()
     settings = full.session.project.settings
-    assert (settings.fixed, settings.freed) == (("cx",), ("p3",))
+    assert (settings.fixed, settings.freed) == ({"cx": None}, ("p3",))
     panel.cost.setCurrentIndex(1)
     panel.cost.activated.emit(1)
     assert full.session.project.settings.cost is Cost.REFERENCE
@@ -149,6 +150,66 @@ def test_settings_become_arguments_of_the_calibration(full: MainWindow) -> None:
         full.session.document.undo()
     assert not panel.boxes["k3"].isChecked()
     assert panel.cost.currentData() == Cost.IMAGE
+
+
+def test_parameters_are_held_at_values(full: MainWindow, qtbot: QtBot) -> None:
+    panel, session = full.settings, full.session
+    panel.values.selectAll()
+    qtbot.keyClicks(panel.values, "fx=650.5, p3=0.01")
+    qtbot.keyClick(panel.values, Qt.Key.Key_Return)
+    assert session.project.settings.fixed == {"fx": 650.5, "k3": None, "p3": 0.01}
+    assert not panel.boxes["fx"].isChecked()
+    panel.boxes["p1"].click()  # what else is chosen leaves the values alone
+    assert session.project.settings.fixed["fx"] == 650.5
+    panel.boxes["fx"].click()  # to be estimated after all
+    assert session.project.settings.fixed == {"k3": None, "p1": None, "p3": 0.01}
+    assert panel.values.text() == "p3=0.01"
+    before = session.project.settings
+    for text in ("k9=1", "fx=-1", "fx=wide"):
+        panel.values.selectAll()
+        qtbot.keyClicks(panel.values, text)
+        qtbot.keyClick(panel.values, Qt.Key.Key_Return)
+        assert session.project.settings is before
+        assert panel.values.text() == "p3=0.01"
+        assert full.banner.isVisible()
+    panel.values.selectAll()
+    qtbot.keyClick(panel.values, Qt.Key.Key_Delete)
+    qtbot.keyClick(panel.values, Qt.Key.Key_Return)
+    assert session.project.settings.fixed == {"k3": None, "p1": None}
+    for _ in range(4):
+        session.document.undo()
+    assert panel.boxes["fx"].isChecked()
+    assert panel.values.text() == ""
+
+
+def test_every_setting_is_in_the_panel_and_none_disturbs_another(full: MainWindow) -> None:
+    panel, session = full.settings, full.session
+    everything = Settings(
+        cost=Cost.IMAGE,
+        fixed={"fx": 650.5, "k3": None},
+        freed=("p3",),
+        plate=PlateModel.FREE,
+        prior=Prior(0.25, 0.5),
+        robust=True,
+        weigh_views=True,
+        once=True,
+    )
+    changed = {f.name for f in fields(Settings)} - {"cost"}
+    assert all(getattr(everything, name) != getattr(Settings(), name) for name in changed)
+    session.edit("Settings", lambda p: replace(p, settings=everything))
+    panel.robust.click()
+    assert session.project.settings == replace(everything, robust=False)
+    panel.weigh.click()
+    panel.again.click()
+    assert session.project.settings == replace(
+        everything, robust=False, weigh_views=False, once=False
+    )
+    for _ in range(3):
+        session.document.undo()
+    assert session.project.settings is everything
+    choose(panel.cost, "error on the reference plane")
+    assert not session.project.settings.weigh_views
+    assert not panel.weigh.isEnabled()
 
 
 def choose(box: QComboBox, text: str) -> None:
