@@ -25,7 +25,7 @@ from calibgui.app.project import Unit, with_each
 from calibgui.app.recent import recent_projects
 from calibgui.app.settings import Settings
 from calibgui.engine.errors import CalibrationError
-from calibgui.engine.types import Cost, Plate, PlateModel, Prior, ViewStatus
+from calibgui.engine.types import Cost, Plate, PlateModel, Prior, Status, View, ViewStatus
 from calibgui.formats.plate_json import write_plate
 from calibgui.gui import theme
 from calibgui.gui.bug_dialog import BugDialog
@@ -287,6 +287,29 @@ def test_outliers_left_out_are_seen_in_the_images_and_undone(
     assert listed(full, Role.STATUS)[1] == "41 of 42 corners"
     session.document.undo()
     assert session.project.views[1] is moved
+    qtbot.waitUntil(lambda: not session.jobs.running)
+
+
+def test_views_that_do_not_determine_the_camera_say_what_to_photograph(
+    full: MainWindow, qtbot: QtBot
+) -> None:
+    session = full.session
+    others = [view.image for view in session.project.views if view.usable][1:]
+
+    def excluded(view: View) -> View:
+        return replace(view, enabled=False)
+
+    session.edit("Exclude", lambda p: with_each(p, others, excluded))
+    qtbot.mouseClick(full.calibrate, LEFT)
+    qtbot.waitUntil(lambda: len(session.project.results) == 3, timeout=30_000)
+    assert session.result is not None
+    assert session.result.calibration.status is Status.PARTIAL
+    assert full.banner.isVisible()
+    assert "is partial. One view does not" in full.banner.text.text()
+    assert "Add at least two more views" in full.banner.text.text()
+    panel = full.analysis.findChild(ResultPanel)
+    assert panel is not None
+    assert "Assumed, as of an ordinary camera" in panel.words.toPlainText()
     qtbot.waitUntil(lambda: not session.jobs.running)
 
 
