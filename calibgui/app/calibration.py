@@ -31,6 +31,11 @@ from calibgui.formats.corners_json import CornerSet
 from calibgui.formats.result import Result
 from calibgui.report.numbers import counted
 
+_UNTRIED = (
+    "The nominal plate is kept: without some of the views the others do not determine the camera, "
+    "so that no plate model can be tried on unseen ones."
+)
+
 
 def calibrate_views(
     corner_set: CornerSet, settings: Settings = USUAL, report: Report | None = None
@@ -82,8 +87,11 @@ def _calibrated(corner_set: CornerSet, settings: Settings, report: Report | None
     camera: dict[str, Any] = {"fix": settings.fixed, "free": settings.freed}
     plate = settings.plate
     if plate is None:
-        choice = choose_plate(observations, size, **camera)
-        plate, said = choice.model, (choice.words, *said)
+        try:
+            choice = choose_plate(observations, size, **camera)
+            plate, said = choice.model, (choice.words, *said)
+        except DegenerateError:
+            plate, said = PlateModel.NOMINAL, (_UNTRIED, *said)
     everything = camera | {
         "cost": settings.cost,
         "plate": plate,

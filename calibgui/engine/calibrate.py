@@ -12,7 +12,7 @@ import numpy as np
 
 from calibgui.engine.errors import CalibrationError, DegenerateError
 from calibgui.engine.estimation import uncertainty
-from calibgui.engine.estimation.assumed import estimate_partly
+from calibgui.engine.estimation.assumed import estimate_partly, vague
 from calibgui.engine.estimation.degeneracy import (
     PINHOLE,
     copies,
@@ -28,7 +28,7 @@ from calibgui.engine.estimation.observations import (
     pitch,
     view_names,
 )
-from calibgui.engine.estimation.outcome import Asked, estimated, reported
+from calibgui.engine.estimation.outcome import Asked, Estimate, estimated, reported
 from calibgui.engine.estimation.solving import reweighted, solved
 from calibgui.engine.estimation.stage_one import prealign
 from calibgui.engine.estimation.stage_two import State
@@ -164,10 +164,22 @@ def calibrate(
         estimate = with_plate_doubt(estimate, observations, model, free_indices)
     elif isinstance(plate, PlateModel) and plate is not PlateModel.NOMINAL:
         estimate = fit_plate(solution, observations, model, free_indices, plate, prior, report)
+        _check_carried(estimate, asked, plate)
     if cost is Cost.IMAGE:
         estimate = with_view_scatter(estimate, model, free_indices)
     digest = _digest(observations, settings)
     return reported(estimate, asked, precision.undetermined, digest)
+
+
+def _check_carried(estimate: Estimate, asked: Asked, plate: PlateModel) -> None:
+    """Refuse an estimated plate that stands in for the camera."""
+    if names := vague(estimate.state.params, estimate.camera, asked):
+        raise CalibrationError(
+            f"With the plate model {plate.value!r} these views leave {', '.join(names)} "
+            "undetermined: what the plate does and what the camera does look alike in them.",
+            "Add views with the board tilted by 20 to 45 degrees in different directions and all "
+            "over the image, or keep the nominal plate.",
+        )
 
 
 def _refuse(observations: Observations, asked: Asked, state: State, lost: Sequence[str]) -> None:

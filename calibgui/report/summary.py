@@ -41,6 +41,8 @@ _DISTANCES = 1.3
 """Farthest over nearest board that counts as different distances."""
 _STRIKING = 1.5
 """Times that the views disagree more than noise explains, above which it asks for attention."""
+_BY_CHANCE = 1.3
+"""A plate's deviation over its standard deviation below which it may be none."""
 _REGIONS = (
     ("upper left", "top", "upper right"),
     ("left", "middle", "right"),
@@ -132,10 +134,14 @@ def _ending(result: Result) -> Iterator[Sentence]:
 def about_plate(plate: Plate) -> str:
     """How far the board is from its drawing."""
     across, along, out = np.sqrt(np.mean(plate.deviation**2, axis=0))
-    return (
+    text = (
         f"The board deviates from its drawing by {plate.rms:.2g} mm (rms): {across:.2g} mm "
         f"along its rows, {along:.2g} mm along its columns and {out:.2g} mm out of its plane."
     )
+    chance = float(np.sqrt(np.mean(np.sum(plate.sigma**2, axis=1))))
+    if plate.rms < _BY_CHANCE * chance:
+        text += f" Noise alone makes as much ({chance:.2g} mm): it may well be as drawn."
+    return text
 
 
 def about_plate_doubt(doubt: float) -> str:

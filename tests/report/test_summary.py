@@ -9,10 +9,11 @@ import numpy as np
 import pytest
 
 from calibgui import engine
-from calibgui.engine.types import Observation, Pose, Status, View, ViewStatus
+from calibgui.engine.types import Observation, Plate, PlateModel, Pose, Status, View, ViewStatus
 from calibgui.formats.result import Result
-from calibgui.report.summary import Tone, outlying_views, summary
+from calibgui.report.summary import Tone, about_plate, outlying_views, summary
 from tests.engine import scenes
+from tests.engine.estimation.test_assumed import in_one_spot
 
 CAMERA = scenes.barrel()
 
@@ -43,6 +44,22 @@ def everywhere(count: int = 20, seed: int = 5) -> list[Observation]:
 @pytest.fixture(scope="module")
 def good() -> Result:
     return solved(everywhere())
+
+
+def test_a_plate_that_noise_feigns_is_told_from_one_that_is_bent() -> None:
+    nominal = np.array(scenes.BOARD.points())
+    for size, feigned in ((0.02, True), (0.2, False)):
+        deviation = np.full((len(nominal), 3), size)
+        plate = Plate(PlateModel.FREE, nominal, deviation, np.full_like(deviation, 0.02))
+        assert ("it may well be as drawn" in about_plate(plate)) is feigned
+
+
+def test_corners_in_one_spot_are_said_to_be() -> None:
+    made = in_one_spot(scenes.barrel(focal=900.0))
+    noisy = made.noisy(0.02, np.random.default_rng(0))
+    views = tuple(View(f"{k}.png", ViewStatus.FOUND, points=v) for k, v in enumerate(noisy))
+    result = Result(engine.calibrate(noisy, made.size), views)
+    assert "All corners lie in one spot" in texts(result, Tone.CAUTION)
 
 
 def test_good_views_ask_for_nothing(good: Result) -> None:

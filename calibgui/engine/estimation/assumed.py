@@ -219,6 +219,21 @@ def _credible(fit: _Fit, asked: Asked) -> bool:
     return bool(_LEAST < f < _MOST)
 
 
+def vague(params: Array, covariance: Array, asked: Asked) -> list[str]:
+    """Names of focal lengths and coordinates of the centre known hardly better than beforehand.
+
+    Args:
+        params: (P,) the camera's parameters.
+        covariance: of the free ones.
+        asked: of the views.
+    """
+    doubt = np.append(_FOCAL * params[:2], [_CENTRE * asked.size[0]] * 2)
+    limit = dict(zip(asked.names[:4], doubt / np.sqrt(_KNOWN_BETTER), strict=True))
+    sigma = np.sqrt(np.diag(covariance))
+    names = [asked.names[i] for i in asked.free]
+    return [n for n, s in zip(names, sigma, strict=True) if n in limit and s > limit[n]]
+
+
 def unknown(S: Array, doubt: Array) -> IntArray:
     """Which quantities to assume, ascending.
 

@@ -9,17 +9,21 @@ its solution mostly folds outside. For lenses on the brink of it the solution's 
 weakened until all corners have an image.
 
 The same detour is taken where the solve was slow. It has then crept along a valley that the
-views hardly bar, of which there can be several in few and noisy views, and the lower end counts.
+views hardly bar, and in few and noisy views such a valley can have several lows: with e the
+eigenvector of the scaled information of least eigenvalue (``uncertainty.py``), starts a few
+standard deviations to either side of the solution along e, the poses following as
+dk = -Vk^-1 Wk^T e, roll into its neighbours. The lowest counts.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from functools import partial
 
 import numpy as np
 
-from calibgui.engine.estimation import problem
-from calibgui.engine.estimation.arrow import NormalAt
+from calibgui.engine.estimation import problem, uncertainty
+from calibgui.engine.estimation.arrow import NormalAt, schur
 from calibgui.engine.estimation.levenberg_marquardt import Solution, StartError, minimise
 from calibgui.engine.estimation.observations import Observations
 from calibgui.engine.estimation.stage_two import State
@@ -33,6 +37,10 @@ _TURNS = 3
 """Rounds of righting tilts: some righted better the camera that tells the others."""
 _SLOW = 15
 """Iterations beyond which another way is tried; one in thirty wild problems takes as many."""
+_ASIDE = 4.0
+"""Standard deviations to the side that another low is looked for."""
+_FLAT = 1e-10
+"""Information left that is taken to be the least."""
 _SAME = 1e-9
 """Difference of costs, relative, that is none."""
 _FIRST_COEFFICIENT = 4
@@ -108,18 +116,47 @@ def solved(
         registered = run(start, (), free[free < _LOWER], Cost.REFERENCE, None)
         return _weakened(righted_run, registered.state, free)
 
+    direct = True
     try:
         solution = righted_run(start)
     except StartError:
-        return by_way_of_the_plate()
+        direct, solution = False, by_way_of_the_plate()
     slow = len(solution.history) - len(earlier) > _SLOW
     if solution.status is Status.STOPPED or not (slow or solution.barred):
         return solution
+    if direct:
+        solution = _lower(solution, by_way_of_the_plate)
+    for start in _beside(solution, free, observations.count):
+        solution = _lower(solution, partial(righted_run, start))
+    return solution
+
+
+def _lower(solution: Solution, other: Callable[[], Solution]) -> Solution:
+    """The lower one of two solutions, of which the second may have no start."""
     try:
-        other = by_way_of_the_plate()
+        found = other()
     except StartError:
         return solution
-    return other if other.normal.cost <= (1 + _SAME) * solution.normal.cost else solution
+    return found if found.normal.cost <= (1 + _SAME) * solution.normal.cost else solution
+
+
+def _beside(solution: Solution, free: IntArray, corners: int) -> list[State]:
+    """States along the valley of what the views determine least, to both sides of a solution."""
+    normal = solution.normal
+    reduced = schur(normal)
+    values, vectors = uncertainty.information_left(reduced)
+    sigma2 = uncertainty.variance(normal.cost, corners, len(free) + normal.pose.size)
+    if not free.size or not np.isfinite(sigma2):
+        return []
+    along = reduced.unit * vectors[:, 0] * np.sqrt(sigma2 / max(values[0], _FLAT))
+    states = []
+    for side in (_ASIDE, -_ASIDE):
+        by_params = np.zeros(len(solution.state.params))
+        by_params[free] = side * along
+        pull = np.tensordot(normal.W, side * along, axes=([1], [0]))
+        by_poses = -np.linalg.solve(normal.V, pull[..., None])[..., 0]
+        states.append(solution.state.moved(by_params, np.asarray(by_poses)))
+    return states
 
 
 def _weakened(run: Callable[[State], Solution], start: State, free: IntArray) -> Solution:
