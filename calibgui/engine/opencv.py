@@ -55,18 +55,6 @@ def dilate(image: Image32, size: int) -> Image32:
     return np.asarray(cv2.dilate(image, np.ones((size, size), np.uint8)))
 
 
-def sample(image: Image, uv: Array) -> Array:
-    """Bilinear values of `image` (h, w) at `uv` (..., 2) px, the border replicated."""
-    points = np.ascontiguousarray(uv, dtype=np.float32).reshape(-1, 1, 2)
-    rows = 30_000  # remap holds at most 32767 rows
-    parts = [
-        cv2.remap(image, points[i : i + rows], None, cv2.INTER_LINEAR, None, cv2.BORDER_REPLICATE)
-        for i in range(0, len(points), rows)
-    ]
-    values = np.concatenate(parts) if parts else np.empty(0)
-    return np.asarray(values, dtype=np.float64).reshape(uv.shape[:-1])
-
-
 def tiles(image: Image, uv: Array, half: int) -> tuple[Image, Array]:
     """Squares of (2 half + 1)^2 pixels of `image` (h, w) around the pixels nearest to `uv` (n, 2).
 

@@ -13,17 +13,20 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from calibgui.engine import opencv
+from calibgui.engine import kernels
 from calibgui.engine.corners.lattice import Lattice, axes
+from calibgui.engine.imaging.sampling import sample
 from calibgui.engine.opencv import Image
 from calibgui.engine.types import Array, BoolArray
 
 _INSIDE = np.array([0.12, 0.22, 0.32])
 """Where a sector is sampled, in steps along both of its edges."""
+_SIGNS = np.array([(1, 1), (-1, -1), (1, -1), (-1, 1)])
+_SECTORS = np.array([(i * a, j * b) for i, j in _SIGNS for b in _INSIDE for a in _INSIDE])
 _AROUND = np.array([-0.3, -0.2, -0.1, 0.1, 0.2, 0.3])
 """Where a corner's surroundings are compared, steps both ways."""
-_PLACES = np.array([(1.0, a, b) for a in _AROUND for b in _AROUND])
-_EVEN = np.linalg.qr(_PLACES)[0]
+_PLACES = np.array([(a, b) for a in _AROUND for b in _AROUND])
+_EVEN = np.linalg.qr(np.column_stack([np.ones(len(_PLACES)), _PLACES]))[0]
 """(k, 3) orthonormal: what even light and its gradient do there."""
 _CLEAR = 0.25
 """Least gap between the dark and the bright sectors over their difference."""
@@ -120,30 +123,35 @@ def sectors(
 
 def _sectors(image: Image, uv: Array, right: Array, down: Array) -> Array:
     """(n, 4, k) grey levels in the squares (+, +), (-, -), (+, -) and (-, +) around corners."""
-    signs = np.array([(1, 1), (-1, -1), (1, -1), (-1, 1)])
-    a, b = (grid.ravel() for grid in np.meshgrid(_INSIDE, _INSIDE))
-    a, b = signs[:, :1] * a, signs[:, 1:] * b
-    offset = a[..., None] * right[:, None, None] + b[..., None] * down[:, None, None]
     # At the border of the image the sectors are looked at nearer to the corner.
     room = np.minimum(uv, np.array(image.shape[::-1]) - 1.0 - uv)
-    reach = np.abs(offset).max(axis=(1, 2))
-    offset *= np.clip(room / reach, 0.1, 1.0).min(axis=1)[:, None, None, None]
-    return opencv.sample(image, uv[:, None, None] + offset)
+    reach = _INSIDE.max() * (abs(right) + abs(down))
+    nearer = np.clip(room / reach, 0.1, 1.0).min(axis=1, keepdims=True)
+    values = _around(image, uv, nearer * right, nearer * down, _SECTORS)
+    return values.reshape(len(uv), len(_SIGNS), _INSIDE.size**2)
 
 
 def _surroundings(image: Image, uv: Array, right: Array, down: Array, dark: BoolArray) -> Array:
-    """(n, k) grey levels around corners, mirrored where the first squares are not dark.
+    """(n, k) grey levels around corners, mirrored where the first squares are not dark."""
+    right = np.where(dark[:, None], right, -right)
+    return _standard(_around(image, uv, right, down, _PLACES))
+
+
+def _around(image: Image, uv: Array, right: Array, down: Array, places: Array) -> Array:
+    """(n, k) grey levels at `places` (k, 2), in steps from the corners.
 
     Outside the image those opposite stand in for them: a corner is point symmetric.
     """
-    a, b = _PLACES[:, 1:].T[..., None]
-    right = np.where(dark[:, None], right, -right)
+    if kernels.COMPILED:
+        from calibgui.engine.kernels import appearance
+
+        return appearance.around(image, uv, right, down, places)
+    a, b = places.T[..., None]
     offset = a * right[:, None] + b * down[:, None]
     at = uv[:, None] + offset
-    outside = ((at < 0) | (at > np.array(image.shape[::-1]) - 1.0)).any(axis=2)
+    outside = ((at < -0.5) | (at > np.array(image.shape[::-1]) - 0.5)).any(axis=2)
     at[outside] -= 2 * offset[outside]
-    values = opencv.sample(image, at)
-    return _standard(values)
+    return sample(image, at)
 
 
 def _standard(values: Array) -> Array:

@@ -22,6 +22,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from calibgui.engine import kernels
 from calibgui.engine.corners import profiles
 from calibgui.engine.corners.edge_model import (
     BLUR,
@@ -53,6 +54,8 @@ _PAIRS = 20
 """Opposite pixels from which their differences tell the noise."""
 _MOST_RHO, _RHO_SPREAD = 0.95, 0.3
 """Largest rho, and how far it is expected from that of a blur alike in all directions."""
+_DAMPING = 1e-9
+"""What is added to the diagonal of the normal equations, over its largest entry."""
 _BLURRED = 1.5
 """How far from where a square's colour ends its blur is felt, blurs."""
 
@@ -204,9 +207,7 @@ def _step(edges: Edges, equations: NormalEquations) -> Fit:
     normals, weight = edges.normals(), products[:, UNKNOWNS, UNKNOWNS] / N[:, 6, 6] / _RHO_SPREAD**2
     N[:, 8, 8] += weight
     g[:, 8] += weight * (np.sum(normals[:, 0] * normals[:, 1], axis=1) - edges.unknowns[RHO])
-    largest = np.einsum("nkk->nk", N).max(axis=1) + 1e-300
-    inverse = np.linalg.inv(N + 1e-9 * largest[:, None, None] * np.eye(UNKNOWNS))
-    step = np.einsum("nij,nj->ni", inverse, g)
+    step, inverse = (_compiled_solved if kernels.COMPILED else _solved)(N, g)
     square = np.maximum(products[:, UNKNOWNS, UNKNOWNS] - np.sum(step * g, axis=1), 0.0)
     count = N[:, 6, 6]  # each pixel's derivative by m is 1
     square /= np.maximum(count - UNKNOWNS, 1)
@@ -215,8 +216,22 @@ def _step(edges: Edges, equations: NormalEquations) -> Fit:
     if np.median(noise) > np.median(square):
         noise = square
     unknowns = edges.unknowns + _bounded(step, edges.unknowns)
-    covariance = noise[:, None, None] * inverse[:, :2, :2]
+    covariance = noise[:, None, None] * inverse
     return Fit(replace(edges, unknowns=unknowns), covariance, np.sqrt(square))
+
+
+def _solved(N: Array, g: Array) -> tuple[Array, Array]:
+    """N^-1 g (n, 9) of the normal equations N (n, 9, 9), and the part (n, 2, 2) of N^-1 for c."""
+    largest = np.einsum("nkk->nk", N).max(axis=1) + 1e-300
+    inverse = np.linalg.inv(N + _DAMPING * largest[:, None, None] * np.eye(UNKNOWNS))
+    return np.einsum("nij,nj->ni", inverse, g), inverse[:, :2, :2]
+
+
+def _compiled_solved(N: Array, g: Array) -> tuple[Array, Array]:
+    """`_solved` by the compiled kernel."""
+    from calibgui.engine.kernels import edges
+
+    return edges.solved(N, g, _DAMPING)
 
 
 def _bounded(step: Array, x: Array) -> Array:

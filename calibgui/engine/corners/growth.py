@@ -103,6 +103,8 @@ def _fill(
     index, r, c = index[near], r[near], c[near]
     free = _free(places.uv[index], right[r, c], down[r, c], lattice)
     index, r, c = index[free], r[free], c[free]
+    if not len(index):
+        return None
     dark = framed.dark ^ ((r + c) % 2 == 1)
     look = typical(lattice, places.smooth)
     fits, gap = look.shown(places.smooth, places.uv[index], right[r, c], down[r, c], dark)

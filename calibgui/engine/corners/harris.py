@@ -16,7 +16,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from calibgui.engine import opencv
+from calibgui.engine import kernels, opencv
 from calibgui.engine.opencv import Image
 from calibgui.engine.types import Array
 
@@ -37,16 +37,28 @@ def first_estimates(image: Image, uv: Array, spacing: Array) -> Array:
             quarter of it.
     """
     half = _REACH + _MARGIN
-    tiles, origin = opencv.tiles(image, uv, half)
-    gv, gu = (np.asarray(g) for g in np.gradient(tiles.astype(np.float64), axis=(1, 2)))
+    tried = np.arange(-_REACH, _REACH + 1)
     # (n, k, side) weights around each of the k positions tried along an axis.
-    offset = np.arange(-half, half + 1) - np.arange(-_REACH, _REACH + 1)[:, None]
     width = np.clip(spacing / 6, 1, _MARGIN / 3)[:, None, None]
-    w = np.exp(-0.5 * (offset / width) ** 2)
-    Suu, Svv, Suv = (w @ product @ w.transpose(0, 2, 1) for product in (gu * gu, gv * gv, gu * gv))
-    score = Suu * Svv - Suv * Suv - _SENSITIVITY * (Suu + Svv) ** 2
-    within = abs(np.arange(-_REACH, _REACH + 1)) <= np.maximum(spacing / 4, 1)[:, None]
+    w = np.exp(-0.5 * ((np.arange(-half, half + 1) - tried[:, None]) / width) ** 2)
+    score = (_compiled_scores if kernels.COMPILED else _scores)(image, uv, w)
+    within = abs(tried) <= np.maximum(spacing / 4, 1)[:, None]
     score = np.where(within[:, :, None] & within[:, None, :], score, -np.inf)
     best = np.argmax(score.reshape(len(uv), -1), axis=1)
     v, u = np.unravel_index(best, score.shape[1:])
-    return np.asarray(origin + np.column_stack([u, v]) + _MARGIN)
+    return np.asarray(np.rint(uv) + np.column_stack([u, v]) - _REACH)
+
+
+def _scores(image: Image, uv: Array, w: Array) -> Array:
+    """(n, k, k) the score at each of the positions tried, down and across."""
+    tiles, _ = opencv.tiles(image, uv, w.shape[2] // 2)
+    gv, gu = (np.asarray(g) for g in np.gradient(tiles.astype(np.float64), axis=(1, 2)))
+    Suu, Svv, Suv = (w @ product @ w.transpose(0, 2, 1) for product in (gu * gu, gv * gv, gu * gv))
+    return np.asarray(Suu * Svv - Suv * Suv - _SENSITIVITY * (Suu + Svv) ** 2)
+
+
+def _compiled_scores(image: Image, uv: Array, w: Array) -> Array:
+    """`_scores` by the compiled kernel."""
+    from calibgui.engine.kernels import harris
+
+    return harris.scores(image, uv, w, _SENSITIVITY)

@@ -22,6 +22,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from calibgui.engine import kernels, opencv
+from calibgui.engine.imaging.sampling import sample
 from calibgui.engine.opencv import Image, Image32
 from calibgui.engine.types import Array, BoolArray, IntArray
 
@@ -142,13 +143,13 @@ def _compiled_rings(smooth: Image32, uv: Array, floor: float) -> tuple[BoolArray
 
 def _ring(smooth: Image32, uv: Array, circle: Array, floor: float) -> tuple[BoolArray, Array]:
     """The test on one circle (samples, 2): passed (n,) and (n, 3) A, B and contrast."""
-    values = opencv.sample(smooth, uv[:, None] + circle)
+    values = sample(smooth, uv[:, None] + circle)
     near, far = values[:, : _SAMPLES // 2], values[:, _SAMPLES // 2 :]
     half = (near + far) / 2
     low, high = half.min(axis=1), half.max(axis=1)
     contrast = high - low
     asymmetry = np.sqrt(np.mean((near - far) ** 2, axis=1))
-    centre = opencv.sample(smooth, uv)
+    centre = sample(smooth, uv)
     middle = (low + high) / 2
     level = half - middle[:, None]
     after = np.roll(level, -1, axis=1)

@@ -18,9 +18,10 @@ from collections import deque
 import numpy as np
 from scipy.spatial import cKDTree
 
-from calibgui.engine import opencv
+from calibgui.engine import kernels
 from calibgui.engine.corners.junctions import Junctions, Saddles
 from calibgui.engine.corners.lattice import STEPS, Lattice, trim
+from calibgui.engine.imaging.sampling import sample
 from calibgui.engine.opencv import Image32
 from calibgui.engine.types import Array, IntArray
 
@@ -29,6 +30,8 @@ _ALONG = float(np.cos(np.radians(20.0)))
 """How closely an edge must point to the neighbour that it leads to."""
 _PARALLEL = float(np.cos(np.radians(25.0)))
 """How closely the crossing edges of two neighbours must agree."""
+_ON_WAY = np.array([0.3, 0.5, 0.7])
+"""Where on the way to a neighbour the edge must show."""
 _STEP = 0.25
 """Least step across the edge between two neighbours over the weaker one's contrast."""
 
@@ -49,17 +52,28 @@ def find_lattices(saddles: Saddles, junctions: Junctions) -> list[Lattice]:
 def _link(smooth: Image32, junctions: Junctions) -> tuple[IntArray, IntArray]:
     """Neighbour (n, 4) at each slot, -1 where none, and the slot (n, 4) at which it looks back."""
     n = len(junctions)
-    count = min(_NEIGHBOURS, n - 1)
-    ranks = np.arange(1, count + 2)
-    distance, other = (np.asarray(x) for x in cKDTree(junctions.uv).query(junctions.uv, ranks))
-    me = np.repeat(np.arange(n), count)
-    distance, other = distance[:, 1:].ravel(), other[:, 1:].ravel()
-    apart = distance > 0
-    me, other, distance = me[apart], other[apart], distance[apart]
-    d = (junctions.uv[other] - junctions.uv[me]) / distance[:, None]
-
+    ranks = np.arange(2, min(_NEIGHBOURS, n - 1) + 2)  # the first is the junction itself
+    near = np.asarray(cKDTree(junctions.uv).query(junctions.uv, ranks)[1], dtype=np.int64)
     angle = junctions.edges[:, [0, 1, 0, 1]] + np.array([0, 0, np.pi, np.pi])
     slots = np.stack([np.cos(angle), np.sin(angle)], axis=-1)
+    search = _compiled_nearest if kernels.COMPILED else _nearest
+    neighbour, back = search(smooth, junctions, slots, near)
+    mutual = (neighbour >= 0) & (neighbour[neighbour, back] == np.arange(n)[:, None])
+    return np.where(mutual, neighbour, -1), np.where(mutual, back, -1)
+
+
+def _nearest(
+    smooth: Image32, junctions: Junctions, slots: Array, near: IntArray
+) -> tuple[IntArray, IntArray]:
+    """`_link`, mutual or not, from the edges' directions `slots` (n, 4, 2) and the junctions `near`
+    (n, m) each, nearest first."""
+    n, count = near.shape
+    me, other = np.repeat(np.arange(n), count), near.ravel()
+    d = junctions.uv[other] - junctions.uv[me]
+    distance = np.linalg.norm(d, axis=1)
+    apart = distance > 0
+    me, other, distance = me[apart], other[apart], distance[apart]
+    d = d[apart] / distance[:, None]
     here = np.einsum("mkd,md->mk", slots[me], d)
     there = -np.einsum("mkd,md->mk", slots[other], d)
     k, k_back = np.argmax(here, axis=1), np.argmax(there, axis=1)
@@ -72,50 +86,78 @@ def _link(smooth: Image32, junctions: Junctions) -> tuple[IntArray, IntArray]:
     )
     me, other, distance, d, k, k_back = (x[good] for x in (me, other, distance, d, k, k_back))
     # A real edge lies between: dark on the side that the slots' numbers say.
-    along = np.array([0.3, 0.5, 0.7]) * distance[:, None]
+    along = _ON_WAY * distance[:, None]
     normal = np.clip(0.15 * distance, 1.0, None)[:, None] * np.column_stack([-d[:, 1], d[:, 0]])
     on = junctions.uv[me][:, None] + along[..., None] * d[:, None]
-    step = opencv.sample(smooth, on + normal[:, None]) - opencv.sample(smooth, on - normal[:, None])
+    step = sample(smooth, on + normal[:, None]) - sample(smooth, on - normal[:, None])
     step *= np.where(k % 2 == 1, 1.0, -1.0)[:, None]
     weaker = np.minimum(junctions.contrast[me], junctions.contrast[other])
     good = step.min(axis=1) > _STEP * weaker
     me, other, distance, k, k_back = (x[good] for x in (me, other, distance, k, k_back))
-
     neighbour, back = np.full((n, 4), -1), np.full((n, 4), -1)
     order = np.argsort(-distance, kind="stable")  # the nearest is written last
     neighbour[me[order], k[order]] = other[order]
     back[me[order], k[order]] = k_back[order]
-    mutual = (neighbour >= 0) & (neighbour[neighbour, back] == np.arange(n)[:, None])
-    return np.where(mutual, neighbour, -1), np.where(mutual, back, -1)
+    return neighbour, back
+
+
+def _compiled_nearest(
+    smooth: Image32, junctions: Junctions, slots: Array, near: IntArray
+) -> tuple[IntArray, IntArray]:
+    """`_nearest` by the compiled kernel."""
+    from calibgui.engine.kernels import links
+
+    limits = _ALONG, _PARALLEL, _STEP
+    return links.nearest(smooth, junctions.uv, slots, junctions.contrast, near, _ON_WAY, limits)
 
 
 def _walk(neighbour: IntArray, back: IntArray) -> list[tuple[IntArray, IntArray, IntArray]]:
     """Nodes (m,), cells (m, 2) and turns (m,) of each connected part with a full cell's worth."""
     links = np.sum(neighbour >= 0, axis=1)
+    order = np.argsort(-links, kind="stable")
+    seeds = order[links[order] > 0]
+    if not len(seeds):
+        return []
+    walked = (_compiled_reached if kernels.COMPILED else _reached)(neighbour, back, seeds)
+    ends = np.flatnonzero(np.diff(walked[1])) + 1
+    parts = zip(*(np.split(x, ends) for x in (walked[0], walked[2])), strict=True)
+    return [_agreeing(nodes, placed, neighbour, back) for nodes, placed in parts if len(nodes) >= 4]
+
+
+def _reached(
+    neighbour: IntArray, back: IntArray, seeds: IntArray
+) -> tuple[IntArray, IntArray, IntArray]:
+    """Nodes (m,) in the order of walks from each of the `seeds` not reached before, the walk (m,)
+    that reached them, and their rows, columns and turns (m, 3)."""
     to, look = neighbour.tolist(), back.tolist()
-    steps = [(int(r), int(c)) for r, c in STEPS]
     place: dict[int, tuple[int, int, int]] = {}
-    parts = []
-    for seed in np.argsort(-links, kind="stable").tolist():
-        if links[seed] == 0 or seed in place:
+    walk: list[int] = []
+    for seed in seeds.tolist():
+        if seed in place:
             continue
         place[seed] = (0, 0, 0)
-        queue, part = deque([seed]), []
+        queue = deque([seed])
         while queue:
             i = queue.popleft()
-            part.append(i)
+            walk.append(seed)
             row, col, turn = place[i]
             for k, j in enumerate(to[i]):
                 if j >= 0 and j not in place:
                     direction = (k + turn) % 4
-                    dr, dc = steps[direction]
+                    dr, dc = STEPS[direction].tolist()
                     place[j] = (row + dr, col + dc, (direction + 2 - look[i][k]) % 4)
                     queue.append(j)
-        if len(part) >= 4:
-            nodes = np.array(part)
-            placed = np.array([place[i] for i in part])
-            parts.append(_agreeing(nodes, placed, neighbour, back))
-    return parts
+    nodes, placed = np.array(list(place)), np.array(list(place.values()))
+    return nodes, np.array(walk), placed
+
+
+def _compiled_reached(
+    neighbour: IntArray, back: IntArray, seeds: IntArray
+) -> tuple[IntArray, IntArray, IntArray]:
+    """`_reached` by the compiled kernel."""
+    from calibgui.engine.kernels import links
+
+    return links.walk(neighbour, back, seeds, STEPS)
 
 
 def _agreeing(

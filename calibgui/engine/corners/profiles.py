@@ -16,12 +16,13 @@ from typing import NamedTuple
 
 import numpy as np
 
-from calibgui.engine import opencv
+from calibgui.engine import kernels
+from calibgui.engine.imaging.sampling import sample
 from calibgui.engine.opencv import Image
 from calibgui.engine.types import Array
 
-_ALONG = np.array([0.2, 0.3, 0.4])
-"""Where on an arm profiles are taken, squares from the corner."""
+_ALONG = np.array([0.2, 0.3, 0.4, -0.2, -0.3, -0.4])
+"""Where on the two arms profiles are taken, squares from the corner."""
 _REACH = 0.35
 """R, squares across the edge."""
 _CLOSE = 6.0
@@ -67,29 +68,82 @@ def across_edge(
         sign: (n,) p, +1 where the square towards both steps is bright.
         plain: how far from its edges a square is of one colour, squares.
     """
-    s = np.concatenate([_ALONG, -_ALONG])
+    lines = image, uv, along, across
     reach = _REACH * 2 * plain
-    o = np.linspace(-reach, reach, _SAMPLES)
-    at = uv[:, None, None] + s[:, None, None] * along[:, None, None]
-    at = at + o[:, None] * across[:, None, None]
-    arm = np.repeat([1.0, -1.0], len(_ALONG))
-    rising = sign[:, None] * arm
-    values = opencv.sample(image, at)
-    first, last = values[..., :_ENDS].mean(axis=2), values[..., -_ENDS:].mean(axis=2)
+    first, last, total = (_compiled_levels if kernels.COMPILED else _levels)(*lines, reach)
+    rising = sign[:, None] * np.sign(_ALONG)
     rise = (last - first) * rising
     clear = rise > max(_CLEAR * float(np.median(rise)), 0.0)
-    rise = np.where(clear, rise * rising, np.inf)[..., None]
-    share = (values - first[..., None]) / rise
-    integral = (share.sum(axis=2) - share[..., [0, -1]].mean(axis=2)) * (o[1] - o[0])
+    rise = np.where(clear, rise * rising, np.inf)
+    integral = (total / (_SAMPLES - 1) - first) / rise * 2 * reach
     spread = np.where(clear.all(axis=1), np.mean((reach - integral) * rising, axis=1), np.nan)
-    close = np.minimum(reach, _CLOSE / size)[:, None]
-    middle = np.clip(reach - integral, close - reach, reach - close)
-    o = middle[..., None] + close[..., None] * np.linspace(-1, 1, _SAMPLES)
-    at = uv[:, None, None] + s[:, None, None] * along[:, None, None]
-    at = at + o[..., None] * across[:, None, None]
-    share = (opencv.sample(image, at) - first[..., None]) / rise
-    between = ((share > 0.25) & (share < 0.75)).sum(axis=2) * 2 * close / (_SAMPLES - 1)
-    blur = size * np.median(between, axis=1) / _QUARTILES
+    close = np.minimum(reach, _CLOSE / size)
+    middle = np.clip(reach - integral, close[:, None] - reach, reach - close[:, None])
+    count = _compiled_between if kernels.COMPILED else _between
+    steep = np.median(count(*lines, middle, close, first, rise), axis=1)
+    blur = size * steep * 2 * close / (_SAMPLES - 1) / _QUARTILES
     low = np.median(np.where(rising > 0, first, last), axis=1)
     high = np.median(np.where(rising > 0, last, first), axis=1)
     return Profile(spread, blur, low, high)
+
+
+def _levels(
+    image: Image, uv: Array, along: Array, across: Array, reach: float
+) -> tuple[Array, Array, Array]:
+    """(n, k) grey levels at the first and last ends of the profiles, and the sum over each by the
+    trapezoidal rule."""
+    middle, half = np.zeros((len(uv), len(_ALONG))), np.full(len(uv), reach)
+    values = _sampled(image, uv, along, across, middle, half)
+    total = values.sum(axis=2) - values[..., [0, -1]].mean(axis=2)
+    return values[..., :_ENDS].mean(axis=2), values[..., -_ENDS:].mean(axis=2), total
+
+
+def _compiled_levels(
+    image: Image, uv: Array, along: Array, across: Array, reach: float
+) -> tuple[Array, Array, Array]:
+    """`_levels` by the compiled kernel."""
+    from calibgui.engine.kernels import profiles
+
+    return profiles.levels(image, uv, along, across, _ALONG, reach, _SAMPLES, _ENDS)
+
+
+def _between(
+    image: Image,
+    uv: Array,
+    along: Array,
+    across: Array,
+    middle: Array,
+    half: Array,
+    first: Array,
+    rise: Array,
+) -> Array:
+    """(n, k) how many of the samples around `middle` lie between 25 and 75 % of the rise."""
+    values = _sampled(image, uv, along, across, middle, half)
+    share = (values - first[..., None]) / rise[..., None]
+    return np.asarray(((share > 0.25) & (share < 0.75)).sum(axis=2), dtype=np.float64)
+
+
+def _compiled_between(
+    image: Image,
+    uv: Array,
+    along: Array,
+    across: Array,
+    middle: Array,
+    half: Array,
+    first: Array,
+    rise: Array,
+) -> Array:
+    """`_between` by the compiled kernel."""
+    from calibgui.engine.kernels import profiles
+
+    return profiles.between(image, uv, along, across, _ALONG, middle, half, _SAMPLES, first, rise)
+
+
+def _sampled(
+    image: Image, uv: Array, along: Array, across: Array, middle: Array, half: Array
+) -> Array:
+    """(n, k, samples) grey levels from `middle` (n, k) up to `half` (n,) to both sides, in steps
+    across the edge."""
+    o = middle[..., None] + half[:, None, None] * np.linspace(-1, 1, _SAMPLES)
+    at = uv[:, None, None] + _ALONG[:, None, None] * along[:, None, None]
+    return sample(image, at + o[..., None] * across[:, None, None])

@@ -61,5 +61,5 @@ def fitted(lattice: Lattice) -> Sheet:
 
 def _basis(cells: Array, centre: Array, half: Array, powers: IntArray) -> Array:
     """(n, terms) the polynomial's terms."""
-    x = (cells - centre) / half
-    return np.asarray(np.prod(x[:, None] ** powers, axis=2))
+    x = np.polynomial.polynomial.polyvander((cells - centre) / half, int(powers.max()))
+    return np.asarray(x[:, 0, powers[:, 0]] * x[:, 1, powers[:, 1]])

@@ -50,8 +50,8 @@ class Surroundings:
         x = self._at / self._half - 1
         self._table = x[..., None] ** np.arange(_HIGHEST + 1)
         self._Q, R = np.linalg.qr(self._basis((0, 0)))
-        derivatives = np.stack([self._basis(order) for order in _ORDERS])
-        self._derivatives = np.linalg.solve(R.T, derivatives.transpose(0, 2, 1)).transpose(0, 2, 1)
+        inverse = np.linalg.inv(R)
+        self._derivatives = np.stack([self._basis(order) @ inverse for order in _ORDERS])
 
     def geometry(self, uv: Array) -> tuple[Array, Array]:
         """Steps to the next column and row, and curvatures of the row's and column's edges.

@@ -12,7 +12,6 @@ from __future__ import annotations
 
 import numpy as np
 
-from calibgui.engine import opencv
 from calibgui.engine.corners import sheet
 from calibgui.engine.corners.appearance import placed, typical
 from calibgui.engine.corners.edges import Fit
@@ -25,6 +24,7 @@ from calibgui.engine.corners.lattice import (
     supported,
 )
 from calibgui.engine.corners.ordering import Sides, turned
+from calibgui.engine.imaging.sampling import sample
 from calibgui.engine.opencv import Image
 from calibgui.engine.types import Array, BoolArray
 
@@ -193,7 +193,7 @@ def _ends_above(lattice: Lattice, image: Image, clear: float) -> bool:
 
 def _difference(image: Image, uv: Array, offset: Array) -> Array:
     """(n,) grey levels at `uv` + `offset` less those at `uv` - `offset`, (n, 2) px."""
-    return opencv.sample(image, uv + offset) - opencv.sample(image, uv - offset)
+    return sample(image, uv + offset) - sample(image, uv - offset)
 
 
 def in_image(uv: Array, shape: tuple[int, ...]) -> BoolArray:

@@ -81,3 +81,40 @@ def gram(J, out):  # type: ignore[no-untyped-def]
     for a in range(M):
         for b in range(a):
             out[a, b] = out[b, a]
+
+
+@compiled
+def bilinear(g, u, v):  # type: ignore[no-untyped-def]
+    """Bilinear value of g at (u, v), the border replicated."""
+    height, width = g.shape
+    u, v = min(max(u, 0.0), width - 1.0), min(max(v, 0.0), height - 1.0)
+    i, j = min(int(u), width - 2), min(int(v), height - 2)
+    a, b = u - i, v - j
+    return (1 - b) * ((1 - a) * g[j, i] + a * g[j, i + 1]) + b * (
+        (1 - a) * g[j + 1, i] + a * g[j + 1, i + 1]
+    )
+
+
+@compiled
+def factor(N):  # type: ignore[no-untyped-def]
+    """Turn N into L below and D on the diagonal, N = L D L^T."""
+    for j in range(N.shape[0]):
+        for k in range(j):
+            N[j, j] -= N[j, k] * N[j, k] * N[k, k]
+        for i in range(j + 1, N.shape[0]):
+            for k in range(j):
+                N[i, j] -= N[i, k] * N[j, k] * N[k, k]
+            N[i, j] /= N[j, j]
+
+
+@compiled
+def substitute(L, b):  # type: ignore[no-untyped-def]
+    """Turn b into the solution of N x = b, given the factors of N."""
+    n = b.shape[0]
+    for i in range(n):
+        for k in range(i):
+            b[i] -= L[i, k] * b[k]
+    for i in range(n - 1, -1, -1):
+        b[i] /= L[i, i]
+        for k in range(i + 1, n):
+            b[i] -= L[k, i] * b[k]

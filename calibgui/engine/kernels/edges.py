@@ -15,7 +15,7 @@ from __future__ import annotations
 import numpy as np
 
 from calibgui.engine.kernels.bands import Pixels
-from calibgui.engine.kernels.common import compiled
+from calibgui.engine.kernels.common import compiled, factor, substitute
 from calibgui.engine.types import Array
 
 _F = np.float32
@@ -256,3 +256,30 @@ def products(pixels: Pixels, centre: Array, near: Array) -> tuple[Array, Array]:
     _products(*pixels[:5], centre, near.astype(_F), out, residual)
     _odd(*pixels[:4], centre, residual, pixels.reach, odd)
     return out, odd
+
+
+@compiled
+def _solved(N, damping, step, inverse):  # type: ignore[no-untyped-def]
+    L, unit = np.empty(N.shape[1:]), np.empty(N.shape[1])
+    for n in range(N.shape[0]):
+        L[:] = N[n]
+        largest = 1e-300
+        for k in range(L.shape[0]):
+            largest = max(largest, L[k, k])
+        for k in range(L.shape[0]):
+            L[k, k] += damping * largest
+        factor(L)
+        substitute(L, step[n])
+        for axis in range(2):
+            unit[:] = 0
+            unit[axis] = 1
+            substitute(L, unit)
+            inverse[n, axis] = unit[:2]
+
+
+def solved(N: Array, g: Array, damping: float) -> tuple[Array, Array]:
+    """``edges._solved``: N^-1 g (n, 9) and the first two rows and columns (n, 2, 2) of N^-1, for
+    N (n, 9, 9), to whose diagonal `damping` times its largest entry is added."""
+    step, inverse = np.array(g, order="C"), np.empty((len(N), 2, 2))
+    _solved(np.ascontiguousarray(N), damping, step, inverse)
+    return step, inverse

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from calibgui.engine.kernels.common import compiled
+from calibgui.engine.kernels.common import bilinear, compiled
 from calibgui.engine.opencv import Image32
 from calibgui.engine.types import Array, BoolArray, IntArray
 
@@ -78,18 +78,6 @@ def peaks(g: Image32, least: float, most: int) -> IntArray:
 
 
 @compiled
-def _sample(g, u, v):  # type: ignore[no-untyped-def]
-    """Bilinear value of g at (u, v), the border replicated."""
-    height, width = g.shape
-    u, v = min(max(u, 0.0), width - 1.0), min(max(v, 0.0), height - 1.0)
-    i, j = min(int(u), width - 2), min(int(v), height - 2)
-    a, b = u - i, v - j
-    return (1 - b) * ((1 - a) * g[j, i] + a * g[j, i + 1]) + b * (
-        (1 - a) * g[j + 1, i] + a * g[j + 1, i + 1]
-    )
-
-
-@compiled
 def _ring(g, u, v, circle, floor, limits, found):  # type: ignore[no-untyped-def]
     """One circle around one point; fills found with the angles A, B and the contrast."""
     asymmetry, off_middle, narrowest = limits
@@ -97,15 +85,15 @@ def _ring(g, u, v, circle, floor, limits, found):  # type: ignore[no-untyped-def
     level = np.empty(half + 1)
     low, high, uneven = np.inf, -np.inf, 0.0
     for k in range(half):
-        near = _sample(g, u + circle[k, 0], v + circle[k, 1])
-        far = _sample(g, u + circle[k + half, 0], v + circle[k + half, 1])
+        near = bilinear(g, u + circle[k, 0], v + circle[k, 1])
+        far = bilinear(g, u + circle[k + half, 0], v + circle[k + half, 1])
         level[k] = (near + far) / 2
         uneven += (near - far) ** 2
         low, high = min(low, level[k]), max(high, level[k])
     contrast, middle = high - low, (low + high) / 2
     if not contrast > floor or np.sqrt(uneven / half) >= asymmetry * contrast:
         return False
-    if abs(_sample(g, u, v) - middle) >= off_middle * contrast:
+    if abs(bilinear(g, u, v) - middle) >= off_middle * contrast:
         return False
     level[half] = level[0]
     falls = 0

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from calibgui.engine.kernels.common import compiled
+from calibgui.engine.kernels.common import compiled, factor, substitute
 from calibgui.engine.opencv import Image
 from calibgui.engine.types import Array, BoolArray
 
@@ -24,25 +24,6 @@ def _moments(centre, origin, extent, sigma, weighted, moments):  # type: ignore[
             if power < 3:
                 weighted[power, k] = w
             w *= x
-
-
-@compiled
-def _solve(N, b):  # type: ignore[no-untyped-def]
-    """Turn b into the solution of N x = b by Cholesky's method, N into its factor."""
-    n = b.shape[0]
-    for i in range(n):
-        for j in range(i + 1):
-            s = N[i, j]
-            for k in range(j):
-                s -= N[i, k] * N[j, k]
-            N[i, j] = np.sqrt(s) if i == j else s / N[j, j]
-        for k in range(i):
-            b[i] -= N[i, k] * b[k]
-        b[i] /= N[i, i]
-    for i in range(n - 1, -1, -1):
-        for k in range(i + 1, n):
-            b[i] -= N[k, i] * b[k]
-        b[i] /= N[i, i]
 
 
 @compiled
@@ -76,7 +57,8 @@ def _newton(image, u, v, sigma, work):  # type: ignore[no-untyped-def]
         for j in range(6):
             p, q = _POWERS[i, 0] + _POWERS[j, 0], _POWERS[i, 1] + _POWERS[j, 1]
             N[i, j] = moments_u[p] * moments_v[q]
-    _solve(N, fit)
+    factor(N)
+    substitute(N, fit)
     d, e, a, b, c = fit[1], fit[2], fit[3], fit[4], fit[5]
     det = 4 * a * c - b * b
     if not det < 0:

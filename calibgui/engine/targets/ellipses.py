@@ -25,7 +25,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from calibgui.engine.corners.pattern import edge
-from calibgui.engine.opencv import Image, sample
+from calibgui.engine.imaging.sampling import sample
+from calibgui.engine.opencv import Image
 from calibgui.engine.types import Array
 
 _BANDS = (3.0, 2.3)

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from calibgui.engine import kernels
-from calibgui.engine.corners import find_corners
+from calibgui.engine.corners import edges, find_corners
 from tests.benchmarks.corner_scenes import Conditions, draw
 
 
@@ -44,3 +44,14 @@ def test_compiled_and_readable_find_the_same(
     for quantity in ("residual", "blur", "contrast"):
         pair = getattr(compiled, quantity), getattr(readable, quantity)
         np.testing.assert_allclose(*pair, rtol=1e-3)
+
+
+def test_the_same_solution_of_the_normal_equations() -> None:
+    rng = np.random.default_rng(0)
+    J = rng.normal(size=(50, 20, 9)) * 10.0 ** rng.uniform(-2, 2, 9)
+    J[0, :, 3] = J[0, :, 4]  # not to be told apart
+    N, g = J.transpose(0, 2, 1) @ J, rng.normal(size=(50, 9))
+    (step, inverse), expected = edges._compiled_solved(N, g), edges._solved(N, g)
+    np.testing.assert_allclose(step[1:], expected[0][1:], rtol=1e-6)
+    np.testing.assert_allclose(inverse, expected[1], rtol=1e-6)
+    assert np.isfinite(step).all()

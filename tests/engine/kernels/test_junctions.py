@@ -41,8 +41,7 @@ def test_the_same_rings(image: Image32, monkeypatch: pytest.MonkeyPatch) -> None
     monkeypatch.setattr(kernels, "COMPILED", False)
     readable, expected = junctions.classify(image, uv, 20.0)
     assert readable.sum() >= 20
-    assert np.mean(compiled == readable) > 0.99  # OpenCV rounds to 1/32 px
-    both, other = compiled[readable], readable[compiled]
-    np.testing.assert_allclose(seen.uv[other], expected.uv[both])
-    np.testing.assert_allclose(seen.edges[other], expected.edges[both], atol=0.05)
-    np.testing.assert_allclose(seen.contrast[other], expected.contrast[both], rtol=0.03)
+    np.testing.assert_array_equal(compiled, readable)
+    np.testing.assert_allclose(seen.uv, expected.uv)
+    np.testing.assert_allclose(seen.edges, expected.edges, atol=1e-6)
+    np.testing.assert_allclose(seen.contrast, expected.contrast, rtol=1e-6)

@@ -1,0 +1,74 @@
+"""Harris' score around corners, compiled: ``corners.harris``, without its arrays of tiles."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from calibgui.engine.kernels.common import compiled
+from calibgui.engine.opencv import Image
+from calibgui.engine.types import Array
+
+
+@compiled
+def _tile(image, left, top, grey):  # type: ignore[no-untyped-def]
+    """Fill grey with the pixels from (left, top) on, the border replicated."""
+    height, width = image.shape
+    for j in range(grey.shape[0]):
+        row = image[min(max(top + j, 0), height - 1)]
+        for i in range(grey.shape[1]):
+            grey[j, i] = row[min(max(left + i, 0), width - 1)]
+
+
+@compiled
+def _add_row(grey, j, weights, sums, products):  # type: ignore[no-untyped-def]
+    """Add the products of the slopes in row j of a tile, under each weight, to the sums."""
+    side = grey.shape[0]
+    before, after = max(j - 1, 0), min(j + 1, side - 1)
+    here, above, below = grey[j], grey[before], grey[after]
+    uu, vv, uv = products[0], products[1], products[2]
+    for i in range(side):
+        left, right = max(i - 1, 0), min(i + 1, side - 1)
+        gu = (here[right] - here[left]) / (right - left)
+        gv = (below[i] - above[i]) / (after - before)
+        uu[i], vv[i], uv[i] = gu * gu, gv * gv, gu * gv
+    for k in range(weights.shape[0]):
+        w = weights[k, j]
+        for product in range(3):
+            for i in range(side):
+                sums[k, product, i] += w * products[product, i]
+
+
+@compiled
+def _scores(image, origin, weights, sensitivity, out):  # type: ignore[no-untyped-def]
+    tried, side = weights.shape[1:]
+    grey, products = np.empty((side, side)), np.empty((3, side))
+    sums = np.empty((tried, 3, side))
+    for n in range(origin.shape[0]):
+        _tile(image, origin[n, 0], origin[n, 1], grey)
+        sums[:] = 0
+        for j in range(side):
+            _add_row(grey, j, weights[n], sums, products)
+        for kv in range(tried):
+            for ku in range(tried):
+                uu = vv = uv = 0.0
+                for i in range(side):
+                    w = weights[n, ku, i]
+                    uu += w * sums[kv, 0, i]
+                    vv += w * sums[kv, 1, i]
+                    uv += w * sums[kv, 2, i]
+                out[n, kv, ku] = uu * vv - uv * uv - sensitivity * (uu + vv) ** 2
+
+
+def scores(image: Image, uv: Array, weights: Array, sensitivity: float) -> Array:
+    """(n, k, k) ``harris._scores``.
+
+    Args:
+        image: (h, w) grey levels.
+        uv: (n, 2) px.
+        weights: (n, k, side) along either axis of each of the k positions tried along it.
+        sensitivity: of the score.
+    """
+    out = np.empty((len(uv), weights.shape[1], weights.shape[1]))
+    origin = np.rint(uv).astype(np.int64) - weights.shape[2] // 2
+    _scores(image, origin, weights, sensitivity, out)
+    return out

@@ -1,0 +1,23 @@
+"""The compiled score of Harris against the readable one."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from calibgui.engine import kernels
+from calibgui.engine.corners import harris
+
+
+@pytest.mark.parametrize("dtype", [np.uint8, np.uint16, np.float32])
+def test_the_same_scores_also_at_the_border(dtype: type, monkeypatch: pytest.MonkeyPatch) -> None:
+    rng = np.random.default_rng(3)
+    image = rng.uniform(0, 255, (60, 80)).astype(dtype)
+    uv = rng.uniform(-2, (82, 62), (100, 2))
+    weights = rng.uniform(0, 1, (100, 5, 23))
+    compiled = harris._compiled_scores(image, uv, weights)
+    np.testing.assert_allclose(compiled, harris._scores(image, uv, weights), rtol=1e-9)
+    spacing = rng.uniform(2, 40, 100)
+    estimates = harris.first_estimates(image, uv, spacing)
+    monkeypatch.setattr(kernels, "COMPILED", False)
+    np.testing.assert_array_equal(estimates, harris.first_estimates(image, uv, spacing))
