@@ -5,6 +5,8 @@ Usage: python packaging/make_figures.py, from anywhere; writes resources/images/
 
 from __future__ import annotations
 
+import json
+from collections.abc import Sequence
 from pathlib import Path
 
 import numpy as np
@@ -17,9 +19,11 @@ from calibgui.app.paths import find_images
 from calibgui.engine.calibrate import calibrate
 from calibgui.engine.estimation.projection import pixels
 from calibgui.engine.frames import rotation
+from calibgui.engine.images import read_image
 from calibgui.engine.quality.difference import difference
 from calibgui.engine.quality.next_view import next_views
 from calibgui.engine.quality.projection_uncertainty import projection_uncertainty
+from calibgui.engine.quality.screening import screen
 from calibgui.engine.quality.view_count import study
 from calibgui.engine.types import Camera, Observation, Target
 from calibgui.report import figures, quality_figures
@@ -49,6 +53,63 @@ def bent_board() -> Figure:
     return figures.plate_deviations(plate)
 
 
+def misplaced_corners(images: Sequence[str], views: Sequence[Observation], truth: Camera) -> Figure:
+    """One corner in twenty moved by 3 to 50 px: those of one image, and what becomes of the camera.
+
+    Args:
+        images: of the views.
+        views: with their corners where they are.
+        truth: what took the images.
+    """
+    rng = np.random.default_rng(4)
+    spoilt, moved = [], []
+    for uv, xy, _ in views:
+        angle, far = rng.uniform(0, 2 * np.pi, len(uv)), rng.uniform(3, 50, len(uv))
+        chosen = rng.random(len(uv)) < 0.05
+        shift = np.column_stack([np.cos(angle), np.sin(angle)]) * (far * chosen)[:, None]
+        spoilt.append(Observation(uv + shift, xy))
+        moved.append(chosen)
+    screening = screen(spoilt, truth.size)
+    found = {
+        "as they are": (calibrate(views, truth.size), "tab:green"),
+        "5 % misplaced": (calibrate(spoilt, truth.size), "tab:red"),
+        "the same, --robust": (screening.calibration, "tab:blue"),
+    }
+    figure = Figure(figsize=(11.0, 4.4), layout="constrained")
+    left, right = figure.subplots(1, 2, width_ratios=(1.25, 1))
+    worst = int(np.argmax([np.count_nonzero(chosen) for chosen in moved]))
+    left.imshow(read_image(images[worst]).pixels, cmap="gray", vmin=0, vmax=255)
+    kept, there, here = np.array(screening.kept[worst]), views[worst].uv, spoilt[worst].uv
+    left.plot(*here[kept].T, "o", color="tab:blue", markersize=4, label="kept")
+    left.plot(
+        *np.stack([there[~kept], here[~kept]]).transpose(2, 0, 1), color="tab:red", linewidth=1
+    )
+    left.plot(*here[~kept].T, "x", color="tab:red", markersize=8, mew=2, label="left out")
+    left.set(title=f"{Path(images[worst]).name}, corners", xticks=[], yticks=[])
+    left.legend(loc="lower right")
+    names, places = ("fx", "fy", "cx", "cy"), np.arange(4)
+    for row, (label, (calibration, colour)) in enumerate(found.items()):
+        right.errorbar(
+            calibration.camera.params[:4] - truth.params[:4], places + 0.2 * (row - 1),
+            xerr=calibration.sigma[:4], fmt="o", color=colour, capsize=3, label=label,
+        )  # fmt: skip
+    right.axvline(0, color="0.7", linewidth=0.8)
+    right.set_xscale("symlog", linthresh=1.0)
+    ticks = [-10, -1, 0, 1, 10]
+    right.set_xticks(ticks, [str(tick) for tick in ticks])
+    right.set(yticks=places, yticklabels=names, xlabel="off the truth, px (± one sigma)")
+    right.invert_yaxis()
+    right.grid(alpha=0.3, axis="x")
+    right.legend(fontsize=8)
+    rejected = np.concatenate([~good for good in screening.kept])
+    wrong = np.concatenate(moved)
+    right.set_title(
+        f"{np.count_nonzero(rejected & wrong)} of {np.count_nonzero(wrong)} misplaced corners "
+        f"left out, and {np.count_nonzero(rejected & ~wrong)} of {np.count_nonzero(~wrong)} others"
+    )
+    return figure
+
+
 def main() -> None:
     images = find_images([str(RESOURCES / "sample")])
     result = calibrate_views(find_views(images).corner_set(SQUARE))
@@ -64,6 +125,9 @@ def main() -> None:
         "next-views": quality_figures.next_views(next_views(calibration, views), views, size),
     }
     pictures["plate"] = bent_board()
+    truth = json.loads((RESOURCES / "sample" / "truth.json").read_text())["camera"]
+    camera = Camera(size, list(truth["params"].values()))
+    pictures["robust"] = misplaced_corners([v.image for v in result.used], views, camera)
     for name, figure in pictures.items():
         save_figure(figure, RESOURCES / "images" / f"{name}.png")
 
