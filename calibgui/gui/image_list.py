@@ -39,8 +39,8 @@ from calibgui.gui.session import Session
 from calibgui.gui.thumbnails import THUMBNAIL
 
 _PAD = 4
-_BAR = 56
-"""Width of the bar of residuals, px."""
+_RMS, _BAR = 56, 36
+"""Width of the residuals' RMS, and of its bar, px."""
 Index = QModelIndex | QPersistentModelIndex
 
 
@@ -71,20 +71,22 @@ class _Delegate(QStyledItemDelegate):
         if rms is not None:
             self._bar(
                 painter,
-                QRect(words.right() - _BAR, rect.top(), _BAR, rect.height()),
+                QRect(words.right() - _RMS, rect.top(), _RMS, rect.height()),
                 rms,
                 text,
                 selected,
             )
-            words.setRight(words.right() - _BAR - _PAD)
         bold = QFont(option.font)
         bold.setBold(True)
         upper, lower = QRect(words), QRect(words)
         upper.setBottom(words.center().y())
         lower.setTop(words.center().y() + 1)
+        if rms is not None:
+            upper.setRight(words.right() - _RMS - _PAD)
+            lower.setRight(words.right() - _BAR - _PAD)
         painter.setFont(bold)
         painter.setPen(text)
-        self._text(painter, upper, index.data(), Qt.TextElideMode.ElideMiddle)
+        self._text(painter, upper, index.data(), Qt.TextElideMode.ElideLeft)
         painter.setFont(option.font)
         dot = QRect(lower.left(), lower.center().y() - 4, 8, 8)
         painter.setPen(Qt.PenStyle.NoPen)
@@ -115,7 +117,8 @@ class _Delegate(QStyledItemDelegate):
         painter.setPen(text)
         upper, lower = QRect(rect), QRect(rect)
         upper.setBottom(rect.center().y())
-        lower.setRect(rect.left(), rect.center().y() + rect.height() // 4 - 3, rect.width(), 6)
+        top = rect.center().y() + rect.height() // 4 - 3
+        lower.setRect(rect.right() - _BAR, top, _BAR, 6)
         painter.drawText(upper, _RIGHT, f"{rms:.3f} px")
         painter.setPen(Qt.PenStyle.NoPen)
         painter.setBrush(QColor(colours.line))

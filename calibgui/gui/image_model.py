@@ -58,9 +58,12 @@ def status_text(view: View) -> str:
     text = words[view.status]
     if view.corners is not None:
         rows, cols = view.corners.shape
-        text = translate("status_text", "{0} of {1} corners").format(len(view.corners), rows * cols)
-        if view.corners.ambiguity is not Ambiguity.NONE or view.corners.relative:
-            text += translate("status_text", ", ambiguous")
+        ambiguous = view.corners.ambiguity is not Ambiguity.NONE or view.corners.relative
+        text = (
+            translate("status_text", "{0} of {1}, ambiguous")
+            if ambiguous
+            else translate("status_text", "{0} of {1} corners")
+        ).format(len(view.corners), rows * cols)
     elif view.points is not None:
         text = translate("status_text", "{0} corners").format(len(view.points.uv))
     return text if view.enabled else translate("status_text", "excluded") + " · " + text

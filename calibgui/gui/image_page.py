@@ -22,7 +22,7 @@ from PySide6.QtWidgets import (
 
 from calibgui.app.project import Project
 from calibgui.engine.images import Image
-from calibgui.engine.types import View
+from calibgui.engine.types import View, ViewStatus
 from calibgui.formats.result import Result
 from calibgui.gui import theme
 from calibgui.gui.actions import make_action
@@ -49,6 +49,9 @@ class ImagePage(QWidget):
         self._job: Job | None = None
         self.canvas = Canvas()
         self.heading = ElidedLabel()
+        self.reason = QLabel(wordWrap=True)
+        self.reason.setContentsMargins(theme.SPACING, 0, theme.SPACING, theme.SPACING)
+        self.reason.hide()
         self.marker = Marker(session, self.canvas)
         self.bar = QHBoxLayout()
         self.bar.setContentsMargins(theme.SPACING, 4, theme.SPACING, 4)
@@ -60,6 +63,7 @@ class ImagePage(QWidget):
         layout.setContentsMargins(0, 0, 0, 0)
         layout.setSpacing(0)
         layout.addLayout(self.bar)
+        layout.addWidget(self.reason)
         layout.addWidget(self.marker.roi_bar)
         layout.addWidget(self.marker.corner_bar)
         layout.addWidget(self.canvas, 1)
@@ -239,6 +243,10 @@ class ImagePage(QWidget):
 
     def _show_marks(self) -> None:
         session, view = self._session, self._session.view
+        self.reason.setText("" if view is None else view.reason)
+        self.reason.setVisible(bool(self.reason.text()))
+        for action in self.tools:
+            action.setEnabled(view is not None and view.status is not ViewStatus.UNREADABLE)
         if view is None:
             self.heading.clear()
             self.canvas.show_marks(Marks())

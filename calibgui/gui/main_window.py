@@ -15,7 +15,6 @@ from PySide6.QtWidgets import (
     QMainWindow,
     QPushButton,
     QStackedWidget,
-    QTabWidget,
     QVBoxLayout,
     QWidget,
 )
@@ -23,7 +22,7 @@ from PySide6.QtWidgets import (
 from calibgui.app.recent import recent_projects
 from calibgui.engine.errors import CalibrationError
 from calibgui.formats.result import Result
-from calibgui.gui import theme
+from calibgui.gui import qt_names, theme
 from calibgui.gui.actions import show_dialog
 from calibgui.gui.banner import Banner
 from calibgui.gui.bug_dialog import BugDialog
@@ -34,6 +33,7 @@ from calibgui.gui.files import Files
 from calibgui.gui.image_list import ImageList
 from calibgui.gui.image_page import ImagePage
 from calibgui.gui.menus import Menus
+from calibgui.gui.page_tabs import PageTabs
 from calibgui.gui.progress import Progress
 from calibgui.gui.session import Session
 from calibgui.gui.settings_panel import SettingsPanel
@@ -99,10 +99,9 @@ class MainWindow(QMainWindow):
         column.addWidget(self.pages, 1)
         self.setCentralWidget(middle)
 
-        how = QTabWidget(documentMode=True)
-        how.addTab(self.target, self.tr("Board"))
-        how.addTab(self.settings, self.tr("Settings"))
-        how.setMaximumHeight(how.sizeHint().height())
+        how = PageTabs()
+        how.add(self.target, self.tr("Board"))
+        how.add(self.settings, self.tr("Settings"))
         left = QWidget()
         column = QVBoxLayout(left)
         column.setContentsMargins(theme.SPACING, 0, 0, theme.SPACING)
@@ -169,9 +168,14 @@ class MainWindow(QMainWindow):
         What is there by then stays: going through it at every full collection of garbage would
         stop the window for longer than a frame.
         """
-        self.session.jobs.start(
-            "", lambda _: import_module("calibgui.gui.analysis"), lambda _: gc.freeze()
-        )
+
+        def load() -> None:
+            if self.isVisible():  # it may have been closed meanwhile
+                self.session.jobs.start(
+                    "", lambda _: import_module("calibgui.gui.analysis"), lambda _: gc.freeze()
+                )
+
+        qt_names.resolve(self, load)
 
     def _result_changed(self, result: Result | None) -> None:
         if result is not None and self.analysis is None:

@@ -127,7 +127,7 @@ class PrintDialog(QDialog):
         self.pattern.show_pattern(self.pattern.pattern, self.square.value())
         try:
             content: Sheet | None = self.content()
-            text, colour = self.tr("Fits."), colours.good
+            text, colour = self.tr("Fits. Print it without scaling."), colours.good
         except CalibrationError as error:
             content, text, colour = None, str(error), colours.bad
         self.preview.show_sheet(content)

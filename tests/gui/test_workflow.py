@@ -133,6 +133,11 @@ def test_from_photographs_to_an_exported_camera(
         window.images.list.model().index(row, 0).data(Role.STATUS) for row in range(COUNT + 1)
     ]
     assert statuses == ["70 of 70 corners"] * COUNT + ["unreadable"]
+    unreadable = next(v for v in session.project.views if v.reason)
+    session.select(unreadable.image)
+    assert window.page.reason.isVisible()
+    assert window.page.reason.text() == unreadable.reason
+    assert not any(tool.isEnabled() for tool in window.page.tools)
     truth = json.loads((resource("sample") / "truth.json").read_text())["camera"]["params"]
     assert abs(first.camera.params[0] - truth["fx"]) < 5 * first.sigma[0]
 

@@ -1,0 +1,25 @@
+"""Tabs give the height that their page does not need to their neighbours."""
+
+from __future__ import annotations
+
+from pytestqt.qtbot import QtBot
+
+from calibgui.app.project import with_pattern
+from calibgui.engine.targets.charuco import Charuco
+from calibgui.gui.main_window import MainWindow
+from calibgui.gui.page_tabs import PageTabs
+
+
+def test_the_board_shows_all_its_fields_in_full(window: MainWindow, qtbot: QtBot) -> None:
+    window.files.open_sample()
+    tabs = window.findChildren(PageTabs)[0]
+    qtbot.waitUntil(lambda: window.target.rows.isVisible())
+    low = tabs.height()
+    window.session.edit("Pattern", lambda p: with_pattern(p, Charuco()))
+    qtbot.waitUntil(lambda: tabs.height() > low)
+    for box in (window.target.rows, window.target.square, window.target.pattern):
+        assert box.height() >= box.minimumSizeHint().height()
+    window.session.document.undo()
+    qtbot.waitUntil(lambda: tabs.height() == low)
+    tabs.setCurrentIndex(1)
+    qtbot.waitUntil(lambda: tabs.height() > low)
