@@ -11,10 +11,10 @@ import numpy as np
 from calibgui.app.outputs import check_figure, save_figure
 from calibgui.cli.arguments import add_map
 from calibgui.cli.console import Console
+from calibgui.cli.result import read_camera
 from calibgui.engine.quality.difference import Difference, difference
 from calibgui.engine.quality.projection_uncertainty import projection_uncertainty
 from calibgui.formats.result import Result
-from calibgui.formats.result_json import read_result
 from calibgui.report import quality
 
 _MEDIAN_LENGTH = math.sqrt(2 * math.log(2))
@@ -37,7 +37,7 @@ def run(options: argparse.Namespace, console: Console) -> None:
     """Read both, compare, draw and print."""
     if options.output:
         check_figure(options.output)
-    a, b = read_result(options.a), read_result(options.b)
+    a, b = read_camera(options.a, console), read_camera(options.b, console)
     found = difference(
         a.calibration.camera,
         b.calibration.camera,

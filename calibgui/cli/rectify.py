@@ -10,7 +10,7 @@ from calibgui.app.resampling import rectify_files
 from calibgui.cli.arguments import add_images, positive
 from calibgui.cli.console import Console
 from calibgui.cli.resampled import add_output, show_written
-from calibgui.formats.result_json import read_result
+from calibgui.cli.result import read_camera
 
 
 def configure(parser: argparse.ArgumentParser) -> None:
@@ -30,7 +30,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
 
 def run(options: argparse.Namespace, console: Console) -> None:
     """Read, rectify and write."""
-    result = read_result(options.result)
+    result = read_camera(options.result, console)
     images = find_images(options.paths or [view.image for view in result.used])
     with console.progress("rectifying") as advance:
         written = rectify_files(

@@ -12,13 +12,13 @@ from calibgui.app.calibration import short_names
 from calibgui.app.outputs import check_figure, save_figure
 from calibgui.cli.arguments import add_map, positive
 from calibgui.cli.console import Console
+from calibgui.cli.result import read_camera
 from calibgui.engine.quality.noise import examine
 from calibgui.engine.quality.projection_uncertainty import projection_uncertainty
 from calibgui.engine.quality.repetition import settings_of
 from calibgui.engine.quality.validation import bootstrap, choose_plate, cross_validate
 from calibgui.engine.types import PlateModel
 from calibgui.formats.result import Result
-from calibgui.formats.result_json import read_result
 from calibgui.report import quality
 
 
@@ -45,7 +45,7 @@ def run(options: argparse.Namespace, console: Console) -> None:
     """Read, propagate, examine, draw and print."""
     if options.output:
         check_figure(options.output)
-    result = read_result(options.result)
+    result = read_camera(options.result, console)
     views = result.observations()
     with threadpool_limits(1):
         found = projection_uncertainty(result.calibration, views, options.distance)

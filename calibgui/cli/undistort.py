@@ -10,8 +10,8 @@ from calibgui.app.resampling import undistort_files
 from calibgui.cli.arguments import add_images
 from calibgui.cli.console import Console
 from calibgui.cli.resampled import add_output, show_written
+from calibgui.cli.result import read_camera
 from calibgui.engine.imaging.undistort import FieldOfView
-from calibgui.formats.result_json import read_result
 
 
 def configure(parser: argparse.ArgumentParser) -> None:
@@ -30,7 +30,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
 
 def run(options: argparse.Namespace, console: Console) -> None:
     """Read, undistort and write."""
-    camera = read_result(options.result).calibration.camera
+    camera = read_camera(options.result, console).calibration.camera
     images = find_images(options.paths)
     with console.progress("undistorting") as advance:
         written = undistort_files(

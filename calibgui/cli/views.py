@@ -10,9 +10,9 @@ from threadpoolctl import threadpool_limits
 from calibgui.app.outputs import check_figure, save_figure
 from calibgui.cli.arguments import positive
 from calibgui.cli.console import Console
+from calibgui.cli.result import read_camera
 from calibgui.engine.quality.next_view import next_views
 from calibgui.engine.quality.view_count import QUANTITIES, study
-from calibgui.formats.result_json import read_result
 from calibgui.report import quality
 
 _SOLVED = 20
@@ -41,7 +41,7 @@ def run(options: argparse.Namespace, console: Console) -> None:
     """Read, study, propose, draw and print."""
     for path in filter(None, [options.output, options.next]):
         check_figure(path)
-    result = read_result(options.result)
+    result = read_camera(options.result, console)
     calibration, views = result.calibration, result.observations()
     with threadpool_limits(1), console.progress("calibrating", "size") as advance:
         found = study(calibration, views, _SOLVED, progress=advance)

@@ -65,6 +65,8 @@ def test_views_that_do_not_determine_the_camera_give_a_partial_calibration(
     record = json.loads(file.read_text())
     assert (record["status"], record["diagnosis"]["kind"]) == ("partial", kind)
     found = read_result(file).calibration
+    assert main(["uncertainty", str(file), "-q"]) == 0
+    assert "result.json is a partial calibration" in capsys.readouterr().err
     truth = scenes.barrel(focal=900.0).params
     free = found.sigma > 0
     assert (np.abs(found.camera.params - truth)[free] < 4 * found.sigma[free]).all()

@@ -1,16 +1,9 @@
 """What views that do not determine a camera still say of it, with as little assumed as possible.
 
-Quantities. Degenerate views leave combinations of a camera's parameters open: seen from straight
-above, a board tells fy/fx, the lens's centre and its curvature in pixels, whatever f may be. In
-
-    q = (f, a, cx, cy, kappa),      fx = f,  fy = a f,  k_j = kappa_j f^power_j,
-
-the combinations are quantities of their own, as in the paper's units, and can be assumed or
-estimated one by one. (Where fy alone is held, f is fy and a is fx/fy.)
-
-What to assume. Every quantity has a nominal value and a doubt d_i about it, one standard
-deviation: what is known of cameras beforehand. Let S be the information of the views on q once
-the poses are eliminated (``arrow.py``), over the variance of the noise. The eigenvalues of
+What to assume. Every quantity q_i of ``quantities.py`` has a nominal value and a doubt d_i about
+it, one standard deviation: what is known of cameras beforehand. Let S be the information of the
+views on q once the poses are eliminated (``arrow.py``), over the variance of the noise. The
+eigenvalues of
 
     D S D,      D = diag(d),
 
@@ -37,13 +30,13 @@ import numpy as np
 
 from calibgui.engine import frames
 from calibgui.engine.estimation import closed_form, problem, uncertainty
-from calibgui.engine.estimation.arrow import NormalAt, NormalEquations, schur
+from calibgui.engine.estimation.arrow import NormalAt, schur
 from calibgui.engine.estimation.levenberg_marquardt import Solution, StartError, minimise
 from calibgui.engine.estimation.observations import Observations
 from calibgui.engine.estimation.outcome import Asked, Estimate
+from calibgui.engine.estimation.quantities import Quantities, in_quantities
 from calibgui.engine.estimation.stage_two import State
 from calibgui.engine.estimation.tilts import righted
-from calibgui.engine.lens import MODELS
 from calibgui.engine.types import Array, Assumed, BoolArray, IntArray, Size, Status
 
 _KNOWN_BETTER = 9.0
@@ -62,48 +55,6 @@ _NOISE = 1e-4
 _ROUNDS = 8
 _FREELY = 4
 """Rounds after which quantities are assumed, but no longer released."""
-
-
-class Quantities(NamedTuple):
-    """The coordinates q of a camera, in the places of its parameters."""
-
-    base: int
-    """Place of f: 0 for fx, 1 for fy."""
-    powers: Array
-    """(P - 4,) of f in each coefficient; 0 for one that is held as it is."""
-
-    @classmethod
-    def of(cls, asked: Asked) -> Quantities:
-        """Those of what is asked: what the user holds is held as it is."""
-        powers = np.array(MODELS[asked.model].powers, dtype=np.float64)
-        powers[~np.isin(np.arange(4, len(asked.names)), asked.free)] = 0.0
-        return cls(int("fy" in asked.held and "fx" not in asked.held), powers)
-
-    def params(self, q: Array) -> Array:
-        """The camera's parameters (P,)."""
-        f, params = q[self.base], q.copy()
-        params[1 - self.base] *= f
-        params[4:] *= f**self.powers
-        return params
-
-    def by_params(self, params: Array) -> Array:
-        """q (P,) of a camera's parameters."""
-        f, q = params[self.base], params.copy()
-        q[1 - self.base] /= f
-        q[4:] /= f**self.powers
-        return q
-
-    def jacobian(self, q: Array) -> Array:
-        """(P, P) derivative of the parameters by q."""
-        f, other = q[self.base], 1 - self.base
-        J = np.diag(np.concatenate([np.ones(4), f**self.powers]))
-        J[other, other], J[other, self.base] = f, q[other]
-        J[4:, self.base] = self.powers * J[4:, 4:].diagonal() * q[4:] / f
-        return J
-
-    def name(self, i: int, names: tuple[str, ...]) -> str:
-        """What quantity i is called: a parameter's name, or the ratio of focal lengths."""
-        return f"{names[i]}/{names[self.base]}" if i == 1 - self.base else names[i]
 
 
 class _Fit(NamedTuple):
@@ -183,7 +134,7 @@ def _settled(part: Observations, asked: Asked, q: Array) -> _Fit | None:
     def problem_of(views: Observations, free: IntArray) -> NormalAt:
         every = np.arange(len(q))
         normal_at = problem.stage_two(views, asked.model, asked.cost, asked.scale, every)
-        return _in_quantities(normal_at, quantities, free)
+        return in_quantities(normal_at, quantities, free)
 
     flat = replace(part, xy=part.xy[..., :2])
     M = closed_form.homographies(flat, q[2:4], 0.0)
@@ -267,17 +218,6 @@ def considered(S: Array, doubt: Array, held: BoolArray) -> tuple[Array, Array]:
     by_noise[np.ix_(free, free)] = inverse
     by_doubt = motion * doubt[held]
     return by_noise + by_doubt @ by_doubt.T, by_noise
-
-
-def _in_quantities(normal_at: NormalAt, quantities: Quantities, free: IntArray) -> NormalAt:
-    """The problem in q, of which the `free` may move, from one of all the camera's parameters."""
-
-    def at(state: State) -> NormalEquations:
-        normal = normal_at(state._replace(params=quantities.params(state.params)))
-        C = quantities.jacobian(state.params)[:, free]
-        return normal._replace(U=C.T @ normal.U @ C, W=C.T @ normal.W, shared=normal.shared @ C)
-
-    return at
 
 
 def _solved(

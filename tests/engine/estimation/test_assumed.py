@@ -9,6 +9,7 @@ from scipy.spatial.transform import Rotation
 from calibgui.engine.calibrate import calibrate
 from calibgui.engine.errors import DegenerateError
 from calibgui.engine.estimation import assumed
+from calibgui.engine.estimation.quantities import Quantities
 from calibgui.engine.frames import paper_intrinsics
 from calibgui.engine.types import (
     Array,
@@ -216,7 +217,7 @@ def test_the_standard_deviations_are_those_of_repeated_photographs() -> None:
 
 def test_quantities_and_their_derivatives() -> None:
     for base in (0, 1):
-        quantities = assumed.Quantities(base, np.array([2.0, 4.0, 0.0, 1.0, 1.0, 2.0]))
+        quantities = Quantities(base, np.array([2.0, 4.0, 0.0, 1.0, 1.0, 2.0]))
         params = np.array([800.0, 900.0, 320.0, 240.0, 0.2, -0.1, 0.3, 1e-3, -2e-3, 0.1])
         q = quantities.by_params(params)
         np.testing.assert_allclose(quantities.params(q), params, rtol=1e-14)
