@@ -66,7 +66,7 @@ def status_text(view: View) -> str:
         ).format(len(view.corners), rows * cols)
     elif view.points is not None:
         text = translate("status_text", "{0} corners").format(len(view.points.uv))
-    return text if view.enabled else translate("status_text", "excluded") + " · " + text
+    return text if view.enabled else translate("status_text", "excluded")
 
 
 def status_tip(view: View) -> str:

@@ -251,7 +251,7 @@ class ImagePage(QWidget):
             self.heading.clear()
             self.canvas.show_marks(Marks())
             return
-        self.heading.setText(f"{PurePath(view.image).name}  ·  {status_text(view)}")
+        self.heading.setText(PurePath(view.image).name)
         self.heading.setToolTip(f"{view.image}\n{view.reason or status_text(view)}")
         measured, predicted = _fitted(session.result, view)
         region = view.roi

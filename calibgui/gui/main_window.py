@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import gc
 from importlib import import_module
-from pathlib import Path
 from typing import TYPE_CHECKING
 
 from PySide6.QtCore import QEvent, QSettings, Qt, QTimer
@@ -33,6 +32,7 @@ from calibgui.gui.files import Files
 from calibgui.gui.image_list import ImageList
 from calibgui.gui.image_page import ImagePage
 from calibgui.gui.menus import Menus
+from calibgui.gui.offers import Offers
 from calibgui.gui.page_tabs import PageTabs
 from calibgui.gui.progress import Progress
 from calibgui.gui.session import Session
@@ -127,9 +127,8 @@ class MainWindow(QMainWindow):
         self.session.changed.connect(self._refresh)
         self.session.failed.connect(self.show_failure)
         self.session.told.connect(self.banner.show_text)
+        Offers(self.session, self.detector, self.files, self.images, self.banner)
         self.page.place.connect(self.place.setText)
-        self.images.search_wanted.connect(self._search_again)
-        self.images.thumbnails.found_altered.connect(self._offer_detection)
         self.images.list.addActions(self.page.tools)
         self.target.search_wanted.connect(self.detector.search)
         self.calibrate.clicked.connect(self._calibrate_or_stop)
@@ -139,8 +138,6 @@ class MainWindow(QMainWindow):
         self.session.result_changed.connect(self._result_changed)
         for changed in (self.session.jobs.changed, self.calibrator.began, self.calibrator.ended):
             changed.connect(self._show_calibrate)
-        self.files.recoverable.connect(self._offer_recovery)
-        self.files.images_missing.connect(self._offer_search)
         self.files.saver.opened.connect(self.images.thumbnails.look_for_changes)
         self.target.print_wanted.connect(self.files.print_board)
         self.welcome.folder_wanted.connect(self.files.ask_for_folder)
@@ -239,36 +236,6 @@ class MainWindow(QMainWindow):
             self.calibrator.stop()
         else:
             self.calibrator.calibrate()
-
-    def _offer_recovery(self, path: Path) -> None:
-        self.banner.show_text(
-            self.tr("The program ended without saving. Its last state has been kept."),
-            {
-                self.tr("&Recover"): lambda: self.files.saver.recover(path),
-                self.tr("&Throw away"): lambda: self.files.saver.forget(path),
-            },
-        )
-
-    def _search_again(self, images: list[str]) -> None:
-        """Search images anew, as their files are now."""
-        self.detector.search_again(images)
-        self.images.thumbnails.read_again(images)
-
-    def _offer_detection(self, altered: list[str]) -> None:
-        self.banner.show_text(
-            self.tr(
-                "{0} of {1} images changed since their corners were found, among them {2}."
-            ).format(len(altered), len(self.session.project.views), altered[0]),
-            {self.tr("&Detect again"): lambda: self._search_again(altered)},
-        )
-
-    def _offer_search(self, missing: list[str]) -> None:
-        self.banner.show_text(
-            self.tr("{0} of {1} images are not where they were, among them {2}.").format(
-                len(missing), len(self.session.project.views), missing[0]
-            ),
-            {self.tr("&Locate…"): lambda: self.files.ask_for_moved(missing)},
-        )
 
     def dragEnterEvent(self, event: QDragEnterEvent) -> None:  # noqa: N802 - Qt's name
         if event.mimeData().hasUrls():

@@ -12,6 +12,7 @@ from PySide6.QtGui import (
     QGuiApplication,
     QImage,
     QKeySequence,
+    QMouseEvent,
     QPainter,
 )
 from PySide6.QtSvg import QSvgGenerator
@@ -58,7 +59,7 @@ class Plot(pg.PlotWidget):  # type: ignore[misc]  # pyqtgraph is not typed
             item.getAxis(axis).enableAutoSIPrefix(False)
         self._menu = QMenu(self)
         for text, shortcut, does in (
-            (self.tr("Show all"), None, lambda: item.autoRange()),
+            (self.tr("Show all"), None, self.show_all),
             (self.tr("Copy as image"), QKeySequence.StandardKey.Copy, self.copy),
             (self.tr("Save plot…"), None, self.ask_and_save),
         ):
@@ -81,6 +82,20 @@ class Plot(pg.PlotWidget):  # type: ignore[misc]  # pyqtgraph is not typed
         self._area = area
         self._make_room()
         self.getPlotItem().getViewBox().setRange(area, padding=0)
+
+    def show_all(self) -> None:
+        """Take back what was zoomed and moved; a double click does so too."""
+        box = self.getPlotItem().getViewBox()
+        if self._area is None:
+            box.autoRange()
+        else:
+            box.setRange(self._area, padding=0)
+
+    def mouseDoubleClickEvent(self, event: QMouseEvent) -> None:  # noqa: N802 - Qt's name
+        super().mouseDoubleClickEvent(event)
+        if event.button() is Qt.MouseButton.LeftButton:
+            self.show_all()
+            event.accept()
 
     def _make_room(self) -> None:
         """Leave the room that the enclosed area cannot fill outside the axes."""

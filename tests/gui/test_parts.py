@@ -87,7 +87,7 @@ def test_several_images_are_excluded_and_removed_by_keys(full: MainWindow, qtbot
     assert len(full.images.chosen) == 3
     qtbot.keyClick(view, Qt.Key.Key_Space)
     assert full.session.document.undo_label == "Exclude 3 images"
-    assert listed(full, Role.STATUS)[1] == "excluded · 42 of 42 corners"
+    assert listed(full, Role.STATUS)[1] == "excluded"
     assert full.analysis is not None
     assert full.analysis.state.text() == "out of date"
     assert len(full.images.chosen) == 3, "an edit keeps the selection"

@@ -3,6 +3,7 @@ from __future__ import annotations
 from pathlib import Path
 
 import numpy as np
+from PySide6.QtCore import Qt
 from PySide6.QtGui import QImage
 from PySide6.QtWidgets import QApplication
 from pytestqt.qtbot import QtBot
@@ -23,6 +24,17 @@ def test_axes_name_their_units(qtbot: QtBot) -> None:
     item = example(qtbot).getPlotItem()
     assert item.getAxis("left").labelText == "cost [px²]"
     assert item.getAxis("bottom").labelText == "iteration"
+
+
+def test_a_double_click_shows_all_again(qtbot: QtBot) -> None:
+    plot = example(qtbot)
+    plot.show()
+    box = plot.getPlotItem().getViewBox()
+    box.setRange(xRange=(7, 8), yRange=(70, 80))
+    qtbot.mouseDClick(plot.viewport(), Qt.MouseButton.LeftButton)
+    (left, right), (bottom, top) = box.viewRange()
+    assert left <= 0 < 2 <= right < 7
+    assert bottom <= 1 < 9 <= top < 70
 
 
 def test_saved_as_png_and_svg(qtbot: QtBot, tmp_path: Path) -> None:

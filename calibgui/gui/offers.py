@@ -1,0 +1,62 @@
+"""What the banner offers where files are not as they were left."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from PySide6.QtCore import QFileInfo, QLocale, QObject
+
+from calibgui.app.autosave import autosave_path
+from calibgui.gui.banner import Banner
+from calibgui.gui.detecting import Detector
+from calibgui.gui.files import Files
+from calibgui.gui.image_list import ImageList
+from calibgui.gui.session import Session
+
+
+class Offers(QObject):
+    """To recover unsaved work, to search changed images again, to locate missing ones."""
+
+    def __init__(
+        self, session: Session, detector: Detector, files: Files, images: ImageList, banner: Banner
+    ) -> None:
+        super().__init__(session)
+        self._session, self._detector, self._files = session, detector, files
+        self._thumbnails, self._banner = images.thumbnails, banner
+        files.recoverable.connect(self._recovery)
+        files.images_missing.connect(self._relocation)
+        images.thumbnails.found_altered.connect(self._detection)
+        images.search_wanted.connect(self._search_again)
+
+    def _recovery(self, path: Path) -> None:
+        time = QFileInfo(str(autosave_path(path))).lastModified()
+        self._banner.show_text(
+            self.tr("The program ended without saving. Its state of {0} has been kept.").format(
+                QLocale().toString(time, QLocale.FormatType.ShortFormat)
+            ),
+            {
+                self.tr("&Recover"): lambda: self._files.saver.recover(path),
+                self.tr("&Throw away"): lambda: self._files.saver.forget(path),
+            },
+        )
+
+    def _detection(self, altered: list[str]) -> None:
+        self._banner.show_text(
+            self.tr(
+                "{0} of {1} images changed since their corners were found, among them {2}."
+            ).format(len(altered), len(self._session.project.views), altered[0]),
+            {self.tr("&Detect again"): lambda: self._search_again(altered)},
+        )
+
+    def _relocation(self, missing: list[str]) -> None:
+        self._banner.show_text(
+            self.tr("{0} of {1} images are not where they were, among them {2}.").format(
+                len(missing), len(self._session.project.views), missing[0]
+            ),
+            {self.tr("&Locate…"): lambda: self._files.ask_for_moved(missing)},
+        )
+
+    def _search_again(self, images: list[str]) -> None:
+        """Search images anew, as their files are now."""
+        self._detector.search_again(images)
+        self._thumbnails.read_again(images)
