@@ -13,7 +13,7 @@ import numpy as np
 from scipy.spatial import cKDTree
 
 from calibgui.engine.corners import sheet
-from calibgui.engine.corners.appearance import typical
+from calibgui.engine.corners.appearance import Look, typical
 from calibgui.engine.corners.junctions import Saddles
 from calibgui.engine.corners.lattice import (
     DEVIATION,
@@ -32,6 +32,8 @@ _TRIED = 6
 """How many saddle points near a prediction are looked at."""
 _ACROSS = 0.2
 """Greatest distance from where the whole lattice expects a corner beyond a gap, steps."""
+_NEW = 1.2
+"""Growth at which the look of a lattice's corners is seen anew."""
 _ROUNDS = 64
 
 
@@ -45,10 +47,13 @@ def grow(lattice: Lattice, saddles: Saddles, junctions: Saddles, max_shape: int 
         max_shape: rows or columns at which growth ends.
     """
     nearby, beyond = _Places(saddles), _Places(junctions)
+    look, known = typical(lattice, saddles.smooth), len(lattice)
     for _ in range(_ROUNDS):
-        grown = _fill(lattice, 1, predict, nearby, DEVIATION)
+        if len(lattice) > _NEW * known:
+            look, known = typical(lattice, saddles.smooth), len(lattice)
+        grown = _fill(lattice, 1, predict, nearby, DEVIATION, look)
         if grown is None:
-            grown = _fill(lattice, REACH, _from_sheet, beyond, _ACROSS)
+            grown = _fill(lattice, REACH, _from_sheet, beyond, _ACROSS, look)
         if grown is None or max(grown.shape) > max_shape:
             break
         lattice = grown
@@ -87,9 +92,10 @@ def _fill(
     expected: Callable[[Array], Array],
     places: _Places,
     deviation: float,
+    look: Look,
 ) -> Lattice | None:
-    """The lattice with what fits into its empty places, up to `border` steps outside too, within
-    `deviation` steps of where it is `expected`; None where nothing does."""
+    """The lattice with what fits into its empty places and has the `look`, up to `border` steps
+    outside too, within `deviation` steps of where it is `expected`; None where nothing does."""
     uv = bordered(lattice.uv, border)
     framed = Lattice(uv, lattice.dark)
     predicted = expected(uv)
@@ -106,7 +112,6 @@ def _fill(
     if not len(index):
         return None
     dark = framed.dark ^ ((r + c) % 2 == 1)
-    look = typical(lattice, places.smooth)
     fits, gap = look.shown(places.smooth, places.uv[index], right[r, c], down[r, c], dark)
     order = np.flatnonzero(fits)[np.argsort(gap[fits], kind="stable")]  # the best is written last
     uv[r[order], c[order]] = places.uv[index[order]]

@@ -27,6 +27,8 @@ from calibgui.engine.opencv import Image, Image32
 from calibgui.engine.types import Array, BoolArray, IntArray
 
 MAX_CANDIDATES = 3000
+_FARTHEST = 1.5
+"""Greatest distance of a saddle point from its pixel along either axis, px."""
 _SAMPLES = 32
 _ANGLES = 2 * np.pi * np.arange(_SAMPLES) / _SAMPLES
 _CIRCLES = np.multiply.outer((3.0, 4.5, 7.0), np.column_stack([np.cos(_ANGLES), np.sin(_ANGLES)]))
@@ -80,6 +82,14 @@ def find_saddles(image: Image, floor: float) -> Saddles:
     g = opencv.smooth(image, 1.0)
     # A crossing of contrast c, smoothed by 1 px, has R = (c / pi)^2 where it is sharp.
     where = (_compiled_peaks if kernels.COMPILED else _peaks)(g, (0.1 * floor) ** 2)
+    uv, strength = (_compiled_stationary if kernels.COMPILED else _stationary)(g, where)
+    near = np.isfinite(strength)
+    return Saddles(g, uv[near], strength[near])
+
+
+def _stationary(g: Image32, where: IntArray) -> tuple[Array, Array]:
+    """The points of zero gradient (n, 2) near pixels `where` (n,) of the image, and R there, NaN
+    where they are not near."""
     v, u = np.divmod(where, g.shape[1])
     near = {(i, j): g[v + j, u + i].astype(np.float64) for i in (-1, 0, 1) for j in (-1, 0, 1)}
     gu, gv = ((near[i, j] - near[-i, -j]) / 2 for i, j in ((1, 0), (0, 1)))
@@ -88,9 +98,15 @@ def find_saddles(image: Image, floor: float) -> Saddles:
     det = xy * xy - xx * yy
     du = (yy * gu - xy * gv) / det
     dv = (xx * gv - xy * gu) / det
-    inside = np.maximum(abs(du), abs(dv)) < 1.5
-    uv = np.column_stack([u + du, v + dv])
-    return Saddles(g, uv[inside], det[inside])
+    inside = np.maximum(abs(du), abs(dv)) < _FARTHEST
+    return np.column_stack([u + du, v + dv]), np.where(inside, det, np.nan)
+
+
+def _compiled_stationary(g: Image32, where: IntArray) -> tuple[Array, Array]:
+    """`_stationary` by the compiled kernel."""
+    from calibgui.engine.kernels import junctions
+
+    return junctions.stationary(g, where, _FARTHEST)
 
 
 def _peaks(g: Image32, least: float) -> IntArray:

@@ -41,11 +41,14 @@ def locate(grey: Image, lattice: Lattice, method: str) -> Located | None:
     good = verify.sound(refined, grey)
     if not verify.credible(good, lattice.found):
         return None
+    board = supported(refined.under(good))
+    if method == "edges" and len(board) > verify.GLANCE and verify.waves(board, grey):
+        return None
     rejected = [
         *rejections(lattice.uv[lattice.found & ~refined.found], "no saddle point"),
         *rejections(lattice.uv[lattice.found & refined.found & ~good], "off place or colours"),
     ]
-    return _fitted(grey, supported(refined.under(good)), rejected, method)
+    return _fitted(grey, board, rejected, method)
 
 
 def guided(grey: Image, board: Board, outline: Array, method: str) -> Located | None:

@@ -12,7 +12,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from calibgui.engine.corners import sheet
+from calibgui.engine.corners import profiles, sheet
 from calibgui.engine.corners.appearance import placed, typical
 from calibgui.engine.corners.edges import Fit
 from calibgui.engine.corners.lattice import (
@@ -38,6 +38,8 @@ _BROKEN = 0.1
 """Places between a board's corners, over these, that may show squares but no corner."""
 _WIDEST = 0.18
 """Greatest blur of a board's edges, squares: of a sine wave it would be 0.25."""
+GLANCE = 200
+"""Corners at which a larger lattice's edges are looked at first."""
 _WORST_MISFIT = 0.25
 """Greatest median residual over the contrast."""
 _MOVED = 0.1
@@ -152,6 +154,21 @@ def stepped(fit: Fit) -> bool:
     widths = np.median(fit.edges.unknowns[:, 4:6] / fit.edges.size, axis=0)
     misfit = np.median(fit.residual / fit.contrast)
     return bool(widths.max() < _WIDEST and misfit < _WORST_MISFIT)
+
+
+def waves(lattice: Lattice, image: Image) -> bool:
+    """The same of a large lattice at a glance, from profiles across some of its edges."""
+    uv, right, down, dark = placed(lattice)
+    some = np.unique(np.linspace(0, len(uv) - 1, GLANCE).astype(np.int64))
+    uv, right, down = uv[some], right[some], down[some]
+    sign = np.where(dark[some], -1.0, 1.0)
+    area = abs(right[:, 0] * down[:, 1] - right[:, 1] * down[:, 0])
+    widths = []
+    for along, across in ((right, down), (down, right)):
+        size = area / np.linalg.norm(along, axis=1)
+        seen = profiles.across_edge(image, uv, along, across, size, sign)
+        widths.append(np.median(seen.blur / size))
+    return bool(max(widths) > _WIDEST)
 
 
 def filled(lattice: Lattice, shape: tuple[int, ...]) -> Lattice:

@@ -78,6 +78,30 @@ def peaks(g: Image32, least: float, most: int) -> IntArray:
 
 
 @compiled
+def _stationary(g, where, farthest, uv, strength):  # type: ignore[no-untyped-def]
+    for n in range(where.shape[0]):
+        v, u = where[n] // g.shape[1], where[n] % g.shape[1]
+        here = float(g[v, u])
+        left, right, above, below = g[v, u - 1], g[v, u + 1], g[v - 1, u], g[v + 1, u]
+        gu, gv = (right - left) / 2.0, (below - above) / 2.0
+        xx, yy = right - 2 * here + left, below - 2 * here + above
+        xy = g[v + 1, u + 1] - float(g[v - 1, u + 1]) - g[v + 1, u - 1] + g[v - 1, u - 1]
+        xy /= 4
+        det = xy * xy - xx * yy
+        du, dv = (yy * gu - xy * gv) / det, (xx * gv - xy * gu) / det
+        uv[n, 0], uv[n, 1] = u + du, v + dv
+        strength[n] = det if max(abs(du), abs(dv)) < farthest else np.nan
+
+
+def stationary(g: Image32, where: IntArray, farthest: float) -> tuple[Array, Array]:
+    """``junctions._stationary``: points of zero gradient (n, 2) and R there, NaN where one lies
+    farther than `farthest` px from its pixel."""
+    uv, strength = np.empty((len(where), 2)), np.empty(len(where))
+    _stationary(g, where, farthest, uv, strength)
+    return uv, strength
+
+
+@compiled
 def _ring(g, u, v, circle, floor, limits, found):  # type: ignore[no-untyped-def]
     """One circle around one point; fills found with the angles A, B and the contrast."""
     asymmetry, off_middle, narrowest = limits

@@ -34,6 +34,18 @@ def test_the_same_peaks(image: Image32, most: int, monkeypatch: pytest.MonkeyPat
 
 
 @pytest.mark.parametrize("image", [board(), noise()], ids=["board", "noise"])
+def test_the_same_saddle_points(image: Image32) -> None:
+    where = junctions._peaks(image, 4.0)
+    (uv, strength), expected = (
+        find(image, where) for find in (junctions._compiled_stationary, junctions._stationary)
+    )
+    np.testing.assert_allclose(strength, expected[1], rtol=1e-4)  # differences in float32
+    near = np.isfinite(strength)
+    assert 0 < np.count_nonzero(near)
+    np.testing.assert_allclose(uv[near], expected[0][near], atol=1e-4)
+
+
+@pytest.mark.parametrize("image", [board(), noise()], ids=["board", "noise"])
 def test_the_same_rings(image: Image32, monkeypatch: pytest.MonkeyPatch) -> None:
     saddles = junctions.find_saddles(image, 20.0)
     uv = np.concatenate([saddles.uv, [[0.0, 0.0], [-3.0, 5.0], [319.0, 239.0]]])
