@@ -139,14 +139,33 @@ def markers(image: Image, dictionary: str) -> tuple[IntArray, Array]:
     Returns:
         Their numbers (n,) and corners (n, 4, 2) px: first, clockwise as printed, the upper left.
     """
-    parameters = cv2.aruco.DetectorParameters()
-    parameters.minMarkerPerimeterRate = min(0.03, 4 * _LEAST_MARKER / max(image.shape))
+    parameters = _marker_parameters(image)
     parameters.cornerRefinementMethod = cv2.aruco.CORNER_REFINE_SUBPIX
     detector = cv2.aruco.ArucoDetector(_dictionary(dictionary), parameters)
     corners, ids, *_ = detector.detectMarkers(image)
     if ids is None or not len(corners):
         return np.zeros(0, np.int64), np.zeros((0, 4, 2))
     return np.asarray(ids, np.int64).ravel(), np.array(corners, np.float64).reshape(-1, 4, 2)
+
+
+def dark_quads(image: Image) -> Array:
+    """(n, 4, 2) px, corners of what in an 8-bit image (h, w) may be a marker of any dictionary."""
+    any_one = cv2.aruco.Dictionary(np.zeros((1, 2, 4), np.uint8), 4, 0)
+    detector = cv2.aruco.ArucoDetector(any_one, _marker_parameters(image))
+    read, _, others = detector.detectMarkers(image)
+    return np.array([*read, *others], np.float64).reshape(-1, 4, 2)
+
+
+def _marker_parameters(image: Image) -> Any:
+    parameters = cv2.aruco.DetectorParameters()
+    parameters.minMarkerPerimeterRate = min(0.03, 4 * _LEAST_MARKER / max(image.shape))
+    return parameters
+
+
+def correctable_cells(dictionary: str) -> int:
+    """How many of a marker's cells may be misread for it to be told from the dictionary's others
+    still."""
+    return int(_dictionary(dictionary).maxCorrectionBits * _CORRECTED)
 
 
 def marker_cells(dictionary: str, number: int) -> BoolArray:
@@ -161,6 +180,8 @@ def _dictionary(name: str) -> Any:
     return cv2.aruco.getPredefinedDictionary(known[name])
 
 
+_CORRECTED = 0.6
+"""Share of a dictionary's correctable cells that OpenCV corrects."""
 _LEAST_MARKER = 10.0
 """Side of the smallest markers that are looked for, px."""
 

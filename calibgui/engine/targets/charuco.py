@@ -172,7 +172,7 @@ class Charuco:
         """
         read = Reader(image, outline)
         layouts = self._layouts(board)
-        found = read.board([self.dictionary], layouts) if self.dictionary else read.unknown(layouts)
+        found = read.board(self.dictionary, layouts) if self.dictionary else read.unknown(layouts)
         if found is None:
             raise self._wrong(read, board)
         dictionary, markers = found
@@ -202,7 +202,7 @@ class Charuco:
             "Take the picture again: sharp, evenly lit and near enough for its markers to be read;"
             " state dictionary and size, or leave them out.",
         )
-        found = read.board([self.dictionary], LAYOUTS) if self.dictionary else None
+        found = read.board(self.dictionary, LAYOUTS) if self.dictionary else None
         found = found or read.unknown(LAYOUTS)
         if found is None:
             return nothing

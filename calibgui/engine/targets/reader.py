@@ -5,13 +5,15 @@ OpenCV's dictionaries of one family begin alike: the markers of the smallest are
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterable
+from collections.abc import Callable, Collection, Iterable
+from functools import partial
 
 from calibgui.engine import opencv
 from calibgui.engine.corners import roi as region
 from calibgui.engine.corners.finder import contains
 from calibgui.engine.opencv import Image
-from calibgui.engine.targets.markers import Layout, Markers, on_board
+from calibgui.engine.targets.candidates import Candidates
+from calibgui.engine.targets.markers import MIN_MARKERS, Layout, Markers, on_board
 from calibgui.engine.types import Array, IntArray
 
 _COARSE = 1600
@@ -37,27 +39,43 @@ class Reader:
         while max(self._levels[-1].shape) > _COARSE:
             self._levels.append(opencv.half(self._levels[-1]))
         self._outline = None if outline is None else region.enlarged(outline)
+        self._candidates: dict[int, Candidates] = {}
         self._read: dict[tuple[int, str], tuple[IntArray, Array]] = {}
 
-    def board(self, names: Iterable[str], layouts: Collection[Layout]) -> Seen | None:
-        """The first dictionary, and its markers on a board of one of the layouts."""
+    def board(self, name: str, layouts: Collection[Layout]) -> Seen | None:
+        """The dictionary, and its markers on a board of one of the layouts."""
+        return self._first(lambda _: [name], layouts)
+
+    def unknown(self, layouts: Collection[Layout]) -> Seen | None:
+        """The same for a dictionary that is not stated: the smallest of its family that reads
+        the most."""
+        best = None
+        for rank in (0, 2):
+            best = best or self._first(partial(self._likely, _offamily(rank)), layouts)
+        for larger in _larger(best[0]) if best is not None else ():
+            found = self.board(larger, layouts)
+            if best is None or found is None or len(found[1].numbers) <= len(best[1].numbers):
+                break
+            best = found
+        return best
+
+    def _first(
+        self, names: Callable[[int], Iterable[str]], layouts: Collection[Layout]
+    ) -> Seen | None:
+        """The first of the dictionaries to be tried at each depth that shows a board."""
         for depth in reversed(range(len(self._levels))):
-            for name in names:
+            for name in names(depth):
                 markers = on_board(*self._markers(depth, name), layouts)
                 if markers is not None:
                     return name, markers
         return None
 
-    def unknown(self, layouts: Collection[Layout]) -> Seen | None:
-        """The same for a dictionary that is not stated: the smallest of its family that reads
-        the most."""
-        best = self.board(_offamily(0), layouts) or self.board(_offamily(2), layouts)
-        for larger in _larger(best[0]) if best is not None else ():
-            found = self.board([larger], layouts)
-            if best is None or found is None or len(found[1].numbers) <= len(best[1].numbers):
-                break
-            best = found
-        return best
+    def _likely(self, names: list[str], depth: int) -> list[str]:
+        """The dictionaries that as many quadrilaterals may be of as a board needs."""
+        if depth not in self._candidates:
+            self._candidates[depth] = Candidates(self._levels[depth])
+        seen = self._candidates[depth]
+        return [name for name in names if seen.fitting(name) >= MIN_MARKERS]
 
     def _markers(self, depth: int, name: str) -> tuple[IntArray, Array]:
         if (depth, name) not in self._read:

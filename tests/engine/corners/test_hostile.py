@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 
 from calibgui.engine.corners import edges, find_corners, finder, growth, junctions
 from calibgui.engine.errors import NoBoardError
+from tests.benchmarks.corner_scenes import Conditions, draw
 
 SHAPE = (900, 1200)
 V, U = np.mgrid[: SHAPE[0], : SHAPE[1]]
@@ -130,3 +131,18 @@ def test_saturated_halves() -> None:
 def test_squares_at_random_are_no_board(side: int) -> None:
     with pytest.raises(NoBoardError):
         find_corners(random_squares(side))
+
+
+@pytest.mark.parametrize(("period", "slant"), [(4.0, 0.0), (7.0, 0.1), (12.0, 0.2)])
+def test_many_waves_are_not_fitted(
+    period: float, slant: float, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(edges, "fit", None)
+    image = 127 + 60 * np.sin(U / period + slant * V) + 60 * np.sin(V / period)
+    with pytest.raises(NoBoardError):
+        find_corners(image[:480, :640].astype(np.float32))
+
+
+def test_many_squares_are_not_waves_however_blurred() -> None:
+    scene = Conditions(board=(14, 19), square=27.0, blur=0.15 * 27, tilt=15.0, shift=0.0, turn=5.0)
+    assert find_corners(draw(scene, 0).photograph(0)).shape == (14, 19)
