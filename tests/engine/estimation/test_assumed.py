@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from pathlib import Path
+
 import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
@@ -31,6 +33,7 @@ from tests.engine.scenes import (
     relative,
     scene,
     seen,
+    stored,
 )
 
 LONG = barrel(focal=900.0)
@@ -251,3 +254,21 @@ def test_least_is_assumed() -> None:
 def test_good_views_need_no_assumption() -> None:
     made = scene(LONG, 8)
     assert calibrate(made.noisy(0.3, np.random.default_rng(0)), made.size).diagnosis is None
+
+
+@pytest.mark.data
+def test_any_single_photograph_of_the_papers_set_knows_the_focal_length(data_dir: Path) -> None:
+    file = "bouguet_calib_example/corners_and_results/corners_25img__benJephunneh.json"
+    views, size = stored(data_dir / file)
+    whole = calibrate(views, size).camera.params
+    off, sigma = [], []
+    for view in views:
+        with pytest.raises(DegenerateError) as caught:
+            calibrate([view], size)
+        found = caught.value.partial
+        assert found is not None
+        off.append(found.camera.params[0] - whole[0])
+        sigma.append(found.sigma[0])
+    assert (np.abs(off) < 2 * np.array(sigma)).all()
+    assert np.median(np.abs(off)) < 0.02 * whole[0]
+    assert np.median(sigma) < 0.1 * whole[0]
