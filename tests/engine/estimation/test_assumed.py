@@ -213,7 +213,7 @@ def test_the_standard_deviations_are_those_of_repeated_photographs() -> None:
         (ratio, s_ratio), (k, s_k) = aspect(found), curvature(found)
         off.append([(ratio - 1) / s_ratio, (k - k1) / s_k])
     spread = np.sqrt(np.mean(np.square(off), axis=0))
-    # The tilts that noise feigns make the ratio seem to depend on the focal length.
+    # The deviations include what an assumed centre may be off by; the draws have but one centre.
     assert (spread > [0.2, 0.75]).all()
     assert (spread < 1.25).all()
 
