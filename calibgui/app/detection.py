@@ -65,6 +65,7 @@ def find_views(
     size: Size | None = None,
     method: str = METHODS[0],
     pattern: Pattern = CHECKERBOARD,
+    preparing: Callable[[], None] | None = None,
 ) -> Detection:
     """Search all images for the board, on all processors.
 
@@ -77,6 +78,8 @@ def find_views(
         size: width and height of the camera's images; the most frequent ones if None.
         method: of locating corners, one of ``corners.METHODS``.
         pattern: of the target; what it leaves open is inferred over the whole set.
+        preparing: called if the corner finder has to be prepared for its first use, which takes
+            some `workers.PREPARING_SECONDS`.
 
     Raises:
         Cancelled: if `stop` was set.
@@ -88,7 +91,10 @@ def find_views(
     def search(which: Sequence[int], board: Board | None, before: int = 0) -> None:
         items = [views[k] for k in which]
         results = spread(
-            partial(search_view, board=board, method=method, pattern=pattern), items, stop
+            partial(search_view, board=board, method=method, pattern=pattern),
+            items,
+            stop,
+            preparing,
         )
         for done, (i, view) in enumerate(results, start=before + 1):
             views[which[i]] = _crashed(items[i]) if isinstance(view, Crashed) else view

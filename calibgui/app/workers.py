@@ -23,6 +23,7 @@ from threadpoolctl import threadpool_limits
 
 from calibgui.engine import opencv
 from calibgui.engine.errors import Cancelled
+from calibgui.engine.kernels import when_compiling
 
 T = TypeVar("T")
 R = TypeVar("R")
@@ -30,14 +31,23 @@ R = TypeVar("R")
 _POLL = 0.05
 """Seconds between looks at `stop`."""
 _CONTEXT = multiprocessing.get_context("spawn")
+PREPARING_SECONDS = 20
+"""Compiling the kernels of the corner finder takes about that, once after an installation, s."""
 
 
 class Crashed(Exception):  # noqa: N818 - a value, never raised
     """Stands for the result of a piece of work whose process died."""
 
 
+class _Compiling:
+    """Sent before a result that will be long in coming."""
+
+
 def spread(
-    task: Callable[[T], R], items: Sequence[T], stop: Event | None = None
+    task: Callable[[T], R],
+    items: Sequence[T],
+    stop: Event | None = None,
+    preparing: Callable[[], None] | None = None,
 ) -> Generator[tuple[int, R | Crashed], None, None]:
     """Index and task(item) of each item, as they are completed; closing it ends the work.
 
@@ -45,6 +55,7 @@ def spread(
         task: a module's function, or a partial of one: it is sent to other processes.
         items: what to do it to.
         stop: ends the work at once when set.
+        preparing: called, once, if kernels have to be compiled first.
 
     Raises:
         Cancelled: if `stop` was set.
@@ -62,6 +73,12 @@ def spread(
             for connection in ready:
                 index = busy.pop(connection)
                 result, lost = _receive(connection)
+                if isinstance(result, _Compiling):
+                    busy[connection] = index
+                    if preparing is not None:
+                        preparing()
+                        preparing = None
+                    continue
                 if lost and index is None:
                     raise RuntimeError("A worker process could not be started.")
                 if lost and waiting:
@@ -108,14 +125,20 @@ def _work(task: Callable[[Any], Any], connection: Connection) -> None:
     opencv.use_threads(1)
     with threadpool_limits(1), contextlib.suppress(EOFError, ConnectionError):
         connection.send((None, None))
-        while True:
-            item = connection.recv()
-            try:
-                answer: tuple[Exception | None, Any] = (None, task(item))
-            except Exception as error:
-                error.add_note(traceback.format_exc())
-                answer = (error, None)
-            connection.send(answer)
+        with when_compiling(lambda: connection.send((None, _Compiling()))):
+            _answer(task, connection)
+
+
+def _answer(task: Callable[[Any], Any], connection: Connection) -> None:
+    """Do `task` to what arrives."""
+    while True:
+        item = connection.recv()
+        try:
+            answer: tuple[Exception | None, Any] = (None, task(item))
+        except Exception as error:
+            error.add_note(traceback.format_exc())
+            answer = (error, None)
+        connection.send(answer)
 
 
 @contextlib.contextmanager

@@ -11,6 +11,7 @@ from pathlib import Path
 from calibgui.app.detection import Detection, find_views
 from calibgui.app.paths import find_images
 from calibgui.app.regions import read_regions
+from calibgui.app.workers import PREPARING_SECONDS
 from calibgui.cli.console import Console
 from calibgui.engine.corners import METHODS
 from calibgui.engine.corners.lattice import MIN_LINES
@@ -126,4 +127,8 @@ def search(
             lambda done, total, _: advance(done, total),
             method=corners,
             pattern=pattern,
+            preparing=lambda: console.notice(
+                "Preparing the corner finder for its first use "
+                f"(once, about {PREPARING_SECONDS} s)…"
+            ),
         )

@@ -23,6 +23,7 @@ from calibgui.cli.console import Console
 from calibgui.cli.targets import add_target, pattern_of
 from calibgui.engine.calibrate import HELD
 from calibgui.engine.errors import CalibrationError, DegenerateError
+from calibgui.engine.kernels import when_compiling
 from calibgui.engine.types import Cost, Plate, PlateModel, Prior
 from calibgui.formats import EXPORTERS, export, find_exporter
 from calibgui.formats.corners_json import CornerSet, read_corners
@@ -131,7 +132,9 @@ def run(options: argparse.Namespace, console: Console) -> None:
     )
     corner_set = _corner_set(options, console)
     try:
-        result = calibrate_twice(corner_set, settings)
+        preparing = "Preparing the solver for its first use (once, about 8 s)…"
+        with when_compiling(lambda: console.notice(preparing)):
+            result = calibrate_twice(corner_set, settings)
     except CalibrationError:
         if unused := tables.unused(corner_set.views):
             console.problem(unused)

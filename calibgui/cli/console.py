@@ -50,11 +50,20 @@ class Console:
         """Print what went wrong but ends nothing."""
         print(harmless(text), file=sys.stderr)
 
+    def notice(self, text: str) -> None:
+        """Tell on stderr why nothing seems to happen; nothing if quiet or no terminal."""
+        if not self._alone:
+            tqdm.write(harmless(text), file=sys.stderr)
+
+    @property
+    def _alone(self) -> bool:
+        """Whether nobody watches."""
+        return self.quiet or sys.stderr is None or not sys.stderr.isatty()
+
     @contextlib.contextmanager
     def progress(self, what: str, unit: str = "image") -> Iterator[Advance]:
         """A bar on stderr while things are worked on; nothing if quiet or no terminal."""
-        hidden = self.quiet or sys.stderr is None or not sys.stderr.isatty()
-        with tqdm(desc=what, unit=unit, disable=hidden, leave=False, file=sys.stderr) as bar:
+        with tqdm(desc=what, unit=unit, disable=self._alone, leave=False, file=sys.stderr) as bar:
 
             def advance(done: int, total: int) -> None:
                 bar.total = total

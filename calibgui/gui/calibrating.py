@@ -11,6 +11,7 @@ from PySide6.QtCore import QObject, Signal
 from calibgui.app.again import calibrate_twice
 from calibgui.app.project import answered, free_name
 from calibgui.engine.errors import CalibrationError
+from calibgui.engine.kernels import when_compiling
 from calibgui.engine.types import Iteration, Status
 from calibgui.formats.corners_json import CornerSet
 from calibgui.formats.result import Result
@@ -76,8 +77,11 @@ class Calibrator(QObject):
         corner_set = CornerSet(project.size, project.views, project.target)
         settings = project.settings
 
+        preparing = self.tr("Preparing the solver for its first use (once, about 8 s)…")
+
         def work(job: Job) -> Result:
-            return calibrate_twice(corner_set, settings, job.tell, job.cancelling)
+            with when_compiling(lambda: job.rename(preparing)):
+                return calibrate_twice(corner_set, settings, job.tell, job.cancelling)
 
         self._job = self._session.jobs.start(
             self.tr("Calibrating"),

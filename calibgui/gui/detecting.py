@@ -10,6 +10,7 @@ from PySide6.QtCore import QObject, Signal
 
 from calibgui.app.detection import Detection, find_views, usual_board, usual_pattern
 from calibgui.app.project import Project, with_each, without_digests
+from calibgui.app.workers import PREPARING_SECONDS
 from calibgui.engine.types import Array, Corners, View, ViewStatus
 from calibgui.gui.jobs import Job
 from calibgui.gui.session import Session
@@ -59,18 +60,31 @@ class Detector(QObject):
         pattern = usual_pattern(project.views, project.pattern)
         rois = {Path(image): roi for image, roi in self._asked.items() if roi is not None}
 
+        searching = self.tr("Finding corners")
+        preparing = self.tr(
+            "Preparing the corner finder for its first use (once, about {0} s)…"
+        ).format(PREPARING_SECONDS)
+
         def work(job: Job) -> Detection:
             def progress(done: int, total: int, view: View) -> None:
+                job.rename(searching)
                 job.advance(done, total)
                 job.tell([view])
 
             images = [Path(view.image) for view in asked]
             return find_views(
-                images, board, rois, progress, job.cancelling, project.size, pattern=pattern
+                images,
+                board,
+                rois,
+                progress,
+                job.cancelling,
+                project.size,
+                pattern=pattern,
+                preparing=lambda: job.rename(preparing),
             )
 
         self._job = self._session.jobs.start(
-            self.tr("Finding corners"),
+            searching,
             work,
             self._done,
             told=self._learn,

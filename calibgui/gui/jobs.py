@@ -107,6 +107,16 @@ class Job:
         self.check()
         self.queue.put(note)
 
+    def rename(self, label: str) -> None:
+        """For the worker: what is being done from now on."""
+
+        def note() -> None:
+            if label != self.label:
+                self.label, self._begun = label, time.monotonic()
+
+        self.check()
+        self.queue.put(note)
+
     def check(self) -> None:
         """For the worker: raise `Cancelled` if the user wants none of it."""
         if self.cancelled:

@@ -146,7 +146,7 @@ def test_a_partly_seen_board_is_counted_on_the_usual_one(photographs: Path, tmp_
 
 
 def test_a_crash_is_the_images_own(photographs: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    def spread(_: object, items: list[View], __: object) -> list[tuple[int, object]]:
+    def spread(_: object, items: list[View], *__: object) -> list[tuple[int, object]]:
         return [(k, detection.Crashed()) for k in range(len(items))]
 
     monkeypatch.setattr(detection, "spread", spread)

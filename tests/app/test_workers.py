@@ -33,6 +33,15 @@ def test_each_worker_keeps_to_one_thread() -> None:
     assert dict(spread(eval, asked)) == {0: 1, 1: 1}
 
 
+def test_who_waits_for_a_compiler_is_told_once() -> None:
+    told: list[None] = []
+    works = ["__import__('numba').njit(lambda x: x + 1)(2)"] * 3
+    assert dict(spread(eval, works, preparing=lambda: told.append(None))) == {0: 3, 1: 3, 2: 3}
+    assert len(told) == 1
+    assert dict(spread(eval, ["1 + 1"], preparing=lambda: told.append(None))) == {0: 2}
+    assert len(told) == 1
+
+
 def test_a_set_event_ends_work_under_way() -> None:
     stop = Event()
     work = spread(time.sleep, [0.0, 3600.0, 3600.0], stop)

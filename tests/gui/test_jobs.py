@@ -47,6 +47,22 @@ def test_everything_but_the_work_happens_on_the_main_thread(qtbot: QtBot, jobs: 
     assert not jobs.running
 
 
+def test_a_job_says_what_it_does_now(qtbot: QtBot, jobs: Jobs) -> None:
+    labels: list[str] = []
+    jobs.changed.connect(lambda: labels.extend(job.label for job in jobs.running))
+    going = threading.Event()
+
+    def work(job: Job) -> None:
+        job.rename("Preparing")
+        going.wait(10)
+
+    job = jobs.start("Counting", work)
+    qtbot.waitUntil(lambda: job.label == "Preparing", timeout=5000)
+    assert labels[0] == "Counting" and labels[-1] == "Preparing"
+    going.set()
+    qtbot.waitUntil(lambda: not jobs.running, timeout=5000)
+
+
 def test_results_of_changed_inputs_are_dropped_item_by_item(qtbot: QtBot, jobs: Jobs) -> None:
     revision = {"a": 1, "b": 1}
     go = threading.Event()
