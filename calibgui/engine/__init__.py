@@ -16,10 +16,13 @@ from calibgui.engine.targets.circles import Circles
 from calibgui.engine.targets.pattern import Checkerboard
 from calibgui.engine.types import (
     Ambiguity,
+    Assumed,
     Calibration,
     Camera,
     Corners,
     Cost,
+    Degeneracy,
+    Diagnosis,
     Iteration,
     Observation,
     Pose,
@@ -31,6 +34,7 @@ from calibgui.engine.types import (
 
 __all__ = [
     "Ambiguity",
+    "Assumed",
     "Calibration",
     "CalibrationError",
     "Camera",
@@ -40,7 +44,9 @@ __all__ = [
     "Circles",
     "Corners",
     "Cost",
+    "Degeneracy",
     "DegenerateError",
+    "Diagnosis",
     "Image",
     "Iteration",
     "NoBoardError",
