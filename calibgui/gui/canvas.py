@@ -203,6 +203,8 @@ class Canvas(QGraphicsView):
         painter: QPainter,
         rect: QRectF | QRect,  # noqa: ARG002
     ) -> None:
+        if self._picture.boundingRect().isEmpty():
+            return  # marks mean nothing without what they mark
         painter.save()
         painter.resetTransform()
         if self.tool is None or self.tool.with_marks:

@@ -52,6 +52,14 @@ class Files(QObject):
         self.saver.recoverable.connect(self.recoverable)
         self.saver.opened.connect(self.check_images)
 
+    @property
+    def _place(self) -> str:
+        """The folder to begin a choice of files in: the project's, or its images'."""
+        path, views = self._session.document.path, self._session.project.views
+        if path is None and not views:
+            return ""
+        return str((path or Path(views[0].image)).parent)
+
     def open_paths(self, names: Sequence[str]) -> None:
         """Open what was dropped, pasted or named on the command line: a project, or images."""
         projects = [name for name in names if name.lower().endswith(".json")]
@@ -69,7 +77,9 @@ class Files(QObject):
 
     def ask_for_folder(self) -> None:
         """Add the images of a folder."""
-        folder = QFileDialog.getExistingDirectory(self._window, self.tr("Folder of images"))
+        folder = QFileDialog.getExistingDirectory(
+            self._window, self.tr("Folder of images"), self._place
+        )
         if folder:
             self.open_paths([folder])
 
@@ -77,7 +87,7 @@ class Files(QObject):
         """Add single images."""
         kinds = " ".join(f"*{suffix}" for suffix in FORMATS)
         names, _ = QFileDialog.getOpenFileNames(
-            self._window, self.tr("Add images"), "", self.tr("Images ({0})").format(kinds)
+            self._window, self.tr("Add images"), self._place, self.tr("Images ({0})").format(kinds)
         )
         self.open_paths(names)
 
@@ -93,7 +103,7 @@ class Files(QObject):
     def ask_for_project(self) -> None:
         """Open a project of the user's choice."""
         name, _ = QFileDialog.getOpenFileName(
-            self._window, self.tr("Open project"), "", self.tr("Projects (*.json)")
+            self._window, self.tr("Open project"), self._place, self.tr("Projects (*.json)")
         )
         if name:
             self.open_project(Path(name))
@@ -164,7 +174,7 @@ class Files(QObject):
     def ask_for_moved(self, missing: list[str]) -> None:
         """Find missing images in a folder of the user's choice."""
         folder = QFileDialog.getExistingDirectory(
-            self._window, self.tr("Folder that holds the missing images")
+            self._window, self.tr("Folder that holds the missing images"), self._place
         )
         if folder:
             self.find_moved(missing, Path(folder))
@@ -231,7 +241,9 @@ class Files(QObject):
         from calibgui.gui.panels.undistort import RECTIFIED
 
         result = self._session.result
-        folder = QFileDialog.getExistingDirectory(self._window, self.tr("Folder for the images"))
+        folder = QFileDialog.getExistingDirectory(
+            self._window, self.tr("Folder for the images"), self._place
+        )
         if result is None or not folder:
             return
         images = [Path(result.views[k].image) for k in views]
