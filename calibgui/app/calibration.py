@@ -57,7 +57,7 @@ def calibrate_views(
         raise CalibrationError(
             "None of the images can be used.",
             "Photograph the whole board, sharp and evenly lit, at least 3 times from different "
-            "directions.",
+            "directions, and choose the pattern that it has.",
         )
     if settings.weigh_views and settings.cost is not Cost.IMAGE:
         raise CalibrationError(

@@ -29,6 +29,9 @@ class _Bar(QFrame):
         self.setBackgroundRole(self.backgroundRole().AlternateBase)
         self.words = QLabel()
         self.words.setWordWrap(True)
+        # Room for two lines: the image must not move between two clicks.
+        self.words.setMinimumHeight(2 * self.words.fontMetrics().lineSpacing())
+        self.words.setAlignment(Qt.AlignmentFlag.AlignTop)
         self.row = QHBoxLayout()
         self.row.addStretch(1)
         column = QVBoxLayout(self)

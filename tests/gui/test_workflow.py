@@ -146,8 +146,10 @@ def test_from_photographs_to_an_exported_camera(
     before = hand.corners()
     window.page.tools[0].trigger()
     points = outermost(before)
+    place = window.page.canvas.geometry()
     hand.click(points[0] + [2, -1])
     hand.click(points[3])
+    assert window.page.canvas.geometry() == place, "the image moves between two clicks"
     hand.key(Qt.Key.Key_Backspace)
     for point in points[1:]:
         hand.click(point + np.array([1.5, 1.5]))

@@ -27,7 +27,7 @@ class Panel(QWidget):
     icon: ClassVar[str] = ""
     hint: ClassVar[str] = str(
         QT_TRANSLATE_NOOP(
-            "Panel", "Nothing is calibrated yet. Add images of a checkerboard and press Calibrate."
+            "Panel", "Nothing is calibrated yet. Add images of a board and press Calibrate."
         )
     )
     """Shown while there is no result."""
