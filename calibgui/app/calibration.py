@@ -14,9 +14,9 @@ from calibgui import engine
 from calibgui.app.marking import removed
 from calibgui.app.settings import USUAL, Settings
 from calibgui.engine.errors import CalibrationError, DegenerateError
-from calibgui.engine.quality.noise import calibrate_weighted
 from calibgui.engine.quality.screening import screen
 from calibgui.engine.quality.validation import choose_plate
+from calibgui.engine.quality.view_weights import calibrate_weighted
 from calibgui.engine.types import (
     Ambiguity,
     Calibration,

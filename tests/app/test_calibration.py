@@ -8,11 +8,14 @@ import numpy as np
 import pytest
 
 from calibgui.app.calibration import calibrate_views, short_names
+from calibgui.app.detection import find_views
+from calibgui.app.resources import resource, sample_square
 from calibgui.app.settings import Settings
 from calibgui.engine import CalibrationError, Cancelled, Iteration, Observation, View, ViewStatus
 from calibgui.engine.calibrate import calibrate
 from calibgui.engine.estimation.projection import pixels
 from calibgui.engine.frames import rotation
+from calibgui.engine.quality.noise import examine
 from calibgui.engine.types import Array, Cost
 from calibgui.formats.corners_json import CornerSet
 from tests.engine import scenes
@@ -134,3 +137,13 @@ def test_the_best_plate_is_chosen_and_said() -> None:
     assert result.calibration.plate is not None
     assert "unseen views" in result.calibration.warnings[0]
     assert calibrate_views(noisy(), Settings(plate=None)).calibration.plate is None
+
+
+@pytest.mark.slow
+def test_what_is_left_of_the_sample_looks_like_noise() -> None:
+    """Its photographs are rendered: nothing is wrong with board, camera or lens."""
+    images = sorted(resource("sample").glob("*.png"))
+    found = find_views(images).corner_set(sample_square(images))
+    result = calibrate_views(found)
+    report = examine(result.calibration, result.observations())
+    assert report.passed, report.cause

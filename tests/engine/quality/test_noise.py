@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Callable
 
 import numpy as np
@@ -11,7 +12,8 @@ from calibgui.engine import frames
 from calibgui.engine.calibrate import calibrate
 from calibgui.engine.errors import Cancelled
 from calibgui.engine.estimation.projection import pixels
-from calibgui.engine.quality.noise import calibrate_weighted, examine
+from calibgui.engine.quality.noise import examine
+from calibgui.engine.quality.view_weights import calibrate_weighted
 from calibgui.engine.types import Array, Observation, Pose
 from tests.engine.scenes import BOARD, barrel, scene
 
@@ -115,6 +117,31 @@ def test_blurred_views_are_listed_and_weigh_less() -> None:
     assert report.view_sigma == pytest.approx(noise, rel=0.35)
 
 
+def test_what_does_no_harm_is_no_fault() -> None:
+    """Views that differ a little, and tails a little heavier than a Gaussian's without outliers."""
+    rng = np.random.default_rng(5)
+    noise = np.where(np.arange(12) % 2 == 0, 0.085, 0.115)
+    differing = [
+        Observation(view.uv + rng.normal(scale=s, size=view.uv.shape), view.xy)
+        for view, s in zip(SCENE.views, noise, strict=True)
+    ]
+    tailed = []
+    for view in SCENE.views:
+        error = 0.1 * rng.standard_t(5, size=view.uv.shape)
+        length = np.linalg.norm(error, axis=1, keepdims=True)
+        tailed.append(Observation(view.uv + error * np.minimum(0.4 / length, 1), view.xy))
+    for views, name in ((differing, "views"), (tailed, "shape")):
+        result = calibrate(views, SIZE)
+        report = examine(result, views)
+        assert report.passed
+        with pytest.MonkeyPatch.context() as patch:
+            # It is seen all the same, and told where it does harm.
+            patch.setattr("calibgui.engine.quality.noise._GAIN", 1.0)
+            patch.setattr("calibgui.engine.quality.noise._OUTLIER", 2.0)
+            report = examine(result, views)
+            assert name in [check.name for check in report.checks if not check.passed]
+
+
 def test_covariances_count_in_the_weights() -> None:
     rng = np.random.default_rng(3)
     far = np.arange(len(XY)) % 3 == 0
@@ -141,6 +168,19 @@ def test_noise_raises_no_alarm() -> None:
         report = examine(calibrate(views, SIZE), views)
         alarms += [check.name for check in report.checks if not check.passed]
     assert len(alarms) <= 4  # 0.8 expected of 80 x 10 checks at one in a thousand
+
+
+@pytest.mark.slow
+def test_the_level_is_the_one_stated(monkeypatch: pytest.MonkeyPatch) -> None:
+    """At one in twenty, where it can be counted: no check alarms more often than that."""
+    monkeypatch.setattr("calibgui.engine.quality.noise._CHANCE", 0.05)
+    alarms: Counter[str] = Counter()
+    for seed in range(150):
+        views = SCENE.noisy(0.2, np.random.default_rng(seed))
+        report = examine(calibrate(views, SIZE), views)
+        alarms.update(check.name for check in report.checks if not check.passed)
+    # 7.5 are expected; more than 19 have a chance of 1e-3 in any of eleven checks.
+    assert max(alarms.values()) <= 19
 
 
 def test_it_can_be_abandoned() -> None:
