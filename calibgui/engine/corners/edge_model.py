@@ -19,6 +19,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, fields
+from functools import partial
 
 import numpy as np
 
@@ -40,10 +41,11 @@ M, A, RHO = np.s_[:, 6], np.s_[:, 7], np.s_[:, 8]
 """Columns of the unknowns."""
 UNKNOWNS = 9
 
-NormalEquations = Callable[["Edges"], tuple[Array, Array]]
+OddPart = Callable[[], Array]
+"""(n, 2) the sum of (r(q) - r(-q))^2 / 2 over pairs of pixels, and their number."""
+NormalEquations = Callable[["Edges"], tuple[Array, OddPart]]
 """(n, 10, 10) products of the columns [J r] of each corner: derivatives of the model by the
-unknowns, and what it leaves unexplained, over the pixels that were read; and (n, 2) the odd part
-of r: the sum of (r(q) - r(-q))^2 / 2 over pairs of pixels, and their number."""
+unknowns, and what it leaves unexplained, over the pixels that were read; and the odd part of r."""
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -123,14 +125,14 @@ def normal_equations(image: Image, edges: Edges) -> NormalEquations:
         return _compiled(image, edges)
     windows = _read(image, edges)
 
-    def products(model: Edges) -> tuple[Array, Array]:
+    def products(model: Edges) -> tuple[Array, OddPart]:
         n = len(model.unknowns)
         N, odd = np.empty((n, UNKNOWNS + 1, UNKNOWNS + 1)), np.empty((n, 2))
         for window in windows:
             J = _columns(model.under(window.index), window)
             N[window.index] = J @ J.transpose(0, 2, 1)
             odd[window.index] = _odd_part(model.unknowns[C][window.index], window, J[:, UNKNOWNS])
-        return N, odd
+        return N, lambda: odd
 
     return products
 
@@ -145,7 +147,7 @@ def _compiled(image: Image, edges: Edges) -> NormalEquations:
         image, read.uv, read.tangent, read.normal, read.curvature, read.arm, read.width
     )
 
-    def products(model: Edges) -> tuple[Array, Array]:
+    def products(model: Edges) -> tuple[Array, OddPart]:
         x, n = model.unknowns, len(model.unknowns)
         near = np.column_stack(
             [
@@ -166,7 +168,9 @@ def _compiled(image: Image, edges: Edges) -> NormalEquations:
                 np.zeros((n, 2)) if (box := model.box()) is None else box,
             ]
         )
-        return kernel.products(pixels, np.ascontiguousarray(x[C]), near)
+        centre = np.ascontiguousarray(x[C])
+        N, residual = kernel.products(pixels, centre, near)
+        return N, partial(kernel.odd_part, pixels, centre, residual)
 
     return products
 

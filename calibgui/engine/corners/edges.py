@@ -34,7 +34,6 @@ from calibgui.engine.corners.edge_model import (
     C,
     Edges,
     M,
-    NormalEquations,
     normal_equations,
 )
 from calibgui.engine.corners.lattice import Lattice
@@ -101,16 +100,20 @@ def fit(
         geometry: how edges run and bend where a camera that is known tells it better than the
             corners found; see ``Surroundings.geometry``.
     """
-    board = Surroundings(lattice.found)
-    if geometry is not None:
-        board = Foreseen(lattice.found, geometry)
+    found = lattice.found
+    board = Surroundings(found) if geometry is None else Foreseen(found, geometry)
     edges = _start(image, lattice, board, plain)
     near = replace(edges, arm=np.minimum(edges.arm, _NEAR))
-    first = _step(near, normal_equations(image, near))
-    edges = _surrounded(replace(edges, unknowns=first.edges.unknowns), board)
+    products, _ = normal_equations(image, near)(near)
+    first, _, _ = _step(near, products)
+    edges = _surrounded(replace(edges, unknowns=first.unknowns), board)
     equations = normal_equations(image, edges)
-    edges = _surrounded(_step(edges, equations).edges, board)
-    return _step(edges, equations)
+    products, _ = equations(edges)
+    edges = _surrounded(_step(edges, products)[0], board)
+    products, odd_part = equations(edges)
+    edges, inverse, square = _step(edges, products)
+    noise = _noise(square, odd_part())
+    return Fit(edges, noise[:, None, None] * inverse, np.sqrt(square))
 
 
 def _start(image: Image, lattice: Lattice, board: Surroundings, plain: float) -> Edges:
@@ -199,9 +202,9 @@ def _heights(steps: Array) -> Array:
     return np.asarray(abs(np.linalg.det(steps))[:, None] / np.linalg.norm(steps, axis=2))
 
 
-def _step(edges: Edges, equations: NormalEquations) -> Fit:
-    """The model after one Gauss-Newton step."""
-    products, odd = equations(edges)
+def _step(edges: Edges, products: Array) -> tuple[Edges, Array, Array]:
+    """The model after one Gauss-Newton step, the part (n, 2, 2) of the equations' inverse for c,
+    and the mean square (n,) of what is left unexplained."""
     N, g = products[:, :UNKNOWNS, :UNKNOWNS], products[:, :UNKNOWNS, UNKNOWNS]
     # In a sharp image few pixels know rho: it stays near that of a blur alike in all directions.
     normals, weight = edges.normals(), products[:, UNKNOWNS, UNKNOWNS] / N[:, 6, 6] / _RHO_SPREAD**2
@@ -211,13 +214,15 @@ def _step(edges: Edges, equations: NormalEquations) -> Fit:
     square = np.maximum(products[:, UNKNOWNS, UNKNOWNS] - np.sum(step * g, axis=1), 0.0)
     count = N[:, 6, 6]  # each pixel's derivative by m is 1
     square /= np.maximum(count - UNKNOWNS, 1)
-    total, pairs = odd.T
-    noise = np.where(pairs > _PAIRS, total / np.maximum(pairs - 2, 1), square)
-    if np.median(noise) > np.median(square):
-        noise = square
     unknowns = edges.unknowns + _bounded(step, edges.unknowns)
-    covariance = noise[:, None, None] * inverse
-    return Fit(replace(edges, unknowns=unknowns), covariance, np.sqrt(square))
+    return replace(edges, unknowns=unknowns), inverse, square
+
+
+def _noise(square: Array, odd_part: Array) -> Array:
+    """(n,) noise^2 from the mean square (n,) of what is left unexplained and from its odd part."""
+    total, pairs = odd_part.T
+    noise = np.where(pairs > _PAIRS, total / np.maximum(pairs - 2, 1), square)
+    return square if np.median(noise) > np.median(square) else noise
 
 
 def _solved(N: Array, g: Array) -> tuple[Array, Array]:

@@ -16,6 +16,7 @@ import numpy as np
 
 from calibgui.engine.kernels.bands import Pixels
 from calibgui.engine.kernels.common import compiled, factor, substitute
+from calibgui.engine.opencv import Image32
 from calibgui.engine.types import Array
 
 _F = np.float32
@@ -240,8 +241,8 @@ def _odd(first, count, base, offset, centre, residual, reach, out):  # type: ign
             r[int(offset[1, p]) + reach, int(offset[0, p]) + reach] = np.nan
 
 
-def products(pixels: Pixels, centre: Array, near: Array) -> tuple[Array, Array]:
-    """(n, 10, 10) products of the columns [J r] of n corners, and (n, 2) r's odd part.
+def products(pixels: Pixels, centre: Array, near: Array) -> tuple[Array, Image32]:
+    """(n, 10, 10) products of the columns [J r] of n corners, and r at their pixels.
 
     Args:
         pixels: what was read around them.
@@ -251,11 +252,16 @@ def products(pixels: Pixels, centre: Array, near: Array) -> tuple[Array, Array]:
             over the size of a square, half widths of the pixel across edges 1 and 2 or 0.
     """
     n = len(centre)
-    out, odd = np.zeros((n, _COLUMNS, _COLUMNS)), np.zeros((n, 2))
-    residual = np.empty_like(pixels.grey)
+    out, residual = np.zeros((n, _COLUMNS, _COLUMNS)), np.empty_like(pixels.grey)
     _products(*pixels[:5], centre, near.astype(_F), out, residual)
-    _odd(*pixels[:4], centre, residual, pixels.reach, odd)
-    return out, odd
+    return out, residual
+
+
+def odd_part(pixels: Pixels, centre: Array, residual: Image32) -> Array:
+    """(n, 2) sum of (r(q) - r(-q))^2 / 2 over pairs of pixels, and their number."""
+    out = np.zeros((len(centre), 2))
+    _odd(*pixels[:4], centre, residual, pixels.reach, out)
+    return out
 
 
 @compiled
