@@ -16,6 +16,11 @@ def test_random_problems_reach_the_minimum() -> None:
     assert len(missed) <= 1, missed
 
 
+def test_a_mirrored_tilt_whose_right_one_the_wrong_camera_cannot_image_is_righted() -> None:
+    found = outcome(203944)
+    assert found.reached, found.words
+
+
 def test_the_lower_of_two_lows_in_a_valley_is_found() -> None:
     """Four views at 1 px of noise, whose principal point and coefficients trade for each other."""
     found = outcome(6147)

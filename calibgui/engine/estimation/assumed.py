@@ -22,7 +22,6 @@ It is carried to the camera's parameters and poses: ± includes what the assumpt
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import replace
 from typing import NamedTuple
 
@@ -36,8 +35,8 @@ from calibgui.engine.estimation.observations import Observations
 from calibgui.engine.estimation.outcome import Asked, Estimate
 from calibgui.engine.estimation.quantities import Quantities, in_quantities
 from calibgui.engine.estimation.stage_two import State
-from calibgui.engine.estimation.tilts import righted
-from calibgui.engine.types import Array, Assumed, BoolArray, IntArray, Size, Status
+from calibgui.engine.estimation.tilts import ProblemOf, righted
+from calibgui.engine.types import Array, Assumed, BoolArray, Cost, IntArray, Size, Status
 
 _KNOWN_BETTER = 9.0
 """Ratio of variances, doubt over data, below which a nominal value is kept."""
@@ -131,10 +130,13 @@ def _settled(part: Observations, asked: Asked, q: Array) -> _Fit | None:
     """
     quantities, free = Quantities.of(asked), asked.free
 
-    def problem_of(views: Observations, free: IntArray) -> NormalAt:
+    def problem_of(views: Observations, free: IntArray, cost: Cost = asked.cost) -> NormalAt:
         every = np.arange(len(q))
-        normal_at = problem.stage_two(views, asked.model, asked.cost, asked.scale, every)
+        normal_at = problem.stage_two(views, asked.model, cost, asked.scale, every)
         return in_quantities(normal_at, quantities, free)
+
+    def registration(views: Observations, free: IntArray) -> NormalAt:
+        return problem_of(views, free, Cost.REFERENCE)
 
     flat = replace(part, xy=part.xy[..., :2])
     M = closed_form.homographies(flat, q[2:4], 0.0)
@@ -143,7 +145,7 @@ def _settled(part: Observations, asked: Asked, q: Array) -> _Fit | None:
     for turn in range(_ROUNDS):
         estimated = np.setdiff1d(free, assumed)
         try:
-            solution = _solved(problem_of, part, state, estimated)
+            solution = _solved(problem_of, registration, part, state, estimated)
         except StartError:
             return None
         unknowns = len(estimated) + solution.normal.pose.size
@@ -221,7 +223,8 @@ def considered(S: Array, doubt: Array, held: BoolArray) -> tuple[Array, Array]:
 
 
 def _solved(
-    problem_of: Callable[[Observations, IntArray], NormalAt],
+    problem_of: ProblemOf,
+    registration: ProblemOf,
     views: Observations,
     start: State,
     free: IntArray,
@@ -229,12 +232,15 @@ def _solved(
     """The minimum, with tilts that were mistaken for their mirror images righted once."""
     data = float(np.sum(views.uv**2))
     solution = minimise(problem_of(views, free), start, free, views.count, data)
-    turned = righted(problem_of, views, solution)
+    turned = righted(problem_of, registration, views, solution)
     if turned is None:
         return solution
-    return minimise(
-        problem_of(views, free), turned, free, views.count, data, earlier=solution.history
-    )
+    try:
+        return minimise(
+            problem_of(views, free), turned, free, views.count, data, earlier=solution.history
+        )
+    except StartError:  # the lens folds there: the camera is still too far off to tell
+        return solution
 
 
 def _nominal(asked: Asked) -> Array:

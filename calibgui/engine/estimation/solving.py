@@ -80,6 +80,9 @@ def solved(
         Cancelled: from `report`.
     """
 
+    def registration(views: Observations, free: IntArray) -> NormalAt:
+        return problem_of(views, free, Cost.REFERENCE)
+
     def problem_of(views: Observations, free: IntArray, cost: Cost = cost) -> NormalAt:
         return problem.stage_two(views, model, cost, scale, free)
 
@@ -101,21 +104,28 @@ def solved(
             earlier,
         )
 
+    def registered_run(then: Callable[[State], Solution], start: State) -> Solution:
+        registered = run(start, (), free[free < _LOWER], Cost.REFERENCE, None)
+        return _weakened(then, registered.state, free)
+
     def righted_run(start: State) -> Solution:
         solution = run(start)
         for _ in range(_TURNS):
             if solution.status is Status.STOPPED:
                 break
-            turned = righted(problem_of, observations, solution)
+            turned = righted(problem_of, registration, observations, solution)
             if turned is None:
                 break
-            solution = run(turned, solution.history)
+            try:
+                solution = run(turned, solution.history)
+            except StartError:
+                other = _lower(solution, partial(registered_run, run, turned))
+                if other is solution:
+                    break
+                solution = other
         return solution
 
-    def by_way_of_the_plate() -> Solution:
-        registered = run(start, (), free[free < _LOWER], Cost.REFERENCE, None)
-        return _weakened(righted_run, registered.state, free)
-
+    by_way_of_the_plate = partial(registered_run, righted_run, start)
     direct = True
     try:
         solution = righted_run(start)

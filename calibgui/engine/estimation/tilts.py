@@ -11,7 +11,8 @@ point can lie by the wrong one.
 
 A view that is by the wrong one has residuals of the size of the perspective that it denies.
 What the outermost corners miss by under the mirrored pose says what that size is, and only
-views whose own residuals are not far below it are tried the other way round.
+views whose own residuals are not far below it are tried the other way round. Where the lens of
+the wrong camera folds before the corners of the right tilt, that is tried on the reference plane.
 """
 
 from __future__ import annotations
@@ -22,7 +23,7 @@ from dataclasses import replace
 import numpy as np
 
 from calibgui.engine.estimation.arrow import NormalAt
-from calibgui.engine.estimation.levenberg_marquardt import Solution, minimise
+from calibgui.engine.estimation.levenberg_marquardt import Solution, StartError, minimise
 from calibgui.engine.estimation.observations import Observations, boards
 from calibgui.engine.estimation.stage_two import State
 from calibgui.engine.types import IntArray
@@ -40,31 +41,45 @@ ProblemOf = Callable[[Observations, IntArray], NormalAt]
 """Stage II's problem of some views and of the camera's parameters that may move."""
 
 
-def righted(problem: ProblemOf, observations: Observations, solution: Solution) -> State | None:
+def righted(
+    problem: ProblemOf, registration: ProblemOf, observations: Observations, solution: Solution
+) -> State | None:
     """The solution's state with the tilts mirrored that fit better so; None if there are none.
 
     Args:
         problem: what the solution minimises.
+        registration: the same on the reference plane.
         observations: the views.
         solution: to be checked.
     """
     turned = mirrored(solution.state, observations)
     views = _doubtful(problem, observations, solution, turned)
     some, poses = observations.part(views), turned.part(views)
-    possible = np.isfinite(problem(some, _NONE_FREE)(poses).costs)
-    views, some, poses = views[possible], some.part(possible), poses.part(possible)
-    if not views.size:
-        return None
-    data = float(np.sum(some.uv**2))
-    found = minimise(
-        problem(some, _NONE_FREE), poses, _NONE_FREE, some.count, data, max_iterations=_ITERATIONS
-    )
-    better = found.normal.costs < (1 - _BETTER) * solution.normal.costs[views]
-    if not better.any():
-        return None
+    imaged = np.isfinite(problem(some, _NONE_FREE)(poses).costs)
     R, T = solution.state.R.copy(), solution.state.T.copy()
-    R[views[better]], T[views[better]] = found.state.R[better], found.state.T[better]
-    return State(solution.state.params, R, T)
+    turned_any = False
+    # The lens of a wrong camera can fold before the corners of the right tilt.
+    for stage, chosen in ((problem, imaged), (registration, ~imaged)):
+        which, part = views[chosen], some.part(chosen)
+        if not which.size:
+            continue
+        before = stage(part, _NONE_FREE)(solution.state.part(which)).costs
+        try:
+            found = _settled(stage, part, poses.part(chosen))
+        except StartError:
+            continue
+        better = found.normal.costs < (1 - _BETTER) * before
+        R[which[better]], T[which[better]] = found.state.R[better], found.state.T[better]
+        turned_any |= bool(better.any())
+    return State(solution.state.params, R, T) if turned_any else None
+
+
+def _settled(problem: ProblemOf, views: Observations, poses: State) -> Solution:
+    """The best poses near these, with the camera as it is."""
+    data = float(np.sum(views.uv**2))
+    return minimise(
+        problem(views, _NONE_FREE), poses, _NONE_FREE, views.count, data, max_iterations=_ITERATIONS
+    )
 
 
 def mirrored(state: State, observations: Observations) -> State:

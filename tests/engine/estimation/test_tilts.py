@@ -25,6 +25,10 @@ def problem_of(views: Observations, free: IntArray) -> NormalAt:
     return problem.stage_two(views, "lucchese", Cost.IMAGE, 1.0, free)
 
 
+def registration(views: Observations, free: IntArray) -> NormalAt:
+    return problem.stage_two(views, "lucchese", Cost.REFERENCE, 1.0, free)
+
+
 def solved(observations: Observations, start: State) -> Solution:
     data = float(np.sum(observations.uv**2))
     return minimise(problem_of(observations, FREE), start, FREE, observations.count, data)
@@ -68,11 +72,11 @@ def test_mirrored_views_are_found_and_righted(wrong: list[int]) -> None:
     R[wrong], T[wrong] = turned.R[wrong], turned.T[wrong]
     caught = solved(observations, State(best.state.params, R, T))
     assert caught.normal.cost > 1.01 * best.normal.cost
-    state = righted(problem_of, observations, caught)
+    state = righted(problem_of, registration, observations, caught)
     assert state is not None
     again = solved(observations, state)
     assert again.normal.cost == pytest.approx(best.normal.cost, rel=1e-9)
-    assert righted(problem_of, observations, again) is None
+    assert righted(problem_of, registration, observations, again) is None
 
 
 def test_nothing_is_tried_where_perspective_is_plain(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -82,7 +86,7 @@ def test_nothing_is_tried_where_perspective_is_plain(monkeypatch: pytest.MonkeyP
     monkeypatch.setattr(
         "calibgui.engine.estimation.tilts.minimise", lambda *_, **__: pytest.fail("tried")
     )
-    assert righted(problem_of, observations, best) is None
+    assert righted(problem_of, registration, observations, best) is None
 
 
 @pytest.mark.parametrize("seed", [363, 770, 1374])
