@@ -32,7 +32,6 @@ from itertools import product
 from typing import NamedTuple
 
 import numpy as np
-from scipy.optimize import brentq
 
 from calibgui.engine.frames import paper_rotation
 from calibgui.engine.types import Array, IntArray
@@ -112,6 +111,8 @@ def aspect_ratio(backward: Array, literal: bool = False) -> Array:
 
 def _searched(backward: Array) -> float:
     """The zero of g(r) on the literal grid that is closest to 1; NaN if there is none."""
+
+    from scipy.optimize import brentq  # takes long to import, which the window starts without
 
     def g(r: float) -> float:
         return float(cosines_equation(backward, np.array([r]), literal=True)[0])

@@ -16,7 +16,6 @@ from __future__ import annotations
 from dataclasses import replace
 
 import numpy as np
-from scipy.optimize import brentq
 
 from calibgui.engine.estimation.observations import Observations
 from calibgui.engine.types import Array
@@ -51,6 +50,8 @@ def model_variance(observations: Observations, residual: Array, unknowns: int) -
     r, C = residual[places], observations.cov[places]
     values, axes = np.linalg.eigh(C)
     along = (np.swapaxes(axes, -1, -2) @ r[..., None])[..., 0] ** 2
+
+    from scipy.optimize import brentq  # takes long to import, which the window starts without
 
     def excess(tau2: float) -> float:
         return float(np.sum(along / (values + tau2))) - freedom
