@@ -6,8 +6,8 @@ from collections.abc import Callable
 from typing import Any
 
 from PySide6.QtCore import Qt
-from PySide6.QtGui import QAction, QKeySequence
-from PySide6.QtWidgets import QDialog, QWidget
+from PySide6.QtGui import QAction, QIcon, QKeySequence
+from PySide6.QtWidgets import QDialog, QDialogButtonBox, QWidget
 
 
 def make_action(
@@ -40,6 +40,16 @@ def make_action(
     action.setShortcutContext(scope)
     action.triggered.connect(lambda: does())
     return action
+
+
+def closing(dialog: QDialog) -> QDialogButtonBox:
+    """A row of buttons with one that closes `dialog`; Enter is left to the others."""
+    buttons = QDialogButtonBox(QDialogButtonBox.StandardButton.Close)
+    close = buttons.button(QDialogButtonBox.StandardButton.Close)
+    close.setIcon(QIcon())  # the style's is black in the dark, too
+    close.setAutoDefault(False)
+    buttons.rejected.connect(dialog.reject)
+    return buttons
 
 
 def show_dialog(dialog: QDialog) -> None:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from functools import partial
 from typing import TypeVar, cast
 
-from PySide6.QtCore import QCoreApplication, Signal
+from PySide6.QtCore import QCoreApplication, QEvent, Signal
 from PySide6.QtWidgets import (
     QComboBox,
     QHBoxLayout,
@@ -210,6 +210,11 @@ class Analysis(QWidget):
             self.tr("Views or board have changed since: calibrate again.") if old else ""
         )
         self.state.setStyleSheet(f"color: {theme.current().warning}")
+
+    def changeEvent(self, event: QEvent) -> None:  # noqa: N802 - Qt's name
+        super().changeEvent(event)
+        if event.type() == QEvent.Type.PaletteChange and hasattr(self, "state"):
+            self._show_state()
 
     def _show_result(self, result: Result | None) -> None:
         self._list_results()

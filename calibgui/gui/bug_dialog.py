@@ -17,6 +17,7 @@ from PySide6.QtWidgets import (
 
 from calibgui.formats.result import installed_versions
 from calibgui.gui import theme
+from calibgui.gui.actions import closing
 
 
 def describe(error: BaseException) -> str:
@@ -42,12 +43,11 @@ class BugDialog(QDialog):
         self.details.setReadOnly(True)
         self.details.setFont(theme.fixed_font())
         self.details.setLineWrapMode(QPlainTextEdit.LineWrapMode.NoWrap)
-        buttons = QDialogButtonBox(QDialogButtonBox.StandardButton.Close)
+        buttons = closing(self)
         self.copy = buttons.addButton(self.tr("&Copy"), QDialogButtonBox.ButtonRole.ActionRole)
         self.copy.clicked.connect(
             lambda: QGuiApplication.clipboard().setText(self.details.toPlainText())
         )
-        buttons.rejected.connect(self.reject)
         layout = QVBoxLayout(self)
         layout.addWidget(words)
         layout.addWidget(self.details, 1)

@@ -70,6 +70,8 @@ class ImagePage(QWidget):
         self.canvas.hovered.connect(self._hovered)
         self.canvas.stepped.connect(session.select_next)
         self.canvas.picked.connect(lambda corner: session.select(session.image, corner))
+        for changes_axes in (self.marker.corner_bar.turn, self.marker.corner_bar.flip):
+            changes_axes.clicked.connect(lambda: self.layers[Layer.ORDER].setChecked(True))
         session.selected.connect(self._selected)
         session.renewed.connect(lambda image: self._load(image) if image == session.image else None)
         session.changed.connect(self._project_changed)

@@ -25,6 +25,7 @@ from calibgui.app.printable_target import PAPERS, Sheet, paper_for, settled, she
 from calibgui.engine.errors import CalibrationError
 from calibgui.engine.types import Target
 from calibgui.gui import theme
+from calibgui.gui.actions import closing
 from calibgui.gui.pattern_choice import PatternChoice
 
 _DEFAULT = Target(7, 10, 25.0)
@@ -91,12 +92,12 @@ class PrintDialog(QDialog):
             self.tr("An odd and an even number of squares\nlets every view find the same origin.")
         )
         form.addRow(self.odd_and_even)
-        buttons = QDialogButtonBox(QDialogButtonBox.StandardButton.Close)
+        buttons = closing(self)
         self.save = buttons.addButton(
             self.tr("&Save as PDF or SVG…"), QDialogButtonBox.ButtonRole.ActionRole
         )
+        self.save.setDefault(True)
         self.save.clicked.connect(self._ask_and_save)
-        buttons.rejected.connect(self.reject)
         middle = QHBoxLayout()
         middle.addLayout(form)
         middle.addWidget(self.preview, 1)

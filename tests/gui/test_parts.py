@@ -76,7 +76,9 @@ def test_sorting_by_name_status_and_error(full: MainWindow) -> None:
     assert listed(full)[0] == "0.png"
 
 
-def test_several_images_are_excluded_and_removed_by_keys(full: MainWindow, qtbot: QtBot) -> None:
+def test_several_images_are_excluded_and_removed_by_keys(
+    full: MainWindow, qtbot: QtBot, qapp: QApplication
+) -> None:
     view = full.images.list
     for row, modifier in (
         (1, Qt.KeyboardModifier.NoModifier),
@@ -90,6 +92,9 @@ def test_several_images_are_excluded_and_removed_by_keys(full: MainWindow, qtbot
     assert listed(full, Role.STATUS)[1] == "excluded"
     assert full.analysis is not None
     assert full.analysis.state.text() == "out of date"
+    theme.apply(qapp, theme.Scheme.DARK)
+    qapp.processEvents()
+    assert theme.current().warning in full.analysis.state.styleSheet()
     assert len(full.images.chosen) == 3, "an edit keeps the selection"
     qtbot.keyClick(view, Qt.Key.Key_Space)
     assert all(v.enabled for v in full.session.project.views)

@@ -25,6 +25,7 @@ from calibgui.formats.json_document import dumps
 from calibgui.formats.result_json import read_result
 from calibgui.gui import calibrating
 from calibgui.gui.image_model import Role
+from calibgui.gui.layers import Layer
 from calibgui.gui.main_window import MainWindow
 from calibgui.gui.panels.convergence import ConvergencePanel
 from calibgui.gui.panels.residuals import ResidualsPanel
@@ -175,6 +176,16 @@ def test_from_photographs_to_an_exported_camera(
 
     # A wrong corner, made by hand, is seen in the residuals.
     window.page.tools[1].trigger()
+    corner_bar, as_found = window.page.marker.corner_bar, hand.corners()
+    assert not window.page.layers[Layer.ORDER].isChecked()
+    for button, label in ((corner_bar.turn, "Turn axes"), (corner_bar.flip, "Flip axes")):
+        hand.click_button(button)
+        assert session.document.undo_label == label
+    assert window.page.layers[Layer.ORDER].isChecked(), "what was done is seen"
+    assert hand.corners().shape == as_found.shape[::-1]
+    session.document.undo()
+    session.document.undo()
+    assert hand.corners() is as_found
     right = hand.corners().uv[25].copy()
     hand.drag(right, right + np.array([5.0, 4.0]), Qt.KeyboardModifier.ControlModifier)
     assert session.document.undo_label == "Move corner"

@@ -26,6 +26,7 @@ from calibgui.formats import EXPORTERS, export
 from calibgui.formats.exporter import Exporter, ExportReport
 from calibgui.formats.result import Result
 from calibgui.gui import theme
+from calibgui.gui.actions import closing
 from calibgui.gui.jobs import Job, Jobs
 
 _NAME = "camera"
@@ -72,11 +73,9 @@ class ExportDialog(QDialog):
         columns.addLayout(right, 1)
         self.copy = QPushButton(self.tr("&Copy text"), autoDefault=False)
         self.save = QPushButton(self.tr("&Save…"), default=True)
-        buttons = QDialogButtonBox(QDialogButtonBox.StandardButton.Close)
-        buttons.button(QDialogButtonBox.StandardButton.Close).setAutoDefault(False)
+        buttons = closing(self)
         buttons.addButton(self.copy, QDialogButtonBox.ButtonRole.ActionRole)
         buttons.addButton(self.save, QDialogButtonBox.ButtonRole.ActionRole)
-        buttons.rejected.connect(self.reject)
         self.copy.clicked.connect(self._copy)
         self.save.clicked.connect(self._save)
         layout = QVBoxLayout(self)
