@@ -48,6 +48,15 @@ class Profile(NamedTuple):
     """(n,) grey level of the bright squares."""
 
 
+class _Edges(NamedTuple):
+    """What profiles are taken of: the first arguments of `across_edge`."""
+
+    image: Image
+    uv: Array
+    along: Array
+    across: Array
+
+
 def across_edge(
     image: Image,
     uv: Array,
@@ -68,9 +77,9 @@ def across_edge(
         sign: (n,) p, +1 where the square towards both steps is bright.
         plain: how far from its edges a square is of one colour, squares.
     """
-    lines = image, uv, along, across
+    edges = _Edges(image, uv, along, across)
     reach = _REACH * 2 * plain
-    first, last, total = (_compiled_levels if kernels.COMPILED else _levels)(*lines, reach)
+    first, last, total = (_compiled_levels if kernels.COMPILED else _levels)(edges, reach)
     rising = sign[:, None] * np.sign(_ALONG)
     rise = (last - first) * rising
     clear = rise > max(_CLEAR * float(np.median(rise)), 0.0)
@@ -80,70 +89,47 @@ def across_edge(
     close = np.minimum(reach, _CLOSE / size)
     middle = np.clip(reach - integral, close[:, None] - reach, reach - close[:, None])
     count = _compiled_between if kernels.COMPILED else _between
-    steep = np.median(count(*lines, middle, close, first, rise), axis=1)
+    steep = np.median(count(edges, middle, close, first, rise), axis=1)
     blur = size * steep * 2 * close / (_SAMPLES - 1) / _QUARTILES
     low = np.median(np.where(rising > 0, first, last), axis=1)
     high = np.median(np.where(rising > 0, last, first), axis=1)
     return Profile(spread, blur, low, high)
 
 
-def _levels(
-    image: Image, uv: Array, along: Array, across: Array, reach: float
-) -> tuple[Array, Array, Array]:
+def _levels(edges: _Edges, reach: float) -> tuple[Array, Array, Array]:
     """(n, k) grey levels at the first and last ends of the profiles, and the sum over each by the
     trapezoidal rule."""
-    middle, half = np.zeros((len(uv), len(_ALONG))), np.full(len(uv), reach)
-    values = _sampled(image, uv, along, across, middle, half)
+    n = len(edges.uv)
+    values = _sampled(edges, np.zeros((n, len(_ALONG))), np.full(n, reach))
     total = values.sum(axis=2) - values[..., [0, -1]].mean(axis=2)
     return values[..., :_ENDS].mean(axis=2), values[..., -_ENDS:].mean(axis=2), total
 
 
-def _compiled_levels(
-    image: Image, uv: Array, along: Array, across: Array, reach: float
-) -> tuple[Array, Array, Array]:
+def _compiled_levels(edges: _Edges, reach: float) -> tuple[Array, Array, Array]:
     """`_levels` by the compiled kernel."""
     from calibgui.engine.kernels import profiles
 
-    return profiles.levels(image, uv, along, across, _ALONG, reach, _SAMPLES, _ENDS)
+    return profiles.levels(*edges, _ALONG, reach, _SAMPLES, _ENDS)
 
 
-def _between(
-    image: Image,
-    uv: Array,
-    along: Array,
-    across: Array,
-    middle: Array,
-    half: Array,
-    first: Array,
-    rise: Array,
-) -> Array:
+def _between(edges: _Edges, middle: Array, half: Array, first: Array, rise: Array) -> Array:
     """(n, k) how many of the samples around `middle` lie between 25 and 75 % of the rise."""
-    values = _sampled(image, uv, along, across, middle, half)
-    share = (values - first[..., None]) / rise[..., None]
+    share = (_sampled(edges, middle, half) - first[..., None]) / rise[..., None]
     return np.asarray(((share > 0.25) & (share < 0.75)).sum(axis=2), dtype=np.float64)
 
 
 def _compiled_between(
-    image: Image,
-    uv: Array,
-    along: Array,
-    across: Array,
-    middle: Array,
-    half: Array,
-    first: Array,
-    rise: Array,
+    edges: _Edges, middle: Array, half: Array, first: Array, rise: Array
 ) -> Array:
     """`_between` by the compiled kernel."""
     from calibgui.engine.kernels import profiles
 
-    return profiles.between(image, uv, along, across, _ALONG, middle, half, _SAMPLES, first, rise)
+    return profiles.between(*edges, _ALONG, middle, half, _SAMPLES, first, rise)
 
 
-def _sampled(
-    image: Image, uv: Array, along: Array, across: Array, middle: Array, half: Array
-) -> Array:
+def _sampled(edges: _Edges, middle: Array, half: Array) -> Array:
     """(n, k, samples) grey levels from `middle` (n, k) up to `half` (n,) to both sides, in steps
     across the edge."""
     o = middle[..., None] + half[:, None, None] * np.linspace(-1, 1, _SAMPLES)
-    at = uv[:, None, None] + _ALONG[:, None, None] * along[:, None, None]
-    return sample(image, at + o[..., None] * across[:, None, None])
+    at = edges.uv[:, None, None] + _ALONG[:, None, None] * edges.along[:, None, None]
+    return sample(edges.image, at + o[..., None] * edges.across[:, None, None])
