@@ -7,9 +7,9 @@ from dataclasses import replace
 import numpy as np
 import numpy.typing as npt
 
-from calibgui.engine.corners import harris, verify
+from calibgui.engine.corners import chance, harris, verify
 from calibgui.engine.corners import roi as region
-from calibgui.engine.corners.finder import find_boards
+from calibgui.engine.corners.finder import Candidate, find_boards
 from calibgui.engine.corners.lattice import MIN_LINES, Lattice
 from calibgui.engine.corners.located import METHODS, Located, guided, locate
 from calibgui.engine.corners.ordering import (
@@ -97,10 +97,15 @@ def _automatic(
     """The wanted board, the largest that may be of the stated size if there is one, and the
     others."""
     boards: list[Located] = []
-    candidates: list[Lattice] = []
+    candidates: list[Candidate] = []
     for candidates in find_boards(grey, None if outline is None else region.enlarged(outline)):
-        tried = (locate(grey, lattice, method) for lattice in candidates)
-        boards = sorted((found for found in tried if found), key=len, reverse=True)
+        tried = ((locate(grey, one.lattice, method), one.others) for one in candidates)
+        boards = [
+            found
+            for found, junctions in tried
+            if found and chance.meaningful(found.lattice.found, junctions)
+        ]
+        boards.sort(key=len, reverse=True)
         for wanted in boards:
             if board is None or _fits(grey, wanted.lattice, board):
                 return wanted, [found for found in boards if found is not wanted]

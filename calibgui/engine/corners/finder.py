@@ -11,6 +11,7 @@ Pixel (u, v) of a level covers the block around (2u + 1/2, 2v + 1/2) of the next
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
+from dataclasses import dataclass
 
 import numpy as np
 from scipy.spatial import cKDTree
@@ -34,11 +35,20 @@ _GROWN = 8
 """How many of the largest lattices of a level are grown."""
 
 
+@dataclass(frozen=True, eq=False, slots=True)
+class Candidate:
+    """What may be a board."""
+
+    lattice: Lattice
+    others: int
+    """X-junctions seen beside its own corners in the level that it was found in."""
+
+
 def find_boards(
     image: Image,
     inside: Array | None = None,
     enough: Callable[[Lattice], bool] = large_enough,
-) -> Iterator[list[Lattice]]:
+) -> Iterator[list[Candidate]]:
     """All lattices that may be boards, largest first, in full resolution but not yet verified.
 
     As many as the image was searched for: once when a finer level could hardly add to them, and
@@ -57,13 +67,13 @@ def find_boards(
     floor = _CONTRAST * next((float(contrast) for contrast in ranges if contrast > 0), 0.0)
     if floor == 0:
         return
-    boards: list[Lattice] = []
+    boards: list[Candidate] = []
     sure = False
     for depth in reversed(range(len(levels))):
         outline = None if inside is None else (inside + 0.5) / 2**depth - 0.5
         found = _search(levels[depth], floor, outline, enough)
-        boards = _distinct([_carried(lattice, levels[:depth]) for lattice in found] + boards)
-        sure = bool(found) and all(map(_surely_all, found))
+        boards = _distinct([_carried(one, levels[:depth]) for one in found] + boards)
+        sure = bool(found) and all(_surely_all(one.lattice) for one in found)
         if sure:
             yield boards
     if not sure:
@@ -72,26 +82,27 @@ def find_boards(
 
 def _search(
     image: Image, floor: float, outline: Array | None, enough: Callable[[Lattice], bool]
-) -> list[Lattice]:
+) -> list[Candidate]:
     """Lattices large enough for a board in one level, largest first."""
     saddles = find_saddles(image, floor)
     if outline is not None:
         saddles = saddles.under(contains(outline, saddles.uv))
     passed, junctions = classify(saddles.smooth, saddles.uv, floor)
     at_junctions = saddles.under(passed)
-    grown: list[Lattice] = []
-    for lattice in find_lattices(saddles, junctions)[:_GROWN]:
-        if not any(_overlap(other, lattice) for other in grown):
-            grown.append(grow(lattice, saddles, at_junctions))
-    return [lattice for lattice in _distinct(grown) if enough(lattice)]
+    grown: list[Candidate] = []
+    for seed in find_lattices(saddles, junctions)[:_GROWN]:
+        if not any(_overlap(other.lattice, seed) for other in grown):
+            lattice = grow(seed, saddles, at_junctions)
+            grown.append(Candidate(lattice, max(len(junctions) - len(lattice), 0)))
+    return [one for one in _distinct(grown) if enough(one.lattice)]
 
 
-def _distinct(lattices: list[Lattice]) -> list[Lattice]:
+def _distinct(candidates: list[Candidate]) -> list[Candidate]:
     """Those that share no corners, the largest of those that do; largest first."""
-    kept: list[Lattice] = []
-    for lattice in sorted(lattices, key=len, reverse=True):
-        if not any(_overlap(other, lattice) for other in kept):
-            kept.append(lattice)
+    kept: list[Candidate] = []
+    for one in sorted(candidates, key=lambda one: len(one.lattice), reverse=True):
+        if not any(_overlap(other.lattice, one.lattice) for other in kept):
+            kept.append(one)
     return kept
 
 
@@ -108,8 +119,9 @@ def _surely_all(lattice: Lattice) -> bool:
     return bool(np.nanpercentile(lattice.spacing(), 5) > enough)
 
 
-def _carried(lattice: Lattice, finer: list[Image]) -> Lattice:
-    """`lattice` in the coordinates of the first of the `finer` levels, refined at each."""
+def _carried(candidate: Candidate, finer: list[Image]) -> Candidate:
+    """`candidate` in the coordinates of the first of the `finer` levels, refined at each."""
+    lattice = candidate.lattice
     uv = lattice.uv
     found = lattice.found
     spacing = lattice.spacing()[found]
@@ -118,7 +130,7 @@ def _carried(lattice: Lattice, finer: list[Image]) -> Lattice:
         uv = 2 * uv + 0.5
         width = saddle.window(np.minimum(spacing, 24.0))
         uv[found], _ = saddle.refine(image, uv[found], width, np.full(len(spacing), 2.0))
-    return Lattice(uv, lattice.dark)
+    return Candidate(Lattice(uv, lattice.dark), candidate.others)
 
 
 def contains(outline: Array, uv: Array) -> BoolArray:

@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+
+import numpy as np
+from scipy.spatial import cKDTree
 
 from calibgui.engine.corners import edges, saddle, verify
 from calibgui.engine.corners import roi as region
@@ -32,14 +35,19 @@ class Located:
 def locate(grey: Image, lattice: Lattice, method: str) -> Located | None:
     """The lattice refined, less the corners that fail, or None if it is no board.
 
-    Its gaps are tried once more, at full resolution. A corner whose squares overlap or part by
-    much has no saddle point; the edge model copes with it.
+    Its gaps are tried again at full resolution, as long as that finds more. A corner whose squares
+    overlap or part by much has no saddle point; the edge model copes with it.
     """
-    refined, at_saddle = at_saddles(grey, verify.filled(lattice, grey.shape))
-    if method == "saddle":
-        refined = refined.under(at_saddle)
-    good = verify.sound(refined, grey)
-    if not verify.credible(good, lattice.found):
+    seen = lattice
+    for _ in range(_ROUNDS):
+        refined, at_saddle = at_saddles(grey, verify.filled(seen, grey.shape))
+        if method == "saddle":
+            refined = refined.under(at_saddle)
+        good = verify.sound(refined, grey)
+        if np.count_nonzero(good) <= len(seen):
+            break
+        seen = refined.under(good)
+    if not verify.credible(int(np.count_nonzero(lattice.found & ~good)), len(lattice)):
         return None
     board = supported(refined.under(good))
     if method == "edges" and len(board) > verify.GLANCE and verify.waves(board, grey):
@@ -64,8 +72,13 @@ def guided(grey: Image, board: Board, outline: Array, method: str) -> Located | 
     lattice, missing = max(parts, key=lambda part: len(part[0]))
     if len(lattice) < max(MIN_CORNERS, lattice.found.size // 2):
         return None
-    doubtful = rejections(missing, "not found where the marked points place it")
-    return _fitted(grey, lattice, doubtful, method)
+    found = locate(grey, lattice, method)
+    if found is None:
+        return None
+    distance, _ = cKDTree(found.lattice.uv[found.lattice.found]).query(missing)
+    still = missing[distance > np.nanmedian(found.lattice.spacing()) / 2]
+    doubtful = rejections(still, "not found where the marked points place it")
+    return replace(found, rejected=(*found.rejected, *doubtful))
 
 
 def _fitted(
@@ -75,6 +88,7 @@ def _fitted(
 
     The others mislead what is taken from the whole board: without them it is fitted again.
     """
+    failed = 0
     for _ in range(_ROUNDS):
         lattice = verify.unbroken(lattice, grey) if large_enough(lattice) else lattice
         if not large_enough(lattice):
@@ -85,6 +99,9 @@ def _fitted(
         good = verify.described(fit, lattice)
         if good.all():
             return Located(lattice, tuple(rejected), fit) if verify.stepped(fit) else None
+        failed += int(np.count_nonzero(~good))
+        if not verify.credible(failed, int(np.count_nonzero(good)) + failed):
+            break
         keep = lattice.found
         keep[keep] = good
         left_out = lattice.uv[lattice.found & ~keep]

@@ -93,8 +93,8 @@ def _seeds(grey: Image, corners: Corners | None) -> list[Lattice]:
         return [_lattice(grey, corners)]
     *_, candidates = [[], *find_boards(grey, enough=lambda part: len(part) >= _FRAGMENT)]
     seeds = []
-    for lattice in candidates:
-        refined, at_saddle = at_saddles(grey, lattice)
+    for candidate in candidates:
+        refined, at_saddle = at_saddles(grey, candidate.lattice)
         refined = refined.under(at_saddle)
         if len(refined) < _FRAGMENT:
             continue

@@ -25,6 +25,8 @@ _HIGHEST = 7
 _CAUTION = 1.4
 """What a term costs in the cross-validation, as Kim and Gu (2004) advise: with 1 it takes too high
 a degree by chance now and then."""
+_OWN = 1e-6
+"""Least part of a term that those of lower degree do not have in common with it."""
 _ORDERS = ((0, 1), (1, 0), (0, 2), (2, 0))
 """Derivatives by row and by column that are needed."""
 
@@ -45,11 +47,16 @@ class Surroundings:
         order = np.argsort(degree, kind="stable")
         order = order[: max(2 * len(self._at) // 3, 1)]
         self._powers, degree = powers[order], degree[order]
-        # The terms are nested: these many make up the polynomials of one degree after another.
-        self._counts = np.searchsorted(degree, np.unique(degree[degree <= _HIGHEST]), side="right")
         x = self._at / self._half - 1
         self._table = x[..., None] ** np.arange(_HIGHEST + 1)
-        self._Q, R = np.linalg.qr(self._basis((0, 0)))
+        basis = self._basis((0, 0))
+        self._Q, R = np.linalg.qr(basis)
+        own = abs(np.diag(R)) > _OWN * np.linalg.norm(basis, axis=0)
+        if not own.all():  # where lines have gaps the corners do not tell all terms apart
+            self._powers, degree = self._powers[own], degree[own]
+            self._Q, R = np.linalg.qr(basis[:, own])
+        # The terms are nested: these many make up the polynomials of one degree after another.
+        self._counts = np.searchsorted(degree, np.unique(degree[degree <= _HIGHEST]), side="right")
         inverse = np.linalg.inv(R)
         self._derivatives = np.stack([self._basis(order) @ inverse for order in _ORDERS])
 

@@ -5,7 +5,7 @@ After refinement at full resolution every corner must
 - lie where its neighbours on the lattice expect it (regularity),
 - look like a corner and like the board's others (`appearance`).
 Corners that fail are left out; so many failures that the rest no longer holds together, or a
-rest too small, condemn the board.
+rest too small, condemn the board. So does a rest that `chance` explains.
 """
 
 from __future__ import annotations
@@ -64,6 +64,8 @@ _PRESENT = 0.4
 """Least difference of neighbouring squares over the contrast of the board's corners."""
 _LEAST = 3
 """Places in the image that can show where a board ends."""
+_SPARSE = 1 / 3
+"""Share of a border line's places below which its corners are doubted."""
 _MOSTLY = 0.6
 """Share of a line's places in the image that must show the end."""
 
@@ -81,9 +83,9 @@ def sound(lattice: Lattice, image: Image, plain: float = 0.5) -> BoolArray:
     return np.asarray(good & ~irregular)
 
 
-def credible(good: BoolArray, found: BoolArray) -> bool:
-    """Whether enough of the corners found are good for their board to be trusted."""
-    return bool(np.count_nonzero(found & ~good) <= _FAILING * np.count_nonzero(found))
+def credible(failing: int, found: int) -> bool:
+    """Whether few enough of the corners found fail for their board to be trusted."""
+    return failing <= _FAILING * found
 
 
 def unbroken(lattice: Lattice, image: Image) -> Lattice:
@@ -108,7 +110,18 @@ def unbroken(lattice: Lattice, image: Image) -> Lattice:
         kept[borders[int(np.argmax(excess))]] = False
     if np.count_nonzero(broken & kept) > _BROKEN * np.count_nonzero(lattice.found & kept):
         kept[:] = False
-    return supported(lattice.under(kept))
+    return _without_strays(supported(lattice.under(kept)), image)
+
+
+def _without_strays(lattice: Lattice, image: Image) -> Lattice:
+    """The lattice without border lines of few corners before which the board is seen to end."""
+    for k in range(4):
+        turn = turned(lattice, k)
+        if len(turn.uv) and np.count_nonzero(turn.found[0]) < _SPARSE * turn.shape[1]:
+            rest = supported(Lattice(turn.uv[1:], not turn.dark))
+            if len(rest) and _ends_above(rest, image, _PRESENT * typical(rest, image).contrast):
+                lattice = turned(rest, -k)
+    return lattice
 
 
 def _broken(lattice: Lattice, image: Image) -> BoolArray:

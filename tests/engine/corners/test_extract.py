@@ -205,6 +205,27 @@ def test_marked_points_guide_to_a_board_too_damaged_to_find(draw: Any) -> None:
     np.testing.assert_allclose(corners.uv, truth_of(corners, drawn.uv), atol=0.5)
 
 
+@pytest.mark.parametrize("share", [0.2, 0.35])
+@pytest.mark.parametrize("level", [40, 128, 210])
+def test_marked_points_guide_past_corners_that_are_blotted_out(
+    draw: Any, share: float, level: int
+) -> None:
+    for seed in range(3):
+        rng = np.random.default_rng(seed)
+        drawn = draw((6, 9), tilt=(0.1, 0.05), noise=3.0, turn=7.0 * seed)
+        hidden = np.zeros((6, 9), np.bool_)
+        hidden.flat[rng.permutation(54)[: int(54 * share)]] = True
+        image = drawn.image.copy()
+        v, u = np.indices(image.shape)
+        for corner in drawn.uv[hidden]:
+            image[np.hypot(u - corner[0], v - corner[1]) < 15] = level
+        roi = drawn.uv[[0, 0, -1, -1], [0, -1, -1, 0]] + rng.uniform(-4, 4, (4, 2))
+        corners = find_corners(image, (6, 9), roi=roi)
+        assert not hidden[corners.grid[:, 0], corners.grid[:, 1]].any()
+        assert len(corners) >= 0.9 * np.count_nonzero(~hidden)
+        np.testing.assert_allclose(corners.uv, truth_of(corners, drawn.uv), atol=0.05)
+
+
 def test_arguments_without_sense_are_refused(draw: Any) -> None:
     image = draw().image
     with pytest.raises(ValueError, match="method"):
