@@ -25,8 +25,8 @@ _SIGNS = np.array([(1, 1), (-1, -1), (1, -1), (-1, 1)])
 _SECTORS = np.array([(i * a, j * b) for i, j in _SIGNS for b in _INSIDE for a in _INSIDE])
 _AROUND = np.array([-0.3, -0.2, -0.1, 0.1, 0.2, 0.3])
 """Where a corner's surroundings are compared, steps both ways."""
-_PLACES = np.array([(a, b) for a in _AROUND for b in _AROUND])
-_EVEN = np.linalg.qr(np.column_stack([np.ones(len(_PLACES)), _PLACES]))[0]
+PLACES = np.array([(a, b) for a in _AROUND for b in _AROUND])
+_EVEN = np.linalg.qr(np.column_stack([np.ones(len(PLACES)), PLACES]))[0]
 """(k, 3) orthonormal: what even light and its gradient do there."""
 _CLEAR = 0.25
 """Least gap between the dark and the bright sectors over their difference."""
@@ -86,7 +86,7 @@ def typical(lattice: Lattice, image: Image, plain: float = 0.5) -> Look:
     corners = placed(lattice, plain)
     _, contrast = sectors(image, *corners)
     surroundings = _surroundings(image, *corners)
-    pattern = _standard(np.median(surroundings, axis=0))
+    pattern = standard(np.median(surroundings, axis=0))
     unlike = 1 - np.mean(surroundings * pattern, axis=1)
     return Look(float(np.median(contrast)), pattern, float(np.median(unlike)))
 
@@ -134,7 +134,7 @@ def _sectors(image: Image, uv: Array, right: Array, down: Array) -> Array:
 def _surroundings(image: Image, uv: Array, right: Array, down: Array, dark: BoolArray) -> Array:
     """(n, k) grey levels around corners, mirrored where the first squares are not dark."""
     right = np.where(dark[:, None], right, -right)
-    return _standard(_around(image, uv, right, down, _PLACES))
+    return standard(_around(image, uv, right, down, PLACES))
 
 
 def _around(image: Image, uv: Array, right: Array, down: Array, places: Array) -> Array:
@@ -154,7 +154,7 @@ def _around(image: Image, uv: Array, right: Array, down: Array, places: Array) -
     return sample(image, at)
 
 
-def _standard(values: Array) -> Array:
+def standard(values: Array) -> Array:
     """`values` (..., k) less what light that varies linearly explains, over the rest's standard
     deviation."""
     rest = values - values @ _EVEN @ _EVEN.T

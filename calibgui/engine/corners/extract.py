@@ -114,7 +114,8 @@ def _automatic(
     if candidates:
         raise NoBoardError(
             "What looks like a checkerboard is not regular enough to be trusted.",
-            "Mark its four outermost corners, or leave this picture out.",
+            "Mark its four outermost corners, or leave this picture out. For a grid of circles,"
+            " state that target.",
         )
     raise NoBoardError(
         "No checkerboard was found.",

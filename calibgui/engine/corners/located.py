@@ -9,6 +9,7 @@ from scipy.spatial import cKDTree
 
 from calibgui.engine.corners import edges, saddle, verify
 from calibgui.engine.corners import roi as region
+from calibgui.engine.corners.crossing import crossed
 from calibgui.engine.corners.edges import Fit
 from calibgui.engine.corners.lattice import MIN_CORNERS, Lattice, large_enough, supported
 from calibgui.engine.opencv import Image
@@ -91,7 +92,7 @@ def _fitted(
     failed = 0
     for _ in range(_ROUNDS):
         lattice = verify.unbroken(lattice, grey) if large_enough(lattice) else lattice
-        if not large_enough(lattice):
+        if not (large_enough(lattice) and crossed(lattice, grey)):
             break
         if method == "saddle":
             return Located(lattice, tuple(rejected), None)

@@ -23,6 +23,7 @@ from scipy import ndimage
 
 from calibgui.engine.corners import edges, verify
 from calibgui.engine.corners.appearance import placed, sectors, typical
+from calibgui.engine.corners.crossing import crossed
 from calibgui.engine.corners.edges import Fit
 from calibgui.engine.corners.extract import grey_levels, record
 from calibgui.engine.corners.finder import find_boards
@@ -127,7 +128,7 @@ def _completed(
         found = _located(grey, calibration, grown, kept)
     except CalibrationError:  # too little, or nothing that a camera sees
         return None
-    if found is None or (corners is None and not _trusted(calibration, found)):
+    if found is None or (corners is None and not _trusted(grey, calibration, found)):
         return None
     part = crop(found.lattice)
     if known:
@@ -229,7 +230,7 @@ def _moved(lattice: Lattice, fit: Fit, good: BoolArray) -> Lattice:
     return Lattice(uv, lattice.dark).under(found)
 
 
-def _trusted(calibration: Calibration, found: Located) -> bool:
+def _trusted(grey: Image, calibration: Calibration, found: Located) -> bool:
     """Whether it shows a board of this camera beyond doubt."""
     assert found.fit is not None
     every = np.ones(len(found), dtype=np.bool_)
@@ -238,5 +239,6 @@ def _trusted(calibration: Calibration, found: Located) -> bool:
     return (
         large_enough(crop(found.lattice))
         and verify.stepped(found.fit)
+        and crossed(found.lattice, grey)
         and bool(np.sqrt(view.tau2) <= _WORSE * usual)
     )
