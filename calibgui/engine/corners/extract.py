@@ -94,8 +94,8 @@ def grey_levels(image: npt.ArrayLike) -> Image:
 def _automatic(
     grey: Image, board: Board | None, outline: Array | None, method: str
 ) -> tuple[Located, list[Located]]:
-    """The wanted board, the largest that may be of the stated size if there is one, and the
-    others."""
+    """The wanted board, that with the most edge of those that may be of the stated size if there
+    is one, and the others."""
     boards: list[Located] = []
     candidates: list[Candidate] = []
     for candidates in find_boards(grey, None if outline is None else region.enlarged(outline)):
@@ -105,7 +105,7 @@ def _automatic(
             for found, junctions in tried
             if found and chance.meaningful(found.lattice.found, junctions)
         ]
-        boards.sort(key=len, reverse=True)
+        boards.sort(key=lambda found: found.edge, reverse=True)
         for wanted in boards:
             if board is None or _fits(grey, wanted.lattice, board):
                 return wanted, [found for found in boards if found is not wanted]

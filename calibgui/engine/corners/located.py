@@ -32,6 +32,11 @@ class Located:
     def __len__(self) -> int:
         return len(self.lattice)
 
+    @property
+    def edge(self) -> float:
+        """Length of edge at its corners, px: how much its image tells."""
+        return float(np.nansum(self.lattice.spacing()[self.lattice.found]))
+
 
 def locate(grey: Image, lattice: Lattice, method: str) -> Located | None:
     """The lattice refined, less the corners that fail, or None if it is no board.

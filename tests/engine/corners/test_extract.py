@@ -132,6 +132,15 @@ def test_a_stated_board_of_much_smaller_squares_is_searched_for(draw: Any) -> No
     assert [seen.shape for seen in corners.others] == [(4, 5)]
 
 
+def test_a_small_picture_of_a_board_is_not_preferred_to_the_board(draw: Any) -> None:
+    """As on a screen that shows what the camera sees, with some corners more."""
+    image = draw((5, 7), (640, 400), step=40.0, shift=(-120.0, 0.0)).image.copy()
+    image[:200, 470:] = draw((6, 8), (170, 200), step=12.0, turn=5.0).image
+    corners = find_corners(image)
+    assert corners.shape == (5, 7)
+    assert [seen.shape for seen in corners.others] == [(6, 8)]
+
+
 def test_a_part_too_large_for_the_stated_board_is_told_as_a_part(draw: Any) -> None:
     image = draw((6, 9), shift=(190.0, 0.0)).image
     with pytest.raises(NoBoardError, match="at least 6 x 8 inner corners, not 4 x 5"):
