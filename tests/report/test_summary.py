@@ -13,7 +13,7 @@ from calibgui.engine.types import Observation, Plate, PlateModel, Pose, Status, 
 from calibgui.formats.result import Result
 from calibgui.report.summary import Tone, about_plate, outlying_views, summary
 from tests.engine import scenes
-from tests.engine.estimation.test_assumed import in_one_spot
+from tests.engine.degenerate_scenes import LONG, in_one_spot
 
 CAMERA = scenes.barrel()
 
@@ -55,7 +55,7 @@ def test_a_plate_that_noise_feigns_is_told_from_one_that_is_bent() -> None:
 
 
 def test_corners_in_one_spot_are_said_to_be() -> None:
-    made = in_one_spot(scenes.barrel(focal=900.0))
+    made = in_one_spot(LONG)
     noisy = made.noisy(0.02, np.random.default_rng(0))
     views = tuple(View(f"{k}.png", ViewStatus.FOUND, points=v) for k, v in enumerate(noisy))
     result = Result(engine.calibrate(noisy, made.size), views)

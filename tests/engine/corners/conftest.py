@@ -93,3 +93,9 @@ def draw_board(
     for _ in range(100):
         uv = uv + target - ideal(uv)
     return Scene(np.clip(np.rint(image), 0, 255).astype(np.uint8), uv)
+
+
+def random_squares(seed: int, side: int, shape: tuple[int, int]) -> NDArray[np.uint8]:
+    """Squares of `side` px, dark or bright by chance, in an image (h, w) at most."""
+    dark = np.random.default_rng(seed).random((shape[0] // side, shape[1] // side)) < 0.5
+    return np.kron(255 * dark, np.ones((side, side))).astype(np.uint8)

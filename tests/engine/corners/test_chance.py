@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 from calibgui.engine.corners import find_corners
 from calibgui.engine.corners.chance import meaningful
 from calibgui.engine.errors import NoBoardError
+from tests.engine.corners.conftest import random_squares
 
 
 @given(hnp.arrays(np.bool_, st.tuples(st.integers(1, 6), st.integers(1, 6))), st.integers(0, 5000))
@@ -36,14 +37,10 @@ def test_small_boards_count_where_little_else_is_seen() -> None:
     assert not meaningful(ragged, 1)
 
 
-def random_squares(seed: int, side: int, shape: tuple[int, int]) -> NDArray[np.uint8]:
-    dark = np.random.default_rng(seed).random((shape[0] // side, shape[1] // side)) < 0.5
-    return np.kron(255 * dark, np.ones((side, side))).astype(np.uint8)
-
-
 @pytest.mark.parametrize(
     ("seed", "side", "shape"),
     [
+        *((1, side, (900, 1200)) for side in (6, 10, 17)),
         # Some of those in which a dozen corners or more hang together.
         *((seed, 12, (480, 640)) for seed in (0, 25, 45)),
         *((seed, 10, (3000, 4000)) for seed in (0, 6, 10)),

@@ -16,6 +16,7 @@ from numpy.typing import NDArray
 from calibgui.engine.corners import edges, find_corners, finder, growth, junctions
 from calibgui.engine.errors import NoBoardError
 from tests.benchmarks.corner_scenes import Conditions, draw
+from tests.engine.corners.conftest import random_squares
 
 SHAPE = (900, 1200)
 V, U = np.mgrid[: SHAPE[0], : SHAPE[1]]
@@ -25,11 +26,6 @@ def checkers(period: float, angle: float = 0.0) -> NDArray[np.uint8]:
     c, s = np.cos(np.radians(angle)), np.sin(np.radians(angle))
     x, y = c * U + s * V, c * V - s * U
     return (255 * ((np.floor(x / period) + np.floor(y / period)) % 2)).astype(np.uint8)
-
-
-def random_squares(side: int) -> NDArray[np.uint8]:
-    few = np.random.default_rng(1).integers(0, 2, (SHAPE[0] // side, SHAPE[1] // side))
-    return np.kron(255 * few, np.ones((side, side))).astype(np.uint8)
 
 
 def many_boards() -> NDArray[np.uint8]:
@@ -49,7 +45,7 @@ HOSTILE: dict[str, Callable[[], NDArray[Any]]] = {
     "moire": lambda: (127 + 60 * np.sin(U * U / 2e3) + 60 * np.sin(V * V / 2e3)).astype(np.uint8),
     "sine grid": lambda: (127 + 120 * np.sin(U / 9) * np.sin(V / 9)).astype(np.uint8),
     "dot screen": lambda: (255 * (np.hypot(U % 12 - 6, V % 12 - 6) < 4)).astype(np.uint8),
-    "random squares": lambda: random_squares(10),
+    "random squares": lambda: random_squares(1, 10, SHAPE),
     "many boards": many_boards,
 }
 
@@ -125,12 +121,6 @@ def test_saturated_halves() -> None:
     image[:, 150:] = 65535
     with pytest.raises(NoBoardError):
         find_corners(image)
-
-
-@pytest.mark.parametrize("side", [6, 10, 17])
-def test_squares_at_random_are_no_board(side: int) -> None:
-    with pytest.raises(NoBoardError):
-        find_corners(random_squares(side))
 
 
 @pytest.mark.parametrize(("period", "slant"), [(4.0, 0.0), (7.0, 0.1), (12.0, 0.2)])

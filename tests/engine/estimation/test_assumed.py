@@ -6,7 +6,6 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from scipy.spatial.transform import Rotation
 
 from calibgui.engine.calibrate import calibrate
 from calibgui.engine.errors import DegenerateError
@@ -20,58 +19,26 @@ from calibgui.engine.types import (
     Degeneracy,
     Diagnosis,
     Observation,
-    Pose,
     Status,
 )
+from tests.engine.degenerate_scenes import (
+    LONG,
+    in_one_spot,
+    one_view,
+    parallel,
+    turned_in_place,
+)
 from tests.engine.scenes import (
-    BOARD,
     Scene,
     barrel,
     brown,
     central_differences,
-    looking,
     relative,
     scene,
-    seen,
     stored,
 )
 
-LONG = barrel(focal=900.0)
-"""Far from as long as its image is wide, which is what is assumed."""
 NOISES = [0.0, 0.05, 0.3, 1.0]
-
-
-def turned_in_place(camera: Camera, tilt: float) -> Scene:
-    """A board turned about its own normal, its middle where it was."""
-    first = looking(camera, np.random.default_rng(3), (tilt, tilt), fill=(0.5, 0.5), towards=40)
-    R = Rotation.from_rotvec(np.array(first.rvec))
-    middle = np.append(BOARD.points().mean(axis=0), 0.0)
-    poses = []
-    for angle in (0, 20, 45, 80, 130):
-        turned = R * Rotation.from_euler("z", angle, degrees=True)
-        poses.append(Pose(turned.as_rotvec(), first.tvec + R.apply(middle) - turned.apply(middle)))
-    return seen(camera, poses)
-
-
-def in_one_spot(camera: Camera) -> Scene:
-    """Small boards in all tilts, low on the right of the image."""
-    rng = np.random.default_rng(1)
-    aim = (np.array(camera.size) * 0.7 - camera.centre) / camera.focal
-    poses = []
-    for _ in range(8):
-        pose = looking(camera, rng, (20, 40), fill=(0.15, 0.2))
-        R = Rotation.from_rotvec(np.array(pose.rvec)).as_matrix()[:, :2]
-        middle = R @ BOARD.points().mean(axis=0)
-        poses.append(Pose(pose.rvec, (middle + pose.tvec)[2] * np.append(aim, 1.0) - middle))
-    return seen(camera, poses)
-
-
-def parallel(camera: Camera, tilt: float) -> Scene:
-    rng = np.random.default_rng(1)
-    return seen(
-        camera,
-        [looking(camera, rng, (tilt, tilt), fill=(0.4, 0.7), towards=40) for _ in range(5)],
-    )
 
 
 def partial(made: Scene, noise: float, seed: int = 3, **settings: object) -> Calibration:
@@ -150,8 +117,7 @@ def test_turned_about_its_normal(noise: float, tilt: float) -> None:
 @pytest.mark.parametrize("towards", [0.0, 40.0, 90.0])
 @pytest.mark.parametrize("noise", NOISES)
 def test_one_tilted_view_determines_the_focal_length(noise: float, towards: float) -> None:
-    pose = looking(LONG, np.random.default_rng(1), (35, 35), fill=(0.7, 0.7), towards=towards)
-    found = partial(seen(LONG, [pose]), noise)
+    found = partial(one_view(LONG, towards), noise)
     assert diagnosis(found).kind is Degeneracy.ONE_VIEW
     assert_true(found, LONG)
     assert found.sigma[0] < 0.15 * LONG.params[0]
@@ -172,7 +138,7 @@ def test_one_spot_determines_the_focal_length_but_not_the_lens(noise: float) -> 
 
 
 def test_copies_count_once() -> None:
-    made = seen(LONG, [looking(LONG, np.random.default_rng(1), (35, 35), towards=40)])
+    made = one_view(LONG)
     views = made.noisy(0.1, np.random.default_rng(2))
     ten, one = partly(views * 10, made), partly(views, made)
     assert diagnosis(ten).kind is Degeneracy.COPIES

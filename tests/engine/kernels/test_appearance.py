@@ -17,8 +17,8 @@ def test_the_same_grey_levels_around_corners(dtype: type, monkeypatch: pytest.Mo
     right, down = rng.uniform(-20, 20, (2, 300, 2))
     arguments = image, uv, right, down
     sectors = appearance._sectors(*arguments)
-    around = appearance._around(*arguments, appearance._PLACES)
+    around = appearance._around(*arguments, appearance.PLACES)
     monkeypatch.setattr(kernels, "COMPILED", False)
-    expected = appearance._around(*arguments, appearance._PLACES)
+    expected = appearance._around(*arguments, appearance.PLACES)
     np.testing.assert_allclose(sectors, appearance._sectors(*arguments), rtol=1e-9)
     np.testing.assert_allclose(around, expected, rtol=1e-9)

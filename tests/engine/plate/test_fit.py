@@ -8,7 +8,7 @@ import pytest
 from calibgui.engine.calibrate import calibrate
 from calibgui.engine.errors import CalibrationError, DegenerateError
 from calibgui.engine.types import Observation, PlateModel
-from tests.engine.estimation.test_assumed import LONG, in_one_spot, parallel
+from tests.engine.degenerate_scenes import LONG, in_one_spot, parallel
 from tests.engine.scenes import BOARD, Scene, scene
 
 
