@@ -14,6 +14,7 @@ from calibgui import engine
 from calibgui.app.marking import removed
 from calibgui.app.settings import USUAL, Settings
 from calibgui.engine.errors import CalibrationError, DegenerateError
+from calibgui.engine.estimation.degeneracy import copies
 from calibgui.engine.quality.screening import screen
 from calibgui.engine.quality.validation import choose_plate
 from calibgui.engine.quality.view_weights import calibrate_weighted
@@ -126,17 +127,15 @@ def _partly(corner_set: CornerSet, settings: Settings, report: Report | None) ->
 
 def _each_once(corner_set: CornerSet) -> tuple[View, ...]:
     """The views, of which those are left out that repeat another's very corners, unless all do."""
-    first: dict[bytes, View] = {}
-    views = []
-    for view in corner_set.views:
-        if view.usable:
-            uv, xy, _ = view.observation(corner_set.target)
-            original = first.setdefault(uv.tobytes() + xy.tobytes(), view)
-            if original is not view:
-                reason = f"A copy of {original.image}, which counts once."
-                view = replace(view, enabled=False, reason=reason)
-        views.append(view)
-    return tuple(views) if len(first) > 1 else corner_set.views
+    views = list(corner_set.views)
+    usable = [k for k, view in enumerate(views) if view.usable]
+    like = copies(views[k].observation(corner_set.target)[:2] for k in usable)
+    for k, first in zip(usable, like.tolist(), strict=True):
+        original = usable[first]
+        if original != k and like.any():
+            reason = f"A copy of {views[original].image}, which counts once."
+            views[k] = replace(views[k], enabled=False, reason=reason)
+    return tuple(views)
 
 
 def _with_covariances(

@@ -79,7 +79,7 @@ def find_views(
         method: of locating corners, one of ``corners.METHODS``.
         pattern: of the target; what it leaves open is inferred over the whole set.
         preparing: called if the corner finder has to be prepared for its first use, which takes
-            some `workers.PREPARING_SECONDS`.
+            some `kernels.FINDER_SECONDS`.
 
     Raises:
         Cancelled: if `stop` was set.

@@ -31,8 +31,6 @@ R = TypeVar("R")
 _POLL = 0.05
 """Seconds between looks at `stop`."""
 _CONTEXT = multiprocessing.get_context("spawn")
-PREPARING_SECONDS = 20
-"""Compiling the kernels of the corner finder takes about that, once after an installation, s."""
 
 
 class Crashed(Exception):  # noqa: N818 - a value, never raised

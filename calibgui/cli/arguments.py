@@ -11,10 +11,10 @@ from pathlib import Path
 from calibgui.app.detection import Detection, find_views
 from calibgui.app.paths import find_images
 from calibgui.app.regions import read_regions
-from calibgui.app.workers import PREPARING_SECONDS
 from calibgui.cli.console import Console
 from calibgui.engine.corners import METHODS
 from calibgui.engine.corners.lattice import MIN_LINES
+from calibgui.engine.kernels import FINDER_SECONDS
 from calibgui.engine.targets.pattern import CHECKERBOARD, Pattern
 from calibgui.engine.types import Board
 
@@ -128,7 +128,6 @@ def search(
             method=corners,
             pattern=pattern,
             preparing=lambda: console.notice(
-                "Preparing the corner finder for its first use "
-                f"(once, about {PREPARING_SECONDS} s)…"
+                f"Preparing the corner finder for its first use (once, about {FINDER_SECONDS} s)…"
             ),
         )

@@ -23,7 +23,7 @@ from calibgui.cli.console import Console
 from calibgui.cli.targets import add_target, pattern_of
 from calibgui.engine.calibrate import HELD
 from calibgui.engine.errors import CalibrationError, DegenerateError
-from calibgui.engine.kernels import when_compiling
+from calibgui.engine.kernels import SOLVER_SECONDS, when_compiling
 from calibgui.engine.types import Cost, Plate, PlateModel, Prior
 from calibgui.formats import EXPORTERS, export, find_exporter
 from calibgui.formats.corners_json import CornerSet, read_corners
@@ -132,7 +132,7 @@ def run(options: argparse.Namespace, console: Console) -> None:
     )
     corner_set = _corner_set(options, console)
     try:
-        preparing = "Preparing the solver for its first use (once, about 8 s)…"
+        preparing = f"Preparing the solver for its first use (once, about {SOLVER_SECONDS} s)…"
         with when_compiling(lambda: console.notice(preparing)):
             result = calibrate_twice(corner_set, settings)
     except CalibrationError:

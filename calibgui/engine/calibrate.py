@@ -21,6 +21,7 @@ from calibgui.engine.estimation.degeneracy import (
     misfits,
     undetermined,
 )
+from calibgui.engine.estimation.levenberg_marquardt import Solution
 from calibgui.engine.estimation.observations import (
     REFERENCE_PITCH,
     Observations,
@@ -45,6 +46,7 @@ from calibgui.engine.types import (
     Calibration,
     Camera,
     Cost,
+    IntArray,
     Observation,
     Plate,
     PlateModel,
@@ -107,15 +109,7 @@ def calibrate(
     if cost is Cost.PAPER:
         model = "lucchese-pixels"
     plate = plate if isinstance(plate, Plate) else PlateModel(plate)
-    if plate is not PlateModel.NOMINAL and cost is not Cost.IMAGE:
-        raise CalibrationError(
-            f"The cost {cost.value!r} registers the views on a flat, nominal plate.",
-            "Use the cost 'image' with another plate.",
-        )
-    if model not in MODELS:
-        raise CalibrationError(
-            f"There is no lens model {model!r}.", f"Choose from {', '.join(MODELS)}."
-        )
+    _check_choices(cost, model, plate)
     parameters = parameter_names(model)
     held = _held(fix, free, model, parameters)
     names = names or view_names(len(views))
@@ -123,8 +117,7 @@ def calibrate(
     _check_size(observations, size, names)
     scale = REFERENCE_PITCH / pitch(observations)
     first = prealign(*in_paper_frame(observations, scale, size, names))
-    lens = MODELS[model]
-    start, values = start_of_stage_two(observations, first, size, lens, parameters, held)
+    start, values = start_of_stage_two(observations, first, size, MODELS[model], parameters, held)
     settings = {
         "cost": cost.value,
         "model": model,
@@ -139,26 +132,18 @@ def calibrate(
         observations = on_plate(observations, held_plate)
     if cost is Cost.IMAGE:  # the covariances are of corners in the image
         observations = weighted(observations)
-    if not copies(observations).any():
+    like = copies(zip(observations.uv, observations.xy, strict=True))
+    if not like.any():
         # One plane gives two equations on these.
         unheld = [name for name in PINHOLE if name not in held]
-        _refuse(observations, asked, start, unheld if len(unheld) > 2 else ())
+        _refuse(observations, like, asked, start, unheld if len(unheld) > 2 else ())
     free_indices = asked.free
     solve = partial(solved, model=model, cost=cost, scale=scale, free=free_indices, report=report)
     solution = solve(observations, start, max_iterations=max_iterations)
     if observations.whitening is not None:
         observations, solution = reweighted(observations, solution, model, solve)
-    free_names = tuple(parameters[i] for i in free_indices)
-    precision = uncertainty.precision(
-        solution.normal,
-        free_names,
-        observations.count,
-        _tolerated(Camera(size, solution.state.params, model), observations)[free_indices],
-    )
     suspects = [names[k] for k in misfits(first.rms).tolist()]
-    lost = undetermined(solution, free_names, precision, suspects)
-    if lost or in_one_spot(observations.uv, size):  # padding repeats a corner
-        _refuse(observations, asked, solution.state, lost)
+    precision = _determined(solution, observations, like, asked, suspects)
     estimate = estimated(solution, observations, precision)
     if plate is PlateModel.NOMINAL and cost is Cost.IMAGE:
         estimate = with_plate_doubt(estimate, observations, model, free_indices)
@@ -169,6 +154,45 @@ def calibrate(
         estimate = with_view_scatter(estimate, model, free_indices)
     digest = _digest(observations, settings)
     return reported(estimate, asked, precision.undetermined, digest)
+
+
+def _check_choices(cost: Cost, model: str, plate: PlateModel | Plate) -> None:
+    """Refuse a model that there is not, and a plate that the cost does not take."""
+    if plate is not PlateModel.NOMINAL and cost is not Cost.IMAGE:
+        raise CalibrationError(
+            f"The cost {cost.value!r} registers the views on a flat, nominal plate.",
+            "Use the cost 'image' with another plate.",
+        )
+    if model not in MODELS:
+        raise CalibrationError(
+            f"There is no lens model {model!r}.", f"Choose from {', '.join(MODELS)}."
+        )
+
+
+def _determined(
+    solution: Solution,
+    observations: Observations,
+    like: IntArray,
+    asked: Asked,
+    suspects: Sequence[str],
+) -> uncertainty.Precision:
+    """How precise the solution is; raises as `calibrate` if the views do not determine it.
+
+    Args:
+        solution: of Stage II.
+        observations: the views.
+        like: (K,) as from `copies`.
+        asked: of them.
+        suspects: names of the views that are `misfits`.
+    """
+    names = tuple(asked.names[i] for i in asked.free)
+    camera = Camera(asked.size, solution.state.params, asked.model)
+    tolerated = _tolerated(camera, observations)[asked.free]
+    precision = uncertainty.precision(solution.normal, names, observations.count, tolerated)
+    lost = undetermined(solution, names, precision, suspects)
+    if lost or in_one_spot(observations.uv, asked.size):  # padding repeats a corner
+        _refuse(observations, like, asked, solution.state, lost)
+    return precision
 
 
 def _check_carried(estimate: Estimate, asked: Asked, plate: PlateModel) -> None:
@@ -182,16 +206,18 @@ def _check_carried(estimate: Estimate, asked: Asked, plate: PlateModel) -> None:
         )
 
 
-def _refuse(observations: Observations, asked: Asked, state: State, lost: Sequence[str]) -> None:
+def _refuse(
+    observations: Observations, like: IntArray, asked: Asked, state: State, lost: Sequence[str]
+) -> None:
     """Raise DegenerateError with what the views do determine; return if that is everything.
 
     Args:
         observations: the views.
+        like: (K,) as from `copies`.
         asked: of them.
         state: camera and poses, as far as they are known.
         lost: focal lengths and coordinates of the centre that the views do not determine.
     """
-    like = copies(observations)
     partly = estimate_partly(observations, like, asked, state.params)
     if partly is None:
         diagnosis = diagnosed(observations, asked.size, like, state, lost)

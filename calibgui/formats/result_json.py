@@ -28,12 +28,9 @@ from calibgui.engine.lens import MODELS, Lucchese
 from calibgui.engine.quality.statistics import summarise
 from calibgui.engine.types import (
     Array,
-    Assumed,
     Calibration,
     Camera,
     Cost,
-    Degeneracy,
-    Diagnosis,
     Iteration,
     Plate,
     Pose,
@@ -44,6 +41,7 @@ from calibgui.engine.types import (
     ViewResiduals,
 )
 from calibgui.formats.corners_json import read_size
+from calibgui.formats.diagnosis_json import diagnosis_record, read_diagnosis
 from calibgui.formats.exporter import Exporter, ExportReport
 from calibgui.formats.json_document import Node, check_format, read, write
 from calibgui.formats.pattern_json import read_target, target_record
@@ -100,7 +98,7 @@ def result_record(result: Result) -> dict[str, Any]:
             "reference_px_per_mm": calibration.reference_scale,
         },
         "undetermined": [{"name": u.name, "reason": u.reason} for u in calibration.undetermined],
-        "diagnosis": _diagnosis_record(calibration.diagnosis),
+        "diagnosis": diagnosis_record(calibration.diagnosis),
         "warnings": calibration.warnings,
         "covariance": {"parameters": names, "matrix": calibration.covariance},
         "settings": calibration.settings,
@@ -125,19 +123,6 @@ def _paper_record(calibration: Calibration) -> dict[str, Any] | None:
         for column in uncertainty.paper_table(calibration)
     )
     return values | {"sigma": sigma, "sd_as_printed": printed}
-
-
-def _diagnosis_record(diagnosis: Diagnosis | None) -> dict[str, Any] | None:
-    if diagnosis is None:
-        return None
-    return {
-        "kind": diagnosis.kind,
-        "message": diagnosis.message,
-        "hint": diagnosis.hint,
-        "assumed": [
-            {"name": a.name, "value": a.value, "sigma": a.doubt} for a in diagnosis.assumed
-        ],
-    }
 
 
 def _stage_one_records(result: Result) -> list[dict[str, Any]]:
@@ -246,7 +231,7 @@ def _read_calibration(node: Node, used: list[Node]) -> Calibration:
             Undetermined(n["name"].choice(names), n["reason"].text())
             for n in node["undetermined"].items()
         ),
-        diagnosis=_read_diagnosis(node.get("diagnosis")),
+        diagnosis=read_diagnosis(node.get("diagnosis")),
         plate=_read_plate(node.get("plate")),
         plate_doubt=doubt.number() if (doubt := node.get("plate_doubt_mm")) else 0.0,
         view_scatter=scatter.number() if (scatter := node.get("view_scatter")) else 0.0,
@@ -264,21 +249,6 @@ def _read_settings(node: Node) -> dict[str, Any]:
 def _read_plate(node: Node | None) -> Plate | None:
     """The plate, which results written before plates were estimated do not have."""
     return None if node is None or node.value is None else read_plate_record(node)
-
-
-def _read_diagnosis(node: Node | None) -> Diagnosis | None:
-    """The diagnosis, which older results do not have."""
-    if node is None or node.value is None:
-        return None
-    return Diagnosis(
-        Degeneracy(node["kind"].choice(list(Degeneracy))),
-        node["message"].text(),
-        node["hint"].text(),
-        tuple(
-            Assumed(n["name"].text(), n["value"].number(), n["sigma"].number())
-            for n in node["assumed"].items()
-        ),
-    )
 
 
 def _read_camera(node: Node, model: str) -> Camera:

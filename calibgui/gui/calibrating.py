@@ -11,7 +11,7 @@ from PySide6.QtCore import QObject, Signal
 from calibgui.app.again import calibrate_twice
 from calibgui.app.project import answered, free_name
 from calibgui.engine.errors import CalibrationError
-from calibgui.engine.kernels import when_compiling
+from calibgui.engine.kernels import SOLVER_SECONDS, when_compiling
 from calibgui.engine.types import Iteration, Status
 from calibgui.formats.corners_json import CornerSet
 from calibgui.formats.result import Result
@@ -77,7 +77,9 @@ class Calibrator(QObject):
         corner_set = CornerSet(project.size, project.views, project.target)
         settings = project.settings
 
-        preparing = self.tr("Preparing the solver for its first use (once, about 8 s)…")
+        preparing = self.tr("Preparing the solver for its first use (once, about {0} s)…").format(
+            SOLVER_SECONDS
+        )
 
         def work(job: Job) -> Result:
             with when_compiling(lambda: job.rename(preparing)):

@@ -10,7 +10,7 @@ from PySide6.QtCore import QObject, Signal
 
 from calibgui.app.detection import Detection, find_views, usual_board, usual_pattern
 from calibgui.app.project import Project, with_each, without_digests
-from calibgui.app.workers import PREPARING_SECONDS
+from calibgui.engine.kernels import FINDER_SECONDS
 from calibgui.engine.types import Array, Corners, View, ViewStatus
 from calibgui.gui.jobs import Job
 from calibgui.gui.session import Session
@@ -63,7 +63,7 @@ class Detector(QObject):
         searching = self.tr("Finding corners")
         preparing = self.tr(
             "Preparing the corner finder for its first use (once, about {0} s)…"
-        ).format(PREPARING_SECONDS)
+        ).format(FINDER_SECONDS)
 
         def work(job: Job) -> Detection:
             def progress(done: int, total: int, view: View) -> None:

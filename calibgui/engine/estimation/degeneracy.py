@@ -19,7 +19,7 @@ degenerate set do determine, ``assumed.py``.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 
 import numpy as np
 
@@ -112,10 +112,9 @@ def undetermined(
     return found
 
 
-def copies(observations: Observations) -> IntArray:
-    """(K,) of each view the first with the very same corners: itself, or what it is a copy of."""
+def copies(views: Iterable[tuple[Array, Array]]) -> IntArray:
+    """(K,) of each view (uv, xy) the first with the same corners: itself, or what it copies."""
     first: dict[bytes, int] = {}
-    views = zip(observations.uv, observations.xy, strict=True)
     keys = [uv.tobytes() + xy.tobytes() for uv, xy in views]
     return np.array([first.setdefault(key, k) for k, key in enumerate(keys)], dtype=np.int64)
 
