@@ -118,11 +118,11 @@ def false_boards(count: int) -> int:
 
 
 def boardless(seed: int) -> NDArray[np.uint8]:
-    """An image without a board: noise, texture, stripes, bricks, text-like blobs, clutter."""
+    """An image without a board: noise, texture, waves, bricks, clutter, a grid of discs."""
     rng = np.random.default_rng(seed)
     shape = (480, 640)
     v, u = np.mgrid[: shape[0], : shape[1]]
-    kind = seed % 6
+    kind = seed % 7
     if kind == 0:
         image = rng.uniform(0, 255, shape)
     elif kind == 1:
@@ -135,6 +135,11 @@ def boardless(seed: int) -> NDArray[np.uint8]:
         height, width = rng.integers(10, 40), rng.integers(20, 80)
         offset = (v // height % 2) * width // 2
         image = np.where((v % height < 3) | ((u + offset) % width < 3), 220, 90).astype(float)
+    elif kind == 6:
+        turn, pitch = rng.uniform(0, np.pi), rng.uniform(12, 40)
+        x, y = ((v * np.sin(turn + a) + u * np.cos(turn + a)) / pitch for a in (0, np.pi / 2))
+        x = x + rng.integers(2) * np.floor(y) / 2  # every second row may be shifted
+        image = np.where(np.hypot(x % 1 - 0.5, y % 1 - 0.5) < rng.uniform(0.15, 0.55), 220.0, 40.0)
     else:
         image = np.full(shape, 127.0)
         for _ in range(400):
