@@ -18,6 +18,7 @@ dk = -Vk^-1 Wk^T e, roll into its neighbours. The lowest counts.
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
+from dataclasses import dataclass
 from functools import partial
 
 import numpy as np
@@ -27,7 +28,7 @@ from calibgui.engine.estimation.arrow import NormalAt, schur
 from calibgui.engine.estimation.levenberg_marquardt import Solution, StartError, minimise
 from calibgui.engine.estimation.observations import Observations
 from calibgui.engine.estimation.stage_two import State
-from calibgui.engine.estimation.tilts import righted
+from calibgui.engine.estimation.tilts import ProblemOf, righted
 from calibgui.engine.estimation.weighting import model_variance, weighted
 from calibgui.engine.types import Cost, IntArray, Iteration, Report, Status
 
@@ -79,56 +80,11 @@ def solved(
         StartError: if neither the start nor its registration reprojects the corners.
         Cancelled: from `report`.
     """
-
-    def registration(views: Observations, free: IntArray) -> NormalAt:
-        return problem_of(views, free, Cost.REFERENCE)
-
-    def problem_of(views: Observations, free: IntArray, cost: Cost = cost) -> NormalAt:
-        return problem.stage_two(views, model, cost, scale, free)
-
-    def run(
-        start: State,
-        earlier: Sequence[Iteration] = earlier,
-        free: IntArray = free,
-        cost: Cost = cost,
-        report: Report | None = report,
-    ) -> Solution:
-        return minimise(
-            problem_of(observations, free, cost),
-            start,
-            free,
-            observations.count,
-            float(np.sum(observations.uv**2)),
-            report,
-            max_iterations,
-            earlier,
-        )
-
-    def registered_run(then: Callable[[State], Solution], start: State) -> Solution:
-        registered = run(start, (), free[free < _LOWER], Cost.REFERENCE, None)
-        return _weakened(then, registered.state, free)
-
-    def righted_run(start: State) -> Solution:
-        solution = run(start)
-        for _ in range(_TURNS):
-            if solution.status is Status.STOPPED:
-                break
-            turned = righted(problem_of, registration, observations, solution)
-            if turned is None:
-                break
-            try:
-                solution = run(turned, solution.history)
-            except StartError:
-                other = _lower(solution, partial(registered_run, run, turned))
-                if other is solution:
-                    break
-                solution = other
-        return solution
-
-    by_way_of_the_plate = partial(registered_run, righted_run, start)
+    stage = _StageTwo(observations, model, cost, scale, free, report, max_iterations, earlier)
+    by_way_of_the_plate = partial(stage.registered, stage.with_tilts_righted, start)
     direct = True
     try:
-        solution = righted_run(start)
+        solution = stage.with_tilts_righted(start)
     except StartError:
         direct, solution = False, by_way_of_the_plate()
     slow = len(solution.history) - len(earlier) > _SLOW
@@ -136,9 +92,79 @@ def solved(
         return solution
     if direct:
         solution = _lower(solution, by_way_of_the_plate)
-    for start in _beside(solution, free, observations.count):
-        solution = _lower(solution, partial(righted_run, start))
+    for beside in _beside(solution, free, observations.count):
+        solution = _lower(solution, partial(stage.with_tilts_righted, beside))
     return solution
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class _StageTwo:
+    """The arguments of `solved` but for the start, and the ways from one to a minimum."""
+
+    observations: Observations
+    model: str
+    cost: Cost
+    scale: float
+    free: IntArray
+    report: Report | None
+    max_iterations: int
+    earlier: Sequence[Iteration]
+
+    def problem_of(self, views: Observations, free: IntArray) -> NormalAt:
+        """What is minimised."""
+        return problem.stage_two(views, self.model, self.cost, self.scale, free)
+
+    def registration(self, views: Observations, free: IntArray) -> NormalAt:
+        """The same on the reference plane."""
+        return problem.stage_two(views, self.model, Cost.REFERENCE, self.scale, free)
+
+    def direct(self, start: State, earlier: Sequence[Iteration] | None = None) -> Solution:
+        """Straight down, after the iterations that were earlier."""
+        earlier = self.earlier if earlier is None else earlier
+        return self._minimum(self.problem_of, start, self.free, self.report, earlier)
+
+    def registered(self, then: Callable[[State], Solution], start: State) -> Solution:
+        """First on the reference plane with the lower terms of the lens, `then` from there."""
+        lower = self.free[self.free < _LOWER]
+        registered = self._minimum(self.registration, start, lower, None, ())
+        return _weakened(then, registered.state, self.free)
+
+    def with_tilts_righted(self, start: State) -> Solution:
+        """Straight down, with tilts righted as long as there are any to be."""
+        solution = self.direct(start)
+        for _ in range(_TURNS):
+            if solution.status is Status.STOPPED:
+                break
+            turned = righted(self.problem_of, self.registration, self.observations, solution)
+            if turned is None:
+                break
+            try:
+                solution = self.direct(turned, solution.history)
+            except StartError:
+                other = _lower(solution, partial(self.registered, self.direct, turned))
+                if other is solution:
+                    break
+                solution = other
+        return solution
+
+    def _minimum(
+        self,
+        problem_of: ProblemOf,
+        start: State,
+        free: IntArray,
+        report: Report | None,
+        earlier: Sequence[Iteration],
+    ) -> Solution:
+        return minimise(
+            problem_of(self.observations, free),
+            start,
+            free,
+            self.observations.count,
+            float(np.sum(self.observations.uv**2)),
+            report,
+            self.max_iterations,
+            earlier,
+        )
 
 
 def _lower(solution: Solution, other: Callable[[], Solution]) -> Solution:
