@@ -35,7 +35,43 @@ class SettingsPanel(QWidget):
     def __init__(self, session: Session) -> None:
         super().__init__()
         self._session = session
-        self.cost = NarrowCombo()
+        self.cost = self._make_cost()
+        self.plate = PlateChoice()
+        self.robust = QCheckBox(self.tr("&Leave outliers out"))
+        self.robust.setToolTip(
+            self.tr(
+                "Remove corners and views that do not fit from the images, as by hand: undo "
+                "brings them back. The result names them."
+            )
+        )
+        self.weigh = QCheckBox(self.tr("&Weigh views by their noise"))
+        self.weigh.setToolTip(
+            self.tr(
+                "Poor views then spoil less. Best with an estimated shape of the board, which "
+                "would else pass for noise."
+            )
+        )
+        self.again = QCheckBox(self.tr("Search a&gain with the camera"))
+        self.again.setToolTip(
+            self.tr(
+                "Once the camera is known, search the images without a board and the boards found "
+                "in part again, and calibrate from what that gains."
+            )
+        )
+        self.boxes = {name: QCheckBox(name) for name in NAMES}
+        self.values = self._make_values()
+        self._lay_out()
+        choices = (self.robust, self.weigh, self.again, *self.boxes.values())
+        clicks = (box.clicked for box in choices)
+        for edited in (self.cost.activated, self.plate.changed, *clicks):
+            edited.connect(lambda: self._edit())
+        self.plate.slid.connect(lambda: self._edit(sliding=True))
+        self.plate.failed.connect(session.failed)
+        session.changed.connect(self._refresh)
+        self._refresh()
+
+    def _make_cost(self) -> NarrowCombo:
+        choice = NarrowCombo()
         for cost, text, tip in (
             (
                 Cost.IMAGE,
@@ -59,74 +95,49 @@ class SettingsPanel(QWidget):
                 self.tr("The formulation of the paper to the letter, to reproduce its tables."),
             ),
         ):
-            self.cost.addItem(text, cost)
-            self.cost.setItemData(self.cost.count() - 1, tip, 3)
-        self.cost.setAccessibleName(self.tr("Minimise"))
-        self.boxes = {name: QCheckBox(name) for name in NAMES}
-        grid = QGridLayout()
-        grid.setHorizontalSpacing(theme.SPACING)
-        for k, (name, box) in enumerate(self.boxes.items()):
-            box.setToolTip(
-                self.tr("Estimate {0}; otherwise it is held, coefficients at 0.").format(name)
-            )
-            box.clicked.connect(lambda: self._edit())
-            grid.addWidget(box, k // _PER_ROW, k % _PER_ROW)
-        self.plate = PlateChoice()
-        self.robust = QCheckBox(self.tr("&Leave outliers out"))
-        self.robust.setToolTip(
-            self.tr(
-                "Remove corners and views that do not fit from the images, as by hand: undo "
-                "brings them back. The result names them."
-            )
-        )
-        self.weigh = QCheckBox(self.tr("&Weigh views by their noise"))
-        self.weigh.setToolTip(
-            self.tr(
-                "Poor views then spoil less. Best with an estimated shape of the board, which "
-                "would else pass for noise."
-            )
-        )
-        self.again = QCheckBox(self.tr("Search a&gain with the camera"))
-        self.again.setToolTip(
-            self.tr(
-                "Once the camera is known, search the images without a board and the boards found "
-                "in part again, and calibrate from what that gains."
-            )
-        )
-        self.values = QLineEdit()
-        self.values.setPlaceholderText("fx=650, p1=0")
-        self.values.setAccessibleName(self.tr("Values of held parameters"))
-        self.values.setToolTip(
+            choice.addItem(text, cost)
+            choice.setItemData(choice.count() - 1, tip, 3)
+        choice.setAccessibleName(self.tr("Minimise"))
+        return choice
+
+    def _make_values(self) -> QLineEdit:
+        values = QLineEdit()
+        values.setPlaceholderText("fx=650, p1=0")
+        values.setAccessibleName(self.tr("Values of held parameters"))
+        values.setToolTip(
             self.tr(
                 "Parameters that are held at values of their own, as fx=650, p1=0. Of the others "
                 "that are held coefficients are 0, the centre is the image's and focal lengths "
                 "are those of the closed form."
             )
         )
-        self.values.editingFinished.connect(self._hold)
+        values.editingFinished.connect(self._hold)
+        return values
+
+    def _lay_out(self) -> None:
         label = QLabel(self.tr("&Minimise"))
         label.setBuddy(self.cost)
         label.setMinimumWidth(self.plate.known.sizeHint().width())  # in line with what follows
         first = QFormLayout()
         first.addRow(label, self.cost)
+        grid = QGridLayout()
+        grid.setHorizontalSpacing(theme.SPACING)
+        for k, (name, box) in enumerate(self.boxes.items()):
+            box.setToolTip(
+                self.tr("Estimate {0}; otherwise it is held, coefficients at 0.").format(name)
+            )
+            grid.addWidget(box, k // _PER_ROW, k % _PER_ROW)
+        last = QFormLayout()
+        last.addRow(self.tr("Held at"), self.values)
         layout = QVBoxLayout(self)
         layout.addLayout(first)
         layout.addWidget(self.plate)
-        for box in (self.robust, self.weigh, self.again):
-            layout.addWidget(box)
+        for choice in (self.robust, self.weigh, self.again):
+            layout.addWidget(choice)
         layout.addWidget(QLabel(self.tr("Estimate")))
         layout.addLayout(grid)
-        last = QFormLayout()
-        last.addRow(self.tr("Held at"), self.values)
         layout.addLayout(last)
         layout.addStretch(1)
-        choices = (self.robust.clicked, self.weigh.clicked, self.again.clicked)
-        for edited in (self.cost.activated, self.plate.changed, *choices):
-            edited.connect(lambda: self._edit())
-        self.plate.slid.connect(lambda: self._edit(sliding=True))
-        self.plate.failed.connect(session.failed)
-        session.changed.connect(self._refresh)
-        self._refresh()
 
     def _refresh(self) -> None:
         settings = self._session.project.settings
