@@ -2,8 +2,7 @@
 
 How well a parameter is determined is judged by what its standard deviation does to the image:
 a focal length or centre is good to 0.1 % of itself or of the image's width; a lens coefficient
-counts if it can be told from zero. What to photograph follows from what the views leave out:
-regions of the sensor, tilts and their directions, distances (``coverage``).
+counts if it can be told from zero. What to photograph: ``advice``.
 """
 
 from __future__ import annotations
@@ -19,10 +18,9 @@ from calibgui.engine.calibrate import parameter_names
 from calibgui.engine.estimation.degeneracy import in_one_spot
 from calibgui.engine.estimation.uncertainty import correlations
 from calibgui.engine.quality.statistics import summarise
-from calibgui.engine.types import Array, Calibration, Plate, Status
+from calibgui.engine.types import Calibration, Plate, Status
 from calibgui.formats.result import Result
-from calibgui.report import partial
-from calibgui.report.coverage import attitudes, density
+from calibgui.report import advice, partial
 from calibgui.report.numbers import counted, with_sigma
 
 _GOOD = 1e-3
@@ -34,20 +32,10 @@ _TRADED = 0.98
 """Correlation above which two lens coefficients are said to stand in for each other."""
 _OUTLYING = 2.5
 """A view's RMS over the median of all, above which it is named."""
-_TILTED = np.deg2rad(15)
-"""A board tilted less adds little to the focal length."""
-_FEW_VIEWS = 8
-_DISTANCES = 1.3
-"""Farthest over nearest board that counts as different distances."""
 _STRIKING = 1.5
 """Times that the views disagree more than noise explains, above which it asks for attention."""
 _BY_CHANCE = 1.3
 """A plate's deviation over its standard deviation below which it may be none."""
-_REGIONS = (
-    ("upper left", "top", "upper right"),
-    ("left", "middle", "right"),
-    ("lower left", "bottom", "lower right"),
-)
 
 
 class Tone(StrEnum):
@@ -274,56 +262,12 @@ def outlying_views(calibration: Calibration) -> tuple[int, ...]:
 
 def _advice(result: Result) -> Iterator[Sentence]:
     """What to photograph to improve the calibration."""
-    observations = result.observations()
-    attitude = attitudes(result.calibration, observations)
-    uv = np.concatenate([view.uv for view in observations])
-    wanted = [
-        *_empty_regions(uv, result),
-        *_missing_tilts(attitude.tilt, attitude.direction),
-    ]
-    if attitude.distance.max() < _DISTANCES * attitude.distance.min():
-        wanted.append("hold the board at different distances: all views have nearly the same")
-    if len(observations) < _FEW_VIEWS:
-        wanted.append(
-            f"take more views: {len(observations)} leave little to average and to check against"
-        )
-    for advice in wanted:
-        yield Sentence(Tone.ADVICE, f"To improve it, {advice}.")
+    wanted = advice.wanted(result)
+    for text in wanted:
+        yield Sentence(Tone.ADVICE, f"To improve it, {text}.")
     if not wanted and result.calibration.plate_doubt == 0:
         yield Sentence(
             Tone.GOOD,
             "The views cover sensor, tilts and distances; four times as many of the same kind "
             "would halve every ±.",
         )
-
-
-def _empty_regions(uv: Array, result: Result) -> Iterator[str]:
-    """Ninths of the sensor of which more than half saw no corner."""
-    cells = density(uv, result.calibration.camera.size) == 0
-    rows, cols = cells.shape
-    empty = cells.reshape(3, rows // 3, 3, cols // 3).mean(axis=(1, 3)) > 0.5
-    names = [_REGIONS[i][j] for i, j in np.argwhere(empty)]
-    if names:
-        yield (
-            f"bring the board into the image's {_joined(names)}, where few or no corners were "
-            "seen: the lens correction is extrapolated there"
-        )
-
-
-def _missing_tilts(tilt: Array, direction: Array) -> Iterator[str]:
-    tilted = direction[tilt > _TILTED]
-    if len(tilted) < 3:
-        yield (
-            "tilt the board by 30 to 45 degrees in at least three views: "
-            f"the largest tilt is {np.rad2deg(tilt.max()):.0f} degrees, and without tilt "
-            "focal length and distance cannot be told apart"
-        )
-        return
-    # Opposite tilts count as one axis: doubling the angle folds them together.
-    axes = np.abs(np.exp(2j * tilted).mean())
-    if axes > 0.9:
-        yield "tilt the board about another axis too: all tilts are about the same one"
-
-
-def _joined(names: list[str]) -> str:
-    return names[0] if len(names) == 1 else f"{', '.join(names[:-1])} and {names[-1]}"
