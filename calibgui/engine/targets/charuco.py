@@ -1,15 +1,7 @@
 """ChArUco boards: a checkerboard with a numbered marker in every white square.
 
 OpenCV reads the markers; `markers` says which of them are the board's, and thereby, where it is
-not stated, the dictionary, the size and the colours. The marker's corners, known on the plate,
-give a homography from plate to image around every inner corner, that of the nearest markers. The
-corner is expected there and found by the same means as a checkerboard's: saddle point, test of
-its place among its neighbours and of the colours around it, fit of the two edges with its
-covariance. Places beside markers that were not read are tried where the corners around expect
-them.
-
-A marker leaves only a margin of (1 - rho) / 2 squares of plain white beside the edges, rho being
-its side over a square's: nothing beyond that is looked at.
+not stated, the dictionary, the size and the colours. `between_markers` finds the inner corners.
 
 Two layouts are in use. Since OpenCV 4.6 the first square is dark on every board. Before, boards
 with an even number of rows of squares began with a white one (``legacy``).
@@ -22,34 +14,25 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
-from scipy.spatial import cKDTree
 
 from calibgui.engine import opencv
-from calibgui.engine.corners import edges, harris, saddle, verify
+from calibgui.engine.corners import harris
 from calibgui.engine.corners import roi as region
 from calibgui.engine.corners.edges import Fit
 from calibgui.engine.corners.extract import grey_levels
 from calibgui.engine.corners.lattice import Lattice
-from calibgui.engine.corners.located import rejections
 from calibgui.engine.errors import CalibrationError, NoBoardError
-from calibgui.engine.estimation import homography
 from calibgui.engine.images import stretched
 from calibgui.engine.opencv import Image
+from calibgui.engine.targets.between_markers import check_enough, expected, fitted, located
 from calibgui.engine.targets.ink import Ink, Raster
-from calibgui.engine.targets.markers import LAYOUTS, Layout, Markers
+from calibgui.engine.targets.markers import LAYOUTS, Layout
 from calibgui.engine.targets.pattern import Pattern, squares
 from calibgui.engine.targets.reader import Reader, Seen, family
 from calibgui.engine.types import Ambiguity, Array, Board, Corners, Rejection
 
-MIN_CORNERS = 6
-_NEAREST = 4
-"""Markers whose corners place an inner corner."""
-_ADJACENT = 0.8
-"""Farthest that one of them must be, squares."""
 _DIFFERENT = 0.1
 """Difference of a marker's side from the stated one that is no error of measurement, squares."""
-_ROUNDS = 4
-"""How often corners may be left out and the rest fitted again."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -157,10 +140,10 @@ class Charuco:
         if board is None and not markers.layout.first_dark and size[0] % 2 == 0:
             size = (size[0] + 1, size[1])
         plain = (1 - markers.side) / 2
-        lattice, rejected = _located(grey, _expected(markers, size, grey), plain)
+        lattice, rejected = located(grey, expected(markers, size, grey), plain)
         fit = None
         if method == "edges":
-            lattice, fit, more = _fitted(grey, lattice, plain)
+            lattice, fit, more = fitted(grey, lattice, plain)
             rejected += more
         seen = Charuco(dictionary, markers.side, legacy)
         return _record(grey, lattice, fit, outline, rejected, seen)
@@ -230,76 +213,6 @@ def _other_size(found: Board, stated: Board) -> NoBoardError:
     )
 
 
-def _expected(markers: Markers, board: Board, image: Image) -> Lattice:
-    """The inner corners beside markers where the nearest markers place them, inside the image."""
-    grid = np.indices(board).reshape(2, -1).T
-    xy = grid[:, ::-1].astype(np.float64)
-    places = markers.places
-    count = min(_NEAREST, len(places))
-    near = cKDTree(places.mean(axis=1)).query(xy, np.arange(1, count + 1))
-    distance, which = np.asarray(near[0]), np.asarray(near[1])
-    # Around the corner: a homography moves nothing else so little.
-    source = (places[which] - xy[:, None, None]).reshape(len(xy), -1, 2)
-    target = markers.corners[which].reshape(len(xy), -1, 2)
-    H = homography.dlt(source, target, np.ones(source.shape[:2]))
-    uv = homography.apply(H, np.zeros((len(xy), 1, 2)))[:, 0]
-    limit = np.array(image.shape[::-1]) - 1.0
-    seen = (distance[:, 0] < _ADJACENT) & ((uv > 0) & (uv < limit)).all(axis=1)
-    uv[~seen] = np.nan
-    layout = markers.layout
-    return Lattice(uv.reshape(*board, 2), dark=layout.first_dark)
-
-
-def _located(image: Image, expected: Lattice, plain: float) -> tuple[Lattice, list[Rejection]]:
-    """The corners that are where and as they must be, and the others."""
-    lattice = expected
-    for again in (False, True):
-        # The second time also where the corners found expect others.
-        tried = verify.filled(lattice, image.shape) if again else expected
-        known = tried.found & np.isfinite(tried.spacing())
-        tried = tried.under(known)
-        spacing = tried.spacing()[known]
-        uv, converged = tried.uv.copy(), known.copy()
-        width = saddle.window(2 * plain * spacing)
-        uv[known], converged[known] = saddle.refine(image, uv[known], width, spacing / 4)
-        moved = Lattice(uv, tried.dark).under(converged)
-        _check_enough(moved)
-        lattice = moved.under(verify.sound(moved, image, plain))
-    lost = expected.found & ~lattice.found
-    return lattice, rejections(expected.uv[lost], "off place or colours")
-
-
-def _fitted(image: Image, lattice: Lattice, plain: float) -> tuple[Lattice, Fit, list[Rejection]]:
-    """The edge model at the corners that it describes, and the others."""
-    rejected: list[Rejection] = []
-    for _ in range(_ROUNDS):
-        _check_enough(lattice)
-        fit = edges.fit(image, lattice, plain)
-        found = lattice.found
-        good = verify.described(fit, lattice)
-        if good.all():
-            if verify.stepped(fit):
-                return lattice, fit, rejected
-            break
-        rejected += rejections(lattice.uv[found][~good], "not two crossing edges")
-        found[found] = good
-        lattice = lattice.under(found)
-    raise _untrusted()
-
-
-def _check_enough(lattice: Lattice) -> None:
-    lines = [np.count_nonzero(lattice.found.any(axis=axis)) for axis in (0, 1)]
-    if len(lattice) < MIN_CORNERS or min(lines) < 2:
-        raise _untrusted()
-
-
-def _untrusted() -> NoBoardError:
-    return NoBoardError(
-        "Markers of a ChArUco board were read, but too few corners of its squares can be trusted.",
-        "Take the picture again: sharp, evenly lit, and more of the board in view.",
-    )
-
-
 def _record(
     image: Image,
     lattice: Lattice,
@@ -309,7 +222,7 @@ def _record(
     pattern: Charuco,
 ) -> Corners:
     """What is handed out."""
-    _check_enough(lattice)
+    check_enough(lattice)
     found = lattice.found
     uv = lattice.uv[found]
     corners = Corners(
