@@ -106,10 +106,19 @@ def _calibrated(corner_set: CornerSet, settings: Settings, report: Report | None
         said = (*said, _about_weights(observations, everything["names"]))
     else:
         calibration = engine.calibrate(observations, size, **everything)
-    said = (*calibration.warnings, *said, *_unplaced(used, calibration))
+    return Result(_told(calibration, used, settings, said), views, corner_set.target)
+
+
+def _told(
+    calibration: Calibration, used: Sequence[View], settings: Settings, said: Sequence[str] = ()
+) -> Calibration:
+    """The calibration with what was done about poor views, and what there is to say of it all."""
     asked = {"robust": settings.robust, "weigh_views": settings.weigh_views}
-    calibration = replace(calibration, warnings=said, settings={**calibration.settings, **asked})
-    return Result(calibration, views, corner_set.target)
+    return replace(
+        calibration,
+        warnings=(*calibration.warnings, *said, *_unplaced(used, calibration)),
+        settings={**calibration.settings, **asked},
+    )
 
 
 def _partly(corner_set: CornerSet, settings: Settings, report: Report | None) -> Result | None:
@@ -121,7 +130,9 @@ def _partly(corner_set: CornerSet, settings: Settings, report: Report | None) ->
         _calibrated(corner_set, plain, report)
     except DegenerateError as error:
         if error.partial is not None:
-            return Result(error.partial, corner_set.views, corner_set.target)
+            used = [view for view in corner_set.views if view.usable]
+            calibration = _told(error.partial, used, plain)
+            return Result(calibration, corner_set.views, corner_set.target)
     return None
 
 

@@ -1,4 +1,8 @@
-"""Calibrate a camera from photographs of a target, or from a corners.json file."""
+"""Calibrate a camera from photographs of a target, or from a corners.json file.
+
+Of views that do not determine the camera it prints and writes what they do determine, a partial
+calibration, says what to photograph, and ends with exit code 1.
+"""
 
 from __future__ import annotations
 

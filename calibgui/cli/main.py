@@ -66,7 +66,7 @@ def main(argv: Sequence[str] | None = None) -> int:
 def _run(arguments: list[str]) -> int:
     parser = argparse.ArgumentParser(
         prog="calibgui",
-        description="Geometric camera calibration from photographs of a checkerboard.",
+        description="Geometric camera calibration from photographs of a flat target.",
         epilog="calibgui COMMAND --help describes a command. Without one, calibgui [FOLDER | "
         "IMAGES | PROJECT] opens the window.",
     )

@@ -130,6 +130,14 @@ def test_views_are_weighed_by_their_noise() -> None:
         calibrate_views(spoilt, Settings(Cost.REFERENCE, weigh_views=True))
 
 
+def test_of_few_views_none_is_left_out_or_weighed_and_that_is_kept() -> None:
+    corners = noisy()
+    one = replace(corners, views=corners.views[:1])
+    found = calibrate_views(one, Settings(robust=True, weigh_views=True)).calibration
+    assert found.diagnosis is not None
+    assert (found.settings["robust"], found.settings["weigh_views"]) == (False, False)
+
+
 def test_the_best_plate_is_chosen_and_said() -> None:
     bow = 0.004 * (BOARD.points()[:, 0] - BOARD.points()[:, 0].mean()) ** 2
     bent = np.column_stack([np.zeros((len(bow), 2)), bow / 5])

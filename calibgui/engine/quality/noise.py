@@ -238,9 +238,10 @@ def _shape(relative: Array) -> Check:
 
 
 def _views(sigma: Array, freedom: Array, names: Sequence[str]) -> Check:
+    """Whether standard deviations (K,) with so many degrees of freedom (K,) differ to any use."""
     total, K = freedom.sum(), len(sigma)
     if K == 1:
-        return Check("views", True, "nothing", _BLUR, 0.0)
+        return Check("views", True, "only one", _BLUR, 0.0)
     bartlett = total * np.log(np.sum(freedom * sigma**2) / total)
     bartlett -= np.sum(freedom * np.log(sigma**2))
     bartlett /= 1 + (np.sum(1 / freedom) - 1 / total) / (3 * (K - 1))

@@ -17,19 +17,22 @@ from calibgui.engine.quality.patterns import Fitted, fitted
 from calibgui.engine.types import Array, Calibration, Observation, Size
 
 _ROUNDS = 3
-"""Of weighting the views by what the last weights left."""
+"""Of weighing the views by what the last weights left."""
 
 
 def calibrate_weighted(
     views: Sequence[Observation | tuple[Array, Array]], size: Size, **settings: Any
 ) -> tuple[Calibration, list[Observation]]:
-    """Calibrate with every view weighted by the noise that is found in it.
+    """Calibrate with every view weighed by the noise that is found in it.
 
     Args:
-        views, size, settings: as for ``calibrate``.
+        views, size, settings: as for ``calibrate``, with the cost "image".
 
     Returns:
-        The calibration, and the views with the covariances that it used.
+        The calibration, and the views with the covariances that it used, px^2.
+
+    Raises:
+        CalibrationError, DegenerateError, Cancelled: as ``calibrate``.
     """
     used = [Observation(*view) for view in views]
     result = calibrate(used, size, **settings)
