@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cache
 
 import numpy as np
 import pytest
@@ -34,12 +35,18 @@ class Scene:
         return Pose(self.rvec, np.array([*self.aside, self.distance]) - middle)
 
     def image(self, blur: float = 0.7, noise: float = 2.0, seed: int = 0) -> Image:
-        return render(self.camera, self.pose, self.target, blur=blur, noise=noise, seed=seed)
+        return _rendered(self, blur, noise, seed).copy()
 
     def error(self, corners: Corners) -> Array:
         """(n, 2) px, found minus true."""
         xy = self.target.points(corners.grid)
         return corners.uv - project_points(xy, self.camera, self.pose)
+
+
+@cache
+def _rendered(scene: Scene, blur: float, noise: float, seed: int) -> Image:
+    """Takes seconds, and several tests look at the same."""
+    return render(scene.camera, scene.pose, scene.target, blur=blur, noise=noise, seed=seed)
 
 
 @pytest.fixture
