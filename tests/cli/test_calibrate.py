@@ -43,7 +43,7 @@ def test_photographs_give_the_camera_that_took_them(
 
 
 def test_every_setting_has_its_option(corners_file: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    """The window offers the same record: see tests/gui/test_parts.py."""
+    """The window offers the same record: see tests/gui/test_settings_panel.py."""
     asked: list[Settings] = []
 
     def noted(_: object, settings: Settings) -> None:

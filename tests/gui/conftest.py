@@ -5,6 +5,7 @@ from __future__ import annotations
 import os
 import threading
 from collections.abc import Iterator
+from pathlib import Path
 
 import pytest
 
@@ -16,8 +17,10 @@ from PySide6.QtCore import QEvent, QSettings, QTimer
 from PySide6.QtWidgets import QApplication
 from pytestqt.qtbot import QtBot
 
+from calibgui.app.document import Document
 from calibgui.gui import theme
 from calibgui.gui.main_window import MainWindow
+from tests.app import examples
 
 
 @pytest.fixture(scope="session")
@@ -68,3 +71,11 @@ def window(qtbot: QtBot) -> Iterator[MainWindow]:
     window.close()
     window.deleteLater()
     QApplication.sendPostedEvents(None, QEvent.Type.DeferredDelete)
+
+
+@pytest.fixture
+def full(window: MainWindow, qtbot: QtBot, tmp_path: Path) -> MainWindow:
+    """The window with six found views, one without a board, and two results."""
+    window.session.begin(Document(examples.calibrated(tmp_path)))
+    qtbot.waitUntil(lambda: not window.session.jobs.running)
+    return window

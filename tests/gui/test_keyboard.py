@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections import defaultdict
 from collections.abc import Iterator
-from pathlib import Path
 
 import pytest
 from PySide6.QtCore import Qt
@@ -12,18 +11,9 @@ from PySide6.QtGui import QAction, QKeySequence
 from PySide6.QtWidgets import QAbstractButton, QApplication, QLabel, QMenu, QTabWidget, QWidget
 from pytestqt.qtbot import QtBot
 
-from calibgui.app.document import Document
 from calibgui.gui.analysis import PANELS
 from calibgui.gui.main_window import MainWindow
 from calibgui.gui.panels.panel import Panel
-from tests.app import examples
-
-
-@pytest.fixture
-def full(window: MainWindow, qtbot: QtBot, tmp_path: Path) -> MainWindow:
-    window.session.begin(Document(examples.calibrated(tmp_path)))
-    qtbot.waitUntil(lambda: not window.session.jobs.running)
-    return window
 
 
 def labels(window: MainWindow) -> Iterator[str]:

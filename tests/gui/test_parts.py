@@ -1,8 +1,8 @@
-"""The parts around the canvas: list, board, settings, messages, dialogs."""
+"""The parts around the canvas: board, results, messages, dialogs."""
 
 from __future__ import annotations
 
-from dataclasses import fields, replace
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -12,7 +12,6 @@ from PySide6.QtGui import QColor, QDropEvent, QGuiApplication
 from PySide6.QtWidgets import (
     QAbstractButton,
     QApplication,
-    QComboBox,
     QFileDialog,
     QInputDialog,
     QMessageBox,
@@ -23,14 +22,11 @@ from pytestqt.qtbot import QtBot
 from calibgui.app.document import Document
 from calibgui.app.project import Unit, with_each
 from calibgui.app.recent import recent_projects
-from calibgui.app.settings import Settings
 from calibgui.engine.errors import CalibrationError
-from calibgui.engine.types import Cost, Plate, PlateModel, Prior, Status, View, ViewStatus
-from calibgui.formats.plate_json import write_plate
+from calibgui.engine.types import Status, View, ViewStatus
 from calibgui.gui import theme
 from calibgui.gui.bug_dialog import BugDialog
 from calibgui.gui.help_dialog import HelpDialog
-from calibgui.gui.image_model import Role
 from calibgui.gui.main_window import MainWindow
 from calibgui.gui.panels.result import ResultPanel
 from calibgui.gui.panels.split import Split
@@ -38,72 +34,6 @@ from calibgui.gui.print_dialog import PrintDialog
 from tests.app import examples
 
 LEFT = Qt.MouseButton.LeftButton
-
-
-@pytest.fixture
-def full(window: MainWindow, qtbot: QtBot, tmp_path: Path) -> MainWindow:
-    """The window with six found views, one without a board, and two results."""
-    window.session.begin(Document(examples.calibrated(tmp_path)))
-    qtbot.waitUntil(lambda: not window.session.jobs.running)
-    return window
-
-
-def listed(window: MainWindow, role: int = Qt.ItemDataRole.DisplayRole) -> list[object]:
-    model = window.images.list.model()
-    return [model.index(row, 0).data(role) for row in range(model.rowCount())]
-
-
-def test_the_list_says_what_was_found_and_how_well_it_fits(full: MainWindow) -> None:
-    assert listed(full) == [*(f"{k}.png" for k in range(6)), "blank.png"]
-    assert listed(full, Role.STATUS) == [*["42 of 42 corners"] * 6, "no board"]
-    result = full.session.result
-    assert result is not None
-    rms = [residuals.rms for residuals in result.calibration.residuals]
-    assert listed(full, Role.RMS) == [*rms, None]
-    assert full.images.count.text() == "6 of 7 usable"
-    tip = full.images.list.model().index(6, 0).data(Qt.ItemDataRole.ToolTipRole)
-    assert "No checkerboard was found" in tip
-
-
-def test_sorting_by_name_status_and_error(full: MainWindow) -> None:
-    full.images.sorting.setCurrentIndex(2)
-    rms = [value for value in listed(full, Role.RMS) if value is not None]
-    assert rms == sorted(rms, reverse=True)
-    assert listed(full)[-1] == "blank.png"
-    full.images.sorting.setCurrentIndex(1)
-    assert listed(full, Role.STATUS)[-1] == "no board"
-    full.images.sorting.setCurrentIndex(0)
-    assert listed(full)[0] == "0.png"
-
-
-def test_several_images_are_excluded_and_removed_by_keys(
-    full: MainWindow, qtbot: QtBot, qapp: QApplication
-) -> None:
-    view = full.images.list
-    for row, modifier in (
-        (1, Qt.KeyboardModifier.NoModifier),
-        (3, Qt.KeyboardModifier.ShiftModifier),
-    ):
-        at = view.visualRect(view.model().index(row, 0)).center()
-        qtbot.mouseClick(view.viewport(), LEFT, modifier, at)
-    assert len(full.images.chosen) == 3
-    qtbot.keyClick(view, Qt.Key.Key_Space)
-    assert full.session.document.undo_label == "Exclude 3 images"
-    assert listed(full, Role.STATUS)[1] == "excluded"
-    assert full.analysis is not None
-    assert full.analysis.state.text() == "out of date"
-    theme.apply(qapp, theme.Scheme.DARK)
-    qapp.processEvents()
-    assert theme.current().warning in full.analysis.state.styleSheet()
-    assert len(full.images.chosen) == 3, "an edit keeps the selection"
-    qtbot.keyClick(view, Qt.Key.Key_Space)
-    assert all(v.enabled for v in full.session.project.views)
-    qtbot.keyClick(view, Qt.Key.Key_Delete)
-    assert listed(full) == ["0.png", "4.png", "5.png", "blank.png"]
-    for _ in range(3):
-        full.session.document.undo()
-    assert len(listed(full)) == 7
-    assert full.analysis.state.text() == ""
 
 
 def test_the_squares_side_keeps_its_length_in_every_unit(full: MainWindow, qtbot: QtBot) -> None:
@@ -138,161 +68,6 @@ def test_stating_another_board_searches_again(full: MainWindow, qtbot: QtBot) ->
     assert full.session.document.undo_label == "Number of corners"
     full.session.document.undo()
     assert full.session.project.views[0].corners is not None
-
-
-def test_settings_become_arguments_of_the_calibration(full: MainWindow) -> None:
-    panel = full.settings
-    assert [name for name, box in panel.boxes.items() if not box.isChecked()] == ["k3", "p3"]
-    panel.boxes["k3"].click()
-    panel.boxes["p3"].click()
-    panel.boxes["cx"].click()
-    settings = full.session.project.settings
-    assert (settings.fixed, settings.freed) == ({"cx": None}, ("p3",))
-    panel.cost.setCurrentIndex(1)
-    panel.cost.activated.emit(1)
-    assert full.session.project.settings.cost is Cost.REFERENCE
-    for _ in range(4):
-        full.session.document.undo()
-    assert not panel.boxes["k3"].isChecked()
-    assert panel.cost.currentData() == Cost.IMAGE
-
-
-def test_parameters_are_held_at_values(full: MainWindow, qtbot: QtBot) -> None:
-    panel, session = full.settings, full.session
-    panel.values.selectAll()
-    qtbot.keyClicks(panel.values, "fx=650.5, p3=0.01")
-    qtbot.keyClick(panel.values, Qt.Key.Key_Return)
-    assert session.project.settings.fixed == {"fx": 650.5, "k3": None, "p3": 0.01}
-    assert not panel.boxes["fx"].isChecked()
-    panel.boxes["p1"].click()  # what else is chosen leaves the values alone
-    assert session.project.settings.fixed["fx"] == 650.5
-    panel.boxes["fx"].click()  # to be estimated after all
-    assert session.project.settings.fixed == {"k3": None, "p1": None, "p3": 0.01}
-    assert panel.values.text() == "p3=0.01"
-    before = session.project.settings
-    for text in ("k9=1", "fx=-1", "fx=wide"):
-        panel.values.selectAll()
-        qtbot.keyClicks(panel.values, text)
-        qtbot.keyClick(panel.values, Qt.Key.Key_Return)
-        assert session.project.settings is before
-        assert panel.values.text() == "p3=0.01"
-        assert full.banner.isVisible()
-    panel.values.selectAll()
-    qtbot.keyClick(panel.values, Qt.Key.Key_Delete)
-    qtbot.keyClick(panel.values, Qt.Key.Key_Return)
-    assert session.project.settings.fixed == {"k3": None, "p1": None}
-    for _ in range(4):
-        session.document.undo()
-    assert panel.boxes["fx"].isChecked()
-    assert panel.values.text() == ""
-
-
-def test_every_setting_is_in_the_panel_and_none_disturbs_another(full: MainWindow) -> None:
-    panel, session = full.settings, full.session
-    everything = Settings(
-        cost=Cost.IMAGE,
-        fixed={"fx": 650.5, "k3": None},
-        freed=("p3",),
-        plate=PlateModel.FREE,
-        prior=Prior(0.25, 0.5),
-        robust=True,
-        weigh_views=True,
-        once=True,
-    )
-    changed = {f.name for f in fields(Settings)} - {"cost"}
-    assert all(getattr(everything, name) != getattr(Settings(), name) for name in changed)
-    session.edit("Settings", lambda p: replace(p, settings=everything))
-    panel.robust.click()
-    assert session.project.settings == replace(everything, robust=False)
-    panel.weigh.click()
-    panel.again.click()
-    assert session.project.settings == replace(
-        everything, robust=False, weigh_views=False, once=False
-    )
-    for _ in range(3):
-        session.document.undo()
-    assert session.project.settings is everything
-    choose(panel.cost, "error on the reference plane")
-    assert not session.project.settings.weigh_views
-    assert not panel.weigh.isEnabled()
-
-
-def choose(box: QComboBox, text: str) -> None:
-    """Choose an entry as the mouse would."""
-    row = next(k for k in range(box.count()) if box.itemText(k).startswith(text))
-    box.setCurrentIndex(row)
-    box.activated.emit(row)
-
-
-def test_the_boards_shape_is_a_setting(
-    full: MainWindow, qtbot: QtBot, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
-    panel, session = full.settings, full.session
-    choice = panel.plate
-    assert not choice.known.isEnabled()
-    choose(choice.model, "free")
-    assert session.project.settings.plate is PlateModel.FREE
-    qtbot.mouseClick(choice.known, LEFT, pos=QPoint(8, choice.known.height() // 2))
-    assert session.project.settings.prior == Prior(0.1, 0.3)
-    choice.in_plane.setFocus()
-    choice.in_plane.selectAll()
-    qtbot.keyClicks(choice.in_plane, "0.25")
-    qtbot.keyClick(choice.in_plane, Qt.Key.Key_Return)
-    assert session.project.settings.prior == Prior(0.25, 0.3)
-    choose(choice.model, "what predicts best")
-    assert (session.project.settings.plate, session.project.settings.prior) == (None, None)
-    for prior in (Prior(0.25, 0.3), Prior(0.1, 0.3)):
-        session.document.undo()
-        assert session.project.settings.prior == prior
-        assert choice.in_plane.value() == prior.in_plane
-
-    # A plate from a file; a dialog that is left changes nothing, and nor does another file.
-    plate = Plate(PlateModel.BOW, np.zeros((1, 2)), np.full((1, 3), 0.1), np.zeros((1, 3)))
-    write_plate(plate, tmp_path / "plate.json")
-    (tmp_path / "other.json").write_text("{}")
-    for name in ("", str(tmp_path / "other.json")):
-        monkeypatch.setattr(QFileDialog, "getOpenFileName", lambda *_, name=name: (name, ""))
-        choose(choice.model, "as in a file")
-        assert session.project.settings.plate is PlateModel.FREE
-        assert choice.model.currentText().startswith("free")
-    assert "not a file of the format" in full.banner.text.text()
-    monkeypatch.setattr(
-        QFileDialog, "getOpenFileName", lambda *_: (str(tmp_path / "plate.json"), "")
-    )
-    choose(choice.model, "as in a file")
-    held = session.project.settings.plate
-    assert isinstance(held, Plate)
-    assert choice.model.currentText() == "as in a file: 0.17 mm off"
-
-    # Other costs take a board as drawn.
-    choose(panel.cost, "error on the reference plane")
-    assert session.project.settings.plate is PlateModel.NOMINAL
-    assert not choice.isEnabled()
-    session.document.undo()
-    assert session.project.settings.plate is held
-
-
-def test_outliers_left_out_are_seen_in_the_images_and_undone(
-    full: MainWindow, qtbot: QtBot
-) -> None:
-    session = full.session
-    first = session.project.views[1]
-    assert first.corners is not None
-    uv = np.array(first.corners.uv)
-    uv[20] += [6.0, -5.0]
-    moved = replace(first, corners=replace(first.corners, uv=uv))
-    session.edit("Spoil", lambda p: with_each(p, [first.image], lambda _: moved))
-    qtbot.mouseClick(full.settings.robust, LEFT, pos=QPoint(8, full.settings.robust.height() // 2))
-    assert session.project.settings.robust
-    qtbot.mouseClick(full.calibrate, LEFT)
-    qtbot.waitUntil(lambda: len(session.project.results) == 3, timeout=30_000)
-    assert session.result is not None
-    assert any("1.png loses 1 corner" in text for text in session.result.calibration.warnings)
-    assert session.project.is_current(session.result)
-    assert listed(full, Role.STATUS)[1] == "41 of 42 corners"
-    session.document.undo()
-    assert session.project.views[1] is moved
-    qtbot.waitUntil(lambda: not session.jobs.running)
 
 
 def test_views_that_do_not_determine_the_camera_say_what_to_photograph(
