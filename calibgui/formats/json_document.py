@@ -249,6 +249,7 @@ def _with_arrays(members: dict[str, Any]) -> dict[str, Any]:
 
 
 def _as_array(value: Any) -> Any:
+    """`value`, as an array if it is lists in lists, all of finite numbers and of one length."""
     leaves = value
     while isinstance(leaves, list) and all(isinstance(leaf, list) for leaf in leaves) and leaves:
         leaves = list(chain.from_iterable(leaves))
@@ -281,7 +282,7 @@ def check_format(node: Node, name: str, version: int) -> None:
         CalibrationError: with what to do instead.
     """
     found = node.get("format")
-    if found is None or str(found.value) != name:
+    if found is None or str(found.value) != name:  # an array would compare number by number
         raise CalibrationError(
             f"{node.file} is not a file of the format {name!r}.", "Choose another file."
         )

@@ -26,19 +26,27 @@ class Menus(QObject):
 
     def __init__(self, window: MainWindow) -> None:
         super().__init__(window)
-        bar, files = window.menuBar(), window.files
+        self._window = window
+        bar = window.menuBar()
+        self._fill_file(bar.addMenu(self.tr("&File")))
+        self._fill_edit(bar.addMenu(self.tr("&Edit")))
+        self._fill_images(bar.addMenu(self.tr("&Images")))
+        self._fill_calibration(bar.addMenu(self.tr("Cali&bration")))
+        self._fill_view(bar.addMenu(self.tr("&View")))
+        self._fill_help(bar.addMenu(self.tr("&Help")))
 
-        def add(
-            menu: QMenu, text: str, key: str | Key | None, tip: str, does: Callable[[], object]
-        ) -> QAction:
-            action = make_action(window, text, key, tip, does)
-            menu.addAction(action)
-            return action
+    def _add(
+        self, menu: QMenu, text: str, key: str | Key | None, tip: str, does: Callable[[], object]
+    ) -> QAction:
+        action = make_action(self._window, text, key, tip, does)
+        menu.addAction(action)
+        return action
 
-        menu = bar.addMenu(self.tr("&File"))
+    def _fill_file(self, menu: QMenu) -> None:
+        window, files = self._window, self._window.files
         menu.setToolTipsVisible(True)
-        add(menu, self.tr("&New project"), Key.New, self.tr("Begin with nothing"), files.new)
-        add(
+        self._add(menu, self.tr("&New project"), Key.New, self.tr("Begin with nothing"), files.new)
+        self._add(
             menu,
             self.tr("&Open project…"),
             Key.Open,
@@ -46,8 +54,8 @@ class Menus(QObject):
             files.ask_for_project,
         )
         recent = menu.addMenu(self.tr("Open &recent"))
-        recent.aboutToShow.connect(lambda: self._fill_recent(window, recent))
-        add(
+        recent.aboutToShow.connect(lambda: self._fill_recent(recent))
+        self._add(
             menu,
             self.tr("Open the sa&mple"),
             None,
@@ -55,8 +63,10 @@ class Menus(QObject):
             files.open_sample,
         )
         menu.addSeparator()
-        add(menu, self.tr("&Save"), Key.Save, self.tr("Write the project to its file"), files.save)
-        add(
+        self._add(
+            menu, self.tr("&Save"), Key.Save, self.tr("Write the project to its file"), files.save
+        )
+        self._add(
             menu,
             self.tr("Save &as…"),
             "Ctrl+Shift+S",
@@ -64,14 +74,14 @@ class Menus(QObject):
             files.save_as,
         )
         menu.addSeparator()
-        add(
+        self._add(
             menu,
             self.tr("Add &images…"),
             "Ctrl+I",
             self.tr("Choose image files"),
             files.ask_for_images,
         )
-        add(
+        self._add(
             menu,
             self.tr("Add a &folder…"),
             "Ctrl+Shift+I",
@@ -79,17 +89,18 @@ class Menus(QObject):
             files.ask_for_folder,
         )
         menu.addSeparator()
-        add(menu, self.tr("&Quit"), "Ctrl+Q", self.tr("Close the window"), window.close)
+        self._add(menu, self.tr("&Quit"), "Ctrl+Q", self.tr("Close the window"), window.close)
 
-        menu = bar.addMenu(self.tr("&Edit"))
-        undo = add(
+    def _fill_edit(self, menu: QMenu) -> None:
+        window, files = self._window, self._window.files
+        undo = self._add(
             menu,
             self.tr("&Undo"),
             Key.Undo,
             self.tr("Take the last change back"),
             lambda: window.session.document.undo(),
         )
-        redo = add(
+        redo = self._add(
             menu,
             self.tr("&Redo"),
             Key.Redo,
@@ -97,7 +108,7 @@ class Menus(QObject):
             lambda: window.session.document.redo(),
         )
         menu.addSeparator()
-        add(
+        self._add(
             menu,
             self.tr("&Paste paths"),
             Key.Paste,
@@ -117,23 +128,24 @@ class Menus(QObject):
         window.session.changed.connect(lambda *_: name_edits())
         name_edits()
 
-        menu = bar.addMenu(self.tr("&Images"))
+    def _fill_images(self, menu: QMenu) -> None:
+        window = self._window
         menu.setToolTipsVisible(True)
         menu.addActions(window.images.actions_for_menu)
-
         menu.addSeparator()
         menu.addActions(window.page.tools)
 
-        menu = bar.addMenu(self.tr("Cali&bration"))
+    def _fill_calibration(self, menu: QMenu) -> None:
+        window, files = self._window, self._window.files
         menu.setToolTipsVisible(True)
-        add(
+        self._add(
             menu,
             self.tr("&Calibrate or stop"),
             "F9",
             self.tr("Do everything that is still to do"),
             window.calibrate.click,
         )
-        export = add(
+        export = self._add(
             menu,
             self.tr("&Export…"),
             "Ctrl+E",
@@ -143,7 +155,7 @@ class Menus(QObject):
         export.setEnabled(False)
         window.session.result_changed.connect(lambda result: export.setEnabled(result is not None))
         menu.addSeparator()
-        add(
+        self._add(
             menu,
             self.tr("&Print a board…"),
             "Ctrl+P",
@@ -151,7 +163,8 @@ class Menus(QObject):
             files.print_board,
         )
 
-        menu = bar.addMenu(self.tr("&View"))
+    def _fill_view(self, menu: QMenu) -> None:
+        window = self._window
         menu.setToolTipsVisible(True)
         menu.addActions(window.page.zoom_actions)
         menu.addSeparator()
@@ -172,7 +185,7 @@ class Menus(QObject):
             (theme.Scheme.LIGHT, self.tr("&Light")),
             (theme.Scheme.DARK, self.tr("&Dark")),
         ):
-            action = add(
+            action = self._add(
                 looks,
                 text,
                 None,
@@ -183,8 +196,9 @@ class Menus(QObject):
             action.setChecked(theme.chosen() is scheme)
             group.addAction(action)
 
-        menu = bar.addMenu(self.tr("&Help"))
-        add(
+    def _fill_help(self, menu: QMenu) -> None:
+        window = self._window
+        self._add(
             menu,
             self.tr("&How it works"),
             Key.HelpContents,
@@ -192,9 +206,9 @@ class Menus(QObject):
             lambda: show_dialog(HelpDialog(window)),
         )
 
-    def _fill_recent(self, window: MainWindow, menu: QMenu) -> None:
+    def _fill_recent(self, menu: QMenu) -> None:
         menu.clear()
         for path in recent_projects():
-            menu.addAction(str(path), partial(window.files.open_project, path))
+            menu.addAction(str(path), partial(self._window.files.open_project, path))
         if menu.isEmpty():
             menu.addAction(self.tr("None yet")).setEnabled(False)

@@ -43,6 +43,7 @@ _KNOWN_BETTER = 9.0
 _FOCAL = 0.5
 """Doubt about the focal length, of itself."""
 _ASPECT = 0.01
+"""Doubt about the ratio of focal lengths."""
 _CENTRE = 0.05
 """Doubt about the principal point, in image widths."""
 _RADIAL, _DECENTRED = 0.3, 0.005
@@ -52,6 +53,7 @@ _LEAST, _MOST = 0.2, 10.0
 _NOISE = 1e-4
 """Least standard deviation of a residual, px: rounding is not information."""
 _ROUNDS = 8
+"""Of solve and choice, at the most."""
 _FREELY = 4
 """Rounds after which quantities are assumed, but no longer released."""
 
