@@ -34,6 +34,7 @@ def test_each_worker_keeps_to_one_thread() -> None:
 
 
 def test_who_waits_for_a_compiler_is_told_once() -> None:
+    pytest.importorskip("numba", reason="numba is not installed")
     told: list[None] = []
     works = ["__import__('numba').njit(lambda x: x + 1)(2)"] * 3
     assert dict(spread(eval, works, preparing=lambda: told.append(None))) == {0: 3, 1: 3, 2: 3}

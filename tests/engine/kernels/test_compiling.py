@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-import numba
 import pytest
 
 from calibgui.engine import kernels
 from calibgui.engine.kernels import when_compiling
+
+numba = pytest.importorskip("numba", reason="numba is not installed")
 
 
 def test_only_a_kernel_that_is_not_there_yet_is_told() -> None:
