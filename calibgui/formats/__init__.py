@@ -3,7 +3,7 @@
 To add an exporter, write a module with a function (result, path) -> ExportReport that writes
 through ``engine.files.write_atomically``, describe it in a constant `EXPORTER`, and list that
 below: command line and window take it from there. A format whose lens model distorts ideal
-points takes its camera from ``forward_model.py``. It is done when a test reads the file with
+points is written by ``forward_model.write_forward``. It is done when a test reads the file with
 the program that it is for and projects the same points to the same pixels.
 """
 

@@ -12,19 +12,15 @@ from __future__ import annotations
 from pathlib import Path
 
 from calibgui.engine import frames
-from calibgui.engine.files import write_atomically
 from calibgui.engine.types import Camera
 from calibgui.formats.exporter import Exporter, ExportReport
-from calibgui.formats.forward_model import forward, refit_note
+from calibgui.formats.forward_model import write_forward
 from calibgui.formats.result import Result
 
 
 def write_colmap(result: Result, path: Path) -> ExportReport:
     """Write a cameras.txt with one camera."""
-    fitted = forward(result)
-    note = refit_note(result, fitted)
-    write_atomically(path, cameras(fitted.calibration.camera, note).encode())
-    return ExportReport(path, note, fitted.largest_error)
+    return write_forward(result, path, lambda fitted, note: cameras(fitted.camera, note))
 
 
 def cameras(camera: Camera, note: str) -> str:

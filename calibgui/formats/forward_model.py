@@ -8,13 +8,32 @@ the file itself.
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
+from pathlib import Path
 
+from calibgui.engine.files import write_atomically
 from calibgui.engine.refit import Refit, refit
+from calibgui.engine.types import Calibration
+from calibgui.formats.exporter import ExportReport
 from calibgui.formats.result import Result
 
 MODEL = "opencv"
 _USEFUL = 2.0
 """Error where corners were seen, px, from which on an export is of no use."""
+
+
+def write_forward(
+    result: Result, path: Path, text: Callable[[Calibration, str], str]
+) -> ExportReport:
+    """Write what `text` makes of the calibration in OpenCV's model and the note on its refit.
+
+    Raises:
+        CalibrationError: as `forward`, or if the file cannot be written.
+    """
+    fitted = forward(result)
+    note = refit_note(result, fitted)
+    write_atomically(path, text(fitted.calibration, note).encode())
+    return ExportReport(path, note, fitted.largest_error)
 
 
 def forward(result: Result) -> Refit:

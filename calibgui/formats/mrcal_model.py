@@ -15,21 +15,17 @@ from pathlib import Path
 import numpy as np
 from scipy.spatial import ConvexHull
 
-from calibgui.engine.files import write_atomically
 from calibgui.engine.types import Array, Camera
 from calibgui.formats.exporter import Exporter, ExportReport
-from calibgui.formats.forward_model import forward, refit_note
+from calibgui.formats.forward_model import write_forward
 from calibgui.formats.result import Result
 
 
 def write_mrcal(result: Result, path: Path) -> ExportReport:
     """Write a .cameramodel file."""
-    fitted = forward(result)
-    note = refit_note(result, fitted)
     corners = np.concatenate([view.uv for view in result.observations()])
     hull = corners[ConvexHull(corners).vertices]
-    write_atomically(path, cameramodel(fitted.calibration.camera, hull, note).encode())
-    return ExportReport(path, note, fitted.largest_error)
+    return write_forward(result, path, lambda fitted, note: cameramodel(fitted.camera, hull, note))
 
 
 def cameramodel(camera: Camera, region: Array, note: str) -> str:

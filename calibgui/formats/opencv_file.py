@@ -15,11 +15,10 @@ from pathlib import Path
 import numpy as np
 
 from calibgui.engine import opencv
-from calibgui.engine.files import write_atomically
 from calibgui.engine.quality.statistics import summarise
 from calibgui.engine.types import Array, Calibration
 from calibgui.formats.exporter import Exporter, ExportReport
-from calibgui.formats.forward_model import forward, refit_note
+from calibgui.formats.forward_model import write_forward
 from calibgui.formats.result import Result
 
 _FRAME = (
@@ -30,11 +29,8 @@ _FRAME = (
 
 def write_opencv(result: Result, path: Path) -> ExportReport:
     """Write OpenCV's YAML, XML or JSON file."""
-    fitted = forward(result)
-    note = refit_note(result, fitted)
     suffix = path.suffix.lower()
-    write_atomically(path, storage(fitted.calibration, suffix, note).encode())
-    return ExportReport(path, note, fitted.largest_error)
+    return write_forward(result, path, lambda fitted, note: storage(fitted, suffix, note))
 
 
 def storage(calibration: Calibration, suffix: str, note: str) -> str:

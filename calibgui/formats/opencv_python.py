@@ -9,19 +9,15 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from calibgui.engine.files import write_atomically
 from calibgui.engine.types import Camera
 from calibgui.formats.exporter import Exporter, ExportReport
-from calibgui.formats.forward_model import forward, refit_note
+from calibgui.formats.forward_model import write_forward
 from calibgui.formats.result import Result
 
 
 def write_opencv_python(result: Result, path: Path) -> ExportReport:
     """Write the lines as a file."""
-    fitted = forward(result)
-    note = refit_note(result, fitted)
-    write_atomically(path, lines(fitted.calibration.camera, note).encode())
-    return ExportReport(path, note, fitted.largest_error)
+    return write_forward(result, path, lambda fitted, note: lines(fitted.camera, note))
 
 
 def lines(camera: Camera, note: str) -> str:

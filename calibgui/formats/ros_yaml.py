@@ -13,10 +13,9 @@ from pathlib import Path
 
 import numpy as np
 
-from calibgui.engine.files import write_atomically
 from calibgui.engine.types import Array, Camera
 from calibgui.formats.exporter import Exporter, ExportReport
-from calibgui.formats.forward_model import forward, refit_note
+from calibgui.formats.forward_model import write_forward
 from calibgui.formats.result import Result
 
 _FRAME = "Pixels count from 0 at the centre of the first pixel, u right, v down."
@@ -24,11 +23,8 @@ _FRAME = "Pixels count from 0 at the centre of the first pixel, u right, v down.
 
 def write_ros(result: Result, path: Path) -> ExportReport:
     """Write a camera_info file; the camera is named after the file."""
-    fitted = forward(result)
-    note = refit_note(result, fitted)
-    content = camera_info(fitted.calibration.camera, _camera_name(path), note)
-    write_atomically(path, content.encode())
-    return ExportReport(path, note, fitted.largest_error)
+    name = _camera_name(path)
+    return write_forward(result, path, lambda fitted, note: camera_info(fitted.camera, name, note))
 
 
 def camera_info(camera: Camera, name: str, note: str) -> str:
