@@ -25,6 +25,7 @@ from PySide6.QtCore import QObject, QTimer, Signal
 from threadpoolctl import threadpool_limits
 
 from calibgui.engine.errors import Cancelled
+from calibgui.gui.garbage import Collector
 
 log = logging.getLogger(__name__)
 
@@ -161,6 +162,7 @@ class Jobs(QObject):
         self._running: list[Job] = []
         self._timer = QTimer(self, interval=_TICK)
         self._timer.timeout.connect(self._drain)
+        self._garbage = Collector(self)
 
     @property
     def running(self) -> tuple[Job, ...]:
@@ -223,6 +225,7 @@ class Jobs(QObject):
         self._timer.stop()
         for pool in (self._pool, self._single):
             pool.shutdown(wait=True, cancel_futures=True)
+        self._garbage.close()
 
     def _complete(self, callbacks: Callbacks) -> Callbacks:
         return {"failed": self.failed.emit, **callbacks}
