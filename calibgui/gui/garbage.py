@@ -1,4 +1,4 @@
-"""Garbage is collected on the main thread only.
+"""While jobs run, garbage is collected on the main thread only.
 
 Python collects cycles in whichever thread allocates next. In a job's thread that takes apart the
 connections of widgets that are gone: Qt holds a lock meanwhile and waits for the interpreter,
@@ -11,22 +11,25 @@ import gc
 
 from PySide6.QtCore import QObject, QTimer
 
-_EVERY = 500
+_EVERY = 100
 """Time between two looks at what has gathered, ms."""
 
 
 class Collector(QObject):
-    """Collects in place of the interpreter, as often, in turns of the event loop."""
+    """Collects in place of the interpreter, in turns of the event loop."""
 
     def __init__(self, parent: QObject) -> None:
         super().__init__(parent)
-        gc.disable()
         self._timer = QTimer(self, interval=_EVERY)
         self._timer.timeout.connect(self._collect)
+
+    def start(self) -> None:
+        """Before a thread begins to work."""
+        gc.disable()
         self._timer.start()
 
-    def close(self) -> None:
-        """Leave it to the interpreter again: no thread is left beside the main one."""
+    def stop(self) -> None:
+        """No thread works beside the main one."""
         self._timer.stop()
         gc.enable()
 

@@ -162,7 +162,7 @@ class Jobs(QObject):
         self._running: list[Job] = []
         self._timer = QTimer(self, interval=_TICK)
         self._timer.timeout.connect(self._drain)
-        self._garbage = Collector(self)
+        self._collector = Collector(self)
 
     @property
     def running(self) -> tuple[Job, ...]:
@@ -225,7 +225,7 @@ class Jobs(QObject):
         self._timer.stop()
         for pool in (self._pool, self._single):
             pool.shutdown(wait=True, cancel_futures=True)
-        self._garbage.close()
+        self._collector.stop()
 
     def _complete(self, callbacks: Callbacks) -> Callbacks:
         return {"failed": self.failed.emit, **callbacks}
@@ -233,6 +233,7 @@ class Jobs(QObject):
     def _run(self, job: Job, pool: ThreadPoolExecutor) -> Job:
         self._running.append(job)
         self._timer.start()
+        self._collector.start()
         if not job.items:
             self._queue.put(lambda: self._end(job))
         for item in job.items:
@@ -289,6 +290,7 @@ class Jobs(QObject):
             acted = True
         if not self._running and self._queue.empty():
             self._timer.stop()
+            self._collector.stop()
         if acted:
             self.changed.emit()
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import gc
 import os
 import threading
 from collections.abc import Iterator
@@ -45,6 +46,9 @@ def clean(
         yield
         for widget in qapp.topLevelWidgets():
             widget.close()
+        # Plots that are gone hang together in cycles: their end is not left to another test.
+        QApplication.sendPostedEvents(None, QEvent.Type.DeferredDelete)
+        gc.collect()
     left = [t.name for t in set(threading.enumerate()) - threads if t.is_alive() and not t.daemon]
     assert not left, f"threads left behind: {left}"
     running = [

@@ -160,27 +160,17 @@ def test_covariances_count_in_the_weights() -> None:
 
 
 @pytest.mark.slow
-def test_noise_raises_no_alarm() -> None:
-    alarms = []
-    for seed in range(80):
-        true = scene(barrel(), (4, 8, 16)[seed % 3], seed)
-        views = true.noisy(0.2, np.random.default_rng(seed))
-        report = examine(calibrate(views, SIZE), views)
-        alarms += [check.name for check in report.checks if not check.passed]
-    assert len(alarms) <= 4  # 0.8 expected of 80 x 10 checks at one in a thousand
-
-
-@pytest.mark.slow
 def test_the_level_is_the_one_stated(monkeypatch: pytest.MonkeyPatch) -> None:
     """At one in twenty, where it can be counted: no check alarms more often than that."""
     monkeypatch.setattr("calibgui.engine.quality.noise._CHANCE", 0.05)
     alarms: Counter[str] = Counter()
-    for seed in range(150):
-        views = SCENE.noisy(0.2, np.random.default_rng(seed))
+    for seed in range(90):
+        true = scene(barrel(), (4, 8, 16)[seed % 3], seed)
+        views = true.noisy(0.2, np.random.default_rng(seed))
         report = examine(calibrate(views, SIZE), views)
         alarms.update(check.name for check in report.checks if not check.passed)
-    # 7.5 are expected; more than 19 have a chance of 1e-3 in any of eleven checks.
-    assert max(alarms.values()) <= 19
+    # 4.5 are expected; more than 13 have a chance of 2e-3 in any of eleven checks.
+    assert max(alarms.values()) <= 13
 
 
 def test_it_can_be_abandoned() -> None:

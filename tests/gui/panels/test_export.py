@@ -107,6 +107,7 @@ def test_a_format_that_fails_says_why(jobs: Jobs, result: Result, qtbot: QtBot) 
     choose(dialog, "opencv", jobs, qtbot)
     assert "not a finite number" in dialog.note.text()
     assert not dialog.save.isEnabled() and not dialog.copy.isEnabled()
+    dialog.reject()
 
 
 def test_closing_removes_the_drafts(dialog: ExportDialog, qtbot: QtBot) -> None:
