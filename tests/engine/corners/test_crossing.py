@@ -17,10 +17,7 @@ from tests.engine.targets.conftest import CAMERA, Scene
     [
         (Circles(True, 1.0), (11, 4), 700.0),
         (Circles(True, 1.2), (11, 4), 300.0),
-        (Circles(True, 1.2), (11, 4), 700.0),
-        (Circles(False, 0.7), (7, 9), 700.0),
         (Circles(False, 0.8), (7, 9), 700.0),
-        (Circles(False, 0.95), (7, 9), 700.0),
     ],
 )
 def test_circles_are_no_squares(pattern: Circles, board: tuple[int, int], distance: float) -> None:

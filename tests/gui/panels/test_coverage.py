@@ -8,7 +8,6 @@ from typing import Any, NoReturn
 
 import numpy as np
 import pytest
-from PySide6.QtWidgets import QApplication
 from pytestqt.qtbot import QtBot
 
 from calibgui.engine.quality.next_view import NextView, next_views
@@ -87,12 +86,13 @@ def test_the_next_view_is_drawn_and_told(
 
 
 def test_the_map_ends_with_the_image(panel: CoveragePanel, qtbot: QtBot) -> None:
-    for size in ((900, 650), (400, 700)):
-        panel.resize(*size)
-        qtbot.wait(20)
-        QApplication.processEvents()
+    def ends() -> None:
         (left, right), (low, high) = panel.density.getPlotItem().getViewBox().viewRange()
         np.testing.assert_allclose([left, right, low, high], [-0.5, 639.5, -0.5, 479.5], atol=8)
+
+    for size in ((900, 650), (400, 700)):
+        panel.resize(*size)
+        qtbot.waitUntil(ends)
 
 
 def test_the_user_need_not_wait_for_the_next_view(
