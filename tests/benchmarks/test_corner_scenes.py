@@ -30,8 +30,8 @@ def test_grey_levels_are_point_symmetric_about_the_truth(settings: dict[str, flo
     "name", ["base", "noise 20", "blur 0", "tilt 70", "hard light", "ink -2 %", "fisheye"]
 )
 def test_the_engine_reaches_the_bound(name: str) -> None:
-    scenes = [draw(Conditions(**benchmark.CONDITIONS[name]), seed) for seed in (0, 1)]
-    result = benchmark.score(benchmark.METHODS["ours"], scenes, 1)
+    scene = draw(Conditions(**benchmark.CONDITIONS[name]), 0)
+    result = benchmark.score(benchmark.METHODS["ours"], [scene], 2)
     assert result.found == 1
     assert result.ratio < 1.25
     assert result.bias < 2

@@ -30,6 +30,13 @@ def qapp_args() -> list[str]:
     return ["calibgui-test"]
 
 
+@pytest.fixture(scope="session", autouse=True)
+def imported() -> None:
+    """What is imported stays: the collection after each test need not look at it."""
+    gc.collect()
+    gc.freeze()
+
+
 @pytest.fixture(autouse=True)
 def clean(
     qapp: QApplication, qtlog: pytest.LogCaptureFixture, tmp_path_factory: pytest.TempPathFactory
