@@ -69,12 +69,16 @@ def large_enough(lattice: Lattice) -> bool:
 
 
 def supported(lattice: Lattice) -> Lattice:
-    """The lattice without corners too far from all others for the steps there to be known, and
-    without empty border lines."""
+    """The lattice without corners whose steps are not known, and without empty border lines."""
+    return crop(with_steps(lattice))
+
+
+def with_steps(lattice: Lattice) -> Lattice:
+    """The lattice without corners too far from all others for the steps there to be known."""
     while True:
         known = np.isfinite(np.sum(axes(lattice.uv), axis=0)).all(axis=2)
         if known[lattice.found].all():
-            return crop(lattice)
+            return lattice
         lattice = lattice.under(np.asarray(known))
 
 

@@ -22,6 +22,7 @@ from calibgui.engine.corners.lattice import (
     in_steps,
     predict,
     supported,
+    with_steps,
 )
 from calibgui.engine.corners.ordering import Sides, turned
 from calibgui.engine.imaging.sampling import sample
@@ -75,6 +76,7 @@ def sound(lattice: Lattice, image: Image, plain: float = 0.5) -> BoolArray:
 
     The squares are of one colour up to `plain` squares from their edges.
     """
+    lattice = with_steps(lattice)
     good = lattice.found
     good[good], _ = typical(lattice, image, plain).shown(image, *placed(lattice, plain))
     # What does not look like a corner says nothing about where its neighbours should be.

@@ -85,10 +85,11 @@ def gram(J, out):  # type: ignore[no-untyped-def]
 
 @compiled
 def bilinear(g, u, v):  # type: ignore[no-untyped-def]
-    """Bilinear value of g at (u, v), the border replicated."""
+    """Bilinear value of g at (u, v), the border replicated; NaN where that is no place."""
     height, width = g.shape
     u, v = min(max(u, 0.0), width - 1.0), min(max(v, 0.0), height - 1.0)
-    i, j = min(int(u), width - 2), min(int(v), height - 2)
+    i = min(int(u), width - 2) if u > 0 else 0
+    j = min(int(v), height - 2) if v > 0 else 0
     a, b = u - i, v - j
     return (1 - b) * ((1 - a) * g[j, i] + a * g[j, i + 1]) + b * (
         (1 - a) * g[j + 1, i] + a * g[j + 1, i + 1]

@@ -22,3 +22,9 @@ def test_the_same_grey_levels_around_corners(dtype: type, monkeypatch: pytest.Mo
     expected = appearance._around(*arguments, appearance.PLACES)
     np.testing.assert_allclose(sectors, appearance._sectors(*arguments), rtol=1e-9)
     np.testing.assert_allclose(around, expected, rtol=1e-9)
+
+
+def test_no_grey_level_where_there_is_no_place() -> None:
+    nowhere, step = np.array([[np.nan, 5.0], [5.0, np.nan]]), np.ones((2, 2))
+    around = appearance._around(np.ones((9, 9)), nowhere, step, step, appearance.PLACES)
+    assert np.isnan(around).all()
