@@ -8,8 +8,8 @@ below it is measured with a ruler before anything is believed.
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from html import escape
 from pathlib import Path
-from xml.sax.saxutils import escape
 
 from calibgui.engine import opencv
 from calibgui.engine.errors import CalibrationError

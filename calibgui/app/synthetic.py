@@ -20,7 +20,7 @@ from functools import partial
 from typing import Any
 
 import numpy as np
-from scipy.spatial import cKDTree
+import scipy
 
 from calibgui import engine
 from calibgui.app.workers import Crashed, spread
@@ -136,7 +136,7 @@ def _found_again(
     observed = real.observation(target)
     predicted = project_points(observed.xy, camera, pose)
     grid = np.indices(target.board).reshape(2, -1).T
-    grid = grid[np.asarray(cKDTree(target.points(grid)).query(observed.xy)[1])]
+    grid = grid[np.asarray(scipy.spatial.cKDTree(target.points(grid)).query(observed.xy)[1])]
     try:
         method = METHODS[0] if real.corners is None else real.corners.method
         found = target.pattern.find(image, target.board, method=method)
@@ -151,7 +151,7 @@ def _lost(view: View, reason: str) -> View:
 
 def _numbered(found: Corners, grid: IntArray, predicted: Array) -> Corners:
     """The found corners nearest to `predicted` (n, 2), numbered by `grid` (n, 2)."""
-    nearest = cKDTree(predicted)
+    nearest = scipy.spatial.cKDTree(predicted)
     limit = np.asarray(nearest.query(predicted, k=2)[0])[:, 1] / 2
     distance, which = map(np.asarray, nearest.query(found.uv))
     good = distance < limit[which]

@@ -13,7 +13,7 @@ from __future__ import annotations
 from pathlib import Path
 
 import numpy as np
-from scipy.spatial import ConvexHull
+import scipy
 
 from calibgui.engine.types import Array, Camera
 from calibgui.formats.exporter import Exporter, ExportReport
@@ -24,7 +24,7 @@ from calibgui.formats.result import Result
 def write_mrcal(result: Result, path: Path) -> ExportReport:
     """Write a .cameramodel file."""
     corners = np.concatenate([view.uv for view in result.observations()])
-    hull = corners[ConvexHull(corners).vertices]
+    hull = corners[scipy.spatial.ConvexHull(corners).vertices]
     return write_forward(result, path, lambda fitted, note: cameramodel(fitted.camera, hull, note))
 
 

@@ -160,7 +160,7 @@ class MainWindow(QMainWindow):
         return self.analysis
 
     def prepare(self) -> None:
-        """Import beside the main thread what will be needed.
+        """Import beside the main thread what will be needed: all of SciPy, and the panels.
 
         What is there by then stays: going through it at every full collection of garbage would
         stop the window for longer than a frame.
@@ -169,7 +169,7 @@ class MainWindow(QMainWindow):
         def load() -> None:
             if self.isVisible():  # it may have been closed meanwhile
                 self.session.jobs.start(
-                    "", lambda _: import_module("calibgui.gui.analysis"), lambda _: gc.freeze()
+                    "", lambda _: list(map(import_module, _NEEDED_SOON)), lambda _: gc.freeze()
                 )
 
         qt_names.resolve(self, load)
@@ -262,6 +262,7 @@ class MainWindow(QMainWindow):
         event.accept()
 
 
+_NEEDED_SOON = ("scipy.stats", "calibgui.gui.analysis")
 _FRAME = 16
 """Between two pictures on the screen, ms."""
 _SHARE_OF_SCREEN = 0.8

@@ -5,10 +5,10 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 import numpy as np
+import scipy
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.ticker import FuncFormatter, MaxNLocator
-from scipy.spatial import ConvexHull
 
 from calibgui.engine.quality.difference import Difference
 from calibgui.engine.quality.next_view import NextView
@@ -87,7 +87,7 @@ def next_views(proposed: Sequence[NextView], views: Sequence[Observation], size:
     for number, one in enumerate(proposed, start=1):
         colour = f"C{number - 1}"
         axes.plot(*one.corners.T, ".", color=colour, markersize=3)
-        outline = one.corners[ConvexHull(one.corners).vertices]
+        outline = one.corners[scipy.spatial.ConvexHull(one.corners).vertices]
         axes.fill(*outline.T, facecolor="none", edgecolor=colour, linewidth=1.8)
         axes.plot([], [], color=colour, label=f"{number}: to {one.after:.2g} px")
         box = {"facecolor": "white", "edgecolor": colour}

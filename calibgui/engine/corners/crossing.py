@@ -16,7 +16,7 @@ from __future__ import annotations
 from functools import cache
 
 import numpy as np
-from scipy.special import ndtr
+import scipy
 
 from calibgui.engine.corners.appearance import PLACES, standard, typical
 from calibgui.engine.corners.lattice import Lattice
@@ -56,5 +56,6 @@ def _crossings(plain: float, overlap: bool = True) -> Array:
     overlaps = _OVERLAPS if overlap else np.zeros(1)
     s1, s2, g = (x.reshape(-1, 1) for x in np.meshgrid(_BLURS, _BLURS, overlaps))
     a, b = 2 * plain * PLACES.T
+    ndtr = scipy.special.ndtr
     one, other = (ndtr((g + sign * a) / s1) * ndtr((g + sign * b) / s2) for sign in (1, -1))
     return standard(one + other - one * other)

@@ -14,7 +14,7 @@ from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.spatial import cKDTree
+import scipy
 
 from calibgui.engine import opencv
 from calibgui.engine.corners import saddle
@@ -108,7 +108,7 @@ def _distinct(candidates: list[Candidate]) -> list[Candidate]:
 
 def _overlap(one: Lattice, other: Lattice) -> bool:
     """Whether two lattices have a corner in common, by half a step."""
-    distance, _ = cKDTree(one.uv[one.found]).query(other.uv[other.found])
+    distance, _ = scipy.spatial.cKDTree(one.uv[one.found]).query(other.uv[other.found])
     return bool((distance < other.spacing()[other.found] / 2).any())
 
 

@@ -10,7 +10,7 @@ from __future__ import annotations
 from collections.abc import Callable
 
 import numpy as np
-from scipy.spatial import cKDTree
+import scipy
 
 from calibgui.engine.corners import sheet
 from calibgui.engine.corners.appearance import Look, typical
@@ -65,7 +65,7 @@ class _Places:
 
     def __init__(self, saddles: Saddles) -> None:
         self.smooth, self.uv = saddles.smooth, saddles.uv
-        self._tree = cKDTree(saddles.uv) if len(saddles.uv) else None
+        self._tree = scipy.spatial.cKDTree(saddles.uv) if len(saddles.uv) else None
 
     def near(self, uv: Array) -> tuple[IntArray, IntArray]:
         """Pairs (m,), (m,) of a query in `uv` (n, 2) and a point that is among the nearest."""
@@ -121,6 +121,6 @@ def _fill(
 
 def _free(uv: Array, right: Array, down: Array, lattice: Lattice) -> BoolArray:
     """(n,) which of the points are no corners of `lattice`, by half a step."""
-    distance, _ = cKDTree(lattice.uv[lattice.found]).query(uv)
+    distance, _ = scipy.spatial.cKDTree(lattice.uv[lattice.found]).query(uv)
     step = np.minimum(np.linalg.norm(right, axis=1), np.linalg.norm(down, axis=1))
     return np.asarray(distance > step / 2)

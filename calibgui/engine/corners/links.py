@@ -16,7 +16,7 @@ from __future__ import annotations
 from collections import deque
 
 import numpy as np
-from scipy.spatial import cKDTree
+import scipy
 
 from calibgui.engine import kernels
 from calibgui.engine.corners.junctions import Junctions, Saddles
@@ -53,7 +53,8 @@ def _link(smooth: Image32, junctions: Junctions) -> tuple[IntArray, IntArray]:
     """Neighbour (n, 4) at each slot, -1 where none, and the slot (n, 4) at which it looks back."""
     n = len(junctions)
     ranks = np.arange(2, min(_NEIGHBOURS, n - 1) + 2)  # the first is the junction itself
-    near = np.asarray(cKDTree(junctions.uv).query(junctions.uv, ranks)[1], dtype=np.int64)
+    tree = scipy.spatial.cKDTree(junctions.uv)
+    near = np.asarray(tree.query(junctions.uv, ranks)[1], dtype=np.int64)
     angle = junctions.edges[:, [0, 1, 0, 1]] + np.array([0, 0, np.pi, np.pi])
     slots = np.stack([np.cos(angle), np.sin(angle)], axis=-1)
     search = _compiled_nearest if kernels.COMPILED else _nearest

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 
 import numpy as np
-from scipy.spatial import cKDTree
+import scipy
 
 from calibgui.engine.corners import edges, saddle, verify
 from calibgui.engine.corners import roi as region
@@ -81,7 +81,7 @@ def guided(grey: Image, board: Board, outline: Array, method: str) -> Located | 
     found = locate(grey, lattice, method)
     if found is None:
         return None
-    distance, _ = cKDTree(found.lattice.uv[found.lattice.found]).query(missing)
+    distance, _ = scipy.spatial.cKDTree(found.lattice.uv[found.lattice.found]).query(missing)
     still = missing[distance > np.nanmedian(found.lattice.spacing()) / 2]
     doubtful = rejections(still, "not found where the marked points place it")
     return replace(found, rejected=(*found.rejected, *doubtful))

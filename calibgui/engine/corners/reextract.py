@@ -19,7 +19,7 @@ from __future__ import annotations
 
 import numpy as np
 import numpy.typing as npt
-from scipy import ndimage
+import scipy
 
 from calibgui.engine.corners import edges, verify
 from calibgui.engine.corners.appearance import placed, sectors, typical
@@ -101,7 +101,7 @@ def _seeds(grey: Image, corners: Corners | None) -> list[Lattice]:
             continue
         good = verify.sound(refined, grey)
         # Parts between which nothing was found need not be at the distance that was counted.
-        parts, count = ndimage.label(good)
+        parts, count = scipy.ndimage.label(good)
         seeds += [refined.under(parts == k + 1) for k in range(count)]
     return [seed for seed in seeds if len(seed) >= _FRAGMENT]
 

@@ -25,7 +25,7 @@ from collections.abc import Callable
 from typing import NamedTuple
 
 import numpy as np
-from scipy.linalg.lapack import dpotrf, dpotrs
+import scipy
 
 from calibgui.engine.estimation.observations import chunks
 from calibgui.engine.estimation.stage_two import Linearised, State
@@ -155,9 +155,9 @@ def factored(reduced: Reduced) -> Factored:
     if not len(reduced.unit):
         return Factored(reduced, lambda right: right)
     # S is symmetric: its transpose is in the order that LAPACK works in, without a copy.
-    factor, failed = dpotrf(reduced.scaled.T, overwrite_a=True)
+    factor, failed = scipy.linalg.lapack.dpotrf(reduced.scaled.T, overwrite_a=True)
     if not failed:
-        return Factored(reduced, lambda right: dpotrs(factor, right)[0])
+        return Factored(reduced, lambda right: scipy.linalg.lapack.dpotrs(factor, right)[0])
     inverse = np.linalg.pinv(reduced.scaled, rcond=1e-15, hermitian=True)
     return Factored(reduced, lambda right: inverse @ right)
 

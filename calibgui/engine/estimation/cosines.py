@@ -32,6 +32,7 @@ from itertools import product
 from typing import NamedTuple
 
 import numpy as np
+import scipy
 
 from calibgui.engine.frames import paper_rotation
 from calibgui.engine.types import Array, IntArray
@@ -112,15 +113,13 @@ def aspect_ratio(backward: Array, literal: bool = False) -> Array:
 def _searched(backward: Array) -> float:
     """The zero of g(r) on the literal grid that is closest to 1; NaN if there is none."""
 
-    from scipy.optimize import brentq  # takes long to import, which the window starts without
-
     def g(r: float) -> float:
         return float(cosines_equation(backward, np.array([r]), literal=True)[0])
 
     values = cosines_equation(backward, _SEARCH, literal=True)
     with np.errstate(invalid="ignore"):
         changes = np.flatnonzero(values[:-1] * values[1:] <= 0)
-    roots = [float(brentq(g, _SEARCH[i], _SEARCH[i + 1])) for i in changes]
+    roots = [float(scipy.optimize.brentq(g, _SEARCH[i], _SEARCH[i + 1])) for i in changes]
     return min(roots, key=lambda r: abs(r - 1), default=float("nan"))
 
 

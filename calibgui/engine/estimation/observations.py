@@ -11,7 +11,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.spatial import cKDTree
+import scipy
 
 from calibgui.engine.errors import CalibrationError
 from calibgui.engine.types import Array, BoolArray, IntArray, Observation
@@ -144,7 +144,7 @@ def pitch(observations: Observations) -> float:
     chosen = np.unique(np.linspace(0, len(observations.xy) - 1, _SAMPLED).astype(int))
     places = [observations.xy[k, observations.view(k), :2] for k in chosen.tolist()]
     unlike = {xy.tobytes(): xy for xy in places}.values()
-    nearest = [np.asarray(cKDTree(xy).query(xy, k=2)[0])[:, 1] for xy in unlike]
+    nearest = [np.asarray(scipy.spatial.cKDTree(xy).query(xy, k=2)[0])[:, 1] for xy in unlike]
     return float(min(np.median(distance) for distance in nearest))
 
 

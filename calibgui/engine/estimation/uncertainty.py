@@ -22,7 +22,7 @@ from __future__ import annotations
 from typing import NamedTuple
 
 import numpy as np
-from scipy.linalg.lapack import dpotrf, dpotri
+import scipy
 
 from calibgui.engine import frames
 from calibgui.engine.estimation.arrow import NormalEquations, Reduced, schur
@@ -101,9 +101,11 @@ def shared_inverse(reduced: Reduced) -> tuple[Array, float]:
     all is well an estimate by the inverse's norm, at most the root of P times too small:
     for hundreds of parameters eigenvalues take ten times as long.
     """
-    factor, failed = dpotrf(reduced.scaled.T, overwrite_a=True) if len(reduced.unit) else ([], 1)
+    lapack = scipy.linalg.lapack
+    empty = not len(reduced.unit)
+    factor, failed = ([], 1) if empty else lapack.dpotrf(reduced.scaled.T, overwrite_a=True)
     if not failed and (np.diag(factor) ** 2 > _CLEAR).all():
-        lower = dpotri(factor, overwrite_c=True)[0].T  # zero above the diagonal
+        lower = lapack.dpotri(factor, overwrite_c=True)[0].T  # zero above the diagonal
         inverse = lower + lower.T
         inverse[np.diag_indices_from(inverse)] /= 2
         left = 1 / float(np.linalg.norm(inverse))

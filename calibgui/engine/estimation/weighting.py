@@ -16,6 +16,7 @@ from __future__ import annotations
 from dataclasses import replace
 
 import numpy as np
+import scipy
 
 from calibgui.engine.estimation.observations import Observations
 from calibgui.engine.types import Array
@@ -51,11 +52,9 @@ def model_variance(observations: Observations, residual: Array, unknowns: int) -
     values, axes = np.linalg.eigh(C)
     along = (np.swapaxes(axes, -1, -2) @ r[..., None])[..., 0] ** 2
 
-    from scipy.optimize import brentq  # takes long to import, which the window starts without
-
     def excess(tau2: float) -> float:
         return float(np.sum(along / (values + tau2))) - freedom
 
     if excess(0.0) <= 0:
         return 0.0
-    return float(brentq(excess, 0.0, float(along.sum()) / freedom, rtol=1e-6))
+    return float(scipy.optimize.brentq(excess, 0.0, float(along.sum()) / freedom, rtol=1e-6))

@@ -20,7 +20,7 @@ from dataclasses import dataclass
 
 import numpy as np
 import numpy.typing as npt
-from scipy.ndimage import gaussian_filter
+import scipy
 
 from calibgui.engine.errors import CalibrationError
 from calibgui.engine.estimation.projection import normalise
@@ -101,7 +101,7 @@ def irradiance(
         [scene.levels(_grid(u, v[i : i + rows])) for i in range(0, len(v), rows)]
     )
     if blur > 0:
-        levels = gaussian_filter(levels, blur, truncate=4.0)
+        levels = scipy.ndimage.gaussian_filter(levels, blur, truncate=4.0)
     levels = levels[margin : margin + h, margin : margin + w]
     centre = centre_of_array(camera.size)
     light = 1 + look.shading[0] * (np.arange(w) - centre[0]) / w

@@ -15,7 +15,7 @@ from __future__ import annotations
 from collections.abc import Callable
 
 import numpy as np
-from scipy.sparse import csr_array
+import scipy
 
 from calibgui.engine.types import Array, BoolArray, Size
 
@@ -88,7 +88,7 @@ class _Knots:
         parts = [(by_u @ (by_v @ self.values[..., i]).T).T for i in (0, 1)]
         return np.stack(parts, axis=-1)
 
-    def _weights(self, x: Array, axis: int) -> csr_array:
+    def _weights(self, x: Array, axis: int) -> scipy.sparse.csr_array:
         """(len(x), knots) weights of the knots along one axis."""
         i = np.floor(x / self.step).astype(int)
         t = x / self.step - i
@@ -97,4 +97,4 @@ class _Knots:
         columns = i[:, None] + np.arange(4)
         ends = np.arange(0, 4 * len(x) + 1, 4)
         shape = (len(x), self.values.shape[axis])
-        return csr_array((weights.ravel(), columns.ravel(), ends), shape=shape)
+        return scipy.sparse.csr_array((weights.ravel(), columns.ravel(), ends), shape=shape)

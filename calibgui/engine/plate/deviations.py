@@ -25,7 +25,7 @@ from collections.abc import Iterator
 from dataclasses import replace
 
 import numpy as np
-from scipy.spatial import cKDTree
+import scipy
 
 from calibgui.engine.errors import CalibrationError
 from calibgui.engine.estimation.arrow import NormalAt, NormalEquations, summed
@@ -172,7 +172,7 @@ def on_plate(observations: Observations, plate: Plate) -> Observations:
     Raises:
         CalibrationError: if a corner is not one of the plate's.
     """
-    found = cKDTree(plate.nominal).query(observations.xy[..., :2])
+    found = scipy.spatial.cKDTree(plate.nominal).query(observations.xy[..., :2])
     distance, index = np.asarray(found[0]), np.asarray(found[1], dtype=np.int64)
     if distance.max() > 1e-3:
         raise CalibrationError(

@@ -18,7 +18,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.spatial import ConvexHull
+import scipy
 
 from calibgui.engine.errors import CalibrationError
 from calibgui.engine.frames import rotation, rotation_vector
@@ -113,7 +113,7 @@ def difference(
 
 def covered(uv: Array, views: Sequence[Observation]) -> BoolArray:
     """(...) whether pixels (..., 2) lie in the convex hull of the corners of all views."""
-    sides = ConvexHull(np.concatenate([view.uv for view in views])).equations
+    sides = scipy.spatial.ConvexHull(np.concatenate([view.uv for view in views])).equations
     return np.asarray((uv @ sides[:, :2].T + sides[:, 2] <= 0).all(axis=-1))
 
 

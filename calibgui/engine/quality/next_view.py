@@ -18,7 +18,7 @@ from dataclasses import dataclass, replace
 from itertools import product
 
 import numpy as np
-from scipy.spatial import cKDTree
+import scipy
 
 from calibgui.engine import frames
 from calibgui.engine.errors import CalibrationError
@@ -192,7 +192,7 @@ def _faces(calibration: Calibration) -> bool:
 
 def _spacing(corners: Array) -> float:
     """Smallest distance between corners (n, 2), px."""
-    return float(np.asarray(cKDTree(corners).query(corners, k=2)[0])[:, 1].min())
+    return float(np.asarray(scipy.spatial.cKDTree(corners).query(corners, k=2)[0])[:, 1].min())
 
 
 def _visible(corners: Array, camera: Camera) -> bool:

@@ -36,8 +36,7 @@ from dataclasses import dataclass
 from functools import partial
 
 import numpy as np
-from scipy.spatial import cKDTree
-from scipy.special import chdtri, ndtri
+import scipy
 
 from calibgui.engine.estimation.observations import Observations, pitch, view_names
 from calibgui.engine.quality import patterns
@@ -220,14 +219,12 @@ def _pattern(name: str, found: patterns.Explained, rms: float, advice: str) -> C
 
 def _shape(relative: Array) -> Check:
     """Gaussian or not, from residuals (n, 2) of unit variance."""
-    from scipy.stats import kurtosistest  # takes 0.3 s to import, which the window starts without
-
     square = np.sum(relative**2, axis=1)
     excess = float(np.mean(relative**4) / np.mean(relative**2) ** 2 - 3)
     # The median's square is 2 ln 2 sigma^2, which outliers do not move.
     far = square > _OUTLIER**2 * np.median(square) / (2 * np.log(2))
     harmless = excess > 0 and not far.any()
-    passed = harmless or bool(kurtosistest(relative.ravel()).pvalue >= _CHANCE)
+    passed = harmless or bool(scipy.stats.kurtosistest(relative.ravel()).pvalue >= _CHANCE)
     return Check(
         "shape",
         passed,
@@ -247,7 +244,7 @@ def _views(sigma: Array, freedom: Array, names: Sequence[str]) -> Check:
     bartlett /= 1 + (np.sum(1 / freedom) - 1 / total) / (3 * (K - 1))
     share = freedom / total
     gain = np.sqrt(np.sum(share * sigma**2) * np.sum(share / sigma**2))
-    passed = bool(gain < _GAIN or bartlett < chdtri(K - 1, _CHANCE))
+    passed = bool(gain < _GAIN or bartlett < scipy.special.chdtri(K - 1, _CHANCE))
     finding = f"sigma {sigma.min():.2g} to {sigma.max():.2g} px"
     if not passed:
         order = np.argsort(sigma)[::-1][:5].tolist()
@@ -262,12 +259,13 @@ def _neighbours(relative: Array, observations: Observations) -> Check:
     products, pairs = 0.0, 0
     for k in range(len(relative)):
         places = observations.view(k)
-        near = cKDTree(observations.xy[k, places, :2]).query_pairs(reach, output_type="ndarray")
+        tree = scipy.spatial.cKDTree(observations.xy[k, places, :2])
+        near = tree.query_pairs(reach, output_type="ndarray")
         r = relative[k, places]
         products += float(np.sum(r[near[:, 0]] * r[near[:, 1]]))
         pairs += len(near)
     correlation = products / max(2 * pairs, 1)
-    passed = bool(correlation * np.sqrt(2 * pairs) < -ndtri(_CHANCE))
+    passed = bool(correlation * np.sqrt(2 * pairs) < -scipy.special.ndtri(_CHANCE))
     return Check("neighbours", passed, f"correlation {correlation:+.2f}", _SMOOTH)
 
 
@@ -275,7 +273,7 @@ def _directions(residual: Array) -> Check:
     C = residual.T @ residual / len(residual)
     values, vectors = np.linalg.eigh(C)
     sphericity = -len(residual) * np.log(4 * np.linalg.det(C) / np.trace(C) ** 2)
-    passed = bool(sphericity < chdtri(2, _CHANCE))
+    passed = bool(sphericity < scipy.special.chdtri(2, _CHANCE))
     low, high = np.sqrt(values)
     finding = f"sigma {low:.2g} to {high:.2g} px"
     if not passed:

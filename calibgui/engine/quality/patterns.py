@@ -24,7 +24,7 @@ from dataclasses import replace
 from typing import NamedTuple
 
 import numpy as np
-from scipy.special import fdtrc
+import scipy
 
 from calibgui.engine.estimation.arrow import NormalEquations, normal_equations, schur
 from calibgui.engine.estimation.observations import Observations, chunks
@@ -126,7 +126,8 @@ def explained(T: float, rank: int, cost: float, freedom: int) -> Explained:
         return Explained(1.0, 0.0)
     variance = max(cost - T, 0.0) / rest
     ratio = T / rank / max(variance, 1e-300)
-    return Explained(float(fdtrc(rank, rest, ratio)), max(T - rank * variance, 0.0) / cost)
+    probability = float(scipy.special.fdtrc(rank, rest, ratio))
+    return Explained(probability, max(T - rank * variance, 0.0) / cost)
 
 
 def by_plate(fit: Fitted, model: PlateModel) -> Explained:

@@ -49,7 +49,7 @@ from __future__ import annotations
 from dataclasses import replace
 
 import numpy as np
-from scipy.special import fdtrc
+import scipy
 
 from calibgui.engine import frames
 from calibgui.engine.estimation import uncertainty
@@ -89,7 +89,7 @@ def with_view_scatter(estimate: Estimate, model: str, free: IntArray) -> Estimat
     X = float(np.einsum("kp,kpq,kq->", h, alone, h)) / (P * sigma2 * (1 - leverage))
     D = R @ alone @ R
     n = P**2 / float(np.sum(R**2) + np.sum(D.sum(axis=0) ** 2) - np.sum(D**2))
-    if fdtrc(n, 2 * corners - 6 * K - P - estimate.plate_unknowns, X) > _CHANCE:
+    if scipy.special.fdtrc(n, 2 * corners - 6 * K - P - estimate.plate_unknowns, X) > _CHANCE:
         return estimate
     moved = np.linalg.solve(np.eye(P) - _LEFT_OUT * R, h[..., None])[..., 0] @ unit.T
     clustered = moved.T @ moved * (K - 1) / K / (1 - leverage)

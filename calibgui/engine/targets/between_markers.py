@@ -13,7 +13,7 @@ its side over a square's: nothing beyond that is looked at.
 from __future__ import annotations
 
 import numpy as np
-from scipy.spatial import cKDTree
+import scipy
 
 from calibgui.engine.corners import edges, saddle, verify
 from calibgui.engine.corners.edges import Fit
@@ -46,7 +46,7 @@ def expected(markers: Markers, board: Board, image: Image) -> Lattice:
     xy = grid[:, ::-1].astype(np.float64)
     places = markers.places
     count = min(_NEAREST, len(places))
-    near = cKDTree(places.mean(axis=1)).query(xy, np.arange(1, count + 1))
+    near = scipy.spatial.cKDTree(places.mean(axis=1)).query(xy, np.arange(1, count + 1))
     distance, which = np.asarray(near[0]), np.asarray(near[1])
     # Around the corner: a homography moves nothing else so little.
     source = (places[which] - xy[:, None, None]).reshape(len(xy), -1, 2)

@@ -21,7 +21,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.spatial import cKDTree
+import scipy
 
 from calibgui.engine import opencv
 from calibgui.engine.corners import roi as region
@@ -186,7 +186,7 @@ class Circles:
                         continue
                     centres = opencv.circle_grid(points, board, self.asymmetric)
                     if centres is not None:
-                        nearest = np.asarray(cKDTree(points).query(centres)[1])
+                        nearest = np.asarray(scipy.spatial.cKDTree(points).query(centres)[1])
                         return (points[nearest] + 0.5) * 2**depth - 0.5 + [left, top]
         raise NoBoardError(
             f"No grid of {board[0]} x {board[1]} circles was found.",

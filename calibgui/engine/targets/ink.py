@@ -21,7 +21,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Protocol
 
 import numpy as np
-from scipy.spatial import cKDTree
+import scipy
 
 if TYPE_CHECKING:
     from calibgui.engine.types import Array, BoolArray
@@ -111,7 +111,7 @@ class Discs:
 
     def share(self, XY: Array, gradient: Array) -> tuple[Array, BoolArray]:
         """See ``Ink``."""
-        at = np.asarray(cKDTree(self.centres).query(XY)[1])
+        at = np.asarray(scipy.spatial.cKDTree(self.centres).query(XY)[1])
         out = XY - self.centres[at]
         distance = np.linalg.norm(out, axis=-1)
         normal = out / np.maximum(distance, 1e-12)[..., None]

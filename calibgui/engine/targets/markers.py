@@ -20,8 +20,7 @@ from collections.abc import Collection
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.sparse import coo_array
-from scipy.sparse.csgraph import connected_components
+import scipy
 
 from calibgui.engine.types import Array, BoolArray, IntArray
 
@@ -100,8 +99,9 @@ def on_board(numbers: IntArray, corners: Array, allowed: Collection[Layout]) -> 
         return None
     (layout,) = best
     agree, side = sets[layout]
-    links = coo_array((np.ones(int(most)), (i[agree], j[agree])), shape=(len(numbers),) * 2)
-    part = connected_components(links, directed=False)[1]
+    ends = i[agree], j[agree]
+    links = scipy.sparse.coo_array((np.ones(int(most)), ends), shape=(len(numbers),) * 2)
+    part = scipy.sparse.csgraph.connected_components(links, directed=False)[1]
     largest = np.flatnonzero(part == np.bincount(part).argmax())
     read = Counter(numbers[largest].tolist())
     kept = largest[[read[k] == 1 for k in numbers[largest].tolist()]]

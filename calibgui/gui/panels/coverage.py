@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import numpy as np
 import pyqtgraph as pg
+import scipy
 from PySide6.QtCore import QT_TRANSLATE_NOOP, Qt
 from PySide6.QtGui import QColor
 from PySide6.QtWidgets import QLabel, QVBoxLayout
-from scipy.spatial import ConvexHull
 
 from calibgui.engine.quality.next_view import NextView, next_views
 from calibgui.formats.result import Result
@@ -127,7 +127,7 @@ class CoveragePanel(Panel):
             self.next_board.setData([], [])
             self.next_corners.setData([], [])
             return
-        around = ConvexHull(view.corners).vertices
+        around = scipy.spatial.ConvexHull(view.corners).vertices
         self.next_board.setData(*view.corners[[*around, around[0]]].T)
         self.next_corners.setData(*view.corners.T)
         self.advice.setText(

@@ -6,9 +6,9 @@ from collections.abc import Iterator
 
 import numpy as np
 import pyqtgraph as pg
+import scipy
 from PySide6.QtCore import QT_TRANSLATE_NOOP, QPointF
 from PySide6.QtWidgets import QCheckBox, QComboBox, QHBoxLayout, QLabel, QVBoxLayout
-from scipy.spatial import Delaunay
 
 from calibgui.engine.frames import centre_of_array
 from calibgui.engine.imaging.maps import Displacement, Part, displacement
@@ -97,7 +97,7 @@ class DistortionPanel(Panel):
         if not self.masked.isChecked():
             return np.ones(uv.shape[:-1], dtype=bool)
         corners = np.concatenate([view.uv for view in result.observations()])
-        return np.asarray(Delaunay(corners).find_simplex(uv) >= 0)
+        return np.asarray(scipy.spatial.Delaunay(corners).find_simplex(uv) >= 0)
 
     def _hover(self, position: QPointF | None) -> None:
         """Say the displacement under the cursor, or the largest where there is none."""

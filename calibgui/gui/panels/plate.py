@@ -6,9 +6,9 @@ from pathlib import Path
 
 import numpy as np
 import pyqtgraph as pg
+import scipy
 from PySide6.QtCore import QT_TRANSLATE_NOOP, QPointF, QRectF, Signal
 from PySide6.QtWidgets import QFileDialog, QHBoxLayout, QLabel, QPushButton, QVBoxLayout
-from scipy.spatial import cKDTree
 
 from calibgui.engine.errors import CalibrationError
 from calibgui.engine.types import Array, Plate
@@ -103,7 +103,8 @@ class PlatePanel(Panel):
         brushes = self.colours.map((d[:, 2] / reach + 1) / 2, mode="qcolor")
         self.dots.setData(*at.T, brush=list(brushes))
         self.bar.setLevels((-reach, reach))
-        pitch = self._pitch = float(np.asarray(cKDTree(at).query(at, k=2)[0])[:, 1].min())
+        nearest = scipy.spatial.cKDTree(at).query(at, k=2)[0]
+        pitch = self._pitch = float(np.asarray(nearest)[:, 1].min())
         longest = float(np.linalg.norm(d[:, :2], axis=1).max()) or 1e-3
         scale = _LONGEST * pitch / longest
         corner, unit = at.min(axis=0) - [0.0, 1.4 * pitch], _round(longest)
