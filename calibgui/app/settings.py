@@ -6,8 +6,8 @@ import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 
-from calibgui.engine.calibrate import parameter_names
 from calibgui.engine.errors import CalibrationError
+from calibgui.engine.lens import parameter_names
 from calibgui.engine.types import Cost, Plate, PlateModel, Prior
 
 NAMES = parameter_names("lucchese")

@@ -24,11 +24,11 @@ import scipy
 
 from calibgui import engine
 from calibgui.app.workers import Crashed, spread
-from calibgui.engine.calibrate import HELD
 from calibgui.engine.corners import METHODS
 from calibgui.engine.errors import CalibrationError, NoBoardError
 from calibgui.engine.imaging.maps import project_points
 from calibgui.engine.imaging.render import Appearance, render
+from calibgui.engine.lens import MODELS
 from calibgui.engine.types import (
     Array,
     Calibration,
@@ -177,6 +177,6 @@ def _settings(calibration: Calibration) -> Mapping[str, Any]:
         "cost": settings["cost"],
         "model": settings["model"],
         "fix": fixed,
-        "free": [name for name in HELD.get(settings["model"], ()) if name not in fixed],
+        "free": [name for name in MODELS[settings["model"]].held if name not in fixed],
         "max_iterations": settings["max_iterations"],
     }

@@ -25,9 +25,9 @@ from calibgui.cli.arguments import (
 )
 from calibgui.cli.console import Console
 from calibgui.cli.targets import add_target, pattern_of
-from calibgui.engine.calibrate import HELD
 from calibgui.engine.errors import CalibrationError, DegenerateError
 from calibgui.engine.kernels import SOLVER_SECONDS, when_compiling
+from calibgui.engine.lens import MODELS
 from calibgui.engine.types import Cost, Plate, PlateModel, Prior
 from calibgui.formats import EXPORTERS, export, find_exporter
 from calibgui.formats.corners_json import CornerSet, read_corners
@@ -70,7 +70,8 @@ def configure(parser: argparse.ArgumentParser) -> None:
         type=_names,
         default=(),
         metavar="NAMES",
-        help=f"intrinsics to estimate that are held by default ({', '.join(HELD['lucchese'])})",
+        help="intrinsics to estimate that are held by default "
+        f"({', '.join(MODELS['lucchese'].held)})",
     )
     parser.add_argument(
         "--robust",

@@ -12,7 +12,6 @@ from calibgui.app.outputs import make_folder, save_figure
 from calibgui.app.resources import resource, sample_truth
 from calibgui.cli.arguments import search
 from calibgui.cli.console import Console
-from calibgui.engine.calibrate import parameter_names
 from calibgui.engine.images import read_image
 from calibgui.engine.imaging.undistort import board_extent, rectify_image, undistort_image
 from calibgui.formats import export
@@ -54,7 +53,7 @@ def run(options: argparse.Namespace, console: Console) -> None:
     for file, figure in _figures(result).items():
         save_figure(figure, out / file)
     params = truth["camera"]["params"]
-    names = parameter_names(result.calibration.camera.model)
+    names = result.calibration.camera.names
     console.answer(result_record(result))
     console.say(tables.report(result))
     console.say(

@@ -7,8 +7,14 @@ from calibgui.engine.corners import find_corners
 from calibgui.engine.errors import CalibrationError, Cancelled, DegenerateError, NoBoardError
 from calibgui.engine.images import Image, read_image
 from calibgui.engine.imaging.maps import distort_points, project_points, undistort_points
-from calibgui.engine.imaging.render import render
-from calibgui.engine.imaging.undistort import rectify_image, undistort_image
+from calibgui.engine.imaging.render import Appearance, render
+from calibgui.engine.imaging.undistort import (
+    FieldOfView,
+    Resampled,
+    board_extent,
+    rectify_image,
+    undistort_image,
+)
 from calibgui.engine.quality.statistics import Summary, summarise
 from calibgui.engine.refit import Refit, refit
 from calibgui.engine.targets.charuco import Charuco
@@ -25,15 +31,22 @@ from calibgui.engine.types import (
     Diagnosis,
     Iteration,
     Observation,
+    Plate,
+    PlateModel,
     Pose,
+    Prior,
+    StageOne,
     Status,
     Target,
+    Undetermined,
     View,
+    ViewResiduals,
     ViewStatus,
 )
 
 __all__ = [
     "Ambiguity",
+    "Appearance",
     "Assumed",
     "Calibration",
     "CalibrationError",
@@ -47,17 +60,26 @@ __all__ = [
     "Degeneracy",
     "DegenerateError",
     "Diagnosis",
+    "FieldOfView",
     "Image",
     "Iteration",
     "NoBoardError",
     "Observation",
+    "Plate",
+    "PlateModel",
     "Pose",
+    "Prior",
     "Refit",
+    "Resampled",
+    "StageOne",
     "Status",
     "Summary",
     "Target",
+    "Undetermined",
     "View",
+    "ViewResiduals",
     "ViewStatus",
+    "board_extent",
     "calibrate",
     "distort_points",
     "find_corners",

@@ -10,11 +10,11 @@ from typing import Any
 
 import numpy as np
 
-from calibgui.engine.errors import CalibrationError, DegenerateError
+from calibgui.engine.errors import CalibrationError, DegenerateError, one_of
 from calibgui.engine.estimation import uncertainty
+from calibgui.engine.estimation.asked import Asked, held_parameters
 from calibgui.engine.estimation.assumed import estimate_partly, vague
 from calibgui.engine.estimation.degeneracy import (
-    PINHOLE,
     copies,
     diagnosed,
     in_one_spot,
@@ -29,13 +29,13 @@ from calibgui.engine.estimation.observations import (
     pitch,
     view_names,
 )
-from calibgui.engine.estimation.outcome import Asked, Estimate, estimated, reported
+from calibgui.engine.estimation.outcome import Estimate, estimated, reported
 from calibgui.engine.estimation.solving import reweighted, solved
 from calibgui.engine.estimation.stage_one import prealign
 from calibgui.engine.estimation.stage_two import State
 from calibgui.engine.estimation.start import in_paper_frame, start_of_stage_two
 from calibgui.engine.estimation.weighting import weighted
-from calibgui.engine.lens import MODELS
+from calibgui.engine.lens import MODELS, PINHOLE, parameter_names
 from calibgui.engine.plate.deviations import on_plate
 from calibgui.engine.plate.doubt import with_plate_doubt
 from calibgui.engine.plate.fit import fit_plate
@@ -43,6 +43,7 @@ from calibgui.engine.quality.view_scatter import with_view_scatter
 from calibgui.engine.threads import on_one_blas_thread
 from calibgui.engine.types import (
     Array,
+    BoolArray,
     Calibration,
     Camera,
     Cost,
@@ -53,15 +54,11 @@ from calibgui.engine.types import (
     Prior,
     Report,
     Size,
+    image_size,
 )
 
-HELD = {"lucchese": ("p3",)}
-"""Coefficients held at 0 unless freed: p3 multiplies p1 and p2 and is rarely determined."""
-
-
-def parameter_names(model: str) -> tuple[str, ...]:
-    """Names of a camera's parameters, in the order of ``Camera.params``."""
-    return ("fx", "fy", "cx", "cy", *MODELS[model].names)
+_FAR = 0.5
+"""How far outside the image corners may be, in its longer side."""
 
 
 @on_one_blas_thread
@@ -70,8 +67,8 @@ def calibrate(
     size: Size,
     *,
     cost: Cost | str = Cost.IMAGE,
-    fix: Mapping[str, float | None] | Iterable[str] = (),
-    free: Iterable[str] = (),
+    fix: Mapping[str, float | None] | Iterable[str] | str = (),
+    free: Iterable[str] | str = (),
     model: str = "lucchese",
     report: Report | None = None,
     plate: PlateModel | str | Plate = PlateModel.NOMINAL,
@@ -88,30 +85,36 @@ def calibrate(
         size: width and height of the images, px.
         cost: what Stage II minimises, see `Cost`. `Cost.PAPER` is the printed method: the
             literal reference grid, radius in pixels and p3 free.
-        fix: intrinsics to hold, with their values; without a value (or None) coefficients
-            are held at 0, the centre at the array's and focal lengths at the closed form.
-        free: intrinsics to estimate that are held by default (p3).
+        fix: names of intrinsics to hold, with their values; without a value (or None)
+            coefficients are held at 0, the centre at the array's and focal lengths at the
+            closed form.
+        free: names of intrinsics to estimate that are held by default (p3).
         model: the lens, a key of ``lens.MODELS``.
         plate: how the target may deviate from its nominal shape, estimated with the camera; or
             a plate estimated before, which is held. With the image cost only.
-        prior: what is known of a free plate's corners beforehand.
+        prior: what is known of a free plate's corners beforehand; other plates need none.
         report: told of each iteration of Stage II; returning False stops it.
-        max_iterations: of Stage II.
+        max_iterations: of each solve of Stage II; corners with covariances take a few solves.
         names: of the views, for messages; numbers by default.
 
     Raises:
-        CalibrationError: for views that cannot be used, naming them.
+        CalibrationError: for views that cannot be used, naming them, and for arguments that
+            there are not or that do not go together.
         DegenerateError: if the views do not determine the camera, with what to photograph and,
             in `partial`, what they do determine.
         Cancelled: from `report`.
     """
-    cost = Cost(cost)
+    cost = one_of(Cost, cost, "cost")
     if cost is Cost.PAPER:
         model = "lucchese-pixels"
-    plate = plate if isinstance(plate, Plate) else PlateModel(plate)
-    _check_choices(cost, model, plate)
-    parameters = parameter_names(model)
-    held = _held(fix, free, model, parameters)
+    plate = plate if isinstance(plate, Plate) else one_of(PlateModel, plate, "plate model")
+    if plate is not PlateModel.NOMINAL and cost is not Cost.IMAGE:
+        raise CalibrationError(
+            f"The cost {cost.value!r} registers the views on a flat, nominal plate.",
+            "Use the cost 'image' with another plate.",
+        )
+    size, parameters = image_size(size), parameter_names(model)
+    held = held_parameters(fix, free, model, size)
     names = names or view_names(len(views))
     observations = pack(views, names)
     _check_size(observations, size, names)
@@ -138,8 +141,16 @@ def calibrate(
         unheld = [name for name in PINHOLE if name not in held]
         _refuse(observations, like, asked, start, unheld if len(unheld) > 2 else ())
     free_indices = asked.free
-    solve = partial(solved, model=model, cost=cost, scale=scale, free=free_indices, report=report)
-    solution = solve(observations, start, max_iterations=max_iterations)
+    solve = partial(
+        solved,
+        model=model,
+        cost=cost,
+        scale=scale,
+        free=free_indices,
+        report=report,
+        max_iterations=max_iterations,
+    )
+    solution = solve(observations, start)
     if observations.whitening is not None:
         observations, solution = reweighted(observations, solution, model, solve)
     suspects = [names[k] for k in misfits(first.rms).tolist()]
@@ -154,19 +165,6 @@ def calibrate(
         estimate = with_view_scatter(estimate, model, free_indices)
     digest = _digest(observations, settings)
     return reported(estimate, asked, precision.undetermined, digest)
-
-
-def _check_choices(cost: Cost, model: str, plate: PlateModel | Plate) -> None:
-    """Refuse a model that there is not, and a plate that the cost does not take."""
-    if plate is not PlateModel.NOMINAL and cost is not Cost.IMAGE:
-        raise CalibrationError(
-            f"The cost {cost.value!r} registers the views on a flat, nominal plate.",
-            "Use the cost 'image' with another plate.",
-        )
-    if model not in MODELS:
-        raise CalibrationError(
-            f"There is no lens model {model!r}.", f"Choose from {', '.join(MODELS)}."
-        )
 
 
 def _determined(
@@ -238,41 +236,19 @@ def _refuse(
     )
 
 
-def _held(
-    fix: Mapping[str, float | None] | Iterable[str],
-    free: Iterable[str],
-    model: str,
-    names: tuple[str, ...],
-) -> dict[str, float | None]:
-    """Names of the held parameters, with the values asked for."""
-    asked = dict(fix) if isinstance(fix, Mapping) else dict.fromkeys(fix)
-    freed = set(free)
-    for name in [*asked, *freed]:
-        if name not in names:
-            raise CalibrationError(
-                f"The lens model {model!r} has no parameter {name!r}.",
-                f"Choose from {', '.join(names)}.",
-            )
-    for name, value in asked.items():
-        if value is not None and not (np.isfinite(value) and (value > 0 or name[0] != "f")):
-            raise CalibrationError(
-                f"{name} cannot be held at {value}.", "Focal lengths are positive, in pixels."
-            )
-    if both := freed & asked.keys():
-        raise CalibrationError(
-            f"{', '.join(sorted(both))} cannot be both held and freed.", "Name it once."
-        )
-    default = dict.fromkeys(name for name in HELD.get(model, ()) if name not in freed)
-    return default | asked
-
-
 def _check_size(observations: Observations, size: Size, names: Sequence[str]) -> None:
-    margin = 0.5 * max(size)
-    outside = (observations.uv < -margin) | (observations.uv > np.array(size) + margin)
-    if outside.any():
-        k = int(np.flatnonzero(outside.any(axis=(1, 2)))[0])
+    """Refuse corners that an image of this size cannot show."""
+
+    def outside(size: Size, margin: float) -> BoolArray:
+        beyond = (observations.uv < -margin) | (observations.uv > np.array(size) + margin)
+        return np.asarray(beyond.any(axis=(1, 2)))
+
+    far, swapped = outside(size, _FAR * max(size)), outside(size, 0.0)
+    swapped &= not outside(size[::-1], 0.0).any()
+    if (wrong := far | swapped).any():
         raise CalibrationError(
-            f"{names[k]} has corners far outside an image of {size[0]} x {size[1]} pixels.",
+            f"{names[int(np.argmax(wrong))]} has corners {'far ' if far.any() else ''}outside an "
+            f"image of {size[0]} x {size[1]} pixels.",
             "Check the image size, given as width, height.",
         )
 

@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from enum import StrEnum
+from typing import TYPE_CHECKING, TypeVar
 
 if TYPE_CHECKING:
     from calibgui.engine.types import Calibration
+
+_Choice = TypeVar("_Choice", bound=StrEnum)
 
 
 class CalibrationError(Exception):
@@ -46,3 +49,17 @@ class DegenerateError(CalibrationError):
 
 class Cancelled(Exception):  # noqa: N818 - a request, not an error
     """Raised by a progress callback to abandon the work and discard its result."""
+
+
+def one_of(kind: type[_Choice], value: str, what: str) -> _Choice:
+    """`value` as one of the choices that there are of `what`.
+
+    Raises:
+        CalibrationError: if it is none of them, naming them.
+    """
+    try:
+        return kind(value)
+    except ValueError:
+        raise CalibrationError(
+            f"There is no {what} {value!r}.", f"Choose from {', '.join(kind)}."
+        ) from None

@@ -33,7 +33,9 @@ class Refit:
     """Over the places where corners were seen, px."""
 
 
-def refit(views: Sequence[Observation], original: Calibration, model: str = "opencv") -> Refit:
+def refit(
+    views: Sequence[Observation | tuple[Array, Array]], original: Calibration, model: str = "opencv"
+) -> Refit:
     """Calibrate another lens model on the same corners.
 
     Args:
@@ -42,7 +44,7 @@ def refit(views: Sequence[Observation], original: Calibration, model: str = "ope
         model: a key of ``lens.MODELS``.
 
     Raises:
-        CalibrationError: as ``calibrate``.
+        CalibrationError, DegenerateError: as ``calibrate``.
     """
     held = _held(original.settings["fixed"])
     plate = original.plate or PlateModel.NOMINAL
@@ -51,7 +53,7 @@ def refit(views: Sequence[Observation], original: Calibration, model: str = "ope
     whole: Array = np.stack(
         np.meshgrid(np.linspace(0, w - 1, _STEPS), np.linspace(0, h - 1, _STEPS)), axis=-1
     )
-    seen = np.concatenate([view.uv for view in views])
+    seen = np.concatenate([Observation(*view).uv for view in views])
     return Refit(
         calibration,
         float(displacement(original.camera, calibration.camera, whole).max()),

@@ -8,7 +8,6 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from calibgui.engine.calibrate import parameter_names
 from calibgui.engine.files import write_atomically
 from calibgui.engine.types import Calibration
 from calibgui.formats.exporter import Exporter, ExportReport
@@ -29,7 +28,7 @@ def lines(calibration: Calibration) -> str:
     rows = "\n".join(
         f"    {value!r},  # {name} +- {sigma:.2g}"
         for name, value, sigma in zip(
-            parameter_names(camera.model),
+            camera.names,
             camera.params.tolist(),
             calibration.sigma.tolist(),
             strict=True,

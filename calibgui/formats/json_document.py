@@ -287,7 +287,9 @@ def check_format(node: Node, name: str, version: int) -> None:
             f"{node.file} is not a file of the format {name!r}.", "Choose another file."
         )
     number = node["version"].integer()
-    if not 1 <= number <= version:
+    if number < 1:
+        node["version"].fail("a version of this format, which are counted from 1")
+    if number > version:
         raise CalibrationError(
             f"{node.file} has version {number} of the format {name!r}; "
             f"this program knows versions up to {version}.",

@@ -22,9 +22,8 @@ from typing import Any
 import numpy as np
 
 from calibgui.engine import frames
-from calibgui.engine.calibrate import parameter_names
 from calibgui.engine.estimation import uncertainty
-from calibgui.engine.lens import MODELS, Lucchese
+from calibgui.engine.lens import MODELS, Lucchese, parameter_names
 from calibgui.engine.quality.statistics import summarise
 from calibgui.engine.types import (
     Array,
@@ -69,7 +68,7 @@ def write_result(result: Result, path: str | os.PathLike[str]) -> None:
 def result_record(result: Result) -> dict[str, Any]:
     """The content of result.json."""
     calibration = result.calibration
-    names = parameter_names(calibration.camera.model)
+    names = calibration.camera.names
     summary = summarise(calibration.residuals)
     return {
         "format": FORMAT,

@@ -16,15 +16,15 @@ from PySide6.QtWidgets import (
 )
 
 from calibgui.app.settings import NAMES, Settings, held_in
-from calibgui.engine.calibrate import HELD
 from calibgui.engine.errors import CalibrationError
+from calibgui.engine.lens import MODELS
 from calibgui.engine.types import Cost, PlateModel
 from calibgui.gui import theme
 from calibgui.gui.narrow_combo import NarrowCombo
 from calibgui.gui.plate_choice import PlateChoice
 from calibgui.gui.session import Session
 
-_HELD = HELD["lucchese"]
+_HELD = MODELS["lucchese"].held
 """Held unless the user frees them."""
 _PER_ROW = 5
 

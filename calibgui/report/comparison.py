@@ -10,7 +10,6 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from calibgui.engine.calibrate import parameter_names
 from calibgui.engine.types import Calibration
 
 
@@ -42,7 +41,7 @@ def compare(a: Calibration, b: Calibration) -> tuple[Difference, ...]:
     Coefficients of different lens models are not comparable, whatever their names; only
     focal lengths and centres are listed then.
     """
-    names = parameter_names(a.camera.model)
+    names = a.camera.names
     if a.camera.model != b.camera.model:
         names = names[:4]
     return tuple(

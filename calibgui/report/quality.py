@@ -7,7 +7,6 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from calibgui.engine.calibrate import parameter_names
 from calibgui.engine.quality.difference import Difference
 from calibgui.engine.quality.next_view import NextView
 from calibgui.engine.quality.noise import NoiseReport
@@ -79,7 +78,7 @@ def plates(choice: PlateChoice) -> str:
 
 def resampled(found: Bootstrap, calibration: Calibration) -> str:
     """Bootstrap over the views beside the reported standard deviations."""
-    names = parameter_names(calibration.camera.model)
+    names = calibration.camera.names
     rows = [
         [name, f"{sigma:.3g}", f"{reported:.3g}", f"{ratio:.2f}"]
         for name, sigma, reported, ratio in zip(

@@ -19,7 +19,7 @@ from enum import StrEnum
 import numpy as np
 
 from calibgui.engine import frames
-from calibgui.engine.types import Array, Camera, Pose, frozen
+from calibgui.engine.types import Array, Camera, Pose, freeze
 from calibgui.formats.result import Result
 from calibgui.report.coverage import plate_extent
 
@@ -54,7 +54,7 @@ class Polygon:
     """The calibrated view that it stands for; -1 for what all views share."""
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "points", frozen(self.points))
+        freeze(self, "points")
 
 
 def scene(result: Result, centre: Centre) -> tuple[Polygon, ...]:

@@ -14,7 +14,6 @@ from itertools import combinations
 
 import numpy as np
 
-from calibgui.engine.calibrate import parameter_names
 from calibgui.engine.estimation.degeneracy import in_one_spot
 from calibgui.engine.estimation.uncertainty import correlations
 from calibgui.engine.quality.statistics import summarise
@@ -183,7 +182,7 @@ def _determined(result: Result) -> Iterator[Sentence]:
     """The parameters by how well they are known."""
     calibration = result.calibration
     camera, sigma = calibration.camera, calibration.sigma
-    names = parameter_names(camera.model)
+    names = camera.names
     texts = dict(zip(names, map(with_sigma, camera.params, sigma), strict=True))
     scale = np.concatenate([camera.params[:2], [camera.size[0]] * 2])
     relative = dict(zip(names[:4], sigma[:4] / scale, strict=True))
@@ -229,7 +228,7 @@ def _determined(result: Result) -> Iterator[Sentence]:
 def _correlated(result: Result) -> Iterator[Sentence]:
     """Pairs of lens coefficients of which only a combination is known."""
     calibration = result.calibration
-    names = parameter_names(calibration.camera.model)
+    names = calibration.camera.names
     matrix = correlations(calibration.covariance)
     pairs = [
         f"{names[i]} and {names[j]} ({matrix[i, j]:+.3f})"

@@ -13,7 +13,6 @@ from pathlib import PurePath
 
 import numpy as np
 
-from calibgui.engine.calibrate import parameter_names
 from calibgui.engine.estimation import uncertainty
 from calibgui.engine.frames import PAPER_NAMES
 from calibgui.engine.lens import MODELS, Lucchese
@@ -111,7 +110,7 @@ def unused(all_views: Iterable[View]) -> str:
 def intrinsics(calibration: Calibration) -> str:
     """The camera in the array frame and, for the paper's model, in the paper's units."""
     camera = calibration.camera
-    names = parameter_names(camera.model)
+    names = camera.names
     left = [
         [name, _measured(calibration, name, value, sigma), _UNITS.get(name, "")]
         for name, value, sigma in zip(names, camera.params, calibration.sigma, strict=True)
@@ -180,7 +179,7 @@ def symmetry(found: Iterable[View]) -> list[str]:
 def comparison(calibration: Calibration, truth: Mapping[str, float]) -> str:
     """The intrinsics beside their true values, the error in standard deviations."""
     rows = []
-    names = parameter_names(calibration.camera.model)
+    names = calibration.camera.names
     for name, value, sigma in zip(names, calibration.camera.params, calibration.sigma, strict=True):
         error = value - truth[name]
         rows.append(

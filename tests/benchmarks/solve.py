@@ -34,7 +34,7 @@ from matplotlib.figure import Figure
 from threadpoolctl import threadpool_limits
 
 from calibgui.engine import frames
-from calibgui.engine.calibrate import calibrate, parameter_names
+from calibgui.engine.calibrate import calibrate
 from calibgui.engine.estimation import problem, uncertainty
 from calibgui.engine.estimation.levenberg_marquardt import minimise
 from calibgui.engine.estimation.observations import (
@@ -48,7 +48,7 @@ from calibgui.engine.estimation.stage_one import prealign
 from calibgui.engine.estimation.stage_two import State
 from calibgui.engine.estimation.start import in_paper_frame, start_of_stage_two
 from calibgui.engine.kernels import common
-from calibgui.engine.lens import MODELS
+from calibgui.engine.lens import MODELS, parameter_names
 from calibgui.engine.types import Cost, Observation
 from tests.engine.scenes import VGA, Target, brown, looking, seen
 

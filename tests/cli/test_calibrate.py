@@ -14,9 +14,9 @@ import pytest
 
 from calibgui.app.settings import Settings
 from calibgui.cli.main import main
-from calibgui.engine.calibrate import parameter_names
 from calibgui.engine.errors import CalibrationError
 from calibgui.engine.images import write_image
+from calibgui.engine.lens import parameter_names
 from calibgui.engine.types import Cost, PlateModel, Prior
 from calibgui.formats.result_json import read_result
 from tests.photographs import BOARD, CAMERA, COUNT

@@ -197,7 +197,11 @@ def test_p3_is_held_unless_freed() -> None:
         ({"fix": ["p3"], "free": ["p3"]}, "both held and freed"),
         ({"fix": {"fx": -3.0}}, "fx cannot be held"),
         ({"fix": {"k1": float("nan")}}, "k1 cannot be held"),
+        ({"fix": {"cx": 1e9}}, "cx cannot be held"),
         ({"model": "fisheye"}, "no lens model"),
+        ({"cost": "reprojection"}, "no cost 'reprojection'"),
+        ({"plate": "bent"}, "no plate model 'bent'"),
+        ({"plate": "bow", "cost": "reference"}, "flat, nominal plate"),
     ],
 )
 def test_impossible_settings_are_named(options: dict[str, object], says: str) -> None:
@@ -208,6 +212,16 @@ def test_impossible_settings_are_named(options: dict[str, object], says: str) ->
 def test_a_wrong_image_size_is_noticed() -> None:
     with pytest.raises(CalibrationError, match="far outside an image of 100 x 80"):
         calibrate(NOISY, (100, 80))
+    within = [((v.uv > 0) & (v.uv < VGA)).all(axis=1) for v in NOISY]
+    views = [(v.uv[good], v.xy[good]) for v, good in zip(NOISY, within, strict=True)]
+    with pytest.raises(CalibrationError, match="corners outside an image of 480 x 640"):
+        calibrate(views, VGA[::-1])
+    with pytest.raises(CalibrationError, match="no image of 640 x 0"):
+        calibrate(NOISY, (640, 0))
+
+
+def test_one_name_is_as_good_as_a_list_of_it() -> None:
+    assert calibrate(NOISY, VGA, fix="k3", free="p3").fixed == ("k3",)
 
 
 def test_plain_tuples_and_lists_serve(expected: Calibration) -> None:
@@ -263,6 +277,8 @@ def test_report_stops_and_cancels() -> None:
 
 def test_the_limit_of_iterations_is_a_status() -> None:
     found = calibrate(NOISY, VGA, max_iterations=1)
+    assert found.status is Status.MAX_ITERATIONS
+    found = calibrate(weighted(NOISY, [0.04] * 8), VGA, max_iterations=1)
     assert found.status is Status.MAX_ITERATIONS
     costs = [i.cost for i in calibrate(NOISY, VGA).history]
     assert costs == sorted(costs, reverse=True)

@@ -10,13 +10,12 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from calibgui.engine.calibrate import HELD, parameter_names
 from calibgui.engine.estimation import uncertainty
 from calibgui.engine.estimation.levenberg_marquardt import minimise
 from calibgui.engine.estimation.observations import pack
 from calibgui.engine.estimation.outcome import estimated
 from calibgui.engine.estimation.problem import stage_two
-from calibgui.engine.lens import MODELS
+from calibgui.engine.lens import MODELS, parameter_names
 from calibgui.engine.quality.information import state_of
 from calibgui.engine.quality.view_scatter import with_view_scatter
 from calibgui.engine.types import Camera, Cost
@@ -31,7 +30,7 @@ NOISE = 0.2
 @pytest.mark.parametrize("model", list(MODELS))
 def test_repeated_solves_scatter_as_reported(model: str, count: int) -> None:
     camera = brown() if model == "opencv" else Camera(barrel().size, barrel().params, model)
-    held = HELD.get(model, ("p3",) if "lucchese" in model else ())
+    held = ("p3",) if "lucchese" in model else ()
     free = np.flatnonzero([name not in held for name in parameter_names(model)])
     true = scene(camera, count, seed=4)
     names = tuple(np.array(parameter_names(model))[free])

@@ -183,7 +183,7 @@ def test_a_missing_file_and_a_folder_are_named(tmp_path: Path) -> None:
         ({}, "not a file of the format 'x'"),
         ({"format": "y", "version": 1}, "not a file of the format 'x'"),
         ({"format": "x", "version": 3}, "knows versions up to 2"),
-        ({"format": "x", "version": 0}, "knows versions up to 2"),
+        ({"format": "x", "version": 0}, "version is not a version of this format"),
         ({"format": "x", "version": "2"}, "version is not a finite number"),
     ],
 )

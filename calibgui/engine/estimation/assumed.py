@@ -30,9 +30,10 @@ import numpy as np
 from calibgui.engine import frames
 from calibgui.engine.estimation import closed_form, problem, uncertainty
 from calibgui.engine.estimation.arrow import NormalAt, schur
+from calibgui.engine.estimation.asked import Asked
 from calibgui.engine.estimation.levenberg_marquardt import Solution, StartError, minimise
 from calibgui.engine.estimation.observations import Observations
-from calibgui.engine.estimation.outcome import Asked, Estimate
+from calibgui.engine.estimation.outcome import Estimate
 from calibgui.engine.estimation.quantities import Quantities, in_quantities
 from calibgui.engine.estimation.stage_two import State
 from calibgui.engine.estimation.tilts import ProblemOf, righted

@@ -28,10 +28,9 @@ from calibgui.engine.estimation.levenberg_marquardt import Solution
 from calibgui.engine.estimation.observations import Observations
 from calibgui.engine.estimation.stage_two import State
 from calibgui.engine.estimation.uncertainty import Precision
+from calibgui.engine.lens import PINHOLE
 from calibgui.engine.types import Array, Degeneracy, Diagnosis, IntArray, Size
 
-PINHOLE = ("fx", "fy", "cx", "cy")
-"""What the planes' directions determine."""
 _SIGNIFICANT = 50.0
 """T below which the planes count as parallel."""
 _DISTINCT = np.deg2rad(0.1)

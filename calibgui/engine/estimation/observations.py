@@ -23,6 +23,12 @@ _SAMPLED = 25
 """Views that the target's pitch is taken from."""
 CHUNK = 64
 """Views worked on together: their arrays still fit the processor's cache."""
+_FARTHEST_UV, _FARTHEST_XY = 1e7, 1e9
+"""From the origin, px and mm: no image and no board is larger."""
+_SMALLEST = 1e-9
+"""Extent of a board, mm, below which there is none."""
+_LEAST_VARIANCE = 1e-100
+"""Of a corner, px^2: what is less cannot be inverted."""
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -74,8 +80,9 @@ def pack(
         names: of the views, for messages; numbers by default.
 
     Raises:
-        CalibrationError: naming the view, if shapes disagree, a number is not finite, corners
-            repeat, are fewer than four or lie on one line, or a covariance is not positive.
+        CalibrationError: naming the view, if shapes disagree, a number is not finite or too
+            large, corners repeat, are fewer than four or lie on one line, or a covariance is not
+            positive.
     """
     if not views:
         raise CalibrationError(
@@ -83,8 +90,9 @@ def pack(
             "Photograph the board at least 3 times from different directions.",
         )
     names = names or view_names(len(views))
-    pairs = zip(views, names, strict=True)
-    shaped = [_shaped(Observation(*view), name) for view, name in pairs]
+    if len(names) != len(views):
+        raise ValueError(f"{len(names)} names do not name {len(views)} views")
+    shaped = [_shaped(Observation(*view), name) for view, name in zip(views, names, strict=True)]
     # All or nothing: a mixture of weighted and unweighted views has no common noise level.
     cov = [view.cov for view in shaped if view.cov is not None]
     if cov and len(cov) < len(shaped):
@@ -191,10 +199,20 @@ def _check_images(part: Observations, names: Sequence[str]) -> None:
         " holds a corner that is not a finite number.",
         "Remove that corner or the view.",
     )
+    insist(
+        np.abs(part.uv).max(axis=(1, 2)) < _FARTHEST_UV,
+        f" has a corner farther than {_FARTHEST_UV:.0e} px from the image's origin.",
+        "Remove that corner or the view.",
+    )
+    insist(
+        np.abs(part.xy).max(axis=(1, 2)) < _FARTHEST_XY,
+        f" names a plate point farther than {_FARTHEST_XY:.0e} mm from the plate's origin.",
+        "Give places on the board in mm.",
+    )
     insist(_in_general_position(part.uv, part.mask), *_on_one_line("corners"))
     if part.cov is not None:
         insist(
-            np.all(np.linalg.eigvalsh(part.cov)[..., 0] > 0, axis=1),
+            np.all(np.linalg.eigvalsh(part.cov)[..., 0] > _LEAST_VARIANCE, axis=1),
             " has a corner covariance that is not positive definite.",
             "Leave the covariances out or correct them.",
         )
@@ -202,6 +220,10 @@ def _check_images(part: Observations, names: Sequence[str]) -> None:
 
 def _check_board(xy: Array, name: str) -> None:
     """Refuse a view with plate points (n, 2) that cannot be calibrated from."""
+    if np.ptp(xy, axis=0).max() < _SMALLEST:
+        raise CalibrationError(
+            f"{name}: all plate points are at one place.", "Give places on the board in mm."
+        )
     if not np.diff(np.sort(np.ascontiguousarray(xy).view(np.complex128)[:, 0])).all():
         raise CalibrationError(
             f"{name} names the same plate point twice.", "Give each corner of the board once."

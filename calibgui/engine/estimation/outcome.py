@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
 from calibgui.engine import frames
 from calibgui.engine.estimation import cosines, homography, problem, uncertainty
+from calibgui.engine.estimation.asked import Asked
 from calibgui.engine.estimation.levenberg_marquardt import Solution
 from calibgui.engine.estimation.observations import Observations
 from calibgui.engine.estimation.stage_one import Prealignment
@@ -18,40 +18,12 @@ from calibgui.engine.types import (
     Calibration,
     Camera,
     Cost,
-    IntArray,
     Plate,
     Pose,
-    Size,
     StageOne,
     Undetermined,
     ViewResiduals,
 )
-
-
-class Asked(NamedTuple):
-    """What is asked of some views, whatever they answer."""
-
-    size: Size
-    """Of the images, px."""
-    model: str
-    """The lens, a key of ``lens.MODELS``."""
-    cost: Cost
-    scale: float
-    """Reference px per mm."""
-    names: tuple[str, ...]
-    """(P,) of the camera's parameters."""
-    held: Mapping[str, float]
-    """Those that the user holds, with their values."""
-    first: Prealignment
-    """Stage I of the views."""
-    plate: Plate | None
-    """To be held."""
-    settings: Mapping[str, Any]
-
-    @property
-    def free(self) -> IntArray:
-        """Places of the parameters to estimate."""
-        return np.flatnonzero([name not in self.held for name in self.names])
 
 
 class Estimate(NamedTuple):

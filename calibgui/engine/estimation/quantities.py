@@ -16,7 +16,7 @@ from typing import NamedTuple
 import numpy as np
 
 from calibgui.engine.estimation.arrow import NormalAt, NormalEquations
-from calibgui.engine.estimation.outcome import Asked
+from calibgui.engine.estimation.asked import Asked
 from calibgui.engine.estimation.stage_two import State
 from calibgui.engine.lens import MODELS
 from calibgui.engine.types import Array, IntArray

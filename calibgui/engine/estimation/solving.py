@@ -73,7 +73,7 @@ def solved(
         scale: reference px per mm, for the costs on the reference plane.
         free: (P,) indices of the camera's parameters that may move.
         report: told of each iteration; may stop it.
-        max_iterations: of each round.
+        max_iterations: of each solve.
         earlier: iterations of the solve that this one continues.
 
     Raises:
@@ -220,5 +220,5 @@ def reweighted(
         if solution.status is Status.STOPPED or abs(tau2 - before) <= 0.01 * before:
             break
         observations = weighted(observations, tau2)
-        solution = solve(observations, solution.state, max_iterations=100, earlier=solution.history)
+        solution = solve(observations, solution.state, earlier=solution.history)
     return observations, solution

@@ -40,7 +40,8 @@ def undistort_points(points: npt.ArrayLike, camera: Camera, matrix: Array | None
         NaN where the lens has no ideal point, or the same one for two measured points.
     """
     uv = np.asarray(points, dtype=np.float64)
-    n = rays(uv, camera)
+    with np.errstate(over="ignore", invalid="ignore"):  # a pixel far from any image has no ray
+        n = rays(uv, camera)
     back = pixels(n, camera)
     n[~(np.abs(back - uv).max(axis=-1, initial=0.0) < _SAME)] = np.nan
     K = camera.matrix if matrix is None else matrix

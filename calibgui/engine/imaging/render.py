@@ -74,8 +74,8 @@ def render(
         appearance: grey levels, margin and light.
 
     Raises:
-        CalibrationError: if the plate passes through the camera's centre, or the pattern leaves
-            something open.
+        CalibrationError: if the plate passes through the camera's centre, the pattern leaves
+            something open, or the blur is negative or wider than the image.
     """
     levels = irradiance(camera, pose, target, blur=blur, appearance=appearance)
     if noise > 0:
@@ -93,6 +93,10 @@ def irradiance(
 ) -> Array:
     """The levels (h, w) of `render` before noise and rounding."""
     look = appearance or Appearance()
+    if not 0 <= blur < min(camera.size):
+        raise CalibrationError(
+            f"A view cannot be blurred by {blur} px.", "Give a standard deviation of 0 or more."
+        )
     (w, h), margin = camera.size, int(np.ceil(4 * blur))
     u, v = (np.arange(-margin, n + margin, dtype=np.float64) for n in camera.size)
     rows = max(1, _CHUNK // len(u))

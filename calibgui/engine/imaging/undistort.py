@@ -16,10 +16,10 @@ import numpy as np
 import numpy.typing as npt
 
 from calibgui.engine import opencv
-from calibgui.engine.errors import CalibrationError
+from calibgui.engine.errors import CalibrationError, one_of
 from calibgui.engine.imaging.maps import distort_points, project_points, undistort_points
 from calibgui.engine.imaging.smooth_map import TOLERANCE, smooth_map
-from calibgui.engine.types import Array, BoolArray, Camera, Pose, Size, Target
+from calibgui.engine.types import Array, BoolArray, Camera, Pose, Size, Target, image_size
 
 Pixels = npt.NDArray[np.uint8] | npt.NDArray[np.uint16] | npt.NDArray[np.float32]
 Extent = tuple[float, float, float, float]
@@ -61,7 +61,7 @@ def undistort_image(
     """The image that an ideal pinhole camera would have taken.
 
     Args:
-        image: (h, w) or (h, w, c) of the camera's size.
+        image: (h, w) or (h, w, c) of the camera's size: 8 or 16 bits, or floating-point.
         camera: that took it.
         view: how much to show.
         size: width and height of the output; those of the image if None.
@@ -71,7 +71,7 @@ def undistort_image(
             not one-to-one over the image (but for the same scale, where such pixels are invalid).
     """
     _check(image, camera)
-    size = size or camera.size
+    size = image_size(size or camera.size)
     matrix = undistorted_matrix(camera, view, size)
     return _resample(image, size, matrix, lambda p: distort_points(p, camera, matrix))
 
@@ -80,8 +80,9 @@ def undistorted_matrix(
     camera: Camera, view: FieldOfView | str = FieldOfView.ALL, size: Size | None = None
 ) -> Array:
     """(3, 3) camera matrix of `undistort_image`'s output; the pixels keep their aspect ratio."""
-    out = np.array(size or camera.size, dtype=np.float64)
-    if FieldOfView(view) is FieldOfView.SAME_SCALE:
+    view, size = one_of(FieldOfView, view, "field of view"), image_size(size or camera.size)
+    out = np.array(size, dtype=np.float64)
+    if view is FieldOfView.SAME_SCALE:
         return _matrix(camera.focal, camera.centre + (out - camera.size) / 2)
     left, top, right, bottom = sides = undistort_points(_sides(camera.size), camera, np.eye(3))
     if not np.isfinite(sides).all():
@@ -90,7 +91,7 @@ def undistorted_matrix(
             f"Undistort with the view {FieldOfView.SAME_SCALE.value!r}, or calibrate again with "
             "corners closer to the image's edges.",
         )
-    whole = FieldOfView(view) is FieldOfView.ALL
+    whole = view is FieldOfView.ALL
     if whole:
         low, high = sides.min(axis=(0, 1)), sides.max(axis=(0, 1))
     else:
@@ -102,7 +103,7 @@ def undistorted_matrix(
         return _matrix(focal, (out - 1) / 2 - focal * (low + high) / 2)
 
     zoom = float(np.min(out / (camera.focal * (high - low))))
-    return matrix(zoom if whole else _least_zoom(matrix, zoom, size or camera.size, camera))
+    return matrix(zoom if whole else _least_zoom(matrix, zoom, size, camera))
 
 
 def _least_zoom(matrix: Callable[[float], Array], zoom: float, size: Size, camera: Camera) -> float:
@@ -141,7 +142,8 @@ def rectify_image(
             have no pixels or too many.
     """
     _check(image, camera)
-    low, high = np.array(extent[:2]), np.array(extent[2:])
+    left, top, right, bottom = extent
+    low, high = np.array([left, top]), np.array([right, bottom])
     shape = (high - low) * pixels_per_mm
     if not (np.isfinite(shape).all() and shape.min() >= 0.5 and shape.max() <= opencv.LONGEST_SIDE):
         raise CalibrationError(
@@ -165,6 +167,12 @@ def board_extent(target: Target) -> Extent:
 
 
 def _check(image: Pixels, camera: Camera) -> None:
+    """Refuse an image that is not the camera's, or that cannot be resampled."""
+    if image.dtype not in (np.uint8, np.uint16, np.float32, np.float64):
+        raise CalibrationError(
+            f"An image of {image.dtype} samples cannot be resampled.",
+            "Use 8 or 16 bits, or floating-point numbers.",
+        )
     height, width = image.shape[:2]
     if (width, height) != camera.size:
         raise CalibrationError(

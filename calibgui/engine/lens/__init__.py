@@ -8,6 +8,7 @@ it from there.
 
 from __future__ import annotations
 
+from calibgui.engine.errors import CalibrationError
 from calibgui.engine.lens.base import Lens
 from calibgui.engine.lens.brown import Brown
 from calibgui.engine.lens.lucchese import Lucchese
@@ -18,4 +19,21 @@ MODELS: dict[str, Lens] = {
     "opencv": Brown(),
 }
 
-__all__ = ["MODELS", "Brown", "Lens", "Lucchese"]
+PINHOLE = ("fx", "fy", "cx", "cy")
+"""The parameters that every camera has."""
+
+
+def parameter_names(model: str) -> tuple[str, ...]:
+    """Names of a camera's parameters, in the order of ``Camera.params``.
+
+    Raises:
+        CalibrationError: if there is no such model.
+    """
+    if model not in MODELS:
+        raise CalibrationError(
+            f"There is no lens model {model!r}.", f"Choose from {', '.join(MODELS)}."
+        )
+    return (*PINHOLE, *MODELS[model].names)
+
+
+__all__ = ["MODELS", "PINHOLE", "Brown", "Lens", "Lucchese", "parameter_names"]

@@ -7,9 +7,10 @@ point in the camera frame. `k` are the model's coefficients.
 
 from __future__ import annotations
 
-from typing import NamedTuple, Protocol
+from typing import TYPE_CHECKING, NamedTuple, Protocol
 
-from calibgui.engine.types import Array
+if TYPE_CHECKING:
+    from calibgui.engine.types import Array
 
 
 class Mapped(NamedTuple):
@@ -34,6 +35,11 @@ class Lens(Protocol):
     @property
     def powers(self) -> tuple[int, ...]:
         """Power of the radius that each coefficient multiplies, relative to the radius."""
+        ...
+
+    @property
+    def held(self) -> tuple[str, ...]:
+        """Names of the coefficients that are held at 0 unless the user frees them."""
         ...
 
     @property

@@ -12,11 +12,15 @@ its derivatives are those of ``lucchese.py`` with p3 = 0.
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 import numpy as np
 
 from calibgui.engine.lens.base import Mapped
 from calibgui.engine.lens.lucchese import Lucchese
-from calibgui.engine.types import Array
+
+if TYPE_CHECKING:
+    from calibgui.engine.types import Array
 
 _FROM_LUCCHESE = [0, 1, 4, 3, 2]
 """Places of k1, k2, p1, p2, k3 among the coefficients of eq. 10 (p1 and p2 exchanged)."""
@@ -27,6 +31,7 @@ class Brown:
 
     names = ("k1", "k2", "p1", "p2", "k3")
     powers = (2, 4, 1, 1, 6)
+    held = ()
     radius_in_pixels = False
 
     def distort(self, n: Array, k: Array) -> Mapped:

@@ -12,11 +12,14 @@ the fold come back as NaN.
 from __future__ import annotations
 
 from collections.abc import Callable
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from calibgui.engine.lens.base import Mapped
-from calibgui.engine.types import Array
+
+if TYPE_CHECKING:
+    from calibgui.engine.types import Array
 
 _ITERATIONS = 50
 _TOLERANCE = 4e-15

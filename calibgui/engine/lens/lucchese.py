@@ -29,11 +29,15 @@ gives the printed one, in units of fx along both axes.
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 import numpy as np
 
 from calibgui.engine.lens.base import Mapped
 from calibgui.engine.lens.inverse import invert
-from calibgui.engine.types import Array
+
+if TYPE_CHECKING:
+    from calibgui.engine.types import Array
 
 
 class Lucchese:
@@ -44,6 +48,8 @@ class Lucchese:
 
     def __init__(self, radius_in_pixels: bool = False) -> None:
         self.radius_in_pixels = radius_in_pixels
+        # p3 multiplies p1 and p2 and is rarely determined. The paper frees it all the same.
+        self.held: tuple[str, ...] = () if radius_in_pixels else ("p3",)
 
     def correct(self, d: Array, k: Array) -> Mapped:
         """Measured to ideal, eq. 9."""

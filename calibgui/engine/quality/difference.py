@@ -23,7 +23,7 @@ import scipy
 from calibgui.engine.errors import CalibrationError
 from calibgui.engine.frames import rotation, rotation_vector
 from calibgui.engine.quality.projection_uncertainty import grid, imaged, points_behind
-from calibgui.engine.types import Array, BoolArray, Camera, Observation, Size, frozen
+from calibgui.engine.types import Array, BoolArray, Camera, Observation, Size, freeze
 
 _STEPS = 50
 _CONVERGED = 1e-10
@@ -51,8 +51,7 @@ class Difference:
     """(3,) its translation, mm; 0 at infinity."""
 
     def __post_init__(self) -> None:
-        for name in ("u", "v", "vector", "turn", "shift"):
-            object.__setattr__(self, name, frozen(getattr(self, name)))
+        freeze(self, "u", "v", "vector", "turn", "shift")
 
     @property
     def length(self) -> Array:

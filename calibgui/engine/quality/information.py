@@ -23,7 +23,6 @@ from typing import NamedTuple
 import numpy as np
 
 from calibgui.engine import frames
-from calibgui.engine.calibrate import parameter_names
 from calibgui.engine.estimation.observations import Observations, chunks, pack
 from calibgui.engine.estimation.problem import linearised
 from calibgui.engine.estimation.stage_two import State
@@ -50,7 +49,7 @@ class Information(NamedTuple):
 
 def free_parameters(calibration: Calibration) -> IntArray:
     """Indices of the camera's parameters that were estimated."""
-    names = parameter_names(calibration.camera.model)
+    names = calibration.camera.names
     return np.flatnonzero([name not in calibration.fixed for name in names])
 
 

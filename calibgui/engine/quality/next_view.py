@@ -35,7 +35,7 @@ from calibgui.engine.types import (
     Observation,
     Pose,
     Progress,
-    frozen,
+    freeze,
 )
 
 _PLACES = ((0.2, 0.35, 0.5, 0.65, 0.8), (0.25, 0.5, 0.75))
@@ -79,8 +79,7 @@ class NextView:
     """The same after."""
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "place", frozen(self.place))
-        object.__setattr__(self, "corners", frozen(self.corners))
+        freeze(self, "place", "corners")
 
     @property
     def words(self) -> str:

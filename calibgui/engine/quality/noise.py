@@ -48,7 +48,7 @@ from calibgui.engine.types import (
     Observation,
     PlateModel,
     Progress,
-    frozen,
+    freeze,
 )
 
 _CHANCE = 1e-3
@@ -144,7 +144,7 @@ class NoiseReport:
     where corners are weighted."""
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "view_sigma", frozen(self.view_sigma))
+        freeze(self, "view_sigma")
 
     @property
     def passed(self) -> bool:

@@ -37,7 +37,7 @@ from calibgui.engine.types import (
     IntArray,
     Observation,
     Size,
-    frozen,
+    freeze,
 )
 
 GRID = 40
@@ -59,8 +59,7 @@ class ProjectionUncertainty:
     """(m, n, 2, 2) of the pixel, px^2; NaN where the lens has no ray."""
 
     def __post_init__(self) -> None:
-        for name in ("u", "v", "covariance"):
-            object.__setattr__(self, name, frozen(getattr(self, name)))
+        freeze(self, "u", "v", "covariance")
 
     @property
     def worst_direction(self) -> Array:

@@ -7,14 +7,13 @@ from typing import Any
 
 import numpy as np
 
-from calibgui.engine.calibrate import parameter_names
 from calibgui.engine.types import Calibration, Observation, Plate, PlateModel
 
 
 def settings_of(calibration: Calibration) -> dict[str, Any]:
     """Keyword arguments of ``calibrate``: cost, lens, held parameters with their values, plate."""
     camera = calibration.camera
-    values = dict(zip(parameter_names(camera.model), camera.params.tolist(), strict=True))
+    values = dict(zip(camera.names, camera.params.tolist(), strict=True))
     held = {name: values[name] for name in calibration.fixed}
     plate: Plate | PlateModel = PlateModel.NOMINAL
     if calibration.plate is not None:

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from calibgui.engine.types import Array, Calibration, ViewResiduals, frozen
+from calibgui.engine.types import Array, Calibration, ViewResiduals, freeze
 
 
 @dataclass(frozen=True, slots=True)
@@ -70,8 +70,7 @@ class Histogram:
     """Whether the fitted density is Rayleigh's (of lengths) or Gaussian (of components)."""
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "edges", frozen(self.edges))
-        object.__setattr__(self, "density", frozen(self.density))
+        freeze(self, "edges", "density")
 
     def fitted(self, x: Array) -> Array:
         """(n,) the fitted density at x."""

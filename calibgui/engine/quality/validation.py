@@ -40,7 +40,7 @@ from calibgui.engine.types import (
     PlateModel,
     Size,
     ViewResiduals,
-    frozen,
+    freeze,
 )
 
 FOLDS = 5
@@ -77,7 +77,7 @@ class CrossValidation:
     """RMS length over all folds, px."""
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "by_view", frozen(self.by_view))
+        freeze(self, "by_view")
 
 
 def cross_validate(
@@ -219,8 +219,7 @@ class Bootstrap:
     """Draws that did not determine the camera."""
 
     def __post_init__(self) -> None:
-        for name in ("params", "sigma", "ratio"):
-            object.__setattr__(self, name, frozen(getattr(self, name)))
+        freeze(self, "params", "sigma", "ratio")
 
 
 def bootstrap(

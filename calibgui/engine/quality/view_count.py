@@ -28,7 +28,7 @@ from calibgui.engine.types import (
     IntArray,
     Observation,
     Progress,
-    frozen,
+    freeze,
     frozen_int,
 )
 
@@ -62,8 +62,7 @@ class ViewCount:
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "counts", frozen_int(self.counts))
-        for name in ("random", "chosen", "scatter"):
-            object.__setattr__(self, name, frozen(getattr(self, name)))
+        freeze(self, "random", "chosen", "scatter")
 
     def enough(self, quantity: str, limit: float, chosen: bool = False) -> int | None:
         """The smallest number of views from which one sigma stays within `limit` px.

@@ -9,7 +9,6 @@ import numpy as np
 from PySide6.QtCore import QT_TRANSLATE_NOOP
 from PySide6.QtWidgets import QTabWidget, QTextBrowser, QVBoxLayout
 
-from calibgui.engine.calibrate import parameter_names
 from calibgui.engine.estimation.uncertainty import correlations, paper_table
 from calibgui.engine.frames import PAPER_NAMES
 from calibgui.formats.result import Result
@@ -93,7 +92,7 @@ class ResultPanel(Panel):
 
     def _refresh(self, result: Result) -> None:
         calibration = result.calibration
-        names = parameter_names(calibration.camera.model)
+        names = calibration.camera.names
         self.words.setHtml(_html(summary(result)))
         self.array_frame.show_columns(
             [

@@ -36,6 +36,9 @@ BAD = {
     "NaN in the image": (changed(UV, (3, 0), np.nan), XY, "not a finite number"),
     "infinite in the image": (changed(UV, (3, 1), np.inf), XY, "not a finite number"),
     "NaN on the plate": (UV, changed(XY, (3, 0), np.nan), "not a finite number"),
+    "far from any image": (changed(UV, (3, 0), 1e200), XY, "corner farther than 1e.07 px"),
+    "far from any board": (UV, changed(XY, (3, 0), -1e200), "point farther than 1e.09 mm"),
+    "a board without extent": (UV, 1e-160 * XY, "at one place"),
     "all NaN": (np.full_like(UV, np.nan), XY, "not a finite number"),
     "three corners": (UV[[0, 1, 20]], XY[[0, 1, 20]], "at least 4"),
     "no corners": (UV[:0], XY[:0], "at least 4"),
@@ -64,6 +67,7 @@ def test_a_view_that_cannot_be_used_is_named(uv: Array, xy: Array, says: str) ->
         (np.full((108, 2, 2), np.nan), "not a finite number"),
         (np.tile(np.diag([1.0, 0.0]), (108, 1, 1)), "not positive definite"),
         (np.tile(np.diag([1.0, -1.0]), (108, 1, 1)), "not positive definite"),
+        (np.tile(np.diag([1.0, 1e-320]), (108, 1, 1)), "not positive definite"),
     ],
 )
 def test_covariances_must_be_covariances(cov: Array, says: str) -> None:
@@ -75,6 +79,11 @@ def test_covariances_are_given_for_all_views_or_for_none() -> None:
     cov = np.tile(np.eye(2), (108, 1, 1))
     with pytest.raises(CalibrationError, match="2 has no corner covariances"):
         pack([Observation(UV, XY, cov), Observation(UV, XY)])
+
+
+def test_every_view_has_a_name() -> None:
+    with pytest.raises(ValueError, match="1 names do not name 2 views"):
+        pack([VIEW, VIEW], names=["first.png"])
 
 
 def test_no_views() -> None:

@@ -9,7 +9,6 @@ import pytest
 from scipy.optimize import least_squares
 from scipy.spatial.transform import Rotation
 
-from calibgui.engine.calibrate import parameter_names
 from calibgui.engine.estimation.levenberg_marquardt import minimise
 from calibgui.engine.estimation.observations import Observations, pack
 from calibgui.engine.estimation.problem import linearised, stage_two
@@ -22,7 +21,7 @@ from calibgui.engine.estimation.stage_two import (
     registration_error,
 )
 from calibgui.engine.estimation.weighting import weighted
-from calibgui.engine.lens import MODELS
+from calibgui.engine.lens import MODELS, parameter_names
 from calibgui.engine.types import Array, Camera, Cost
 from tests.engine.scenes import Scene, barrel, brown, central_differences, relative, scene
 

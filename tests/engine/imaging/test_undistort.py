@@ -174,6 +174,6 @@ def test_impossible_rectifications_are_refused(
         rectify_image(np.zeros((480, 640), np.uint8), barrel(), POSE, extent, scale)
 
 
-def test_an_unknown_view_is_a_mistake_of_the_caller() -> None:
-    with pytest.raises(ValueError, match="everything"):
+def test_an_unknown_view_is_named() -> None:
+    with pytest.raises(CalibrationError, match="everything"):
         undistorted_matrix(barrel(), "everything")

@@ -8,12 +8,12 @@ import numpy as np
 import pytest
 
 from calibgui.engine import kernels
-from calibgui.engine.calibrate import parameter_names
 from calibgui.engine.estimation import problem
 from calibgui.engine.estimation.observations import pack
 from calibgui.engine.estimation.projection import pixels
 from calibgui.engine.estimation.stage_two import State
 from calibgui.engine.frames import rotation
+from calibgui.engine.lens import parameter_names
 from calibgui.engine.types import Camera, Cost, Observation, Target
 
 CAMERAS = {
