@@ -30,7 +30,7 @@ _ROUNDING = 1e-26
 """Cost below which the residuals are rounding errors, relative to the squared data."""
 _DAMPING = 1e-6
 """To start with: less than the information that good views leave (``uncertainty.py``)."""
-_MAX_DAMPING = 1e12
+_LEAST_DAMPING, _MAX_DAMPING = 1e-12, 1e12
 
 
 class StartError(CalibrationError):
@@ -75,7 +75,7 @@ def minimise(
         StartError: if the residuals at the start are not finite.
         Cancelled: from `report`.
     """
-    began = time.perf_counter() - (earlier[-1].seconds if earlier else 0.0)
+    log = _Log(list(earlier), count, report)
     state, damping = start, earlier[-1].damping if earlier else _DAMPING
     normal = normal_at(state)
     if not np.isfinite(normal.cost):
@@ -83,61 +83,67 @@ def minimise(
             "The closed-form start does not reproject the corners.",
             "Check that the views number their corners alike and come from one camera.",
         )
-    history = list(earlier)
-    barred, kept = False, None
+    if not earlier and not log.added(normal, 0.0, damping):
+        return Solution(state, normal, tuple(log.history), Status.STOPPED)
+    status, barred, factors = Status.MAX_ITERATIONS, False, None
+    for _ in range(max_iterations):
+        factors = factors.at(normal) if factors else factored(schur(normal, damping))
+        step = factors.step(normal)
+        decrease = _decrease(normal, *step)
+        exact = normal.cost <= _ROUNDING * data_square
+        if exact or decrease <= _CONVERGED * normal.cost or damping > _MAX_DAMPING:
+            if exact or _settled(normal, decrease, damping):
+                status = Status.CONVERGED
+            break
+        trial = state.moved(*step, free)
+        at_trial = normal_at(trial)
+        if at_trial.cost < normal.cost:
+            length = _scaled_length(normal, *step)
+            foreseen = abs(normal.cost - at_trial.cost - decrease) <= 0.1 * decrease
+            if not (foreseen and damping <= _DAMPING and decrease <= _SLIGHT * normal.cost):
+                factors = None
+            state, normal = trial, at_trial
+            damping = max(damping / 10, _LEAST_DAMPING)
+            if not log.added(normal, length, damping):
+                status = Status.STOPPED
+                break
+        else:
+            damping *= 10
+            factors = None
+            barred |= not np.isfinite(at_trial.cost)
+    barred &= status is Status.MAX_ITERATIONS
+    return Solution(state, normal, tuple(log.history), status, barred)
 
-    def record(step: float) -> bool:
+
+class _Log:
+    """The iterations of a solve, told to `report` as they come."""
+
+    def __init__(self, earlier: list[Iteration], count: int, report: Report | None) -> None:
+        self.history, self._count, self._report = earlier, count, report
+        self._began = time.perf_counter() - (earlier[-1].seconds if earlier else 0.0)
+
+    def added(self, normal: NormalEquations, step: float, damping: float) -> bool:
+        """Whether to go on after an accepted step of that length."""
         iteration = Iteration(
-            index=len(history),
+            index=len(self.history),
             cost=normal.cost,
-            rms=float(np.sqrt(normal.cost / count)),
+            rms=float(np.sqrt(normal.cost / self._count)),
             gradient=_scaled_gradient(normal),
             step=step,
             damping=damping,
-            seconds=time.perf_counter() - began,
+            seconds=time.perf_counter() - self._began,
         )
-        history.append(iteration)
-        return report is None or report(iteration)
+        self.history.append(iteration)
+        return self._report is None or self._report(iteration)
 
-    def ended(status: Status) -> Solution:
-        return Solution(state, normal, tuple(history), status)
 
-    if not earlier and not record(0.0):
-        return ended(Status.STOPPED)
-    for _ in range(max_iterations):
-        kept = kept.at(normal) if kept else factored(schur(normal, damping))
-        by_shared, by_pose = kept.step(normal)
-        decrease = _decrease(normal, by_shared, by_pose)
-        small = decrease <= _CONVERGED * normal.cost
-        exact = normal.cost <= _ROUNDING * data_square
-        if small or exact or damping > _MAX_DAMPING:
-            break
-        full = np.zeros(len(state.params))
-        full[free] = by_shared
-        trial = state.moved(full, by_pose)
-        trial_normal = normal_at(trial)
-        if trial_normal.cost < normal.cost:
-            length = _scaled_length(normal, by_shared, by_pose)
-            gained = normal.cost - trial_normal.cost
-            foreseen = damping <= _DAMPING and abs(gained - decrease) <= 0.1 * decrease
-            if not foreseen or decrease > _SLIGHT * normal.cost:
-                kept = None
-            state, normal = trial, trial_normal
-            damping = max(damping / 10, 1e-12)
-            if not record(length):
-                return ended(Status.STOPPED)
-        else:
-            damping *= 10
-            kept = None
-            barred |= not np.isfinite(trial_normal.cost)
-    else:
-        return ended(Status.MAX_ITERATIONS)._replace(barred=barred)
+def _settled(normal: NormalEquations, decrease: float, damping: float) -> bool:
+    """Whether this is the minimum, where a damped step still gains `decrease`."""
     # Damping makes steps small as well, against a wall of states that cannot be imaged; not
     # where it is below the information that rounding leaves (1e-12) over `_SETTLED`.
-    slight = exact or (small and damping * 1e12 <= _SETTLED / _CONVERGED)
-    if slight or _decrease(normal, *solve(normal, 0.0)) <= _SETTLED * normal.cost:
-        return ended(Status.CONVERGED)
-    return ended(Status.MAX_ITERATIONS)._replace(barred=barred)
+    if decrease <= _CONVERGED * normal.cost and damping * 1e12 <= _SETTLED / _CONVERGED:
+        return True
+    return _decrease(normal, *solve(normal, 0.0)) <= _SETTLED * normal.cost
 
 
 def _decrease(normal: NormalEquations, by_shared: Array, by_pose: Array) -> float:
@@ -153,7 +159,7 @@ def _scaled_gradient(normal: NormalEquations) -> float:
 
 
 def _scaled_length(normal: NormalEquations, by_shared: Array, by_pose: Array) -> float:
-    """Root mean square change of the residuals' scale that a step makes, unknowns scaled alike."""
+    """Length of a step, unknowns scaled to a unit diagonal of J^T J."""
     square = np.sum(np.diag(normal.U) * by_shared**2)
     square += np.sum(np.diagonal(normal.V, axis1=1, axis2=2) * by_pose**2)
     return float(np.sqrt(square))

@@ -187,11 +187,9 @@ def _beside(solution: Solution, free: IntArray, corners: int) -> list[State]:
     along = reduced.unit * vectors[:, 0] * np.sqrt(sigma2 / max(values[0], _FLAT))
     states = []
     for side in (_ASIDE, -_ASIDE):
-        by_params = np.zeros(len(solution.state.params))
-        by_params[free] = side * along
         pull = np.tensordot(normal.W, side * along, axes=([1], [0]))
         by_poses = -np.linalg.solve(normal.V, pull[..., None])[..., 0]
-        states.append(solution.state.moved(by_params, np.asarray(by_poses)))
+        states.append(solution.state.moved(side * along, np.asarray(by_poses), free))
     return states
 
 

@@ -51,10 +51,14 @@ class State(NamedTuple):
     T: Array
     """(K, 3) translations, mm."""
 
-    def moved(self, by_params: Array, by_poses: Array) -> State:
-        """The state after a step: (P,) and (K, 6) = (w, tau)."""
+    def moved(
+        self, by_params: Array, by_poses: Array, free: IntArray | slice = slice(None)
+    ) -> State:
+        """The state after a step of the `free` parameters and of the poses (K, 6) = (w, tau)."""
+        params = self.params.copy()
+        params[free] += by_params
         return State(
-            self.params + by_params,
+            params,
             frames.rotation(by_poses[:, :3]) @ self.R,
             self.T + by_poses[:, 3:],
         )

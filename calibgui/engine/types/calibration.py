@@ -52,7 +52,7 @@ class Iteration:
     gradient: float
     """Largest entry of the gradient with respect to the scaled unknowns."""
     step: float
-    """Length of the step over the length of the unknowns, scaled."""
+    """Length of the step, unknowns scaled to a unit diagonal of J^T J, in the residual's unit."""
     damping: float
     seconds: float
     """Since the start of the solve."""
