@@ -8,7 +8,6 @@ from pathlib import PurePath
 from typing import Any
 
 import numpy as np
-from threadpoolctl import threadpool_limits
 
 from calibgui import engine
 from calibgui.app.marking import removed
@@ -18,6 +17,7 @@ from calibgui.engine.estimation.degeneracy import copies
 from calibgui.engine.quality.screening import screen
 from calibgui.engine.quality.validation import choose_plate
 from calibgui.engine.quality.view_weights import calibrate_weighted
+from calibgui.engine.threads import one_blas_thread
 from calibgui.engine.types import (
     Ambiguity,
     Calibration,
@@ -67,7 +67,7 @@ def calibrate_views(
         )
     corner_set = replace(corner_set, views=_each_once(corner_set))
     # The matrices are small: threads would cost more than they bring.
-    with threadpool_limits(1):
+    with one_blas_thread():
         try:
             return _calibrated(corner_set, settings, report)
         except DegenerateError:

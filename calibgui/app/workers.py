@@ -19,11 +19,10 @@ from multiprocessing.context import SpawnProcess
 from threading import Event
 from typing import Any, TypeVar, cast
 
-from threadpoolctl import threadpool_limits
-
 from calibgui.engine import opencv
 from calibgui.engine.errors import Cancelled
 from calibgui.engine.kernels import when_compiling
+from calibgui.engine.threads import one_blas_thread
 
 T = TypeVar("T")
 R = TypeVar("R")
@@ -121,7 +120,7 @@ def _work(task: Callable[[Any], Any], connection: Connection) -> None:
     """Report for work, then do `task` to what arrives until the other end is closed."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     opencv.use_threads(1)
-    with threadpool_limits(1), contextlib.suppress(EOFError, ConnectionError):
+    with one_blas_thread(), contextlib.suppress(EOFError, ConnectionError):
         connection.send((None, None))
         with when_compiling(lambda: connection.send((None, _Compiling()))):
             _answer(task, connection)

@@ -6,8 +6,6 @@ import argparse
 import math
 from pathlib import Path
 
-from threadpoolctl import threadpool_limits
-
 from calibgui.app.calibration import short_names
 from calibgui.app.outputs import check_figure, save_figure
 from calibgui.cli.arguments import add_map, positive
@@ -17,6 +15,7 @@ from calibgui.engine.quality.noise import examine
 from calibgui.engine.quality.projection_uncertainty import projection_uncertainty
 from calibgui.engine.quality.repetition import settings_of
 from calibgui.engine.quality.validation import bootstrap, choose_plate, cross_validate
+from calibgui.engine.threads import one_blas_thread
 from calibgui.engine.types import PlateModel
 from calibgui.formats.result import Result
 from calibgui.report import quality
@@ -47,7 +46,7 @@ def run(options: argparse.Namespace, console: Console) -> None:
         check_figure(options.output)
     result = read_camera(options.result, console)
     views = result.observations()
-    with threadpool_limits(1):
+    with one_blas_thread():
         found = projection_uncertainty(result.calibration, views, options.distance)
         report = examine(result.calibration, views, short_names(result.used))
         sections = [quality.projection(found, options.limit), quality.noise(report)]

@@ -5,14 +5,13 @@ from __future__ import annotations
 import argparse
 from pathlib import Path
 
-from threadpoolctl import threadpool_limits
-
 from calibgui.app.outputs import check_figure, save_figure
 from calibgui.cli.arguments import positive
 from calibgui.cli.console import Console
 from calibgui.cli.result import read_camera
 from calibgui.engine.quality.next_view import next_views
 from calibgui.engine.quality.view_count import QUANTITIES, study
+from calibgui.engine.threads import one_blas_thread
 from calibgui.report import quality
 
 _SOLVED = 20
@@ -43,7 +42,7 @@ def run(options: argparse.Namespace, console: Console) -> None:
         check_figure(path)
     result = read_camera(options.result, console)
     calibration, views = result.calibration, result.observations()
-    with threadpool_limits(1), console.progress("calibrating", "size") as advance:
+    with one_blas_thread(), console.progress("calibrating", "size") as advance:
         found = study(calibration, views, _SOLVED, progress=advance)
         proposed = next_views(calibration, views)
     sections = [quality.view_count(found, options.limit), quality.next_views(proposed)]

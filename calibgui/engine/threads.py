@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from contextlib import AbstractContextManager
 from functools import cache, wraps
-from typing import ParamSpec, TypeVar
+from typing import Any, ParamSpec, TypeVar
 
 from threadpoolctl import ThreadpoolController
 
@@ -15,7 +16,14 @@ _T = TypeVar("_T")
 @cache
 def _controller() -> ThreadpoolController:
     """Of the libraries that are loaded; looking for them takes milliseconds."""
+    import scipy.linalg  # noqa: F401 - brings a BLAS of its own, which has to be there to be found
+
     return ThreadpoolController()
+
+
+def one_blas_thread() -> AbstractContextManager[Any]:
+    """NumPy's and SciPy's BLAS have one thread from now on, or to the end of a `with` block."""
+    return _controller().limit(limits=1, user_api="blas")
 
 
 def on_one_blas_thread(function: Callable[_P, _T]) -> Callable[_P, _T]:
@@ -23,7 +31,7 @@ def on_one_blas_thread(function: Callable[_P, _T]) -> Callable[_P, _T]:
 
     @wraps(function)
     def limited(*args: _P.args, **kwargs: _P.kwargs) -> _T:
-        with _controller().limit(limits=1, user_api="blas"):
+        with one_blas_thread():
             return function(*args, **kwargs)
 
     return limited

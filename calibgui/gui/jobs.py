@@ -22,9 +22,9 @@ from typing import Any, TypedDict, Unpack
 
 import shiboken6
 from PySide6.QtCore import QObject, QTimer, Signal
-from threadpoolctl import threadpool_limits
 
 from calibgui.engine.errors import Cancelled
+from calibgui.engine.threads import one_blas_thread
 from calibgui.gui.garbage import Collector
 
 log = logging.getLogger(__name__)
@@ -156,8 +156,8 @@ class Jobs(QObject):
 
     def __init__(self, parent: QObject | None = None) -> None:
         super().__init__(parent)
-        self._pool = ThreadPoolExecutor(os.cpu_count(), "part", initializer=_one_blas_thread)
-        self._single = ThreadPoolExecutor(4, "job", initializer=_one_blas_thread)
+        self._pool = ThreadPoolExecutor(os.cpu_count(), "part", initializer=one_blas_thread)
+        self._single = ThreadPoolExecutor(4, "job", initializer=one_blas_thread)
         self._queue: Queue = queue.SimpleQueue()
         self._running: list[Job] = []
         self._timer = QTimer(self, interval=_TICK)
@@ -293,8 +293,3 @@ class Jobs(QObject):
             self._collector.stop()
         if acted:
             self.changed.emit()
-
-
-def _one_blas_thread() -> None:
-    """Keep BLAS to the thread that calls it: its own cost far more than they give on few cores."""
-    threadpool_limits(1)
