@@ -166,7 +166,7 @@ def sheet(target: Target, paper: str) -> Sheet:
     x, y = (width - bar) / 2, height - _EDGE - _FOOT / 2
     step = bar / 10
     ruler = [(x + 2 * k * step, y, step, 2.0) for k in range(5)] + [(x, y + 2.0, bar, 0.3)]
-    unit = "squares" if target.pattern.counted else "distance"
+    unit = "squares" if target.pattern.squared else "distance"
     text = (
         f"{bar:g} mm. Print without scaling and measure the bar. {described(target)}, {unit} of "
         f"{side:g} mm."

@@ -25,10 +25,6 @@ DEFAULT_SQUARE = 30.0
 """Side of a square until the user states it, mm. Only the poses' lengths depend on it."""
 
 
-_USUAL_GRIDS = {"circles": (7, 10), "asymmetric-circles": (11, 4)}
-"""Rows and columns of circles until the user states them."""
-
-
 class Unit(StrEnum):
     """In which the user states the side of a square; kept in mm."""
 
@@ -110,7 +106,7 @@ def _scaled(pattern: Pattern, ratio: float) -> Pattern:
 def with_pattern(project: Project, pattern: Pattern) -> Project:
     """The project with another pattern: what was found of the one before is searched anew.
 
-    Circles are counted by the user; what was counted of another kind does not stay.
+    The size of a board of another kind does not stay.
     """
 
     def again(view: View) -> View:
@@ -119,9 +115,7 @@ def with_pattern(project: Project, pattern: Pattern) -> Project:
             return view
         return replace(view, status=ViewStatus.WAITING, reason="", corners=None)
 
-    board = project.board
-    if pattern.kind != project.pattern.kind:
-        board = None if pattern.counted else _USUAL_GRIDS[pattern.kind]
+    board = project.board if pattern.kind == project.pattern.kind else None
     return replace(project, pattern=pattern, board=board, views=tuple(map(again, project.views)))
 
 

@@ -67,9 +67,7 @@ def pattern_of(options: argparse.Namespace) -> Pattern:
             if options.square is None:
                 options.usage_error(f"--{name} needs --square MM as well")
             stated[name] /= options.square
-    if not usual.counted and options.board is None:
-        options.usage_error(f"--target {options.target} needs --board ROWSxCOLS, in circles")
-    if not usual.counted and options.corners != "edges":
+    if not usual.squared and options.corners != "edges":
         options.usage_error(f"--corners {options.corners} is for corners, not for circles")
     try:
         pattern: Pattern = replace(usual, **stated)

@@ -64,7 +64,7 @@ class PrintDialog(QDialog):
         self.setWindowTitle(self.tr("Board to print"))
         target = target or _DEFAULT
         self.rows, self.cols = (QSpinBox(minimum=3, maximum=200) for _ in range(2))
-        squares_more = 1 if target.pattern.counted else 0
+        squares_more = 1 if target.pattern.squared else 0
         self.rows.setValue(target.rows + squares_more)
         self.cols.setValue(target.cols + squares_more)
         self.pattern = PatternChoice(self.tr("usual"))
@@ -114,14 +114,14 @@ class PrintDialog(QDialog):
 
     def content(self) -> Sheet:
         """The sheet as chosen. Raises CalibrationError if it does not fit the paper."""
-        pattern, more = self.pattern.pattern, 1 if self.pattern.pattern.counted else 0
+        pattern, more = self.pattern.pattern, 1 if self.pattern.pattern.squared else 0
         board = (self.rows.value() - more, self.cols.value() - more)
         target = Target(*board, self.square.value(), settled(pattern, board))
         return sheet(target, self.paper.currentText())
 
     def _refresh(self) -> None:
         colours = theme.current()
-        circles = not self.pattern.pattern.counted
+        circles = not self.pattern.pattern.squared
         self.counted.setText(self.tr("Circles") if circles else self.tr("Squares"))
         self.side.setText(self.tr("Distance") if circles else self.tr("Side of a square"))
         self.odd_and_even.setVisible(self.pattern.pattern.kind == "checkerboard")

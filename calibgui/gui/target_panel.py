@@ -94,10 +94,9 @@ class TargetPanel(QWidget):
         target = project.target
         inferred = project.board is None
         self.pattern.show_pattern(project.pattern, project.square / project.unit.mm)
-        circles = not project.pattern.counted
+        circles = not project.pattern.squared
         self.counted.setText(self.tr("Circles") if circles else self.tr("Inner corners"))
         self.side.setText(self.tr("Distance") if circles else self.tr("Square"))
-        self.inferred.setEnabled(not circles)
         self.inferred.setChecked(inferred)
         for box, value in (
             (self.rows, target and target.rows),

@@ -76,7 +76,6 @@ def test_from_photographs_to_exports(
 @pytest.mark.parametrize(
     ("options", "says"),
     [
-        (["--target", "circles"], "needs --board"),
         (["--target", "circles", "--board", "5x7", "--corners", "saddle"], "not for circles"),
         (["--target", "circles", "--board", "5x7", "--marker", "3"], "--marker is for"),
         (["--dictionary", "DICT_4X4_50"], "--dictionary is for --target charuco"),

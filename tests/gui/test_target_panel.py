@@ -78,16 +78,17 @@ def test_a_charuco_board_is_described(session: Session, panel: TargetPanel, tmp_
     assert chosen.kind.currentData() == "checkerboard"
 
 
-def test_circles_are_counted_by_the_user(session: Session, panel: TargetPanel) -> None:
+def test_the_size_of_another_kind_of_board_does_not_stay(
+    session: Session, panel: TargetPanel
+) -> None:
     choose(panel.pattern.kind, 3)
     assert session.project.pattern == Circles(asymmetric=True)
-    assert session.project.board == (11, 4)
-    assert not panel.inferred.isEnabled()
-    assert panel.rows.isEnabled()
     assert panel.counted.text() == "Circles"
+    panel.inferred.click()
+    panel.rows.setValue(11)
+    assert session.project.board is not None
     choose(panel.pattern.kind, 0)
     assert session.project.board is None
-    assert panel.inferred.isEnabled()
 
 
 def test_every_pattern_can_be_printed(qapp: QApplication) -> None:

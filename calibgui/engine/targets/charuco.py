@@ -64,7 +64,7 @@ class Charuco:
         return True
 
     @property
-    def counted(self) -> bool:
+    def squared(self) -> bool:
         return True
 
     def places(self, grid: Array) -> Array:

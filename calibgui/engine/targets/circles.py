@@ -1,8 +1,9 @@
 """Grids of circles, symmetric and asymmetric.
 
-OpenCV finds the grid, coarsely and whole or not at all. Every circle's ellipse is then fitted to
-the pixels of its edge (``ellipses.py``), and the image of the circle's centre follows from the
-ellipse's (``plate_map.py``), for the diameter that the ellipses show.
+The grid is found among all parts that may be discs (``blobs.py``, ``dots.py``), coarsely and whole
+or not at all. Every circle's ellipse is then fitted to the pixels of its edge (``ellipses.py``),
+and the image of the circle's centre follows from the ellipse's (``plate_map.py``), for the diameter
+that the ellipses show.
 
 In a symmetric grid of M x N circles the one in row m, column n is at X = n, Y = m. In an asymmetric
 one every second row is shifted by half: X = 2 n + m mod 2, Y = m; its pitch is the distance of the
@@ -21,7 +22,6 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
-import scipy
 
 from calibgui.engine import opencv
 from calibgui.engine.corners import roi as region
@@ -32,6 +32,7 @@ from calibgui.engine.images import stretched
 from calibgui.engine.opencv import Image
 from calibgui.engine.targets import ellipses
 from calibgui.engine.targets.blobs import blobs
+from calibgui.engine.targets.dots import arranged
 from calibgui.engine.targets.ellipses import Ellipses
 from calibgui.engine.targets.ink import Discs, Ink
 from calibgui.engine.targets.pattern import Pattern
@@ -42,6 +43,8 @@ _COARSE = 1200
 """Longer side of the image in which the grid is looked for first, px."""
 _WINDOWS = (4, 16)
 """Of which part of the image's shorter side ink must be darker than the mean."""
+_MOST = 400
+"""Parts that are looked at where the number of circles is not known."""
 _TURNS = 3
 """How often the map and the centres are found from each other."""
 _DIFFERENT = 0.05
@@ -84,7 +87,7 @@ class Circles:
         return False
 
     @property
-    def counted(self) -> bool:
+    def squared(self) -> bool:
         return False
 
     @property
@@ -127,17 +130,13 @@ class Circles:
         method: str = "edges",  # noqa: ARG002 - circles have but one
     ) -> Corners:
         """See ``Pattern``."""
-        if board is None:
-            raise NoBoardError(
-                "Circles cannot be counted unless it is known how many they are.",
-                "State the number of rows and columns.",
-            )
         grey = grey_levels(image)
         outline = None if roi is None else region.outline(roi)
-        first = self._found(stretched(grey), board, outline)
+        coarse = self._found(stretched(grey), board, outline)
+        board = coarse.shape[0], coarse.shape[1]
         grid = _grid(board)
         xy = self.places(grid.astype(np.float64))
-        first = self._numbered(first, xy, board, outline)
+        first = self._numbered(coarse, xy, outline)
         start = plate_map(xy, first)
         beside = np.array([(1.0, 0.0), (0.0, 1.0), (-1.0, 0.0), (0.0, -1.0)])
         if not self.asymmetric:
@@ -166,8 +165,8 @@ class Circles:
             pattern=Circles(self.asymmetric, 2 * radius),
         )
 
-    def _found(self, image: Image, board: Board, outline: Array | None) -> Array:
-        """(n, 2) px, OpenCV's centres in an 8-bit image (h, w), as it counts them."""
+    def _found(self, image: Image, board: Board | None, outline: Array | None) -> Array:
+        """(rows, cols, 2) px, the circles' centres, coarsely, in an 8-bit image (h, w)."""
         left, top = 0, 0
         if outline is not None:
             marked = region.enlarged(outline)
@@ -177,28 +176,32 @@ class Circles:
         levels = [image]
         while max(levels[-1].shape) > _COARSE:
             levels.append(opencv.half(levels[-1]))
-        count = board[0] * board[1]
+        most = _MOST if board is None else 2 * board[0] * board[1] + 60
+        largest = np.zeros((0, 0, 2))
         for depth in reversed(range(len(levels))):
             for seen in (levels[depth], 255 - levels[depth]):
                 for part in _WINDOWS:
-                    points = blobs(seen, max(int(min(seen.shape) / part), 9), 2 * count + 60)
-                    if len(points) < count:
+                    points = blobs(seen, max(int(min(seen.shape) / part), 9), most)
+                    grid = arranged(points, board, asymmetric=self.asymmetric)
+                    if grid is None or (grid.shape != board and 2 * grid.size <= largest.size):
                         continue
-                    centres = opencv.circle_grid(points, board, self.asymmetric)
-                    if centres is not None:
-                        nearest = np.asarray(scipy.spatial.cKDTree(points).query(centres)[1])
-                        return (points[nearest] + 0.5) * 2**depth - 0.5 + [left, top]
+                    largest = (points[grid] + 0.5) * 2**depth - 0.5 + [left, top]
+                    if grid.shape == board:
+                        return largest
+        if board is None and largest.size:
+            return largest
+        which = "" if board is None else f" of {board[0]} x {board[1]}"
+        instead = ", but one of {} x {}".format(*largest.shape) if largest.size else ""
         raise NoBoardError(
-            f"No grid of {board[0]} x {board[1]} circles was found.",
+            f"No grid{which} circles was found{instead}.",
             "All of it must be in view, sharp and evenly lit, with white around it. Check the"
             " numbers of rows and columns.",
         )
 
-    def _numbered(self, uv: Array, xy: Array, board: Board, outline: Array | None) -> Array:
-        """The centres (n, 2) as the pattern counts them, one for each of its places (n, 2)."""
-        dense = uv.reshape(*board, 2)
+    def _numbered(self, dense: Array, xy: Array, outline: Array | None) -> Array:
+        """The centres (rows, cols, 2) as the pattern counts them, for each of its places (n, 2)."""
         ways = [dense, dense[::-1], dense[:, ::-1], dense[::-1, ::-1]]
-        if board[0] == board[1] and not self.asymmetric:
+        if dense.shape[0] == dense.shape[1] and not self.asymmetric:
             ways += [way.transpose(1, 0, 2) for way in ways]
         rated = []
         for way in ways:

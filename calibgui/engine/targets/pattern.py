@@ -34,8 +34,8 @@ class Pattern(Protocol):
         rows and columns the whole has."""
 
     @property
-    def counted(self) -> bool:
-        """Whether the number of rows and columns can be found out from the images."""
+    def squared(self) -> bool:
+        """Whether it is printed in squares, the points being their corners."""
 
     def places(self, grid: Array) -> Array:
         """(n, 2) plate coordinates of points (n, 2) = (row, column), pitches."""
@@ -72,7 +72,7 @@ class Checkerboard:
         return False
 
     @property
-    def counted(self) -> bool:
+    def squared(self) -> bool:
         return True
 
     def places(self, grid: Array) -> Array:

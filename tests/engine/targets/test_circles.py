@@ -130,12 +130,20 @@ def test_what_is_wrongly_stated_is_told() -> None:
     image = Scene(Target(5, 7, 20.0, Circles(False, 0.5))).image()
     with pytest.raises(NoBoardError, match=r"measure 0\.50 of their distance, not 0\.70"):
         Circles(False, 0.7).find(image, (5, 7))
-    with pytest.raises(NoBoardError, match="No grid of 6 x 7"):
-        Circles().find(image, (6, 7))
-    with pytest.raises(NoBoardError, match="State the number"):
-        Circles().find(image, None)
+    for board in ((6, 7), (4, 7), (5, 5)):
+        with pytest.raises(NoBoardError, match=r"No grid of . x . circles was found, but one of 5"):
+            Circles().find(image, board)
     with pytest.raises(CalibrationError, match="touch"):
         Circles(False, 1.2)
+
+
+@pytest.mark.parametrize(("asymmetric", "board"), [(False, (5, 7)), (True, (7, 4)), (True, (6, 5))])
+def test_the_number_of_circles_may_be_left_out(asymmetric: bool, board: tuple[int, int]) -> None:
+    pattern = Circles(asymmetric, 0.6)
+    image = Scene(Target(*board, 20.0, pattern), rvec=(0.3, 0.4, 0.2)).image()
+    stated, counted = pattern.find(image, board), pattern.find(image, None)
+    assert counted.shape == board
+    np.testing.assert_array_equal(counted.uv, stated.uv)
 
 
 def test_images_together_tell_the_diameter() -> None:
