@@ -10,7 +10,7 @@ from pathlib import Path
 
 from calibgui.engine.files import write_atomically
 from calibgui.engine.types import Calibration
-from calibgui.formats.exporter import Exporter, ExportReport
+from calibgui.formats.exporter import FRAME, Exporter, ExportReport
 from calibgui.formats.result import Result
 
 _NOTE = "The camera as calibrated; nothing is refitted."
@@ -36,7 +36,7 @@ def lines(calibration: Calibration) -> str:
     )
     return f"""\
 # {_NOTE}
-# Pixels count from 0 at the centre of the first pixel, u right, v down.
+# {FRAME}
 from calibgui import engine
 
 params = [

@@ -8,6 +8,9 @@ from pathlib import Path
 
 from calibgui.formats.result import Result
 
+FRAME = "Pixels count from 0 at the centre of the first pixel, u right, v down."
+"""What a file in the array frame says of it."""
+
 
 @dataclass(frozen=True, slots=True)
 class ExportReport:

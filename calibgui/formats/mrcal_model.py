@@ -16,7 +16,7 @@ import numpy as np
 import scipy
 
 from calibgui.engine.types import Array, Camera
-from calibgui.formats.exporter import Exporter, ExportReport
+from calibgui.formats.exporter import FRAME, Exporter, ExportReport
 from calibgui.formats.forward_model import write_forward
 from calibgui.formats.result import Result
 
@@ -33,7 +33,7 @@ def cameramodel(camera: Camera, region: Array, note: str) -> str:
     contour = [*region.tolist(), region[0].tolist()]
     return f"""\
 # {note}
-# Pixels count from 0 at the centre of the first pixel, u right, v down.
+# {FRAME}
 {{
     'lensmodel': 'LENSMODEL_OPENCV5',
     # fx, fy, cx, cy, k1, k2, p1, p2, k3

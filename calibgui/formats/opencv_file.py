@@ -17,14 +17,11 @@ import numpy as np
 from calibgui.engine import opencv
 from calibgui.engine.quality.statistics import summarise
 from calibgui.engine.types import Array, Calibration
-from calibgui.formats.exporter import Exporter, ExportReport
+from calibgui.formats.exporter import FRAME, Exporter, ExportReport
 from calibgui.formats.forward_model import write_forward
 from calibgui.formats.result import Result
 
-_FRAME = (
-    "Pixels count from 0 at the centre of the first pixel, u right, v down; lengths in mm, "
-    "angles in rad."
-)
+_NOTE = f"{FRAME} Lengths are in mm, angles in rad."
 
 
 def write_opencv(result: Result, path: Path) -> ExportReport:
@@ -49,8 +46,8 @@ def storage(calibration: Calibration, suffix: str, note: str) -> str:
         values["camera_matrix_std_dev"] = calibration.sigma[None, :4]
         values["distortion_coefficients_std_dev"] = calibration.sigma[None, 4:]
     if suffix == ".json":
-        return opencv.storage(suffix, {"note": f"{note} {_FRAME}"} | values)
-    return opencv.storage(suffix, values, f"{note}\n{_FRAME}")
+        return opencv.storage(suffix, {"note": f"{note} {_NOTE}"} | values)
+    return opencv.storage(suffix, values, f"{note}\n{_NOTE}")
 
 
 EXPORTER = Exporter(

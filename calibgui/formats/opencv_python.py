@@ -10,7 +10,7 @@ from __future__ import annotations
 from pathlib import Path
 
 from calibgui.engine.types import Camera
-from calibgui.formats.exporter import Exporter, ExportReport
+from calibgui.formats.exporter import FRAME, Exporter, ExportReport
 from calibgui.formats.forward_model import write_forward
 from calibgui.formats.result import Result
 
@@ -25,7 +25,7 @@ def lines(camera: Camera, note: str) -> str:
     fx, fy, cx, cy, *coefficients = camera.params.tolist()
     return f"""\
 # {note}
-# Pixels count from 0 at the centre of the first pixel, u right, v down.
+# {FRAME}
 import cv2
 import numpy as np
 

@@ -32,15 +32,20 @@ from calibgui.engine.types import (
     Cost,
     Iteration,
     Plate,
-    Pose,
-    StageOne,
     Status,
     Undetermined,
-    View,
-    ViewResiduals,
 )
 from calibgui.formats.corners_json import read_size
 from calibgui.formats.diagnosis_json import diagnosis_record, read_diagnosis
+from calibgui.formats.estimates_json import (
+    estimate_records,
+    no_estimate,
+    read_pose,
+    read_pose_covariance,
+    read_residuals,
+    read_stage_one,
+    stage_one_records,
+)
 from calibgui.formats.exporter import Exporter, ExportReport
 from calibgui.formats.json_document import Node, check_format, read, write
 from calibgui.formats.pattern_json import read_target, target_record
@@ -51,9 +56,7 @@ from calibgui.formats.views_json import read_views, view_record
 FORMAT = "calibgui-result"
 VERSION = 1
 
-_STAGE_ONE = ("xp", "yp", "k1", "aspect", "fx", "fy", "iterations", "rms", "converged")
 _ITERATION = ("index", "cost", "rms", "gradient", "step", "damping", "seconds")
-_PAPER_POSE = ("omega", "phi", "theta", "tx", "ty", "tz")
 
 
 def write_result(result: Result, path: str | os.PathLike[str]) -> None:
@@ -107,7 +110,7 @@ def result_record(result: Result) -> dict[str, Any]:
         "plate": None if calibration.plate is None else plate_record(calibration.plate),
         "plate_doubt_mm": calibration.plate_doubt,
         "view_scatter": calibration.view_scatter,
-        "stage_one": _stage_one_records(result),
+        "stage_one": stage_one_records(result),
         "history": [{k: getattr(i, k) for k in _ITERATION} for i in calibration.history],
         "views": _view_records(result),
     }
@@ -124,56 +127,12 @@ def _paper_record(calibration: Calibration) -> dict[str, Any] | None:
     return values | {"sigma": sigma, "sd_as_printed": printed}
 
 
-def _stage_one_records(result: Result) -> list[dict[str, Any]]:
-    rows = zip(result.used, result.calibration.stage_one, strict=True)
-    return [
-        {"image": view.image, **{k: getattr(row, k) for k in _STAGE_ONE}, "backward": row.backward}
-        for view, row in rows
-    ]
-
-
 def _view_records(result: Result) -> list[dict[str, Any]]:
-    estimates = iter(_estimate_records(result))
+    estimates = iter(estimate_records(result))
     return [
-        view_record(view, result.target) | (next(estimates) if view.usable else _no_estimate(view))
+        view_record(view, result.target) | (next(estimates) if view.usable else no_estimate(view))
         for view in result.views
     ]
-
-
-def _estimate_records(result: Result) -> list[dict[str, Any]]:
-    """What the calibration says of each used view."""
-    calibration = result.calibration
-    records = []
-    for pose, covariance, residuals, paper in zip(
-        calibration.poses,
-        calibration.pose_covariances,
-        calibration.residuals,
-        result.paper_poses(),
-        strict=True,
-    ):
-        sigma = np.sqrt(np.diag(covariance))
-        records.append(
-            {
-                "corners": len(residuals.image),
-                "rms_px": residuals.rms,
-                "rvec": pose.rvec,
-                "tvec_mm": pose.tvec,
-                "sigma_rvec": sigma[:3],
-                "sigma_tvec_mm": sigma[3:],
-                "paper": {k: getattr(paper, k) for k in _PAPER_POSE}
-                | {"distance_mm": paper.distance},
-                "pose_covariance": covariance,
-                "residuals_px": residuals.image,
-                "residuals_reference_px": residuals.reference,
-            }
-        )
-    return records
-
-
-def _no_estimate(view: View) -> dict[str, Any]:
-    found = view.points or view.corners
-    empty = ("rms_px", "rvec", "tvec_mm", "sigma_rvec", "sigma_tvec_mm", "paper")
-    return {"corners": len(found.uv) if found else 0, **dict.fromkeys(empty)}
 
 
 def read_result(path: str | os.PathLike[str]) -> Result:
@@ -213,16 +172,14 @@ def _read_calibration(node: Node, used: list[Node]) -> Calibration:
         sigma=_by_name(camera["sigma"], names),
         covariance=node["covariance"]["matrix"].numbers(len(names), len(names), nullable=True),
         sigma_by_noise=_by_name(camera.get("sigma_by_noise") or camera["sigma"], names),
-        poses=tuple(Pose(v["rvec"].numbers(3), v["tvec_mm"].numbers(3)) for v in used),
-        pose_covariances=np.stack(
-            [v["pose_covariance"].numbers(6, 6, nullable=True) for v in used]
-        ),
-        residuals=tuple(_read_residuals(v) for v in used),
+        poses=tuple(map(read_pose, used)),
+        pose_covariances=np.stack(list(map(read_pose_covariance, used))),
+        residuals=tuple(map(read_residuals, used)),
         noise=residuals["noise"].number(nullable=True),
         model_error=error.number() if (error := residuals.get("model_error_px")) else 0.0,
         reference_scale=residuals["reference_px_per_mm"].number(),
-        stage_one=tuple(_read_stage_one(n) for n in node["stage_one"].items()),
-        history=tuple(_read_iteration(n) for n in node["history"].items()),
+        stage_one=tuple(map(read_stage_one, node["stage_one"].items())),
+        history=tuple(map(_read_iteration, node["history"].items())),
         status=Status(node["status"].choice(list(Status))),
         cost=Cost(node["settings"]["cost"].choice(list(Cost))),
         fixed=tuple(n.choice(names) for n in camera["fixed"].items()),
@@ -261,28 +218,6 @@ def _read_camera(node: Node, model: str) -> Camera:
 
 def _by_name(node: Node, names: tuple[str, ...]) -> Array:
     return np.array([node[name].number(nullable=True) for name in names])
-
-
-def _read_residuals(view: Node) -> ViewResiduals:
-    n = len(view["uv"].value)
-    return ViewResiduals(
-        view["residuals_px"].numbers(n, 2), view["residuals_reference_px"].numbers(n, 2)
-    )
-
-
-def _read_stage_one(node: Node) -> StageOne:
-    return StageOne(
-        xp=node["xp"].number(nullable=True),
-        yp=node["yp"].number(nullable=True),
-        k1=node["k1"].number(nullable=True),
-        aspect=node["aspect"].number(nullable=True),
-        fx=node["fx"].number(nullable=True),
-        fy=node["fy"].number(nullable=True),
-        iterations=node["iterations"].integer(),
-        rms=node["rms"].number(nullable=True),
-        backward=node["backward"].numbers(3, 3, nullable=True),
-        converged=node["converged"].flag(),
-    )
 
 
 def _read_iteration(node: Node) -> Iteration:

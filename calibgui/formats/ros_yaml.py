@@ -14,11 +14,9 @@ from pathlib import Path
 import numpy as np
 
 from calibgui.engine.types import Array, Camera
-from calibgui.formats.exporter import Exporter, ExportReport
+from calibgui.formats.exporter import FRAME, Exporter, ExportReport
 from calibgui.formats.forward_model import write_forward
 from calibgui.formats.result import Result
-
-_FRAME = "Pixels count from 0 at the centre of the first pixel, u right, v down."
 
 
 def write_ros(result: Result, path: Path) -> ExportReport:
@@ -33,7 +31,7 @@ def camera_info(camera: Camera, name: str, note: str) -> str:
     P = np.hstack([camera.matrix, np.zeros((3, 1))])
     return "".join(
         [
-            f"# {note}\n# {_FRAME}\n",
+            f"# {note}\n# {FRAME}\n",
             f"image_width: {width}\nimage_height: {height}\ncamera_name: {name}\n",
             _matrix("camera_matrix", camera.matrix),
             "distortion_model: plumb_bob\n",

@@ -90,6 +90,17 @@ def test_what_is_undetermined_reads_back_as_such(tmp_path: Path, result: Result)
     _validator().validate(_content(partly))
 
 
+def test_a_corner_beyond_the_lenss_fold_reads_back_as_such(tmp_path: Path, result: Result) -> None:
+    first, *others = result.calibration.residuals
+    reference = first.reference.copy()
+    reference[3] = np.nan
+    folded = replace(result.calibration, residuals=(replace(first, reference=reference), *others))
+    result = replace(result, calibration=folded)
+    _validator().validate(_content(result))
+    write_result(result, tmp_path / "result.json")
+    assert same(read_result(tmp_path / "result.json"), result)
+
+
 @_ALL
 def test_results_follow_the_schema(name: str, request: pytest.FixtureRequest) -> None:
     _validator().validate(_content(request.getfixturevalue(name)))

@@ -26,7 +26,8 @@ from calibgui.engine.lens import MODELS, Lens
 from calibgui.engine.types import Array, Cost, IntArray
 
 if TYPE_CHECKING:
-    from calibgui.engine.kernels import stage_two as stage_two_kernel
+    from calibgui.engine.kernels.eq10 import Eq10Camera
+    from calibgui.engine.kernels.stage_two import Views
 
 _EQ10_ROWS = {
     "lucchese": np.arange(10),
@@ -175,13 +176,13 @@ def view_products(
     return np.concatenate(parts)
 
 
-def eq10(model: str, params: Array) -> stage_two_kernel.Lens:
+def eq10(model: str, params: Array) -> Eq10Camera:
     """A camera's parameters as the kernels take them."""
-    from calibgui.engine.kernels.stage_two import Lens
+    from calibgui.engine.kernels.eq10 import Eq10Camera
 
     camera = np.zeros(10)
     camera[_EQ10_ROWS[model]] = params
-    return Lens(tuple(camera.tolist()), model == "lucchese")
+    return Eq10Camera(tuple(camera.tolist()), model == "lucchese")
 
 
 def eq10_rows(model: str, free: IntArray) -> IntArray:
@@ -189,7 +190,7 @@ def eq10_rows(model: str, free: IntArray) -> IntArray:
     return _EQ10_ROWS[model][free]
 
 
-def transposed(observations: Observations) -> stage_two_kernel.Views:
+def transposed(observations: Observations) -> Views:
     """The views as the kernels take them."""
     from calibgui.engine.kernels.stage_two import Views
 

@@ -9,7 +9,8 @@ from __future__ import annotations
 import numpy as np
 
 from calibgui.engine.kernels.common import BLOCK, compiled, gram, in_blocks, plain
-from calibgui.engine.kernels.stage_two import Lens, Views, image, jacobian, workspace
+from calibgui.engine.kernels.eq10 import Eq10Camera
+from calibgui.engine.kernels.stage_two import Views, image, jacobian, workspace
 from calibgui.engine.types import Array, IntArray
 
 
@@ -49,7 +50,7 @@ def _products(camera, backward, R, T, uv, xyz, weight, whitened, rows, index, A,
 
 
 def products(
-    lens: Lens,
+    lens: Eq10Camera,
     R: Array,
     T: Array,
     views: Views,
@@ -112,7 +113,13 @@ def _followed(camera, backward, R, T, uv, xyz, weight, whitened, rows, index, mo
 
 
 def followed(
-    lens: Lens, R: Array, T: Array, views: Views, rows: IntArray, index: IntArray, motion: Array
+    lens: Eq10Camera,
+    R: Array,
+    T: Array,
+    views: Views,
+    rows: IntArray,
+    index: IntArray,
+    motion: Array,
 ) -> Array:
     """(K, P + 7, P + 7) products of the columns [camera, pose, r] where the plate follows.
 

@@ -1,12 +1,10 @@
 """Stage II's normal equations with the image cost, compiled.
 
-The same sums as ``arrow.normal_equations`` over
-``stage_two.image_residual``, which stay as the readable reference that this file is tested
-against.
+The same sums as ``arrow.normal_equations`` over ``stage_two.image_residual``, which stay as the
+readable reference that this file is tested against.
 
-Both lens models are the polynomial of eq. 10, with the coefficients ordered as
-k1, k2, k3, p1, p2, p3: the paper's corrects, and is inverted here by Newton's method from the
-measured corner; the other distorts. With M = d(measured) / d(ideal) the derivatives by the
+Both polynomial lens models are eq. 10's (``eq10.py``): the paper's corrects, and is inverted from
+the measured corner; the other distorts. With M = d(measured) / d(ideal) the derivatives by the
 coefficients are -M basis(measured) for the first and basis(ideal) for the second.
 Padded corners carry zero weight.
 """
@@ -18,73 +16,8 @@ from typing import NamedTuple
 import numpy as np
 
 from calibgui.engine.kernels.common import compiled, gram, in_blocks, plain
+from calibgui.engine.kernels.eq10 import Eq10Camera, distort, invert
 from calibgui.engine.types import Array, IntArray
-
-
-@compiled
-def _eq10(x, y, k1, k2, k3, p1, p2, p3):  # type: ignore[no-untyped-def]
-    """psi1, psi2 and their derivatives by x and y, as ``lens.lucchese``."""
-    xx, yy, xy = x * x, y * y, x * y
-    r2 = xx + yy
-    rho = r2 * (k1 + r2 * (k2 + r2 * k3))
-    slope = k1 + r2 * (2 * k2 + 3 * r2 * k3)
-    lx = p1 * (r2 + 2 * xx) + 2 * p2 * xy
-    ly = 2 * p1 * xy + p2 * (r2 + 2 * yy)
-    q = 1 + p3 * r2
-    cross = 2 * xy * slope + 2 * q * (p1 * y + p2 * x)
-    return (
-        x + x * rho + q * lx,
-        y + y * rho + q * ly,
-        1 + rho + 2 * xx * slope + 2 * x * p3 * lx + q * (6 * p1 * x + 2 * p2 * y),
-        cross + 2 * y * p3 * lx,
-        cross + 2 * x * p3 * ly,
-        1 + rho + 2 * yy * slope + 2 * y * p3 * ly + q * (2 * p1 * x + 6 * p2 * y),
-    )
-
-
-@compiled
-def _distort(n, k, d, M):  # type: ignore[no-untyped-def]
-    """d = eq10(n) and M = dd/dn, all (2 or 4, N)."""
-    k1, k2, k3, p1, p2, p3 = k
-    for i in range(n.shape[1]):
-        d[0, i], d[1, i], M[0, i], M[1, i], M[2, i], M[3, i] = _eq10(
-            n[0, i], n[1, i], k1, k2, k3, p1, p2, p3
-        )
-
-
-@compiled
-def _invert(n, k, d, M):  # type: ignore[no-untyped-def]
-    """Solve eq10(d) = n from the given d; M = dd/dn. Returns whether all points converged.
-
-    After a step of Newton's method of at most 1e-7, all points together, the error is its square;
-    one more step with the same M takes it below rounding. A point that ends beyond the fold of
-    eq. 10, where det < 0, has no inverse. Sums instead of a maximum and a truth value let the
-    loop become vector instructions.
-    """
-    k1, k2, k3, p1, p2, p3 = k
-    for _ in range(20):
-        moved, folds = 0.0, 0.0
-        for i in range(n.shape[1]):
-            e0, e1, j00, j01, j10, j11 = _eq10(d[0, i], d[1, i], k1, k2, k3, p1, p2, p3)
-            det = 1 / (j00 * j11 - j01 * j10)
-            folds += 0.0 if det > 0 else 1.0
-            m00, m01, m10, m11 = j11 * det, -j01 * det, -j10 * det, j00 * det
-            e0 -= n[0, i]
-            e1 -= n[1, i]
-            s0, s1 = m00 * e0 + m01 * e1, m10 * e0 + m11 * e1
-            d[0, i] -= s0
-            d[1, i] -= s1
-            M[0, i], M[1, i], M[2, i], M[3, i] = m00, m01, m10, m11
-            moved += s0 * s0 + s1 * s1
-        if moved < 1e-14:
-            for i in range(n.shape[1]):
-                e0, e1, _, _, _, _ = _eq10(d[0, i], d[1, i], k1, k2, k3, p1, p2, p3)
-                e0 -= n[0, i]
-                e1 -= n[1, i]
-                d[0, i] -= M[0, i] * e0 + M[1, i] * e1
-                d[1, i] -= M[2, i] * e0 + M[3, i] * e1
-            return folds == 0
-    return False
 
 
 @compiled
@@ -175,8 +108,8 @@ def image(camera, backward, R, T, uv, xyz, work):  # type: ignore[no-untyped-def
         for i in range(N):
             d[0, i] = (uv[0, i] - cx) / fx
             d[1, i] = (uv[1, i] - cy) / fy
-        return _invert(n, camera[4:], d, M) and not behind
-    _distort(n, camera[4:], d, M)
+        return invert(n, camera[4:], d, M) and not behind
+    distort(n, camera[4:], d, M)
     return not behind
 
 
@@ -232,11 +165,11 @@ def _residuals(camera, backward, R, T, uv, xyz, seen, registered):  # type: igno
             goal[0, i] = (uv[view, 0, i] - cx) / fx
             goal[1, i] = (uv[view, 1, i] - cy) / fy
         if backward:
-            _distort(goal, camera[4:], ideal, M)
+            distort(goal, camera[4:], ideal, M)
         else:
             for i in range(N):
                 ideal[0, i], ideal[1, i] = n[0, i], n[1, i]
-            good &= _invert(goal, camera[4:], ideal, M)
+            good &= invert(goal, camera[4:], ideal, M)
         r, t = R[view], T[view]
         t0 = r[0, 0] * t[0] + r[1, 0] * t[1] + r[2, 0] * t[2]
         t1 = r[0, 1] * t[0] + r[1, 1] * t[1] + r[2, 1] * t[2]
@@ -263,16 +196,7 @@ class Views(NamedTuple):
     """(K, 4, N) whitening of the corners, 0 for padding; (K, 4, 0) if all weigh 1."""
 
 
-class Lens(NamedTuple):
-    """A camera in the terms of eq. 10."""
-
-    camera: tuple[float, ...]
-    """fx, fy, cx, cy, k1, k2, k3, p1, p2, p3."""
-    backward: bool
-    """Whether eq. 10 corrects (the paper) rather than distorts."""
-
-
-def products(lens: Lens, R: Array, T: Array, views: Views, rows: IntArray) -> Array:
+def products(lens: Eq10Camera, R: Array, T: Array, views: Views, rows: IntArray) -> Array:
     """(K, P + 7, P + 7) products of the columns [J_free J_pose r] of each view.
 
     Args:
@@ -299,7 +223,7 @@ def products(lens: Lens, R: Array, T: Array, views: Views, rows: IntArray) -> Ar
     return out
 
 
-def residuals(lens: Lens, R: Array, T: Array, views: Views) -> tuple[Array, Array]:
+def residuals(lens: Eq10Camera, R: Array, T: Array, views: Views) -> tuple[Array, Array]:
     """(K, 2, N) measured minus predicted corners, px, and the same on the plate, mm.
 
     The second are where the measured corners' rays meet the plate, minus where the corners
