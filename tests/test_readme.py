@@ -12,6 +12,7 @@ from typing import Any
 import pytest
 
 from calibgui.cli.main import main
+from calibgui.formats import EXPORTERS
 
 ROOT = Path(__file__).resolve().parents[1]
 README = (ROOT / "README.md").read_text(encoding="utf-8")
@@ -57,6 +58,11 @@ def test_python() -> None:
     assert abs(fx - true_values[0]) < 4 * fx_sigma
     assert scope["straight"].shape == scope["views"][0][0].shape
     assert scope["picture"].ndim == 2
+
+
+def test_every_export_format_is_in_the_table() -> None:
+    rows = "".join(re.findall(r"^\|.*--export.*$", README, re.MULTILINE))
+    assert set(re.findall(r"([\w-]+)=`", rows)) == set(EXPORTERS)
 
 
 def test_files_named_exist() -> None:

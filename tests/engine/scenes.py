@@ -50,6 +50,20 @@ def brown(aspect: float = 1.0, size: Size = VGA) -> Camera:
     return Camera(size, [*params, -0.25, 0.12, 3e-4, -5e-4, -0.03], "opencv")
 
 
+_ALL_AT_WORK = (0.25, 0.1, -0.04, 4e-4, -7e-4, 0.4)
+LENSES = {
+    "lucchese": _ALL_AT_WORK,
+    "lucchese-pixels": _ALL_AT_WORK,
+    "opencv": (-0.25, 0.12, 3e-4, -5e-4, -0.03),
+}
+"""A lens of each model: what `example` is made with, and the tests of all models are."""
+
+
+def example(model: str, aspect: float = 1.0) -> Camera:
+    """A camera with a lens of any model, all of its coefficients at work."""
+    return Camera(VGA, [650.0, 650.0 * aspect, 303.0, 243.0, *LENSES[model]], model)
+
+
 def imaged(camera: Camera, pose: Pose, xy: Array) -> Array:
     """(n, 2) where the camera sees plate points (n, 2), px; NaN behind it or beyond the lens."""
     point = xy @ Rotation.from_rotvec(np.array(pose.rvec)).as_matrix()[:, :2].T + pose.tvec

@@ -34,7 +34,7 @@ def test_every_exporter_writes_what_it_lists(tmp_path: Path, name: str, result: 
     assert exporter.name == name
     for suffix in exporter.suffixes:
         report = export(result, name, tmp_path / f"file{suffix.upper()}")
-        assert report.path.stat().st_size > 500
+        assert report.path.read_text(encoding="utf-8").strip()
         assert report.note
         if report.largest_error_px is not None:
             assert 0 < report.largest_error_px < 1

@@ -2,8 +2,9 @@
 
 A model is closed-form in one direction only; ``inverse`` supplies the other, derivatives
 included. To add a model, write one module with a class that satisfies `Lens`, derive its
-Jacobians in the docstring, and name it in `MODELS`: solver, maps, renderer and tests take
-it from there.
+Jacobians in the docstring, and name it in `MODELS`: solver, maps, renderer, reports and exports
+take it from there, and the tests of all models once `LENSES` of ``tests/engine/scenes.py`` has a
+lens of it.
 """
 
 from __future__ import annotations

@@ -29,7 +29,10 @@ class Lens(Protocol):
 
     @property
     def names(self) -> tuple[str, ...]:
-        """Names of the coefficients k."""
+        """Names of the coefficients k; those of the radial part, the lowest first, begin with k.
+
+        The start of the estimation sets the first coefficient alone.
+        """
         ...
 
     @property

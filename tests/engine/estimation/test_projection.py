@@ -19,26 +19,17 @@ from calibgui.engine.estimation.projection import (
     rays,
 )
 from calibgui.engine.lens import MODELS, Brown, Lens
-from calibgui.engine.types import Array, Camera
-from tests.engine.scenes import VGA, barrel, brown, central_differences, relative
+from calibgui.engine.types import Array
+from tests.engine.scenes import brown, central_differences, example, relative
 
 Mapping = Callable[[Array, Array, Lens], Projected]
 GRID = np.stack(np.meshgrid(np.linspace(0, 639, 9), np.linspace(0, 479, 7)), axis=-1)
 
 
-def params(model: str, aspect: float) -> Array:
-    """Params of a camera with every coefficient at work."""
-    camera = brown(aspect) if model == "opencv" else barrel(aspect)
-    values = np.array(camera.params)
-    if model != "opencv":
-        values[-1] = 0.4  # p3
-    return values
-
-
 @pytest.mark.parametrize("aspect", [1.0, 0.8])
 @pytest.mark.parametrize("model", list(MODELS))
 def test_derivatives_against_differences(model: str, aspect: float) -> None:
-    lens, p = MODELS[model], params(model, aspect)
+    lens, p = MODELS[model], np.array(example(model, aspect).params)
     n = normalise(GRID, p, lens).points
     # h is 3e-4 of the scales, short because the inverse bends sharply where it nears its fold;
     # that leaves 1e-10 of truncation, and 2e-9 of rounding in pixels.
@@ -60,7 +51,7 @@ def test_derivatives_against_differences(model: str, aspect: float) -> None:
 
 @given(st.sampled_from(list(MODELS)), st.floats(0.7, 1.4))
 def test_pixels_and_rays_are_inverse(model: str, aspect: float) -> None:
-    camera = Camera(VGA, params(model, aspect), model)
+    camera = example(model, aspect)
     np.testing.assert_allclose(pixels(rays(GRID, camera), camera), GRID, atol=1e-9)
 
 
@@ -78,7 +69,7 @@ def test_opencv_projects_alike() -> None:
 
 
 def test_square_pixels_make_the_printed_radius_the_same() -> None:
-    p = params("lucchese", 1.0)
+    p = example("lucchese").params
     a = normalise(GRID, p, MODELS["lucchese"]).points
     b = normalise(GRID, p, MODELS["lucchese-pixels"]).points
     np.testing.assert_allclose(a, b, atol=1e-15)

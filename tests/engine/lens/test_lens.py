@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 
 from calibgui.engine.lens import MODELS, Brown, Lens, Lucchese
 from calibgui.engine.types import Array
-from tests.engine.scenes import central_differences, relative
+from tests.engine.scenes import LENSES, central_differences, relative
 
 STRONG = np.array([0.27, 0.2, -0.1, 2e-3, -3e-3, 0.5])
 BARREL = np.array([-0.3, 0.11, 2e-3, -3e-3, -0.02])
@@ -21,6 +21,7 @@ CASES = [
     pytest.param(Lucchese(), np.zeros(6), id="lucchese, none"),
     pytest.param(Brown(), BARREL, id="opencv"),
     pytest.param(Brown(), np.zeros(5), id="opencv, none"),
+    *(pytest.param(MODELS[model], np.array(k), id=f"{model}, all") for model, k in LENSES.items()),
 ]
 
 
