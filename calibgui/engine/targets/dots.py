@@ -25,8 +25,8 @@ Place = tuple[int, int]
 Placed = dict[Place, int]
 """Index of the point at each place of the lattice."""
 
-LEAST = 12
-"""Circles of the smallest grid that is looked for."""
+_LEAST = 12
+"""Circles of the smallest grid whose size is found out."""
 _LINES = 3
 """Of its shorter side."""
 _SEEDS = 8
@@ -57,9 +57,9 @@ def arranged(points: Array, board: Board | None, *, asymmetric: bool) -> IntArra
     Returns:
         (rows, cols) indices of the points, right-handed in the image; None if there is no grid.
     """
-    best = _NONE
-    if len(points) < LEAST:
+    if len(points) < _LINES**2:
         return None
+    best = _NONE
     tree = scipy.spatial.cKDTree(points)
     for seed in _nearest(tree, np.median(points, axis=0), _SEEDS):
         if seed in best:
@@ -177,7 +177,7 @@ def _window(counted: Placed, board: Board, *, asymmetric: bool) -> IntArray | No
 def _whole(counted: Placed, *, asymmetric: bool) -> IntArray:
     """The grid that a lattice without strays at its borders fills, or an empty one."""
     xy = np.array(list(counted))
-    while len(xy) >= LEAST:
+    while len(xy) >= _LEAST:
         low, high = xy.min(axis=0), xy.max(axis=0)
         size = high - low + 1
         # Of the places along a line every second is one of an asymmetric grid.

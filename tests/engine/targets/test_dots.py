@@ -77,6 +77,14 @@ def test_strays_beside_the_grid_are_not_of_it() -> None:
     assert sorted(grid.ravel()) == list(range(36))
 
 
+def test_a_small_grid_must_be_stated() -> None:
+    points = np.indices((3, 3)).reshape(2, -1).T * 40.0
+    stated = arranged(points, (3, 3), asymmetric=False)
+    assert stated is not None
+    assert sorted(stated.ravel()) == list(range(9))
+    assert arranged(points, None, asymmetric=False) is None
+
+
 @pytest.mark.parametrize("asymmetric", [False, True])
 def test_scattered_points_are_no_grid(asymmetric: bool) -> None:
     for seed in range(20):
