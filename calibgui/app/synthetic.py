@@ -13,11 +13,9 @@ the finder counts a symmetric or partly seen one.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from contextlib import closing
 from dataclasses import dataclass, replace
 from functools import partial
-from typing import Any
 
 import numpy as np
 import scipy
@@ -28,7 +26,7 @@ from calibgui.engine.corners import METHODS
 from calibgui.engine.errors import CalibrationError, NoBoardError
 from calibgui.engine.imaging.maps import project_points
 from calibgui.engine.imaging.render import Appearance, render
-from calibgui.engine.lens import MODELS
+from calibgui.engine.quality.repetition import settings_of
 from calibgui.engine.types import (
     Array,
     Calibration,
@@ -36,6 +34,7 @@ from calibgui.engine.types import (
     Corners,
     Cost,
     IntArray,
+    PlateModel,
     Pose,
     Progress,
     Target,
@@ -108,7 +107,8 @@ def synthetic_check(
             if progress is not None:
                 progress(done, len(views))
     observations = [view.observation(target) for view in views if view.usable]
-    calibration = engine.calibrate(observations, camera.size, **_settings(result.calibration))
+    settings = {**settings_of(result.calibration), "plate": PlateModel.NOMINAL}
+    calibration = engine.calibrate(observations, camera.size, **settings)
     return SyntheticCheck(result, replace(result, calibration=calibration, views=tuple(views)))
 
 
@@ -167,16 +167,3 @@ def _numbered(found: Corners, grid: IntArray, predicted: Array) -> Corners:
         estimate=found.estimate[good],
         cov=None if found.cov is None else found.cov[good],
     )
-
-
-def _settings(calibration: Calibration) -> Mapping[str, Any]:
-    """Arguments of ``calibrate`` that repeat a calibration's settings."""
-    settings = calibration.settings
-    fixed = settings["fixed"]
-    return {
-        "cost": settings["cost"],
-        "model": settings["model"],
-        "fix": fixed,
-        "free": [name for name in MODELS[settings["model"]].held if name not in fixed],
-        "max_iterations": settings["max_iterations"],
-    }
