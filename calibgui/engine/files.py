@@ -4,13 +4,23 @@ from __future__ import annotations
 
 import os
 import tempfile
+from collections.abc import Iterator
+from contextlib import contextmanager
 from pathlib import Path
+from typing import IO
 
 from calibgui.engine.errors import CalibrationError
 
 
 def write_atomically(path: str | os.PathLike[str], content: bytes) -> None:
-    """Write `content` beside `path`, flush it to the disk, then put it in the place of `path`.
+    """Write `content` as the file `path`, completely or not at all; see `replacing`."""
+    with replacing(path) as file:
+        file.write(content)
+
+
+@contextmanager
+def replacing(path: str | os.PathLike[str]) -> Iterator[IO[bytes]]:
+    """A file beside `path` to write to, which is then flushed to the disk and takes its place.
 
     A link stays: the file that it leads to is replaced.
 
@@ -27,7 +37,7 @@ def write_atomically(path: str | os.PathLike[str], content: bytes) -> None:
             dir=target.parent, prefix=".calibgui.", suffix=".tmp", delete=False
         ) as file:
             temporary = Path(file.name)
-            file.write(content)
+            yield file
             file.flush()
             os.fsync(file.fileno())
         temporary.chmod(_mode(target))

@@ -17,7 +17,7 @@ import math
 import os
 import re
 import sys
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from itertools import chain
 from pathlib import Path
@@ -26,7 +26,7 @@ from typing import Any, NoReturn
 import numpy as np
 
 from calibgui.engine.errors import CalibrationError
-from calibgui.engine.files import write_atomically
+from calibgui.engine.files import replacing
 from calibgui.engine.types import Array, IntArray, frozen, frozen_int
 
 _UNFINISHED = re.compile(r"(-|\.|[eE][-+]?|tr?u?|fa?l?s?|nu?l?)?\s*")
@@ -41,9 +41,10 @@ def dumps(value: Any, depth: int = 0) -> str:
         # Of finite numbers and lists of them JSON and Python's repr are the same, repr is quicker.
         write_row = repr if np.isfinite(value).all() else dumps
         return _list([write_row(row) for row in value.tolist()], depth)
+    if _has_members(value):
+        return "".join(_pieces(value, depth))
     if isinstance(value, Mapping):
-        members = [f"{dumps(str(key))}: {dumps(item, depth + 1)}" for key, item in value.items()]
-        return _block("{", members, "}", depth)
+        return "{}"
     if isinstance(value, Sequence) and not isinstance(value, str):
         return _list([dumps(item, depth + 1) for item in value], depth)
     if isinstance(value, float) and not math.isfinite(value):
@@ -52,20 +53,45 @@ def dumps(value: Any, depth: int = 0) -> str:
     return json.dumps(value, ensure_ascii=isinstance(value, str) and not value.isprintable())
 
 
+def _has_members(value: Any) -> bool:
+    """Whether it is an object, or a list of some, with anything in it."""
+    if isinstance(value, Mapping):
+        return bool(value)
+    return isinstance(value, list | tuple) and any(map(_has_members, value))
+
+
+def _pieces(value: Any, depth: int) -> Iterator[str]:
+    """The text of `value`, member by member.
+
+    Putting that of a large file together would hold up every thread, at each depth anew.
+    """
+    if not _has_members(value):
+        yield dumps(value, depth)
+    elif isinstance(value, Mapping):
+        named = ((f"{dumps(str(key))}: ", item) for key, item in value.items())
+        members = (chain([name], _pieces(item, depth + 1)) for name, item in named)
+        yield from _block("{", members, "}", depth)
+    else:
+        yield from _block("[", (_pieces(item, depth + 1) for item in value), "]", depth)
+
+
 def _list(items: list[str], depth: int) -> str:
     nested = any(item[0] in "[{" for item in items)
     if nested and sum(len(item) + 2 for item in items) > _LINE:
-        return _block("[", items, "]", depth)
-    line = f"[{', '.join(items)}]"
-    return _block("[", items, "]", depth) if nested and "\n" in line else line
+        return "".join(_block("[", ([item] for item in items), "]", depth))
+    return f"[{', '.join(items)}]"
 
 
-def _block(opening: str, lines: list[str], closing: str, depth: int) -> str:
-    if not lines:
-        return opening + closing
-    inner, outer = "\n" + " " * (depth + 1), "\n" + " " * depth
-    content = f",{inner}".join(lines)
-    return f"{opening}{inner}{content}{outer}{closing}"
+def _block(
+    opening: str, members: Iterable[Iterable[str]], closing: str, depth: int
+) -> Iterator[str]:
+    """Members, of which there is one at least, on lines of their own."""
+    before = opening
+    for member in members:
+        yield f"{before}\n{' ' * (depth + 1)}"
+        yield from member
+        before = ","
+    yield f"\n{' ' * depth}{closing}"
 
 
 def write(path: str | os.PathLike[str], value: Any) -> None:
@@ -74,7 +100,9 @@ def write(path: str | os.PathLike[str], value: Any) -> None:
     Raises:
         CalibrationError: if it cannot be written.
     """
-    write_atomically(path, (dumps(value) + "\n").encode())
+    with replacing(path) as file:
+        for piece in chain(_pieces(value, 0), ["\n"]):
+            file.write(piece.encode())
 
 
 @dataclass(frozen=True, slots=True)

@@ -122,7 +122,7 @@ class Analysis(QWidget):
     def _build(self, kind: type[Panel]) -> Panel:
         if issubclass(kind, (UndistortPanel, SyntheticPanel)):
             return kind(self._session.jobs, self._session.images.read)
-        if issubclass(kind, (ResidualsPanel, CoveragePanel, UncertaintyPanel)):
+        if issubclass(kind, (ResultPanel, ResidualsPanel, CoveragePanel, UncertaintyPanel)):
             return kind(self._session.jobs)
         return kind()
 

@@ -16,7 +16,7 @@ from calibgui.engine.types import Iteration, Status
 from calibgui.formats.corners_json import CornerSet
 from calibgui.formats.result import Result
 from calibgui.gui.detecting import Detector
-from calibgui.gui.jobs import Job
+from calibgui.gui.job import Job
 from calibgui.gui.session import Session
 
 

@@ -12,7 +12,7 @@ from calibgui.app.detection import Detection, find_views, usual_board, usual_pat
 from calibgui.app.project import Project, with_each, without_digests
 from calibgui.engine.kernels import FINDER_SECONDS
 from calibgui.engine.types import Array, Corners, View, ViewStatus
-from calibgui.gui.jobs import Job
+from calibgui.gui.job import Job
 from calibgui.gui.session import Session
 
 

@@ -28,7 +28,7 @@ from calibgui.engine.imaging.undistort import FieldOfView
 from calibgui.gui.actions import show_dialog
 from calibgui.gui.calibrating import Calibrator
 from calibgui.gui.detecting import Detector
-from calibgui.gui.jobs import Job
+from calibgui.gui.job import Job
 from calibgui.gui.print_dialog import PrintDialog
 from calibgui.gui.saving import Saver
 from calibgui.gui.session import Session

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from enum import IntEnum
-from functools import lru_cache
 from pathlib import Path, PurePath
 from typing import Any
 
@@ -97,6 +97,7 @@ class ImageModel(QAbstractListModel):
         super().__init__(session)
         self._session = session
         self._views = session.project.views
+        self._places = _places(self._views)
         self._rms: dict[str, float] = {}
         self.thumbnails = Thumbnails(session)
         self.thumbnails.read.connect(self._show_picture)
@@ -157,14 +158,12 @@ class ImageModel(QAbstractListModel):
 
     def sort_key(self, row: int, criterion: Criterion) -> tuple[object, ...]:
         """Key of an image among the others; equal ones stand in the order of their names."""
-        view = self._views[row]
-        name = _name_key(view.image)
-        match criterion:
-            case Criterion.STATUS:
-                return (self._status(view), name)
-            case Criterion.ERROR:
-                return (-self._rms.get(view.image, -1.0), name)
-        return (name,)
+        view, place = self._views[row], self._places[row]
+        if criterion is Criterion.STATUS:
+            return (self._status(view), place)
+        if criterion is Criterion.ERROR:
+            return (-self._rms.get(view.image, -1.0), place)
+        return (place,)
 
     def _project_changed(self, _: Project, after: Project) -> None:
         before, self._views = self._views, after.views
@@ -173,6 +172,7 @@ class ImageModel(QAbstractListModel):
         )
         if not same:
             self.beginResetModel()
+            self._places = _places(self._views)
             self.endResetModel()
             self.thumbnails.read_new()
             return
@@ -193,6 +193,10 @@ class ImageModel(QAbstractListModel):
             self.dataChanged.emit(self.index(row), self.index(row))
 
 
-@lru_cache(8192)
-def _name_key(path: str) -> list[tuple[str, int]]:
-    return natural_key(Path(path))
+def _places(views: Sequence[View]) -> list[int]:
+    """Of each image among all in the order of their names, which takes many comparisons to find."""
+    order = sorted(range(len(views)), key=lambda row: natural_key(Path(views[row].image)))
+    places = [0] * len(views)
+    for place, row in enumerate(order):
+        places[row] = place
+    return places

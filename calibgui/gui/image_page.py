@@ -29,7 +29,7 @@ from calibgui.gui.actions import make_action
 from calibgui.gui.canvas import Canvas
 from calibgui.gui.elided import ElidedLabel
 from calibgui.gui.image_model import status_text
-from calibgui.gui.jobs import Job
+from calibgui.gui.job import Job
 from calibgui.gui.layers import Layer, Marks
 from calibgui.gui.marker import Marker
 from calibgui.gui.picture import Levels, levels

@@ -13,19 +13,21 @@ from __future__ import annotations
 import logging
 import os
 import queue
-import threading
+import sys
 import time
+from collections import deque
 from collections.abc import Callable, Hashable, Sequence
-from concurrent.futures import Future, ThreadPoolExecutor
-from dataclasses import dataclass, field
+from concurrent.futures import ThreadPoolExecutor
+from contextlib import suppress
+from functools import partial
 from typing import Any, TypedDict, Unpack
 
-import shiboken6
 from PySide6.QtCore import QObject, QTimer, Signal
 
 from calibgui.engine.errors import Cancelled
 from calibgui.engine.threads import one_blas_thread
 from calibgui.gui.garbage import Collector
+from calibgui.gui.job import Job, Outcome, Queue, nothing
 
 log = logging.getLogger(__name__)
 
@@ -33,108 +35,14 @@ _TICK = 33
 """Between two looks at the queue, ms."""
 _SLICE = 0.02
 """Longest time spent on the queue's content at once, s: the rest waits for the next tick."""
+_TURN = 0.001
+"""After which a worker hands the interpreter over to the window, s.
 
-Queue = queue.SimpleQueue[Callable[[], None]]
+Python's own 5 ms are lost at every call into Qt that lets go of the interpreter, some twenty of
+them in one picture of a plot.
+"""
 
-
-def nothing(*_: Any) -> None:
-    """Default of callbacks that nobody needs."""
-
-
-@dataclass(eq=False, kw_only=True)
-class Job:
-    """One piece of work on each of some items, as its workers and the window see it."""
-
-    label: str
-    """What is being done, for the user; empty if it need not be mentioned."""
-    items: Sequence[Any]
-    work: Callable[[Any], Any]
-    """In a worker: from an item to its result."""
-    done: Callable[[Any, Any], None] = nothing
-    """Takes an item and its result, on the main thread like all that follow."""
-    told: Callable[[Any], None] = nothing
-    """Takes each record that the work tells."""
-    failed: Callable[[Exception], None]
-    """Takes what the work or `done` raised; `Cancelled` is no failure."""
-    ended: Callable[[], None] = nothing
-    """Called after it all, whatever happened."""
-    owner: QObject | None = None
-    """After whose end nobody wants to hear of the job."""
-    inputs: Callable[[Any], Hashable] = nothing
-    """Digest of what an item's result depends on."""
-    queue: Queue
-    total: int = field(init=False)
-    """Parts of the work, as far as known."""
-    finished: int = field(default=0, init=False)
-    cancelling: threading.Event = field(default_factory=threading.Event, init=False)
-    """Set by `cancel`."""
-    settled: int = field(default=0, init=False)
-    _begun: float = field(default_factory=time.monotonic, init=False)
-    _stop: threading.Event = field(default_factory=threading.Event, init=False)
-
-    def __post_init__(self) -> None:
-        self.total = len(self.items)
-
-    def stop(self) -> None:
-        """Ask the work to end and keep the best so far."""
-        self._stop.set()
-
-    def cancel(self) -> None:
-        """Ask the work to end and drop what it found."""
-        self.cancelling.set()
-        self._stop.set()
-
-    @property
-    def cancelled(self) -> bool:
-        """Whether `cancel` was called."""
-        return self.cancelling.is_set()
-
-    def tell(self, record: Any) -> bool:
-        """For the worker: pass a record on to the main thread; False if it should stop.
-
-        Raises:
-            Cancelled: the user wants none of it.
-        """
-        self.check()
-        self.queue.put(lambda: self.told(record) if self.wanted else None)
-        return not self._stop.is_set()
-
-    def advance(self, finished: int, total: int) -> None:
-        """For the worker of a single item: how many of its parts are finished."""
-
-        def note() -> None:
-            self.finished, self.total = finished, total
-
-        self.check()
-        self.queue.put(note)
-
-    def rename(self, label: str) -> None:
-        """For the worker: what is being done from now on."""
-
-        def note() -> None:
-            if label != self.label:
-                self.label, self._begun = label, time.monotonic()
-
-        self.check()
-        self.queue.put(note)
-
-    def check(self) -> None:
-        """For the worker: raise `Cancelled` if the user wants none of it."""
-        if self.cancelled:
-            raise Cancelled
-
-    @property
-    def wanted(self) -> bool:
-        """Whether the owner, if there is one, still exists."""
-        return self.owner is None or shiboken6.isValid(self.owner)
-
-    @property
-    def seconds_left(self) -> float | None:
-        """Estimated from the parts that are finished; None before the first."""
-        if self.total <= 1 or self.finished == 0:
-            return None
-        each = (time.monotonic() - self._begun) / self.finished
-        return each * (self.total - self.finished)
+_PROCESSORS = os.cpu_count() or 1
 
 
 class Callbacks(TypedDict, total=False):
@@ -156,7 +64,8 @@ class Jobs(QObject):
 
     def __init__(self, parent: QObject | None = None) -> None:
         super().__init__(parent)
-        self._pool = ThreadPoolExecutor(os.cpu_count(), "part", initializer=one_blas_thread)
+        sys.setswitchinterval(_TURN)
+        self._pool = ThreadPoolExecutor(_PROCESSORS, "part", initializer=one_blas_thread)
         self._single = ThreadPoolExecutor(4, "job", initializer=one_blas_thread)
         self._queue: Queue = queue.SimpleQueue()
         self._running: list[Job] = []
@@ -236,30 +145,26 @@ class Jobs(QObject):
         self._collector.start()
         if not job.items:
             self._queue.put(lambda: self._end(job))
-        for item in job.items:
-            self._submit(job, item, pool)
+        waiting = deque((item, job.inputs(item)) for item in job.items)
+        for _ in range(min(len(waiting), _PROCESSORS)):
+            pool.submit(self._work_off, job, waiting)
         self.changed.emit()
         return job
 
-    def _submit(self, job: Job, item: Any, pool: ThreadPoolExecutor) -> None:
-        digest = job.inputs(item)
+    def _work_off(self, job: Job, waiting: deque[tuple[Any, Hashable]]) -> None:
+        """In a worker: do what waits, until another has taken the last."""
+        with suppress(IndexError):
+            while True:
+                item, digest = waiting.popleft()
+                self._queue.put(partial(self._settle, job, item, digest, job.outcome(item)))
 
-        def work() -> Any:
-            job.check()
-            return job.work(item)
-
-        def settle(future: Future[Any]) -> None:
-            self._settle(job, item, digest, future)
-
-        pool.submit(work).add_done_callback(lambda future: self._queue.put(lambda: settle(future)))
-
-    def _settle(self, job: Job, item: Any, digest: Hashable, future: Future[Any]) -> None:
+    def _settle(self, job: Job, item: Any, digest: Hashable, outcome: Outcome) -> None:
         """Deliver what one item's work came to."""
         job.settled += 1
         if len(job.items) > 1:
             job.finished = job.settled
         try:
-            result = future.result()
+            result = outcome()
             if not job.cancelled and job.wanted and job.inputs(item) == digest:
                 job.done(item, result)
         except Cancelled:
@@ -270,7 +175,7 @@ class Jobs(QObject):
                 job.failed(error)
         finally:
             if job.settled == len(job.items):
-                self._end(job)
+                self._queue.put(lambda: self._end(job))
 
     def _end(self, job: Job) -> None:
         self._running.remove(job)

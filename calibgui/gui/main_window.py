@@ -20,6 +20,7 @@ from PySide6.QtWidgets import (
 
 from calibgui.app.recent import recent_projects
 from calibgui.engine.errors import CalibrationError
+from calibgui.engine.kernels import COMPILED
 from calibgui.formats.result import Result
 from calibgui.gui import qt_names, theme
 from calibgui.gui.actions import show_dialog
@@ -160,7 +161,7 @@ class MainWindow(QMainWindow):
         return self.analysis
 
     def prepare(self) -> None:
-        """Import beside the main thread what will be needed: all of SciPy, and the panels.
+        """Import beside the main thread what will be needed: SciPy, the panels, the solver.
 
         What is there by then stays: going through it at every full collection of garbage would
         stop the window for longer than a frame.
@@ -262,7 +263,11 @@ class MainWindow(QMainWindow):
         event.accept()
 
 
-_NEEDED_SOON = ("scipy.stats", "calibgui.gui.analysis")
+_NEEDED_SOON = (
+    "scipy.stats",
+    "calibgui.gui.analysis",
+    *(("calibgui.engine.kernels.plate", "calibgui.engine.kernels.stage_one") if COMPILED else ()),
+)
 _FRAME = 16
 """Between two pictures on the screen, ms."""
 _SHARE_OF_SCREEN = 0.8

@@ -15,7 +15,7 @@ from calibgui.engine.errors import CalibrationError
 from calibgui.engine.types import Array, Corners, IntArray, View, ViewStatus
 from calibgui.gui.canvas import Canvas
 from calibgui.gui.corner_tool import CornerTool
-from calibgui.gui.jobs import Job
+from calibgui.gui.job import Job
 from calibgui.gui.marking_bar import CornerBar, RoiBar
 from calibgui.gui.roi_tool import RoiTool
 from calibgui.gui.session import Session

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from PySide6.QtWidgets import QHBoxLayout, QLabel, QProgressBar, QToolButton, QWidget
 
-from calibgui.gui.jobs import Job, Jobs
+from calibgui.gui.job import Job
+from calibgui.gui.jobs import Jobs
 
 
 class Progress(QWidget):

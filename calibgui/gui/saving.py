@@ -11,7 +11,7 @@ from calibgui.app.document import Document
 from calibgui.app.project import Project
 from calibgui.app.project_file import read_project, write_project
 from calibgui.app.recent import remember_project, state_folder
-from calibgui.gui.jobs import Job
+from calibgui.gui.job import Job
 from calibgui.gui.session import Session
 
 _SLOTS = 20
@@ -56,14 +56,13 @@ class Saver(QObject):
 
         def done(project: Project) -> None:
             self._session.begin(Document(project, path))
-            remember_project(path)
             if unsaved_work(path) is None:
                 self.opened.emit()
             else:
                 self.recoverable.emit(path)
 
         self._session.jobs.start(
-            self.tr("Opening {0}").format(path.name), lambda _: read_project(path), done
+            self.tr("Opening {0}").format(path.name), lambda _: _read(path), done
         )
 
     def recover(self, path: Path) -> None:
@@ -91,7 +90,7 @@ class Saver(QObject):
             CalibrationError: if it cannot be written.
         """
         project = self._session.project
-        write_project(project, path)
+        _write(project, path)
         self._wrote(project, path)
 
     def save_beside(self, path: Path) -> None:
@@ -102,7 +101,7 @@ class Saver(QObject):
         project = self._session.project
         self._saving = self._session.jobs.start(
             self.tr("Saving {0}").format(path.name),
-            lambda _: write_project(project, path),
+            lambda _: _write(project, path),
             lambda _: self._wrote(project, path),
             ended=self._save_ended,
         )
@@ -115,7 +114,6 @@ class Saver(QObject):
     def _wrote(self, project: Project, path: Path) -> None:
         before = self.file
         self._session.document.mark_saved(project, path)
-        remember_project(path)
         if before != path:
             discard(before)
         if self._session.document.saved:
@@ -151,6 +149,17 @@ class Saver(QObject):
                 discard(file)
 
         self._session.jobs.start("", lambda _: autosave(project, file), done)
+
+
+def _read(path: Path) -> Project:
+    project = read_project(path)
+    remember_project(path)
+    return project
+
+
+def _write(project: Project, path: Path) -> None:
+    write_project(project, path)
+    remember_project(path)
 
 
 def _free_slot() -> tuple[QLockFile, Path]:

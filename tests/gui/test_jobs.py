@@ -10,7 +10,8 @@ from PySide6.QtCore import QObject
 from PySide6.QtWidgets import QApplication
 from pytestqt.qtbot import QtBot
 
-from calibgui.gui.jobs import Job, Jobs
+from calibgui.gui.job import Job
+from calibgui.gui.jobs import Jobs
 
 
 @pytest.fixture

@@ -89,8 +89,8 @@ def test_views_that_do_not_determine_the_camera_say_what_to_photograph(
     assert "Add at least two more views" in full.banner.text.text()
     panel = full.analysis.findChild(ResultPanel)
     assert panel is not None
-    assert "Assumed, as of an ordinary camera" in panel.words.toPlainText()
     qtbot.waitUntil(lambda: not session.jobs.running)
+    assert "Assumed, as of an ordinary camera" in panel.words.toPlainText()
 
 
 def test_results_are_chosen_compared_renamed_and_deleted(

@@ -13,6 +13,7 @@ from dataclasses import replace
 from itertools import pairwise
 from pathlib import Path
 
+import numpy as np
 import pytest
 from PySide6.QtCore import QTimer
 from pytestqt.qtbot import QtBot
@@ -99,10 +100,11 @@ def test_while_a_project_of_200_images_is_opened_and_calibrated(
 def many_views(count: int, folder: Path) -> Project:
     """A project with `count` views of 108 corners and a result, without image files."""
     scene = scenes.scene(scenes.barrel(), count, seed=1)
+    observations = scene.noisy(0.1, np.random.default_rng(1))
     template = examples.views(folder)[0]
     assert template.corners is not None
     views = []
-    for k, observation in enumerate(scene.views):
+    for k, observation in enumerate(observations):
         grid = (observation.xy[:, ::-1] / scenes.BOARD.square).round()
         corners = replace(
             template.corners, shape=(9, 12), grid=grid, uv=observation.uv, estimate=observation.uv

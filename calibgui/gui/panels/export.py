@@ -27,7 +27,8 @@ from calibgui.formats.exporter import Exporter, ExportReport
 from calibgui.formats.result import Result
 from calibgui.gui import theme
 from calibgui.gui.actions import closing
-from calibgui.gui.jobs import Job, Jobs
+from calibgui.gui.job import Job
+from calibgui.gui.jobs import Jobs
 
 _NAME = "camera"
 """That a file is given unless the user chooses another."""

@@ -7,7 +7,8 @@ from typing import TypeVar
 
 from PySide6.QtCore import QObject
 
-from calibgui.gui.jobs import Job, Jobs, nothing
+from calibgui.gui.job import Job, nothing
+from calibgui.gui.jobs import Jobs
 
 T = TypeVar("T")
 

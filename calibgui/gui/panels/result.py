@@ -13,7 +13,9 @@ from calibgui.engine.estimation.uncertainty import correlations, paper_table
 from calibgui.engine.frames import PAPER_NAMES
 from calibgui.formats.result import Result
 from calibgui.gui import theme
+from calibgui.gui.jobs import Jobs
 from calibgui.gui.panels.estimates import estimate_columns
+from calibgui.gui.panels.latest import Latest
 from calibgui.gui.panels.matrix import Matrix
 from calibgui.gui.panels.panel import Panel
 from calibgui.gui.panels.split import Split
@@ -26,13 +28,18 @@ _MARKS = {Tone.FACT: "•", Tone.GOOD: "✓", Tone.CAUTION: "!", Tone.ADVICE: "�
 
 
 class ResultPanel(Panel):
-    """The estimates in words, in the array frame and in the paper's units."""
+    """The estimates in words, in the array frame and in the paper's units.
+
+    Args:
+        jobs: that find the words.
+    """
 
     title = str(QT_TRANSLATE_NOOP("ResultPanel", "Result"))
     icon = "result"
 
-    def __init__(self) -> None:
+    def __init__(self, jobs: Jobs) -> None:
         super().__init__()
+        self._jobs, self._work = jobs, Latest(jobs, self)
         self.words = QTextBrowser()
         self.array_frame, self.paper_units, self.differences = Table(), Table(), Table()
         self.correlations = Matrix()
@@ -93,7 +100,12 @@ class ResultPanel(Panel):
     def _refresh(self, result: Result) -> None:
         calibration = result.calibration
         names = calibration.camera.names
-        self.words.setHtml(_html(summary(result)))
+        self._work.start(
+            "",
+            lambda _: summary(result),
+            lambda sentences: self.words.setHtml(_html(sentences)),
+            self._jobs.failed.emit,
+        )
         self.array_frame.show_columns(
             [
                 Column(self.tr("Parameter"), names),

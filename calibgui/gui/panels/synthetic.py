@@ -20,7 +20,8 @@ from calibgui.engine.images import Image
 from calibgui.engine.imaging.render import render
 from calibgui.engine.quality.statistics import summarise
 from calibgui.formats.result import Result
-from calibgui.gui.jobs import Job, Jobs
+from calibgui.gui.job import Job
+from calibgui.gui.jobs import Jobs
 from calibgui.gui.panels.before_after import BeforeAfter, Grey
 from calibgui.gui.panels.latest import Latest
 from calibgui.gui.panels.panel import Panel

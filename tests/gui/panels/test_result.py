@@ -4,7 +4,9 @@ from __future__ import annotations
 
 import csv
 import io
+from collections.abc import Callable
 from dataclasses import replace
+from functools import partial
 
 import numpy as np
 import pytest
@@ -14,6 +16,7 @@ from pytestqt.qtbot import QtBot
 from calibgui.engine.estimation.uncertainty import correlations, paper_table
 from calibgui.engine.types import Undetermined
 from calibgui.formats.result import Result
+from calibgui.gui.jobs import Jobs
 from calibgui.gui.panels.result import ResultPanel
 from calibgui.gui.tables import Table
 from calibgui.report.comparison import compare
@@ -22,13 +25,27 @@ from tests.gui.panels.conftest import Shown, made
 
 NAMES = ["fx", "fy", "cx", "cy", "k1", "k2", "k3", "p1", "p2", "p3"]
 
+Told = Callable[[Result], ResultPanel]
+
+
+@pytest.fixture
+def told(shown: Shown[ResultPanel], jobs: Jobs, qtbot: QtBot) -> Told:
+    """Brings a result on screen and waits for its words."""
+
+    def show(result: Result) -> ResultPanel:
+        panel = shown(partial(ResultPanel, jobs), result)
+        qtbot.waitUntil(lambda: bool(panel.words.toPlainText()))
+        return panel
+
+    return show
+
 
 def rows(table: Table) -> list[list[str]]:
     return list(csv.reader(io.StringIO(table.as_csv())))[1:]
 
 
-def test_intrinsics_with_their_sigma(shown: Shown[ResultPanel], result: Result) -> None:
-    panel = shown(ResultPanel, result)
+def test_intrinsics_with_their_sigma(told: Told, result: Result) -> None:
+    panel = told(result)
     table = rows(panel.array_frame)
     assert [row[0] for row in table] == NAMES
     values, sigma = (np.array([float(row[i]) for row in table]) for i in (1, 2))
@@ -39,23 +56,21 @@ def test_intrinsics_with_their_sigma(shown: Shown[ResultPanel], result: Result) 
     assert table[-1][4] == "held"
 
 
-def test_the_papers_units(shown: Shown[ResultPanel], result: Result) -> None:
-    panel = shown(ResultPanel, result)
+def test_the_papers_units(told: Told, result: Result) -> None:
+    panel = told(result)
     table = rows(panel.paper_units)
     shown_numbers = np.array([[float(row[i]) for i in (1, 2, 4)] for row in table]).T
     np.testing.assert_array_equal(shown_numbers, paper_table(result.calibration))
 
 
-def test_other_models_have_no_papers_units(shown: Shown[ResultPanel]) -> None:
-    panel = shown(ResultPanel, made(model="opencv"))
+def test_other_models_have_no_papers_units(told: Told) -> None:
+    panel = told(made(model="opencv"))
     assert not panel.tabs.isTabVisible(1)
     assert [row[0] for row in rows(panel.array_frame)][4:] == ["k1", "k2", "p1", "p2", "k3"]
 
 
-def test_correlations_leave_out_what_is_held(
-    shown: Shown[ResultPanel], result: Result, qtbot: QtBot
-) -> None:
-    panel = shown(ResultPanel, result)
+def test_correlations_leave_out_what_is_held(told: Told, result: Result, qtbot: QtBot) -> None:
+    panel = told(result)
     bar = panel.tabs.tabBar()
     qtbot.mouseClick(bar, Qt.MouseButton.LeftButton, pos=bar.tabRect(2).center())
     matrix = panel.correlations
@@ -71,30 +86,28 @@ def test_correlations_leave_out_what_is_held(
     assert pixel.blue() > pixel.red() + 80
 
 
-def test_words_are_the_summary(shown: Shown[ResultPanel], result: Result) -> None:
-    panel = shown(ResultPanel, result)
+def test_words_are_the_summary(told: Told, result: Result) -> None:
+    panel = told(result)
     text = panel.words.toPlainText().replace("\xa0", " ")
     for sentence in summary(result):
         assert sentence.text in text
 
 
-def test_what_is_not_determined_is_marked(shown: Shown[ResultPanel], result: Result) -> None:
+def test_what_is_not_determined_is_marked(told: Told, result: Result) -> None:
     sigma = result.calibration.sigma.copy()
     sigma[2] = np.nan
     calibration = replace(
         result.calibration, sigma=sigma, undetermined=(Undetermined("cx", "no tilt"),)
     )
-    panel = shown(ResultPanel, replace(result, calibration=calibration))
+    panel = told(replace(result, calibration=calibration))
     model = panel.array_frame.model()
     assert model.index(2, 4).data() == "not determined"
     assert model.index(2, 0).data(Qt.ItemDataRole.ToolTipRole) == "no tilt"
     assert "cx is not determined" in panel.words.toPlainText()
 
 
-def test_comparison_in_units_of_sigma(
-    shown: Shown[ResultPanel], result: Result, other: Result
-) -> None:
-    panel = shown(ResultPanel, result)
+def test_comparison_in_units_of_sigma(told: Told, result: Result, other: Result) -> None:
+    panel = told(result)
     assert not panel.tabs.isTabVisible(3)
     panel.show_comparison(result, other, ("all", "again"))
     assert panel.differences.isVisible()
