@@ -14,7 +14,7 @@ from calibgui.engine.types import Calibration
 
 
 @dataclass(frozen=True, slots=True)
-class Difference:
+class Compared:
     """One parameter in two calibrations."""
 
     name: str
@@ -35,7 +35,7 @@ class Difference:
         return self.change / unit if unit > 0 else float("nan")
 
 
-def compare(a: Calibration, b: Calibration) -> tuple[Difference, ...]:
+def compare(a: Calibration, b: Calibration) -> tuple[Compared, ...]:
     """The parameters that both cameras have, in the order of a's.
 
     Coefficients of different lens models are not comparable, whatever their names; only
@@ -45,7 +45,7 @@ def compare(a: Calibration, b: Calibration) -> tuple[Difference, ...]:
     if a.camera.model != b.camera.model:
         names = names[:4]
     return tuple(
-        Difference(
+        Compared(
             name,
             float(a.camera.params[i]),
             float(a.sigma[i]),

@@ -146,7 +146,7 @@ def residual_scatter(calibration: Calibration, on_reference: bool = True) -> Fig
     for colour, view in zip(colours, calibration.residuals, strict=True):
         points = view.reference if on_reference else view.image
         axes.plot(*points.T, ".", color=colour, markersize=2.5)
-    reach = 1.05 * float(np.abs(stacked(calibration, on_reference)).max())
+    reach = 1.05 * float(np.nanmax(np.abs(stacked(calibration, on_reference))))
     names = ("Δx′", "Δy′", "reference px") if on_reference else ("Δu", "Δv", "px")
     axes.set(
         xlim=(-reach, reach),

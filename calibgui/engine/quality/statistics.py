@@ -3,6 +3,9 @@
 A residual with independent Gaussian components of equal standard deviation s has a Rayleigh
 distributed length e, with density (e / s^2) exp(-e^2 / 2 s^2), mean s sqrt(pi / 2) and
 maximum-likelihood estimate s^2 = mean(e^2) / 2.
+
+A corner beyond the fold of a forward lens model has an image, but no place on the plate: its
+residual there is NaN, and left out.
 """
 
 from __future__ import annotations
@@ -46,7 +49,6 @@ def summarise(residuals: Sequence[ViewResiduals]) -> Summary:
         sigma_y=float(sigma[1]),
         typical_x=float(typical[0]),
         typical_y=float(typical[1]),
-        # A corner beyond the lens model's fold has an image, but no place on the plate.
         reference_mean=float(np.nanmean(length)),
         reference_sd=float(np.nanstd(length)),
         count=len(image),
@@ -82,6 +84,7 @@ class Histogram:
 
 def component_histogram(values: Array, bins: int = 50) -> Histogram:
     """Histogram of one residual component with a Gaussian (figures 11a, 11b), symmetric about 0."""
+    values = values[np.isfinite(values)]
     limit = float(np.abs(values).max(initial=1e-12))
     density, edges = np.histogram(values, bins=bins, range=(-limit, limit), density=True)
     sd = float(values.std())
@@ -90,6 +93,7 @@ def component_histogram(values: Array, bins: int = 50) -> Histogram:
 
 def length_histogram(values: Array, bins: int = 50) -> Histogram:
     """Histogram of residual lengths with a Rayleigh density (figure 11c)."""
+    values = values[np.isfinite(values)]
     limit = float(values.max(initial=1e-12))
     density, edges = np.histogram(values, bins=bins, range=(0.0, limit), density=True)
     scale = float(np.sqrt(np.mean(values**2) / 2))

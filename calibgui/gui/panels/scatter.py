@@ -73,7 +73,7 @@ class ResidualScatter(Plot):
         pixel = np.array(box.viewPixelSize())
         everything = np.concatenate(self._points)
         distance = np.linalg.norm((everything - [place.x(), place.y()]) / pixel, axis=1)
-        nearest = int(np.argmin(distance))
+        nearest = int(np.nanargmin(distance))
         if distance[nearest] < _REACH:
             ends = np.cumsum([len(points) for points in self._points])
             k = int(np.searchsorted(ends, nearest, side="right"))

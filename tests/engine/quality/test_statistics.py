@@ -65,6 +65,14 @@ def test_no_spread_is_no_failure() -> None:
     assert statistics.length_histogram(np.zeros(3)).scale == 0.0
 
 
+def test_residuals_that_are_none_are_left_out() -> None:
+    values = np.array([1.0, np.nan, 2.0, 3.0])
+    for histogram in (statistics.component_histogram, statistics.length_histogram):
+        there = histogram(values[np.isfinite(values)])
+        np.testing.assert_array_equal(histogram(values).density, there.density)
+        assert histogram(values).scale == there.scale
+
+
 def test_stacked_residuals_of_a_calibration() -> None:
     made = scene(barrel(), 4)
     found = calibrate(made.noisy(0.1, RNG), made.size)
