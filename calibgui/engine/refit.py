@@ -16,6 +16,7 @@ import numpy as np
 
 from calibgui.engine.calibrate import calibrate
 from calibgui.engine.estimation.projection import pixels, rays
+from calibgui.engine.imaging.sampling import mesh
 from calibgui.engine.types import Array, Calibration, Camera, Observation, PlateModel
 
 _STEPS = 64
@@ -50,9 +51,7 @@ def refit(
     plate = original.plate or PlateModel.NOMINAL
     calibration = calibrate(views, original.camera.size, model=model, fix=held, plate=plate)
     w, h = original.camera.size
-    whole: Array = np.stack(
-        np.meshgrid(np.linspace(0, w - 1, _STEPS), np.linspace(0, h - 1, _STEPS)), axis=-1
-    )
+    whole = mesh(np.linspace(0, w - 1, _STEPS), np.linspace(0, h - 1, _STEPS))
     seen = np.concatenate([Observation(*view).uv for view in views])
     return Refit(
         calibration,

@@ -18,6 +18,7 @@ from matplotlib.ticker import MaxNLocator
 from calibgui.engine import frames
 from calibgui.engine.estimation import cosines
 from calibgui.engine.imaging import maps
+from calibgui.engine.imaging.sampling import mesh
 from calibgui.engine.quality.statistics import (
     Histogram,
     component_histogram,
@@ -103,7 +104,7 @@ def distortion(camera: Camera) -> Figure:
     figure = Figure(figsize=(2.6 * _WIDTH, 4.6), layout="constrained")
     w, h = camera.size
     u, v = np.linspace(0, w - 1, 161), np.linspace(0, h - 1, 121)
-    uv = np.stack(np.meshgrid(u, v), axis=-1)
+    uv = mesh(u, v)
     sparse = uv[10:-1:20, 10:-1:20]
     for axes, part, letter in zip(figure.subplots(1, 3), maps.Part, "abc", strict=True):
         length = maps.displacement(uv, camera, part).length

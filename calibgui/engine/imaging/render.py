@@ -25,6 +25,7 @@ import scipy
 from calibgui.engine.errors import CalibrationError
 from calibgui.engine.estimation.projection import normalise
 from calibgui.engine.frames import centre_of_array, rotation
+from calibgui.engine.imaging.sampling import mesh
 from calibgui.engine.lens import MODELS
 from calibgui.engine.targets.ink import Ink, Raster
 from calibgui.engine.types import Array, Camera, Pose, Target
@@ -102,7 +103,7 @@ def irradiance(
     rows = max(1, _CHUNK // len(u))
     scene = _Scene(camera, pose, target, target.pattern.ink(target.board), look)
     levels = np.concatenate(
-        [scene.levels(_grid(u, v[i : i + rows])) for i in range(0, len(v), rows)]
+        [scene.levels(mesh(u, v[i : i + rows])) for i in range(0, len(v), rows)]
     )
     if blur > 0:
         levels = scipy.ndimage.gaussian_filter(levels, blur, truncate=4.0)
@@ -128,11 +129,6 @@ def _plate_from_ray(pose: Pose, square: float, stretch: float) -> Array:
     return np.linalg.inv(homography)
 
 
-def _grid(u: Array, v: Array) -> Array:
-    """(len(v), len(u), 2) points (u, v)."""
-    return np.stack(np.meshgrid(u, v), axis=-1)
-
-
 @dataclass(frozen=True, slots=True)
 class _Scene:
     camera: Camera
@@ -146,7 +142,7 @@ class _Scene:
         flat = uv.reshape(-1, 2)
         values, mixed = self._sample(flat, 1.0)
         parts = (np.arange(_FINE) + 0.5) / _FINE - 0.5
-        offsets = _grid(parts, parts).reshape(-1, 2)
+        offsets = mesh(parts, parts).reshape(-1, 2)
         which = np.flatnonzero(mixed)
         step = _CHUNK // len(offsets)
         for i in range(0, len(which), step):

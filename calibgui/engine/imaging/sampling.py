@@ -1,4 +1,4 @@
-"""Grey levels between the pixels."""
+"""Points over an image, and grey levels between the pixels."""
 
 from __future__ import annotations
 
@@ -6,6 +6,11 @@ import numpy as np
 
 from calibgui.engine.opencv import Image
 from calibgui.engine.types import Array
+
+
+def mesh(u: Array, v: Array) -> Array:
+    """(len(v), len(u), 2) the points (u, v) of columns and rows."""
+    return np.stack(np.meshgrid(u, v), axis=-1)
 
 
 def sample(image: Image, uv: Array) -> Array:

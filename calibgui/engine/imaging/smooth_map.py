@@ -17,6 +17,7 @@ from collections.abc import Callable
 import numpy as np
 import scipy
 
+from calibgui.engine.imaging.sampling import mesh
 from calibgui.engine.types import Array, BoolArray, Size
 
 TOLERANCE = 0.005
@@ -49,20 +50,15 @@ def smooth_map(size: Size, source: Source, low: Array, high: Array) -> Callable[
     return lambda band: knots.at(u, v[band])
 
 
-def _points(u: Array, v: Array) -> Array:
-    """(len(v), len(u), 2) points (u, v)."""
-    return np.stack(np.meshgrid(u, v), axis=-1)
-
-
 class _Knots:
     """Values of a map at knots `step` px apart, from one step before the first pixel."""
 
     def __init__(self, size: Size, step: int, source: Source, low: Array, high: Array) -> None:
         self.step, self.source = step, source
         u, v = (np.arange(-1.0, (n - 1) // step + 3) * step for n in size)
-        self.values = source(_points(u, v))
+        self.values = source(mesh(u, v))
         middle = u[1:-2] + step / 2, v[1:-2] + step / 2
-        exact = source(_points(*middle))
+        exact = source(mesh(*middle))
         with np.errstate(invalid="ignore"):  # NaN knots make the cells around them unfit
             error = np.abs(exact - self._interpolated(*middle)).max(axis=-1)
         ends = slice(1, -2), slice(2, -1)
@@ -80,7 +76,7 @@ class _Knots:
         mapped[self.unwanted[cells]] = np.nan
         unfit = self.unfit[cells]
         if unfit.any():
-            mapped[unfit] = self.source(_points(u, v)[unfit])
+            mapped[unfit] = self.source(mesh(u, v)[unfit])
         return mapped
 
     def _interpolated(self, u: Array, v: Array) -> Array:

@@ -22,6 +22,7 @@ import scipy
 
 from calibgui.engine.errors import CalibrationError
 from calibgui.engine.frames import rotation, rotation_vector
+from calibgui.engine.imaging.sampling import mesh
 from calibgui.engine.quality.projection_uncertainty import grid, imaged, points_behind
 from calibgui.engine.types import Array, BoolArray, Camera, Observation, Size, freeze
 
@@ -103,7 +104,7 @@ def difference(
             "Give a positive distance, or none for points far away.",
         )
     u, v = grid(a.size)
-    uv = np.stack(np.meshgrid(u, v), axis=-1)
+    uv = mesh(u, v)
     region = np.ones(uv.shape[:2], dtype=bool) if views is None else covered(uv, views)
     R, t = _motion(a, b, distance, uv[region])
     seen = imaged(points_behind(uv, a, distance) @ R.T + t, b)[0]

@@ -27,6 +27,7 @@ import numpy as np
 from calibgui.engine.errors import CalibrationError
 from calibgui.engine.estimation.projection import project, rays
 from calibgui.engine.frames import cross_matrix
+from calibgui.engine.imaging.sampling import mesh
 from calibgui.engine.lens import MODELS
 from calibgui.engine.quality.information import Information, free_parameters, information
 from calibgui.engine.types import (
@@ -109,7 +110,7 @@ def projection_uncertainty(
         CalibrationError: if the distance is not positive.
     """
     u, v = grid(calibration.camera.size)
-    uv = np.stack(np.meshgrid(u, v), axis=-1)
+    uv = mesh(u, v)
     free = free_parameters(calibration)
     spread = projection_covariance(
         calibration.camera,

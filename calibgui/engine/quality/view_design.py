@@ -21,6 +21,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from calibgui.engine.imaging.sampling import mesh
 from calibgui.engine.lens import MODELS
 from calibgui.engine.quality.information import Information, free_parameters, information
 from calibgui.engine.quality.projection_uncertainty import propagated, sensitivity
@@ -101,7 +102,7 @@ def design(calibration: Calibration, views: Sequence[Observation]) -> Design:
     found = information(calibration, views)
     w, h = camera.size
     u, v = (np.linspace(0.0, n - 1.0, count) for n, count in zip((w, h), _MESH, strict=True))
-    uv = np.stack(np.meshgrid(u, v), axis=-1).reshape(-1, 2)
+    uv = mesh(u, v).reshape(-1, 2)
     by_params, by_motion = sensitivity(camera, uv, np.inf)
     good = np.isfinite(by_params).all(axis=(1, 2))
     noise_only = Design(

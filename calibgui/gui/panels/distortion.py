@@ -12,6 +12,7 @@ from PySide6.QtWidgets import QCheckBox, QComboBox, QHBoxLayout, QLabel, QVBoxLa
 
 from calibgui.engine.frames import centre_of_array
 from calibgui.engine.imaging.maps import Displacement, Part, displacement
+from calibgui.engine.imaging.sampling import mesh
 from calibgui.engine.types import Array, BoolArray, Size
 from calibgui.formats.result import Result
 from calibgui.gui.panels.arrows import arrows
@@ -77,12 +78,12 @@ class DistortionPanel(Panel):
     def _refresh(self, result: Result) -> None:
         camera = result.calibration.camera
         u, v = _cells(camera.size, _CELLS)
-        d = self.displacement(_grid(u, v)).length
-        d = np.where(self._shown(_grid(u, v), result), d, np.nan)
+        d = self.displacement(mesh(u, v)).length
+        d = np.where(self._shown(mesh(u, v), result), d, np.nan)
         self.plot.show_values(d, whole(camera.size))
         self.plot.fit(camera.size)
         self.contours.show(u, v, d, _levels(float(np.nanmax(d, initial=0.0))))
-        at = _grid(*_cells(camera.size, _ARROWS)).reshape(-1, 2)
+        at = mesh(*_cells(camera.size, _ARROWS)).reshape(-1, 2)
         at = at[self._shown(at, result)]
         gradient = self.displacement(at).gradient
         pitch = max(camera.size) / _ARROWS
@@ -126,11 +127,6 @@ def _cells(size: Size, count: int) -> tuple[Array, Array]:
     side = max(size) / count
     u, v = ((np.arange(max(1, round(n / side))) + 0.5) for n in size)
     return u * size[0] / len(u) - 0.5, v * size[1] / len(v) - 0.5
-
-
-def _grid(u: Array, v: Array) -> Array:
-    """(len(v), len(u), 2) points (u, v)."""
-    return np.stack(np.meshgrid(u, v), axis=-1)
 
 
 def _levels(top: float) -> Iterator[float]:
