@@ -114,6 +114,10 @@ def sectors(
         Gap between the darkest bright and the brightest dark sector (n,), and the difference
         of bright and dark on average (n,), both grey levels and negative where exchanged.
     """
+    if kernels.COMPILED:
+        from calibgui.engine.kernels import appearance
+
+        return appearance.sectors(image, uv, right, down, dark, _SECTORS, float(_INSIDE.max()))
     values = _sectors(image, uv, right, down).mean(axis=2)
     values = np.where(dark[:, None], values, -values)
     low, high = values[:, :2], values[:, 2:]
@@ -133,6 +137,10 @@ def _sectors(image: Image, uv: Array, right: Array, down: Array) -> Array:
 
 def _surroundings(image: Image, uv: Array, right: Array, down: Array, dark: BoolArray) -> Array:
     """(n, k) grey levels around corners, mirrored where the first squares are not dark."""
+    if kernels.COMPILED:
+        from calibgui.engine.kernels import appearance
+
+        return appearance.surroundings(image, uv, right, down, dark, PLACES, _EVEN)
     right = np.where(dark[:, None], right, -right)
     return standard(_around(image, uv, right, down, PLACES))
 

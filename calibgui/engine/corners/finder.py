@@ -3,7 +3,9 @@
 The image is halved until its short side is below 180 px. Each level, coarsest first, is searched
 for X-junctions and their lattices. Coarse levels are quick and average blur and noise away; a
 finer one is only needed while nothing was found or the squares are too small to be sure that
-none was missed. What is found is then carried down to full resolution, refined at each level.
+none was missed. Lattices of squares that small are left as they are until the finer levels have
+been searched, and grown only if these do not show them in full. What is found is then carried
+down to full resolution, refined at each level.
 
 Pixel (u, v) of a level covers the block around (2u + 1/2, 2v + 1/2) of the next finer one.
 """
@@ -19,9 +21,10 @@ import scipy
 from calibgui.engine import opencv
 from calibgui.engine.corners import saddle
 from calibgui.engine.corners.growth import grow
-from calibgui.engine.corners.junctions import classify, find_saddles
+from calibgui.engine.corners.junctions import Saddles, classify, find_saddles
 from calibgui.engine.corners.lattice import Lattice, large_enough
 from calibgui.engine.corners.links import find_lattices
+from calibgui.engine.corners.verify import without_strays
 from calibgui.engine.opencv import Image
 from calibgui.engine.types import Array, BoolArray
 
@@ -42,6 +45,17 @@ class Candidate:
     lattice: Lattice
     others: int
     """X-junctions seen beside its own corners in the level that it was found in."""
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class _Seen:
+    """In one level of the image."""
+
+    saddles: Saddles
+    junctions: Saddles
+    """Those of them that are X-junctions."""
+    lattices: list[Lattice]
+    """That these make up, largest first."""
 
 
 def find_boards(
@@ -67,34 +81,78 @@ def find_boards(
     floor = _CONTRAST * next((float(contrast) for contrast in ranges if contrast > 0), 0.0)
     if floor == 0:
         return
+    outlines = [None if inside is None else _in_level(inside, k) for k in range(len(levels))]
     boards: list[Candidate] = []
-    sure = False
+    waiting: list[tuple[int, list[Lattice]]] = []
     for depth in reversed(range(len(levels))):
-        outline = None if inside is None else (inside + 0.5) / 2**depth - 0.5
-        found = _search(levels[depth], floor, outline, enough)
+        found, small = _search(levels[depth], floor, outlines[depth], enough, finest=not depth)
+        if small:
+            waiting.append((depth, small))
+            continue
         boards = _distinct([_carried(one, levels[:depth]) for one in found] + boards)
         sure = bool(found) and all(_surely_all(one.lattice) for one in found)
-        if sure:
+        if sure or not depth:
+            for k, small in waiting:
+                if missed := _missed(small, k, boards):
+                    found = _grown(_look(levels[k], floor, outlines[k]), missed, enough)
+                    boards = _distinct(boards + [_carried(one, levels[:k]) for one in found])
+            waiting = []
             yield boards
-    if not sure:
-        yield boards
+
+
+def _in_level(uv: Array, depth: int) -> Array:
+    """Points (..., 2) of the image in the coordinates of a level."""
+    return (uv + 0.5) / 2**depth - 0.5
 
 
 def _search(
-    image: Image, floor: float, outline: Array | None, enough: Callable[[Lattice], bool]
-) -> list[Candidate]:
-    """Lattices large enough for a board in one level, largest first."""
+    image: Image,
+    floor: float,
+    outline: Array | None,
+    enough: Callable[[Lattice], bool],
+    finest: bool,
+) -> tuple[list[Candidate], list[Lattice]]:
+    """Lattices large enough for a board in one level, largest first, or, where their squares are
+    too small for that to tell all, what will be of use only if the finer levels show less."""
+    seen = _look(image, floor, outline)
+    if seen.lattices and not finest and not _resolved(seen.lattices[0]):
+        return [], seen.lattices
+    return _grown(seen, seen.lattices, enough), []
+
+
+def _look(image: Image, floor: float, outline: Array | None) -> _Seen:
+    """What there is in one level."""
     saddles = find_saddles(image, floor)
     if outline is not None:
         saddles = saddles.under(contains(outline, saddles.uv))
     passed, junctions = classify(saddles.smooth, saddles.uv, floor)
-    at_junctions = saddles.under(passed)
+    lattices = find_lattices(saddles, junctions)[:_GROWN]
+    return _Seen(saddles, saddles.under(passed), lattices)
+
+
+def _grown(seen: _Seen, seeds: list[Lattice], enough: Callable[[Lattice], bool]) -> list[Candidate]:
+    """What lattices of one level grow to, if it is large enough for a board, largest first."""
     grown: list[Candidate] = []
-    for seed in find_lattices(saddles, junctions)[:_GROWN]:
+    for seed in seeds:
         if not any(_overlap(other.lattice, seed) for other in grown):
-            lattice = grow(seed, saddles, at_junctions)
-            grown.append(Candidate(lattice, max(len(junctions) - len(lattice), 0)))
+            lattice = grow(seed, seen.saddles, seen.junctions)
+            lattice = without_strays(lattice, seen.saddles.smooth)
+            grown.append(Candidate(lattice, max(len(seen.junctions.uv) - len(lattice), 0)))
     return [one for one in _distinct(grown) if enough(one.lattice)]
+
+
+def _missed(lattices: list[Lattice], depth: int, boards: list[Candidate]) -> list[Lattice]:
+    """Those of the lattices seen in a level that are no part of the full `boards`."""
+    full = [
+        Lattice(_in_level(one.lattice.uv, depth), one.lattice.dark)
+        for one in boards
+        if one.lattice.found.all()
+    ]
+    return [
+        lattice
+        for lattice in lattices
+        if not any(len(board) >= len(lattice) and _overlap(board, lattice) for board in full)
+    ]
 
 
 def _distinct(candidates: list[Candidate]) -> list[Candidate]:
@@ -115,8 +173,12 @@ def _overlap(one: Lattice, other: Lattice) -> bool:
 def _surely_all(lattice: Lattice) -> bool:
     """Whether a finer level could hardly add to `lattice`: its squares are large, or very large
     where it has gaps."""
-    enough = _SMALLEST if lattice.found.all() else 5 * _SMALLEST
-    return bool(np.nanpercentile(lattice.spacing(), 5) > enough)
+    return _resolved(lattice, _SMALLEST if lattice.found.all() else 5 * _SMALLEST)
+
+
+def _resolved(lattice: Lattice, square: float = _SMALLEST) -> bool:
+    """Whether the squares of `lattice` are larger than so many px."""
+    return bool(np.nanpercentile(lattice.spacing(), 5) > square)
 
 
 def _carried(candidate: Candidate, finer: list[Image]) -> Candidate:

@@ -112,10 +112,10 @@ def unbroken(lattice: Lattice, image: Image) -> Lattice:
         kept[borders[int(np.argmax(excess))]] = False
     if np.count_nonzero(broken & kept) > _BROKEN * np.count_nonzero(lattice.found & kept):
         kept[:] = False
-    return _without_strays(supported(lattice.under(kept)), image)
+    return without_strays(supported(lattice.under(kept)), image)
 
 
-def _without_strays(lattice: Lattice, image: Image) -> Lattice:
+def without_strays(lattice: Lattice, image: Image) -> Lattice:
     """The lattice without border lines of few corners before which the board is seen to end."""
     for k in range(4):
         turn = turned(lattice, k)
