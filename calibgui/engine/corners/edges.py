@@ -101,7 +101,8 @@ def fit(
             corners found; see ``Surroundings.geometry``.
     """
     found = lattice.found
-    board = Surroundings(found) if geometry is None else Foreseen(found, geometry)
+    uv = lattice.uv[found]
+    board = Surroundings(found, uv) if geometry is None else Foreseen(found, uv, geometry)
     edges = _start(image, lattice, board, plain)
     near = replace(edges, arm=np.minimum(edges.arm, _NEAR))
     products, _ = normal_equations(image, near)(near)

@@ -15,10 +15,13 @@ k terms and n values, which estimates how badly the polynomial would predict a c
 
 from __future__ import annotations
 
+from functools import lru_cache
+from typing import NamedTuple
+
 import numpy as np
 
 from calibgui.engine.estimation import homography
-from calibgui.engine.types import Array, BoolArray
+from calibgui.engine.types import Array, Board, BoolArray, IntArray
 
 _HIGHEST = 7
 """Highest degree tried."""
@@ -31,34 +34,68 @@ _ORDERS = ((0, 1), (1, 0), (0, 2), (2, 0))
 """Derivatives by row and by column that are needed."""
 
 
+class _Terms(NamedTuple):
+    """The polynomials' terms at n corners."""
+
+    orthonormal: Array
+    """(n, terms)"""
+    derivatives: Array
+    """(4, n, terms) of these, in the order of `_ORDERS`."""
+    counts: IntArray
+    """How many of the terms make up the polynomials of one degree after another."""
+
+
+@lru_cache(maxsize=4)
+def _terms(shape: Board, found: bytes) -> _Terms:
+    """The terms for the corners found in a lattice of a shape: most images of a set show the
+    same."""
+    at = np.argwhere(np.frombuffer(found, dtype=np.bool_).reshape(shape))
+    half = np.maximum(np.array(shape) - 1, 1) / 2
+    limit = np.minimum(_HIGHEST, np.ptp(at, axis=0))
+    powers = np.argwhere(np.ones(limit + 1))
+    degree = powers.sum(axis=1)
+    order = np.argsort(degree, kind="stable")
+    order = order[: max(2 * len(at) // 3, 1)]
+    powers, degree = powers[order], degree[order]
+    x = at / half - 1
+    table = x[..., None] ** np.arange(_HIGHEST + 1)
+    basis = _basis(table, powers, half, (0, 0))
+    Q, R = np.linalg.qr(basis)
+    own = abs(np.diag(R)) > _OWN * np.linalg.norm(basis, axis=0)
+    if not own.all():  # where lines have gaps the corners do not tell all terms apart
+        powers, degree = powers[own], degree[own]
+        Q, R = np.linalg.qr(basis[:, own])
+    # The terms are nested: these many make up the polynomials of one degree after another.
+    counts = np.searchsorted(degree, np.unique(degree[degree <= _HIGHEST]), side="right")
+    inverse = np.linalg.inv(R)
+    derivatives = np.stack([_basis(table, powers, half, order) @ inverse for order in _ORDERS])
+    return _Terms(Q, derivatives, counts)
+
+
+def _basis(table: Array, powers: IntArray, half: Array, order: tuple[int, int]) -> Array:
+    """(n, terms) products of the `powers` (terms, 2) of row and column at the corners, of which
+    `table` (n, 2, degrees) holds all, differentiated so often by either."""
+    basis = np.ones((len(table), len(powers)))
+    for axis in (0, 1):
+        power, factor = powers[:, axis], np.ones(len(powers))
+        for _ in range(order[axis]):
+            factor, power = factor * power / half[axis], np.maximum(power - 1, 0)
+        basis *= factor * table[:, axis, power]
+    return basis
+
+
 class Surroundings:
     """The polynomials over the corners of a lattice."""
 
-    def __init__(self, found: BoolArray) -> None:
+    def __init__(self, found: BoolArray, uv: Array) -> None:
         """
         Args:
             found: (rows, cols) where the lattice has its n corners.
+            uv: (n, 2) about where these are, px.
         """
-        self._at = np.argwhere(found)
-        self._half = np.maximum(np.array(found.shape) - 1, 1) / 2
-        limit = np.minimum(_HIGHEST, np.ptp(self._at, axis=0))
-        powers = np.argwhere(np.ones(limit + 1))
-        degree = powers.sum(axis=1)
-        order = np.argsort(degree, kind="stable")
-        order = order[: max(2 * len(self._at) // 3, 1)]
-        self._powers, degree = powers[order], degree[order]
-        x = self._at / self._half - 1
-        self._table = x[..., None] ** np.arange(_HIGHEST + 1)
-        basis = self._basis((0, 0))
-        self._Q, R = np.linalg.qr(basis)
-        own = abs(np.diag(R)) > _OWN * np.linalg.norm(basis, axis=0)
-        if not own.all():  # where lines have gaps the corners do not tell all terms apart
-            self._powers, degree = self._powers[own], degree[own]
-            self._Q, R = np.linalg.qr(basis[:, own])
-        # The terms are nested: these many make up the polynomials of one degree after another.
-        self._counts = np.searchsorted(degree, np.unique(degree[degree <= _HIGHEST]), side="right")
-        inverse = np.linalg.inv(R)
-        self._derivatives = np.stack([self._basis(order) @ inverse for order in _ORDERS])
+        self._terms = _terms(found.shape, found.tobytes())
+        self._cells = np.argwhere(found)[:, ::-1].astype(np.float64)
+        self._H = homography.dlt(self._cells, uv, np.ones(len(uv)))
 
     def geometry(self, uv: Array) -> tuple[Array, Array]:
         """Steps to the next column and row, and curvatures of the row's and column's edges.
@@ -74,11 +111,10 @@ class Surroundings:
         Returns:
             (n, 2, 2) derivatives of the position by column and by row, px, and (n, 2) kappa, 1/px.
         """
-        cells = self._at[:, ::-1].astype(np.float64)
-        H = homography.dlt(cells, uv, np.ones(len(uv)))
-        flat = homography.apply(H, cells)
+        H = self._H
+        flat = homography.apply(H, self._cells)
         by_col, by_row, by_col2, by_row2 = self._differentiated(uv - flat)
-        d = cells @ H[2, :2] + H[2, 2]
+        d = self._cells @ H[2, :2] + H[2, 2]
         first, second = [], []
         for axis, once, twice in ((0, by_col, by_col2), (1, by_row, by_row2)):
             slope = (H[:2, axis] - flat * H[2, axis]) / d[:, None]
@@ -98,36 +134,27 @@ class Surroundings:
 
     def _differentiated(self, values: Array) -> Array:
         """(4, n, k) derivatives `_ORDERS` of the polynomials through `values` (n, k)."""
-        weights = self._Q.T @ values
+        Q, derivatives, counts = self._terms
+        weights = Q.T @ values
         # Dropping the last terms leaves the others' weights on Q unchanged.
-        explained = np.cumsum(weights**2, axis=0)[self._counts - 1]
+        explained = np.cumsum(weights**2, axis=0)[counts - 1]
         rss = np.maximum(np.sum(values**2, axis=0) - explained, 0.0)
-        score = rss / (1 - _CAUTION * self._counts[:, None] / (len(values) + 1)) ** 2
-        best = self._counts[np.argmin(score, axis=0)]
+        score = rss / (1 - _CAUTION * counts[:, None] / (len(values) + 1)) ** 2
+        best = counts[np.argmin(score, axis=0)]
         weights[np.arange(len(weights))[:, None] >= best] = 0.0
-        return np.asarray(self._derivatives @ weights)
-
-    def _basis(self, order: tuple[int, int]) -> Array:
-        """(n, terms) at the corners, differentiated by row and by column."""
-        basis = np.ones((len(self._table), len(self._powers)))
-        for axis in (0, 1):
-            power, factor = self._powers[:, axis], np.ones(len(self._powers))
-            for _ in range(order[axis]):
-                factor, power = factor * power / self._half[axis], np.maximum(power - 1, 0)
-            basis *= factor * self._table[:, axis, power]
-        return basis
+        return np.asarray(derivatives @ weights)
 
 
 class Foreseen(Surroundings):
     """The same with steps and curvatures that a calibrated camera expects."""
 
-    def __init__(self, found: BoolArray, geometry: tuple[Array, Array]) -> None:
+    def __init__(self, found: BoolArray, uv: Array, geometry: tuple[Array, Array]) -> None:
         """
         Args:
-            found: as above.
+            found, uv: as above.
             geometry: what is expected, as below.
         """
-        super().__init__(found)
+        super().__init__(found, uv)
         self._geometry = geometry
 
     def geometry(self, uv: Array) -> tuple[Array, Array]:
