@@ -32,6 +32,8 @@ _CLEAR = 0.25
 """Least gap between the dark and the bright sectors over their difference."""
 _WEAKEST = 0.2
 """Least contrast of a corner over the median of its lattice."""
+_ENOUGH = 400
+"""Corners, spread over the lattice, that tell what is typical."""
 _EVENLY = 0.3
 """Greatest difference of grey levels within a square seen, over the contrast."""
 _UNLIKE = 0.05
@@ -83,7 +85,9 @@ class Look:
 def typical(lattice: Lattice, image: Image, plain: float = 0.5) -> Look:
     """The look of the corners of `lattice`, near them if the squares are of one colour only up to
     `plain` squares from their edges."""
-    corners = placed(lattice, plain)
+    some = np.linspace(0, len(lattice) - 1, min(len(lattice), _ENOUGH)).astype(np.int64)
+    uv, right, down, dark = placed(lattice, plain)
+    corners = uv[some], right[some], down[some], dark[some]
     _, contrast = sectors(image, *corners)
     surroundings = _surroundings(image, *corners)
     pattern = standard(np.median(surroundings, axis=0))

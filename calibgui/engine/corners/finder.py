@@ -14,17 +14,17 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
+from functools import partial
 
 import numpy as np
 import scipy
 
 from calibgui.engine import opencv
-from calibgui.engine.corners import saddle
+from calibgui.engine.corners import saddle, verify
 from calibgui.engine.corners.growth import grow
 from calibgui.engine.corners.junctions import Saddles, classify, find_saddles
 from calibgui.engine.corners.lattice import Lattice, large_enough
 from calibgui.engine.corners.links import find_lattices
-from calibgui.engine.corners.verify import without_strays
 from calibgui.engine.opencv import Image
 from calibgui.engine.types import Array, BoolArray
 
@@ -51,6 +51,7 @@ class Candidate:
 class _Seen:
     """In one level of the image."""
 
+    image: Image
     saddles: Saddles
     junctions: Saddles
     """Those of them that are X-junctions."""
@@ -126,19 +127,21 @@ def _look(image: Image, floor: float, outline: Array | None) -> _Seen:
     if outline is not None:
         saddles = saddles.under(contains(outline, saddles.uv))
     passed, junctions = classify(saddles.smooth, saddles.uv, floor)
-    lattices = find_lattices(saddles, junctions)[:_GROWN]
-    return _Seen(saddles, saddles.under(passed), lattices)
+    lattices = find_lattices(saddles, junctions, _GROWN)
+    return _Seen(image, saddles, saddles.under(passed), lattices)
 
 
 def _grown(seen: _Seen, seeds: list[Lattice], enough: Callable[[Lattice], bool]) -> list[Candidate]:
     """What lattices of one level grow to, if it is large enough for a board, largest first."""
-    grown: list[Candidate] = []
+    hopeless = partial(verify.hopeless, image=seen.image)
+    smooth, junctions = seen.saddles.smooth, len(seen.junctions.uv)
+    grown: list[Lattice] = []
     for seed in seeds:
-        if not any(_overlap(other.lattice, seed) for other in grown):
-            lattice = grow(seed, seen.saddles, seen.junctions)
-            lattice = without_strays(lattice, seen.saddles.smooth)
-            grown.append(Candidate(lattice, max(len(seen.junctions.uv) - len(lattice), 0)))
-    return [one for one in _distinct(grown) if enough(one.lattice)]
+        if not any(_overlap(other, seed) for other in grown):
+            grown.append(grow(seed, seen.saddles, seen.junctions, hopeless))
+    hopeful = [verify.without_strays(one, smooth) for one in grown if not hopeless(one)]
+    boards = [Candidate(one, max(junctions - len(one), 0)) for one in hopeful if enough(one)]
+    return _distinct(boards)
 
 
 def _missed(lattices: list[Lattice], depth: int, boards: list[Candidate]) -> list[Lattice]:

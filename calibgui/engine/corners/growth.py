@@ -37,19 +37,28 @@ _NEW = 1.2
 _ROUNDS = 64
 
 
-def grow(lattice: Lattice, saddles: Saddles, junctions: Saddles, max_shape: int = 200) -> Lattice:
+def grow(
+    lattice: Lattice,
+    saddles: Saddles,
+    junctions: Saddles,
+    hopeless: Callable[[Lattice], bool],
+    max_shape: int = 200,
+) -> Lattice:
     """`lattice` with every hole and border filled that the saddle points allow.
 
     Args:
         lattice: to start from.
         saddles: what may fill a place beside the lattice's corners.
         junctions: what may fill a place beyond a gap.
+        hopeless: whether it is not worth going on.
         max_shape: rows or columns at which growth ends.
     """
     nearby, beyond = _Places(saddles), _Places(junctions)
-    look, known = typical(lattice, saddles.smooth), len(lattice)
+    known = 0
     for _ in range(_ROUNDS):
         if len(lattice) > _NEW * known:
+            if hopeless(lattice):
+                break
             look, known = typical(lattice, saddles.smooth), len(lattice)
         grown = _fill(lattice, 1, predict, nearby, DEVIATION, look)
         if grown is None:

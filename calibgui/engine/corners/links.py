@@ -14,6 +14,7 @@ because only neighbours are ever compared.
 from __future__ import annotations
 
 from collections import deque
+from itertools import islice
 
 import numpy as np
 import scipy
@@ -36,16 +37,19 @@ _STEP = 0.25
 """Least step across the edge between two neighbours over the weaker one's contrast."""
 
 
-def find_lattices(saddles: Saddles, junctions: Junctions) -> list[Lattice]:
-    """All lattices of at least one full cell in one image, largest first."""
+def find_lattices(saddles: Saddles, junctions: Junctions, most: int) -> list[Lattice]:
+    """Lattices of at least one full cell in one image, largest first.
+
+    At most so many: those of which most hangs together.
+    """
     if len(junctions) < 4:
         return []
     neighbour, back = _link(saddles.smooth, junctions)
-    lattices = []
-    for nodes, cells, turns in _walk(neighbour, back):
-        lattice = _arrange(junctions.uv, nodes, cells, turns)
-        if lattice is not None:
-            lattices.append(lattice)
+    arranged = (
+        _arrange(junctions.uv, *_agreeing(nodes, placed, neighbour, back))
+        for nodes, placed in _walk(neighbour, back)
+    )
+    lattices = islice((lattice for lattice in arranged if lattice is not None), most)
     return sorted(lattices, key=len, reverse=True)
 
 
@@ -112,8 +116,9 @@ def _compiled_nearest(
     return links.nearest(smooth, junctions.uv, slots, junctions.contrast, near, _ON_WAY, limits)
 
 
-def _walk(neighbour: IntArray, back: IntArray) -> list[tuple[IntArray, IntArray, IntArray]]:
-    """Nodes (m,), cells (m, 2) and turns (m,) of each connected part with a full cell's worth."""
+def _walk(neighbour: IntArray, back: IntArray) -> list[tuple[IntArray, IntArray]]:
+    """Nodes (m,) and their rows, columns and turns (m, 3) of each connected part with a full cell's
+    worth, largest first."""
     links = np.sum(neighbour >= 0, axis=1)
     order = np.argsort(-links, kind="stable")
     seeds = order[links[order] > 0]
@@ -122,7 +127,8 @@ def _walk(neighbour: IntArray, back: IntArray) -> list[tuple[IntArray, IntArray,
     walked = (_compiled_reached if kernels.COMPILED else _reached)(neighbour, back, seeds)
     ends = np.flatnonzero(np.diff(walked[1])) + 1
     parts = zip(*(np.split(x, ends) for x in (walked[0], walked[2])), strict=True)
-    return [_agreeing(nodes, placed, neighbour, back) for nodes, placed in parts if len(nodes) >= 4]
+    large = (part for part in parts if len(part[0]) >= 4)
+    return sorted(large, key=lambda part: len(part[0]), reverse=True)
 
 
 def _reached(

@@ -56,7 +56,7 @@ def locate(grey: Image, lattice: Lattice, method: str) -> Located | None:
     if not verify.credible(int(np.count_nonzero(lattice.found & ~good)), len(lattice)):
         return None
     board = supported(refined.under(good))
-    if method == "edges" and len(board) > verify.GLANCE and verify.waves(board, grey):
+    if method == "edges" and verify.hopeless(board, grey):
         return None
     rejected = [
         *rejections(lattice.uv[lattice.found & ~refined.found], "no saddle point"),

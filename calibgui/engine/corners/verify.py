@@ -14,6 +14,7 @@ import numpy as np
 
 from calibgui.engine.corners import profiles, sheet
 from calibgui.engine.corners.appearance import placed, typical
+from calibgui.engine.corners.crossing import crossed
 from calibgui.engine.corners.edges import Fit
 from calibgui.engine.corners.lattice import (
     Lattice,
@@ -39,7 +40,7 @@ _BROKEN = 0.1
 """Places between a board's corners, over these, that may show squares but no corner."""
 _WIDEST = 0.18
 """Greatest blur of a board's edges, squares: of a sine wave it would be 0.25."""
-GLANCE = 200
+_GLANCE = 200
 """Corners at which a larger lattice's edges are looked at first."""
 _WORST_MISFIT = 0.25
 """Greatest median residual over the contrast."""
@@ -171,10 +172,16 @@ def stepped(fit: Fit) -> bool:
     return bool(widths.max() < _WIDEST and misfit < _WORST_MISFIT)
 
 
-def waves(lattice: Lattice, image: Image) -> bool:
-    """The same of a large lattice at a glance, from profiles across some of its edges."""
+def hopeless(lattice: Lattice, image: Image) -> bool:
+    """Whether a large lattice cannot be a board's, at a glance: its corners cross otherwise than
+    edges do, or as profiles across some of its edges tell it is one of waves."""
+    return len(lattice) > _GLANCE and (_waves(lattice, image) or not crossed(lattice, image))
+
+
+def _waves(lattice: Lattice, image: Image) -> bool:
+    """Whether some of its edges are too wide for those of a board: see `stepped`."""
     uv, right, down, dark = placed(lattice)
-    some = np.unique(np.linspace(0, len(uv) - 1, GLANCE).astype(np.int64))
+    some = np.unique(np.linspace(0, len(uv) - 1, _GLANCE).astype(np.int64))
     uv, right, down = uv[some], right[some], down[some]
     sign = np.where(dark[some], -1.0, 1.0)
     area = abs(right[:, 0] * down[:, 1] - right[:, 1] * down[:, 0])

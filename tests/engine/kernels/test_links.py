@@ -15,9 +15,9 @@ def test_the_same_lattices(clutter: bool, monkeypatch: pytest.MonkeyPatch) -> No
     scene = Conditions(size=(320, 240), square=20.0, noise=4.0, clutter=clutter)
     saddles = junctions.find_saddles(draw(scene, 3).photograph(0), 8.0)
     passed, found = junctions.classify(saddles.smooth, saddles.uv, 8.0)
-    compiled = links.find_lattices(saddles.under(passed), found)
+    compiled = links.find_lattices(saddles.under(passed), found, 8)
     monkeypatch.setattr(kernels, "COMPILED", False)
-    readable = links.find_lattices(saddles.under(passed), found)
+    readable = links.find_lattices(saddles.under(passed), found, 8)
     assert len(compiled[0]) >= 50
     assert [lattice.dark for lattice in compiled] == [lattice.dark for lattice in readable]
     for one, other in zip(compiled, readable, strict=True):
