@@ -26,6 +26,7 @@ from calibgui.engine.corners.lattice import (
     predict,
     trim,
 )
+from calibgui.engine.opencv import Image32
 from calibgui.engine.types import Array, BoolArray, IntArray
 
 _TRIED = 6
@@ -53,7 +54,7 @@ def grow(
         hopeless: whether it is not worth going on.
         max_shape: rows or columns at which growth ends.
     """
-    nearby, beyond = _Places(saddles), _Places(junctions)
+    nearby, beyond = _Places(saddles.smooth, saddles.uv), _Places(junctions.smooth, junctions.uv)
     known = 0
     for _ in range(_ROUNDS):
         if len(lattice) > _NEW * known:
@@ -61,8 +62,8 @@ def grow(
                 break
             look, known = typical(lattice, saddles.smooth), len(lattice)
         grown = _fill(lattice, 1, predict, nearby, DEVIATION, look)
-        if grown is None:
-            grown = _fill(lattice, REACH, _from_sheet, beyond, _ACROSS, look)
+        if grown is None and (others := beyond.aside(lattice)):
+            grown = _fill(lattice, REACH, _from_sheet, others, _ACROSS, look)
         if grown is None or max(grown.shape) > max_shape:
             break
         lattice = grown
@@ -72,9 +73,18 @@ def grow(
 class _Places:
     """Points of an image by their place."""
 
-    def __init__(self, saddles: Saddles) -> None:
-        self.smooth, self.uv = saddles.smooth, saddles.uv
-        self._tree = scipy.spatial.cKDTree(saddles.uv) if len(saddles.uv) else None
+    def __init__(self, smooth: Image32, uv: Array) -> None:
+        self.smooth, self.uv = smooth, uv
+        self._tree = scipy.spatial.cKDTree(uv) if len(uv) else None
+
+    def __len__(self) -> int:
+        return len(self.uv)
+
+    def aside(self, lattice: Lattice) -> _Places:
+        """Those that are no corners of `lattice`, by half a step."""
+        found = lattice.found
+        distance, nearest = scipy.spatial.cKDTree(lattice.uv[found]).query(self.uv)
+        return _Places(self.smooth, self.uv[distance > lattice.spacing()[found][nearest] / 2])
 
     def near(self, uv: Array) -> tuple[IntArray, IntArray]:
         """Pairs (m,), (m,) of a query in `uv` (n, 2) and a point that is among the nearest."""
