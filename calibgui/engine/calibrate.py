@@ -128,6 +128,7 @@ def calibrate(
         "max_iterations": max_iterations,
         "plate": plate.model.value if isinstance(plate, Plate) else plate.value,
         "plate_held": isinstance(plate, Plate),
+        "prior_mm": None if prior is None else [prior.in_plane, prior.out_of_plane],
     }
     held_plate = plate if isinstance(plate, Plate) else None
     asked = Asked(size, model, cost, scale, parameters, values, first, held_plate, settings)
@@ -140,13 +141,12 @@ def calibrate(
         # One plane gives two equations on these.
         unheld = [name for name in PINHOLE if name not in held]
         _refuse(observations, like, asked, start, unheld if len(unheld) > 2 else ())
-    free_indices = asked.free
     solve = partial(
         solved,
         model=model,
         cost=cost,
         scale=scale,
-        free=free_indices,
+        free=asked.free,
         report=report,
         max_iterations=max_iterations,
     )
@@ -156,15 +156,9 @@ def calibrate(
     suspects = [names[k] for k in misfits(first.rms).tolist()]
     precision = _determined(solution, observations, like, asked, suspects)
     estimate = estimated(solution, observations, precision)
-    if plate is PlateModel.NOMINAL and cost is Cost.IMAGE:
-        estimate = with_plate_doubt(estimate, observations, model, free_indices)
-    elif isinstance(plate, PlateModel) and plate is not PlateModel.NOMINAL:
-        estimate = fit_plate(solution, observations, model, free_indices, plate, prior, report)
-        _check_carried(estimate, asked, plate)
     if cost is Cost.IMAGE:
-        estimate = with_view_scatter(estimate, model, free_indices)
-    digest = _digest(observations, settings)
-    return reported(estimate, asked, precision.undetermined, digest)
+        estimate = _examined(estimate, observations, asked, prior, report)
+    return reported(estimate, asked, precision.undetermined, _digest(observations, settings))
 
 
 def _determined(
@@ -191,6 +185,24 @@ def _determined(
     if lost or in_one_spot(observations.uv, asked.size):  # padding repeats a corner
         _refuse(observations, like, asked, solution.state, lost)
     return precision
+
+
+def _examined(
+    estimate: Estimate,
+    observations: Observations,
+    asked: Asked,
+    prior: Prior | None,
+    report: Report | None,
+) -> Estimate:
+    """The estimate with the plate that was asked for, and what plate and views leave in doubt."""
+    shape = PlateModel(asked.settings["plate"])
+    if asked.plate is None and shape is PlateModel.NOMINAL:
+        estimate = with_plate_doubt(estimate, observations, asked.model, asked.free)
+    elif asked.plate is None:
+        solution = estimate.solution
+        estimate = fit_plate(solution, observations, asked.model, asked.free, shape, prior, report)
+        _check_carried(estimate, asked, shape)
+    return with_view_scatter(estimate, asked.model, asked.free)
 
 
 def _check_carried(estimate: Estimate, asked: Asked, plate: PlateModel) -> None:

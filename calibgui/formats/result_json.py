@@ -199,7 +199,10 @@ def _read_calibration(node: Node, used: list[Node]) -> Calibration:
 
 def _read_settings(node: Node) -> dict[str, Any]:
     held = {name: value.number() for name, value in node["fixed"].members().items()}
-    return {**node.value, "fixed": held}
+    settings = {**node.value, "fixed": held}
+    if (prior := node.get("prior_mm")) is not None:
+        settings["prior_mm"] = prior.numbers(2).tolist()
+    return settings
 
 
 def _read_plate(node: Node | None) -> Plate | None:

@@ -7,11 +7,12 @@ from typing import Any
 
 import numpy as np
 
-from calibgui.engine.types import Calibration, Observation, Plate, PlateModel
+from calibgui.engine.types import Calibration, Observation, Plate, PlateModel, Prior
 
 
 def settings_of(calibration: Calibration) -> dict[str, Any]:
-    """Keyword arguments of ``calibrate``: cost, lens, held parameters with their values, plate."""
+    """Keyword arguments of ``calibrate``: cost, lens, held parameters with their values, plate,
+    and what was known of it."""
     camera = calibration.camera
     values = dict(zip(camera.names, camera.params.tolist(), strict=True))
     held = {name: values[name] for name in calibration.fixed}
@@ -19,12 +20,14 @@ def settings_of(calibration: Calibration) -> dict[str, Any]:
     if calibration.plate is not None:
         held_plate = calibration.settings.get("plate_held", False)
         plate = calibration.plate if held_plate else calibration.plate.model
+    prior = calibration.settings.get("prior_mm")
     return {
         "cost": calibration.cost,
         "model": camera.model,
         "fix": held,
         "free": [name for name in values if name not in held],
         "plate": plate,
+        "prior": None if prior is None else Prior(*prior),
     }
 
 
