@@ -240,12 +240,12 @@ class MainWindow(QMainWindow):
 
     def dragEnterEvent(self, event: QDragEnterEvent) -> None:  # noqa: N802 - Qt's name
         if event.mimeData().hasUrls():
-            event.acceptProposedAction()
+            _accept_copy(event)
 
     def dropEvent(self, event: QDropEvent) -> None:  # noqa: N802 - Qt's name
         urls = event.mimeData().urls()
         self.files.open_paths([url.toLocalFile() for url in urls if url.isLocalFile()])
-        event.acceptProposedAction()
+        _accept_copy(event)
 
     def changeEvent(self, event: QEvent) -> None:  # noqa: N802 - Qt's name
         super().changeEvent(event)
@@ -261,6 +261,12 @@ class MainWindow(QMainWindow):
         self.session.jobs.close()
         self.files.saver.close()
         event.accept()
+
+
+def _accept_copy(event: QDropEvent) -> None:
+    """The files stay where they are, whatever is proposed: who moves them may delete them here."""
+    event.setDropAction(Qt.DropAction.CopyAction)
+    event.accept()
 
 
 _NEEDED_SOON = (

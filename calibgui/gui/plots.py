@@ -22,6 +22,8 @@ from calibgui.gui import theme
 
 pg.setConfigOptions(antialias=True)
 
+_MANY_DECADES = 4
+"""From which on there is room for the powers of ten only."""
 _RIM = 8.0
 """Above axes that end with what they enclose: half a line for their topmost number, px."""
 
@@ -45,7 +47,8 @@ class Plot(pg.PlotWidget):  # type: ignore[misc]  # pyqtgraph is not typed
         square: bool = False,
         parent: QWidget | None = None,
     ) -> None:
-        super().__init__(parent, enableMenu=False)  # it has one of its own
+        axes = {name: _Axis(name) for name in ("left", "bottom")}
+        super().__init__(parent, enableMenu=False, axisItems=axes)  # it has a menu of its own
         self._labels = _labels(x, y, x_unit, y_unit)
         self.colour_bar: ColourBar | None = None
         """What the colours mean, if they mean anything."""
@@ -146,6 +149,17 @@ class Plot(pg.PlotWidget):  # type: ignore[misc]  # pyqtgraph is not typed
             axis.setLabel(text, color=colours.text)
         if self.colour_bar is not None:
             self.colour_bar.restyle()
+
+
+class _Axis(pg.AxisItem):  # type: ignore[misc]  # pyqtgraph is not typed
+    """An axis that, if it is logarithmic, has numbers at powers of ten, and few between them."""
+
+    def logTickStrings(self, values: list[float], scale: float, spacing: float) -> list[str]:  # noqa: N802 - pyqtgraph's name
+        decades = abs(self.range[1] - self.range[0])
+        shown = (1,) if decades > _MANY_DECADES else (1, 2, 5)
+        texts = super().logTickStrings(values, scale, spacing)
+        leading = (f"{10.0**value:.0e}"[0] for value in values)
+        return [t if int(first) in shown else "" for t, first in zip(texts, leading, strict=True)]
 
 
 class ColourBar(pg.ColorBarItem):  # type: ignore[misc]  # pyqtgraph is not typed

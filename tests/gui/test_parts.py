@@ -142,10 +142,11 @@ def test_dropped_and_pasted_paths_become_images(
         path.write_bytes(b"no image")
     data = QMimeData()
     data.setUrls([QUrl.fromLocalFile(str(path)) for path in paths[:2]])
-    drop = QDropEvent(
-        QPointF(200, 200), Qt.DropAction.CopyAction, data, LEFT, Qt.KeyboardModifier.NoModifier
-    )
+    copy, move = Qt.DropAction.CopyAction, Qt.DropAction.MoveAction
+    drop = QDropEvent(QPointF(200, 200), copy | move, data, LEFT, Qt.KeyboardModifier.NoModifier)
+    drop.setDropAction(move)  # as file managers propose, who then may delete the files
     window.dropEvent(drop)
+    assert drop.isAccepted() and drop.dropAction() is copy
     assert [Path(v.image).name for v in window.session.project.views] == ["0.png", "1.png"]
     QGuiApplication.clipboard().setText(f'"{paths[2]}"\n')
     window.files.paste()
