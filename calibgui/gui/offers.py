@@ -35,10 +35,16 @@ class Offers(QObject):
                 QLocale().toString(time, QLocale.FormatType.ShortFormat)
             ),
             {
-                self.tr("&Recover"): lambda: self._files.saver.recover(path),
+                self.tr("&Recover"): lambda: self._recover(path),
                 self.tr("&Throw away"): lambda: self._files.saver.forget(path),
             },
         )
+
+    def _recover(self, path: Path) -> None:
+        if self._files.may_leave():
+            self._files.saver.recover(path)
+        else:
+            self._recovery(path)
 
     def _detection(self, altered: list[str]) -> None:
         self._banner.show_text(

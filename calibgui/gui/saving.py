@@ -21,8 +21,9 @@ _SLOTS = 20
 class Saver(QObject):
     """Keeps the document in its file, and what is not saved in another beside it.
 
-    A document without a file is kept in the program's own folder, in the first slot whose lock
-    no other running program holds; what is found in a slot that was free is left from a crash.
+    A document without a file is kept in the program's own folder, in the first empty slot whose
+    lock no other running program holds; what is found in a free slot is left from a crash.
+    Work that is found, there or beside a file, stays as it is until the user has decided about it.
     """
 
     opened = Signal()
@@ -36,27 +37,31 @@ class Saver(QObject):
         self._autosaved: Project | None = None
         self._saving: Job | None = None
         self._save_next: Path | None = None
-        self._lock, self._slot = _free_slot()
+        self._undecided: Path | None = None
+        """The project file beside which unsaved work was found."""
+        self._locks, self._slot, self._left = _free_slots()
         self._timer = QTimer(self, interval=round(1000 * DELAY), singleShot=True)
         self._timer.timeout.connect(self._autosave)
         session.changed.connect(self._schedule)
 
     @property
     def file(self) -> Path:
-        """The document's file, or its slot if it has none yet."""
-        return self._session.document.path or self._slot
+        """The document's file, or its slot if it has none yet, or other work is kept beside it."""
+        path = self._session.document.path
+        return self._slot if path is None or path == self._undecided else path
 
     def check_slot(self) -> None:
         """Announce work left from a crash before it had a file."""
-        if unsaved_work(self._slot) is not None:
-            self.recoverable.emit(self._slot)
+        if self._left is not None:
+            self.recoverable.emit(self._left)
 
     def open(self, path: Path) -> None:
         """Open a project file; announces unsaved work on it."""
 
         def done(project: Project) -> None:
+            self._undecided = path if unsaved_work(path) else None
             self._session.begin(Document(project, path))
-            if unsaved_work(path) is None:
+            if self._undecided is None:
                 self.opened.emit()
             else:
                 self.recoverable.emit(path)
@@ -69,8 +74,11 @@ class Saver(QObject):
         """Go on with the unsaved work on the project file (or slot) `path`."""
 
         def done(project: Project) -> None:
-            file = None if path == self._slot else path
+            self._decided()
+            file = None if path == self._left else path
             self._session.begin(Document(project, file, saved=False))
+            if file is None:
+                source.replace(autosave_path(self._slot))
             self.opened.emit()
 
         source = autosave_path(path)
@@ -81,7 +89,15 @@ class Saver(QObject):
     def forget(self, path: Path) -> None:
         """Throw the unsaved work on `path` away."""
         discard(path)
+        self._decided()
         self.opened.emit()
+
+    def _decided(self) -> None:
+        """What was kept in the slot meanwhile is kept beside its file from now on."""
+        if self._undecided is not None:
+            self._undecided = self._autosaved = None
+            discard(self._slot)
+            self._timer.start()
 
     def save(self, path: Path) -> None:
         """Write the document to `path`, now.
@@ -113,6 +129,8 @@ class Saver(QObject):
 
     def _wrote(self, project: Project, path: Path) -> None:
         before = self.file
+        if path == self._undecided:
+            self._undecided = None
         self._session.document.mark_saved(project, path)
         if before != path:
             discard(before)
@@ -125,7 +143,8 @@ class Saver(QObject):
         """The user leaves, having saved or given up what there was."""
         self._timer.stop()
         discard(self.file)
-        self._lock.unlock()
+        for lock in self._locks:
+            lock.unlock()
 
     def autosave_now(self) -> None:
         """Write the unsaved state at once: something went wrong."""
@@ -162,12 +181,19 @@ def _write(project: Project, path: Path) -> None:
     remember_project(path)
 
 
-def _free_slot() -> tuple[QLockFile, Path]:
+def _free_slots() -> tuple[list[QLockFile], Path, Path | None]:
+    """An empty slot, and the first that holds work of a program that has ended, both locked."""
     folder = state_folder()
+    locks: list[QLockFile] = []
+    left = None
     for number in range(1, _SLOTS + 1):
         slot = folder / f"unsaved-{number}.json"
         lock = QLockFile(str(slot.with_suffix(".lock")))
         lock.setStaleLockTime(0)
-        if lock.tryLock(0):
-            return lock, slot
-    return lock, slot
+        if not lock.tryLock(0):
+            continue
+        if unsaved_work(slot) is None:
+            return [*locks, lock], slot, left
+        if left is None:
+            left, locks = slot, [lock]
+    return locks, slot, left

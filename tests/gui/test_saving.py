@@ -13,9 +13,9 @@ from pathlib import Path
 import pytest
 from pytestqt.qtbot import QtBot
 
-from calibgui.app.autosave import DELAY, autosave_path, unsaved_work
+from calibgui.app.autosave import DELAY, autosave, autosave_path, unsaved_work
 from calibgui.app.document import Document
-from calibgui.app.project import with_images
+from calibgui.app.project import Project, with_images
 from calibgui.app.project_file import read_project, write_project
 from calibgui.gui.main_window import MainWindow
 from calibgui.gui.saving import Saver
@@ -141,6 +141,55 @@ def test_unsaved_work_is_offered_and_recovered(
     qtbot.waitUntil(lambda: len(window.session.project.views) == 8)
     assert window.session.document.path == path
     assert window.isWindowModified(), "recovered work still has to be saved"
+
+
+def test_work_on_a_file_stays_until_it_is_decided_about(
+    window: MainWindow, qtbot: QtBot, tmp_path: Path
+) -> None:
+    path = tmp_path / "project.json"
+    project = examples.calibrated(tmp_path)
+    write_project(project, path)
+    autosave(with_images(project, [str(tmp_path / "new.png")]), path)
+    kept = autosave_path(path).read_bytes()
+    window.files.open_project(path)
+    qtbot.waitUntil(lambda: len(window.banner.buttons) == 2)
+    window.session.edit("Add", lambda p: with_images(p, [str(tmp_path / "other.png")]))
+    window.files.keep_work()
+    slot = window.files.saver.file
+    assert slot != path and autosave_path(path).read_bytes() == kept
+    assert len(read_project(autosave_path(slot)).views) == 8
+    window.banner.buttons[1].click()  # thrown away: the edit is kept beside the file from now on
+    assert window.files.saver.file == path
+    assert not autosave_path(slot).exists()
+    qtbot.waitUntil(lambda: unsaved_work(path) is not None)
+    assert "other.png" in read_project(autosave_path(path)).views[-1].image
+
+
+def test_work_left_without_a_file_is_offered_until_it_is_decided_about(
+    window: MainWindow, qtbot: QtBot, tmp_path: Path
+) -> None:
+    left = window.files.saver.file
+    window.files.saver.close()  # as if the program had been killed then
+    autosave(examples.calibrated(tmp_path), left)
+    for answered in (False, True):
+        session = Session()
+        saver = Saver(session)
+        offered: list[Path] = []
+        saver.recoverable.connect(offered.append)
+        saver.check_slot()
+        assert offered == [left]
+        session.begin(Document(with_images(Project(), [str(tmp_path / "1.png")]), saved=False))
+        saver.autosave_now()
+        assert len(read_project(autosave_path(left)).views) == 7
+        if answered:
+            saver.recover(left)
+            qtbot.waitUntil(lambda session=session: len(session.project.views) == 7)
+            assert session.document.path is None and not session.document.saved
+            assert unsaved_work(left) is None
+            assert len(read_project(autosave_path(saver.file)).views) == 7
+        session.jobs.close()
+        saver.close()
+        session.deleteLater()
 
 
 def test_a_file_that_cannot_be_written_is_reported(
