@@ -48,6 +48,7 @@ def test_import_rules_hold(copy: Path) -> None:
         ("engine/frames.py", "calibgui.formats", "Layers"),
         ("formats/__init__.py", "calibgui.app", "Layers"),
         ("app/__init__.py", "calibgui.cli", "Layers"),
+        ("engine/estimation/__init__.py", "calibgui.engine.quality", "Within the engine"),
         ("engine/frames.py", "matplotlib", "The engine needs"),
         ("engine/frames.py", "tqdm", "The engine needs"),
         ("cli/__init__.py", "PySide6.QtCore", "Qt is imported"),

@@ -34,12 +34,12 @@ from calibgui.engine.estimation.solving import reweighted, solved
 from calibgui.engine.estimation.stage_one import prealign
 from calibgui.engine.estimation.stage_two import State
 from calibgui.engine.estimation.start import in_paper_frame, start_of_stage_two
+from calibgui.engine.estimation.view_scatter import with_view_scatter
 from calibgui.engine.estimation.weighting import weighted
 from calibgui.engine.lens import MODELS, PINHOLE, parameter_names
 from calibgui.engine.plate.deviations import on_plate
 from calibgui.engine.plate.doubt import with_plate_doubt
 from calibgui.engine.plate.fit import fit_plate
-from calibgui.engine.quality.view_scatter import with_view_scatter
 from calibgui.engine.threads import on_one_blas_thread
 from calibgui.engine.types import (
     Array,

@@ -7,41 +7,17 @@ the same cost as the calibration's Stage II, which the camera is judged by.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import replace
 
 import numpy as np
 
 from calibgui.engine.estimation import closed_form
 from calibgui.engine.estimation.levenberg_marquardt import minimise
-from calibgui.engine.estimation.observations import Observations, pack
-from calibgui.engine.estimation.outcome import residuals
+from calibgui.engine.estimation.observations import Observations
 from calibgui.engine.estimation.problem import stage_two
 from calibgui.engine.estimation.projection import rays
 from calibgui.engine.estimation.stage_two import State
-from calibgui.engine.quality.information import measured
-from calibgui.engine.types import Calibration, Camera, Cost, Observation, ViewResiduals
-
-
-def resected(calibration: Calibration, views: Sequence[Observation]) -> tuple[ViewResiduals, ...]:
-    """Residuals of views that a calibration has not seen, with only their poses fitted.
-
-    Args:
-        calibration: whose camera and plate are held.
-        views: of the same plate.
-
-    Raises:
-        CalibrationError: for views that cannot be used, or do not fit the camera or the plate.
-    """
-    observations = measured(calibration, views)
-    start = posed(calibration.camera, pack(views))
-    model, cost, scale = (
-        calibration.camera.model,
-        calibration.cost,
-        calibration.reference_scale,
-    )
-    state = solved(start, observations, model, cost, scale)
-    return residuals(state, observations, model, cost, scale)
+from calibgui.engine.types import Camera, Cost
 
 
 def solved(

@@ -27,7 +27,10 @@ import numpy as np
 
 from calibgui.engine.calibrate import calibrate
 from calibgui.engine.errors import CalibrationError
-from calibgui.engine.estimation.resection import resected
+from calibgui.engine.estimation.observations import pack
+from calibgui.engine.estimation.outcome import residuals
+from calibgui.engine.estimation.resection import posed, solved
+from calibgui.engine.quality.information import measured
 from calibgui.engine.quality.repetition import as_drawn
 from calibgui.engine.types import (
     Array,
@@ -124,6 +127,22 @@ def cross_validate(
         training=_rms(trained),
         held_out=_rms(complete),
     )
+
+
+def resected(calibration: Calibration, views: Sequence[Observation]) -> tuple[ViewResiduals, ...]:
+    """Residuals of views that a calibration has not seen, with only their poses fitted.
+
+    Args:
+        calibration: whose camera and plate are held.
+        views: of the same plate.
+
+    Raises:
+        CalibrationError: for views that cannot be used, or do not fit the camera or the plate.
+    """
+    observations = measured(calibration, views)
+    start = posed(calibration.camera, pack(views))
+    how = calibration.camera.model, calibration.cost, calibration.reference_scale
+    return residuals(solved(start, observations, *how), observations, *how)
 
 
 def _rms(residuals: Sequence[ViewResiduals]) -> float:

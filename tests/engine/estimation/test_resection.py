@@ -8,7 +8,8 @@ import pytest
 from calibgui.engine import frames
 from calibgui.engine.calibrate import calibrate
 from calibgui.engine.estimation.observations import pack
-from calibgui.engine.estimation.resection import posed, resected
+from calibgui.engine.estimation.resection import posed
+from calibgui.engine.quality.validation import resected
 from calibgui.engine.types import Camera, Cost
 from tests.engine.scenes import barrel, brown, relative, scene
 
