@@ -45,7 +45,7 @@ def test_import_rules_hold(copy: Path) -> None:
 @pytest.mark.parametrize(
     ("module", "imports", "contract"),
     [
-        ("engine/frames.py", "calibgui.formats", "Layers"),
+        ("engine/refit.py", "calibgui.formats", "Layers"),
         ("formats/__init__.py", "calibgui.app", "Layers"),
         ("app/__init__.py", "calibgui.cli", "Layers"),
         ("engine/estimation/__init__.py", "calibgui.engine.quality", "Within the engine"),
