@@ -230,6 +230,8 @@ class ImagePage(QWidget):
             self._image = found[0]
             self.canvas.show_image(found[1])
             self._show_marks()
+            if self.marker.goes_on(path):
+                self.tools[0].trigger()
 
         def read(_: Job) -> tuple[Image, Levels]:
             image = self._session.images.read(path)

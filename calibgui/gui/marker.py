@@ -33,7 +33,7 @@ class Marker(QObject):
         self.roi_bar, self.corner_bar = RoiBar(), CornerBar()
         self._roi: RoiTool | None = None
         self._tool: RoiTool | CornerTool | None = None
-        self._image = ""
+        self._image = self._next = ""
         self._job: Job | None = None
         self.roi_bar.board_changed.connect(self._board_stated)
         self.roi_bar.accept.clicked.connect(self._accept)
@@ -188,10 +188,15 @@ class Marker(QObject):
             )
 
         self._edit(self.tr("Mark board"), change)
-        image = self._next_in_need()
+        self._next = self._next_in_need()
         self.leave()
-        if image:
-            self._session.select(image)
+        if self._next:
+            self._session.select(self._next)
+
+    def goes_on(self, image: str) -> bool:
+        """Whether `image`, which has just been read, is the next in a row to be marked."""
+        expected, self._next = self._next, ""
+        return image == expected
 
     def _next_in_need(self) -> str:
         """The next image in which no board was found; "" if there is none."""
