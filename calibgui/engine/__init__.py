@@ -1,4 +1,4 @@
-"""The calibration engine: numpy, scipy and OpenCV only; arrays in, frozen records out."""
+"""The calibration engine: arrays in, frozen records out; no window, plots or progress bars."""
 
 from __future__ import annotations
 

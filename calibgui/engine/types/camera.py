@@ -33,8 +33,8 @@ class Camera:
     """Intrinsics in the array frame: a lens model's name and its parameters.
 
     Raises:
-        CalibrationError: if there is no such model, or it has another number of parameters, or
-            the size is none.
+        CalibrationError: if there is no such model, it has another number of parameters, a number
+            is not finite, a focal length not positive, or the size none.
     """
 
     size: Size
@@ -53,6 +53,11 @@ class Camera:
                 f"{self.params.size} numbers do not make a camera of the lens model "
                 f"{self.model!r}.",
                 f"Give {', '.join(self.names)}.",
+            )
+        if not (np.isfinite(self.params).all() and (self.params[:2] > 0).all()):
+            raise CalibrationError(
+                f"No camera has the parameters {self.params.tolist()}.",
+                "Give finite numbers, and focal lengths above 0.",
             )
 
     @property

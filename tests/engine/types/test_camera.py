@@ -49,6 +49,14 @@ def test_what_makes_no_camera_is_named(
         Camera(size, np.array(PARAMS[:count]), model)
 
 
+@pytest.mark.parametrize(("place", "value"), [(0, 0.0), (1, -600.0), (2, np.nan), (5, np.inf)])
+def test_numbers_that_no_camera_has_are_refused(place: int, value: float) -> None:
+    params = np.array(PARAMS)
+    params[place] = value
+    with pytest.raises(CalibrationError, match="No camera has"):
+        Camera((640, 480), params, "opencv")
+
+
 def test_a_pose_is_three_numbers_and_three() -> None:
     with pytest.raises(ValueError, match="shape"):
         Pose(np.zeros(2), np.zeros(3))
