@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from calibgui.engine.corners import saddle
+from calibgui.engine.corners import METHODS, saddle
 from calibgui.engine.corners.junctions import classify, find_saddles
 from calibgui.engine.corners.ordering import ambiguity
 from calibgui.engine.errors import CalibrationError, NoBoardError
@@ -56,6 +56,7 @@ def marked(
     board: Board | None,
     usual: Board | None,
     pattern: Pattern = CHECKERBOARD,
+    method: str = METHODS[0],
 ) -> Corners:
     """The corners of the board whose four outermost ones are `points` (4, 2) px.
 
@@ -65,17 +66,18 @@ def marked(
         board: rows and columns if the user states them; counted if None.
         usual: rows and columns to suppose where counting fails.
         pattern: of the target.
+        method: of locating corners, one of ``corners.METHODS``.
 
     Raises:
         NoBoardError: nothing there fits.
         CalibrationError: the points do not go around a region.
     """
     try:
-        return pattern.find(image, board, points)
+        return pattern.find(image, board, points, method)
     except NoBoardError:
         if board is not None or usual is None:
             raise
-        return pattern.find(image, usual, points)
+        return pattern.find(image, usual, points, method)
     except ValueError as error:
         raise CalibrationError(
             "The four points do not go around the board.",

@@ -13,6 +13,7 @@ from types import MappingProxyType
 
 from calibgui.app.detection import largest_part, usual_board, usual_pattern
 from calibgui.app.settings import Settings
+from calibgui.engine.corners import METHODS
 from calibgui.engine.errors import CalibrationError
 from calibgui.engine.targets.charuco import Charuco
 from calibgui.engine.targets.circles import Circles
@@ -50,6 +51,8 @@ class Project:
     """What is printed on the target, as stated by the user."""
     board: Board | None = None
     """Rows and columns of inner corners or circles as stated by the user; inferred if None."""
+    method: str = METHODS[0]
+    """Of locating corners, one of ``corners.METHODS``."""
     square: float = DEFAULT_SQUARE
     """Side of a square, mm."""
     unit: Unit = Unit.MM
@@ -108,6 +111,17 @@ def with_pattern(project: Project, pattern: Pattern) -> Project:
 
     The size of a board of another kind does not stay.
     """
+    board = project.board if pattern.kind == project.pattern.kind else None
+    return replace(project, pattern=pattern, board=board, views=_waiting(project.views))
+
+
+def with_method(project: Project, method: str) -> Project:
+    """The project with corners located in another way: all are searched anew."""
+    return replace(project, method=method, views=_waiting(project.views))
+
+
+def _waiting(views: Iterable[View]) -> tuple[View, ...]:
+    """The views without what a search made of them."""
 
     def again(view: View) -> View:
         searched = view.status in (ViewStatus.FOUND, ViewStatus.NO_BOARD)
@@ -115,8 +129,7 @@ def with_pattern(project: Project, pattern: Pattern) -> Project:
             return view
         return replace(view, status=ViewStatus.WAITING, reason="", corners=None)
 
-    board = project.board if pattern.kind == project.pattern.kind else None
-    return replace(project, pattern=pattern, board=board, views=tuple(map(again, project.views)))
+    return tuple(map(again, views))
 
 
 def with_images(project: Project, images: Iterable[str]) -> Project:

@@ -2,7 +2,8 @@
 
     format, version     "calibgui-project", 3
     target              rows, cols (null: inferred from the images), square_mm, unit and
-                        pattern as in ``pattern_json.py``
+                        pattern as in ``pattern_json.py``; corners, the method of locating them
+                        ("edges" where it is missing)
     size                width and height of the images, px
     settings            cost, freed, fixed (names, or an object of them with their values or
                         null); plate (a model, "auto" or a plate as in ``plate_json.py``),
@@ -29,6 +30,7 @@ from typing import Any
 
 from calibgui.app.project import Project, Unit, relocated
 from calibgui.app.settings import NAMES, Settings
+from calibgui.engine.corners import METHODS
 from calibgui.engine.targets.pattern import CHECKERBOARD
 from calibgui.engine.types import Cost, Plate, PlateModel, Prior, Target, View
 from calibgui.formats.corners_json import read_size
@@ -77,7 +79,7 @@ def project_record(project: Project, folder: Path) -> dict[str, Any]:
     project = _with_paths(project, lambda image: _relative(image, folder))
     rows, cols = project.board or (None, None)
     square = {"square_mm": project.square, "unit": project.unit}
-    pattern = {"pattern": pattern_record(project.pattern)}
+    pattern = {"pattern": pattern_record(project.pattern), "corners": project.method}
     return {
         "format": FORMAT,
         "version": VERSION,
@@ -158,6 +160,7 @@ def _read(node: Node) -> Project:
         size=read_size(size) if size else None,
         pattern=pattern,
         board=(rows.integer(), cols.integer()) if rows and cols else None,
+        method=method.choice(METHODS) if (method := target.get("corners")) else METHODS[0],
         square=square.number(),
         unit=Unit(target["unit"].choice(list(Unit))),
         settings=_read_settings(node["settings"]),

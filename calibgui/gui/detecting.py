@@ -11,6 +11,7 @@ from PySide6.QtCore import QObject, Signal
 from calibgui.app.detection import Detection, find_views, usual_board, usual_pattern
 from calibgui.app.project import Project, with_each, without_digests
 from calibgui.engine.kernels import FINDER_SECONDS
+from calibgui.engine.targets.pattern import Pattern
 from calibgui.engine.types import Array, Corners, View, ViewStatus
 from calibgui.gui.job import Job
 from calibgui.gui.session import Session
@@ -34,8 +35,8 @@ class Detector(QObject):
         """Images of the batch, with the regions that are searched."""
         self._given: dict[str, Corners | None] = {}
         """What the batch found in them so far."""
-        self._pattern = session.project.pattern
-        """The pattern that the batch searches for."""
+        self._sought = _sought(session.project)
+        """What the batch searches for."""
 
     @property
     def running(self) -> bool:
@@ -47,7 +48,7 @@ class Detector(QObject):
         project = self._session.project
         asked = tuple(view for view in project.views if view.status is ViewStatus.WAITING)
         if self.running:
-            other = project.pattern != self._pattern
+            other = _sought(project) != self._sought
             self._again = other or any(view.image not in self._asked for view in asked)
             return
         if not asked:
@@ -56,7 +57,7 @@ class Detector(QObject):
         self._asked = {view.image: view.roi for view in asked}
         self._given = dict.fromkeys(self._asked)
         board = project.board or usual_board(project.views)
-        self._pattern = project.pattern
+        self._sought = _sought(project)
         pattern = usual_pattern(project.views, project.pattern)
         rois = {Path(image): roi for image, roi in self._asked.items() if roi is not None}
 
@@ -79,6 +80,7 @@ class Detector(QObject):
                 progress,
                 job.cancelling,
                 project.size,
+                method=project.method,
                 pattern=pattern,
                 preparing=lambda: job.rename(preparing),
             )
@@ -120,7 +122,7 @@ class Detector(QObject):
             return replace(view, status=new.status, reason=new.reason, corners=new.corners)
 
         def change(project: Project) -> Project:
-            if project.pattern != self._pattern:
+            if _sought(project) != self._sought:
                 return project  # another question
             views = tuple(map(answered, project.views))
             same = all(a is b for a, b in zip(views, project.views, strict=True))
@@ -149,3 +151,8 @@ class Detector(QObject):
             self.finished.emit(False)
         else:
             self.search()  # what was added meanwhile
+
+
+def _sought(project: Project) -> tuple[Pattern, str]:
+    """What corners are looked for, and how they are located."""
+    return project.pattern, project.method

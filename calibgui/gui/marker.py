@@ -131,9 +131,10 @@ class Marker(QObject):
         tool = self._roi
         assert tool is not None
         self._forget_preview(tool)
-        target = self._session.project.target
+        project = self._session.project
+        target = project.target
         usual = None if target is None else target.board
-        pattern = self._session.project.pattern if target is None else target.pattern
+        pattern = project.pattern if target is None else target.pattern
         tool.board = board or usual
         if self._job is not None:
             self._job.cancel()
@@ -142,7 +143,7 @@ class Marker(QObject):
         self.roi_bar.words.setText(self.tr("Counting…"))
         self._job = self._session.jobs.start(
             "",
-            lambda _: marking.marked(image, points, board, usual, pattern),
+            lambda _: marking.marked(image, points, board, usual, pattern, project.method),
             self._found,
             failed=self._not_found,
         )

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from PySide6.QtCore import Signal
+from PySide6.QtCore import Qt, Signal
 from PySide6.QtWidgets import (
     QCheckBox,
     QComboBox,
@@ -17,9 +17,10 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
-from calibgui.app.project import Project, Unit, with_pattern, with_square
+from calibgui.app.project import Project, Unit, with_method, with_pattern, with_square
 from calibgui.engine.types import View, ViewStatus
 from calibgui.gui import theme
+from calibgui.gui.narrow_combo import NarrowCombo
 from calibgui.gui.pattern_choice import PatternChoice
 from calibgui.gui.session import Session
 
@@ -57,6 +58,25 @@ class TargetPanel(QWidget):
         self.unit = QComboBox()
         self.unit.addItems(list(Unit))
         self.unit.setAccessibleName(self.tr("Unit"))
+        self.method = NarrowCombo()
+        for method, text, tip in (
+            (
+                "edges",
+                self.tr("by their edges"),
+                self.tr(
+                    "Fit the edges that cross at each corner, as exactly as the noise allows, and "
+                    "tell how exact that is."
+                ),
+            ),
+            (
+                "saddle",
+                self.tr("by the saddle point"),
+                self.tr("As the paper does: the saddle point of the grey levels at each corner."),
+            ),
+        ):
+            self.method.addItem(text, method)
+            self.method.setItemData(self.method.count() - 1, tip, Qt.ItemDataRole.ToolTipRole)
+        self.method.setToolTip(self.tr("How corners are located; another way searches anew."))
         self.print = QPushButton(self.tr("&Print a board…"))
         self.print.setToolTip(self.tr("Make a PDF or SVG of a board of any size."))
 
@@ -69,11 +89,12 @@ class TargetPanel(QWidget):
         side = QHBoxLayout()
         side.addWidget(self.square, 1)
         side.addWidget(self.unit)
-        form = QFormLayout(self)
+        form = self._form = QFormLayout(self)
         form.setContentsMargins(theme.SPACING, theme.SPACING, theme.SPACING, theme.SPACING)
         form.addRow(self.pattern)
         form.addRow(self.counted, corners)
         form.addRow("", self.inferred)
+        form.addRow(self.tr("&Located"), self.method)
         form.addRow(self.side, side)
         form.addRow("", self.print)
 
@@ -84,6 +105,7 @@ class TargetPanel(QWidget):
             box.editingFinished.connect(self._edit_board)
         self.square.valueChanged.connect(self._edit_square)
         self.square.editingFinished.connect(lambda: session.document.settle())
+        self.method.activated.connect(self._edit_method)
         self.unit.activated.connect(self._edit_unit)
         self.print.clicked.connect(self.print_wanted)
         session.changed.connect(self._refresh)
@@ -94,7 +116,9 @@ class TargetPanel(QWidget):
         target = project.target
         inferred = project.board is None
         self.pattern.show_pattern(project.pattern, project.square / project.unit.mm)
+        self.method.setCurrentIndex(self.method.findData(project.method))
         circles = not project.pattern.squared
+        self._form.setRowVisible(self.method, not circles)
         self.counted.setText(self.tr("Circles") if circles else self.tr("Inner corners"))
         self.side.setText(self.tr("Distance") if circles else self.tr("Square"))
         self.inferred.setChecked(inferred)
@@ -138,6 +162,12 @@ class TargetPanel(QWidget):
         pattern = self.pattern.pattern
         self._session.edit(self.tr("Pattern"), lambda p: with_pattern(p, pattern))
         self.search_wanted.emit()
+
+    def _edit_method(self) -> None:
+        method = self.method.currentData()
+        if method != self._session.project.method:
+            self._session.edit(self.tr("Way to locate corners"), lambda p: with_method(p, method))
+            self.search_wanted.emit()
 
     def _edit_square(self, value: float) -> None:
         mm = value * self._session.project.unit.mm

@@ -15,7 +15,7 @@ from pytestqt.qtbot import QtBot
 
 from calibgui.app.detection import Detection
 from calibgui.app.document import Document
-from calibgui.app.project import Project, with_each, with_images, without_views
+from calibgui.app.project import Project, with_each, with_images, with_method, without_views
 from calibgui.engine.errors import Cancelled
 from calibgui.engine.types import View, ViewStatus
 from calibgui.gui import detecting
@@ -30,6 +30,7 @@ class Search:
 
     def __init__(self) -> None:
         self.asked: list[list[str]] = []
+        self.methods: list[str] = []
         self.findings: queue.SimpleQueue[View | None] = queue.SimpleQueue()
 
     def __call__(
@@ -40,10 +41,12 @@ class Search:
         progress: Any,
         stop: Event,
         ___: Any,
+        method: str,
         preparing: Any = None,
         **____: Any,
     ) -> Detection:
         self.preparing = preparing
+        self.methods.append(method)
         self.asked.append([image.name for image in images])
         found: dict[str, View] = {}
         while (view := self.findings.get()) is not None:
@@ -55,18 +58,20 @@ class Search:
 
 
 @pytest.fixture
-def search(monkeypatch: pytest.MonkeyPatch) -> Search:
-    search = Search()
-    monkeypatch.setattr(detecting, "find_views", search)
-    return search
-
-
-@pytest.fixture
 def session(qapp: QApplication) -> Iterator[Session]:
     session = Session(qapp)
     yield session
     session.jobs.close()
     session.deleteLater()
+
+
+@pytest.fixture
+def search(session: Session, monkeypatch: pytest.MonkeyPatch) -> Iterator[Search]:
+    search = Search()
+    monkeypatch.setattr(detecting, "find_views", search)
+    yield search
+    if session.jobs.running:  # the test has failed: do not wait for what it would have said
+        search.findings.put(None)
 
 
 def begun(session: Session, folder: Path) -> tuple[Detector, tuple[View, ...]]:
@@ -190,6 +195,24 @@ def test_another_document_opened_during_a_search_is_searched(
     assert finished.args == [True]
     assert search.asked[-1] == ["other.png"]
     assert status(session) == [ViewStatus.NO_BOARD]
+
+
+def test_another_way_to_locate_corners_is_another_question(
+    qtbot: QtBot, session: Session, search: Search, tmp_path: Path
+) -> None:
+    detector, found = begun(session, tmp_path)
+    session.edit("Way", lambda p: with_method(p, "saddle"))
+    detector.search()
+    search.findings.put(found[0])
+    search.findings.put(None)
+    qtbot.waitUntil(lambda: len(search.asked) == 2)
+    assert status(session) == [WAITING] * 3
+    for view in (*found, None):
+        search.findings.put(view)
+    with qtbot.waitSignal(detector.finished):
+        pass
+    assert search.methods == ["edges", "saddle"]
+    assert status(session) == [FOUND] * 3
 
 
 def test_a_result_of_changed_views_is_dropped(

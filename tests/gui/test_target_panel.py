@@ -10,14 +10,16 @@ from PySide6.QtCore import Qt
 from PySide6.QtTest import QSignalSpy, QTest
 from PySide6.QtWidgets import QApplication, QComboBox
 
+from calibgui.app.document import Document
 from calibgui.app.project_file import read_project, write_project
 from calibgui.engine.targets.charuco import Charuco
 from calibgui.engine.targets.circles import Circles
 from calibgui.engine.targets.pattern import CHECKERBOARD
-from calibgui.engine.types import Target
+from calibgui.engine.types import Target, ViewStatus
 from calibgui.gui.print_dialog import PrintDialog
 from calibgui.gui.session import Session
 from calibgui.gui.target_panel import TargetPanel
+from tests.app import examples
 
 
 @pytest.fixture
@@ -103,3 +105,23 @@ def test_every_pattern_can_be_printed(qapp: QApplication) -> None:
         assert dialog.preview._drawing.isValid()
     dialog.close()
     dialog.deleteLater()
+
+
+def test_how_corners_are_located_is_kept_and_undone(
+    session: Session, panel: TargetPanel, tmp_path: Path
+) -> None:
+    session.begin(Document(examples.calibrated(tmp_path)))
+    found = session.project.views
+    searched = QSignalSpy(panel.search_wanted)
+    choose(panel.method, 1)
+    assert session.project.method == "saddle"
+    assert {view.status for view in session.project.views} == {ViewStatus.WAITING}
+    assert searched.count() == 1
+    assert session.document.undo_label == "Way to locate corners"
+    write_project(session.project, tmp_path / "project.json")
+    assert read_project(tmp_path / "project.json").method == "saddle"
+    session.document.undo()
+    assert session.project.views is found
+    assert panel.method.currentData() == session.project.method == "edges"
+    choose(panel.pattern.kind, 2)
+    assert not panel.method.isVisible(), "circles have but one"
