@@ -20,6 +20,7 @@ from calibgui.app.workers import Crashed, spread
 from calibgui.engine.corners import METHODS
 from calibgui.engine.errors import CalibrationError, NoBoardError
 from calibgui.engine.images import image_size, read_image
+from calibgui.engine.targets.kinds import KINDS
 from calibgui.engine.targets.pattern import CHECKERBOARD, Pattern
 from calibgui.engine.types import Array, Board, Corners, Size, Target, View, ViewStatus
 from calibgui.formats.corners_json import CornerSet
@@ -126,6 +127,34 @@ def search_view(
     except NoBoardError as error:
         return _without_corners(view, ViewStatus.NO_BOARD, str(error))
     return replace(view, status=ViewStatus.FOUND, reason="", corners=corners)
+
+
+def other_pattern(
+    images: Iterable[str], stated: Pattern, stop: Event | None = None
+) -> Pattern | None:
+    """Another pattern than the one `stated`, if it is found in any of the `images`.
+
+    Of several that which is found in most, with most corners.
+
+    Raises:
+        Cancelled: if `stop` was set.
+    """
+    others = [pattern for pattern in KINDS.values() if pattern.kind != stated.kind]
+    tries = [(image, pattern) for image in images for pattern in others]
+    found: Counter[str] = Counter()
+    corners: Counter[str] = Counter()
+    for i, view in spread(_tried, tries, stop):
+        if isinstance(view, View) and view.corners is not None:
+            kind = tries[i][1].kind
+            found[kind] += 1
+            corners[kind] += len(view.corners)
+    best = max(found, key=lambda kind: (found[kind], corners[kind]), default=None)
+    return None if best is None else KINDS[best]
+
+
+def _tried(one: tuple[str, Pattern]) -> View:
+    image, pattern = one
+    return search_view(View(image), pattern=pattern)
 
 
 def usual_board(views: Iterable[View]) -> Board | None:

@@ -220,8 +220,7 @@ class Files(QObject):
         self._session.edit(self.tr("Delete {0}").format(name), lambda p: without_result(p, name))
 
     def _add(self, images: Iterable[Path]) -> None:
-        """Add images and search them; a project's first images are calibrated as well."""
-        first = not self._session.project.results
+        """Add images and search them."""
         paths = [path.absolute() for path in images]
         square = sample_square(paths)
 
@@ -231,10 +230,14 @@ class Files(QObject):
             return with_images(project, map(str, paths))
 
         self._session.edit(self.tr("Add images"), change)
-        if first:
-            self._calibrator.calibrate()
-        else:
+        self.search()
+
+    def search(self) -> None:
+        """Search the images that wait; a project's first are calibrated as well."""
+        if self._session.project.results:
             self._detector.search()
+        else:
+            self._calibrator.calibrate()
 
     def save_changed_images(self, views: tuple[int, ...], way: str) -> None:
         """Write undistorted or rectified images to a folder of the user's choice."""

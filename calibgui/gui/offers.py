@@ -7,6 +7,10 @@ from pathlib import Path
 from PySide6.QtCore import QFileInfo, QLocale, QObject
 
 from calibgui.app.autosave import autosave_path
+from calibgui.app.detection import other_pattern
+from calibgui.app.project import with_pattern
+from calibgui.engine.targets.pattern import Pattern
+from calibgui.engine.types import ViewStatus
 from calibgui.gui.banner import Banner
 from calibgui.gui.detecting import Detector
 from calibgui.gui.files import Files
@@ -15,7 +19,8 @@ from calibgui.gui.session import Session
 
 
 class Offers(QObject):
-    """To recover unsaved work, to search changed images again, to locate missing ones."""
+    """To recover unsaved work, to search changed images again, to locate missing ones, and to
+    search for another pattern where the stated one is nowhere."""
 
     def __init__(
         self, session: Session, detector: Detector, files: Files, images: ImageList, banner: Banner
@@ -27,6 +32,7 @@ class Offers(QObject):
         files.images_missing.connect(self._relocation)
         images.thumbnails.found_altered.connect(self._detection)
         images.search_wanted.connect(self._search_again)
+        detector.finished.connect(self._look_for_another)
 
     def _recovery(self, path: Path) -> None:
         time = QFileInfo(str(autosave_path(path))).lastModified()
@@ -66,3 +72,50 @@ class Offers(QObject):
         """Search images anew, as their files are now."""
         self._detector.search_again(images)
         self._thumbnails.read_again(images)
+
+    def _look_for_another(self, everything: bool) -> None:
+        """Where a search found nothing at all, see whether the board is of another kind."""
+        project = self._session.project
+        searched = [v for v in project.views if v.status in (ViewStatus.FOUND, ViewStatus.NO_BOARD)]
+        if not everything or not searched or any(view.usable for view in searched):
+            return
+        some = [view.image for view in searched[:_LOOKED_AT]]
+        self._session.jobs.start(
+            self.tr("Looking for another kind of board"),
+            lambda job: other_pattern(some, project.pattern, job.cancelling),
+            self._pattern,
+            inputs=lambda: (self._session.project.pattern, self._session.project.views),
+            owner=self,
+        )
+
+    def _pattern(self, pattern: Pattern | None) -> None:
+        if pattern is None:
+            return
+        text, choice = {
+            "checkerboard": (
+                self.tr("These look like photographs of a checkerboard."),
+                self.tr("&Search for a checkerboard"),
+            ),
+            "charuco": (
+                self.tr("These look like photographs of a ChArUco board."),
+                self.tr("&Search for a ChArUco board"),
+            ),
+            "circles": (
+                self.tr("These look like photographs of a grid of circles."),
+                self.tr("&Search for circles"),
+            ),
+            "asymmetric-circles": (
+                self.tr("These look like photographs of an asymmetric grid of circles."),
+                self.tr("&Search for asymmetric circles"),
+            ),
+        }[pattern.kind]
+
+        def search() -> None:
+            self._session.edit(self.tr("Pattern"), lambda p: with_pattern(p, pattern))
+            self._files.search()
+
+        self._banner.show_text(text, {choice: search})
+
+
+_LOOKED_AT = 2
+"""Images in which other kinds of boards are looked for, which takes seconds in each."""
