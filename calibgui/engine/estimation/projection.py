@@ -74,6 +74,18 @@ def rays(uv: Array, camera: Camera) -> Array:
     return normalise(uv, camera.params, MODELS[camera.model]).points
 
 
+def rays_with_slope(uv: Array, camera: Camera) -> tuple[Array, Array]:
+    """Rays (..., 2) of measured pixels (..., 2), and their derivatives (..., 2, 2) by the pixels.
+
+    What `normalise` says, but for the derivatives by the camera's parameters.
+    """
+    lens = MODELS[camera.model]
+    a, _ = lens_scale(lens, camera.focal)
+    psi, psi_d, _ = lens.correct((uv - camera.centre) / a, camera.coefficients)
+    ratio = a / camera.focal
+    return psi * ratio, psi_d * (ratio[:, None] / a)
+
+
 def pixels(n: Array, camera: Camera) -> Array:
     """(..., 2) measured pixels of rays (..., 2); NaN where the lens has none."""
     return project(n, camera.params, MODELS[camera.model]).points

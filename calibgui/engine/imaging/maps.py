@@ -19,7 +19,7 @@ from enum import StrEnum
 import numpy as np
 import numpy.typing as npt
 
-from calibgui.engine.estimation.projection import normalise, pixels, rays
+from calibgui.engine.estimation.projection import pixels, rays, rays_with_slope
 from calibgui.engine.frames import rotation
 from calibgui.engine.lens import MODELS
 from calibgui.engine.types import Array, Camera, Pose
@@ -109,7 +109,7 @@ def displacement(uv: npt.ArrayLike, camera: Camera, part: Part = Part.COMPLETE) 
 
 
 def _correction(uv: Array, camera: Camera) -> Displacement:
-    n, by_uv, _ = normalise(uv, camera.params, MODELS[camera.model])
+    n, by_uv = rays_with_slope(uv, camera)
     f, c = camera.focal, camera.centre
     return Displacement(c + f * n - uv, f[:, None] * by_uv - np.eye(2))
 

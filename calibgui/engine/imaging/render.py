@@ -23,10 +23,9 @@ import numpy.typing as npt
 import scipy
 
 from calibgui.engine.errors import CalibrationError
-from calibgui.engine.estimation.projection import normalise
+from calibgui.engine.estimation.projection import rays_with_slope
 from calibgui.engine.frames import centre_of_array, rotation
 from calibgui.engine.imaging.sampling import mesh
-from calibgui.engine.lens import MODELS
 from calibgui.engine.targets.ink import Ink, Raster
 from calibgui.engine.types import Array, Camera, Pose, Target
 
@@ -165,7 +164,7 @@ class _Scene:
 
     def _plate(self, uv: Array) -> tuple[Array, Array, npt.NDArray[np.bool_]]:
         """Plate points (..., 2) in squares, their gradient (..., 2, 2), and where there are any."""
-        n, by_uv, _ = normalise(uv, self.camera.params, MODELS[self.camera.model])
+        n, by_uv = rays_with_slope(uv, self.camera)
         G = _plate_from_ray(self.pose, self.target.square, self.look.stretch)
         with np.errstate(all="ignore"):  # points at infinity are not visible
             scaled = n @ G[:, :2].T + G[:, 2]
@@ -173,9 +172,10 @@ class _Scene:
             XY = scaled[..., :2] / inverse_depth
             by_n = (G[:2, :2] - XY[..., None] * G[2, :2]) / inverse_depth[..., None]
             gradient = by_n @ by_uv
-            one_to_one = np.linalg.det(by_uv) > 0
-        visible = np.isfinite(gradient).all(axis=(-1, -2)) & (inverse_depth[..., 0] > 0)
-        visible &= one_to_one
+            (a, b), (c, d) = np.moveaxis(by_uv, (-2, -1), (0, 1))
+            one_to_one = a * d > b * c
+            total = np.einsum("...ij->...", gradient)  # finite if all of it is
+        visible = np.isfinite(total) & (inverse_depth[..., 0] > 0) & one_to_one
         XY[~visible], gradient[~visible] = 0.0, 1.0
         return XY, gradient, visible
 

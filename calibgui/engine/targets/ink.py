@@ -95,9 +95,12 @@ class Raster:
         share += right * ((1 - below) * cells[j + 1, i] + below * cells[j + 1, i + 1])
         finest = min(np.diff(self.x).min(), np.diff(self.y).min())
         left, top, end_x, end_y = self.extent
-        inside = (XY > np.array([left, top]) - finest) & (XY < np.array([end_x, end_y]) + finest)
-        coarse = widths.sum(axis=-1).max(axis=-1) > _COARSE * finest
-        return share, cut_x | cut_y | (coarse & inside.all(axis=-1))
+        X, Y = np.moveaxis(XY, -1, 0)
+        inside = (left - finest < X) & (end_x + finest > X) & (top - finest < Y)
+        inside &= end_y + finest > Y
+        width, height = np.moveaxis(widths[..., 0] + widths[..., 1], -1, 0)
+        coarse = np.maximum(width, height) > _COARSE * finest
+        return share, cut_x | cut_y | (coarse & inside)
 
 
 @dataclass(frozen=True, eq=False, slots=True)

@@ -17,6 +17,7 @@ from calibgui.engine.estimation.projection import (
     pixels,
     project,
     rays,
+    rays_with_slope,
 )
 from calibgui.engine.lens import MODELS, Brown, Lens
 from calibgui.engine.types import Array
@@ -53,6 +54,15 @@ def test_derivatives_against_differences(model: str, aspect: float) -> None:
 def test_pixels_and_rays_are_inverse(model: str, aspect: float) -> None:
     camera = example(model, aspect)
     np.testing.assert_allclose(pixels(rays(GRID, camera), camera), GRID, atol=1e-9)
+
+
+@pytest.mark.parametrize("model", list(MODELS))
+def test_rays_with_their_slope_are_those_of_normalise(model: str) -> None:
+    camera = example(model, 0.9)
+    expected = normalise(GRID, camera.params, MODELS[model])
+    n, by_uv = rays_with_slope(GRID, camera)
+    np.testing.assert_allclose(n, expected.points, rtol=1e-15)
+    np.testing.assert_allclose(by_uv, expected.by_point, rtol=1e-14)
 
 
 def test_opencv_projects_alike() -> None:
