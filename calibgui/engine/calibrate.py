@@ -80,7 +80,8 @@ def calibrate(
 
     Args:
         views: per view the measured corners uv (n, 2) px in the array frame, the same
-            corners on the plate xy (n, 2) mm, and optionally their covariances (n, 2, 2).
+            corners on the plate xy (n, 2) mm, and optionally the covariances of uv
+            (n, 2, 2) px^2, for all views or for none.
             Views may show different parts of the target.
         size: width and height of the images, px.
         cost: what Stage II minimises, see `Cost`. `Cost.PAPER` is the printed method: the

@@ -84,7 +84,7 @@ def pack(
             large, corners repeat, are fewer than four or lie on one line, or a covariance is not
             positive.
     """
-    if not views:
+    if len(views) == 0:
         raise CalibrationError(
             "There are no views to calibrate from.",
             "Photograph the board at least 3 times from different directions.",

@@ -127,7 +127,8 @@ class Observation(NamedTuple):
     xy: Array
     """(n, 2) the same corners on the plate, mm."""
     cov: Array | None = None
-    """(n, 2, 2) covariance of uv up to a common factor, px^2; equal and isotropic if None."""
+    """(n, 2, 2) covariance of uv, px^2; equal and isotropic if None. What the residuals have
+    beyond it is put down to the model, alike for all corners (``estimation/weighting.py``)."""
 
 
 class ViewStatus(StrEnum):
