@@ -43,6 +43,11 @@ class Calibrator(QObject):
         """Whether a calibration is under way, or waits for the search to end."""
         return self._wanted or self._job is not None
 
+    @property
+    def stopping(self) -> bool:
+        """Whether the calibration under way has been asked to end."""
+        return self._job is not None and self._job.stopping
+
     def calibrate(self) -> None:
         """Search what has not been searched, and solve for a new result."""
         if not self.running:
@@ -52,9 +57,10 @@ class Calibrator(QObject):
     def stop(self) -> None:
         """End with the best camera so far; without one, end."""
         self._wanted = False
-        if self._job is not None:
+        if self._job is None:
+            self.ended.emit()
+        else:
             self._job.stop()
-        self.ended.emit()
 
     def _searched(self, everything: bool) -> None:
         wanted, self._wanted = self._wanted, False

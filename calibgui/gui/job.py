@@ -67,6 +67,11 @@ class Job:
         self._stop.set()
 
     @property
+    def stopping(self) -> bool:
+        """Whether `stop` or `cancel` was called."""
+        return self._stop.is_set()
+
+    @property
     def cancelled(self) -> bool:
         """Whether `cancel` was called."""
         return self.cancelling.is_set()
@@ -79,7 +84,7 @@ class Job:
         """
         self.check()
         self.queue.put(lambda: self.told(record) if self.wanted else None)
-        return not self._stop.is_set()
+        return not self.stopping
 
     def advance(self, finished: int, total: int) -> None:
         """For the worker of a single item: how many of its parts are finished."""

@@ -223,18 +223,25 @@ class MainWindow(QMainWindow):
             QSettings().setValue("layout", self.saveState())
 
     def _show_calibrate(self) -> None:
-        running = self.calibrator.running
-        self.calibrate.setText(self.tr("&Stop") if running else self.tr("C&alibrate"))
+        running, stopping = self.calibrator.running, self.calibrator.stopping
+        self.calibrate.setText(
+            self.tr("Stopping…")
+            if stopping
+            else self.tr("&Stop")
+            if running
+            else self.tr("C&alibrate")
+        )
         self.calibrate.setToolTip(
             self.tr("End with the best camera so far")
             if running
             else self.tr("Find the corners still missing, then estimate the camera")
         )
-        self.calibrate.setEnabled(bool(self.session.project.views))
+        self.calibrate.setEnabled(bool(self.session.project.views) and not stopping)
 
     def _calibrate_or_stop(self) -> None:
         if self.calibrator.running:
             self.calibrator.stop()
+            self._show_calibrate()
         else:
             self.calibrator.calibrate()
 

@@ -173,6 +173,7 @@ def test_from_photographs_to_an_exported_camera(
     convergence = window.analysis.panel(ConvergencePanel)
     hand.wait(lambda: len(convergence._iterations) >= 2)
     hand.click_button(window.calibrate)
+    assert window.calibrate.text() == "Stopping…" and convergence.isVisible()
     hand.wait(lambda: len(session.project.results) == 3)
     assert session.result.calibration.status is Status.STOPPED
     assert "best so far" in window.banner.text.text()
