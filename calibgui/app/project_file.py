@@ -32,11 +32,11 @@ from calibgui.app.project import Project, Unit, relocated
 from calibgui.app.settings import NAMES, Settings
 from calibgui.engine.corners import METHODS
 from calibgui.engine.targets.pattern import CHECKERBOARD
-from calibgui.engine.types import Cost, Plate, PlateModel, Prior, Target, View
+from calibgui.engine.types import Cost, Plate, PlateModel, Target, View
 from calibgui.formats.corners_json import read_size
 from calibgui.formats.json_document import Node, check_format, read, same, write
 from calibgui.formats.pattern_json import pattern_record, read_pattern
-from calibgui.formats.plate_json import plate_record, read_plate_record
+from calibgui.formats.plate_json import plate_record, read_plate_record, read_prior
 from calibgui.formats.result import Result
 from calibgui.formats.result_json import result_from, result_record
 from calibgui.formats.views_json import read_views, view_record
@@ -176,7 +176,7 @@ def _read_settings(node: Node) -> Settings:
         fixed=_read_fixed(node["fixed"]),
         freed=tuple(name.choice(NAMES) for name in node["freed"].items()),
         plate=_read_plate(node["plate"]),
-        prior=None if prior is None else _read_prior(prior),
+        prior=None if prior is None else read_prior(prior),
         robust=node["robust"].flag(),
         weigh_views=weigh.flag() if (weigh := node.get("weigh_views")) else False,
         once=once.flag() if (once := node.get("once")) else False,
@@ -199,12 +199,6 @@ def _read_plate(node: Node) -> PlateModel | Plate | None:
         return read_plate_record(node)
     model = node.choice([*PlateModel, _AUTO])
     return None if model == _AUTO else PlateModel(model)
-
-
-def _read_prior(node: Node) -> Prior:
-    if not (sigma := node.numbers(2)).min() > 0:
-        node.fail("two lengths above 0")
-    return Prior(*sigma.tolist())
 
 
 def _read_results(node: Node, views: tuple[View, ...]) -> dict[str, Result]:

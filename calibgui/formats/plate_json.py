@@ -13,7 +13,7 @@ from __future__ import annotations
 import os
 from typing import Any
 
-from calibgui.engine.types import Plate, PlateModel
+from calibgui.engine.types import Plate, PlateModel, Prior
 from calibgui.formats.json_document import Node, check_format, read, write
 
 FORMAT = "calibgui-plate"
@@ -59,3 +59,10 @@ def read_plate_record(node: Node) -> Plate:
         node["deviation_mm"].numbers(len(nominal), 3),
         node["sigma_mm"].numbers(len(nominal), 3),
     )
+
+
+def read_prior(node: Node) -> Prior:
+    """What is known of a plate, [in_plane, out_of_plane] mm, where a file keeps it."""
+    if not (sigma := node.numbers(2)).min() > 0:
+        node.fail("two lengths above 0")
+    return Prior(*sigma.tolist())

@@ -49,7 +49,7 @@ from calibgui.formats.estimates_json import (
 from calibgui.formats.exporter import Exporter, ExportReport
 from calibgui.formats.json_document import Node, check_format, read, write
 from calibgui.formats.pattern_json import read_target, target_record
-from calibgui.formats.plate_json import plate_record, read_plate_record
+from calibgui.formats.plate_json import plate_record, read_plate_record, read_prior
 from calibgui.formats.result import Result
 from calibgui.formats.views_json import read_views, view_record
 
@@ -200,8 +200,9 @@ def _read_calibration(node: Node, used: list[Node]) -> Calibration:
 def _read_settings(node: Node) -> dict[str, Any]:
     held = {name: value.number() for name, value in node["fixed"].members().items()}
     settings = {**node.value, "fixed": held}
-    if (prior := node.get("prior_mm")) is not None:
-        settings["prior_mm"] = prior.numbers(2).tolist()
+    if (stated := node.get("prior_mm")) is not None:
+        prior = read_prior(stated)
+        settings["prior_mm"] = [prior.in_plane, prior.out_of_plane]
     return settings
 
 
