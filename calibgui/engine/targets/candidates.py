@@ -25,8 +25,8 @@ _WITHIN = np.array([(u, v) for v in (-0.2, 0.2) for u in (-0.2, 0.2)])
 """Where a cell is looked at, cells from its centre."""
 
 
-class Candidates:
-    """The dark quadrilaterals of one image."""
+class MarkerCandidates:
+    """The dark quadrilaterals of one image, each of which may be a marker."""
 
     def __init__(self, image: Image) -> None:
         """

@@ -12,7 +12,7 @@ from calibgui.engine import opencv
 from calibgui.engine.corners import roi as region
 from calibgui.engine.corners.finder import contains
 from calibgui.engine.opencv import Image
-from calibgui.engine.targets.candidates import Candidates
+from calibgui.engine.targets.candidates import MarkerCandidates
 from calibgui.engine.targets.markers import MIN_MARKERS, Layout, Markers, on_board
 from calibgui.engine.types import Array, IntArray
 
@@ -39,7 +39,7 @@ class Reader:
         while max(self._levels[-1].shape) > _COARSE:
             self._levels.append(opencv.half(self._levels[-1]))
         self._outline = None if outline is None else region.enlarged(outline)
-        self._candidates: dict[int, Candidates] = {}
+        self._candidates: dict[int, MarkerCandidates] = {}
         self._read: dict[tuple[int, str], tuple[IntArray, Array]] = {}
 
     def board(self, name: str, layouts: Collection[Layout]) -> Seen | None:
@@ -73,7 +73,7 @@ class Reader:
     def _likely(self, names: list[str], depth: int) -> list[str]:
         """The dictionaries that as many quadrilaterals may be of as a board needs."""
         if depth not in self._candidates:
-            self._candidates[depth] = Candidates(self._levels[depth])
+            self._candidates[depth] = MarkerCandidates(self._levels[depth])
         seen = self._candidates[depth]
         return [name for name in names if seen.fitting(name) >= MIN_MARKERS]
 

@@ -8,7 +8,7 @@ import pytest
 
 from calibgui.engine import opencv
 from calibgui.engine.errors import NoBoardError
-from calibgui.engine.targets.candidates import Candidates
+from calibgui.engine.targets.candidates import MarkerCandidates
 from calibgui.engine.targets.charuco import Charuco
 from tests.benchmarks.corners import boardless
 
@@ -39,7 +39,7 @@ def test_what_opencv_reads_fits_its_dictionary(name: str, blur: float, noise: fl
     image = page(name, blur, noise)
     read = len(opencv.markers(image, name)[0])
     assert read >= 10
-    candidates = Candidates(image)
+    candidates = MarkerCandidates(image)
     assert candidates.fitting(name) >= read
     others = [other for other in NAMES if other[:8] != name[:8]]
     assert all(candidates.fitting(other) <= 2 for other in others)
