@@ -8,6 +8,7 @@ import sys
 from collections.abc import Sequence
 from types import TracebackType
 
+import shiboken6
 from PySide6.QtCore import QLibraryInfo, QLocale, QTimer, QTranslator
 from PySide6.QtGui import QIcon
 from PySide6.QtWidgets import QApplication
@@ -37,7 +38,10 @@ def run(arguments: Sequence[str]) -> int:
     QTimer.singleShot(0, window, window.prepare)
     if arguments:
         QTimer.singleShot(0, window, lambda: window.files.open_paths(arguments))
-    return app.exec()
+    code = app.exec()
+    sys.excepthook = sys.__excepthook__  # the other one holds the window
+    shiboken6.delete(window)  # before the application, without which its timers cannot end
+    return code
 
 
 def _translate(app: QApplication) -> None:

@@ -264,7 +264,11 @@ class Files(QObject):
             self.tr("Writing images"),
             work,
             lambda count: self._session.told.emit(
-                self.tr("Wrote {0} images to {1}.").format(count, folder)
+                (
+                    self.tr("Wrote {0} images to {1}.")
+                    if count > 1
+                    else self.tr("Wrote {0} image to {1}.")
+                ).format(count, folder)
             ),
         )
 
