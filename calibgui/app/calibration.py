@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
 from pathlib import PurePath
 from typing import Any
@@ -12,7 +12,7 @@ import numpy as np
 from calibgui import engine
 from calibgui.app.marking import removed
 from calibgui.app.settings import USUAL, Settings
-from calibgui.engine.errors import CalibrationError, DegenerateError
+from calibgui.engine.errors import CalibrationError, Cancelled, DegenerateError
 from calibgui.engine.estimation.degeneracy import copies
 from calibgui.engine.quality.screening import screen
 from calibgui.engine.quality.validation import choose_plate
@@ -23,9 +23,11 @@ from calibgui.engine.types import (
     Calibration,
     Cost,
     IntArray,
+    Iteration,
     Observation,
     PlateModel,
     Report,
+    Size,
     View,
 )
 from calibgui.formats.corners_json import CornerSet
@@ -35,6 +37,9 @@ from calibgui.report.numbers import counted
 _UNTRIED = (
     "The nominal plate is kept: without some of the views the others do not determine the camera, "
     "so that no plate model can be tried on unseen ones."
+)
+_ABANDONED = (
+    "The nominal plate is taken: the comparison of plate models on unseen views was stopped."
 )
 
 
@@ -88,11 +93,8 @@ def _calibrated(corner_set: CornerSet, settings: Settings, report: Report | None
     camera: dict[str, Any] = {"fix": settings.fixed, "free": settings.freed}
     plate = settings.plate
     if plate is None:
-        try:
-            choice = choose_plate(observations, size, **camera)
-            plate, said = choice.model, (choice.words, *said)
-        except DegenerateError:
-            plate, said = PlateModel.NOMINAL, (_UNTRIED, *said)
+        plate, words = _predicting(observations, size, camera, report)
+        said = (words, *said)
     everything = camera | {
         "cost": settings.cost,
         "plate": plate,
@@ -107,6 +109,33 @@ def _calibrated(corner_set: CornerSet, settings: Settings, report: Report | None
     else:
         calibration = engine.calibrate(observations, size, **everything)
     return Result(_told(calibration, used, settings, said), views, corner_set.target)
+
+
+def _predicting(
+    observations: Sequence[Observation],
+    size: Size,
+    camera: Mapping[str, Any],
+    report: Report | None,
+) -> tuple[PlateModel, str]:
+    """The plate model that predicts unseen views best, as far as it can be told, and why."""
+    stopped = False
+
+    def watch(iteration: Iteration) -> bool:
+        nonlocal stopped
+        if report is not None and not report(iteration):
+            stopped = True
+            raise Cancelled
+        return True
+
+    try:
+        choice = choose_plate(observations, size, report=watch, **camera)
+    except DegenerateError:
+        return PlateModel.NOMINAL, _UNTRIED
+    except Cancelled:
+        if not stopped:
+            raise
+        return PlateModel.NOMINAL, _ABANDONED
+    return choice.model, choice.words
 
 
 def _told(

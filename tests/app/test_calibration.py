@@ -16,7 +16,7 @@ from calibgui.engine.calibrate import calibrate
 from calibgui.engine.estimation.projection import pixels
 from calibgui.engine.frames import rotation
 from calibgui.engine.quality.noise import examine
-from calibgui.engine.types import Array, Cost
+from calibgui.engine.types import Array, Cost, Status
 from calibgui.formats.corners_json import CornerSet
 from tests.engine import scenes
 from tests.photographs import BOARD, CAMERA, poses
@@ -155,3 +155,24 @@ def test_what_is_left_of_the_sample_looks_like_noise() -> None:
     result = calibrate_views(found)
     report = examine(result.calibration, result.observations())
     assert report.passed, report.cause
+
+
+def test_the_comparison_of_plates_can_be_stopped_or_cancelled() -> None:
+    """The best so far is then a camera with the nominal plate."""
+    told: list[Iteration] = []
+
+    def stop(iteration: Iteration) -> bool:
+        told.append(iteration)
+        return len(told) < 8
+
+    result = calibrate_views(noisy(), Settings(plate=None), stop)
+    assert result.calibration.status is Status.STOPPED
+    assert result.calibration.plate is None
+    assert "was stopped" in result.calibration.warnings[0]
+    assert len(told) < 12
+
+    def cancel(_: Iteration) -> bool:
+        raise Cancelled
+
+    with pytest.raises(Cancelled):
+        calibrate_views(noisy(), Settings(plate=None), cancel)

@@ -95,7 +95,8 @@ def cross_validate(
         views: as for ``calibrate``.
         size: of the images, px.
         folds: into which the views are dealt; as many as views leaves one out each time.
-        settings: of ``calibrate``; `names` and `report` are not used.
+        settings: of ``calibrate``; `names` are not used, and `report` is told of the iterations
+            of every fold: it may raise ``Cancelled``, but has to return True.
 
     Raises:
         CalibrationError: if there are fewer folds than 2 or more than views, or a calibration
@@ -107,7 +108,7 @@ def cross_validate(
             "Use at least 2 folds and at most one a view.",
         )
     seen = [Observation(*view) for view in views]
-    settings = {name: settings[name] for name in settings.keys() - {"names", "report"}}
+    settings = {name: settings[name] for name in settings.keys() - {"names"}}
     done: list[Fold] = []
     trained: list[ViewResiduals] = []
     by_view: list[ViewResiduals | None] = [None] * len(seen)
