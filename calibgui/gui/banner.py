@@ -13,7 +13,10 @@ from calibgui.gui import theme
 
 
 class Banner(QFrame):
-    """Shown until it is dismissed or the next message comes; a failure until work goes on."""
+    """Shown until it is dismissed or the next message comes; a failure until work goes on.
+
+    A question, which has choices, comes back after a message that is none.
+    """
 
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
@@ -27,11 +30,12 @@ class Banner(QFrame):
         self.dismiss.setAutoRaise(True)
         self.dismiss.setToolTip(self.tr("Dismiss this message"))
         self.dismiss.setAccessibleName(self.dismiss.toolTip())
-        self.dismiss.clicked.connect(self.hide)
+        self.dismiss.clicked.connect(self._end)
         self._row = QHBoxLayout(self)
         self._row.addWidget(self.text, 1)
         self._row.addWidget(self.dismiss, 0, Qt.AlignmentFlag.AlignTop)
         self._failure = False
+        self._question: tuple[str, Mapping[str, Callable[[], None]]] | None = None
         self.hide()
 
     def show_error(self, error: CalibrationError) -> None:
@@ -43,9 +47,11 @@ class Banner(QFrame):
     ) -> None:
         """Show a message; each choice is a button with its text and what it does."""
         self._show(text, failure=False)
+        if choices:
+            self._question = text, choices
         for name, does in choices.items():
             button = QPushButton(name)
-            button.clicked.connect(self.hide)
+            button.clicked.connect(self._end)
             button.clicked.connect(lambda _=False, does=does: does())
             self._row.insertWidget(self._row.count() - 1, button)
             self.buttons.append(button)
@@ -53,7 +59,16 @@ class Banner(QFrame):
     def hide_failure(self) -> None:
         """What could not be done is past; a question stays."""
         if self._failure:
+            self._end()
+
+    def _end(self) -> None:
+        """Done with what is shown: a question that it has covered comes back."""
+        answered = bool(self.buttons)
+        question, self._question = self._question, None
+        if question is None or answered:
             self.hide()
+        else:
+            self.show_text(*question)
 
     def _show(self, text: str, *, failure: bool) -> None:
         for button in self.buttons:
