@@ -26,9 +26,8 @@ NOISE = 0.2
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize(
-    ("model", "count"), [*((model, 10) for model in MODELS), ("lucchese", 25), ("opencv", 25)]
-)
+@pytest.mark.parametrize("count", [10, 25])
+@pytest.mark.parametrize("model", list(MODELS))
 def test_repeated_solves_scatter_as_reported(model: str, count: int) -> None:
     camera = example(model)
     held = ("p3",)  # next to nothing determines it, where there is one
