@@ -202,8 +202,9 @@ def _sides(size: Size, count: int = 101) -> Array:
 def _inside(uv: Array, size: Size) -> BoolArray:
     """Which of `uv` (..., 2) fall on the pixels of an image; NaN do not."""
     # The allowance keeps the outermost pixels of an image that fits exactly.
-    low, high = -0.5 - TOLERANCE, np.array(size) - 0.5 + TOLERANCE
-    return np.asarray(((uv >= low) & (uv <= high)).all(axis=-1))
+    low, (right, bottom) = -0.5 - TOLERANCE, np.array(size) - 0.5 + TOLERANCE
+    u, v = uv[..., 0], uv[..., 1]
+    return np.asarray((u >= low) & (u <= right) & (v >= low) & (v <= bottom))
 
 
 def _resample(
@@ -220,7 +221,8 @@ def _resample(
         band = slice(v, min(v + rows, height))
         uv = rows_of(band)
         valid[band] = _inside(uv, measured)
-        uv[~valid[band]] = 0.0
+        outside = np.nonzero(~valid[band])
+        uv[outside] = 0.0
         out[band] = opencv.resample(image, uv)
-        out[band][~valid[band]] = 0
+        out[band][outside] = 0
     return Resampled(out, matrix, valid)
