@@ -8,6 +8,7 @@ from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 from matplotlib.figure import Figure
 
 from tests.benchmarks.corner_partial import Count
@@ -49,6 +50,20 @@ def write(folder: Path, report: Report) -> None:
     text = json.dumps(_finite(asdict(report)), indent=1, allow_nan=False)
     (folder / "corners.json").write_text(text + "\n", encoding="utf-8")
     plot(report.accuracy).savefig(folder / "corners.png", dpi=110)
+
+
+def summed_up(accuracy: dict[str, dict[str, Score]]) -> str:
+    """A line per method: error over the bound, boards found and time over all conditions."""
+    lines = [f"{'':14}{'median':>8}{'worst':>8}{'found':>8}{'ms':>8}"]
+    for name in next(iter(accuracy.values())):
+        scores = [row[name] for row in accuracy.values()]
+        ratios = [score.ratio for score in scores]
+        found = np.mean([score.found for score in scores])
+        ms = np.nanmedian([score.milliseconds for score in scores])
+        lines.append(
+            f"{name:14}{np.nanmedian(ratios):8.2f}{np.nanmax(ratios):8.1f}{found:8.0%}{ms:8.0f}"
+        )
+    return "\n".join(lines)
 
 
 def plot(accuracy: dict[str, dict[str, Score]]) -> Figure:
