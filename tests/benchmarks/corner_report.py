@@ -41,7 +41,8 @@ class Report:
     parts: dict[str, list[Count]]
     """By kind of partly seen board, its size stated and inferred."""
     unseen: Outcome
-    false_boards: int
+    false_boards: dict[str, int]
+    """By kind of image."""
 
 
 def write(folder: Path, report: Report) -> None:
@@ -77,7 +78,7 @@ def plot(accuracy: dict[str, dict[str, Score]]) -> Figure:
     axes.set_yscale("log")
     axes.set_ylabel("RMS error / Cramer-Rao bound")
     axes.tick_params(axis="x", rotation=70)
-    axes.legend()
+    figure.legend(loc="outside right upper")
     return figure
 
 

@@ -24,7 +24,7 @@ from numpy.typing import NDArray
 
 from calibgui.engine.corners import find_corners
 from calibgui.engine.errors import NoBoardError
-from tests.benchmarks.corners import boardless
+from tests.benchmarks.corner_boardless import boardless
 
 Image = NDArray[np.uint8]
 _TEXEL = 32

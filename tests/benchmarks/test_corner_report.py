@@ -18,7 +18,7 @@ REPORT = Report(
     {"base": {"ours": FOUND, "other": FOUND}, "blur 5": {"ours": FOUND, "other": MISSED}},
     {"hand": [Count(50, 49, 0), Count(50, 50, 1)]},
     Outcome(3, 2, Count(160, 150, 2)),
-    false_boards=0,
+    false_boards={"halftone": 1},
 )
 
 
@@ -29,7 +29,7 @@ def test_every_figure_reads_back(tmp_path: Path) -> None:
     assert content["accuracy"]["blur 5"]["other"]["ratio"] is None
     assert content["parts"]["hand"][1] == {"visible": 50, "found": 50, "wrong": 1}
     assert content["unseen"]["corners"]["found"] == 150
-    assert content["false_boards"] == 0
+    assert content["false_boards"] == {"halftone": 1}
     assert (tmp_path / "new" / "corners.png").read_bytes().startswith(b"\x89PNG")
 
 

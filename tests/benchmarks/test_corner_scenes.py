@@ -9,6 +9,7 @@ from scipy.ndimage import map_coordinates
 from calibgui.engine.corners import find_corners
 from calibgui.engine.errors import NoBoardError
 from tests.benchmarks import corners as benchmark
+from tests.benchmarks.corner_boardless import KINDS, boardless
 from tests.benchmarks.corner_scenes import Conditions, draw
 
 
@@ -38,7 +39,7 @@ def test_the_engine_reaches_the_bound(name: str) -> None:
     assert 0.75 < result.chi2 < 1.4
 
 
-@pytest.mark.parametrize("seed", range(12))
+@pytest.mark.parametrize("seed", range(2 * len(KINDS)))
 def test_no_board_is_seen_where_there_is_none(seed: int) -> None:
     with pytest.raises(NoBoardError):
-        find_corners(benchmark.boardless(seed))
+        find_corners(boardless(seed))

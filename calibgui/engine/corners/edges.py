@@ -68,6 +68,9 @@ class Fit:
     """(n, 2, 2) of c, px^2."""
     residual: Array
     """(n,) standard deviation of what the model leaves unexplained, grey levels."""
+    spreads: Array
+    """(n, 2) growth of the dark squares on every side that each edge shows, squares, where it is
+    clear: NaN elsewhere."""
 
     @property
     def uv(self) -> Array:
@@ -103,7 +106,7 @@ def fit(
     found = lattice.found
     uv = lattice.uv[found]
     board = Surroundings(found, uv) if geometry is None else Foreseen(found, uv, geometry)
-    edges = _start(image, lattice, board, plain)
+    edges, spreads = _start(image, lattice, board, plain)
     near = replace(edges, arm=np.minimum(edges.arm, _NEAR))
     products, _ = normal_equations(image, near)(near)
     first, _, _ = _step(near, products)
@@ -114,11 +117,14 @@ def fit(
     products, odd_part = equations(edges)
     edges, inverse, square = _step(edges, products)
     noise = _noise(square, odd_part())
-    return Fit(edges, noise[:, None, None] * inverse, np.sqrt(square))
+    return Fit(edges, noise[:, None, None] * inverse, np.sqrt(square), spreads)
 
 
-def _start(image: Image, lattice: Lattice, board: Surroundings, plain: float) -> Edges:
-    """Parameters from the lattice and from profiles across the edges."""
+def _start(
+    image: Image, lattice: Lattice, board: Surroundings, plain: float
+) -> tuple[Edges, Array]:
+    """Parameters from the lattice and from profiles across the edges, and the spreads (n, 2) that
+    these show."""
     found = lattice.found
     cells = np.argwhere(found)
     n = len(cells)
@@ -163,7 +169,8 @@ def _start(image: Image, lattice: Lattice, board: Surroundings, plain: float) ->
     if plain < 0.5:  # what lies beyond is blurred into the room
         room = edges.room
         edges = replace(edges, room=np.maximum(room - _BLURRED * unknowns[BLUR], room / 2))
-    return replace(edges, spread=_common_spread(np.column_stack([side.spread for side in seen])))
+    spreads = np.column_stack([side.spread for side in seen])
+    return replace(edges, spread=_common_spread(spreads)), spreads
 
 
 def _common_spread(seen: Array) -> Array:

@@ -104,7 +104,8 @@ def _fitted(
         fit = edges.fit(grey, lattice)
         good = verify.described(fit, lattice)
         if good.all():
-            return Located(lattice, tuple(rejected), fit) if verify.stepped(fit) else None
+            board = verify.stepped(fit) and verify.printed(fit.spreads)
+            return Located(lattice, tuple(rejected), fit) if board else None
         failed += int(np.count_nonzero(~good))
         if not verify.credible(failed, int(np.count_nonzero(good)) + failed):
             break

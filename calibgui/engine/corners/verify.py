@@ -44,6 +44,8 @@ _GLANCE = 200
 """Corners at which a larger lattice's edges are looked at first."""
 _WORST_MISFIT = 0.25
 """Greatest median residual over the contrast."""
+_SPREADS = 0.03
+"""Greatest median deviation of the spreads that a board's edges show from each other, squares."""
 _MOVED = 0.1
 """Farthest that the edge fit may move a corner, squares."""
 _ASIDE = float(np.sin(np.radians(3.0)))
@@ -172,6 +174,17 @@ def stepped(fit: Fit) -> bool:
     return bool(widths.max() < _WIDEST and misfit < _WORST_MISFIT)
 
 
+def printed(spreads: Array) -> bool:
+    """Whether the dark squares have spread alike across all edges (n, 2), as those of one print
+    have; see ``edges.Fit.spreads``.
+
+    In a picture printed in dots these grow with its tone, and where stripes are shifted the edges
+    along them stand where they should, those across them do not.
+    """
+    known = spreads[np.isfinite(spreads)]
+    return not len(known) or bool(np.median(abs(known - np.median(known))) < _SPREADS)
+
+
 def hopeless(lattice: Lattice, image: Image) -> bool:
     """Whether a large lattice cannot be a board's, at a glance: its corners cross otherwise than
     edges do, or as profiles across some of its edges tell it is one of waves."""
@@ -181,10 +194,13 @@ def hopeless(lattice: Lattice, image: Image) -> bool:
 def _waves(lattice: Lattice, image: Image) -> bool:
     """Whether some of its edges are too wide for those of a board: see `stepped`."""
     uv, right, down, dark = placed(lattice)
-    some = np.unique(np.linspace(0, len(uv) - 1, _GLANCE).astype(np.int64))
-    uv, right, down = uv[some], right[some], down[some]
-    sign = np.where(dark[some], -1.0, 1.0)
     area = abs(right[:, 0] * down[:, 1] - right[:, 1] * down[:, 0])
+    some = np.flatnonzero(area)
+    if not len(some):
+        return True
+    some = some[np.linspace(0, len(some) - 1, _GLANCE).astype(np.int64)]
+    uv, right, down, area = uv[some], right[some], down[some], area[some]
+    sign = np.where(dark[some], -1.0, 1.0)
     widths = []
     for along, across in ((right, down), (down, right)):
         size = area / np.linalg.norm(along, axis=1)
@@ -194,10 +210,11 @@ def _waves(lattice: Lattice, image: Image) -> bool:
 
 
 def filled(lattice: Lattice, shape: tuple[int, ...]) -> Lattice:
-    """The lattice with its gaps where the neighbours expect their corners, inside the image."""
+    """The lattice with its gaps where the neighbours expect their corners, inside the image and not
+    too far from all others."""
     expected = predict(lattice.uv)
     try_here = ~lattice.found & in_image(expected, shape)
-    return Lattice(np.where(try_here[..., None], expected, lattice.uv), lattice.dark)
+    return with_steps(Lattice(np.where(try_here[..., None], expected, lattice.uv), lattice.dark))
 
 
 def ends(lattice: Lattice, image: Image) -> Sides:

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from calibgui.engine import kernels
 from calibgui.engine.corners import find_corners
 from calibgui.engine.errors import NoBoardError
-from tests.benchmarks.corners import boardless
+from tests.benchmarks.corner_boardless import boardless
 from tests.benchmarks.corners_speed import photograph
 
 IMAGES = {

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from calibgui.engine.corners import verify
-from calibgui.engine.corners.lattice import Lattice
+from calibgui.engine.corners.lattice import Lattice, axes, supported
 from tests.benchmarks.corner_scenes import Conditions, draw
 
 
@@ -20,3 +20,24 @@ def test_a_corner_too_far_from_others_to_know_its_steps_does_not_pass() -> None:
     assert not good[0, 7]
     seen[0, 7] = False
     np.testing.assert_array_equal(good, seen)
+
+
+def test_gaps_are_tried_only_where_the_steps_are_known() -> None:
+    row, col = np.indices((10, 14))
+    uv = 20.0 * np.stack([col + 2, row + 2], axis=-1)
+    rng = np.random.default_rng(0)
+    for _ in range(300):
+        ragged = supported(Lattice(uv, dark=True).under(rng.random((10, 14)) < 0.2))
+        tried = verify.filled(ragged, (480, 640))
+        assert tried.found[ragged.found].all()
+        assert np.isfinite(np.sum(axes(tried.uv), axis=0)[tried.found]).all()
+
+
+def test_the_squares_of_one_print_spread_alike() -> None:
+    rng = np.random.default_rng(0)
+    one = 0.06 + rng.normal(0, 0.01, (100, 2))
+    one[rng.random(100) < 0.3] = np.nan
+    assert verify.printed(one)
+    assert not verify.printed(one + np.linspace(-0.1, 0.1, 100)[:, None])  # dots that grow
+    assert not verify.printed(one + np.array([0.1, 0.0]))  # stripes that are shifted
+    assert verify.printed(np.full((100, 2), np.nan))

@@ -10,7 +10,7 @@ from calibgui.engine import opencv
 from calibgui.engine.errors import NoBoardError
 from calibgui.engine.targets.candidates import MarkerCandidates
 from calibgui.engine.targets.charuco import Charuco
-from tests.benchmarks.corners import boardless
+from tests.benchmarks.corner_boardless import boardless
 
 NAMES = ["DICT_4X4_50", "DICT_5X5_250", "DICT_6X6_50", "DICT_7X7_1000", "DICT_ARUCO_ORIGINAL"]
 
