@@ -119,7 +119,8 @@ def main() -> None:
         assert engine(image) == board, name
         print(f"{name:14}{milliseconds(7, engine, image):9.1f}", end="")
         print(f"{goal:8.0f}{peak(image):9.2f}", end="", flush=True)
-        slow = options.quick and image.size > 1e6
+        # In noise of that size OpenCV's finders search for a quarter of an hour and more.
+        slow = image.size > 1e6 and (options.quick or board is None)
         for other in () if slow else (classic, sector_based):
             print(f"{milliseconds(1, other, image, board or (6, 9)):10.1f}", end="", flush=True)
         print()

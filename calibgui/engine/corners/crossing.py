@@ -38,11 +38,15 @@ _PLAIN = 0.005
 
 def crossed(lattice: Lattice, image: Image) -> bool:
     """Whether the typical corner of `lattice` is the crossing of two edges in `image`."""
-    far, near = (typical(lattice, image, plain).pattern for plain in (_FAR, _NEAR))
+    near = typical(lattice, image, _NEAR).pattern
     if _unlike(near, _crossings(_NEAR)) > _UNLIKE:
         return False
-    whole = _unlike(far, _crossings(_FAR)) <= _UNLIKE
-    return whole or _unlike(near, _crossings(_NEAR, overlap=False)) <= _PLAIN
+    return empty(lattice, image) or _unlike(near, _crossings(_NEAR, overlap=False)) <= _PLAIN
+
+
+def empty(lattice: Lattice, image: Image) -> bool:
+    """Whether it is so as far as its squares reach: nothing is printed in them."""
+    return _unlike(typical(lattice, image, _FAR).pattern, _crossings(_FAR)) <= _UNLIKE
 
 
 def _unlike(pattern: Array, crossings: Array) -> float:

@@ -115,7 +115,7 @@ def _automatic(
         raise NoBoardError(
             "What looks like a checkerboard is not regular enough to be trusted.",
             "Mark its four outermost corners, or leave this picture out. For a grid of circles,"
-            " state that target.",
+            " state that target; where marks are drawn over the corners, take the original.",
         )
     raise NoBoardError(
         "No checkerboard was found.",

@@ -104,7 +104,7 @@ def _fitted(
         fit = edges.fit(grey, lattice)
         good = verify.described(fit, lattice)
         if good.all():
-            board = verify.stepped(fit) and verify.printed(fit.spreads)
+            board = verify.stepped(fit) and verify.printed(fit, lattice, grey)
             return Located(lattice, tuple(rejected), fit) if board else None
         failed += int(np.count_nonzero(~good))
         if not verify.credible(failed, int(np.count_nonzero(good)) + failed):

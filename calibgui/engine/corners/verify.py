@@ -14,7 +14,7 @@ import numpy as np
 
 from calibgui.engine.corners import profiles, sheet
 from calibgui.engine.corners.appearance import placed, typical
-from calibgui.engine.corners.crossing import crossed
+from calibgui.engine.corners.crossing import crossed, empty
 from calibgui.engine.corners.edges import Fit
 from calibgui.engine.corners.lattice import (
     Lattice,
@@ -174,13 +174,18 @@ def stepped(fit: Fit) -> bool:
     return bool(widths.max() < _WIDEST and misfit < _WORST_MISFIT)
 
 
-def printed(spreads: Array) -> bool:
-    """Whether the dark squares have spread alike across all edges (n, 2), as those of one print
-    have; see ``edges.Fit.spreads``.
+def printed(fit: Fit, lattice: Lattice, image: Image) -> bool:
+    """Whether the dark squares have spread alike across all edges, as those of one print have; or
+    cannot be seen to, because something is printed in the squares.
 
     In a picture printed in dots these grow with its tone, and where stripes are shifted the edges
     along them stand where they should, those across them do not.
     """
+    return alike(fit.spreads) or not empty(lattice, image)
+
+
+def alike(spreads: Array) -> bool:
+    """Whether those of the spreads (n, 2) squares that are known are much the same."""
     known = spreads[np.isfinite(spreads)]
     return not len(known) or bool(np.median(abs(known - np.median(known))) < _SPREADS)
 
