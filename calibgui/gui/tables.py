@@ -122,6 +122,8 @@ class _Model(QAbstractTableModel):
 
 
 _RIGHT = Qt.AlignmentFlag.AlignRight
+_LEGIBLE = 8
+"""Characters of the first column that are shown however narrow the table is."""
 
 
 class _Titles(QHeaderView):
@@ -254,8 +256,9 @@ class Table(QTableView):
                 self.setColumnHidden(place, True)
         if (excess := header.length() - room) > 0:
             header.setSectionResizeMode(0, QHeaderView.ResizeMode.Interactive)
-            least = header.minimumSectionSize()
-            header.resizeSection(0, max(least, header.sectionSize(0) - excess))
+            whole = header.sectionSize(0)
+            least = min(whole, _LEGIBLE * self.fontMetrics().averageCharWidth())
+            header.resizeSection(0, max(least, whole - excess))
 
     def _current_changed(self, current: QModelIndex) -> None:
         if current.isValid():

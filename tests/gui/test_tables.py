@@ -93,5 +93,7 @@ def test_columns_give_way_before_the_user_must_scroll(qtbot: QtBot) -> None:
     assert widths[600][0] is False
     assert widths[280] == (True, widths[600][1])
     assert widths[150][0] is True and widths[150][1] < widths[600][1]
+    table.resize(60, 200)  # then sideways, rather than names of nothing but dots
+    assert header.sectionSize(0) > table.fontMetrics().horizontalAdvance("photog")
     assert table.as_csv().splitlines()[0] == "view,change,RMS"
     assert table.model().headerData(2, Qt.Orientation.Horizontal) == "RMS [px]"
