@@ -21,6 +21,7 @@ from calibgui.engine.types import Calibration, Plate, Status
 from calibgui.formats.result import Result
 from calibgui.report import advice, partial
 from calibgui.report.numbers import counted, with_sigma
+from calibgui.report.words import short_name
 
 _GOOD = 1e-3
 _POOR = 5e-3
@@ -245,7 +246,7 @@ def _correlated(result: Result) -> Iterator[Sentence]:
 
 def _outlying(result: Result) -> Iterator[Sentence]:
     for k in outlying_views(result.calibration):
-        name = result.used[k].image
+        name = short_name(result.used[k].image)
         yield Sentence(
             Tone.CAUTION,
             f"{name} fits much worse than the others ({result.calibration.residuals[k].rms:.3f} "
