@@ -21,7 +21,7 @@ CAMERA = scenes.barrel()
 def solved(views: Sequence[Observation], seed: int = 0, left_out: int = 0) -> Result:
     rng = np.random.default_rng(seed)
     noisy = [Observation(v.uv + rng.normal(scale=0.1, size=v.uv.shape), v.xy) for v in views]
-    made = [View(f"{k}.png", ViewStatus.FOUND, points=v) for k, v in enumerate(noisy)]
+    made = [View(f"photographs/{k}.png", ViewStatus.FOUND, points=v) for k, v in enumerate(noisy)]
     made += [View("dark.png", ViewStatus.NO_BOARD, "No board.")] * left_out
     return Result(engine.calibrate(noisy, CAMERA.size), tuple(made))
 
@@ -57,7 +57,7 @@ def test_a_plate_that_noise_feigns_is_told_from_one_that_is_bent() -> None:
 def test_corners_in_one_spot_are_said_to_be() -> None:
     made = in_one_spot(LONG)
     noisy = made.noisy(0.02, np.random.default_rng(0))
-    views = tuple(View(f"photographs/{k}.png", ViewStatus.FOUND, points=v) for k, v in enumerate(noisy))
+    views = tuple(View(f"{k}.png", ViewStatus.FOUND, points=v) for k, v in enumerate(noisy))
     result = Result(engine.calibrate(noisy, made.size), views)
     assert "All corners lie in one spot" in texts(result, Tone.CAUTION)
 
