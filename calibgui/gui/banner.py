@@ -56,6 +56,13 @@ class Banner(QFrame):
             self._row.insertWidget(self._row.count() - 1, button)
             self.buttons.append(button)
 
+    def withdraw(self, text: str) -> None:
+        """Take the question `text` back, shown or covered; others stay."""
+        if self._question is not None and self._question[0] == text:
+            self._question = None
+            if self.text.text() == text:
+                self.hide()
+
     def hide_failure(self) -> None:
         """What could not be done is past; a question stays."""
         if self._failure:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from pathlib import Path
 
 from PySide6.QtCore import QFileInfo, QLocale, QObject
@@ -33,6 +34,18 @@ class Offers(QObject):
         images.thumbnails.found_altered.connect(self._detection)
         images.search_wanted.connect(self._search_again)
         detector.finished.connect(self._look_for_another)
+        self._asked_about, self._asked = session.document, ""
+        session.changed.connect(self._withdraw)
+
+    def _ask(self, text: str, choice: str, does: Callable[[], None]) -> None:
+        """Offer something to do with the project that is open."""
+        self._banner.show_text(text, {choice: does})
+        self._asked_about, self._asked = self._session.document, text
+
+    def _withdraw(self) -> None:
+        """What is offered for one project is not to be done to another."""
+        if self._asked_about is not self._session.document:
+            self._banner.withdraw(self._asked)
 
     def _recovery(self, path: Path) -> None:
         time = QFileInfo(str(autosave_path(path))).lastModified()
@@ -53,19 +66,21 @@ class Offers(QObject):
             self._recovery(path)
 
     def _detection(self, altered: list[str]) -> None:
-        self._banner.show_text(
+        self._ask(
             self.tr(
                 "{0} of {1} images changed since their corners were found, among them {2}."
             ).format(len(altered), len(self._session.project.views), altered[0]),
-            {self.tr("&Detect again"): lambda: self._search_again(altered)},
+            self.tr("&Detect again"),
+            lambda: self._search_again(altered),
         )
 
     def _relocation(self, missing: list[str]) -> None:
-        self._banner.show_text(
+        self._ask(
             self.tr("{0} of {1} images are not where they were, among them {2}.").format(
                 len(missing), len(self._session.project.views), missing[0]
             ),
-            {self.tr("&Locate…"): lambda: self._files.ask_for_moved(missing)},
+            self.tr("&Locate…"),
+            lambda: self._files.ask_for_moved(missing),
         )
 
     def _search_again(self, images: list[str]) -> None:
@@ -114,7 +129,7 @@ class Offers(QObject):
             self._session.edit(self.tr("Pattern"), lambda p: with_pattern(p, pattern))
             self._files.search()
 
-        self._banner.show_text(text, {choice: search})
+        self._ask(text, choice, search)
 
 
 _LOOKED_AT = 2

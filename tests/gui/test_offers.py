@@ -10,6 +10,9 @@ from PySide6.QtCore import Qt
 from pytestqt.qtbot import QtBot
 
 from calibgui.app.detection import other_pattern
+from calibgui.app.document import Document
+from calibgui.app.project import with_images
+from calibgui.engine.errors import CalibrationError
 from calibgui.engine.images import write_image
 from calibgui.engine.targets.charuco import Charuco
 from calibgui.engine.targets.circles import Circles
@@ -49,6 +52,18 @@ def test_the_kind_of_a_board_is_told(
     stated = Charuco() if pattern == CHECKERBOARD else CHECKERBOARD
     found = other_pattern([str(tmp_path / "0.png")], stated)
     assert found == KINDS[pattern.kind]
+
+
+def test_an_offer_ends_with_its_project(window: MainWindow, tmp_path: Path) -> None:
+    gone = str(tmp_path / "gone.png")
+    window.files.images_missing.emit([gone])
+    window.banner.show_error(CalibrationError("Something else."))
+    window.banner.dismiss.click()
+    assert "gone.png" in window.banner.text.text()
+    window.session.edit("Images", lambda project: with_images(project, [gone]))
+    assert window.banner.isVisible()
+    window.session.begin(Document())
+    assert not window.banner.isVisible()
 
 
 def test_circles_are_searched_for_with_one_click(

@@ -194,8 +194,8 @@ class Circles:
         instead = ", but one of {} x {}".format(*largest.shape) if largest.size else ""
         raise NoBoardError(
             f"No grid{which} circles was found{instead}.",
-            "All of it must be in view, sharp and evenly lit, with white around it. Check the"
-            " numbers of rows and columns.",
+            "All of it must be in view, sharp and evenly lit, with white around it."
+            + (" Check the numbers of rows and columns." if board else ""),
         )
 
     def _numbered(self, dense: Array, xy: Array, outline: Array | None) -> Array:

@@ -60,12 +60,15 @@ def arranged(points: Array, board: Board | None, *, asymmetric: bool) -> IntArra
     if len(points) < _LINES**2:
         return None
     best = _NONE
+    fewest = _LEAST if board is None else min(_LEAST, board[0] * board[1])
     tree = scipy.spatial.cKDTree(points)
     for seed in _nearest(tree, np.median(points, axis=0), _SEEDS):
         if seed in best:
             continue
         for start in _corners(seed, points, tree):
             placed = _grown(start, points, tree)
+            if len(placed) < fewest:
+                continue
             for counted in _countings(placed, asymmetric=asymmetric):
                 if board is not None:
                     stated = _window(counted, board, asymmetric=asymmetric)
