@@ -209,8 +209,12 @@ def _determined(result: Result) -> Iterator[Sentence]:
     if poor := [n for n in lengths if relative[n] > _POOR]:
         yield Sentence(
             Tone.CAUTION,
-            f"Badly determined: {listed(poor)} px. Add views with the board tilted by 30 to 45 "
-            "degrees in different directions.",
+            f"Badly determined: {listed(poor)} px. "
+            + (
+                "Estimate the plate."
+                if calibration.plate_doubt > 0
+                else "Add views with the board tilted by 30 to 45 degrees in different directions."
+            ),
         )
     coefficients = [n for n in names[4:] if n in free and n not in missing]
     away = np.abs(camera.params) / np.where(sigma > 0, sigma, np.inf)

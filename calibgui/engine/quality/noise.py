@@ -6,16 +6,17 @@ it would explain (``patterns.py``); from few parameters to many,
 
 squares     the board's squares are not as wide as high, or askew
 bow         the board is bowed
-rows        a shift from row to row, each view's own
+focus       a focal length of each view's own
+bending     a curved board, each view's own
+rows        a steady motion while the rows are read, each view's own
 lens        a smooth displacement of the image that all views share
-bending     a quadratic displacement, each view's own
 lines       a shift along the rows that wanders from row to row, each view's own
 board       corners of the board that are not where they should be
 
 and then
 
-views       Bartlett's test of the views' variances, chi^2(K - 1)
 shape       kurtosis of the residuals over their view's sigma
+views       Bartlett's test of the views' variances, chi^2(K - 1)
 neighbours  correlation of the residuals of neighbouring corners, SD 1 / sqrt(2 pairs)
 directions  covariance C of the residuals is isotropic: -n ln(4 det C / tr^2 C) ~ chi^2(2)
 
@@ -44,6 +45,7 @@ from calibgui.engine.quality.patterns import Fitted
 from calibgui.engine.quality.statistics import summarise
 from calibgui.engine.types import (
     Array,
+    BoolArray,
     Calibration,
     Observation,
     PlateModel,
@@ -72,6 +74,18 @@ _PATTERNS: tuple[tuple[str, Callable[[Fitted], patterns.Explained], str], ...] =
         "The board is bowed: mount it on something stiff, or estimate the plate (bow).",
     ),
     (
+        "focus",
+        patterns.by_focus,
+        "The focal length differs between the views: switch autofocus and stabilisation off, and "
+        "do not touch zoom and focus.",
+    ),
+    (
+        "bending",
+        patterns.by_bending,
+        "The board bends from view to view, as paper in the hand does: mount it on something "
+        "stiff.",
+    ),
+    (
         "rows",
         patterns.by_rows,
         "Camera or board moved while a rolling shutter read the rows: put both on a stand, or "
@@ -81,13 +95,7 @@ _PATTERNS: tuple[tuple[str, Callable[[Fitted], patterns.Explained], str], ...] =
         "lens",
         patterns.by_lens,
         "The lens model does not follow this lens: free the coefficients that are held, or use "
-        "another model. Zoom and focus must not change between views.",
-    ),
-    (
-        "bending",
-        patterns.by_bending,
-        "The board bends from view to view, as paper in the hand does: mount it on something "
-        "stiff.",
+        "another model.",
     ),
     (
         "lines",
@@ -191,8 +199,8 @@ def examine(
     return NoiseReport(
         (
             *checks,
+            _shape(r, sigma, seen),
             _views(sigma, _freedom(fit), names),
-            _shape(relative[seen]),
             _neighbours(relative, fit.observations),
             _directions(r[seen]),
         ),
@@ -217,12 +225,14 @@ def _pattern(name: str, found: patterns.Explained, rms: float, advice: str) -> C
     return Check(name, passed, finding, advice, 0.0 if passed else found.share)
 
 
-def _shape(relative: Array) -> Check:
-    """Gaussian or not, from residuals (n, 2) of unit variance."""
-    square = np.sum(relative**2, axis=1)
+def _shape(residual: Array, sigma: Array, seen: BoolArray) -> Check:
+    """Gaussian or not, from residuals (K, N, 2) where seen (K, N) over those of their view (K,)."""
+    relative = (residual / sigma[:, None, None])[seen]
     excess = float(np.mean(relative**4) / np.mean(relative**2) ** 2 - 3)
+    square = np.sum(residual**2, axis=-1)
     # The median's square is 2 ln 2 sigma^2, which outliers do not move.
-    far = square > _OUTLIER**2 * np.median(square) / (2 * np.log(2))
+    usual = np.nanmedian(np.where(seen, square, np.nan), axis=1) / (2 * np.log(2))
+    far = seen & (square > _OUTLIER**2 * usual[:, None])
     harmless = excess > 0 and not far.any()
     passed = harmless or bool(scipy.stats.kurtosistest(relative.ravel()).pvalue >= _CHANCE)
     return Check(
@@ -230,7 +240,7 @@ def _shape(relative: Array) -> Check:
         passed,
         f"excess kurtosis {excess:+.2f}",
         _OUTLIERS if excess > 0 else _ROUNDED,
-        0.0 if passed else float(square[far].sum() / square.sum()),
+        0.0 if passed else float(square[far].sum() / square[seen].sum()),
     )
 
 

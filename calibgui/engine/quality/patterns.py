@@ -167,19 +167,53 @@ def by_lens(fit: Fitted) -> Explained:
     return _shared(normal_equations(extended, fit.state, np.arange(count)), fit)
 
 
-def by_rows(fit: Fitted) -> Explained:
-    """By a shift that grows from row to row, another in each view: a rolling shutter's."""
-    return _own(fit, lambda x: x[..., 1:])
+def by_focus(fit: Fitted) -> Explained:
+    """By a focal length of each view's own."""
+
+    def columns(_: Linearised, weight: Array, views: slice) -> Array:
+        return np.asarray(weight @ (fit.predicted(views) - fit.camera.centre)[..., None])
+
+    return _own(fit, columns)
 
 
 def by_bending(fit: Fitted) -> Explained:
-    """By a displacement that is quadratic over the image, another in each view."""
-    return _own(fit, lambda x: np.stack([x[..., 0] ** 2, np.prod(x, -1), x[..., 1] ** 2], axis=-1))
+    """By corners that lie off the plate, quadratic over it, another way in each view."""
+    xy = fit.observations.xy[..., :2]
+    places = xy[fit.observations.mask > 0]
+    low, high = places.min(axis=0), places.max(axis=0)
+
+    def columns(linear: Linearised, _: Array, views: slice) -> Array:
+        x, y = np.moveaxis((2 * xy[views] - low - high) / (high - low), -1, 0)
+        by_height = linear.by_pose[..., 3:] @ fit.state.R[views, None, :, 2:]
+        return by_height * np.stack([x * x, x * y, y * y], axis=-1)[..., None, :]
+
+    return _own(fit, columns)
+
+
+def by_rows(fit: Fitted) -> Explained:
+    """By a motion of each view's own, steady while the rows are read: a rolling shutter's."""
+
+    def columns(linear: Linearised, _: Array, views: slice) -> Array:
+        return linear.by_pose * _rows(fit, views)[..., None, None]
+
+    return _own(fit, columns)
 
 
 def by_lines(fit: Fitted) -> Explained:
     """By a shift along the rows that wanders from row to row, another in each view."""
-    return _own(fit, lambda x: np.maximum(1 - np.abs(x[..., 1:] / _LINES - _KNOTS), 0.0), (0,))
+
+    def columns(_: Linearised, weight: Array, views: slice) -> Array:
+        rows = _rows(fit, views)[..., None]
+        hats = np.maximum(1 - np.abs(rows / _LINES - _KNOTS), 0.0)
+        return np.asarray(weight[..., :1] * hats[..., None, :])
+
+    return _own(fit, columns)
+
+
+def _rows(fit: Fitted, views: slice) -> Array:
+    """(k, N) rows of some views' corners from their mean, over the image's longer side."""
+    row = fit.predicted(views)[..., 1] / max(fit.camera.size)
+    return np.asarray(row - row.mean(axis=1, keepdims=True))
 
 
 def _shared(normal: NormalEquations, fit: Fitted) -> Explained:
@@ -203,30 +237,28 @@ def _reduction(N: Array, b: Array) -> tuple[float, int]:
     return float(np.sum((b @ vectors[:, good]) ** 2 / values[good])), int(good.sum())
 
 
-def _own(
-    fit: Fitted, functions: Callable[[Array], Array], axes: Sequence[int] = (0, 1)
-) -> Explained:
-    """The score test of displacements by functions of the place x (k, N, 2) in each view.
+def _own(fit: Fitted, columns: Callable[[Linearised, Array, slice], Array]) -> Explained:
+    """The score test of columns that each view has of its own.
 
-    `axes`: u, v or both, along which the displacements are.
+    Args:
+        fit: what they are to explain.
+        columns: their derivatives (k, N, 2, m), from the fit's own at some views, the weights
+            (k, N, 2, 2) there, and the views.
     """
     T, rank, cost = 0.0, 0, 0.0
     for views in chunks(len(fit.state.R)):
-        r, _, by_pose = fit.linear(views)
-        k = len(r)
-        place = fit.predicted(views) / max(fit.camera.size) - 0.5
-        f = functions(place - place.mean(axis=1, keepdims=True))[..., None, :]
-        weight = fit.weight(views)
-        X = np.concatenate([weight[..., [axis]] * f for axis in axes], axis=-1)
-        Jp, X = (M.reshape(k, -1, M.shape[-1]) for M in (by_pose, X))
+        linear = fit.linear(views)
+        k = len(linear.residual)
+        X = columns(linear, fit.weight(views), views)
+        Jp, X = (M.reshape(k, -1, M.shape[-1]) for M in (linear.by_pose, X))
         # Columns that no corner depends on would be divided by 0.
         Jp, X = (M / np.maximum(np.linalg.norm(M, axis=1, keepdims=True), 1e-12) for M in (Jp, X))
         Q = np.linalg.qr(Jp)[0]
         X = X - Q @ (np.swapaxes(Q, 1, 2) @ X)
-        N, b = np.swapaxes(X, 1, 2) @ X, np.swapaxes(X, 1, 2) @ r.reshape(k, -1, 1)
+        N, b = np.swapaxes(X, 1, 2) @ X, np.swapaxes(X, 1, 2) @ linear.residual.reshape(k, -1, 1)
         for one in map(_reduction, N, b[..., 0]):
             T, rank = T + one[0], rank + one[1]
-        cost += float(np.sum(r**2))
+        cost += float(np.sum(linear.residual**2))
     return explained(T, rank, cost, fit.freedom)
 
 

@@ -5,8 +5,9 @@ projection, from random sets of the views at hand and from well-chosen ones
 (``view_design.py``). Well-chosen sets are grown: the view is added that lowers the loss most;
 then, as long as that helps, the view that is missed least is exchanged for the best other
 (Fedorov's exchange). And, as a check that assumes nothing, random sets are calibrated in
-earnest: their estimates scatter about the one from all K views with a variance that is
-(1 - n / K) of the true one, because they share views with it.
+earnest, each with a plate of its own where one is estimated: their estimates scatter about the
+one from all K views with a variance that is (1 - n / K) of the true one, because they share views
+with it.
 """
 
 from __future__ import annotations
@@ -171,8 +172,8 @@ def _scatter(
     K = len(views)
     sigma = np.full((len(counts), 2), np.nan)
     settings = settings_of(calibration)
-    if calibration.cost is Cost.IMAGE:
-        settings["plate"] = calibration.plate or as_drawn(views)
+    if calibration.cost is Cost.IMAGE and calibration.plate is None:
+        settings["plate"] = as_drawn(views)
     sizes = [i for i, n in enumerate(counts) if _FEWEST <= n < K]
     for done, i in enumerate(sizes):
         n = int(counts[i])

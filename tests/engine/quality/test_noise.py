@@ -30,12 +30,14 @@ def _solid(pose: Pose, board: Array) -> Array:
     return pixels(p[:, :2] / p[:, 2:], SCENE.camera)
 
 
-def _rolling(pose: Pose, velocity: Array) -> Array:
-    """(n, 2) the image while the board moves by `velocity`, mm from the first row to the last."""
+def _rolling(pose: Pose, velocity: Array, spin: Array) -> Array:
+    """(n, 2) the image while the board moves by `velocity`, mm from the first row to the last, and
+    turns about its middle by `spin`."""
     uv = _solid(pose, np.hstack([XY, Z]))
     p = np.hstack([XY, Z]) @ frames.rotation(pose.rvec).T + pose.tvec
+    motion = velocity + np.cross(spin, p - p.mean(axis=0))
     for _ in range(5):
-        q = p + (uv[:, 1:] / SIZE[1] - 0.5) * velocity
+        q = p + (uv[:, 1:] / SIZE[1] - 0.5) * motion
         uv = pixels(q[:, :2] / q[:, 2:], SCENE.camera)
     return uv
 
@@ -46,8 +48,12 @@ def _images(fault: str, rng: np.random.Generator) -> list[Array]:
         "none": lambda pose: _solid(pose, np.hstack([XY, Z])),
         "squares": lambda pose: _solid(pose, np.hstack([XY * [1.003, 1.0], Z])),
         "bow": lambda pose: _solid(pose, np.hstack([XY, 0.5 * BOW])),
-        "rows": lambda pose: _rolling(pose, rng.normal(scale=0.5, size=3)),
+        "rows": lambda pose: _rolling(pose, *rng.normal(scale=[[0.5], [0.002]], size=(2, 3))),
         "bending": lambda pose: _solid(pose, np.hstack([XY, rng.normal() * BOW])),
+        "focus": lambda pose: (
+            SCENE.camera.centre
+            + (_solid(pose, np.hstack([XY, Z])) - SCENE.camera.centre) * rng.normal(1, 0.005)
+        ),
     }
     if fault == "board":
         true = np.hstack([XY, Z]) + rng.normal(scale=0.1, size=(len(XY), 3))
@@ -64,11 +70,12 @@ def _images(fault: str, rng: np.random.Generator) -> list[Array]:
     return [bent[fault if fault in bent else "none"](pose) for pose in poses]
 
 
+@pytest.mark.parametrize("seed", range(3))
 @pytest.mark.parametrize(
-    "fault", ["squares", "bow", "rows", "bending", "lines", "board", "views", "lens"]
+    "fault", ["squares", "bow", "focus", "bending", "rows", "lines", "board", "views", "lens"]
 )
-def test_a_fault_is_named(fault: str) -> None:
-    rng = np.random.default_rng(0)
+def test_a_fault_is_named(fault: str, seed: int) -> None:
+    rng = np.random.default_rng(seed)
     views = [
         Observation(uv + rng.normal(scale=0.1, size=uv.shape), XY) for uv in _images(fault, rng)
     ]
@@ -85,15 +92,16 @@ def test_outliers_and_rounding_are_told_apart() -> None:
     report = examine(calibrate(rounded, SIZE), rounded)
     assert report.cause is not None
     assert "rounded" in report.cause.advice
-    displaced = SCENE.noisy(0.1, rng)
-    for k, view in enumerate(displaced):
-        uv = np.array(view.uv)
-        uv[rng.integers(len(uv))] += 3.0
-        displaced[k] = view._replace(uv=uv)
-    report = examine(calibrate(displaced, SIZE), displaced)
-    assert report.cause is not None
-    assert report.cause.name == "shape"
-    assert "misplaced" in report.cause.advice
+    for spoilt in (12, 3):  # views: a few with misplaced corners are not blurred
+        displaced = SCENE.noisy(0.1, rng)
+        for k, view in enumerate(displaced[:spoilt]):
+            uv = np.array(view.uv)
+            uv[rng.integers(len(uv))] += 3.0
+            displaced[k] = view._replace(uv=uv)
+        report = examine(calibrate(displaced, SIZE), displaced)
+        assert report.cause is not None
+        assert report.cause.name == "shape"
+        assert "misplaced" in report.cause.advice
 
 
 def test_blurred_views_are_listed_and_weigh_less() -> None:
@@ -183,4 +191,4 @@ def test_it_can_be_abandoned() -> None:
 
     with pytest.raises(Cancelled):
         examine(calibrate(SCENE.views, SIZE), SCENE.views, progress=twice)
-    assert told == [(0, 7), (1, 7)]
+    assert told == [(0, 8), (1, 8)]

@@ -69,6 +69,17 @@ def test_calibrated_sets_scatter_as_predicted() -> None:
     assert 0.85 < np.median(ratio) < 1.15
 
 
+@pytest.mark.slow
+def test_every_calibrated_set_estimates_its_own_plate() -> None:
+    """Sets that were given the plate of all views would hardly scatter by what it leaves open."""
+    views = scene(barrel(), 12, seed=1).noisy(0.2, np.random.default_rng(2))
+    found = study(calibrate(views, SIZE, plate="free"), views, solved=12)
+    carried = found.counts[:-1] >= 6
+    assert np.isnan(found.scatter[:-1][~carried]).all()
+    ratio = found.scatter[:-1][carried] / found.random[:-1, 1, :2][carried]
+    assert (ratio.mean(axis=0) > 0.85).all()
+
+
 def test_too_few_views_for_a_study() -> None:
     whole, views = _calibrated(3)
     with pytest.raises(CalibrationError, match="too few"):
