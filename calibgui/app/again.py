@@ -22,6 +22,7 @@ from calibgui.engine.corners.reextract import find_again
 from calibgui.engine.errors import CalibrationError
 from calibgui.engine.images import read_image
 from calibgui.engine.imaging.maps import project_points
+from calibgui.engine.quality.counting import turned_alike
 from calibgui.engine.quality.repetition import settings_of
 from calibgui.engine.targets.pattern import CHECKERBOARD
 from calibgui.engine.types import (
@@ -30,6 +31,7 @@ from calibgui.engine.types import (
     Calibration,
     Corners,
     Cost,
+    Observation,
     PlateModel,
     Pose,
     Report,
@@ -46,6 +48,7 @@ _FEW = 6
 """Images up to which starting other processes takes longer than searching."""
 _BORDER = 8.0
 """Width of the image's border in which no corner is missed, px."""
+_COUNTED = "Its corners are counted as the board's deviations from its drawing tell."
 
 
 def calibrate_twice(
@@ -53,6 +56,7 @@ def calibrate_twice(
     settings: Settings = USUAL,
     report: Report | None = None,
     stop: Event | None = None,
+    search: bool = True,
 ) -> Result:
     """Calibrate; unless asked for once, search again, count all views alike, and calibrate again
     if that changed any.
@@ -61,6 +65,7 @@ def calibrate_twice(
         corner_set, settings: as for ``calibrate_views``.
         report: told of the iterations of both.
         stop: abandons the search when set.
+        search: whether images may be searched again.
 
     Raises:
         CalibrationError: as ``calibrate_views``.
@@ -71,13 +76,14 @@ def calibrate_twice(
     ended = calibration.status is Status.STOPPED or calibration.diagnosis is not None
     if settings.once or ended:
         return result
-    more, said = search_again(corner_set, result, stop)
+    more, said = search_again(corner_set, result, stop) if search else (corner_set, ())
     if said:
         result = calibrate_views(more, settings, report)
     alike = counted_alike(result)
     if _same_places(alike, result.views):
         result = replace(result, views=alike)
     else:
+        said = (*said, *_turned(alike, result.views))
         result = calibrate_views(replace(more, views=alike), settings, report)
     warnings = (*result.calibration.warnings, *said)
     return replace(result, calibration=replace(result.calibration, warnings=warnings))
@@ -124,23 +130,54 @@ def counted_alike(result: Result) -> tuple[View, ...]:
     """The views of a result with their corners counted alike, as far as that is open and the
     board's deviations from its drawing tell how."""
     target, used = result.target, result.used
+    if result.calibration.cost is not Cost.IMAGE:
+        return result.views
+    if all(view.points is not None for view in used):
+        if result.calibration.plate is None:
+            return result.views  # which does not notice
+        turned = turned_alike(_on_nominal_plate(result), result.observations())
+        told = dict(zip(map(id, used), turned, strict=True))
+        return tuple(_turned_to(view, told.get(id(view))) for view in result.views)
     corners = [view.corners for view in used if view.corners is not None and view.points is None]
     if (
         target is None
         or target.pattern != CHECKERBOARD
         or len(corners) < len(used)
         or not any(map(_is_open, corners))
-        or result.calibration.cost is not Cost.IMAGE
     ):
         return result.views
-    nominal = result.calibration
-    if nominal.plate is not None:
-        settings = {**settings_of(nominal), "plate": PlateModel.NOMINAL}
-        nominal = calibrate(result.observations(), nominal.camera.size, **settings)
-    placed = dict(zip(map(id, used), identified(nominal, corners, target), strict=True))
+    placings = identified(_on_nominal_plate(result), corners, target)
+    placed = dict(zip(map(id, used), placings, strict=True))
     return tuple(
         _counted(view, placed[id(view)]) if id(view) in placed else view for view in result.views
     )
+
+
+def _on_nominal_plate(result: Result) -> Calibration:
+    """Of the same views."""
+    calibration = result.calibration
+    if calibration.plate is None:
+        return calibration
+    settings = {**settings_of(calibration), "plate": PlateModel.NOMINAL}
+    return calibrate(result.observations(), calibration.camera.size, **settings)
+
+
+def _turned_to(view: View, points: Observation | None) -> View:
+    """The view with its corners at other places, if they are others."""
+    if points is None or points is view.points:
+        return view
+    return replace(view, points=points, note=f"{view.note} {_COUNTED}".lstrip())
+
+
+def _turned(after: Sequence[View], before: Sequence[View]) -> Iterator[str]:
+    """A sentence on the views whose corners were not counted by this program and are turned."""
+    pairs = zip(after, before, strict=True)
+    turned = [new for new, old in pairs if new is not old and new.points is not None]
+    if turned:
+        yield (
+            f"The board is counted from the wrong end in {', '.join(short_names(turned))}, as its "
+            "deviations from its drawing tell; there it is turned round."
+        )
 
 
 def _same_places(one: Sequence[View], other: Sequence[View]) -> bool:
@@ -165,8 +202,7 @@ def _counted(view: View, placing: Placing) -> View:
     corners = replace(corners, grid=placing.grid, relative=False, ambiguity=Ambiguity.NONE)
     if as_before:
         return replace(view, corners=corners)
-    note = f"{view.note} Its corners are counted as the board's deviations from its drawing tell."
-    return replace(view, corners=corners, note=note.lstrip())
+    return replace(view, corners=corners, note=f"{view.note} {_COUNTED}".lstrip())
 
 
 def view_again(view: View, calibration: Calibration, board: Board) -> View:

@@ -14,7 +14,7 @@ from calibgui.app.marking import removed
 from calibgui.app.settings import USUAL, Settings
 from calibgui.engine.errors import CalibrationError, Cancelled, DegenerateError
 from calibgui.engine.estimation.degeneracy import copies
-from calibgui.engine.quality.screening import screen
+from calibgui.engine.quality.screening import screen, upside_down
 from calibgui.engine.quality.validation import choose_plate
 from calibgui.engine.quality.view_weights import calibrate_weighted
 from calibgui.engine.threads import one_blas_thread
@@ -246,7 +246,20 @@ def _screened(
             view = _without(view, lost)
             sentences.append(f"{name} loses {counted(len(lost), 'corner')}, {rejected.reason}.")
         views[places[rejected.view]] = view
+    kept = [(used[k], names[k]) for k, good in enumerate(screening.kept) if good.any()]
+    against = [kept[k] for k in upside_down(screening.calibration.poses).tolist()]
+    if unsure := [name for view, name in against if _turn_is_open(view)]:
+        sentences.append(
+            f"The board is upside down in {', '.join(unsure)}, as its corners are counted. If the "
+            "photograph does not show it so, they are counted from the wrong end; only an "
+            "estimated plate would notice."
+        )
     return tuple(views), tuple(sentences)
+
+
+def _turn_is_open(view: View) -> bool:
+    """Whether the board might be turned: nothing is known of its colours, or they do not tell."""
+    return view.corners is None or view.corners.ambiguity is not Ambiguity.NONE
 
 
 def _without(view: View, lost: IntArray) -> View:

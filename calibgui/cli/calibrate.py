@@ -133,13 +133,14 @@ def run(options: argparse.Namespace, console: Console) -> None:
         prior=options.prior,
         robust=options.robust,
         weigh_views=options.weigh_views,
-        once=options.once or is_corners_file(options.paths),
+        once=options.once,
     )
     corner_set = _corner_set(options, console)
     try:
         preparing = f"Preparing the solver for its first use (once, about {SOLVER_SECONDS} s)…"
         with when_compiling(lambda: console.notice(preparing)):
-            result = calibrate_twice(corner_set, settings)
+            search = not is_corners_file(options.paths)
+            result = calibrate_twice(corner_set, settings, search=search)
     except CalibrationError:
         if unused := tables.unused(corner_set.views):
             console.problem(unused)

@@ -12,9 +12,11 @@ from calibgui.app.again import calibrate_twice, search_again, view_again
 from calibgui.app.calibration import calibrate_views
 from calibgui.app.detection import find_views
 from calibgui.app.settings import Settings
+from calibgui.engine.calibrate import calibrate
 from calibgui.engine.images import read_image, write_image
-from calibgui.engine.types import Corners, Cost, View, ViewStatus
+from calibgui.engine.types import Corners, Cost, PlateModel, Target, View, ViewStatus
 from calibgui.formats.corners_json import CornerSet
+from calibgui.formats.result import Result
 from tests import photographs
 from tests.engine import scenes
 from tests.photographs import BOARD, CAMERA
@@ -82,3 +84,31 @@ def test_an_image_that_is_gone_stays_as_it_was(damaged: CornerSet, tmp_path: Pat
     gone = View(str(tmp_path / "gone.png"), ViewStatus.NO_BOARD, "No board.")
     calibration = calibrate_views(damaged).calibration
     assert view_again(gone, calibration, SHAPE) is gone
+
+
+def test_boards_counted_from_the_wrong_end_are_named() -> None:
+    """By the deviations of an estimated board, and where these say nothing by its place."""
+    camera, board, turned = scenes.barrel(), Target(6, 9, 30.0), (2, 5)
+
+    def result(deviation: float, plate: PlateModel) -> Result:
+        made = scenes.uneven(camera, board, 10, deviation, turned)
+        views = tuple(
+            View(f"{k}.png", ViewStatus.FOUND, points=view) for k, view in enumerate(made)
+        )
+        settings = Settings(plate=plate, robust=True)
+        return calibrate_twice(CornerSet(camera.size, views), settings)
+
+    found = result(0.3, PlateModel.FREE)
+    told = [text for text in found.calibration.warnings if "wrong end" in text]
+    assert len(told) == 1
+    assert "wrong end in 2.png, 5.png, as its deviations" in told[0]
+    for k, view in enumerate(found.views):
+        assert (view.note != "") == (k in turned)
+    clean = calibrate(scenes.uneven(camera, board, 10, 0.3), camera.size, plate="free")
+    apart = np.abs(found.calibration.camera.params - clean.camera.params)
+    assert (apart <= 1e-6 * np.maximum(clean.sigma, 1.0)).all()
+
+    for plate in (PlateModel.NOMINAL, PlateModel.FREE):
+        told = [text for text in result(0.0, plate).calibration.warnings if "wrong end" in text]
+        assert len(told) == 1
+        assert "upside down in 2.png, 5.png" in told[0]

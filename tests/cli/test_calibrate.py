@@ -46,7 +46,8 @@ def test_every_setting_has_its_option(corners_file: Path, monkeypatch: pytest.Mo
     """The window offers the same record: see tests/gui/test_settings_panel.py."""
     asked: list[Settings] = []
 
-    def noted(_: object, settings: Settings) -> None:
+    def noted(_: object, settings: Settings, search: bool) -> None:
+        assert not search  # of a corners file the images stay out
         asked.append(settings)
         raise CalibrationError("noted", "")
 
@@ -62,6 +63,7 @@ def test_every_setting_has_its_option(corners_file: Path, monkeypatch: pytest.Mo
         "free",
         "--prior",
         "0.1,0.3",
+        "--once",
     ]
     main(["calibrate", str(corners_file), *options])
     main(["calibrate", str(corners_file), "--cost", "reference"])

@@ -131,6 +131,22 @@ def scene(
     return seen(camera, [looking(camera, rng, tilt) for _ in range(count)])
 
 
+def uneven(
+    camera: Camera, board: Target, count: int, deviation: float, turned: Sequence[int] = ()
+) -> list[Observation]:
+    """Views, with 0.1 px of noise, of a board whose corners are off in the plane, mm; in some
+    (`turned`) the corners are listed from the other end."""
+    rng = np.random.default_rng(count)
+    xy = board.points()
+    off = rng.normal(scale=deviation, size=xy.shape)
+    views = []
+    for k in range(count):
+        pose = looking(camera, rng, fill=(0.6, 0.8), board=board)
+        uv = imaged(camera, pose, xy + off) + rng.normal(scale=0.1, size=xy.shape)
+        views.append(Observation(uv[::-1] if k in turned else uv, xy))
+    return views
+
+
 def stored(file: Path) -> tuple[list[Observation], Size]:
     """The corners of one of the real data sets, and the size of its images."""
     content = json.loads(file.read_text())
