@@ -61,6 +61,9 @@ _GAIN = 1.1
 _OUTLIER = 4.5
 """Length, in sigma, that one good corner in 25,000 has."""
 
+_INFLATED = 1.5
+"""Of a view's rms over what its median says, from which a few corners are taken to cause it."""
+
 _PATTERNS: tuple[tuple[str, Callable[[Fitted], patterns.Explained], str], ...] = (
     (
         "squares",
@@ -230,9 +233,10 @@ def _shape(residual: Array, sigma: Array, seen: BoolArray) -> Check:
     relative = (residual / sigma[:, None, None])[seen]
     excess = float(np.mean(relative**4) / np.mean(relative**2) ** 2 - 3)
     square = np.sum(residual**2, axis=-1)
-    # The median's square is 2 ln 2 sigma^2, which outliers do not move.
-    usual = np.nanmedian(np.where(seen, square, np.nan), axis=1) / (2 * np.log(2))
-    far = seen & (square > _OUTLIER**2 * usual[:, None])
+    # The median's square is 2 ln 2 sigma^2, which outliers do not move as they do a view's rms.
+    median = np.nanmedian(np.where(seen, square, np.nan), axis=1) / (2 * np.log(2))
+    over = square / np.minimum(sigma**2, _INFLATED**2 * median)[:, None]
+    far = seen & (over > _OUTLIER**2 * np.median(over[seen]) / (2 * np.log(2)))
     harmless = excess > 0 and not far.any()
     passed = harmless or bool(scipy.stats.kurtosistest(relative.ravel()).pvalue >= _CHANCE)
     return Check(
