@@ -34,10 +34,12 @@ is; the jackknife
 allows for each view's leverage in full (Bell and McCaffrey 2002: CR3), and is on the safe side
 by the little that a sum of few squares asks for. Where one view alone determines a parameter it
 would be without bounds; so nine tenths of the view are left out, (1 - 0.9 Rk)^-1 h_k, which is
-the same to first order and for noise at most three times the variance. The columns of an
-estimated plate, whose leverage l = Q / (2N - 6K) is about alike in all views, are allowed for
-by 1 / (1 - l). Of the two covariances the larger is reported in each direction of the
-parameters: with C = L L^T the model's and L^-1 cov L^-T = sum_i v_i u_i u_i^T, C becomes
+the same to first order and for noise at most three times the variance. An estimated plate has a
+leverage of its own, l = Q / (2N - 6K), about alike in all views: of noise's variance it leaves
+1 - l in X, and the jackknife's residuals are 1 / (1 - l) of those that are left.
+
+Of the two covariances the larger is reported in each direction of the parameters: with C = L L^T
+the model's and L^-1 cov L^-T = sum_i v_i u_i u_i^T, C becomes
 L (1 + sum_i max(v_i - 1, 0) u_i u_i^T) L^T. Poses and plate follow the camera as they do in the
 model. The cost is one more pass over the views.
 
@@ -92,7 +94,7 @@ def with_view_scatter(estimate: Estimate, model: str, free: IntArray) -> Estimat
     if scipy.special.fdtrc(n, 2 * corners - 6 * K - P - estimate.plate_unknowns, X) > _CHANCE:
         return estimate
     moved = np.linalg.solve(np.eye(P) - _LEFT_OUT * R, h[..., None])[..., 0] @ unit.T
-    clustered = moved.T @ moved * (K - 1) / K / (1 - leverage)
+    clustered = moved.T @ moved * (K - 1) / K / (1 - leverage) ** 2
     added = _excess(clustered, estimate.camera)
     turn = uncertainty.pose_by_local(frames.rotation_vector(estimate.state.R)) @ G
     return estimate._replace(
