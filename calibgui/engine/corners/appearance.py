@@ -58,14 +58,16 @@ class Look:
     ) -> tuple[BoolArray, Array]:
         """Which of the points have it, arguments as for `sectors`; and the gap (n,) between their
         dark and bright sectors, grey levels."""
-        gap, contrast = sectors(image, uv, right, down, dark)
+        alternate, gap = self.alternate(image, uv, right, down, dark)
         unlike = 1 - np.mean(_surroundings(image, uv, right, down, dark) * self.pattern, axis=1)
-        has = (
-            (gap > _CLEAR * contrast)
-            & (contrast > _WEAKEST * self.contrast)
-            & (unlike <= max(_UNLIKE, _UNUSUAL * self.unlike))
-        )
-        return has, gap
+        return alternate & (unlike <= max(_UNLIKE, _UNUSUAL * self.unlike)), gap
+
+    def alternate(
+        self, image: Image, uv: Array, right: Array, down: Array, dark: BoolArray
+    ) -> tuple[BoolArray, Array]:
+        """The same for points whose sectors alternate, whatever else their look."""
+        gap, contrast = sectors(image, uv, right, down, dark)
+        return (gap > _CLEAR * contrast) & (contrast > _WEAKEST * self.contrast), gap
 
     def contradicted(
         self, image: Image, uv: Array, right: Array, down: Array, dark: BoolArray

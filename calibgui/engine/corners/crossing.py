@@ -36,16 +36,17 @@ _PLAIN = 0.005
 """... and of what is near the corner with those that do not overlap, where things are printed."""
 
 
-def crossed(lattice: Lattice, image: Image) -> bool:
-    """Whether the typical corner of `lattice` is the crossing of two edges in `image`."""
+def crossed(lattice: Lattice, image: Image, bare: bool) -> bool:
+    """Whether the typical corner of `lattice` is the crossing of two edges in `image`: as far as
+    its squares are of one colour, which they are throughout if they are `bare`."""
     near = typical(lattice, image, _NEAR).pattern
     if _unlike(near, _crossings(_NEAR)) > _UNLIKE:
         return False
-    return empty(lattice, image) or _unlike(near, _crossings(_NEAR, overlap=False)) <= _PLAIN
+    return bare or _unlike(near, _crossings(_NEAR, overlap=False)) <= _PLAIN
 
 
 def empty(lattice: Lattice, image: Image) -> bool:
-    """Whether it is so as far as its squares reach: nothing is printed in them."""
+    """Whether it is one as far as its squares reach: nothing is printed in them."""
     return _unlike(typical(lattice, image, _FAR).pattern, _crossings(_FAR)) <= _UNLIKE
 
 

@@ -68,9 +68,6 @@ class Fit:
     """(n, 2, 2) of c, px^2."""
     residual: Array
     """(n,) standard deviation of what the model leaves unexplained, grey levels."""
-    spreads: Array
-    """(n, 2) growth of the dark squares on every side that each edge shows, squares, where it is
-    clear: NaN elsewhere."""
 
     @property
     def uv(self) -> Array:
@@ -106,7 +103,7 @@ def fit(
     found = lattice.found
     uv = lattice.uv[found]
     board = Surroundings(found, uv) if geometry is None else Foreseen(found, uv, geometry)
-    edges, spreads = _start(image, lattice, board, plain)
+    edges = _start(image, lattice, board, plain)
     near = replace(edges, arm=np.minimum(edges.arm, _NEAR))
     products, _ = normal_equations(image, near)(near)
     first, _, _ = _step(near, products)
@@ -117,14 +114,11 @@ def fit(
     products, odd_part = equations(edges)
     edges, inverse, square = _step(edges, products)
     noise = _noise(square, odd_part())
-    return Fit(edges, noise[:, None, None] * inverse, np.sqrt(square), spreads)
+    return Fit(edges, noise[:, None, None] * inverse, np.sqrt(square))
 
 
-def _start(
-    image: Image, lattice: Lattice, board: Surroundings, plain: float
-) -> tuple[Edges, Array]:
-    """Parameters from the lattice and from profiles across the edges, and the spreads (n, 2) that
-    these show."""
+def _start(image: Image, lattice: Lattice, board: Surroundings, plain: float) -> Edges:
+    """Parameters from the lattice and from profiles across the edges."""
     found = lattice.found
     cells = np.argwhere(found)
     n = len(cells)
@@ -170,7 +164,7 @@ def _start(
         room = edges.room
         edges = replace(edges, room=np.maximum(room - _BLURRED * unknowns[BLUR], room / 2))
     spreads = np.column_stack([side.spread for side in seen])
-    return replace(edges, spread=_common_spread(spreads)), spreads
+    return replace(edges, spread=_common_spread(spreads))
 
 
 def _common_spread(seen: Array) -> Array:

@@ -20,7 +20,7 @@ import numpy as np
 import scipy
 
 from calibgui.engine import opencv
-from calibgui.engine.corners import saddle, verify
+from calibgui.engine.corners import glance, saddle, verify
 from calibgui.engine.corners.growth import grow
 from calibgui.engine.corners.junctions import Saddles, classify, find_saddles
 from calibgui.engine.corners.lattice import Lattice, large_enough
@@ -56,7 +56,7 @@ class _Seen:
     junctions: Saddles
     """Those of them that are X-junctions."""
     lattices: list[Lattice]
-    """That these make up, largest first."""
+    """That these make up and that could be boards, largest first."""
 
 
 def find_boards(
@@ -128,12 +128,13 @@ def _look(image: Image, floor: float, outline: Array | None) -> _Seen:
         saddles = saddles.under(contains(outline, saddles.uv))
     passed, junctions = classify(saddles.smooth, saddles.uv, floor)
     lattices = find_lattices(saddles, junctions, _GROWN)
-    return _Seen(image, saddles, saddles.under(passed), lattices)
+    hopeful = [one for one in lattices if not glance.hopeless(one, image)]
+    return _Seen(image, saddles, saddles.under(passed), hopeful)
 
 
 def _grown(seen: _Seen, seeds: list[Lattice], enough: Callable[[Lattice], bool]) -> list[Candidate]:
     """What lattices of one level grow to, if it is large enough for a board, largest first."""
-    hopeless = partial(verify.hopeless, image=seen.image)
+    hopeless = partial(glance.hopeless, image=seen.image)
     smooth, junctions = seen.saddles.smooth, len(seen.junctions.uv)
     grown: list[Lattice] = []
     for seed in seeds:

@@ -55,7 +55,7 @@ def grow(
         max_shape: rows or columns at which growth ends.
     """
     nearby, beyond = _Places(saddles.smooth, saddles.uv), _Places(junctions.smooth, junctions.uv)
-    known = 0
+    look, known = typical(lattice, saddles.smooth), len(lattice)
     for _ in range(_ROUNDS):
         if len(lattice) > _NEW * known:
             if hopeless(lattice):

@@ -9,8 +9,8 @@ import scipy
 
 from calibgui.engine.corners import edges, saddle, verify
 from calibgui.engine.corners import roi as region
-from calibgui.engine.corners.crossing import crossed
 from calibgui.engine.corners.edges import Fit
+from calibgui.engine.corners.glance import plausible
 from calibgui.engine.corners.lattice import MIN_CORNERS, Lattice, large_enough, supported
 from calibgui.engine.opencv import Image
 from calibgui.engine.types import Array, Board, BoolArray, Rejection
@@ -56,8 +56,6 @@ def locate(grey: Image, lattice: Lattice, method: str) -> Located | None:
     if not verify.credible(int(np.count_nonzero(lattice.found & ~good)), len(lattice)):
         return None
     board = supported(refined.under(good))
-    if method == "edges" and verify.hopeless(board, grey):
-        return None
     rejected = [
         *rejections(lattice.uv[lattice.found & ~refined.found], "no saddle point"),
         *rejections(lattice.uv[lattice.found & refined.found & ~good], "off place or colours"),
@@ -97,15 +95,14 @@ def _fitted(
     failed = 0
     for _ in range(_ROUNDS):
         lattice = verify.unbroken(lattice, grey) if large_enough(lattice) else lattice
-        if not (large_enough(lattice) and crossed(lattice, grey)):
+        if not (large_enough(lattice) and plausible(lattice, grey)):
             break
         if method == "saddle":
             return Located(lattice, tuple(rejected), None)
         fit = edges.fit(grey, lattice)
         good = verify.described(fit, lattice)
         if good.all():
-            board = verify.stepped(fit) and verify.printed(fit, lattice, grey)
-            return Located(lattice, tuple(rejected), fit) if board else None
+            return Located(lattice, tuple(rejected), fit) if verify.stepped(fit) else None
         failed += int(np.count_nonzero(~good))
         if not verify.credible(failed, int(np.count_nonzero(good)) + failed):
             break

@@ -23,6 +23,8 @@ from calibgui.engine.types import Array
 
 _ALONG = np.array([0.2, 0.3, 0.4, -0.2, -0.3, -0.4])
 """Where on the two arms profiles are taken, squares from the corner."""
+_NEAR, _FAR = np.array([0, 3]), np.array([2, 5])
+"""Of these the nearest and the farthest."""
 _REACH = 0.35
 """R, squares across the edge."""
 _CLOSE = 6.0
@@ -40,6 +42,8 @@ class Profile(NamedTuple):
 
     spread: Array
     """(n,) growth of the dark squares on every side, squares; NaN where the edge is unclear."""
+    bulge: Array
+    """(n,) the same away from the corner less near it; NaN where the edge is unclear."""
     blur: Array
     """(n,) px."""
     low: Array
@@ -85,7 +89,8 @@ def across_edge(
     clear = rise > max(_CLEAR * float(np.median(rise)), 0.0)
     rise = np.where(clear, rise * rising, np.inf)
     integral = (total / (_SAMPLES - 1) - first) / rise * 2 * reach
-    spread = np.where(clear.all(axis=1), np.mean((reach - integral) * rising, axis=1), np.nan)
+    growth = np.where(clear.all(axis=1, keepdims=True), (reach - integral) * rising, np.nan)
+    bulge = np.mean(growth[:, _FAR] - growth[:, _NEAR], axis=1)
     close = np.minimum(reach, _CLOSE / size)
     middle = np.clip(reach - integral, close[:, None] - reach, reach - close[:, None])
     count = _compiled_between if kernels.COMPILED else _between
@@ -93,7 +98,7 @@ def across_edge(
     blur = size * steep * 2 * close / (_SAMPLES - 1) / _QUARTILES
     low = np.median(np.where(rising > 0, first, last), axis=1)
     high = np.median(np.where(rising > 0, last, first), axis=1)
-    return Profile(spread, blur, low, high)
+    return Profile(np.mean(growth, axis=1), bulge, blur, low, high)
 
 
 def _levels(edges: _Edges, reach: float) -> tuple[Array, Array, Array]:

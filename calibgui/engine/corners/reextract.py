@@ -23,10 +23,10 @@ import scipy
 
 from calibgui.engine.corners import edges, verify
 from calibgui.engine.corners.appearance import placed, sectors, typical
-from calibgui.engine.corners.crossing import crossed
 from calibgui.engine.corners.edges import Fit
 from calibgui.engine.corners.extract import grey_levels, record
 from calibgui.engine.corners.finder import find_boards
+from calibgui.engine.corners.glance import plausible
 from calibgui.engine.corners.lattice import Lattice, axes, bordered, crop, large_enough, supported
 from calibgui.engine.corners.located import Located, at_saddles
 from calibgui.engine.corners.ordering import Numbering, Sides, numberings
@@ -239,6 +239,6 @@ def _trusted(grey: Image, calibration: Calibration, found: Located) -> bool:
     return (
         large_enough(crop(found.lattice))
         and verify.stepped(found.fit)
-        and crossed(found.lattice, grey)
+        and plausible(found.lattice, grey)
         and bool(np.sqrt(view.tau2) <= _WORSE * usual)
     )

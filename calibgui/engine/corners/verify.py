@@ -12,9 +12,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from calibgui.engine.corners import profiles, sheet
+from calibgui.engine.corners import sheet
 from calibgui.engine.corners.appearance import placed, typical
-from calibgui.engine.corners.crossing import crossed, empty
 from calibgui.engine.corners.edges import Fit
 from calibgui.engine.corners.lattice import (
     Lattice,
@@ -38,14 +37,10 @@ _UNEVEN = 0.1
 """Greatest rms distance of a board's corners from the smooth sheet through them, steps."""
 _BROKEN = 0.1
 """Places between a board's corners, over these, that may show squares but no corner."""
-_WIDEST = 0.18
+WIDEST = 0.18
 """Greatest blur of a board's edges, squares: of a sine wave it would be 0.25."""
-_GLANCE = 200
-"""Corners at which a larger lattice's edges are looked at first."""
 _WORST_MISFIT = 0.25
 """Greatest median residual over the contrast."""
-_SPREADS = 0.03
-"""Greatest median deviation of the spreads that a board's edges show from each other, squares."""
 _MOVED = 0.1
 """Farthest that the edge fit may move a corner, squares."""
 _ASIDE = float(np.sin(np.radians(3.0)))
@@ -68,6 +63,8 @@ _PRESENT = 0.4
 """Least difference of neighbouring squares over the contrast of the board's corners."""
 _LEAST = 3
 """Places in the image that can show where a board ends."""
+_AROUND = 1 / 3
+"""Share of the places around a lattice that alternate where the pattern goes on."""
 _SPARSE = 1 / 3
 """Share of a border line's places below which its corners are doubted."""
 _MOSTLY = 0.6
@@ -144,6 +141,18 @@ def _broken(lattice: Lattice, image: Image) -> BoolArray:
     return np.asarray(missing)
 
 
+def goes_on(lattice: Lattice, image: Image) -> bool:
+    """Whether the pattern goes on around a lattice that could not grow there: in another look."""
+    uv = bordered(lattice.uv, 1)
+    place, (right, down) = predict(uv), axes(uv)
+    around = np.isnan(uv[..., 0]) & np.isfinite(place + right + down).all(axis=2)
+    around &= in_image(place, image.shape)
+    dark = lattice.dark ^ (np.argwhere(around).sum(axis=1) % 2 == 1)
+    look = typical(lattice, image)
+    alternate, _ = look.alternate(image, place[around], right[around], down[around], dark)
+    return bool(np.count_nonzero(alternate) > _AROUND * len(alternate))
+
+
 def described(fit: Fit, lattice: Lattice, expected: Array | None = None) -> BoolArray:
     """(n,) which corners of `lattice` the edge model fitted there describes: it stayed near, its
     edges are as strong as the board's, and it leaves no more unexplained; still less if they
@@ -171,47 +180,7 @@ def stepped(fit: Fit) -> bool:
     wider, and are not described by steps."""
     widths = np.median(fit.edges.unknowns[:, 4:6] / fit.edges.size, axis=0)
     misfit = np.median(fit.residual / fit.contrast)
-    return bool(widths.max() < _WIDEST and misfit < _WORST_MISFIT)
-
-
-def printed(fit: Fit, lattice: Lattice, image: Image) -> bool:
-    """Whether the dark squares have spread alike across all edges, as those of one print have; or
-    cannot be seen to, because something is printed in the squares.
-
-    In a picture printed in dots these grow with its tone, and where stripes are shifted the edges
-    along them stand where they should, those across them do not.
-    """
-    return alike(fit.spreads) or not empty(lattice, image)
-
-
-def alike(spreads: Array) -> bool:
-    """Whether those of the spreads (n, 2) squares that are known are much the same."""
-    known = spreads[np.isfinite(spreads)]
-    return not len(known) or bool(np.median(abs(known - np.median(known))) < _SPREADS)
-
-
-def hopeless(lattice: Lattice, image: Image) -> bool:
-    """Whether a large lattice cannot be a board's, at a glance: its corners cross otherwise than
-    edges do, or as profiles across some of its edges tell it is one of waves."""
-    return len(lattice) > _GLANCE and (_waves(lattice, image) or not crossed(lattice, image))
-
-
-def _waves(lattice: Lattice, image: Image) -> bool:
-    """Whether some of its edges are too wide for those of a board: see `stepped`."""
-    uv, right, down, dark = placed(lattice)
-    area = abs(right[:, 0] * down[:, 1] - right[:, 1] * down[:, 0])
-    some = np.flatnonzero(area)
-    if not len(some):
-        return True
-    some = some[np.linspace(0, len(some) - 1, _GLANCE).astype(np.int64)]
-    uv, right, down, area = uv[some], right[some], down[some], area[some]
-    sign = np.where(dark[some], -1.0, 1.0)
-    widths = []
-    for along, across in ((right, down), (down, right)):
-        size = area / np.linalg.norm(along, axis=1)
-        seen = profiles.across_edge(image, uv, along, across, size, sign)
-        widths.append(np.median(seen.blur / size))
-    return bool(max(widths) > _WIDEST)
+    return bool(widths.max() < WIDEST and misfit < _WORST_MISFIT)
 
 
 def filled(lattice: Lattice, shape: tuple[int, ...]) -> Lattice:

@@ -31,13 +31,3 @@ def test_gaps_are_tried_only_where_the_steps_are_known() -> None:
         tried = verify.filled(ragged, (480, 640))
         assert tried.found[ragged.found].all()
         assert np.isfinite(np.sum(axes(tried.uv), axis=0)[tried.found]).all()
-
-
-def test_the_squares_of_one_print_spread_alike() -> None:
-    rng = np.random.default_rng(0)
-    one = 0.06 + rng.normal(0, 0.01, (100, 2))
-    one[rng.random(100) < 0.3] = np.nan
-    assert verify.alike(one)
-    assert not verify.alike(one + np.linspace(-0.1, 0.1, 100)[:, None])  # dots that grow
-    assert not verify.alike(one + np.array([0.1, 0.0]))  # stripes that are shifted
-    assert verify.alike(np.full((100, 2), np.nan))

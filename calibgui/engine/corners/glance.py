@@ -1,0 +1,95 @@
+"""Could a lattice be a board's? A glance at some of its corners tells, before any are fitted.
+
+What alternates like a board's squares is told from them where the edges cross (`crossing`), and by
+profiles across the edges near that. In squares,
+
+- they are narrow: the crests of waves cross likewise, but across a sine the blur would be 0.25;
+- they are straight: the dark has spread as far near the corner as away from it, while discs bulge;
+- they are of one print: the dark has spread alike across all that run in one direction, and much
+  the same across the others, where a camera may sharpen otherwise. The dots of a printed picture
+  grow with its tone; where stripes are shifted the edges along them stand where they should, those
+  across them do not. Tone may change slowly, and a part of the picture then pass for one print:
+  but around that the pattern goes on, in dots that are smaller.
+
+Where something is printed in the squares the spread tells nothing.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from calibgui.engine.corners import profiles
+from calibgui.engine.corners.appearance import placed
+from calibgui.engine.corners.crossing import crossed, empty
+from calibgui.engine.corners.lattice import Lattice
+from calibgui.engine.corners.profiles import Profile
+from calibgui.engine.corners.verify import WIDEST, goes_on
+from calibgui.engine.opencv import Image
+from calibgui.engine.types import Array
+
+_TELLING = 20
+"""Corners from which on a lattice that is still to grow shows what is typical of it."""
+_LOOKED_AT = 200
+"""Corners of a larger lattice whose edges are looked at."""
+_BULGE = 0.02
+"""Greatest median difference of the spread away from the corner and near it, squares."""
+_SPREADS, _WITHIN = 0.018, 0.0075
+"""Greatest median deviation of the spreads in one direction from their median, squares: of what
+ends where the lattice does, and of a part of a pattern that goes on in another look."""
+_DIRECTIONS = 0.06
+"""Greatest difference of the two directions' medians, squares."""
+
+
+def hopeless(lattice: Lattice, image: Image) -> bool:
+    """Whether a lattice that may still grow is large enough to tell that it is no board's."""
+    return len(lattice) >= _TELLING and not plausible(lattice, image, grown=False)
+
+
+def plausible(lattice: Lattice, image: Image, grown: bool = True) -> bool:
+    """Whether `lattice`, `grown` as far as it can or not, could be a board's in `image`: see the
+    head of this module."""
+    bare = empty(lattice, image)
+    if not crossed(lattice, image, bare):
+        return False
+    edges = _edges(lattice, image)
+    if not edges or any(np.median(edge.blur / size) > WIDEST for edge, size in edges):
+        return False
+    if not bare:
+        return True
+    if any(abs(_median(edge.bulge)) > _BULGE for edge, _ in edges):
+        return False
+    spreads = np.column_stack([edge.spread for edge, _ in edges])
+    within = grown and not alike(spreads, _WITHIN) and goes_on(lattice, image)
+    return not within and alike(spreads)
+
+
+def _edges(lattice: Lattice, image: Image) -> list[tuple[Profile, Array]]:
+    """Profiles across the edges in both directions at some of its corners, and the heights of the
+    squares over them, px; none where its steps are parallel."""
+    uv, right, down, dark = placed(lattice)
+    area = abs(right[:, 0] * down[:, 1] - right[:, 1] * down[:, 0])
+    some = np.flatnonzero(area)
+    if not len(some):
+        return []
+    some = some[np.linspace(0, len(some) - 1, min(len(some), _LOOKED_AT)).astype(np.int64)]
+    uv, right, down, area = uv[some], right[some], down[some], area[some]
+    sign = np.where(dark[some], -1.0, 1.0)
+    seen = []
+    for along, across in ((right, down), (down, right)):
+        size = area / np.linalg.norm(along, axis=1)
+        seen.append((profiles.across_edge(image, uv, along, across, size, sign), size))
+    return seen
+
+
+def alike(spreads: Array, most: float = _SPREADS) -> bool:
+    """Whether those of the spreads (n, 2) squares in two directions that are known are those of one
+    print, the median deviation being that at `most`."""
+    middles = np.array([_median(along) for along in spreads.T])
+    apart = abs(middles[1] - middles[0])
+    return _median(abs(spreads - middles)) <= most and bool(apart <= _DIRECTIONS)
+
+
+def _median(values: Array) -> float:
+    """Of those that are known, 0 if none is."""
+    known = values[np.isfinite(values)]
+    return float(np.median(known)) if len(known) else 0.0
