@@ -14,25 +14,19 @@ from threading import Event
 import numpy as np
 
 from calibgui.app.calibration import calibrate_views, short_names
+from calibgui.app.counting import about_turned, counted_alike, recounted, same_places
 from calibgui.app.settings import USUAL, Settings
 from calibgui.app.workers import Crashed, spread
-from calibgui.engine.calibrate import calibrate
-from calibgui.engine.corners.identity import Placing, identified
 from calibgui.engine.corners.reextract import find_again
 from calibgui.engine.errors import CalibrationError
 from calibgui.engine.images import read_image
 from calibgui.engine.imaging.maps import project_points
-from calibgui.engine.quality.counting import turned_alike
-from calibgui.engine.quality.repetition import settings_of
 from calibgui.engine.targets.pattern import CHECKERBOARD
 from calibgui.engine.types import (
-    Ambiguity,
     Board,
     Calibration,
     Corners,
     Cost,
-    Observation,
-    PlateModel,
     Pose,
     Report,
     Status,
@@ -48,7 +42,6 @@ _FEW = 6
 """Images up to which starting other processes takes longer than searching."""
 _BORDER = 8.0
 """Width of the image's border in which no corner is missed, px."""
-_COUNTED = "Its corners are counted as the board's deviations from its drawing tell."
 
 
 def calibrate_twice(
@@ -80,11 +73,12 @@ def calibrate_twice(
     if said:
         result = calibrate_views(more, settings, report)
     alike = counted_alike(result)
-    if _same_places(alike, result.views):
+    if same_places(alike, result.views):
         result = replace(result, views=alike)
     else:
-        said = (*said, *_turned(alike, result.views))
-        result = calibrate_views(replace(more, views=alike), settings, report)
+        said = (*said, *about_turned(alike, result.views))
+        views = tuple(map(recounted, more.views, result.views, alike))
+        result = calibrate_views(replace(more, views=views), settings, report)
     warnings = (*result.calibration.warnings, *said)
     return replace(result, calibration=replace(result.calibration, warnings=warnings))
 
@@ -124,85 +118,6 @@ def search_again(
     before = [corner_set.views[k] for k in changed]
     said = _gained(before, [views[k] for k in changed])
     return replace(corner_set, views=tuple(views)), (said,)
-
-
-def counted_alike(result: Result) -> tuple[View, ...]:
-    """The views of a result with their corners counted alike, as far as that is open and the
-    board's deviations from its drawing tell how."""
-    target, used = result.target, result.used
-    if result.calibration.cost is not Cost.IMAGE:
-        return result.views
-    if all(view.points is not None for view in used):
-        if result.calibration.plate is None:
-            return result.views  # which does not notice
-        turned = turned_alike(_on_nominal_plate(result), result.observations())
-        told = dict(zip(map(id, used), turned, strict=True))
-        return tuple(_turned_to(view, told.get(id(view))) for view in result.views)
-    corners = [view.corners for view in used if view.corners is not None and view.points is None]
-    if (
-        target is None
-        or target.pattern != CHECKERBOARD
-        or len(corners) < len(used)
-        or not any(map(_is_open, corners))
-    ):
-        return result.views
-    placings = identified(_on_nominal_plate(result), corners, target)
-    placed = dict(zip(map(id, used), placings, strict=True))
-    return tuple(
-        _counted(view, placed[id(view)]) if id(view) in placed else view for view in result.views
-    )
-
-
-def _on_nominal_plate(result: Result) -> Calibration:
-    """Of the same views."""
-    calibration = result.calibration
-    if calibration.plate is None:
-        return calibration
-    settings = {**settings_of(calibration), "plate": PlateModel.NOMINAL}
-    return calibrate(result.observations(), calibration.camera.size, **settings)
-
-
-def _turned_to(view: View, points: Observation | None) -> View:
-    """The view with its corners at other places, if they are others."""
-    if points is None or points is view.points:
-        return view
-    return replace(view, points=points, note=f"{view.note} {_COUNTED}".lstrip())
-
-
-def _turned(after: Sequence[View], before: Sequence[View]) -> Iterator[str]:
-    """A sentence on the views whose corners were not counted by this program and are turned."""
-    pairs = zip(after, before, strict=True)
-    turned = [new for new, old in pairs if new is not old and new.points is not None]
-    if turned:
-        yield (
-            f"The board is counted from the wrong end in {', '.join(short_names(turned))}, as its "
-            "deviations from its drawing tell; there it is turned round."
-        )
-
-
-def _same_places(one: Sequence[View], other: Sequence[View]) -> bool:
-    """Whether two states of the same views count their corners alike."""
-    pairs = zip(one, other, strict=True)
-    return all(
-        a is b or (a.corners and b.corners and np.array_equal(a.corners.grid, b.corners.grid))
-        for a, b in pairs
-    )
-
-
-def _is_open(corners: Corners) -> bool:
-    return corners.relative or corners.ambiguity is not Ambiguity.NONE
-
-
-def _counted(view: View, placing: Placing) -> View:
-    """The view with its corners where they belong, if that was open and is certain."""
-    corners = view.corners
-    if corners is None or not placing.certain or not _is_open(corners):
-        return view
-    as_before = np.array_equal(corners.grid, placing.grid)
-    corners = replace(corners, grid=placing.grid, relative=False, ambiguity=Ambiguity.NONE)
-    if as_before:
-        return replace(view, corners=corners)
-    return replace(view, corners=corners, note=f"{view.note} {_COUNTED}".lstrip())
 
 
 def view_again(view: View, calibration: Calibration, board: Board) -> View:

@@ -14,7 +14,8 @@ from calibgui.app.marking import removed
 from calibgui.app.settings import USUAL, Settings
 from calibgui.engine.errors import CalibrationError, Cancelled, DegenerateError
 from calibgui.engine.estimation.degeneracy import copies
-from calibgui.engine.quality.screening import screen, upside_down
+from calibgui.engine.quality.counting import upside_down
+from calibgui.engine.quality.screening import screen
 from calibgui.engine.quality.validation import choose_plate
 from calibgui.engine.quality.view_weights import calibrate_weighted
 from calibgui.engine.threads import one_blas_thread

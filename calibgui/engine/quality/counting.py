@@ -29,12 +29,15 @@ import numpy as np
 import scipy
 
 from calibgui.engine.estimation.problem import linearised
+from calibgui.engine.frames import rotation
 from calibgui.engine.lens import MODELS
 from calibgui.engine.quality.information import measured, state_of
-from calibgui.engine.types import Array, Calibration, Cost, IntArray, Observation
+from calibgui.engine.types import Array, Calibration, Cost, IntArray, Observation, Pose
 
 _CERTAIN = 25.0
 """By how much more probable, in powers of e, the chosen way must be than the next."""
+_LIKELY = 3.0
+"""The same for a view that shows the board upside down, which is evidence as well."""
 _SWEEPS = 10
 _HIT = 1e-3
 """mm within which a turned corner meets another of the plate."""
@@ -89,7 +92,7 @@ def alike(
     views: Sequence[Observation],
     ways: Sequence[Sequence[Way]],
     count: int,
-    trusted: bool = False,
+    likely: IntArray | None = None,
 ) -> list[Choice]:
     """Choose the ways that make the views agree about the board's deviations.
 
@@ -98,7 +101,8 @@ def alike(
         views: as they are counted first.
         ways: to count the corners of each view, the first as they are.
         count: m, the number of the plate's corners.
-        trusted: whether most views are counted alike as they are.
+        likely: the views that may well be counted otherwise, where most are counted alike as they
+            are; None where nothing is known.
 
     Returns:
         The choices: the first way, and not certain, where nothing is to be told; the first in the
@@ -113,9 +117,11 @@ def alike(
         [_Said(way.places, g @ way.turn.T, way.turn @ H @ way.turn.T) for way in own]
         for own, (g, H) in zip(ways, said, strict=True)
     ]
-    problem = _Problem(turned, sigma2, s2, count)
+    needed = np.full(len(ways), _CERTAIN)
+    needed[[] if likely is None else likely] = _LIKELY
+    problem = _Problem(turned, sigma2, s2, count, needed)
     settled = problem.settled(range(len(ways)))
-    if not trusted:
+    if likely is None:
         settled = max(settled, problem.settled(()))
     return [Choice(way if sure else 0, sure) for way, sure in settled.choices]
 
@@ -136,6 +142,8 @@ class _Problem(NamedTuple):
     sigma2: float
     s2: float
     corners: int
+    needed: Array
+    """(K,) difference of E from which a way is certain."""
 
     def settled(self, first: Iterable[int]) -> _Settled:
         """From views that are counted as they are until something else is certain, if there are
@@ -162,7 +170,7 @@ class _Problem(NamedTuple):
                 if k not in fixed:
                     score = [self.evidence(_added(total, said, 1.0)) for said in own]
                     best, next_best = np.argsort(score)[::-1][:2].tolist()
-                    certain[k] = score[best] - score[next_best] > _CERTAIN
+                    certain[k] = bool(score[best] > score[next_best] + self.needed[k])
                     if best != chosen[k] and (certain[k] or not trusted):
                         chosen[k], moved = best, True
                 total = _added(total, own[chosen[k]], 1.0)
@@ -201,7 +209,7 @@ def turned_alike(calibration: Calibration, views: Sequence[Observation]) -> tupl
         found = [tree.query(turned(view, quarters)) for quarters in range(4)]
         possible.append([q for q, hit in enumerate(found) if np.max(hit[0]) < _HIT])
         ways.append([Way(np.asarray(found[q][1]), quarter_turn(q)) for q in possible[-1]])
-    choices = alike(calibration, views, ways, len(plate), trusted=True)
+    choices = alike(calibration, views, ways, len(plate), upside_down(calibration.poses))
     chosen = [own[choice.way] for own, choice in zip(possible, choices, strict=True)]
     sure = [quarters for quarters, choice in zip(chosen, choices, strict=True) if choice.certain]
     votes = np.bincount(sure, minlength=4)
@@ -214,6 +222,18 @@ def turned_alike(calibration: Calibration, views: Sequence[Observation]) -> tupl
         else view
         for view, quarters, choice in zip(views, chosen, choices, strict=True)
     )
+
+
+def upside_down(poses: Sequence[Pose]) -> IntArray:
+    """The views, if any, that show the board turned by some 180 degrees against most others."""
+    across = rotation(np.array([pose.rvec for pose in poses]))[:, :2, 0]
+    across = across / np.linalg.norm(across, axis=1, keepdims=True)
+    cosine = across @ across.T
+    like = (cosine > np.sqrt(0.5)).sum(axis=1)
+    usual = int(np.argmax(like))
+    if like[usual] <= 2 / 3 * len(poses):
+        return np.zeros(0, dtype=np.int64)
+    return np.flatnonzero(cosine[usual] < -np.sqrt(0.5))
 
 
 def _said(calibration: Calibration, views: Sequence[Observation]) -> list[tuple[Array, Array]]:

@@ -35,15 +35,13 @@ from calibgui.engine.estimation.observations import (
 )
 from calibgui.engine.estimation.stage_one import prealign, registration_error
 from calibgui.engine.estimation.start import facing, reference_points
-from calibgui.engine.frames import paper_from_array, rotation
+from calibgui.engine.frames import paper_from_array
 from calibgui.engine.imaging.maps import project_points
 from calibgui.engine.types import (
     Array,
     BoolArray,
     Calibration,
-    IntArray,
     Observation,
-    Pose,
     Size,
 )
 
@@ -117,18 +115,6 @@ def screen(
         _leave_out_poor(kept, reasons)
     calibration = _calibrated(given, size, names, kept, settings)
     return Screening(tuple(kept), tuple(_listed(kept, reasons)), calibration)
-
-
-def upside_down(poses: Sequence[Pose]) -> IntArray:
-    """The views, if any, that show the board turned by some 180 degrees against most others."""
-    across = rotation(np.array([pose.rvec for pose in poses]))[:, :2, 0]
-    across = across / np.linalg.norm(across, axis=1, keepdims=True)
-    cosine = across @ across.T
-    like = (cosine > np.sqrt(0.5)).sum(axis=1)
-    usual = int(np.argmax(like))
-    if like[usual] <= 2 / 3 * len(poses):
-        return np.zeros(0, dtype=np.int64)
-    return np.flatnonzero(cosine[usual] < -np.sqrt(0.5))
 
 
 def _calibrated(
