@@ -84,10 +84,10 @@ class Look:
         return np.asarray(even & mixed & (gap < 0))
 
 
-def typical(lattice: Lattice, image: Image, plain: float = 0.5) -> Look:
-    """The look of the corners of `lattice`, near them if the squares are of one colour only up to
-    `plain` squares from their edges."""
-    some = np.linspace(0, len(lattice) - 1, min(len(lattice), _ENOUGH)).astype(np.int64)
+def typical(lattice: Lattice, image: Image, plain: float = 0.5, enough: int = _ENOUGH) -> Look:
+    """The look of `enough` corners of `lattice`, near them if the squares are of one colour only up
+    to `plain` squares from their edges."""
+    some = np.linspace(0, len(lattice) - 1, min(len(lattice), enough)).astype(np.int64)
     uv, right, down, dark = placed(lattice, plain)
     corners = uv[some], right[some], down[some], dark[some]
     _, contrast = sectors(image, *corners)

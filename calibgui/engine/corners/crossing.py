@@ -30,6 +30,8 @@ _OVERLAPS = np.array([-0.1, -0.08, -0.06, -0.04, -0.02, 0.0, 0.02, 0.04, 0.06, 0
 _FAR, _NEAR = 0.5, 0.25
 """How far from the edges squares are taken to be of one colour: in full, or where something is
 printed in them."""
+ENOUGH = 64
+"""Corners, spread over a lattice, that tell what a typical one is: as many as boards have."""
 _UNLIKE = 0.011
 """Greatest lack of correlation with the nearest of the crossings ..."""
 _PLAIN = 0.005
@@ -39,7 +41,7 @@ _PLAIN = 0.005
 def crossed(lattice: Lattice, image: Image, bare: bool) -> bool:
     """Whether the typical corner of `lattice` is the crossing of two edges in `image`: as far as
     its squares are of one colour, which they are throughout if they are `bare`."""
-    near = typical(lattice, image, _NEAR).pattern
+    near = typical(lattice, image, _NEAR, ENOUGH).pattern
     if _unlike(near, _crossings(_NEAR)) > _UNLIKE:
         return False
     return bare or _unlike(near, _crossings(_NEAR, overlap=False)) <= _PLAIN
@@ -47,7 +49,7 @@ def crossed(lattice: Lattice, image: Image, bare: bool) -> bool:
 
 def empty(lattice: Lattice, image: Image) -> bool:
     """Whether it is one as far as its squares reach: nothing is printed in them."""
-    return _unlike(typical(lattice, image, _FAR).pattern, _crossings(_FAR)) <= _UNLIKE
+    return _unlike(typical(lattice, image, _FAR, ENOUGH).pattern, _crossings(_FAR)) <= _UNLIKE
 
 
 def _unlike(pattern: Array, crossings: Array) -> float:

@@ -21,7 +21,7 @@ import scipy
 
 from calibgui.engine import opencv
 from calibgui.engine.corners import glance, saddle, verify
-from calibgui.engine.corners.growth import grow
+from calibgui.engine.corners.growth import Places, grow
 from calibgui.engine.corners.junctions import Saddles, classify, find_saddles
 from calibgui.engine.corners.lattice import Lattice, large_enough
 from calibgui.engine.corners.links import find_lattices
@@ -136,10 +136,11 @@ def _grown(seen: _Seen, seeds: list[Lattice], enough: Callable[[Lattice], bool])
     """What lattices of one level grow to, if it is large enough for a board, largest first."""
     hopeless = partial(glance.hopeless, image=seen.image)
     smooth, junctions = seen.saddles.smooth, len(seen.junctions.uv)
+    nearby, beyond = (Places(smooth, points.uv) for points in (seen.saddles, seen.junctions))
     grown: list[Lattice] = []
     for seed in seeds:
         if not any(_overlap(other, seed) for other in grown):
-            grown.append(grow(seed, seen.saddles, seen.junctions, hopeless))
+            grown.append(grow(seed, nearby, beyond, hopeless))
     hopeful = [verify.without_strays(one, smooth) for one in grown if not hopeless(one)]
     boards = [Candidate(one, max(junctions - len(one), 0)) for one in hopeful if enough(one)]
     return _distinct(boards)

@@ -20,17 +20,13 @@ import numpy as np
 
 from calibgui.engine.corners import profiles
 from calibgui.engine.corners.appearance import placed
-from calibgui.engine.corners.crossing import crossed, empty
-from calibgui.engine.corners.lattice import Lattice
+from calibgui.engine.corners.crossing import ENOUGH, crossed, empty
+from calibgui.engine.corners.lattice import MIN_CORNERS, Lattice
 from calibgui.engine.corners.profiles import Profile
 from calibgui.engine.corners.verify import WIDEST, goes_on
 from calibgui.engine.opencv import Image
 from calibgui.engine.types import Array
 
-_TELLING = 20
-"""Corners from which on a lattice that is still to grow shows what is typical of it."""
-_LOOKED_AT = 200
-"""Corners of a larger lattice whose edges are looked at."""
 _BULGE = 0.02
 """Greatest median difference of the spread away from the corner and near it, squares."""
 _SPREADS, _WITHIN = 0.018, 0.0075
@@ -42,7 +38,7 @@ _DIRECTIONS = 0.06
 
 def hopeless(lattice: Lattice, image: Image) -> bool:
     """Whether a lattice that may still grow is large enough to tell that it is no board's."""
-    return len(lattice) >= _TELLING and not plausible(lattice, image, grown=False)
+    return len(lattice) >= MIN_CORNERS and not plausible(lattice, image, grown=False)
 
 
 def plausible(lattice: Lattice, image: Image, grown: bool = True) -> bool:
@@ -71,7 +67,7 @@ def _edges(lattice: Lattice, image: Image) -> list[tuple[Profile, Array]]:
     some = np.flatnonzero(area)
     if not len(some):
         return []
-    some = some[np.linspace(0, len(some) - 1, min(len(some), _LOOKED_AT)).astype(np.int64)]
+    some = some[np.linspace(0, len(some) - 1, min(len(some), ENOUGH)).astype(np.int64)]
     uv, right, down, area = uv[some], right[some], down[some], area[some]
     sign = np.where(dark[some], -1.0, 1.0)
     seen = []

@@ -14,7 +14,6 @@ import scipy
 
 from calibgui.engine.corners import sheet
 from calibgui.engine.corners.appearance import Look, typical
-from calibgui.engine.corners.junctions import Saddles
 from calibgui.engine.corners.lattice import (
     DEVIATION,
     MIN_CORNERS,
@@ -35,13 +34,15 @@ _ACROSS = 0.2
 """Greatest distance from where the whole lattice expects a corner beyond a gap, steps."""
 _NEW = 1.2
 """Growth at which the look of a lattice's corners is seen anew."""
-_ROUNDS = 64
+_LITTLE, _IDLE = 1.02, 8
+"""Growth in a round that is little, and how many such rounds there may be: a board grows by whole
+lines, only textures by straggling corners on and on."""
 
 
 def grow(
     lattice: Lattice,
-    saddles: Saddles,
-    junctions: Saddles,
+    nearby: Places,
+    beyond: Places,
     hopeless: Callable[[Lattice], bool],
     max_shape: int = 200,
 ) -> Lattice:
@@ -49,28 +50,29 @@ def grow(
 
     Args:
         lattice: to start from.
-        saddles: what may fill a place beside the lattice's corners.
-        junctions: what may fill a place beyond a gap.
+        nearby: saddle points, which may fill a place beside the lattice's corners.
+        beyond: junctions, which may fill a place beyond a gap.
         hopeless: whether it is not worth going on.
         max_shape: rows or columns at which growth ends.
     """
-    nearby, beyond = _Places(saddles.smooth, saddles.uv), _Places(junctions.smooth, junctions.uv)
-    look, known = typical(lattice, saddles.smooth), len(lattice)
-    for _ in range(_ROUNDS):
+    look, known = typical(lattice, nearby.smooth), len(lattice)
+    idle = 0
+    while idle < _IDLE:
         if len(lattice) > _NEW * known:
             if hopeless(lattice):
                 break
-            look, known = typical(lattice, saddles.smooth), len(lattice)
+            look, known = typical(lattice, nearby.smooth), len(lattice)
         grown = _fill(lattice, 1, predict, nearby, DEVIATION, look)
         if grown is None and (others := beyond.aside(lattice)):
             grown = _fill(lattice, REACH, _from_sheet, others, _ACROSS, look)
         if grown is None or max(grown.shape) > max_shape:
             break
+        idle += len(grown) < _LITTLE * len(lattice)
         lattice = grown
     return lattice
 
 
-class _Places:
+class Places:
     """Points of an image by their place."""
 
     def __init__(self, smooth: Image32, uv: Array) -> None:
@@ -80,11 +82,11 @@ class _Places:
     def __len__(self) -> int:
         return len(self.uv)
 
-    def aside(self, lattice: Lattice) -> _Places:
+    def aside(self, lattice: Lattice) -> Places:
         """Those that are no corners of `lattice`, by half a step."""
         found = lattice.found
         distance, nearest = scipy.spatial.cKDTree(lattice.uv[found]).query(self.uv)
-        return _Places(self.smooth, self.uv[distance > lattice.spacing()[found][nearest] / 2])
+        return Places(self.smooth, self.uv[distance > lattice.spacing()[found][nearest] / 2])
 
     def near(self, uv: Array) -> tuple[IntArray, IntArray]:
         """Pairs (m,), (m,) of a query in `uv` (n, 2) and a point that is among the nearest."""
@@ -109,7 +111,7 @@ def _fill(
     lattice: Lattice,
     border: int,
     expected: Callable[[Array], Array],
-    places: _Places,
+    places: Places,
     deviation: float,
     look: Look,
 ) -> Lattice | None:

@@ -74,7 +74,7 @@ def test_work_is_bounded(name: str, monkeypatch: pytest.MonkeyPatch) -> None:
     levels = 4
     assert len(candidates) <= 2 * (2 * levels - 1)  # all but the finest may be looked at again
     assert max(candidates, default=0) <= junctions.MAX_CANDIDATES
-    assert len(rounds) <= 500
+    assert len(rounds) <= 200
     assert sum(fitted) <= 8 * junctions.MAX_CANDIDATES
 
 
