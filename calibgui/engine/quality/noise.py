@@ -2,14 +2,15 @@
 
 Standard deviations hold if the corners' errors are independent, equal in all directions and
 views, and Gaussian. Each of these is tested, and so is each usual cause of the contrary by what
-it would explain (``patterns.py``); from few parameters to many,
+it would explain (``patterns.py``); what views share before what each has of its own, and last
+what can look like almost anything,
 
 squares     the board's squares are not as wide as high, or askew
 bow         the board is bowed
+lens        a smooth displacement of the image that all views share
 focus       a focal length of each view's own
 bending     a curved board, each view's own
 rows        a steady motion while the rows are read, each view's own
-lens        a smooth displacement of the image that all views share
 lines       a shift along the rows that wanders from row to row, each view's own
 board       corners of the board that are not where they should be
 
@@ -77,6 +78,12 @@ _PATTERNS: tuple[tuple[str, Callable[[Fitted], patterns.Explained], str], ...] =
         "The board is bowed: mount it on something stiff, or estimate the plate (bow).",
     ),
     (
+        "lens",
+        patterns.by_lens,
+        "The lens model does not follow this lens: free the coefficients that are held, or use "
+        "another model.",
+    ),
+    (
         "focus",
         patterns.by_focus,
         "The focal length differs between the views: switch autofocus and stabilisation off, and "
@@ -93,12 +100,6 @@ _PATTERNS: tuple[tuple[str, Callable[[Fitted], patterns.Explained], str], ...] =
         patterns.by_rows,
         "Camera or board moved while a rolling shutter read the rows: put both on a stand, or "
         "expose all rows at once.",
-    ),
-    (
-        "lens",
-        patterns.by_lens,
-        "The lens model does not follow this lens: free the coefficients that are held, or use "
-        "another model.",
     ),
     (
         "lines",
