@@ -35,8 +35,8 @@ def configure(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--validate",
         action="store_true",
-        help="calibrate again without some of the views and try these, with every model of the "
-        "plate, and from resampled views",
+        help="calibrate again without some of the views and try these, from resampled views, and "
+        "if the plate is nominal with every other model of it",
     )
 
 
