@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
 from calibgui.engine.kernels.common import compiled
 from calibgui.engine.opencv import Image, Image32
@@ -20,7 +21,7 @@ class Pixels(NamedTuple):
     """(n,) how many there are."""
     base: Array
     """(n, 2) the pixel that offsets count from."""
-    offset: Image32
+    offset: NDArray[np.int16]
     """(2, N) u and v of the pixels from their corner's base."""
     grey: Image32
     """(N,) their grey levels."""
@@ -85,14 +86,15 @@ def read(
     """The pixels of `image` in the bands that ``bands.Bands`` describes, each once."""
     slant = abs(tangent).max(axis=2)
     along, across = np.ceil(arm * slant + width), np.ceil(width / slant + 0.5)
-    most = np.sum((2 * along + 1) * (2 * across + 1), axis=1).astype(np.int64)
+    # Of an area at most as many pixels more than its size as columns cross it.
+    most = np.ceil(np.sum((2 * arm + 3) * (2 * width + 3), axis=1)).astype(np.int64)
     end = np.cumsum(most)
     first, n = end - most, len(uv)
     pixels = Pixels(
         first,
         np.zeros(n, dtype=np.int64),
         np.empty((n, 2)),
-        np.empty((2, end[-1]), dtype=np.float32),
+        np.empty((2, end[-1]), dtype=np.int16),
         np.empty(end[-1], dtype=np.float32),
         int(along.max() + across.max()),
     )

@@ -1,0 +1,39 @@
+"""The compiled bands hold the same pixels as the readable ones, in the room set aside for them."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from calibgui.engine.corners.bands import Bands
+from calibgui.engine.kernels import bands as compiled
+
+
+@pytest.mark.parametrize("bent", [0.0, 0.002, 0.02])
+@pytest.mark.parametrize("longest", [1.0, 8.0, 60.0])
+def test_every_pixel_once_and_within_its_room(bent: float, longest: float) -> None:
+    rng = np.random.default_rng(0)
+    n = 200
+    angle = (
+        rng.uniform(0, np.pi, (n, 1)) + np.array([0, np.pi / 2]) + rng.uniform(-0.7, 0.7, (n, 2))
+    )
+    tangent = np.stack([np.cos(angle), np.sin(angle)], axis=2)
+    normal = np.stack([-tangent[..., 1], tangent[..., 0]], axis=2)
+    arm = longest * rng.uniform(0.2, 1, (n, 2))
+    bands = Bands(
+        uv=rng.uniform(0, 300, (n, 2)),
+        tangent=tangent,
+        normal=normal,
+        curvature=rng.normal(0, bent, (n, 2)),
+        arm=arm,
+        width=rng.uniform(0.7, np.maximum(arm / 2, 1.0)),
+    )
+    image = rng.integers(0, 256, (300, 300), dtype=np.uint8)
+    pixels = compiled.read(
+        image, bands.uv, bands.tangent, bands.normal, bands.curvature, bands.arm, bands.width
+    )
+    room = np.diff(pixels.begin, append=len(pixels.grey))
+    assert (pixels.number <= room).all()
+    if not bent:
+        counts = bands.read(image)[2].sum(axis=1)
+        np.testing.assert_allclose(pixels.number, counts, atol=1)  # the readable ones in float32
