@@ -138,10 +138,12 @@ def _grown(seen: _Seen, seeds: list[Lattice], enough: Callable[[Lattice], bool])
     smooth, junctions = seen.saddles.smooth, len(seen.junctions.uv)
     nearby, beyond = (Places(smooth, points.uv) for points in (seen.saddles, seen.junctions))
     grown: list[Lattice] = []
+    hopeful: list[Lattice] = []
     for seed in seeds:
         if not any(_overlap(other, seed) for other in grown):
-            grown.append(grow(seed, nearby, beyond, hopeless))
-    hopeful = [verify.without_strays(one, smooth) for one in grown if not hopeless(one)]
+            grown.append(one := grow(seed, nearby, beyond, hopeless))
+            if one is seed or not hopeless(one):
+                hopeful.append(verify.without_strays(one, smooth))
     boards = [Candidate(one, max(junctions - len(one), 0)) for one in hopeful if enough(one)]
     return _distinct(boards)
 
