@@ -3,7 +3,9 @@
 An edge that runs more along u than v crosses each pixel column once: the pixels of its band are,
 column by column, those around the row where it passes. (Else with u and v exchanged.) This gives
 rectangular arrays, the same for all corners, of little more than the band itself; what lies
-outside the band or the image, or in the band of the other edge before, is masked.
+outside the band or the image, or in the band of the other edge before, is masked. So is the
+outermost line of pixels on each side of the image, which cameras and programs that resample
+often leave dark or half filled.
 """
 
 from __future__ import annotations
@@ -48,7 +50,7 @@ class Bands:
         counts = self._holds(0, q)
         counts[:, first:] = ~counts[:, first:] & self._holds(1, q[:, first:])
         last = np.array(image.shape[::-1]) - 1
-        inside = np.clip(uv, 0, last)
+        inside = np.clip(uv, 1, last - 1)
         counts &= (inside == uv).all(axis=2)
         grey = image[inside[..., 1], inside[..., 0]].astype(np.float32)
         return uv, grey, counts.astype(np.float32)

@@ -13,7 +13,9 @@ difference of opposite pixels, unless that is more than the mean square itself: 
 no two pixels are quite opposite.
 
 What is odd too and would not decouple - curvature and the light's gradients gm, ga - comes from
-the whole board (`surroundings`), as does the spread w of the ink.
+the whole board (`surroundings`), as does the spread w of the ink. What tells the blurs of a
+corner's edges apart is mostly the camera's: they are held near what the board shows
+(`anisotropy`), lest they take up what the model leaves out.
 """
 
 from __future__ import annotations
@@ -23,7 +25,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from calibgui.engine import kernels
-from calibgui.engine.corners import profiles
+from calibgui.engine.corners import anisotropy, profiles
 from calibgui.engine.corners.edge_model import (
     BLUR,
     RHO,
@@ -53,6 +55,8 @@ _PAIRS = 20
 """Opposite pixels from which their differences tell the noise."""
 _MOST_RHO, _RHO_SPREAD = 0.95, 0.3
 """Largest rho, and how far it is expected from that of a blur alike in all directions."""
+_BLUR_SPREAD = 0.03
+"""How far the difference of a corner's blurs is expected from what the board shows, blurs."""
 _DAMPING = 1e-9
 """What is added to the diagonal of the normal equations, over its largest entry."""
 _BLURRED = 1.5
@@ -208,16 +212,29 @@ def _step(edges: Edges, products: Array) -> tuple[Edges, Array, Array]:
     """The model after one Gauss-Newton step, the part (n, 2, 2) of the equations' inverse for c,
     and the mean square (n,) of what is left unexplained."""
     N, g = products[:, :UNKNOWNS, :UNKNOWNS], products[:, :UNKNOWNS, UNKNOWNS]
-    # In a sharp image few pixels know rho: it stays near that of a blur alike in all directions.
-    normals, weight = edges.normals(), products[:, UNKNOWNS, UNKNOWNS] / N[:, 6, 6] / _RHO_SPREAD**2
-    N[:, 8, 8] += weight
-    g[:, 8] += weight * (np.sum(normals[:, 0] * normals[:, 1], axis=1) - edges.unknowns[RHO])
+    _expect(edges, products)
     step, inverse = (_compiled_solved if kernels.COMPILED else _solved)(N, g)
     square = np.maximum(products[:, UNKNOWNS, UNKNOWNS] - np.sum(step * g, axis=1), 0.0)
     count = N[:, 6, 6]  # each pixel's derivative by m is 1
     square /= np.maximum(count - UNKNOWNS, 1)
     unknowns = edges.unknowns + _bounded(step, edges.unknowns)
     return replace(edges, unknowns=unknowns), inverse, square
+
+
+def _expect(edges: Edges, products: Array) -> None:
+    """Add to the `products` what is expected of rho and of the blurs' difference."""
+    N, g = products[:, :UNKNOWNS, :UNKNOWNS], products[:, :UNKNOWNS, UNKNOWNS]
+    normals, blurs = edges.normals(), edges.unknowns[BLUR]
+    square = products[:, UNKNOWNS, UNKNOWNS] / N[:, 6, 6]
+    # In a sharp image few pixels know rho: it stays near that of a blur alike in all directions.
+    weight = square / _RHO_SPREAD**2
+    N[:, 8, 8] += weight
+    g[:, 8] += weight * (np.sum(normals[:, 0] * normals[:, 1], axis=1) - edges.unknowns[RHO])
+    difference = np.array([1.0, -1.0])  # by the blurs
+    weight = np.median(square) / (_BLUR_SPREAD**2 * np.mean(blurs**2, axis=1))
+    N[:, 4:6, 4:6] += weight[:, None, None] * np.outer(difference, difference)
+    lack = anisotropy.difference(normals, blurs) - blurs @ difference
+    g[BLUR] += (weight * lack)[:, None] * difference
 
 
 def _noise(square: Array, odd_part: Array) -> Array:

@@ -58,7 +58,7 @@ def _read(image, uv, tangent, normal, curvature, arm, width, first, count, base,
                 for k in range(-across, across + 1):
                     y = middle + k
                     pu, pv = (x, y) if main == 0 else (y, x)
-                    if pu < 0 or pv < 0 or pu > breadth - 1 or pv > height - 1:
+                    if pu < 1 or pv < 1 or pu > breadth - 2 or pv > height - 2:
                         continue
                     qu, qv = pu - uv[i, 0], pv - uv[i, 1]
                     if not _holds(qu, qv, t, n, curvature[i, edge], arm[i, edge], width[i, edge]):
