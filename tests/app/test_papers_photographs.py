@@ -107,8 +107,8 @@ def test_the_image_cost(found: Found) -> None:
     camera = found.image_cost.calibration.camera
     summary = engine.summarise(found.image_cost.calibration.residuals)
     assert summary.count == 25 * 156
-    assert summary.sigma_x <= 0.102
-    assert summary.sigma_y <= 0.112
+    assert summary.sigma_x <= {"edges": 0.085, "saddle": 0.102}[found.method]
+    assert summary.sigma_y <= {"edges": 0.097, "saddle": 0.112}[found.method]
     # Bouguet's published values; the plate's own imperfection moves them (NOTES 7).
     np.testing.assert_allclose(camera.focal, [657.30, 657.75], atol=1.0)
     np.testing.assert_allclose(camera.centre, [302.98, 242.48], atol=1.5)
@@ -131,11 +131,11 @@ def test_the_synthetic_versions(found: Found) -> None:
     check = synthetic_check(found.image_cost)
     synthetic, real = check.synthetic.calibration, check.real.calibration
     summary = engine.summarise(synthetic.residuals)
-    assert summary.reference_mean <= {"edges": 0.004, "saddle": 0.020}[found.method]
+    assert summary.reference_mean <= {"edges": 0.0015, "saddle": 0.020}[found.method]
     free = real.sigma > 0
     miss = (synthetic.camera.params - real.camera.params)[free] / real.sigma[free]
     assert np.abs(miss).max() < 2
     # Relative to angles and shifts of which some are nearly zero.
-    assert np.percentile(check.extrinsic_errors, 99) < 3e-3
+    assert np.percentile(check.extrinsic_errors, 99) < {"edges": 5e-4, "saddle": 3e-3}[found.method]
     if found.method == "edges":
-        assert np.max(check.extrinsic_errors) < 3e-3
+        assert np.max(check.extrinsic_errors) < 1e-3

@@ -7,6 +7,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 from scipy.spatial.transform import Rotation
+from scipy.special import erf
 
 from calibgui.engine.errors import CalibrationError
 from calibgui.engine.estimation.projection import pixels
@@ -133,6 +134,25 @@ def test_blur_has_no_edge_effect_and_keeps_the_mean() -> None:
     bigger = Camera((180, 140), STRONG.params + np.array([0, 0, 10, 10, 0, 0, 0, 0, 0, 0]))
     around = irradiance(bigger, TILTED, TARGET, blur=1.5)[10:130, 10:170]
     np.testing.assert_allclose(blurred, around, atol=1e-9)
+
+
+@pytest.mark.parametrize(("blur", "within"), [(0.5, 2.0), (1.0, 0.5), (2.0, 0.2)])
+@pytest.mark.parametrize("turn", [0.0, 0.04, 0.3])
+def test_blur_is_gaussian_before_the_pixel_integrates_it(
+    blur: float, within: float, turn: float
+) -> None:
+    camera = Camera((81, 61), [200.0, 200.0, 40.3, 30.2, 0, 0, 0, 0, 0, 0])
+    # The edge of the column of corners that the axis meets, 40 px from any other.
+    middle = Rotation.from_rotvec([0, 0, turn]).apply([-25.0, -37.5, 0.0])
+    pose = Pose([0.0, 0.0, turn], middle + np.array([0.0, 0.0, 125.0]))
+    levels = irradiance(camera, pose, TARGET, blur=blur, appearance=PLAIN)
+    nodes, weights = np.polynomial.legendre.leggauss(8)
+    part = np.stack(np.meshgrid(nodes / 2, nodes / 2), axis=-1).reshape(-1, 2)
+    uv = np.stack(np.meshgrid(np.arange(30, 51), np.arange(27, 34)), axis=-1)
+    distance = (uv[..., None, :] + part - camera.params[2:4]) @ [np.cos(turn), np.sin(turn)]
+    share = erf(distance / (np.sqrt(2) * blur)) @ np.outer(weights, weights).ravel() / 4
+    rising = np.sign(levels[30, 50] - levels[30, 30])
+    np.testing.assert_allclose(levels[27:34, 30:51], 100 + rising * 100 * share, atol=within)
 
 
 def test_noise_is_repeatable_and_of_the_given_size() -> None:
