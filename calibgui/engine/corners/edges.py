@@ -16,6 +16,14 @@ What is odd too and would not decouple - curvature and the light's gradients gm,
 the whole board (`surroundings`), as does the spread w of the ink. What tells the blurs of a
 corner's edges apart is mostly the camera's: they are held near what the board shows
 (`anisotropy`), lest they take up what the model leaves out.
+
+The model lights the blurred pattern, where a camera blurs the lit one. Under light L that rises
+by l = grad L / L,
+
+    (L f) * h = L (f * h) + s^2 L l.grad (f * h) = L (f * h)(q + s^2 l)
+
+for a blur h of variance s^2: its far side sends in more light, and the pattern seems to stand
+s^2 l farther into the dark. It is put back, with l = ga / a, the relative gradient of contrast.
 """
 
 from __future__ import annotations
@@ -118,6 +126,7 @@ def fit(
     products, odd_part = equations(edges)
     edges, inverse, square = _step(edges, products)
     noise = _noise(square, odd_part())
+    edges = _put_back(edges)
     return Fit(edges, noise[:, None, None] * inverse, np.sqrt(square))
 
 
@@ -235,6 +244,14 @@ def _expect(edges: Edges, products: Array) -> None:
     N[:, 4:6, 4:6] += weight[:, None, None] * np.outer(difference, difference)
     lack = anisotropy.difference(normals, blurs) - blurs @ difference
     g[BLUR] += (weight * lack)[:, None] * difference
+
+
+def _put_back(edges: Edges) -> Edges:
+    """`edges` with their corners back from where light and blur have moved them."""
+    unknowns = edges.unknowns.copy()
+    variance = np.mean(unknowns[BLUR] ** 2, axis=1)
+    unknowns[C] += (variance / unknowns[A])[:, None] * edges.contrast_gradient
+    return replace(edges, unknowns=unknowns)
 
 
 def _noise(square: Array, odd_part: Array) -> Array:
