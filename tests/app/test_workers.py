@@ -3,9 +3,12 @@
 from __future__ import annotations
 
 import multiprocessing
+import signal
+import subprocess
 import sys
 import time
 from functools import partial
+from pathlib import Path
 from threading import Event
 from types import ModuleType
 
@@ -81,3 +84,18 @@ def test_workers_that_cannot_start_are_an_error(monkeypatch: pytest.MonkeyPatch)
     with pytest.raises(RuntimeError, match="could not be started"):
         list(spread(only_here.task, [1, 2, 3]))
     assert not multiprocessing.active_children()
+
+
+@pytest.mark.skipif(not hasattr(signal, "pthread_sigmask"), reason="needs POSIX signals")
+def test_the_first_worker_is_as_deaf_to_ctrl_c_as_the_others(tmp_path: Path) -> None:
+    """Python starts a process of its own with it, and unblocks the signal after that."""
+    script = tmp_path / "first.py"
+    script.write_text(
+        "from calibgui.app.workers import spread\n"
+        "blocked = \"__import__('signal').pthread_sigmask(0, [])\"\n"
+        "if __name__ == '__main__':\n"
+        "    print([sorted(mask) for _, mask in spread(eval, [blocked])])\n",
+        encoding="utf-8",
+    )
+    done = subprocess.run([sys.executable, script], capture_output=True, text=True, check=True)
+    assert "SIGINT" in done.stdout
