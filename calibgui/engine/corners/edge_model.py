@@ -17,9 +17,7 @@ half a square along it are read. ``kernels.edges`` computes the same, compiled.
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import dataclass, fields
-from functools import partial
 
 import numpy as np
 
@@ -40,12 +38,6 @@ C, THETA, BLUR = np.s_[:, 0:2], np.s_[:, 2:4], np.s_[:, 4:6]
 M, A, RHO = np.s_[:, 6], np.s_[:, 7], np.s_[:, 8]
 """Columns of the unknowns."""
 UNKNOWNS = 9
-
-OddPart = Callable[[], Array]
-"""(n, 2) the sum of (r(q) - r(-q))^2 / 2 over pairs of pixels, and their number."""
-NormalEquations = Callable[["Edges"], tuple[Array, OddPart]]
-"""(n, 10, 10) products of the columns [J r] of each corner: derivatives of the model by the
-unknowns, and what it leaves unexplained, over the pixels that were read; and the odd part of r."""
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -107,10 +99,8 @@ class Edges:
 
 @dataclass(frozen=True, eq=False, slots=True)
 class _Window:
-    """The pixels read around some of the corners."""
+    """The pixels read around k corners."""
 
-    index: IntArray
-    """(k,) which corners."""
     pixels: IntArray
     """(k, P, 2) u, v."""
     grey: Array32
@@ -119,69 +109,75 @@ class _Window:
     """(k, P) 1 for pixels of the bands, 0 for others."""
 
 
-def normal_equations(image: Image, edges: Edges) -> NormalEquations:
-    """Read the pixels of the bands of `edges`; what is returned takes a model near it."""
+def normal_equations(
+    image: Image, read: Edges, edges: Edges, odd: bool = False
+) -> tuple[Array, Array]:
+    """Products of the columns [J r]: derivatives of the model by the unknowns, and what it leaves
+    unexplained.
+
+    The pixels are read a few corners at a time and not kept: those of a board may take many times
+    the memory of the image.
+
+    Args:
+        image: (h, w) grey levels.
+        read: the model whose bands are read, near `edges`.
+        edges: the model.
+        odd: whether the odd part of r is wanted too.
+
+    Returns:
+        (n, 10, 10) the products of each corner, and (n, 2) the sum of (r(q) - r(-q))^2 / 2 over
+        pairs of pixels and their number, or (0, 2).
+    """
     if kernels.COMPILED:
-        return _compiled(image, edges)
-    windows = _read(image, edges)
-
-    def products(model: Edges) -> tuple[Array, OddPart]:
-        n = len(model.unknowns)
-        N, odd = np.empty((n, UNKNOWNS + 1, UNKNOWNS + 1)), np.empty((n, 2))
-        for window in windows:
-            J = _columns(model.under(window.index), window)
-            N[window.index] = J @ J.transpose(0, 2, 1)
-            odd[window.index] = _odd_part(model.unknowns[C][window.index], window, J[:, UNKNOWNS])
-        return N, lambda: odd
-
-    return products
+        return _compiled(image, read, edges, odd)
+    n = len(edges.unknowns)
+    N, differences = np.empty((n, UNKNOWNS + 1, UNKNOWNS + 1)), np.empty((n if odd else 0, 2))
+    for index in _portions(read):
+        model, window = edges.under(index), _Window(*read.under(index).bands().read(image))
+        J = _columns(model, window)
+        N[index] = J @ J.transpose(0, 2, 1)
+        if odd:
+            differences[index] = _odd_part(model.unknowns[C], window, J[:, UNKNOWNS])
+    return N, differences
 
 
-def _compiled(image: Image, edges: Edges) -> NormalEquations:
-    """`normal_equations` by the compiled kernels."""
-    from calibgui.engine.kernels import bands
+def _compiled(image: Image, read: Edges, edges: Edges, odd: bool) -> tuple[Array, Array]:
+    """`normal_equations` by the compiled kernel."""
     from calibgui.engine.kernels import edges as kernel
 
-    read = edges.bands()
-    pixels = bands.read(
-        image, read.uv, read.tangent, read.normal, read.curvature, read.arm, read.width
+    x, n = edges.unknowns, len(edges.unknowns)
+    near = np.column_stack(
+        [
+            edges.tangents().reshape(n, 4),
+            edges.normals().reshape(n, 4),
+            edges.curvature / 2,
+            x[BLUR],
+            edges.blur_gradient.reshape(n, 4),
+            edges.size,
+            edges.size_gradient.reshape(n, 4),
+            x[M],
+            edges.level_gradient,
+            x[A],
+            edges.contrast_gradient,
+            x[RHO],
+            edges.sign,
+            edges.sign * edges.spread,
+            np.zeros((n, 2)) if (box := edges.box()) is None else box,
+        ]
     )
-
-    def products(model: Edges) -> tuple[Array, OddPart]:
-        x, n = model.unknowns, len(model.unknowns)
-        near = np.column_stack(
-            [
-                model.tangents().reshape(n, 4),
-                model.normals().reshape(n, 4),
-                model.curvature / 2,
-                x[BLUR],
-                model.blur_gradient.reshape(n, 4),
-                model.size,
-                model.size_gradient.reshape(n, 4),
-                x[M],
-                model.level_gradient,
-                x[A],
-                model.contrast_gradient,
-                x[RHO],
-                model.sign,
-                model.sign * model.spread,
-                np.zeros((n, 2)) if (box := model.box()) is None else box,
-            ]
-        )
-        centre = np.ascontiguousarray(x[C])
-        N, residual = kernel.products(pixels, centre, near)
-        return N, partial(kernel.odd_part, pixels, centre, residual)
-
-    return products
+    bands = read.bands()
+    lengths = np.stack([bands.curvature, bands.arm, bands.width], axis=2)
+    packed = np.concatenate([bands.tangent, bands.normal, lengths], axis=2)
+    uv, centre = (np.ascontiguousarray(model.unknowns[C]) for model in (read, edges))
+    return kernel.products(image, uv, packed, centre, near, odd)
 
 
-def _read(image: Image, edges: Edges) -> list[_Window]:
-    """The pixels of all corners, in portions of corners of about one size."""
-    order = np.argsort(edges.arm.sum(axis=1), kind="stable")
-    largest = edges.under(order[-1:]).bands()
+def _portions(read: Edges) -> list[IntArray]:
+    """Corners whose bands are of about one size."""
+    order = np.argsort(read.arm.sum(axis=1), kind="stable")
+    largest = read.under(order[-1:]).bands()
     total = len(order) * (largest.pixels(0) + largest.pixels(1))
-    portions = np.array_split(order, max(total // _CHUNK, 1))
-    return [_Window(part, *edges.under(part).bands().read(image)) for part in portions]
+    return np.array_split(order, max(total // _CHUNK, 1))
 
 
 def _columns(edges: Edges, window: _Window) -> Floats:

@@ -1,102 +1,84 @@
-"""The pixels of the bands around crossing edges, compiled: ``corners.bands``, without a mask."""
+"""The pixels of the bands around crossing edges, compiled: ``corners.bands``, without a mask.
+
+They are read one corner at a time, whenever they are needed: kept for all the corners of a board
+they would take many times the memory of the image.
+"""
 
 from __future__ import annotations
 
-from typing import NamedTuple
-
 import numpy as np
-from numpy.typing import NDArray
 
 from calibgui.engine.kernels.common import compiled
-from calibgui.engine.opencv import Image, Image32
-from calibgui.engine.types import Array, IntArray
+from calibgui.engine.types import Array
 
 
-class Pixels(NamedTuple):
-    """The pixels read around n corners, one corner after the other."""
+def room(bands: Array) -> int:
+    """As many pixels as a corner may have in `bands` (n, 2, 7), laid out as `read` says."""
+    # Of an area at most as many pixels more than its size as columns cross it.
+    arm, width = bands[..., 5], bands[..., 6]
+    return int(np.ceil(np.sum((2 * arm + 3) * (2 * width + 3), axis=1).max()))
 
-    begin: IntArray
-    """(n,) where a corner's pixels begin."""
-    number: IntArray
-    """(n,) how many there are."""
-    base: Array
-    """(n, 2) the pixel that offsets count from."""
-    offset: NDArray[np.int16]
-    """(2, N) u and v of the pixels from their corner's base."""
-    grey: Image32
-    """(N,) their grey levels."""
-    reach: int
-    """Greatest offset."""
+
+def reach(bands: Array) -> int:
+    """How far along u or v a pixel may be from the one at its corner, px."""
+    slant, arm, width = abs(bands[..., :2]).max(axis=2), bands[..., 5], bands[..., 6]
+    along, across = np.ceil(arm * slant + width), np.ceil(width / slant + 0.5)
+    return int(along.max() + across.max())
 
 
 @compiled
-def _holds(u, v, t, n, curvature, arm, width):  # type: ignore[no-untyped-def]
-    """Whether the offset (u, v) from a corner lies in the band of an edge."""
-    s = t[0] * u + t[1] * v
-    d = n[0] * u + n[1] * v - curvature / 2 * s * s
+def _edge(band, flat, width):  # type: ignore[no-untyped-def]
+    """One edge's numbers but with that width, u and v exchanged if it does not lie flat."""
+    bend, arm = band[4] / 2, band[5]
+    if flat:
+        return band[0], band[1], band[2], band[3], bend, arm, width
+    return band[1], band[0], band[3], band[2], bend, arm, width
+
+
+@compiled
+def _holds(x, y, edge):  # type: ignore[no-untyped-def]
+    """Whether the offset (x, y) from a corner lies in the band of an edge."""
+    tx, ty, nx, ny, bend, arm, width = edge
+    s = tx * x + ty * y
+    d = nx * x + ny * y - bend * s * s
     return abs(d) <= width and abs(s) <= arm
 
 
 @compiled
-def _read(image, uv, tangent, normal, curvature, arm, width, first, count, base, offset, grey):  # type: ignore[no-untyped-def]
+def _band(image, cx, cy, edge, done, x_offset, y_offset, grey):  # type: ignore[no-untyped-def]
+    """The pixels of a flat edge's band that are not in the one `done`; their number."""
+    tx, ty, _, ny, bend, arm, width = edge
     height, breadth = image.shape
-    for i in range(uv.shape[0]):
-        at = first[i]
-        base[i, 0], base[i, 1] = np.rint(uv[i, 0]), np.rint(uv[i, 1])
-        for edge in range(2):
-            t, n = tangent[i, edge], normal[i, edge]
-            main = 0 if abs(t[0]) >= abs(t[1]) else 1
-            slant = abs(t[main])
-            slope = t[1 - main] / t[main]
-            bend = curvature[i, edge] * n[1 - main] / (t[main] * t[main]) / 2
-            along = int(np.ceil(arm[i, edge] * slant + width[i, edge]))
-            across = int(np.ceil(width[i, edge] / slant + 0.5))
-            for line in range(-along, along + 1):
-                x = base[i, main] + line
-                dx = x - uv[i, main]
-                middle = np.rint(uv[i, 1 - main] + slope * dx + bend * dx * dx)
-                for k in range(-across, across + 1):
-                    y = middle + k
-                    pu, pv = (x, y) if main == 0 else (y, x)
-                    if pu < 1 or pv < 1 or pu > breadth - 2 or pv > height - 2:
-                        continue
-                    qu, qv = pu - uv[i, 0], pv - uv[i, 1]
-                    if not _holds(qu, qv, t, n, curvature[i, edge], arm[i, edge], width[i, edge]):
-                        continue
-                    if edge == 1 and _holds(
-                        qu, qv, tangent[i, 0], normal[i, 0], curvature[i, 0], arm[i, 0], width[i, 0]
-                    ):
-                        continue
-                    offset[0, at] = pu - base[i, 0]
-                    offset[1, at] = pv - base[i, 1]
-                    grey[at] = image[int(pv), int(pu)]
-                    at += 1
-        count[i] = at - first[i]
+    x0, y0 = int(np.rint(cx)), int(np.rint(cy))
+    slope, bow = ty / tx, bend * ny / (tx * tx)
+    along = int(np.ceil(arm * abs(tx) + width))
+    across = int(np.ceil(width / abs(tx) + 0.5))
+    count = 0
+    for x in range(max(x0 - along, 1), min(x0 + along, breadth - 2) + 1):
+        dx = x - cx
+        middle = int(np.rint(cy + slope * dx + bow * dx * dx))
+        for y in range(max(middle - across, 1), min(middle + across, height - 2) + 1):
+            dy = y - cy
+            if _holds(dx, dy, edge) and not _holds(dx, dy, done):
+                x_offset[count], y_offset[count], grey[count] = x - x0, y - y0, image[y, x]
+                count += 1
+    return count
 
 
-def read(
-    image: Image,
-    uv: Array,
-    tangent: Array,
-    normal: Array,
-    curvature: Array,
-    arm: Array,
-    width: Array,
-) -> Pixels:
-    """The pixels of `image` in the bands that ``bands.Bands`` describes, each once."""
-    slant = abs(tangent).max(axis=2)
-    along, across = np.ceil(arm * slant + width), np.ceil(width / slant + 0.5)
-    # Of an area at most as many pixels more than its size as columns cross it.
-    most = np.ceil(np.sum((2 * arm + 3) * (2 * width + 3), axis=1)).astype(np.int64)
-    end = np.cumsum(most)
-    first, n = end - most, len(uv)
-    pixels = Pixels(
-        first,
-        np.zeros(n, dtype=np.int64),
-        np.empty((n, 2)),
-        np.empty((2, end[-1]), dtype=np.int16),
-        np.empty(end[-1], dtype=np.float32),
-        int(along.max() + across.max()),
-    )
-    _read(image, uv, tangent, normal, curvature, arm, width, *pixels[:5])
-    return pixels
+@compiled
+def read(image, uv, bands, offset, grey):  # type: ignore[no-untyped-def]
+    """Fill offset (2, room), counted from the pixel at the corner uv (2,), and grey (room,) with
+    the pixels of its bands (2, 7), each once; their number. A band is an edge's tangent, normal,
+    curvature, arm and width."""
+    u, v = offset
+    begin = 0
+    for i in range(2):
+        flat = abs(bands[i, 0]) >= abs(bands[i, 1])
+        edge = _edge(bands[i], flat, bands[i, 6])
+        done = _edge(bands[0], flat, bands[0, 6] if i else -1.0)
+        free = grey[begin:]
+        if flat:
+            begin += _band(image, uv[0], uv[1], edge, done, u[begin:], v[begin:], free)
+        else:
+            begin += _band(image.T, uv[1], uv[0], edge, done, v[begin:], u[begin:], free)
+    return begin

@@ -14,9 +14,9 @@ from __future__ import annotations
 
 import numpy as np
 
-from calibgui.engine.kernels.bands import Pixels
+from calibgui.engine.kernels.bands import reach, read, room
 from calibgui.engine.kernels.common import compiled, factor, substitute
-from calibgui.engine.opencv import Image32
+from calibgui.engine.opencv import Image
 from calibgui.engine.types import Array
 
 _F = np.float32
@@ -191,77 +191,83 @@ def _add_products(w, m, out):  # type: ignore[no-untyped-def]
 
 
 @compiled
-def _products(first, count, base, offset, grey, centre, near, out, residual):  # type: ignore[no-untyped-def]
-    """Fill out (n, 10, 10) and residual (N,); near (n, 33) is laid out as `products` says."""
-    w = np.empty(_ROWS * _BLOCK, dtype=_F)
-    u, v = np.empty(_BLOCK, dtype=_F), np.empty(_BLOCK, dtype=_F)
-    for i in range(centre.shape[0]):
-        at = near[i]
-        du, dv = _F(base[i, 0] - centre[i, 0]), _F(base[i, 1] - centre[i, 1])
-        t, n, kappa = at[0:4], at[4:8], at[8:10]
-        blur, size, level, swing = at[10:16], at[16:22], at[22:25], at[25:28]
-        rho, sign, growth, box = at[28], at[29], at[30], at[31:33]
-        for begin in range(first[i], first[i] + count[i], _BLOCK):
-            m = min(first[i] + count[i] - begin, _BLOCK)
-            for p in range(m):
-                u[p], v[p] = offset[0, begin + p] + du, offset[1, begin + p] + dv
-            _geometry(w, u, v, t, n, kappa, blur, size, growth, m)
-            if growth == _ZERO:
-                _meeting(w, rho, box, m)
-            else:
-                _spread(w, rho, box, _ONE if growth > _ZERO else -_ONE, m)
-            _columns(w, u, v, grey[begin:], n, level, swing, sign, m)
-            _add_products(w, m, out[i])
-            for p in range(m):
-                residual[begin + p] = w[_J + 9 * _BLOCK + p]
-        for a in range(_COLUMNS):
-            for b in range(a):
-                out[i, b, a] = out[i, a, b]
+def _fitted(offset, grey, du, dv, near, w, u, v, out):  # type: ignore[no-untyped-def]
+    """Add to out (10, 10) what the pixels of one corner tell, and leave in grey the residuals;
+    near (33,) is laid out as `products` says."""
+    t, n, kappa = near[0:4], near[4:8], near[8:10]
+    blur, size, level, swing = near[10:16], near[16:22], near[22:25], near[25:28]
+    rho, sign, growth, box = near[28], near[29], near[30], near[31:33]
+    for begin in range(0, grey.shape[0], _BLOCK):
+        m = min(grey.shape[0] - begin, _BLOCK)
+        for p in range(m):
+            u[p], v[p] = offset[0, begin + p] + du, offset[1, begin + p] + dv
+        _geometry(w, u, v, t, n, kappa, blur, size, growth, m)
+        if growth == _ZERO:
+            _meeting(w, rho, box, m)
+        else:
+            _spread(w, rho, box, _ONE if growth > _ZERO else -_ONE, m)
+        _columns(w, u, v, grey[begin:], n, level, swing, sign, m)
+        _add_products(w, m, out)
+        for p in range(m):
+            grey[begin + p] = w[_J + 9 * _BLOCK + p]
+    for a in range(_COLUMNS):
+        for b in range(a):
+            out[b, a] = out[a, b]
 
 
 @compiled
-def _odd(first, count, base, offset, centre, residual, reach, out):  # type: ignore[no-untyped-def]
-    """Fill out (n, 2) as ``edge_model._odd_part``; offsets are at most `reach`."""
-    r = np.empty((2 * reach + 1, 2 * reach + 1), dtype=_F)
-    r[:] = np.nan
-    for i in range(centre.shape[0]):
-        mu = int(np.rint(2 * (centre[i, 0] - base[i, 0])))
-        mv = int(np.rint(2 * (centre[i, 1] - base[i, 1])))
-        pixels = range(first[i], first[i] + count[i])
-        for p in pixels:
-            r[int(offset[1, p]) + reach, int(offset[0, p]) + reach] = residual[p]
-        for p in pixels:
-            u, v = int(offset[0, p]), int(offset[1, p])
-            far = max(abs(mu - u), abs(mv - v)) > reach
-            if far or (2 * u == mu and 2 * v == mv) or np.isnan(r[mv - v + reach, mu - u + reach]):
-                continue
-            out[i, 0] += (residual[p] - r[mv - v + reach, mu - u + reach]) ** 2 / 4
-            out[i, 1] += 0.5
-        for p in pixels:
-            r[int(offset[1, p]) + reach, int(offset[0, p]) + reach] = np.nan
+def _odd(offset, residual, mu, mv, square, out):  # type: ignore[no-untyped-def]
+    """Fill out (2,) as ``edge_model._odd_part`` for one corner, about whose pixel offsets are
+    mirrored to (mu, mv) less them; square (side, side) is full of NaN, and is again after."""
+    reach, pixels = square.shape[0] // 2, range(residual.shape[0])
+    for p in pixels:
+        square[offset[1, p] + reach, offset[0, p] + reach] = residual[p]
+    for p in pixels:
+        u, v = offset[0, p], offset[1, p]
+        if max(abs(mu - u), abs(mv - v)) > reach or (2 * u == mu and 2 * v == mv):
+            continue
+        opposite = square[mv - v + reach, mu - u + reach]
+        if not np.isnan(opposite):
+            out[0] += (residual[p] - opposite) ** 2 / 4
+            out[1] += 0.5
+    for p in pixels:
+        square[offset[1, p] + reach, offset[0, p] + reach] = np.nan
 
 
-def products(pixels: Pixels, centre: Array, near: Array) -> tuple[Array, Image32]:
-    """(n, 10, 10) products of the columns [J r] of n corners, and r at their pixels.
+@compiled
+def _products(image, uv, bands, room, centre, near, square, out, odd):  # type: ignore[no-untyped-def]
+    """Fill out (n, 10, 10) and, unless it is empty, odd (n, 2)."""
+    offset, grey = np.empty((2, room), dtype=np.int32), np.empty(room, dtype=_F)
+    w = np.empty(_ROWS * _BLOCK, dtype=_F)
+    u, v = np.empty(_BLOCK, dtype=_F), np.empty(_BLOCK, dtype=_F)
+    for i in range(uv.shape[0]):
+        count = read(image, uv[i], bands[i], offset, grey)
+        du, dv = np.rint(uv[i, 0]) - centre[i, 0], np.rint(uv[i, 1]) - centre[i, 1]
+        its = offset[:, :count], grey[:count]
+        _fitted(*its, _F(du), _F(dv), near[i], w, u, v, out[i])
+        if odd.shape[0]:
+            _odd(*its, int(np.rint(-2 * du)), int(np.rint(-2 * dv)), square, odd[i])
+
+
+def products(
+    image: Image, uv: Array, bands: Array, centre: Array, near: Array, odd: bool
+) -> tuple[Array, Array]:
+    """``edge_model.normal_equations`` of n corners.
 
     Args:
-        pixels: what was read around them.
+        image: (h, w) grey levels.
+        uv, bands: (n, 2) and (n, 2, 7) the pixels to read, see ``bands.read``.
         centre: (n, 2) the corners, px.
         near: (n, 33) t_1, t_2, n_1, n_2, kappa_1 / 2, kappa_2 / 2; blur and size of edges 1 and 2
             (s_1, s_2, their gradients); m and gm; a and ga; rho, p, growth of the squares (+, +)
             over the size of a square, half widths of the pixel across edges 1 and 2 or 0.
+        odd: whether the odd part is wanted; else there is none.
     """
-    n = len(centre)
-    out, residual = np.zeros((n, _COLUMNS, _COLUMNS)), np.empty_like(pixels.grey)
-    _products(*pixels[:5], centre, near.astype(_F), out, residual)
-    return out, residual
-
-
-def odd_part(pixels: Pixels, centre: Array, residual: Image32) -> Array:
-    """(n, 2) sum of (r(q) - r(-q))^2 / 2 over pairs of pixels, and their number."""
-    out = np.zeros((len(centre), 2))
-    _odd(*pixels[:4], centre, residual, pixels.reach, out)
-    return out
+    n, side = len(centre), 2 * reach(bands) + 1 if odd else 0
+    out, odd_part = np.zeros((n, _COLUMNS, _COLUMNS)), np.zeros((n if odd else 0, 2))
+    square = np.full((side, side), np.nan, dtype=_F)
+    _products(image, uv, bands, room(bands), centre, near.astype(_F), square, out, odd_part)
+    return out, odd_part
 
 
 @compiled

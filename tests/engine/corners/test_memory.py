@@ -21,6 +21,7 @@ IMAGES = {
     "clutter": lambda: boardless(4),
     "rectangles": lambda: boardless(5),
     "board": lambda: photograph((640, 480), (6, 9), 36, 0.8),
+    "board of many squares": lambda: photograph((640, 480), (21, 23), 17, 2.0),
 }
 
 

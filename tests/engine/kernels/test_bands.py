@@ -29,11 +29,19 @@ def test_every_pixel_once_and_within_its_room(bent: float, longest: float) -> No
         width=rng.uniform(0.7, np.maximum(arm / 2, 1.0)),
     )
     image = rng.integers(0, 256, (300, 300), dtype=np.uint8)
-    pixels = compiled.read(
-        image, bands.uv, bands.tangent, bands.normal, bands.curvature, bands.arm, bands.width
-    )
-    room = np.diff(pixels.begin, append=len(pixels.grey))
-    assert (pixels.number <= room).all()
-    if not bent:
-        counts = bands.read(image)[2].sum(axis=1)
-        np.testing.assert_allclose(pixels.number, counts, atol=1)  # the readable ones in float32
+    lengths = np.stack([bands.curvature, bands.arm, bands.width], axis=2)
+    packed = np.concatenate([bands.tangent, bands.normal, lengths], axis=2)
+    readable, _, counts = bands.read(image)
+    for i in range(n):
+        most, reach = compiled.room(packed[i : i + 1]), compiled.reach(packed[i : i + 1])
+        offset, grey = np.zeros((2, most), np.int32), np.zeros(most, np.float32)
+        number = compiled.read(image, bands.uv[i], packed[i], offset, grey)
+        assert number <= most
+        assert abs(offset).max() <= reach
+        pixels = offset[:, :number].T + np.rint(bands.uv[i]).astype(np.int64)
+        np.testing.assert_array_equal(grey[:number], image[pixels[:, 1], pixels[:, 0]])
+        seen = set(map(tuple, pixels.tolist()))
+        assert len(seen) == number
+        if not bent:  # the readable ones in float32
+            others = set(map(tuple, readable[i][counts[i] > 0].tolist()))
+            assert len(seen ^ others) <= 1
