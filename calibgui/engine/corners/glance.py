@@ -6,7 +6,8 @@ profiles across the edges near that. In squares,
 - they are narrow: the crests of waves cross likewise, but across a sine the blur would be 0.25;
 - they are straight: the dark has spread as far near the corner as away from it, while discs bulge;
 - they are of one print: the dark has spread alike across all that run in one direction, and much
-  the same across the others, where a camera may sharpen otherwise. The dots of a printed picture
+  the same across the others, where a camera may sharpen otherwise; or steadily more to one side,
+  where light that grows to the other blinds the camera. The dots of a printed picture
   grow with its tone; where stripes are shifted the edges along them stand where they should, those
   across them do not. Tone may change slowly, and a part of the picture then pass for one print:
   but around that the pattern goes on, in dots that are smaller.
@@ -32,6 +33,8 @@ _BULGE = 0.02
 _SPREADS, _WITHIN = 0.018, 0.0075
 """Greatest median deviation of the spreads in one direction from their median, squares: of what
 ends where the lattice does, and of a part of a pattern that goes on in another look."""
+_RISING, _STEADY = 0.03, 0.004
+"""The same of spreads that rise to one side, and of what departs from a steady rise, squares."""
 _DIRECTIONS = 0.06
 """Greatest difference of the two directions' medians, squares."""
 
@@ -47,7 +50,7 @@ def plausible(lattice: Lattice, image: Image, grown: bool = True) -> bool:
     bare = empty(lattice, image)
     if not crossed(lattice, image, bare):
         return False
-    edges = _edges(lattice, image)
+    uv, edges = _edges(lattice, image)
     if not edges or any(np.median(edge.blur / size) > WIDEST for edge, size in edges):
         return False
     if not bare:
@@ -56,17 +59,17 @@ def plausible(lattice: Lattice, image: Image, grown: bool = True) -> bool:
         return False
     spreads = np.column_stack([edge.spread for edge, _ in edges])
     within = grown and not alike(spreads, _WITHIN) and goes_on(lattice, image)
-    return not within and alike(spreads)
+    return not within and (alike(spreads) or rising(spreads, uv))
 
 
-def _edges(lattice: Lattice, image: Image) -> list[tuple[Profile, Array]]:
-    """Profiles across the edges in both directions at some of its corners, and the heights of the
-    squares over them, px; none where its steps are parallel."""
+def _edges(lattice: Lattice, image: Image) -> tuple[Array, list[tuple[Profile, Array]]]:
+    """Some of its corners (n, 2) px, profiles across their edges in both directions, and the
+    heights of the squares over these, px; none where its steps are parallel."""
     uv, right, down, dark = placed(lattice)
     area = abs(right[:, 0] * down[:, 1] - right[:, 1] * down[:, 0])
     some = np.flatnonzero(area)
     if not len(some):
-        return []
+        return uv[some], []
     some = some[np.linspace(0, len(some) - 1, min(len(some), ENOUGH)).astype(np.int64)]
     uv, right, down, area = uv[some], right[some], down[some], area[some]
     sign = np.where(dark[some], -1.0, 1.0)
@@ -74,7 +77,7 @@ def _edges(lattice: Lattice, image: Image) -> list[tuple[Profile, Array]]:
     for along, across in ((right, down), (down, right)):
         size = area / np.linalg.norm(along, axis=1)
         seen.append((profiles.across_edge(image, uv, along, across, size, sign), size))
-    return seen
+    return uv, seen
 
 
 def alike(spreads: Array, most: float = _SPREADS) -> bool:
@@ -83,6 +86,18 @@ def alike(spreads: Array, most: float = _SPREADS) -> bool:
     middles = np.array([_median(along) for along in spreads.T])
     apart = abs(middles[1] - middles[0])
     return _median(abs(spreads - middles)) <= most and bool(apart <= _DIRECTIONS)
+
+
+def rising(spreads: Array, uv: Array) -> bool:
+    """Whether the spreads (n, 2) of corners `uv` (n, 2) px are those of one print that rise
+    steadily to one side."""
+    steady = spreads.copy()
+    place = uv - uv.mean(axis=0)
+    for along in steady.T:
+        known = np.isfinite(along)
+        terms = np.column_stack([np.ones(len(place)), place])
+        along -= place @ np.linalg.lstsq(terms[known], along[known])[0][1:]
+    return alike(spreads, _RISING) and alike(steady, _STEADY)
 
 
 def _median(values: Array) -> float:

@@ -6,6 +6,7 @@ from typing import Any
 
 import numpy as np
 import pytest
+from scipy.ndimage import gaussian_filter
 
 from calibgui.engine.corners import find_corners, glance
 from calibgui.engine.corners.lattice import Lattice
@@ -69,3 +70,24 @@ def test_the_squares_of_one_print_spread_alike() -> None:
     assert not glance.alike(one + np.linspace(-0.1, 0.1, 100)[:, None])  # dots that grow
     assert not glance.alike(one + np.array([0.1, 0.0]))  # stripes that are shifted
     assert glance.alike(np.full((100, 2), np.nan))
+
+
+def test_a_print_may_spread_more_where_more_light_blinds_the_camera() -> None:
+    rng = np.random.default_rng(0)
+    uv = rng.uniform(0, 640, (100, 2))
+    rise = 4e-4 * (uv[:, :1] - 320) * np.ones(2)
+    assert not glance.alike(rise)
+    one = rise / 2.5 + rng.normal(0, 0.002, (100, 2))
+    one[rng.random(100) < 0.3] = np.nan
+    assert not glance.alike(one)
+    assert glance.rising(one, uv)
+    assert not glance.rising(rise, uv)  # dots that grow
+    assert not glance.rising(one + 0.02 * np.sin(uv / 50), uv)
+    assert not glance.rising(one + np.array([0.1, 0.0]), uv)
+
+
+def test_a_board_is_found_where_light_blinds_the_camera_to_one_side() -> None:
+    scene = draw(Conditions(square=24.0, blur=3.0, parts=2), 402)
+    levels = np.clip(scene.clean * np.linspace(1, 2.2, 480)[:, None], 0, 400)
+    image = np.clip(gaussian_filter(levels, 1.0), 0, 255).astype(np.uint8)
+    assert len(find_corners(image).uv) == 54
