@@ -55,12 +55,19 @@ class Lattice:
 
 def trim(lattice: Lattice) -> Lattice | None:
     """The lattice without corners off their neighbours' prediction; None without a full cell."""
-    right, down = axes(lattice.uv)
-    off = in_steps(lattice.uv - predict(lattice.uv), right, down) > DEVIATION
-    trimmed = lattice.under(~off)
+    trimmed = lattice.under(~_strays(lattice))
     found = trimmed.found
     cell = found[:-1, :-1] & found[1:, :-1] & found[:-1, 1:] & found[1:, 1:]
     return supported(trimmed) if cell.any() else None
+
+
+def _strays(lattice: Lattice) -> BoolArray:
+    """(rows, cols) where there is a corner off its neighbours' prediction."""
+    found = lattice.found
+    offset = lattice.uv[found] - predict(lattice.uv)[found]
+    right, down = (step[found] for step in axes(lattice.uv))
+    found[found] = in_steps(offset, right, down) > DEVIATION
+    return found
 
 
 def large_enough(lattice: Lattice) -> bool:
@@ -76,10 +83,13 @@ def supported(lattice: Lattice) -> Lattice:
 def with_steps(lattice: Lattice) -> Lattice:
     """The lattice without corners too far from all others for the steps there to be known."""
     while True:
-        known = np.isfinite(np.sum(axes(lattice.uv), axis=0)).all(axis=2)
-        if known[lattice.found].all():
+        found = lattice.found
+        right, down = (step[found] for step in axes(lattice.uv))
+        known = np.isfinite(right + down).all(axis=1)
+        if known.all():
             return lattice
-        lattice = lattice.under(np.asarray(known))
+        found[found] = known
+        lattice = lattice.under(found)
 
 
 def crop(lattice: Lattice) -> Lattice:

@@ -27,6 +27,8 @@ from calibgui.engine.opencv import Image32
 from calibgui.engine.types import Array, IntArray
 
 _NEIGHBOURS = 12
+_PORTION = 500
+"""Junctions whose nearest ones are looked up at a time."""
 _ALONG = float(np.cos(np.radians(20.0)))
 """How closely an edge must point to the neighbour that it leads to."""
 _PARALLEL = float(np.cos(np.radians(25.0)))
@@ -58,22 +60,30 @@ def _link(smooth: Image32, junctions: Junctions) -> tuple[IntArray, IntArray]:
     n = len(junctions)
     ranks = np.arange(2, min(_NEIGHBOURS, n - 1) + 2)  # the first is the junction itself
     tree = scipy.spatial.cKDTree(junctions.uv)
-    near = np.asarray(tree.query(junctions.uv, ranks)[1], dtype=np.int64)
-    angle = junctions.edges[:, [0, 1, 0, 1]] + np.array([0, 0, np.pi, np.pi])
-    slots = np.stack([np.cos(angle), np.sin(angle)], axis=-1)
+    slots = _slots(junctions)
     search = _compiled_nearest if kernels.COMPILED else _nearest
-    neighbour, back = search(smooth, junctions, slots, near)
-    mutual = (neighbour >= 0) & (neighbour[neighbour, back] == np.arange(n)[:, None])
-    return np.where(mutual, neighbour, -1), np.where(mutual, back, -1)
+    neighbour, back = np.full((n, 4), -1), np.full((n, 4), -1)
+    for begin in range(0, n, _PORTION):
+        some = np.arange(begin, min(begin + _PORTION, n))
+        near = np.asarray(tree.query(junctions.uv[some], ranks)[1], dtype=np.int64)
+        neighbour[some], back[some] = search(smooth, junctions, slots, some, near)
+    one_way = (neighbour < 0) | (neighbour[neighbour, back] != np.arange(n)[:, None])
+    neighbour[one_way] = back[one_way] = -1
+    return neighbour, back
+
+
+def _slots(junctions: Junctions) -> Array:
+    """(n, 4, 2) unit vectors along the edges that leave junctions."""
+    angle = junctions.edges[:, [0, 1, 0, 1]] + np.array([0, 0, np.pi, np.pi])
+    return np.stack([np.cos(angle), np.sin(angle)], axis=-1)
 
 
 def _nearest(
-    smooth: Image32, junctions: Junctions, slots: Array, near: IntArray
+    smooth: Image32, junctions: Junctions, slots: Array, some: IntArray, near: IntArray
 ) -> tuple[IntArray, IntArray]:
-    """`_link`, mutual or not, from the edges' directions `slots` (n, 4, 2) and the junctions `near`
-    (n, m) each, nearest first."""
-    n, count = near.shape
-    me, other = np.repeat(np.arange(n), count), near.ravel()
+    """`_link` of `some` (m,) consecutive junctions, mutual or not, from all edges' directions
+    `slots` (n, 4, 2) and the junctions `near` (m, k) each, nearest first."""
+    me, other = np.repeat(some, near.shape[1]), near.ravel()
     d = junctions.uv[other] - junctions.uv[me]
     distance = np.linalg.norm(d, axis=1)
     apart = distance > 0
@@ -99,21 +109,23 @@ def _nearest(
     weaker = np.minimum(junctions.contrast[me], junctions.contrast[other])
     good = step.min(axis=1) > _STEP * weaker
     me, other, distance, k, k_back = (x[good] for x in (me, other, distance, k, k_back))
-    neighbour, back = np.full((n, 4), -1), np.full((n, 4), -1)
+    neighbour, back = np.full((len(some), 4), -1), np.full((len(some), 4), -1)
     order = np.argsort(-distance, kind="stable")  # the nearest is written last
-    neighbour[me[order], k[order]] = other[order]
-    back[me[order], k[order]] = k_back[order]
+    mine = me[order] - some[0]
+    neighbour[mine, k[order]] = other[order]
+    back[mine, k[order]] = k_back[order]
     return neighbour, back
 
 
 def _compiled_nearest(
-    smooth: Image32, junctions: Junctions, slots: Array, near: IntArray
+    smooth: Image32, junctions: Junctions, slots: Array, some: IntArray, near: IntArray
 ) -> tuple[IntArray, IntArray]:
     """`_nearest` by the compiled kernel."""
     from calibgui.engine.kernels import links
 
     limits = _ALONG, _PARALLEL, _STEP
-    return links.nearest(smooth, junctions.uv, slots, junctions.contrast, near, _ON_WAY, limits)
+    points = junctions.uv, slots, junctions.contrast
+    return links.nearest(smooth, *points, some, near, _ON_WAY, limits)
 
 
 def _walk(neighbour: IntArray, back: IntArray) -> list[tuple[IntArray, IntArray]]:

@@ -63,7 +63,7 @@ def _peaks(g, least, v, where, value):  # type: ignore[no-untyped-def]
 def peaks(g: Image32, least: float, most: int) -> IntArray:
     """(n,) flat indices of the at most `most` strongest peaks of R, strongest first."""
     where, value = np.empty(0, dtype=np.int64), np.empty(0, dtype=_F)
-    more = np.empty(4 * most + g.shape[1], dtype=np.int64)
+    more = np.empty(most + g.shape[1], dtype=np.int64)
     its_value = np.empty(len(more), dtype=_F)
     v = 2
     while v < g.shape[0] - 2:

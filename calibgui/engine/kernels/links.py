@@ -34,17 +34,18 @@ def _least_step(g, here, du, dv, distance, places, sign):  # type: ignore[no-unt
 
 
 @compiled
-def _nearest(g, uv, slots, contrast, near, places, limits, neighbour, back):  # type: ignore[no-untyped-def]
+def _nearest(g, uv, slots, contrast, some, near, places, limits, neighbour, back):  # type: ignore[no-untyped-def]
     along, parallel, weakest = limits
-    for i in range(uv.shape[0]):
-        for j in near[i]:
+    for m in range(some.shape[0]):
+        i = some[m]
+        for j in near[m]:
             du, dv = uv[j, 0] - uv[i, 0], uv[j, 1] - uv[i, 1]
             distance = np.sqrt(du * du + dv * dv)
             if distance == 0:
                 continue
             du, dv = du / distance, dv / distance
             k, cosine = _towards(slots[i], du, dv)
-            if neighbour[i, k] >= 0 or cosine <= along:
+            if neighbour[m, k] >= 0 or cosine <= along:
                 continue
             k_back, cosine = _towards(slots[j], -du, -dv)
             if cosine <= along or (k + k_back) % 2 == 0:
@@ -55,7 +56,7 @@ def _nearest(g, uv, slots, contrast, near, places, limits, neighbour, back):  # 
             sign = 1.0 if k % 2 == 1 else -1.0
             step = _least_step(g, uv[i], du, dv, distance, places, sign)
             if step > weakest * min(contrast[i], contrast[j]):
-                neighbour[i, k], back[i, k] = j, k_back
+                neighbour[m, k], back[m, k] = j, k_back
 
 
 def nearest(
@@ -63,25 +64,27 @@ def nearest(
     uv: Array,
     slots: Array,
     contrast: Array,
+    some: IntArray,
     near: IntArray,
     places: Array,
     limits: tuple[float, float, float],
 ) -> tuple[IntArray, IntArray]:
-    """``links._nearest``: the nearest neighbour (n, 4) at each slot that an edge leads to, -1
-    where none, and the slot (n, 4) at which it looks back.
+    """``links._nearest``: the nearest neighbour (m, 4) at each slot that an edge leads to, -1
+    where none, and the slot (m, 4) at which it looks back.
 
     Args:
         g: (h, w) grey levels.
         uv: (n, 2) junctions, px.
         slots: (n, 4, 2) unit vectors along the edges that leave them.
         contrast: (n,) grey levels.
-        near: (n, m) the other junctions nearest to each, nearest first.
+        some: (m,) the junctions whose neighbours are looked for.
+        near: (m, k) the other junctions nearest to each of them, nearest first.
         places: where on the way to a neighbour an edge must lie, over the distance.
         limits: least cosine between an edge and the way to the neighbour, and between their
             crossing edges; least step across the way, over the weaker one's contrast.
     """
-    neighbour, back = np.full((len(uv), 4), -1), np.full((len(uv), 4), -1)
-    _nearest(g, uv, slots, contrast, near, places, limits, neighbour, back)
+    neighbour, back = np.full((len(some), 4), -1), np.full((len(some), 4), -1)
+    _nearest(g, uv, slots, contrast, some, near, places, limits, neighbour, back)
     return neighbour, back
 
 
