@@ -9,13 +9,16 @@ them in a fixed order: nothing depends on the number of threads.
 
 from __future__ import annotations
 
+import hashlib
 import os
 from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
+from functools import cache
+from pathlib import Path
 from typing import Any
 
 import numpy as np
-from numba import njit
+from numba import config, njit
 
 from calibgui.engine.types import Array
 
@@ -31,10 +34,23 @@ _WORTH = 4
 def compiled(function: Callable[..., Any]) -> Any:
     """The function compiled, and kept for the next start where there is a place to keep it."""
     options: dict[str, Any] = {"fastmath": _MATHS, "error_model": "numpy", "nogil": True}
+    usual, config.CACHE_DIR = config.CACHE_DIR, _kept_in()
     try:
         return njit(cache=True, **options)(function)
     except RuntimeError:  # neither the package's folder nor the user's cache can be written
         return njit(**options)(function)
+    finally:
+        config.CACHE_DIR = usual
+
+
+@cache
+def _kept_in() -> str:
+    """A folder for these sources only: numba compiles a kernel anew if its own file has changed,
+    not if another has from which it calls something."""
+    here = Path(__file__).parent
+    sources = b"".join(file.read_bytes() for file in sorted(here.glob("*.py")))
+    state = hashlib.sha256(sources).hexdigest()[:16]
+    return str(Path(config.CACHE_DIR or here / "__pycache__") / f"calibgui-{state}")
 
 
 def in_blocks(count: int, run: Callable[[slice], None]) -> None:

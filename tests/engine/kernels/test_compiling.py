@@ -2,8 +2,15 @@
 
 from __future__ import annotations
 
+import os
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+
 import pytest
 
+import calibgui
 from calibgui.engine import kernels
 from calibgui.engine.kernels import when_compiling
 
@@ -28,3 +35,35 @@ def test_without_numba_there_is_nothing_to_tell(monkeypatch: pytest.MonkeyPatch)
     with when_compiling(lambda: told.append(None)):
         numba.njit(lambda x: x + 1)(1)
     assert told == []
+
+
+def test_a_change_to_what_a_kernel_calls_in_another_file_is_noticed(tmp_path: Path) -> None:
+    package = tmp_path / "calibgui"
+    source = Path(calibgui.__file__).parent
+    shutil.copytree(source, package, ignore=shutil.ignore_patterns("__pycache__"))
+    folder = package / "engine" / "kernels"
+    (folder / "asks.py").write_text(
+        "from calibgui.engine.kernels.common import compiled\n"
+        "from calibgui.engine.kernels.knows import answer\n"
+        "@compiled\n"
+        "def asked():\n"
+        "    return answer()\n",
+        encoding="utf-8",
+    )
+    for answer in ("1", "22"):
+        (folder / "knows.py").write_text(
+            "from calibgui.engine.kernels.common import compiled\n"
+            "@compiled\n"
+            "def answer():\n"
+            f"    return {answer}\n",
+            encoding="utf-8",
+        )
+        done = subprocess.run(
+            [sys.executable, "-c", f"from {kernels.__name__}.asks import asked; print(asked())"],
+            cwd=tmp_path,
+            env={**os.environ, "PYTHONPATH": str(tmp_path)},
+            capture_output=True,
+            text=True,
+            check=True,
+        )
+        assert done.stdout.strip() == answer
