@@ -35,6 +35,8 @@ _PARALLEL = float(np.cos(np.radians(25.0)))
 """How closely the crossing edges of two neighbours must agree."""
 _ON_WAY = np.array([0.3, 0.5, 0.7])
 """Where on the way to a neighbour the edge must show."""
+_SPARSE, _FEW = 4, 256
+"""Cells of a lattice for each of its junctions, and beyond these, from which it is no board's."""
 _STEP = 0.25
 """Least step across the edge between two neighbours over the weaker one's contrast."""
 
@@ -202,7 +204,7 @@ def _arrange(uv: Array, nodes: IntArray, cells: IntArray, turns: IntArray) -> La
         return None
     cells = cells - cells.min(axis=0)
     rows, cols = cells.max(axis=0) + 1
-    if rows * cols > 16 * len(nodes) + 256:
+    if rows * cols > _SPARSE * len(nodes) + _FEW:
         return None
     _, first = np.unique(cells @ np.array([cols, 1]), return_index=True)
     dense = np.full((rows, cols, 2), np.nan)
