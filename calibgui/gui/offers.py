@@ -18,6 +18,9 @@ from calibgui.gui.files import Files
 from calibgui.gui.image_list import ImageList
 from calibgui.gui.session import Session
 
+_LOOKED_AT = 2
+"""Images in which other kinds of boards are looked for, which takes seconds in each."""
+
 
 class Offers(QObject):
     """To recover unsaved work, to search changed images again, to locate missing ones, and to
@@ -130,7 +133,3 @@ class Offers(QObject):
             self._files.search()
 
         self._ask(text, choice, search)
-
-
-_LOOKED_AT = 2
-"""Images in which other kinds of boards are looked for, which takes seconds in each."""

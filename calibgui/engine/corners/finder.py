@@ -142,7 +142,7 @@ def _grown(seen: _Seen, seeds: list[Lattice], enough: Callable[[Lattice], bool])
     for seed in seeds:
         if not any(_overlap(other, seed) for other in grown):
             grown.append(one := grow(seed, nearby, beyond, hopeless))
-            if one is seed or not hopeless(one):
+            if one is seed or not hopeless(one):  # the seeds were glanced at before
                 hopeful.append(verify.without_strays(one, smooth))
     boards = [Candidate(one, max(junctions - len(one), 0)) for one in hopeful if enough(one)]
     return _distinct(boards)

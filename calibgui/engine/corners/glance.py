@@ -7,10 +7,10 @@ profiles across the edges near that. In squares,
 - they are straight: the dark has spread as far near the corner as away from it, while discs bulge;
 - they are of one print: the dark has spread alike across all that run in one direction, and much
   the same across the others, where a camera may sharpen otherwise; or steadily more to one side,
-  where light that grows to the other blinds the camera. The dots of a printed picture
-  grow with its tone; where stripes are shifted the edges along them stand where they should, those
-  across them do not. Tone may change slowly, and a part of the picture then pass for one print:
-  but around that the pattern goes on, in dots that are smaller.
+  where light that grows to the other blinds the camera. The dots of a printed picture grow with
+  its tone; where stripes are shifted the edges along them stand where they should, those across
+  them do not. Tone may change slowly, and a part of the picture then pass for one print: but
+  around that the pattern goes on, in dots that are smaller.
 
 Where something is printed in the squares the spread tells nothing.
 """
