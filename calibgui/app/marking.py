@@ -36,7 +36,7 @@ def snapped(image: Image, uv: Array, reach: float) -> Array | None:
     if floor <= 0:
         return None
     saddles = find_saddles(part, floor)
-    good, _ = classify(saddles.smooth, saddles.uv, floor)
+    good, _ = classify(saddles)
     at = saddles.uv[good] + [left, top]
     distance = np.linalg.norm(at - uv, axis=1)
     if not len(at) or distance.min() > reach:

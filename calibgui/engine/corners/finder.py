@@ -126,7 +126,7 @@ def _look(image: Image, floor: float, outline: Array | None) -> _Seen:
     saddles = find_saddles(image, floor)
     if outline is not None:
         saddles = saddles.under(contains(outline, saddles.uv))
-    passed, junctions = classify(saddles.smooth, saddles.uv, floor)
+    passed, junctions = classify(saddles)
     lattices = find_lattices(saddles, junctions, _GROWN)
     hopeful = [one for one in lattices if not glance.hopeless(one, image)]
     return _Seen(image, saddles, saddles.under(passed), hopeful)

@@ -25,7 +25,7 @@ from calibgui.engine.corners.lattice import (
     predict,
     trim,
 )
-from calibgui.engine.opencv import Image32
+from calibgui.engine.opencv import Image
 from calibgui.engine.types import Array, BoolArray, IntArray
 
 _TRIED = 6
@@ -75,7 +75,7 @@ def grow(
 class Places:
     """Points of an image by their place."""
 
-    def __init__(self, smooth: Image32, uv: Array) -> None:
+    def __init__(self, smooth: Image, uv: Array) -> None:
         self.smooth, self.uv = smooth, uv
         self._tree = scipy.spatial.cKDTree(uv) if len(uv) else None
 

@@ -6,8 +6,8 @@ are the local maxima of its negated determinant
 
     R = Ixy^2 - Ixx Iyy,
 
-which edges (one eigenvalue zero) and blobs (equal signs) leave at or below zero. A Newton step
-to the point of zero gradient, -H^-1 grad I, places them between pixels.
+which edges (one eigenvalue zero) and blobs (equal signs) leave at or below zero. Newton steps
+to the point of zero gradient, -H^-1 grad I, place them between pixels.
 
 Many textures have saddles. An X-junction is one whose grey levels on a circle around it change
 side exactly four times, symmetric under a half turn. With angles counted from u towards v the
@@ -23,10 +23,12 @@ import numpy as np
 
 from calibgui.engine import kernels, opencv
 from calibgui.engine.imaging.sampling import sample
-from calibgui.engine.opencv import Image, Image32
+from calibgui.engine.opencv import Image
 from calibgui.engine.types import Array, BoolArray, IntArray
 
 MAX_CANDIDATES = 3000
+_NEWTON = 3
+"""Steps to a saddle point: one alone would fall short by a third between two pixels."""
 _FARTHEST = 1.5
 """Greatest distance of a saddle point from its pixel along either axis, px."""
 _SAMPLES = 32
@@ -45,16 +47,16 @@ _NARROWEST = np.radians(12.0)
 class Saddles:
     """Candidate saddle points of one image, strongest first."""
 
-    smooth: Image32
-    """(h, w) the image that they were found in, slightly blurred."""
+    smooth: Image
+    """(h, w) the image that they were found in, slightly blurred, in levels of its own."""
+    floor: float
+    """Least contrast of a junction worth finding, in these levels."""
     uv: Array
     """(n, 2) px."""
-    strength: Array
-    """(n,) R, squared grey levels per px^4."""
 
     def under(self, mask: BoolArray) -> Saddles:
         """The saddles under a mask (n,)."""
-        return Saddles(self.smooth, self.uv[mask], self.strength[mask])
+        return Saddles(self.smooth, self.floor, self.uv[mask])
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -66,7 +68,7 @@ class Junctions:
     edges: Array
     """(n, 2) angles A < B < A + pi of the edges, rad from u towards v; dark from A to B."""
     contrast: Array
-    """(n,) bright minus dark, grey levels."""
+    """(n,) bright minus dark, levels of the smoothed image."""
 
     def __len__(self) -> int:
         return len(self.uv)
@@ -79,37 +81,45 @@ def find_saddles(image: Image, floor: float) -> Saddles:
         image: grey levels.
         floor: least contrast of a junction worth finding, grey levels.
     """
-    g = opencv.smooth(image, 1.0)
+    g, levels = opencv.smooth(image, 1.0)
+    floor = levels * floor
     # A crossing of contrast c, smoothed by 1 px, has R = (c / pi)^2 where it is sharp.
     where = (_compiled_peaks if kernels.COMPILED else _peaks)(g, (0.1 * floor) ** 2)
-    uv, strength = (_compiled_stationary if kernels.COMPILED else _stationary)(g, where)
-    near = np.isfinite(strength)
-    return Saddles(g, uv[near], strength[near])
+    uv, near = (_compiled_stationary if kernels.COMPILED else _stationary)(g, where)
+    return Saddles(g, floor, uv[near])
 
 
-def _stationary(g: Image32, where: IntArray) -> tuple[Array, Array]:
-    """The points of zero gradient (n, 2) near pixels `where` (n,) of the image, and R there, NaN
-    where they are not near."""
-    v, u = np.divmod(where, g.shape[1])
-    near = {(i, j): g[v + j, u + i].astype(np.float64) for i in (-1, 0, 1) for j in (-1, 0, 1)}
-    gu, gv = ((near[i, j] - near[-i, -j]) / 2 for i, j in ((1, 0), (0, 1)))
-    xx, yy = (near[i, j] - 2 * near[0, 0] + near[-i, -j] for i, j in ((1, 0), (0, 1)))
-    xy = (near[1, 1] - near[1, -1] - near[-1, 1] + near[-1, -1]) / 4
-    det = xy * xy - xx * yy
-    du = (yy * gu - xy * gv) / det
-    dv = (xx * gv - xy * gu) / det
-    inside = np.maximum(abs(du), abs(dv)) < _FARTHEST
-    return np.column_stack([u + du, v + dv]), np.where(inside, det, np.nan)
+def _stationary(g: Image, where: IntArray) -> tuple[Array, BoolArray]:
+    """The points of zero gradient (n, 2) of the image's saddles at pixels `where` (n,), and which
+    of them are near."""
+    pixel = np.column_stack(np.divmod(where, g.shape[1]))[:, ::-1].astype(np.float64)
+    uv, near = pixel.copy(), np.ones(len(pixel), dtype=np.bool_)
+    for _ in range(_NEWTON):
+        moved = uv + _newton(g, uv)
+        near &= (abs(moved - pixel) < _FARTHEST).all(axis=1)
+        uv[near] = moved[near]
+    return uv, near
 
 
-def _compiled_stationary(g: Image32, where: IntArray) -> tuple[Array, Array]:
+def _newton(g: Image, uv: Array) -> Array:
+    """The step -H^-1 grad I (n, 2) from points `uv` (n, 2) of the image."""
+    at = {(i, j): sample(g, uv + np.array([i, j])) for i in (-1, 0, 1) for j in (-1, 0, 1)}
+    gu, gv = ((at[i, j] - at[-i, -j]) / 2 for i, j in ((1, 0), (0, 1)))
+    xx, yy = (at[i, j] - 2 * at[0, 0] + at[-i, -j] for i, j in ((1, 0), (0, 1)))
+    xy = (at[1, 1] - at[1, -1] - at[-1, 1] + at[-1, -1]) / 4
+    step = np.column_stack([yy * gu - xy * gv, xx * gv - xy * gu])
+    with np.errstate(divide="ignore", invalid="ignore"):
+        return np.asarray(step / (xy * xy - xx * yy)[:, None])
+
+
+def _compiled_stationary(g: Image, where: IntArray) -> tuple[Array, BoolArray]:
     """`_stationary` by the compiled kernel."""
     from calibgui.engine.kernels import junctions
 
-    return junctions.stationary(g, where, _FARTHEST)
+    return junctions.stationary(g, where, _NEWTON, _FARTHEST)
 
 
-def _peaks(g: Image32, least: float) -> IntArray:
+def _peaks(g: Image, least: float) -> IntArray:
     """(n,) flat indices of the strongest maxima of R in the image `g`, strongest first."""
     delta, central, second = [0.0, 1.0, 0.0], [-0.5, 0.0, 0.5], [1.0, -2.0, 1.0]
     Ixx = opencv.separable(g, second, delta)
@@ -117,31 +127,34 @@ def _peaks(g: Image32, least: float) -> IntArray:
     Ixy = opencv.separable(g, central, central)
     R = Ixy * Ixy - Ixx * Iyy
     R[[0, -1]] = R[:, [0, -1]] = -np.inf
-    peak = (opencv.dilate(R, 5) == R) & (least < R)
+    around = np.ones((5, 5), dtype=np.bool_)
+    before = np.arange(25).reshape(5, 5) < 12  # of equally great ones the first is the peak
+    peak = (least < R) & (opencv.greatest(R, around) == R) & (opencv.greatest(R, before) < R)
     peak[:2], peak[-2:], peak[:, :2], peak[:, -2:] = False, False, False, False
     where = np.flatnonzero(peak)
     order = np.argsort(-R.ravel()[where], kind="stable")
     return where[order[:MAX_CANDIDATES]]
 
 
-def _compiled_peaks(g: Image32, least: float) -> IntArray:
+def _compiled_peaks(g: Image, least: float) -> IntArray:
     """`_peaks` by the compiled kernel."""
     from calibgui.engine.kernels import junctions
 
     return junctions.peaks(g, least, MAX_CANDIDATES)
 
 
-def classify(smooth: Image32, uv: Array, floor: float) -> tuple[BoolArray, Junctions]:
-    """Which of the points `uv` (n, 2) of the image are X-junctions of contrast `floor` or more.
+def classify(saddles: Saddles) -> tuple[BoolArray, Junctions]:
+    """Which of the `saddles` (n,) are X-junctions of no less contrast than is worth finding.
 
     Returns:
         A mask (n,) and the junctions under it.
     """
-    passed, found = (_compiled_rings if kernels.COMPILED else _rings)(smooth, uv, floor)
-    return passed, Junctions(uv[passed], found[passed, :2], found[passed, 2])
+    rings = _compiled_rings if kernels.COMPILED else _rings
+    passed, found = rings(saddles.smooth, saddles.uv, saddles.floor)
+    return passed, Junctions(saddles.uv[passed], found[passed, :2], found[passed, 2])
 
 
-def _rings(smooth: Image32, uv: Array, floor: float) -> tuple[BoolArray, Array]:
+def _rings(smooth: Image, uv: Array, floor: float) -> tuple[BoolArray, Array]:
     """Which points (n,) pass the test on one of the circles, and (n, 3) A, B and contrast."""
     passed, found = np.zeros(len(uv), dtype=np.bool_), np.zeros((len(uv), 3))
     for circle in _CIRCLES:
@@ -150,14 +163,14 @@ def _rings(smooth: Image32, uv: Array, floor: float) -> tuple[BoolArray, Array]:
     return passed, found
 
 
-def _compiled_rings(smooth: Image32, uv: Array, floor: float) -> tuple[BoolArray, Array]:
+def _compiled_rings(smooth: Image, uv: Array, floor: float) -> tuple[BoolArray, Array]:
     """`_rings` by the compiled kernel."""
     from calibgui.engine.kernels import junctions
 
     return junctions.rings(smooth, uv, _CIRCLES, floor, (_ASYMMETRY, _OFF_MIDDLE, _NARROWEST))
 
 
-def _ring(smooth: Image32, uv: Array, circle: Array, floor: float) -> tuple[BoolArray, Array]:
+def _ring(smooth: Image, uv: Array, circle: Array, floor: float) -> tuple[BoolArray, Array]:
     """The test on one circle (samples, 2): passed (n,) and (n, 3) A, B and contrast."""
     values = sample(smooth, uv[:, None] + circle)
     near, far = values[:, : _SAMPLES // 2], values[:, _SAMPLES // 2 :]

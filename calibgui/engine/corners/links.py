@@ -14,6 +14,7 @@ because only neighbours are ever compared.
 from __future__ import annotations
 
 from collections import deque
+from collections.abc import Iterator
 from itertools import islice
 
 import numpy as np
@@ -23,19 +24,18 @@ from calibgui.engine import kernels
 from calibgui.engine.corners.junctions import Junctions, Saddles
 from calibgui.engine.corners.lattice import STEPS, Lattice, trim
 from calibgui.engine.imaging.sampling import sample
-from calibgui.engine.opencv import Image32
-from calibgui.engine.types import Array, IntArray
+from calibgui.engine.opencv import Image
+from calibgui.engine.types import Array, BoolArray, Int32Array, IntArray
 
 _NEIGHBOURS = 12
-_PORTION = 500
-"""Junctions whose nearest ones are looked up at a time."""
+"""Junctions around one that its edges may lead to, the nearest."""
 _ALONG = float(np.cos(np.radians(20.0)))
 """How closely an edge must point to the neighbour that it leads to."""
 _PARALLEL = float(np.cos(np.radians(25.0)))
 """How closely the crossing edges of two neighbours must agree."""
 _ON_WAY = np.array([0.3, 0.5, 0.7])
 """Where on the way to a neighbour the edge must show."""
-_SPARSE, _FEW = 4, 256
+_SPARSE, _FEW = 3, 256
 """Cells of a lattice for each of its junctions, and beyond these, from which it is no board's."""
 _STEP = 0.25
 """Least step across the edge between two neighbours over the weaker one's contrast."""
@@ -48,44 +48,33 @@ def find_lattices(saddles: Saddles, junctions: Junctions, most: int) -> list[Lat
     """
     if len(junctions) < 4:
         return []
-    neighbour, back = _link(saddles.smooth, junctions)
-    arranged = (
-        _arrange(junctions.uv, *_agreeing(nodes, placed, neighbour, back))
-        for nodes, placed in _walk(neighbour, back)
-    )
+    arranged = (_arrange(junctions.uv, *part) for part in _parts(_link(saddles.smooth, junctions)))
     lattices = islice((lattice for lattice in arranged if lattice is not None), most)
     return sorted(lattices, key=len, reverse=True)
 
 
-def _link(smooth: Image32, junctions: Junctions) -> tuple[IntArray, IntArray]:
-    """Neighbour (n, 4) at each slot, -1 where none, and the slot (n, 4) at which it looks back."""
-    n = len(junctions)
-    ranks = np.arange(2, min(_NEIGHBOURS, n - 1) + 2)  # the first is the junction itself
+def _link(smooth: Image, junctions: Junctions) -> Int32Array:
+    """(n, 4) where the edge that leaves each slot ends: 4 j + k at the slot k of junction j, which
+    looks back; -1 where it ends at none."""
+    ends = (_compiled_nearest if kernels.COMPILED else _nearest)(smooth, junctions)
+    slots = np.arange(ends.size, dtype=np.int32).reshape(ends.shape)
+    ends[ends.ravel()[ends] != slots] = -1
+    return ends
+
+
+def _along(junctions: Junctions) -> Array:
+    """(n, 2, 2) unit vectors along the edges that leave junctions at slots 0 and 1."""
+    return np.stack([np.cos(junctions.edges), np.sin(junctions.edges)], axis=-1)
+
+
+def _nearest(smooth: Image, junctions: Junctions) -> Int32Array:
+    """`_link`, whether or not the other junction looks back."""
+    n, along = len(junctions), _along(junctions)
+    slots = np.concatenate([along, -along], axis=1)
     tree = scipy.spatial.cKDTree(junctions.uv)
-    slots = _slots(junctions)
-    search = _compiled_nearest if kernels.COMPILED else _nearest
-    neighbour, back = np.full((n, 4), -1), np.full((n, 4), -1)
-    for begin in range(0, n, _PORTION):
-        some = np.arange(begin, min(begin + _PORTION, n))
-        near = np.asarray(tree.query(junctions.uv[some], ranks)[1], dtype=np.int64)
-        neighbour[some], back[some] = search(smooth, junctions, slots, some, near)
-    one_way = (neighbour < 0) | (neighbour[neighbour, back] != np.arange(n)[:, None])
-    neighbour[one_way] = back[one_way] = -1
-    return neighbour, back
-
-
-def _slots(junctions: Junctions) -> Array:
-    """(n, 4, 2) unit vectors along the edges that leave junctions."""
-    angle = junctions.edges[:, [0, 1, 0, 1]] + np.array([0, 0, np.pi, np.pi])
-    return np.stack([np.cos(angle), np.sin(angle)], axis=-1)
-
-
-def _nearest(
-    smooth: Image32, junctions: Junctions, slots: Array, some: IntArray, near: IntArray
-) -> tuple[IntArray, IntArray]:
-    """`_link` of `some` (m,) consecutive junctions, mutual or not, from all edges' directions
-    `slots` (n, 4, 2) and the junctions `near` (m, k) each, nearest first."""
-    me, other = np.repeat(some, near.shape[1]), near.ravel()
+    ranks = np.arange(2, min(_NEIGHBOURS, n - 1) + 2)  # the first is the junction itself
+    other = np.asarray(tree.query(junctions.uv, ranks)[1], dtype=np.int64).ravel()
+    me = np.repeat(np.arange(n), len(ranks))
     d = junctions.uv[other] - junctions.uv[me]
     distance = np.linalg.norm(d, axis=1)
     apart = distance > 0
@@ -103,56 +92,53 @@ def _nearest(
     )
     me, other, distance, d, k, k_back = (x[good] for x in (me, other, distance, d, k, k_back))
     # A real edge lies between: dark on the side that the slots' numbers say.
-    along = _ON_WAY * distance[:, None]
+    way = _ON_WAY * distance[:, None]
     normal = np.clip(0.15 * distance, 1.0, None)[:, None] * np.column_stack([-d[:, 1], d[:, 0]])
-    on = junctions.uv[me][:, None] + along[..., None] * d[:, None]
+    on = junctions.uv[me][:, None] + way[..., None] * d[:, None]
     step = sample(smooth, on + normal[:, None]) - sample(smooth, on - normal[:, None])
     step *= np.where(k % 2 == 1, 1.0, -1.0)[:, None]
     weaker = np.minimum(junctions.contrast[me], junctions.contrast[other])
     good = step.min(axis=1) > _STEP * weaker
     me, other, distance, k, k_back = (x[good] for x in (me, other, distance, k, k_back))
-    neighbour, back = np.full((len(some), 4), -1), np.full((len(some), 4), -1)
+    ends = np.full((n, 4), -1, dtype=np.int32)
     order = np.argsort(-distance, kind="stable")  # the nearest is written last
-    mine = me[order] - some[0]
-    neighbour[mine, k[order]] = other[order]
-    back[mine, k[order]] = k_back[order]
-    return neighbour, back
+    ends[me[order], k[order]] = (4 * other + k_back)[order]
+    return ends
 
 
-def _compiled_nearest(
-    smooth: Image32, junctions: Junctions, slots: Array, some: IntArray, near: IntArray
-) -> tuple[IntArray, IntArray]:
+def _compiled_nearest(smooth: Image, junctions: Junctions) -> Int32Array:
     """`_nearest` by the compiled kernel."""
     from calibgui.engine.kernels import links
 
-    limits = _ALONG, _PARALLEL, _STEP
-    points = junctions.uv, slots, junctions.contrast
-    return links.nearest(smooth, *points, some, near, _ON_WAY, limits)
+    points = junctions.uv, _along(junctions), junctions.contrast
+    return links.nearest(smooth, *points, _NEIGHBOURS, _ON_WAY, (_ALONG, _PARALLEL, _STEP))
 
 
-def _walk(neighbour: IntArray, back: IntArray) -> list[tuple[IntArray, IntArray]]:
-    """Nodes (m,) and their rows, columns and turns (m, 3) of each connected part with a full cell's
-    worth, largest first."""
-    links = np.sum(neighbour >= 0, axis=1)
+def _parts(ends: Int32Array) -> Iterator[tuple[IntArray, IntArray]]:
+    """Junctions (m,) and their rows, columns and turns (m, 3) of each connected part with a full
+    cell's worth, largest first, without those that their links contradict more often than not."""
+    links = np.sum(ends >= 0, axis=1)
     order = np.argsort(-links, kind="stable")
     seeds = order[links[order] > 0]
     if not len(seeds):
-        return []
-    walked = (_compiled_reached if kernels.COMPILED else _reached)(neighbour, back, seeds)
-    ends = np.flatnonzero(np.diff(walked[1])) + 1
-    parts = zip(*(np.split(x, ends) for x in (walked[0], walked[2])), strict=True)
-    large = (part for part in parts if len(part[0]) >= 4)
-    return sorted(large, key=lambda part: len(part[0]), reverse=True)
+        return
+    nodes, seed, placed = (_compiled_walk if kernels.COMPILED else _walk)(ends, seeds)
+    agree = (_compiled_agreeing if kernels.COMPILED else _agreeing)(ends, nodes, placed)
+    begin = np.flatnonzero(np.diff(seed, prepend=-1))
+    size = np.diff(begin, append=len(seed))
+    for k in np.argsort(-size, kind="stable"):
+        if size[k] < 4:
+            return
+        part = begin[k] + np.flatnonzero(agree[begin[k] : begin[k] + size[k]])
+        yield nodes[part], placed[part]
 
 
-def _reached(
-    neighbour: IntArray, back: IntArray, seeds: IntArray
-) -> tuple[IntArray, IntArray, IntArray]:
-    """Nodes (m,) in the order of walks from each of the `seeds` not reached before, the walk (m,)
-    that reached them, and their rows, columns and turns (m, 3)."""
-    to, look = neighbour.tolist(), back.tolist()
+def _walk(ends: Int32Array, seeds: IntArray) -> tuple[IntArray, IntArray, IntArray]:
+    """Junctions (m,) in the order of walks from each of the `seeds` not reached before, the seed
+    (m,) of each, and their rows, columns and turns (m, 3)."""
+    leads = ends.tolist()
     place: dict[int, tuple[int, int, int]] = {}
-    walk: list[int] = []
+    origin: list[int] = []
     for seed in seeds.tolist():
         if seed in place:
             continue
@@ -160,49 +146,49 @@ def _reached(
         queue = deque([seed])
         while queue:
             i = queue.popleft()
-            walk.append(seed)
+            origin.append(seed)
             row, col, turn = place[i]
-            for k, j in enumerate(to[i]):
+            for k, end in enumerate(leads[i]):
+                j, back = divmod(end, 4)
                 if j >= 0 and j not in place:
                     direction = (k + turn) % 4
                     dr, dc = STEPS[direction].tolist()
-                    place[j] = (row + dr, col + dc, (direction + 2 - look[i][k]) % 4)
+                    place[j] = (row + dr, col + dc, (direction + 2 - back) % 4)
                     queue.append(j)
-    nodes, placed = np.array(list(place)), np.array(list(place.values()))
-    return nodes, np.array(walk), placed
+    return np.array(list(place)), np.array(origin), np.array(list(place.values()))
 
 
-def _compiled_reached(
-    neighbour: IntArray, back: IntArray, seeds: IntArray
-) -> tuple[IntArray, IntArray, IntArray]:
-    """`_reached` by the compiled kernel."""
+def _compiled_walk(ends: Int32Array, seeds: IntArray) -> tuple[IntArray, IntArray, IntArray]:
+    """`_walk` by the compiled kernel."""
     from calibgui.engine.kernels import links
 
-    return links.walk(neighbour, back, seeds, STEPS)
+    return links.walk(ends, seeds, STEPS)
 
 
-def _agreeing(
-    nodes: IntArray, placed: IntArray, neighbour: IntArray, back: IntArray
-) -> tuple[IntArray, IntArray, IntArray]:
-    """Drop the nodes that their links contradict more often than not."""
-    where = np.full(len(neighbour), -1)
+def _agreeing(ends: Int32Array, nodes: IntArray, placed: IntArray) -> BoolArray:
+    """(m,) which of the junctions `nodes` (m,) most of their links place where they are."""
+    where = np.zeros(len(ends), dtype=np.int64)
     where[nodes] = np.arange(len(nodes))
-    to = where[neighbour[nodes]]
-    linked = (neighbour[nodes] >= 0) & (to >= 0)
+    leads = ends[nodes]
+    there = placed[where[leads // 4]]
     direction = (np.arange(4) + placed[:, 2:]) % 4
-    target = placed[:, None, :2] + STEPS[direction]
-    turn = (direction + 2 - back[nodes]) % 4
-    agree = np.all(placed[to][..., :2] == target, axis=2) & (placed[to][..., 2] == turn)
-    votes = np.sum(np.where(linked, np.where(agree, 1, -1), 0), axis=1)
-    keep = votes > 0
-    return nodes[keep], placed[keep, :2], placed[keep, 2]
+    agree = np.all(there[..., :2] == placed[:, None, :2] + STEPS[direction], axis=2)
+    agree &= there[..., 2] == (direction + 2 - leads) % 4
+    return np.asarray(np.sum(np.where(agree, 1, -1), axis=1, where=leads >= 0) > 0)
 
 
-def _arrange(uv: Array, nodes: IntArray, cells: IntArray, turns: IntArray) -> Lattice | None:
-    """The dense lattice of the placed nodes, without doubles and strays."""
+def _compiled_agreeing(ends: Int32Array, nodes: IntArray, placed: IntArray) -> BoolArray:
+    """`_agreeing` by the compiled kernel."""
+    from calibgui.engine.kernels import links
+
+    return links.agreeing(ends, nodes, placed, STEPS)
+
+
+def _arrange(uv: Array, nodes: IntArray, placed: IntArray) -> Lattice | None:
+    """The dense lattice of the placed junctions, without doubles and strays."""
     if len(nodes) < 4:
         return None
-    cells = cells - cells.min(axis=0)
+    cells, turns = placed[:, :2] - placed[:, :2].min(axis=0), placed[:, 2]
     rows, cols = cells.max(axis=0) + 1
     if rows * cols > _SPARSE * len(nodes) + _FEW:
         return None

@@ -9,11 +9,11 @@ from __future__ import annotations
 import numpy as np
 
 from calibgui.engine.kernels.common import bilinear, compiled
-from calibgui.engine.opencv import Image32
+from calibgui.engine.opencv import Image
 from calibgui.engine.types import Array, BoolArray, IntArray
 
 _F = np.float32
-_HALF, _TWO = _F(0.5), _F(2)
+_QUARTER, _TWO = _F(0.25), _F(2)
 
 
 @compiled
@@ -21,10 +21,22 @@ def _determinant(g, v, row):  # type: ignore[no-untyped-def]
     """Fill row with R of row v of the image g, but for its ends."""
     above, here, below = g[v - 1], g[v], g[v + 1]
     for u in range(1, row.shape[0] - 1):
-        xx = here[u - 1] - _TWO * here[u] + here[u + 1]
-        yy = above[u] - _TWO * here[u] + below[u]
-        xy = _HALF * _HALF * (below[u + 1] - below[u - 1] - above[u + 1] + above[u - 1])
+        twice = _TWO * _F(here[u])
+        xx = _F(here[u - 1]) - twice + _F(here[u + 1])
+        yy = _F(above[u]) - twice + _F(below[u])
+        xy = _F(below[u + 1]) - _F(below[u - 1]) - _F(above[u + 1]) + _F(above[u - 1])
+        xy *= _QUARTER
         row[u] = xy * xy - xx * yy
+
+
+@compiled
+def _first(R, v, u):  # type: ignore[no-untyped-def]
+    """Whether a peak equals none before it around."""
+    here = R[v % 5, u]
+    for du in range(-2, 3):
+        if R[(v - 2) % 5, u + du] == here or R[(v - 1) % 5, u + du] == here:
+            return False
+    return R[v % 5, u - 2] != here and R[v % 5, u - 1] != here
 
 
 @compiled
@@ -53,14 +65,14 @@ def _peaks(g, least, v, where, value):  # type: ignore[no-untyped-def]
             any_peak |= is_peak[u]
         if any_peak:
             for u in range(2, width - 2):
-                if is_peak[u]:
+                if is_peak[u] and _first(R, v, u):
                     where[count], value[count] = v * width + u, here[u]
                     count += 1
         v += 1
     return count, v
 
 
-def peaks(g: Image32, least: float, most: int) -> IntArray:
+def peaks(g: Image, least: float, most: int) -> IntArray:
     """(n,) flat indices of the at most `most` strongest peaks of R, strongest first."""
     where, value = np.empty(0, dtype=np.int64), np.empty(0, dtype=_F)
     more = np.empty(most + g.shape[1], dtype=np.int64)
@@ -78,27 +90,38 @@ def peaks(g: Image32, least: float, most: int) -> IntArray:
 
 
 @compiled
-def _stationary(g, where, farthest, uv, strength):  # type: ignore[no-untyped-def]
+def _newton(g, u, v):  # type: ignore[no-untyped-def]
+    """The step from (u, v) towards the point of zero gradient."""
+    left, here, right = bilinear(g, u - 1, v), bilinear(g, u, v), bilinear(g, u + 1, v)
+    above, below = bilinear(g, u, v - 1), bilinear(g, u, v + 1)
+    gu, gv = (right - left) / 2, (below - above) / 2
+    xx, yy = right - 2 * here + left, below - 2 * here + above
+    xy = bilinear(g, u + 1, v + 1) - bilinear(g, u + 1, v - 1)
+    xy = (xy - bilinear(g, u - 1, v + 1) + bilinear(g, u - 1, v - 1)) / 4
+    det = xy * xy - xx * yy
+    return (yy * gu - xy * gv) / det, (xx * gv - xy * gu) / det
+
+
+@compiled
+def _stationary(g, where, steps, farthest, uv, near):  # type: ignore[no-untyped-def]
     for n in range(where.shape[0]):
-        v, u = where[n] // g.shape[1], where[n] % g.shape[1]
-        here = float(g[v, u])
-        left, right, above, below = g[v, u - 1], g[v, u + 1], g[v - 1, u], g[v + 1, u]
-        gu, gv = (right - left) / 2.0, (below - above) / 2.0
-        xx, yy = right - 2 * here + left, below - 2 * here + above
-        xy = g[v + 1, u + 1] - float(g[v - 1, u + 1]) - g[v + 1, u - 1] + g[v - 1, u - 1]
-        xy /= 4
-        det = xy * xy - xx * yy
-        du, dv = (yy * gu - xy * gv) / det, (xx * gv - xy * gu) / det
-        uv[n, 0], uv[n, 1] = u + du, v + dv
-        strength[n] = det if max(abs(du), abs(dv)) < farthest else np.nan
+        row, col = where[n] // g.shape[1], where[n] % g.shape[1]
+        uv[n, 0], uv[n, 1], near[n] = col, row, True
+        for _ in range(steps):
+            du, dv = _newton(g, uv[n, 0], uv[n, 1])
+            u, v = uv[n, 0] + du, uv[n, 1] + dv
+            near[n] = max(abs(u - col), abs(v - row)) < farthest
+            if not near[n]:
+                break
+            uv[n, 0], uv[n, 1] = u, v
 
 
-def stationary(g: Image32, where: IntArray, farthest: float) -> tuple[Array, Array]:
-    """``junctions._stationary``: points of zero gradient (n, 2) and R there, NaN where one lies
-    farther than `farthest` px from its pixel."""
-    uv, strength = np.empty((len(where), 2)), np.empty(len(where))
-    _stationary(g, where, farthest, uv, strength)
-    return uv, strength
+def stationary(g: Image, where: IntArray, steps: int, farthest: float) -> tuple[Array, BoolArray]:
+    """``junctions._stationary``: points of zero gradient (n, 2) after so many Newton steps, and
+    which stayed within `farthest` px of their pixels along both axes."""
+    uv, near = np.empty((len(where), 2)), np.empty(len(where), dtype=np.bool_)
+    _stationary(g, where, steps, farthest, uv, near)
+    return uv, near
 
 
 @compiled
@@ -144,7 +167,7 @@ def _rings(g, uv, circles, floor, limits, passed, found):  # type: ignore[no-unt
 
 
 def rings(
-    g: Image32, uv: Array, circles: Array, floor: float, limits: tuple[float, float, float]
+    g: Image, uv: Array, circles: Array, floor: float, limits: tuple[float, float, float]
 ) -> tuple[BoolArray, Array]:
     """The ring test of points uv (n, 2) on `circles` (k, samples, 2) in turn until one passes.
 

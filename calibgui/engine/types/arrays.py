@@ -9,6 +9,7 @@ from calibgui.engine.errors import CalibrationError
 
 Array = npt.NDArray[np.float64]
 IntArray = npt.NDArray[np.int64]
+Int32Array = npt.NDArray[np.int32]
 BoolArray = npt.NDArray[np.bool_]
 
 Size = tuple[int, int]

@@ -7,6 +7,8 @@ import pytest
 
 from calibgui.engine import kernels, opencv
 from calibgui.engine.corners import junctions, links
+from calibgui.engine.kernels import links as kernel
+from calibgui.engine.opencv import Image
 from tests.benchmarks.corner_scenes import Conditions, draw
 
 
@@ -14,7 +16,7 @@ from tests.benchmarks.corner_scenes import Conditions, draw
 def test_the_same_lattices(clutter: bool, monkeypatch: pytest.MonkeyPatch) -> None:
     scene = Conditions(size=(320, 240), square=20.0, noise=4.0, clutter=clutter)
     saddles = junctions.find_saddles(draw(scene, 3).photograph(0), 8.0)
-    passed, found = junctions.classify(saddles.smooth, saddles.uv, 8.0)
+    passed, found = junctions.classify(saddles)
     compiled = links.find_lattices(saddles.under(passed), found, 8)
     monkeypatch.setattr(kernels, "COMPILED", False)
     readable = links.find_lattices(saddles.under(passed), found, 8)
@@ -24,32 +26,61 @@ def test_the_same_lattices(clutter: bool, monkeypatch: pytest.MonkeyPatch) -> No
         np.testing.assert_array_equal(one.uv, other.uv)
 
 
-def test_the_same_neighbours_in_noise(monkeypatch: pytest.MonkeyPatch) -> None:
+def in_noise() -> tuple[Image, junctions.Junctions]:
+    """A smoothed image and what might be its junctions, two of them in one place."""
     rng = np.random.default_rng(4)
-    smooth = opencv.smooth(rng.uniform(0, 255, (100, 150)).astype(np.float32), 1.5)
+    smooth, _ = opencv.smooth(rng.uniform(0, 255, (100, 150)).astype(np.float32), 1.5)
     n = 2000
     edges = rng.uniform((0, np.pi / 2), (0.6, 0.6 + np.pi / 2), (n, 2))
     edges[::2] += np.pi / 2
     uv = rng.uniform(0, (149, 99), (n, 2))
     uv[1] = uv[0]
-    found = junctions.Junctions(uv, edges, rng.uniform(1, 30, n))
-    compiled = links._link(smooth, found)
-    monkeypatch.setattr(kernels, "COMPILED", False)
-    readable = links._link(smooth, found)
-    assert np.count_nonzero(readable[0] >= 0) > 100
-    np.testing.assert_array_equal(compiled, readable)
+    return smooth, junctions.Junctions(uv, edges, rng.uniform(1, 30, n))
+
+
+def test_the_same_neighbours_in_noise() -> None:
+    readable = links._nearest(*in_noise())
+    assert np.count_nonzero(readable >= 0) > 100
+    np.testing.assert_array_equal(links._compiled_nearest(*in_noise()), readable)
+
+
+def test_only_edges_that_are_seen_from_both_ends_link() -> None:
+    ends = links._link(*in_noise()).ravel()
+    linked = np.flatnonzero(ends >= 0)
+    assert 20 < len(linked) < np.count_nonzero(links._nearest(*in_noise()) >= 0)
+    np.testing.assert_array_equal(ends[ends[linked]], linked)
+
+
+@pytest.mark.parametrize("extent", [(149.0, 99.0), (149.0, 0.0), (0.0, 0.0)])
+@pytest.mark.parametrize("crowd", [0.0, 0.9])
+@pytest.mark.parametrize("n", [2, 14, 400])
+def test_the_same_junctions_are_nearest(n: int, crowd: float, extent: tuple[float, float]) -> None:
+    rng = np.random.default_rng(6)
+    uv = rng.uniform(0, 1, (n, 2)) * extent
+    uv[rng.random(n) < crowd] *= 0.01
+    distance = np.linalg.norm(uv[:, None] - uv, axis=2)
+    np.fill_diagonal(distance, np.inf)
+    lowest, side, start, member = kernel.cells(uv)
+    near, squared = np.empty(12, dtype=np.int64), np.empty(12)
+    for i in range(n):
+        count = kernel._around(uv, i, lowest, side, start, member, near, squared)
+        assert count == min(n - 1, 12)
+        assert i not in near[:count]
+        np.testing.assert_allclose(np.sqrt(squared[:count]), np.sort(distance[i])[:count])
+        np.testing.assert_allclose(distance[i, near[:count]], np.sort(distance[i])[:count])
 
 
 def test_the_same_walks(monkeypatch: pytest.MonkeyPatch) -> None:
     rng = np.random.default_rng(1)
-    n = 200
-    neighbour, back = np.full((n, 4), -1), rng.integers(0, 4, (n, 4))
-    linked = rng.random((n, 4)) < 0.4
-    neighbour[linked] = rng.integers(0, n, np.count_nonzero(linked))
-    compiled = links._walk(neighbour, back)
+    ends = np.full(800, -1, dtype=np.int32)
+    one, other = rng.permutation(800)[:400].reshape(2, -1)
+    ends[one], ends[other] = other, one
+    ends = ends.reshape(-1, 4)
+    compiled = list(links._parts(ends))
     monkeypatch.setattr(kernels, "COMPILED", False)
-    readable = links._walk(neighbour, back)
+    readable = list(links._parts(ends))
     assert len(readable) == len(compiled) > 0
-    for one, other in zip(compiled, readable, strict=True):
-        for a, b in zip(one, other, strict=True):
-            np.testing.assert_array_equal(a, b)
+    assert 0 < sum(len(nodes) for nodes, _ in readable) < 200
+    for a, b in zip(compiled, readable, strict=True):
+        for x, y in zip(a, b, strict=True):
+            np.testing.assert_array_equal(x, y)
