@@ -55,10 +55,10 @@ class Lattice:
 
 def trim(lattice: Lattice) -> Lattice | None:
     """The lattice without corners off their neighbours' prediction; None without a full cell."""
-    trimmed = lattice.under(~_strays(lattice))
-    found = trimmed.found
+    lattice = lattice.under(~_strays(lattice))
+    found = lattice.found
     cell = found[:-1, :-1] & found[1:, :-1] & found[:-1, 1:] & found[1:, 1:]
-    return supported(trimmed) if cell.any() else None
+    return supported(lattice) if cell.any() else None
 
 
 def _strays(lattice: Lattice) -> BoolArray:
@@ -83,13 +83,11 @@ def supported(lattice: Lattice) -> Lattice:
 def with_steps(lattice: Lattice) -> Lattice:
     """The lattice without corners too far from all others for the steps there to be known."""
     while True:
-        found = lattice.found
-        right, down = (step[found] for step in axes(lattice.uv))
-        known = np.isfinite(right + down).all(axis=1)
-        if known.all():
+        right, down = axes(lattice.uv)
+        known = np.isfinite(right[..., 0] + down[..., 0])
+        if known[lattice.found].all():
             return lattice
-        found[found] = known
-        lattice = lattice.under(found)
+        lattice = lattice.under(known)
 
 
 def crop(lattice: Lattice) -> Lattice:

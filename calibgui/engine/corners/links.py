@@ -114,7 +114,7 @@ def _compiled_nearest(smooth: Image, junctions: Junctions) -> Int32Array:
     return links.nearest(smooth, *points, _NEIGHBOURS, _ON_WAY, (_ALONG, _PARALLEL, _STEP))
 
 
-def _parts(ends: Int32Array) -> Iterator[tuple[IntArray, IntArray]]:
+def _parts(ends: Int32Array) -> Iterator[tuple[Int32Array, Int32Array]]:
     """Junctions (m,) and their rows, columns and turns (m, 3) of each connected part with a full
     cell's worth, largest first, without those that their links contradict more often than not."""
     links = np.sum(ends >= 0, axis=1)
@@ -133,7 +133,7 @@ def _parts(ends: Int32Array) -> Iterator[tuple[IntArray, IntArray]]:
         yield nodes[part], placed[part]
 
 
-def _walk(ends: Int32Array, seeds: IntArray) -> tuple[IntArray, IntArray, IntArray]:
+def _walk(ends: Int32Array, seeds: IntArray) -> tuple[Int32Array, Int32Array, Int32Array]:
     """Junctions (m,) in the order of walks from each of the `seeds` not reached before, the seed
     (m,) of each, and their rows, columns and turns (m, 3)."""
     leads = ends.tolist()
@@ -155,17 +155,18 @@ def _walk(ends: Int32Array, seeds: IntArray) -> tuple[IntArray, IntArray, IntArr
                     dr, dc = STEPS[direction].tolist()
                     place[j] = (row + dr, col + dc, (direction + 2 - back) % 4)
                     queue.append(j)
-    return np.array(list(place)), np.array(origin), np.array(list(place.values()))
+    nodes, placed = list(place), list(place.values())
+    return np.array(nodes, np.int32), np.array(origin, np.int32), np.array(placed, np.int32)
 
 
-def _compiled_walk(ends: Int32Array, seeds: IntArray) -> tuple[IntArray, IntArray, IntArray]:
+def _compiled_walk(ends: Int32Array, seeds: IntArray) -> tuple[Int32Array, Int32Array, Int32Array]:
     """`_walk` by the compiled kernel."""
     from calibgui.engine.kernels import links
 
     return links.walk(ends, seeds, STEPS)
 
 
-def _agreeing(ends: Int32Array, nodes: IntArray, placed: IntArray) -> BoolArray:
+def _agreeing(ends: Int32Array, nodes: Int32Array, placed: Int32Array) -> BoolArray:
     """(m,) which of the junctions `nodes` (m,) most of their links place where they are."""
     where = np.zeros(len(ends), dtype=np.int64)
     where[nodes] = np.arange(len(nodes))
@@ -177,24 +178,29 @@ def _agreeing(ends: Int32Array, nodes: IntArray, placed: IntArray) -> BoolArray:
     return np.asarray(np.sum(np.where(agree, 1, -1), axis=1, where=leads >= 0) > 0)
 
 
-def _compiled_agreeing(ends: Int32Array, nodes: IntArray, placed: IntArray) -> BoolArray:
+def _compiled_agreeing(ends: Int32Array, nodes: Int32Array, placed: Int32Array) -> BoolArray:
     """`_agreeing` by the compiled kernel."""
     from calibgui.engine.kernels import links
 
     return links.agreeing(ends, nodes, placed, STEPS)
 
 
-def _arrange(uv: Array, nodes: IntArray, placed: IntArray) -> Lattice | None:
-    """The dense lattice of the placed junctions, without doubles and strays."""
+def _arrange(uv: Array, nodes: Int32Array, placed: Int32Array) -> Lattice | None:
+    """The lattice of the placed junctions, without strays."""
     if len(nodes) < 4:
         return None
-    cells, turns = placed[:, :2] - placed[:, :2].min(axis=0), placed[:, 2]
-    rows, cols = cells.max(axis=0) + 1
+    placed[:, :2] -= placed[:, :2].min(axis=0)
+    rows, cols = placed[:, :2].max(axis=0) + 1
     if rows * cols > _SPARSE * len(nodes) + _FEW:
         return None
-    _, first = np.unique(cells @ np.array([cols, 1]), return_index=True)
-    dense = np.full((rows, cols, 2), np.nan)
-    dense[cells[first, 0], cells[first, 1]] = uv[nodes[first]]
+    return trim(_laid_out(uv[nodes], placed, (rows, cols)))
+
+
+def _laid_out(uv: Array, placed: Int32Array, shape: tuple[int, int]) -> Lattice:
+    """Junctions `uv` (m, 2) by their rows, columns and turns (m, 3), of doubles the first."""
+    rows, cols, _ = placed.T
+    _, first = np.unique(rows * shape[1] + cols, return_index=True)
+    dense = np.full((*shape, 2), np.nan)
+    dense[rows[first], cols[first]] = uv[first]
     # At an even turn slot 0 points along a row, and the squares (+, +) and (-, -) are dark.
-    votes = (turns + cells.sum(axis=1)) % 2
-    return trim(Lattice(dense, dark=bool(np.mean(votes) < 0.5)))
+    return Lattice(dense, dark=bool(np.mean(placed.sum(axis=1) % 2) < 0.5))

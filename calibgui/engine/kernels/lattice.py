@@ -29,7 +29,7 @@ def _mean(values):  # type: ignore[no-untyped-def]
 @compiled
 def _steps(uv, dr, dc, reach, out):  # type: ignore[no-untyped-def]
     rows, cols, _ = uv.shape
-    own = np.empty((rows, cols, 2))
+    unknown = False
     for r in range(rows):
         for c in range(cols):
             for k in range(2):
@@ -42,20 +42,27 @@ def _steps(uv, dr, dc, reach, out):  # type: ignore[no-untyped-def]
                     after = _at(uv, r + 2 * dr, c + 2 * dc, k)
                     before = _at(uv, r - 2 * dr, c - 2 * dc, k)
                     step = _mean(((after - here) / 2, (here - before) / 2))
-                own[r, c, k] = out[r, c, k] = step
-    for _ in range(reach):
-        for r in range(rows):
-            for c in range(cols):
-                for k in range(2):
-                    if np.isnan(own[r, c, k]):
-                        beside = (
-                            _at(own, r, c + 1, k),
-                            _at(own, r + 1, c, k),
-                            _at(own, r, c - 1, k),
-                            _at(own, r - 1, c, k),
-                        )
-                        out[r, c, k] = _mean(beside)
-        own[:] = out
+                out[r, c, k] = step
+                unknown |= np.isnan(step)
+    if unknown:
+        for _ in range(reach):
+            _spread(out)
+
+
+@compiled
+def _spread(steps):  # type: ignore[no-untyped-def]
+    """Fill unknown steps from those that were known around them."""
+    rows, cols, _ = steps.shape
+    # Two rows as they were, with a border on either side: the one above and the one being filled.
+    above, here = np.full((cols + 2, 2), np.nan), np.full((cols + 2, 2), np.nan)
+    for r in range(rows):
+        here[1:-1] = steps[r]
+        for c in range(cols):
+            for k in range(2):
+                if np.isnan(here[c + 1, k]):
+                    below = _at(steps, r + 1, c, k)
+                    steps[r, c, k] = _mean((here[c + 2, k], below, here[c, k], above[c + 1, k]))
+        above, here = here, above
 
 
 @compiled

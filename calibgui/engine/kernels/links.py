@@ -203,11 +203,13 @@ def _walk(ends, seeds, steps, nodes, origin, placed):  # type: ignore[no-untyped
     return count
 
 
-def walk(ends: Int32Array, seeds: IntArray, steps: IntArray) -> tuple[IntArray, IntArray, IntArray]:
+def walk(
+    ends: Int32Array, seeds: IntArray, steps: IntArray
+) -> tuple[Int32Array, Int32Array, Int32Array]:
     """``links._walk``: junctions (m,) in the order of a walk from each of the `seeds` not reached
     before, the seed (m,) of each, and their rows, columns and turns (m, 3)."""
     n = len(ends)
-    nodes, origin, placed = np.empty(n, np.int64), np.empty(n, np.int64), np.empty((n, 3), np.int64)
+    nodes, origin, placed = np.empty(n, np.int32), np.empty(n, np.int32), np.empty((n, 3), np.int32)
     count = _walk(ends, seeds, steps, nodes, origin, placed)
     return nodes[:count], origin[:count], placed[:count]
 
@@ -232,7 +234,7 @@ def _agreeing(ends, nodes, placed, steps, agree):  # type: ignore[no-untyped-def
         agree[m] = votes > 0
 
 
-def agreeing(ends: Int32Array, nodes: IntArray, placed: IntArray, steps: IntArray) -> BoolArray:
+def agreeing(ends: Int32Array, nodes: Int32Array, placed: Int32Array, steps: IntArray) -> BoolArray:
     """``links._agreeing``: (m,) which of the junctions `nodes` (m,) most of their links place where
     they are, `placed` (m, 3)."""
     agree = np.empty(len(nodes), dtype=np.bool_)

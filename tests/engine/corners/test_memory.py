@@ -20,6 +20,8 @@ IMAGES = {
     "noise": lambda: boardless(0),
     "clutter": lambda: boardless(4),
     "rectangles": lambda: boardless(5),
+    "waves": lambda: boardless(200),
+    "halftone": lambda: boardless(215),
     "board": lambda: photograph((640, 480), (6, 9), 36, 0.8),
     "board of many squares": lambda: photograph((640, 480), (21, 23), 17, 2.0),
 }
