@@ -10,6 +10,7 @@ the board, has a line that turns or a sector that is not even.
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 
@@ -17,7 +18,7 @@ from calibgui.engine import kernels
 from calibgui.engine.corners.lattice import Lattice, axes
 from calibgui.engine.imaging.sampling import sample
 from calibgui.engine.opencv import Image
-from calibgui.engine.types import Array, BoolArray
+from calibgui.engine.types import Array, BoolArray, IntArray
 
 _INSIDE = np.array([0.12, 0.22, 0.32])
 """Where a sector is sampled, in steps along both of its edges."""
@@ -40,6 +41,36 @@ _UNLIKE = 0.05
 """Greatest lack of correlation with the typical corner ..."""
 _UNUSUAL = 4.0
 """... or over the median lack, whichever is more."""
+
+
+class Placed(NamedTuple):
+    """Corners of a lattice, and what their places there require of them."""
+
+    uv: Array
+    """(n, 2) px."""
+    right: Array
+    """(n, 2) steps to the next column, px."""
+    down: Array
+    """(n, 2) steps to the next row, px."""
+    dark: BoolArray
+    """(n,) whether the squares before (-, -) and after (+, +) the corner are dark."""
+
+    def under(self, chosen: BoolArray | IntArray) -> Placed:
+        """Those under a mask (n,), or with these numbers (m,)."""
+        uv, right, down, dark = self
+        return Placed(uv[chosen], right[chosen], down[chosen], dark[chosen])
+
+    def some(self, most: int) -> Placed:
+        """At most so many of them, spread over all."""
+        n = len(self.uv)
+        if n <= most:
+            return self
+        return self.under(np.linspace(0, n - 1, most).astype(np.int64))
+
+    def nearer(self, plain: float) -> Placed:
+        """With shorter steps, for squares of one colour only up to `plain` squares from their
+        edges."""
+        return self._replace(right=2 * plain * self.right, down=2 * plain * self.down)
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -84,25 +115,33 @@ class Look:
         return np.asarray(even & mixed & (gap < 0))
 
 
-def typical(lattice: Lattice, image: Image, plain: float = 0.5, enough: int = _ENOUGH) -> Look:
-    """The look of `enough` corners of `lattice`, near them if the squares are of one colour only up
-    to `plain` squares from their edges."""
-    some = np.linspace(0, len(lattice) - 1, min(len(lattice), enough)).astype(np.int64)
-    uv, right, down, dark = placed(lattice, plain)
-    corners = uv[some], right[some], down[some], dark[some]
+def typical(lattice: Lattice, image: Image, plain: float = 0.5) -> Look:
+    """The look of the corners of `lattice`, near them if the squares are of one colour only up to
+    `plain` squares from their edges."""
+    corners = placed(lattice).some(_ENOUGH).nearer(plain)
     _, contrast = sectors(image, *corners)
     surroundings = _surroundings(image, *corners)
-    pattern = standard(np.median(surroundings, axis=0))
+    pattern = _common(surroundings)
     unlike = 1 - np.mean(surroundings * pattern, axis=1)
     return Look(float(np.median(contrast)), pattern, float(np.median(unlike)))
 
 
-def placed(lattice: Lattice, plain: float = 0.5) -> tuple[Array, Array, Array, BoolArray]:
-    """The corners of `lattice` as `sectors` takes them, with shorter steps if less is `plain`."""
-    right, down = (2 * plain * step for step in axes(lattice.uv))
+def pattern(corners: Placed, image: Image) -> Array:
+    """The ``Look.pattern`` of the corners."""
+    return _common(_surroundings(image, *corners))
+
+
+def _common(surroundings: Array) -> Array:
+    """What surroundings (n, k) of corners have in common, as `standard`."""
+    return standard(np.median(surroundings, axis=0))
+
+
+def placed(lattice: Lattice) -> Placed:
+    """The corners of `lattice`."""
+    right, down = axes(lattice.uv)
     at = np.nonzero(lattice.found)
     dark = lattice.dark ^ ((at[0] + at[1]) % 2 == 1)
-    return lattice.uv[at], right[at], down[at], dark
+    return Placed(lattice.uv[at], right[at], down[at], dark)
 
 
 def sectors(
@@ -112,9 +151,7 @@ def sectors(
 
     Args:
         image: (h, w) grey levels.
-        uv: (n, 2) corners, px.
-        right, down: (n, 2) steps to the next column and row, px.
-        dark: (n,) whether the squares before (-, -) and after (+, +) the corner are dark.
+        uv, right, down, dark: of the corners, as `Placed`.
 
     Returns:
         Gap between the darkest bright and the brightest dark sector (n,), and the difference

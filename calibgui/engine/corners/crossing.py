@@ -18,8 +18,7 @@ from functools import cache
 import numpy as np
 import scipy
 
-from calibgui.engine.corners.appearance import PLACES, standard, typical
-from calibgui.engine.corners.lattice import Lattice
+from calibgui.engine.corners.appearance import PLACES, Placed, pattern, standard
 from calibgui.engine.opencv import Image
 from calibgui.engine.types import Array
 
@@ -30,36 +29,30 @@ _OVERLAPS = np.array([-0.1, -0.08, -0.06, -0.04, -0.02, 0.0, 0.02, 0.04, 0.06, 0
 _FAR, _NEAR = 0.5, 0.25
 """How far from the edges squares are taken to be of one colour: in full, or where something is
 printed in them."""
-ENOUGH = 64
-"""Corners, spread over a lattice, that tell what a typical one is: as many as boards have."""
 _UNLIKE = 0.011
 """Greatest lack of correlation with the nearest of the crossings ..."""
 _PLAIN = 0.005
 """... and of what is near the corner with those that do not overlap, where things are printed."""
 
 
-def crossed(lattice: Lattice, image: Image, bare: bool) -> bool:
-    """Whether the typical corner of `lattice` is the crossing of two edges in `image`: as far as
-    its squares are of one colour, which they are throughout if they are `bare`."""
-    near = typical(lattice, image, _NEAR, ENOUGH).pattern
+def crossed(corners: Placed, image: Image) -> tuple[bool, bool]:
+    """Whether the typical one of the corners is the crossing of two edges in `image` as far as its
+    squares are of one colour; and whether they are throughout, with nothing printed in them."""
+    near = pattern(corners.nearer(_NEAR), image)
     if _unlike(near, _crossings(_NEAR)) > _UNLIKE:
-        return False
-    return bare or _unlike(near, _crossings(_NEAR, overlap=False)) <= _PLAIN
+        return False, False
+    bare = _unlike(pattern(corners, image), _crossings(_FAR)) <= _UNLIKE
+    return bare or _unlike(near, _crossings(_NEAR, overlap=False)) <= _PLAIN, bare
 
 
-def empty(lattice: Lattice, image: Image) -> bool:
-    """Whether it is one as far as its squares reach: nothing is printed in them."""
-    return _unlike(typical(lattice, image, _FAR, ENOUGH).pattern, _crossings(_FAR)) <= _UNLIKE
-
-
-def _unlike(pattern: Array, crossings: Array) -> float:
+def _unlike(seen: Array, crossings: Array) -> float:
     """Lack of correlation of a pattern (k,) with the nearest of crossings (m, k)."""
-    return float(1 - np.max(np.abs(crossings @ pattern)) / len(pattern))
+    return float(1 - np.max(np.abs(crossings @ seen)) / len(seen))
 
 
 @cache
 def _crossings(plain: float, overlap: bool = True) -> Array:
-    """(m, k) what crossings look like to ``appearance.typical``."""
+    """(m, k) what crossings look like to ``appearance.pattern``."""
     overlaps = _OVERLAPS if overlap else np.zeros(1)
     s1, s2, g = (x.reshape(-1, 1) for x in np.meshgrid(_BLURS, _BLURS, overlaps))
     a, b = 2 * plain * PLACES.T

@@ -20,14 +20,16 @@ from __future__ import annotations
 import numpy as np
 
 from calibgui.engine.corners import profiles
-from calibgui.engine.corners.appearance import placed
-from calibgui.engine.corners.crossing import ENOUGH, crossed, empty
+from calibgui.engine.corners.appearance import Placed, placed
+from calibgui.engine.corners.crossing import crossed
 from calibgui.engine.corners.lattice import MIN_CORNERS, Lattice
 from calibgui.engine.corners.profiles import Profile
 from calibgui.engine.corners.verify import WIDEST, goes_on
 from calibgui.engine.opencv import Image
 from calibgui.engine.types import Array
 
+_ENOUGH = 64
+"""Corners, spread over a lattice, that tell what it is made of: as many as boards have."""
 _BULGE = 0.02
 """Greatest median difference of the spread away from the corner and near it, squares."""
 _SPREADS, _WITHIN = 0.018, 0.0075
@@ -47,37 +49,39 @@ def hopeless(lattice: Lattice, image: Image) -> bool:
 def plausible(lattice: Lattice, image: Image, grown: bool = True) -> bool:
     """Whether `lattice`, `grown` as far as it can or not, could be a board's in `image`: see the
     head of this module."""
-    bare = empty(lattice, image)
-    if not crossed(lattice, image, bare):
+    corners = placed(lattice)
+    corners = corners.under(_areas(corners) > 0).some(_ENOUGH)
+    if not len(corners.uv):
         return False
-    uv, edges = _edges(lattice, image)
-    if not edges or any(np.median(edge.blur / size) > WIDEST for edge, size in edges):
+    is_crossing, bare = crossed(corners, image)
+    edges = _narrow_edges(corners, image) if is_crossing else []
+    if not edges or not bare:
+        return bool(edges)
+    if any(abs(_median(edge.bulge)) > _BULGE for edge in edges):
         return False
-    if not bare:
-        return True
-    if any(abs(_median(edge.bulge)) > _BULGE for edge, _ in edges):
-        return False
-    spreads = np.column_stack([edge.spread for edge, _ in edges])
+    spreads = np.column_stack([edge.spread for edge in edges])
     within = grown and not alike(spreads, _WITHIN) and goes_on(lattice, image)
-    return not within and (alike(spreads) or rising(spreads, uv))
+    return not within and (alike(spreads) or rising(spreads, corners.uv))
 
 
-def _edges(lattice: Lattice, image: Image) -> tuple[Array, list[tuple[Profile, Array]]]:
-    """Some of its corners (n, 2) px, profiles across their edges in both directions, and the
-    heights of the squares over these, px; none where its steps are parallel."""
-    uv, right, down, dark = placed(lattice)
-    area = abs(right[:, 0] * down[:, 1] - right[:, 1] * down[:, 0])
-    some = np.flatnonzero(area)
-    if not len(some):
-        return uv[some], []
-    some = some[np.linspace(0, len(some) - 1, min(len(some), ENOUGH)).astype(np.int64)]
-    uv, right, down, area = uv[some], right[some], down[some], area[some]
-    sign = np.where(dark[some], -1.0, 1.0)
+def _areas(corners: Placed) -> Array:
+    """(n,) of the squares at the corners, px^2."""
+    _, right, down, _ = corners
+    return np.asarray(abs(right[:, 0] * down[:, 1] - right[:, 1] * down[:, 0]))
+
+
+def _narrow_edges(corners: Placed, image: Image) -> list[Profile]:
+    """Profiles across the corners' edges in both directions; none if those in one are wide."""
+    uv, right, down, dark = corners
+    sign, area = np.where(dark, -1.0, 1.0), _areas(corners)
     seen = []
     for along, across in ((right, down), (down, right)):
         size = area / np.linalg.norm(along, axis=1)
-        seen.append((profiles.across_edge(image, uv, along, across, size, sign), size))
-    return uv, seen
+        edge = profiles.across_edge(image, uv, along, across, size, sign)
+        if np.median(edge.blur / size) > WIDEST:
+            return []
+        seen.append(edge)
+    return seen
 
 
 def alike(spreads: Array, most: float = _SPREADS) -> bool:

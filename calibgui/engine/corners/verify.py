@@ -78,7 +78,7 @@ def sound(lattice: Lattice, image: Image, plain: float = 0.5) -> BoolArray:
     """
     lattice = with_steps(lattice)
     good = lattice.found
-    good[good], _ = typical(lattice, image, plain).shown(image, *placed(lattice, plain))
+    good[good], _ = typical(lattice, image, plain).shown(image, *placed(lattice).nearer(plain))
     # What does not look like a corner says nothing about where its neighbours should be.
     uv = lattice.under(good).uv
     irregular = in_steps(uv - predict(uv), *axes(uv)) >= _IRREGULAR
