@@ -63,8 +63,8 @@ def grow(
                 break
             look, known = typical(lattice, nearby.smooth), len(lattice)
         grown = _fill(lattice, 1, predict, nearby, DEVIATION, look)
-        if grown is None and (others := beyond.aside(lattice)):
-            grown = _fill(lattice, REACH, _from_sheet, others, _ACROSS, look)
+        if grown is None and beyond.exceed(lattice):
+            grown = _fill(lattice, REACH, _from_sheet, beyond, _ACROSS, look)
         if grown is None or max(grown.shape) > max_shape:
             break
         idle += len(grown) < _LITTLE * len(lattice)
@@ -79,14 +79,12 @@ class Places:
         self.smooth, self.uv = smooth, uv
         self._tree = scipy.spatial.cKDTree(uv) if len(uv) else None
 
-    def __len__(self) -> int:
-        return len(self.uv)
-
-    def aside(self, lattice: Lattice) -> Places:
-        """Those that are no corners of `lattice`, by half a step."""
-        found = lattice.found
-        distance, nearest = scipy.spatial.cKDTree(lattice.uv[found]).query(self.uv)
-        return Places(self.smooth, self.uv[distance > lattice.spacing()[found][nearest] / 2])
+    def exceed(self, lattice: Lattice) -> bool:
+        """Whether there are others than the corners of `lattice`."""
+        if self._tree is None:
+            return False
+        _, corners = self._tree.query(lattice.uv[lattice.found])
+        return len(np.unique(corners)) < len(self.uv)
 
     def near(self, uv: Array) -> tuple[IntArray, IntArray]:
         """Pairs (m,), (m,) of a query in `uv` (n, 2) and a point that is among the nearest."""
