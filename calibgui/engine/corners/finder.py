@@ -77,9 +77,7 @@ def find_boards(
     levels = [image]
     while min(levels[-1].shape) > _COARSEST:
         levels.append(opencv.half(levels[-1]))
-    # A coarse level may even out squares that fill the image.
-    ranges = (np.diff(np.percentile(level, (0.5, 99.5)))[0] for level in reversed(levels))
-    floor = _CONTRAST * next((float(contrast) for contrast in ranges if contrast > 0), 0.0)
+    floor = _CONTRAST * _range(levels)
     if floor == 0:
         return
     outlines = [None if inside is None else _in_level(inside, k) for k in range(len(levels))]
@@ -99,6 +97,16 @@ def find_boards(
                     boards = _distinct(boards + [_carried(one, levels[:k]) for one in found])
             waiting = []
             yield boards
+
+
+def _range(levels: list[Image]) -> float:
+    """Of the grey levels, without the few darkest and brightest if what is left varies: 0 if none
+    do. A coarse level may even out squares that fill the image."""
+    for level in reversed(levels):
+        low, high = np.percentile(level, (0.5, 99.5))
+        if high > low:
+            return float(high - low)
+    return float(levels[0].max()) - float(levels[0].min())
 
 
 def _in_level(uv: Array, depth: int) -> Array:

@@ -74,6 +74,24 @@ def test_numbering_is_right_handed_from_a_dark_square(
         np.testing.assert_allclose(corners.uv, truth_of(corners, drawn.uv), atol=0.3)
 
 
+@pytest.mark.parametrize("quiet", [0, 1, 30])
+@pytest.mark.parametrize("board", [(3, 4), (6, 9)])
+@pytest.mark.parametrize("square", [8, 9, 20, 33])
+def test_boards_that_a_program_drew_pixel_by_pixel(
+    square: int, board: tuple[int, int], quiet: int
+) -> None:
+    """Without noise or blur: corners lie between pixels that are equally strong."""
+    v, u = np.mgrid[: (board[0] + 1) * square, : (board[1] + 1) * square] // square
+    drawn = np.pad(np.where((u + v) % 2, 255, 0), quiet, constant_values=255)
+    image = np.full((480, 640), 128, dtype=np.uint8)
+    image[50 : 50 + drawn.shape[0], 90 : 90 + drawn.shape[1]] = drawn
+    corners = find_corners(image)
+    assert corners.shape == board
+    assert corners.complete
+    at = (corners.uv + 0.5 - quiet - [90, 50]) / square
+    np.testing.assert_allclose(at, np.rint(at), atol=0.02 / square)
+
+
 @pytest.mark.parametrize(
     ("board", "expected"),
     [
