@@ -113,8 +113,7 @@ def fit(
             corners found; see ``Surroundings.geometry``.
     """
     found = lattice.found
-    uv = lattice.uv[found]
-    board = Surroundings(found, uv) if geometry is None else Foreseen(found, uv, geometry)
+    board = Surroundings(found) if geometry is None else Foreseen(found, geometry)
     edges = _start(image, lattice, board, plain)
     near = replace(edges, arm=np.minimum(edges.arm, _NEAR))
     first = _step(near, normal_equations(image, near, near)[0])[0]

@@ -20,7 +20,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from calibgui.engine.estimation import homography
+from calibgui.engine.corners import perspective
 from calibgui.engine.types import Array, Board, BoolArray, IntArray
 
 _HIGHEST = 7
@@ -87,23 +87,20 @@ def _basis(table: Array, powers: IntArray, half: Array, order: tuple[int, int]) 
 class Surroundings:
     """The polynomials over the corners of a lattice."""
 
-    def __init__(self, found: BoolArray, uv: Array) -> None:
+    def __init__(self, found: BoolArray) -> None:
         """
         Args:
             found: (rows, cols) where the lattice has its n corners.
-            uv: (n, 2) about where these are, px.
         """
         self._terms = _terms(found.shape, found.tobytes())
         self._cells = np.argwhere(found)[:, ::-1].astype(np.float64)
-        self._H = homography.dlt(self._cells, uv, np.ones(len(uv)))
 
     def geometry(self, uv: Array) -> tuple[Array, Array]:
         """Steps to the next column and row, and curvatures of the row's and column's edges.
 
         An edge is p(s) = c + s t + kappa s^2 / 2 n, with the normal n of a row's edge towards the
-        next row and that of a column's edge towards the next column. Perspective keeps the edges
-        straight: p is a homography of (col, row) plus a polynomial for what the lens has bent.
-        Differentiating p d = a, with a and d linear in (col, row), twice gives p'' = -2 p' d' / d.
+        next row and that of a column's edge towards the next column. p is the lattice's perspective
+        (`perspective`) plus a polynomial for what the lens has bent otherwise.
 
         Args:
             uv: (n, 2) the corners, px.
@@ -111,17 +108,11 @@ class Surroundings:
         Returns:
             (n, 2, 2) derivatives of the position by column and by row, px, and (n, 2) kappa, 1/px.
         """
-        H = self._H
-        flat = homography.apply(H, self._cells)
-        by_col, by_row, by_col2, by_row2 = self._differentiated(uv - flat)
-        d = self._cells @ H[2, :2] + H[2, 2]
-        first, second = [], []
-        for axis, once, twice in ((0, by_col, by_col2), (1, by_row, by_row2)):
-            slope = (H[:2, axis] - flat * H[2, axis]) / d[:, None]
-            first.append(slope + once)
-            second.append(-2 * slope * (H[2, axis] / d)[:, None] + twice)
-        steps = np.stack(first, axis=1)
-        return steps, curvatures(steps, np.stack(second, axis=1))
+        flat = perspective.fitted(self._cells, uv)
+        first, second = flat.derivatives(self._cells)
+        by_col, by_row, by_col2, by_row2 = self._differentiated(uv - flat.at(self._cells))
+        steps = first + np.stack([by_col, by_row], axis=1)
+        return steps, curvatures(steps, second + np.stack([by_col2, by_row2], axis=1))
 
     def gradients(self, steps: Array, values: Array) -> Array:
         """(n, k, 2) gradients over the image of `values` (n, k) known at the corners, per px.
@@ -148,13 +139,13 @@ class Surroundings:
 class Foreseen(Surroundings):
     """The same with steps and curvatures that a calibrated camera expects."""
 
-    def __init__(self, found: BoolArray, uv: Array, geometry: tuple[Array, Array]) -> None:
+    def __init__(self, found: BoolArray, geometry: tuple[Array, Array]) -> None:
         """
         Args:
-            found, uv: as above.
+            found: as above.
             geometry: what is expected, as below.
         """
-        super().__init__(found, uv)
+        super().__init__(found)
         self._geometry = geometry
 
     def geometry(self, uv: Array) -> tuple[Array, Array]:

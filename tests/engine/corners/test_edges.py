@@ -19,6 +19,9 @@ from tests.benchmarks.corner_scenes import Conditions, draw
         {"ink": 0.08},  # squares that overlap
         {"ink": -0.08},  # and that part
         {"blur": 5.0, "square": 36.0},  # neighbours' edges are near
+        {"fisheye": True, "focal": 0.32, "square": 80.0, "size": (720, 720)},  # near its front lens
+        {"distortion": 0.9, "focal": 0.5, "square": 60.0, "size": (800, 600)},
+        {"distortion": -0.3, "focal": 0.8, "square": 60.0, "size": (800, 600)},
     ],
     ids=str,
 )

@@ -67,7 +67,7 @@ def test_edges_run_and_bend_as_the_camera_sees_them(calibration: Calibration) ->
     cov = np.broadcast_to(1e-4 * np.eye(2), (len(PLATE), 2, 2))
     steps, kappa = sight(calibration, uv, PLATE, cov).geometry(PLATE, scenes.BOARD.square)
     found = np.ones((scenes.BOARD.rows, scenes.BOARD.cols), dtype=np.bool_)
-    by_corners = Surroundings(found, uv).geometry(uv)
+    by_corners = Surroundings(found).geometry(uv)
     np.testing.assert_allclose(steps, by_corners[0], atol=0.02)
     np.testing.assert_allclose(kappa, by_corners[1], atol=2e-5)
     assert abs(kappa).max() > 2e-4

@@ -25,8 +25,7 @@ def test_gradients_do_not_run_away_where_lines_are_short(
     x = col / 8
     values = np.column_stack([100 * x**degree, 2 * row])
     values += 1e-3 * np.random.default_rng(0).standard_normal(values.shape)
-    uv = step * np.column_stack([col, row])
-    got = Surroundings(found, uv).gradients(steps, values)
+    got = Surroundings(found).gradients(steps, values)
     expected = np.zeros((len(row), 2, 2))
     expected[:, 0, 0] = 100 * degree * x ** (degree - 1) / 8 / step
     expected[:, 1, 1] = 2 / step
