@@ -100,16 +100,20 @@ def _fitted(
         if method == "saddle":
             return Located(lattice, tuple(rejected), None)
         fit = edges.fit(grey, lattice)
-        good = verify.described(fit, lattice)
+        described = verify.described(fit, lattice)
+        astray = described & verify.astray(fit, lattice)
+        good = described & ~astray
         if good.all():
             return Located(lattice, tuple(rejected), fit) if verify.stepped(fit) else None
-        failed += int(np.count_nonzero(~good))
-        if not verify.credible(failed, int(np.count_nonzero(good)) + failed):
+        failed += int(np.count_nonzero(~described))
+        if not verify.credible(failed, int(np.count_nonzero(described)) + failed):
             break
+        rejected += rejections(lattice.uv[lattice.found][~described], "not two crossing edges")
+        rejected += rejections(
+            lattice.uv[lattice.found][astray], "drawn aside by what is seen there"
+        )
         keep = lattice.found
         keep[keep] = good
-        left_out = lattice.uv[lattice.found & ~keep]
-        rejected = [*rejected, *rejections(left_out, "not two crossing edges")]
         lattice = supported(lattice.under(keep))
     return None
 

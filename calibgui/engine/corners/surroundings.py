@@ -11,6 +11,11 @@ the gradient of a quantity f known at every corner follows from its derivatives 
 Both are smoothed over the board by polynomials in column and row. Their degree is what the
 values support: the one of the least generalised cross-validation score, RSS / (1 - 1.4 k/n)^2 for
 k terms and n values, which estimates how badly the polynomial would predict a corner left out.
+
+No polynomial follows light that breaks, at the edge of a shadow or of a reflection: it would ring
+all over the board. That shows where it misses the values by more than their second differences
+along the lines let expect, of which a break spoils only a few. The derivatives are then the lesser
+of the differences to both sides, the one that has no break in it.
 """
 
 from __future__ import annotations
@@ -30,6 +35,11 @@ _CAUTION = 1.4
 a degree by chance now and then."""
 _OWN = 1e-6
 """Least part of a term that those of lower degree do not have in common with it."""
+_BROKEN = 3.0
+"""Rms miss of the polynomial over the values' noise, by their second differences, in light that
+breaks."""
+_NOISE = 1 / (0.6745 * 6**0.5)
+"""Standard deviation of what is independent over the median of its absolute second differences."""
 _ORDERS = ((0, 1), (1, 0), (0, 2), (2, 0))
 """Derivatives by row and by column that are needed."""
 
@@ -92,6 +102,7 @@ class Surroundings:
         Args:
             found: (rows, cols) where the lattice has its n corners.
         """
+        self._found = found
         self._terms = _terms(found.shape, found.tobytes())
         self._cells = np.argwhere(found)[:, ::-1].astype(np.float64)
 
@@ -110,7 +121,8 @@ class Surroundings:
         """
         flat = perspective.fitted(self._cells, uv)
         first, second = flat.derivatives(self._cells)
-        by_col, by_row, by_col2, by_row2 = self._differentiated(uv - flat.at(self._cells))
+        bent, _ = self._differentiated(uv - flat.at(self._cells))
+        by_col, by_row, by_col2, by_row2 = bent
         steps = first + np.stack([by_col, by_row], axis=1)
         return steps, curvatures(steps, second + np.stack([by_col2, by_row2], axis=1))
 
@@ -120,11 +132,38 @@ class Surroundings:
         Args:
             steps: (n, 2, 2) to the next column and row, px.
         """
-        slopes = self._differentiated(values)[:2].transpose(1, 0, 2)
+        derivatives, missed = self._differentiated(values)
+        slopes = derivatives[:2].transpose(1, 0, 2)
+        before, after, second = self._differences(values)
+        known = np.isfinite(second[..., 0])
+        if known.any():
+            noise = _NOISE * np.median(abs(second[known]), axis=0)
+            lesser = np.where(abs(before) < abs(after), before, after)
+            slopes = np.where(missed > _BROKEN * noise, np.nan_to_num(lesser), slopes)
         return np.asarray(np.linalg.solve(steps, slopes).transpose(0, 2, 1))
 
-    def _differentiated(self, values: Array) -> Array:
-        """(4, n, k) derivatives `_ORDERS` of the polynomials through `values` (n, k)."""
+    def _differences(self, values: Array) -> tuple[Array, Array, Array]:
+        """Of `values` (n, k) the differences (n, 2, k) from the neighbours before, by column and by
+        row, those to the neighbours after, at the ends of lines the next ones instead, and the
+        second differences; NaN where there is none."""
+        rows, cols = self._found.shape
+        around = np.full((rows + 4, cols + 4, values.shape[1]), np.nan)
+        around[2:-2, 2:-2][self._found] = values
+        lines = [
+            [
+                around[r : r + rows, 2 : cols + 2] if axis else around[2 : rows + 2, r : r + cols]
+                for r in range(5)
+            ]
+            for axis in (0, 1)
+        ]
+        steps = [np.diff([place[self._found] for place in line], axis=0) for line in lines]
+        earlier, before, after, later = np.stack(steps, axis=2)
+        start, end = np.isnan(before), np.isnan(after)
+        return np.where(start, later, before), np.where(end, earlier, after), after - before
+
+    def _differentiated(self, values: Array) -> tuple[Array, Array]:
+        """(4, n, k) derivatives `_ORDERS` of the polynomials through `values` (n, k), and by how
+        much (k,) these would miss a value left out, rms."""
         Q, derivatives, counts = self._terms
         weights = Q.T @ values
         # Dropping the last terms leaves the others' weights on Q unchanged.
@@ -133,7 +172,7 @@ class Surroundings:
         score = rss / (1 - _CAUTION * counts[:, None] / (len(values) + 1)) ** 2
         best = counts[np.argmin(score, axis=0)]
         weights[np.arange(len(weights))[:, None] >= best] = 0.0
-        return np.asarray(derivatives @ weights)
+        return derivatives @ weights, np.sqrt(score.min(axis=0) / len(values))
 
 
 class Foreseen(Surroundings):

@@ -55,6 +55,11 @@ _UNEXPLAINED = 4.0
 """Greatest residual of the edge fit over the board's median residual ..."""
 _MISFIT = 0.15
 """... or over the corner's contrast, whichever is more."""
+_ASTRAY = 4.0
+"""Farthest that a corner of such a residual may be from where those of less expect it, over their
+own rms distance from there ..."""
+_SLIGHTLY = 0.03
+"""... or in px, whichever is more."""
 _EDGE = 4.0
 """Width of the image's border in which no corner is expected to be found, px."""
 _BESIDE, _BEFORE = 0.25, 0.2
@@ -173,6 +178,27 @@ def described(fit: Fit, lattice: Lattice, expected: Array | None = None) -> Bool
         & (fit.residual <= np.maximum(_UNEXPLAINED * typical, _MISFIT * fit.contrast))
         & np.isfinite(fit.covariance).all(axis=(1, 2))
     )
+
+
+def astray(fit: Fit, lattice: Lattice) -> BoolArray:
+    """(n,) which corners of `lattice` the edge model fitted there describes worse than the others
+    and puts where these do not expect them.
+
+    Where the edge of a shadow or of a reflection runs through a corner there are two crossing
+    edges, and something that draws them aside by much more than noise would.
+    """
+    good = fit.residual <= _MORE * np.median(fit.residual)
+    if good.all():
+        return ~good
+    cells = np.argwhere(lattice.found)
+    uv = lattice.uv.copy()
+    uv[lattice.found] = fit.uv
+    mask = lattice.found
+    mask[mask] = good
+    expected = sheet.fitted(Lattice(uv, lattice.dark).under(mask)).at(cells.astype(np.float64))
+    off = np.linalg.norm(fit.uv - expected, axis=1)
+    usual = np.sqrt(np.mean(off[good] ** 2))
+    return np.asarray(~good & ~(off <= max(_ASTRAY * usual, _SLIGHTLY)))
 
 
 def stepped(fit: Fit) -> bool:

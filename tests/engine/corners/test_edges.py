@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
@@ -48,3 +49,21 @@ def test_light_that_varies_draws_no_corner_into_the_dark(gamma: float) -> None:
     corners = find_corners(scene.photograph(0))
     error = corners.uv - scene.uv[corners.grid[:, 0], corners.grid[:, 1]]
     assert np.abs(error.mean(axis=0)).max() < 1.5e-3
+
+
+@pytest.mark.parametrize("dimmed", [0.4, 0.8])
+def test_the_edge_of_a_shadow_draws_no_corner_aside(dimmed: float) -> None:
+    """Corners that it runs through are left out, and the others none the worse."""
+    scene = draw(Conditions(turn=0.0, shift=0.0), 3)
+    v, u = np.indices(scene.clean.shape)
+    off = scene.uv @ [0.6, 0.8] - 400
+    shadowed = replace(scene, clean=scene.clean * np.where(0.6 * u + 0.8 * v > 400, dimmed, 1.0))
+    corners = find_corners(shadowed.photograph(0))
+    assert corners.cov is not None
+    at = corners.grid[:, 0], corners.grid[:, 1]
+    error = corners.uv - scene.uv[at]
+    far = abs(off[at]) > 25
+    chi2 = np.einsum("ni,nij,nj->n", error, np.linalg.inv(corners.cov), error) / 2
+    assert np.count_nonzero(far) > 35
+    assert np.mean(chi2[far]) < 1.3
+    assert np.linalg.norm(error, axis=1).max() < 0.1

@@ -30,3 +30,18 @@ def test_gradients_do_not_run_away_where_lines_are_short(
     expected[:, 0, 0] = 100 * degree * x ** (degree - 1) / 8 / step
     expected[:, 1, 1] = 2 / step
     np.testing.assert_allclose(got, expected, atol=0.05)
+
+
+def test_light_that_breaks_does_not_ring() -> None:
+    """Half of the board in shadow: the gradients are those on either side of the shadow's edge."""
+    found = np.ones((6, 9), np.bool_)
+    row, col = np.argwhere(found).T.astype(np.float64)
+    steps = np.broadcast_to(30.0 * np.eye(2), (len(row), 2, 2))
+    shadow = col + row / 2 > 5.2
+    smooth = 100 + 2 * col + 0.05 * row**2
+    values = np.column_stack([smooth, np.where(shadow, 0.4, 1.0) * smooth])
+    values += 0.01 * np.random.default_rng(0).standard_normal(values.shape)
+    whole, broken = Surroundings(found).gradients(steps, values).transpose(1, 0, 2)
+    np.testing.assert_allclose(whole[:, 0], 2 / 30, atol=2e-3)
+    expected = np.where(shadow, 0.4, 1.0)[:, None] * whole
+    np.testing.assert_allclose(broken, expected, atol=0.01)
