@@ -34,6 +34,8 @@ _SMALLEST = 6.0
 """Squares of this side are found reliably, px."""
 _CONTRAST = 0.05
 """Least contrast of a corner over the range of the image."""
+_SHARED = 0.25
+"""Part of its corners that a lattice may have in common with a larger one that is another."""
 _GROWN = 8
 """How many of the largest lattices of a level are grown."""
 
@@ -171,7 +173,7 @@ def _missed(lattices: list[Lattice], depth: int, boards: list[Candidate]) -> lis
 
 
 def _distinct(candidates: list[Candidate]) -> list[Candidate]:
-    """Those that share no corners, the largest of those that do; largest first."""
+    """Those that are no parts of others; largest first."""
     kept: list[Candidate] = []
     for one in sorted(candidates, key=lambda one: len(one.lattice), reverse=True):
         if not any(_overlap(other.lattice, one.lattice) for other in kept):
@@ -180,9 +182,10 @@ def _distinct(candidates: list[Candidate]) -> list[Candidate]:
 
 
 def _overlap(one: Lattice, other: Lattice) -> bool:
-    """Whether two lattices have a corner in common, by half a step."""
+    """Whether a lattice has a good part of another's corners, by half a step. (Where the pattern of
+    a floor or a cloth goes on behind a board, its lattice may catch one of the board's.)"""
     distance, _ = scipy.spatial.cKDTree(one.uv[one.found]).query(other.uv[other.found])
-    return bool((distance < other.spacing()[other.found] / 2).any())
+    return bool(np.mean(distance < other.spacing()[other.found] / 2) > _SHARED)
 
 
 def _surely_all(lattice: Lattice) -> bool:

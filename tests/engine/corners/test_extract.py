@@ -139,6 +139,19 @@ def test_the_stated_board_is_chosen_else_the_largest_and_the_others_are_told(dra
         find_corners(image, (8, 9))
 
 
+@pytest.mark.parametrize("step", [32.0, 40.0, 48.0, 60.0])
+def test_the_stated_board_is_found_on_a_chequered_cloth(draw: Any, step: float) -> None:
+    board = draw((6, 9), step=30.0, turn=0.0)
+    cloth = draw((20, 28), step=step, turn=17.0, levels=(90.0, 160.0), noise=1.0)
+    image = cloth.image.copy()
+    (left, top), (right, bottom) = (board.uv[k, k].round().astype(int) for k in (0, -1))
+    around = np.s_[top - 60 : bottom + 60, left - 60 : right + 60]
+    image[around] = board.image[around]
+    corners = find_corners(image, (6, 9))
+    assert corners.complete
+    np.testing.assert_allclose(corners.uv, board.uv.reshape(-1, 2), atol=0.02)
+
+
 def test_a_stated_board_of_much_smaller_squares_is_searched_for(draw: Any) -> None:
     large = draw((4, 5), (1280, 960), step=150.0, shift=(-250.0, 0.0))
     small = draw((6, 9), (320, 320), step=14.0, turn=10.0)
