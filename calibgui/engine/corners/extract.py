@@ -28,6 +28,10 @@ _SMALLEST = 16
 _STATE_SIZE = "State the number of inner corners, rows x columns, or leave it out."
 
 
+class _OtherSizeError(NoBoardError):
+    """There are boards, but none of the stated size."""
+
+
 def find_corners(
     image: npt.ArrayLike,
     board: Board | None = None,
@@ -66,10 +70,13 @@ def find_corners(
     others: list[Located] = []
     try:
         found, others = _automatic(grey, board, outline, method)
-    except NoBoardError:
+    except NoBoardError as error:
         if outline is None or board is None:
             raise
-        found = _guided(grey, board, outline, method)
+        marked = guided(grey, board, outline, method)
+        if marked is None:
+            raise error if isinstance(error, _OtherSizeError) else _misfit(board) from None
+        found = marked
     return record(grey, found, _numbered(grey, found.lattice, board, outline), outline, others)
 
 
@@ -124,16 +131,16 @@ def _automatic(
     )
 
 
-def _another_size(grey: Image, boards: list[Located], board: Board) -> NoBoardError:
+def _another_size(grey: Image, boards: list[Located], board: Board) -> _OtherSizeError:
     """What was found instead of the stated board."""
     sizes = [tuple(sorted(found.lattice.shape)) for found in boards]
     stated = f"not {board[0]} x {board[1]}"
     if len(sizes) > 1:
         seen = ", ".join(f"{rows} x {cols}" for rows, cols in sizes)
-        return NoBoardError(f"The boards here have {seen} inner corners, {stated}.", _STATE_SIZE)
+        return _OtherSizeError(f"The boards here have {seen} inner corners, {stated}.", _STATE_SIZE)
     least = "" if all(verify.ends(boards[0].lattice, grey)) else "at least "
     rows, cols = sizes[0]
-    return NoBoardError(
+    return _OtherSizeError(
         f"This board has {least}{rows} x {cols} inner corners, {stated}.", _STATE_SIZE
     )
 
@@ -154,15 +161,12 @@ def _fits(grey: Image, lattice: Lattice, board: Board) -> bool:
     )
 
 
-def _guided(grey: Image, board: Board, outline: Array, method: str) -> Located:
-    """The board whose outermost corners were pointed at."""
-    found = guided(grey, board, outline, method)
-    if found is None:
-        raise NoBoardError(
-            f"No board of {board[0]} x {board[1]} inner corners fits the four marked points.",
-            "Mark the four outermost inner corners, in order around the board. " + _STATE_SIZE,
-        )
-    return found
+def _misfit(board: Board) -> NoBoardError:
+    """Nothing was found at the marked points."""
+    return NoBoardError(
+        f"No board of {board[0]} x {board[1]} inner corners fits the four marked points.",
+        "Mark the four outermost inner corners, in order around the board. " + _STATE_SIZE,
+    )
 
 
 def _numbered(

@@ -121,6 +121,15 @@ def test_a_wrong_size_is_answered_with_the_right_one(draw: Any) -> None:
             find_corners(image, wrong)
 
 
+def test_a_wrong_size_of_a_marked_board_is_answered_too(draw: Any) -> None:
+    drawn = draw((6, 8))
+    marked = drawn.uv[[0, 0, -1, -1], [0, -1, -1, 0]]
+    with pytest.raises(NoBoardError, match="This board has 6 x 8 inner corners, not 7 x 11"):
+        find_corners(drawn.image, (7, 11), marked)
+    with pytest.raises(NoBoardError, match="7 x 11 inner corners fits the four marked points"):
+        find_corners(np.full_like(drawn.image, 120), (7, 11), marked)
+
+
 def two_boards(draw: Any) -> NDArray[np.uint8]:
     """A 5 x 7 board on the left, a 4 x 6 one on the right, in 800 x 400 pixels."""
     left, right = draw((5, 7), (400, 400), turn=4.0), draw((4, 6), (400, 400))
