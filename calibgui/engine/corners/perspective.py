@@ -58,14 +58,17 @@ class Perspective:
 
     def at(self, cells: Array) -> Array:
         """(n, 2) px of the cells (n, 2) = (col, row)."""
-        e = homography.apply(self.H, cells)
+        return self.seen(homography.apply(self.H, cells))
+
+    def seen(self, e: Array) -> Array:
+        """(n, 2) px of ideal points (n, 2)."""
         return self.centre + (self._bent(e) if self.bend.any() else e)
 
     def derivatives(self, cells: Array) -> tuple[Array, Array]:
         """First and second derivatives (n, 2, 2) of `at` by column and by row.
 
         With e = a / w, a and w linear in the cell, e' = (a' - e w') / w and e'' = -2 e' w' / w.
-        Through the lens e = E(d), so that e' = E_d d' and e'' = E_d d'' + E_dd(d', d').
+        Through the lens u' = D' e' and u'' = D' e'' + D''(e', e').
         """
         H = self.H
         e = homography.apply(H, cells)
@@ -74,15 +77,32 @@ class Perspective:
         e2 = -2 * e1 * H[2, :2, None] / w
         if not self.bend.any():
             return e1, e2
-        d = self._bent(e)
-        k, by_r, by_r2 = (x[:, None, None] for x in _scale(np.sum(d * d, axis=1), self.bend))
-        d = d[:, None]
-        E_d = k * np.eye(2) + 2 * by_r * d * d.transpose(0, 2, 1)
-        d1 = np.linalg.solve(E_d, e1.transpose(0, 2, 1)).transpose(0, 2, 1)
-        r1, s1 = (np.sum(x * d1, axis=2, keepdims=True) for x in (d, d1))
-        E_dd = 4 * by_r * r1 * d1 + (4 * by_r2 * r1**2 + 2 * by_r * s1) * d
-        d2 = np.linalg.solve(E_d, (e2 - E_dd).transpose(0, 2, 1)).transpose(0, 2, 1)
-        return d1, d2
+        D1, D2 = self.bending(e)
+        second = np.einsum("nijk,naj,nak->nai", D2, e1, e1)
+        return np.einsum("nij,naj->nai", D1, e1), np.einsum("nij,naj->nai", D1, e2) + second
+
+    def bending(self, e: Array) -> tuple[Array, Array]:
+        """Derivatives D' (n, 2, 2) and D'' (n, 2, 2, 2) of `seen` by the ideal points `e` (n, 2).
+
+        Those of its inverse e = E(d) = k d are, with k' and k'' by r,
+
+            E_i,j = k 1_ij + 2 k' d_i d_j
+            E_i,jk = 4 k'' d_i d_j d_k + 2 k' (1_ij d_k + 1_ik d_j + 1_jk d_i),
+
+        1_ij being 1 where i = j and else 0. From E(D(e)) = e follow D' = E'^-1 and
+        D'' = -D' E''(D', D').
+        """
+        d = self._bent(e) if self.bend.any() else e
+        k, by_r, by_r2 = _scale(np.sum(d * d, axis=1), self.bend)
+        one = np.eye(2)
+        first = k[:, None, None] * one + 2 * by_r[:, None, None] * d[:, :, None] * d[:, None]
+        mixed = one[:, :, None] * d[:, None, None]
+        mixed = mixed + mixed.transpose(0, 1, 3, 2) + mixed.transpose(0, 3, 1, 2)
+        cubic = np.einsum("ni,nj,nk->nijk", d, d, d)
+        second = 4 * by_r2[:, None, None, None] * cubic + 2 * by_r[:, None, None, None] * mixed
+        D1 = np.asarray(np.linalg.inv(first), dtype=np.float64)
+        D2 = -np.einsum("nil,nlab,naj,nbk->nijk", D1, second, D1, D1, optimize=True)
+        return D1, np.asarray(D2)
 
     def _bent(self, e: Array) -> Array:
         """Points (n, 2) px from the centre where the lens shows the ideal points (n, 2).

@@ -190,10 +190,10 @@ class Circles:
                         return largest
         if board is None and largest.size:
             return largest
-        which = "" if board is None else f" of {board[0]} x {board[1]}"
+        which = "" if board is None else f"{board[0]} x {board[1]} "
         instead = ", but one of {} x {}".format(*largest.shape) if largest.size else ""
         raise NoBoardError(
-            f"No grid{which} circles was found{instead}.",
+            f"No grid of {which}circles was found{instead}.",
             "All of it must be in view, sharp and evenly lit, with white around it."
             + (" Check the numbers of rows and columns." if board else ""),
         )

@@ -18,9 +18,10 @@ n by r^2/2 n.g(n, n). The part of this that is like a shift t.n, its first harmo
     t_i = r^2/8 (sum_j g_i,jj + 2 sum_j g_j,ij),    c - f(x) = J t + O(r^4),
 
 as the mean of n_i n_j n_k n_l is (d_ij d_kl + d_ik d_jl + d_il d_jk) / 8. For a homography this is
-the leading term of the exact expression. Both are used: H exactly, and what the lens adds to it,
-small and smooth, by a polynomial over the plate. Everything is fitted to the board's own centres,
-so that no calibration is needed first.
+the leading term of the exact expression. Both are used: the homography exactly, and what the lens
+adds to it by the second derivatives of the lens (`corners.perspective`), where it bends much, and
+of a polynomial over the plate for the rest, small and smooth. Everything is fitted to the board's
+own centres, so that no calibration is needed first.
 """
 
 from __future__ import annotations
@@ -29,7 +30,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from calibgui.engine.estimation import homography
+from calibgui.engine.corners.perspective import Perspective, fitted
 from calibgui.engine.types import Array
 
 _HIGHEST = 5
@@ -40,10 +41,9 @@ _POWERS = np.array([(k - j, j) for k in range(_HIGHEST + 1) for j in range(k + 1
 
 @dataclass(frozen=True, eq=False, slots=True)
 class PlateMap:
-    """f, from the plate (pitches) to the image: a homography and what the lens adds to it."""
+    """f, from the plate (pitches) to the image: a perspective and what the lens adds to it."""
 
-    H: Array
-    """(3, 3)"""
+    flat: Perspective
     middle: Array
     """(2,) of the plate"""
     unit: float
@@ -53,30 +53,32 @@ class PlateMap:
 
     def at(self, xy: Array) -> Array:
         """(n, 2) px."""
-        return homography.apply(self.H, xy) + self._basis(xy, (0, 0)) @ self.terms
+        return self.flat.at(xy) + self._basis(xy, (0, 0)) @ self.terms
 
     def jacobian(self, xy: Array) -> Array:
         """(n, 2, 2) px per pitch, columns by X and by Y."""
-        w = xy @ self.H[2, :2] + self.H[2, 2]
-        p = homography.apply(self.H, xy)
-        of_H = (self.H[:2, :2] - p[..., None] * self.H[2, :2]) / w[:, None, None]
-        return of_H + np.stack(
+        return self.flat.derivatives(xy)[0].transpose(0, 2, 1) + np.stack(
             [self._basis(xy, order) @ self.terms for order in ((1, 0), (0, 1))], axis=2
         )
 
     def bias(self, xy: Array, radius: float) -> Array:
         """(n, 2) px from the images of the points (n, 2) to the centres of the ellipses around
         them, of circles of `radius` pitches."""
-        h1, h2 = self.H[:, 0], self.H[:, 1]
-        p = np.column_stack([xy, np.ones(len(xy))]) @ self.H.T
+        H = self.flat.H
+        h1, h2 = H[:, 0], H[:, 1]
+        p = np.column_stack([xy, np.ones(len(xy))]) @ H.T
         r2 = radius**2
         centre = p[:, :2] * p[:, 2:] - r2 * (h1[:2] * h1[2] + h2[:2] * h2[2])
-        of_H = centre / (p[:, 2:] ** 2 - r2 * (h1[2] ** 2 + h2[2] ** 2)) - p[:, :2] / p[:, 2:]
+        centre /= p[:, 2:] ** 2 - r2 * (h1[2] ** 2 + h2[2] ** 2)
+        e = p[:, :2] / p[:, 2:]
+        of_H = self.flat.seen(centre) - self.flat.seen(e)
+        by_xy = (H[:2, :2] - e[..., None] * H[2, :2]) / p[:, 2:, None]
+        second = np.einsum("nijk,nja,nkb->niab", self.flat.bending(e)[1], by_xy, by_xy)
+        for a, b, order in ((0, 0, (2, 0)), (0, 1, (1, 1)), (1, 0, (1, 1)), (1, 1, (0, 2))):
+            second[:, :, a, b] += self._basis(xy, order) @ self.terms
         J = self.jacobian(xy)
-        second = [self._basis(xy, order) @ self.terms for order in ((2, 0), (1, 1), (0, 2))]
-        g = np.linalg.solve(J, np.stack(second, axis=2))
-        (xx, xy_, yy), (yxx, yxy, yyy) = np.moveaxis(g, 0, -1)
-        t = r2 / 8 * np.column_stack([3 * xx + yy + 2 * yxy, 3 * yyy + yxx + 2 * xy_])
+        g = np.linalg.solve(J, second.reshape(-1, 2, 4)).reshape(-1, 2, 2, 2)
+        t = r2 / 8 * (np.einsum("nijj->ni", g) + 2 * np.einsum("njij->ni", g))
         return np.asarray(of_H + (J @ t[..., None])[..., 0])
 
     def _basis(self, xy: Array, order: tuple[int, int]) -> Array:
@@ -93,9 +95,8 @@ class PlateMap:
 
 def plate_map(xy: Array, uv: Array) -> PlateMap:
     """f through the points `xy` (n, 2) of the plate, pitches, and their images `uv` (n, 2) px."""
-    H = homography.dlt(xy, uv, np.ones(len(xy)))
     middle, unit = (xy.min(axis=0) + xy.max(axis=0)) / 2, float(np.ptp(xy, axis=0).max()) / 2
-    flat = PlateMap(H, middle, unit, np.zeros((len(_POWERS), 2)))
+    flat = PlateMap(fitted(xy, uv), middle, unit, np.zeros((len(_POWERS), 2)))
     degrees = _POWERS.sum(axis=1)
     # The highest degree with half as many points again as terms; below 3, a lens has no effect.
     carried = [k for k in range(3, _HIGHEST + 1) if 1.5 * np.count_nonzero(degrees <= k) <= len(xy)]

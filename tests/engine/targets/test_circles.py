@@ -13,6 +13,7 @@ from tests.engine.targets.conftest import CAMERA, Scene
 
 NO_LENS = Camera(CAMERA.size, [*CAMERA.params[:4], *np.zeros(6)])
 BENT = Camera(CAMERA.size, [*CAMERA.params[:4], 0.25, 0.02, 0.0, 0.0, 0.0, 0.0])
+WIDE = Camera(CAMERA.size, [340.0, 340.0, 500.0, 370.0, 0.35, 0.1, 0.0, 0.0, 0.0, 0.0])
 STEEP = (1.0, 0.1, 0.1)
 
 
@@ -41,6 +42,19 @@ def test_the_bias_of_the_centres_is_corrected(
     xy = pattern.places(corners.grid.astype(float))
     bias = plate_map(xy, corners.uv).bias(xy, seen.diameter / 2)
     assert np.sqrt(np.mean((error + bias) ** 2)) > 10 * np.sqrt(np.mean(error**2))
+
+
+@pytest.mark.parametrize(
+    ("pattern", "board"), [(Circles(False, 0.5), (7, 9)), (Circles(True, 0.6), (11, 4))]
+)
+def test_centres_are_right_near_a_wide_angle_lens(pattern: Circles, board: tuple[int, int]) -> None:
+    scene = Scene(Target(*board, 16.0, pattern), WIDE, rvec=(0.15, 0.1, 0.1), distance=85.0)
+    corners = Circles(pattern.asymmetric).find(scene.image(noise=1.0), board)
+    assert corners.complete and corners.cov is not None
+    error = scene.error(corners)
+    assert np.abs(error).max() < 0.02
+    chi2 = np.einsum("ni,nij,nj->n", error, np.linalg.inv(corners.cov), error) / 2
+    assert np.mean(chi2) < 1.4
 
 
 def test_covariances_are_honest() -> None:
