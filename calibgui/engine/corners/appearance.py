@@ -174,7 +174,7 @@ def _sectors(image: Image, uv: Array, right: Array, down: Array) -> Array:
     room = np.minimum(uv, np.array(image.shape[::-1]) - 1.0 - uv)
     reach = _INSIDE.max() * (abs(right) + abs(down))
     nearer = np.clip(room / reach, 0.1, 1.0).min(axis=1, keepdims=True)
-    values = _around(image, uv, nearer * right, nearer * down, _SECTORS)
+    values = around(image, uv, nearer * right, nearer * down, _SECTORS)
     return values.reshape(len(uv), len(_SIGNS), _INSIDE.size**2)
 
 
@@ -185,10 +185,10 @@ def _surroundings(image: Image, uv: Array, right: Array, down: Array, dark: Bool
 
         return appearance.surroundings(image, uv, right, down, dark, PLACES, _EVEN)
     right = np.where(dark[:, None], right, -right)
-    return standard(_around(image, uv, right, down, PLACES))
+    return standard(around(image, uv, right, down, PLACES))
 
 
-def _around(image: Image, uv: Array, right: Array, down: Array, places: Array) -> Array:
+def around(image: Image, uv: Array, right: Array, down: Array, places: Array) -> Array:
     """(n, k) grey levels at `places` (k, 2), in steps from the corners.
 
     Outside the image those opposite stand in for them: a corner is point symmetric.

@@ -104,21 +104,19 @@ def _automatic(
     """The wanted board, that with the most edge of those that may be of the stated size if there
     is one, and the others."""
     boards: list[Located] = []
-    candidates: list[Candidate] = []
+    tried: dict[Candidate, Located | None] = {}
     for candidates in find_boards(grey, None if outline is None else region.enlarged(outline)):
-        tried = ((locate(grey, one.lattice, method), one.others) for one in candidates)
-        boards = [
-            found
-            for found, junctions in tried
-            if found and chance.meaningful(found.lattice.found, junctions)
-        ]
+        for one in candidates:
+            if one not in tried:
+                tried[one] = _accepted(grey, one, method)
+        boards = [found for one in candidates if (found := tried[one])]
         boards.sort(key=lambda found: found.edge, reverse=True)
         for wanted in boards:
             if board is None or _fits(grey, wanted.lattice, board):
                 return wanted, [found for found in boards if found is not wanted]
     if boards and board is not None:
         raise _another_size(grey, boards, board)
-    if candidates:
+    if tried:
         raise NoBoardError(
             "What looks like a checkerboard is not regular enough to be trusted.",
             "Mark its four outermost corners, or leave this picture out. For a grid of circles,"
@@ -129,6 +127,13 @@ def _automatic(
         "Mark its four outermost corners, or take the picture again: all of the board in"
         " view, sharp and evenly lit.",
     )
+
+
+def _accepted(grey: Image, candidate: Candidate, method: str) -> Located | None:
+    """The board that a candidate is, None if it is none or may be one by chance."""
+    found = locate(grey, candidate.lattice, method)
+    good = found and chance.meaningful(found.lattice.found, candidate.others)
+    return found if good else None
 
 
 def _another_size(grey: Image, boards: list[Located], board: Board) -> _OtherSizeError:

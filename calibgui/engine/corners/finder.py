@@ -7,6 +7,10 @@ none was missed. Lattices of squares that small are left as they are until the f
 been searched, and grown only if these do not show them in full. What is found is then carried
 down to full resolution, refined at each level.
 
+Squares that overlap or part by much show a crossing only where the blur is no less: not in fine
+levels. Should no board have been found, the coarsest level is searched for crossings of that kind,
+and some that are coarser still.
+
 Pixel (u, v) of a level covers the block around (2u + 1/2, 2v + 1/2) of the next finer one.
 """
 
@@ -20,22 +24,34 @@ import numpy as np
 import scipy
 
 from calibgui.engine import opencv
-from calibgui.engine.corners import glance, saddle, verify
+from calibgui.engine.corners import glance, verify
 from calibgui.engine.corners.growth import Places, grow
-from calibgui.engine.corners.junctions import Saddles, classify, find_saddles
+from calibgui.engine.corners.junctions import (
+    CROSSED,
+    PARTED,
+    Saddles,
+    Tolerance,
+    classify,
+    find_saddles,
+)
 from calibgui.engine.corners.lattice import Lattice, large_enough
 from calibgui.engine.corners.links import find_lattices
+from calibgui.engine.corners.settle import at_saddles
 from calibgui.engine.opencv import Image
 from calibgui.engine.types import Array, BoolArray
 
 _COARSEST = 180
 """Short side below which an image is not halved further, px."""
+_LEAST = 25
+"""Short side of a level that is searched still for squares that part or overlap, px."""
 _SMALLEST = 6.0
 """Squares of this side are found reliably, px."""
 _CONTRAST = 0.05
 """Least contrast of a corner over the range of the image."""
 _SHARED = 0.25
 """Part of its corners that a lattice may have in common with a larger one that is another."""
+_MOVED = 2.0
+"""How far a corner may lie from where the next coarser level shows it, px."""
 _GROWN = 8
 """How many of the largest lattices of a level are grown."""
 
@@ -99,6 +115,15 @@ def find_boards(
                     boards = _distinct(boards + [_carried(one, levels[:k]) for one in found])
             waiting = []
             yield boards
+    depth = len(levels) - 1
+    while min(levels[depth].shape) > _LEAST:
+        outline = None if inside is None else _in_level(inside, depth)
+        seen = _look(levels[depth], floor, outline, PARTED)
+        if found := _grown(seen, seen.lattices, enough):
+            boards = _distinct([_carried(one, levels[:depth]) for one in found] + boards)
+            yield boards
+        levels.append(opencv.half(levels[depth]))
+        depth += 1
 
 
 def _range(levels: list[Image]) -> float:
@@ -131,13 +156,15 @@ def _search(
     return _grown(seen, seen.lattices, enough), []
 
 
-def _look(image: Image, floor: float, outline: Array | None) -> _Seen:
+def _look(
+    image: Image, floor: float, outline: Array | None, tolerance: Tolerance = CROSSED
+) -> _Seen:
     """What there is in one level."""
     saddles = find_saddles(image, floor)
     if outline is not None:
         saddles = saddles.under(contains(outline, saddles.uv))
-    passed, junctions = classify(saddles)
-    lattices = find_lattices(saddles, junctions, _GROWN)
+    passed, junctions = classify(saddles, tolerance)
+    lattices = find_lattices(saddles, junctions, _GROWN, tolerance)
     hopeful = [one for one in lattices if not glance.hopeless(one, image)]
     return _Seen(image, saddles, saddles.under(passed), hopeful)
 
@@ -202,15 +229,9 @@ def _resolved(lattice: Lattice, square: float = _SMALLEST) -> bool:
 def _carried(candidate: Candidate, finer: list[Image]) -> Candidate:
     """`candidate` in the coordinates of the first of the `finer` levels, refined at each."""
     lattice = candidate.lattice
-    uv = lattice.uv
-    found = lattice.found
-    spacing = lattice.spacing()[found]
     for image in reversed(finer):
-        spacing = 2 * spacing
-        uv = 2 * uv + 0.5
-        width = saddle.window(np.minimum(spacing, 24.0))
-        uv[found], _ = saddle.refine(image, uv[found], width, np.full(len(spacing), 2.0))
-    return Candidate(Lattice(uv, lattice.dark), candidate.others)
+        lattice, _ = at_saddles(image, Lattice(2 * lattice.uv + 0.5, lattice.dark), _MOVED)
+    return Candidate(lattice, candidate.others)
 
 
 def contains(outline: Array, uv: Array) -> BoolArray:

@@ -18,6 +18,7 @@ sector from A to B is dark. Neighbours on a board see the same two edges with A 
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 
@@ -37,10 +38,26 @@ _CIRCLES = np.multiply.outer((3.0, 4.5, 7.0), np.column_stack([np.cos(_ANGLES), 
 """Circles tried in turn, px: small squares first, then those that blur has rounded."""
 _ASYMMETRY = 0.30
 """Greatest rms difference of opposite samples over the circle's contrast."""
-_OFF_MIDDLE = 0.3
-"""Greatest distance of the centre from the mid level, over the contrast."""
 _NARROWEST = np.radians(12.0)
 """Least angle between the two edges."""
+
+
+class Tolerance(NamedTuple):
+    """In what is taken for a junction and for the edge between two."""
+
+    off_middle: float
+    """Greatest distance of the centre from the mid level, over the contrast."""
+    along: float
+    """Greatest angle between an edge and the way to the neighbour that it leads to, rad."""
+    parallel: float
+    """Greatest angle between the crossing edges of two neighbours, rad."""
+
+
+CROSSED = Tolerance(0.3, np.radians(20.0), np.radians(25.0))
+"""Where edges cross."""
+PARTED = Tolerance(0.42, np.radians(26.0), np.radians(40.0))
+"""Where squares overlap or part: all corners are bright or all dark in the middle, and edges pass
+them by on the one side or, at their neighbours, on the other."""
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -143,34 +160,38 @@ def _compiled_peaks(g: Image, least: float) -> IntArray:
     return junctions.peaks(g, least, MAX_CANDIDATES)
 
 
-def classify(saddles: Saddles) -> tuple[BoolArray, Junctions]:
+def classify(saddles: Saddles, tolerance: Tolerance = CROSSED) -> tuple[BoolArray, Junctions]:
     """Which of the `saddles` (n,) are X-junctions of no less contrast than is worth finding.
 
     Returns:
         A mask (n,) and the junctions under it.
     """
     rings = _compiled_rings if kernels.COMPILED else _rings
-    passed, found = rings(saddles.smooth, saddles.uv, saddles.floor)
+    passed, found = rings(saddles.smooth, saddles.uv, saddles.floor, tolerance.off_middle)
     return passed, Junctions(saddles.uv[passed], found[passed, :2], found[passed, 2])
 
 
-def _rings(smooth: Image, uv: Array, floor: float) -> tuple[BoolArray, Array]:
+def _rings(smooth: Image, uv: Array, floor: float, off_middle: float) -> tuple[BoolArray, Array]:
     """Which points (n,) pass the test on one of the circles, and (n, 3) A, B and contrast."""
     passed, found = np.zeros(len(uv), dtype=np.bool_), np.zeros((len(uv), 3))
     for circle in _CIRCLES:
         rest = np.flatnonzero(~passed)
-        passed[rest], found[rest] = _ring(smooth, uv[rest], circle, floor)
+        passed[rest], found[rest] = _ring(smooth, uv[rest], circle, floor, off_middle)
     return passed, found
 
 
-def _compiled_rings(smooth: Image, uv: Array, floor: float) -> tuple[BoolArray, Array]:
+def _compiled_rings(
+    smooth: Image, uv: Array, floor: float, off_middle: float
+) -> tuple[BoolArray, Array]:
     """`_rings` by the compiled kernel."""
     from calibgui.engine.kernels import junctions
 
-    return junctions.rings(smooth, uv, _CIRCLES, floor, (_ASYMMETRY, _OFF_MIDDLE, _NARROWEST))
+    return junctions.rings(smooth, uv, _CIRCLES, floor, (_ASYMMETRY, off_middle, _NARROWEST))
 
 
-def _ring(smooth: Image, uv: Array, circle: Array, floor: float) -> tuple[BoolArray, Array]:
+def _ring(
+    smooth: Image, uv: Array, circle: Array, floor: float, off_middle: float
+) -> tuple[BoolArray, Array]:
     """The test on one circle (samples, 2): passed (n,) and (n, 3) A, B and contrast."""
     values = sample(smooth, uv[:, None] + circle)
     near, far = values[:, : _SAMPLES // 2], values[:, _SAMPLES // 2 :]
@@ -190,7 +211,7 @@ def _ring(smooth: Image, uv: Array, circle: Array, floor: float) -> tuple[BoolAr
         (np.sum(down, axis=1) == 1)
         & (contrast > floor)
         & (asymmetry < _ASYMMETRY * contrast)
-        & (abs(centre - middle) < _OFF_MIDDLE * contrast)
+        & (abs(centre - middle) < off_middle * contrast)
         & (width > _NARROWEST)
         & (width < np.pi - _NARROWEST)
     )

@@ -21,7 +21,7 @@ import numpy as np
 import scipy
 
 from calibgui.engine import kernels
-from calibgui.engine.corners.junctions import Junctions, Saddles
+from calibgui.engine.corners.junctions import CROSSED, Junctions, Saddles, Tolerance
 from calibgui.engine.corners.lattice import STEPS, Lattice, trim
 from calibgui.engine.imaging.sampling import sample
 from calibgui.engine.opencv import Image
@@ -29,10 +29,6 @@ from calibgui.engine.types import Array, BoolArray, Int32Array, IntArray
 
 _NEIGHBOURS = 12
 """Junctions around one that its edges may lead to, the nearest."""
-_ALONG = float(np.cos(np.radians(20.0)))
-"""How closely an edge must point to the neighbour that it leads to."""
-_PARALLEL = float(np.cos(np.radians(25.0)))
-"""How closely the crossing edges of two neighbours must agree."""
 _ON_WAY = np.array([0.3, 0.5, 0.7])
 """Where on the way to a neighbour the edge must show."""
 _SPARSE, _FEW = 3, 256
@@ -41,22 +37,25 @@ _STEP = 0.25
 """Least step across the edge between two neighbours over the weaker one's contrast."""
 
 
-def find_lattices(saddles: Saddles, junctions: Junctions, most: int) -> list[Lattice]:
+def find_lattices(
+    saddles: Saddles, junctions: Junctions, most: int, tolerance: Tolerance = CROSSED
+) -> list[Lattice]:
     """Lattices of at least one full cell in one image, largest first.
 
     At most so many: those of which most hangs together.
     """
     if len(junctions) < 4:
         return []
-    arranged = (_arrange(junctions.uv, *part) for part in _parts(_link(saddles.smooth, junctions)))
+    ends = _link(saddles.smooth, junctions, tolerance)
+    arranged = (_arrange(junctions.uv, *part) for part in _parts(ends))
     lattices = islice((lattice for lattice in arranged if lattice is not None), most)
     return sorted(lattices, key=len, reverse=True)
 
 
-def _link(smooth: Image, junctions: Junctions) -> Int32Array:
+def _link(smooth: Image, junctions: Junctions, tolerance: Tolerance) -> Int32Array:
     """(n, 4) where the edge that leaves each slot ends: 4 j + k at the slot k of junction j, which
     looks back; -1 where it ends at none."""
-    ends = (_compiled_nearest if kernels.COMPILED else _nearest)(smooth, junctions)
+    ends = (_compiled_nearest if kernels.COMPILED else _nearest)(smooth, junctions, tolerance)
     slots = np.arange(ends.size, dtype=np.int32).reshape(ends.shape)
     ends[ends.ravel()[ends] != slots] = -1
     return ends
@@ -67,7 +66,7 @@ def _along(junctions: Junctions) -> Array:
     return np.stack([np.cos(junctions.edges), np.sin(junctions.edges)], axis=-1)
 
 
-def _nearest(smooth: Image, junctions: Junctions) -> Int32Array:
+def _nearest(smooth: Image, junctions: Junctions, tolerance: Tolerance) -> Int32Array:
     """`_link`, whether or not the other junction looks back."""
     n, along = len(junctions), _along(junctions)
     slots = np.concatenate([along, -along], axis=1)
@@ -85,10 +84,10 @@ def _nearest(smooth: Image, junctions: Junctions) -> Int32Array:
     k, k_back = np.argmax(here, axis=1), np.argmax(there, axis=1)
     crossing = np.sum(slots[me, (k + 1) % 4] * slots[other, (k_back + 3) % 4], axis=1)
     good = (
-        (here.max(axis=1) > _ALONG)
-        & (there.max(axis=1) > _ALONG)
+        (here.max(axis=1) > np.cos(tolerance.along))
+        & (there.max(axis=1) > np.cos(tolerance.along))
         & ((k + k_back) % 2 == 1)
-        & (crossing > _PARALLEL)
+        & (crossing > np.cos(tolerance.parallel))
     )
     me, other, distance, d, k, k_back = (x[good] for x in (me, other, distance, d, k, k_back))
     # A real edge lies between: dark on the side that the slots' numbers say.
@@ -106,12 +105,13 @@ def _nearest(smooth: Image, junctions: Junctions) -> Int32Array:
     return ends
 
 
-def _compiled_nearest(smooth: Image, junctions: Junctions) -> Int32Array:
+def _compiled_nearest(smooth: Image, junctions: Junctions, tolerance: Tolerance) -> Int32Array:
     """`_nearest` by the compiled kernel."""
     from calibgui.engine.kernels import links
 
     points = junctions.uv, _along(junctions), junctions.contrast
-    return links.nearest(smooth, *points, _NEIGHBOURS, _ON_WAY, (_ALONG, _PARALLEL, _STEP))
+    limits = float(np.cos(tolerance.along)), float(np.cos(tolerance.parallel)), _STEP
+    return links.nearest(smooth, *points, _NEIGHBOURS, _ON_WAY, limits)
 
 
 def _parts(ends: Int32Array) -> Iterator[tuple[Int32Array, Int32Array]]:

@@ -7,13 +7,14 @@ from dataclasses import dataclass, replace
 import numpy as np
 import scipy
 
-from calibgui.engine.corners import edges, saddle, verify
+from calibgui.engine.corners import edges, verify
 from calibgui.engine.corners import roi as region
 from calibgui.engine.corners.edges import Fit
 from calibgui.engine.corners.glance import plausible
 from calibgui.engine.corners.lattice import MIN_CORNERS, Lattice, large_enough, supported
+from calibgui.engine.corners.settle import at_saddles
 from calibgui.engine.opencv import Image
-from calibgui.engine.types import Array, Board, BoolArray, Rejection
+from calibgui.engine.types import Array, Board, Rejection
 
 METHODS = ("edges", "saddle")
 _ROUNDS = 4
@@ -121,15 +122,3 @@ def _fitted(
 def rejections(uv: Array, reason: str) -> list[Rejection]:
     """Corners (n, 2) px that are not trusted for one reason."""
     return [Rejection(float(u), float(v), reason) for u, v in uv]
-
-
-def at_saddles(grey: Image, lattice: Lattice) -> tuple[Lattice, BoolArray]:
-    """The lattice with its corners moved to their saddle points, and which (rows, cols) have one
-    near."""
-    found = lattice.found
-    spacing = lattice.spacing()[found]
-    uv = lattice.uv.copy()
-    uv[found], good = saddle.refine(grey, uv[found], saddle.window(spacing), spacing / 4)
-    at_saddle = found.copy()
-    at_saddle[found] = good
-    return Lattice(uv, lattice.dark), at_saddle

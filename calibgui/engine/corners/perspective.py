@@ -36,6 +36,8 @@ _BETTER = 0.5
 """Part of that distance that a lens must leave at most."""
 _ENOUGH = 16
 """Corners from which on a lens may be told."""
+_MOST = 400
+"""Corners, spread over the lattice, that a lens is fitted to."""
 _COEFFICIENTS = 3
 _STEPS = 3
 """Of Gauss-Newton."""
@@ -138,7 +140,8 @@ def fitted(cells: Array, uv: Array) -> Perspective:
     left = _rms(plain.at(cells) - uv)
     if len(uv) < _ENOUGH or left < _BENT * _rms(uv - uv.mean(axis=0)):
         return plain
-    (x, mean, scale), (u, origin, unit) = _normalised(cells), _normalised(uv)
+    some = np.linspace(0, len(uv) - 1, min(len(uv), _MOST)).astype(np.int64)
+    (x, mean, scale), (u, origin, unit) = _normalised(cells[some]), _normalised(uv[some])
     bent = _by_division(x, u)
     bent = None if bent is None else _nearest(x, u, bent)
     # Not finite is not better.

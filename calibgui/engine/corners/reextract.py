@@ -28,10 +28,11 @@ from calibgui.engine.corners.extract import grey_levels, record
 from calibgui.engine.corners.finder import find_boards
 from calibgui.engine.corners.glance import plausible
 from calibgui.engine.corners.lattice import Lattice, axes, bordered, crop, large_enough, supported
-from calibgui.engine.corners.located import Located, at_saddles
+from calibgui.engine.corners.located import Located
 from calibgui.engine.corners.ordering import Numbering, Sides, numberings
 from calibgui.engine.corners.prediction import Sight, sight
 from calibgui.engine.corners.saddle import refine, window
+from calibgui.engine.corners.settle import at_saddles
 from calibgui.engine.errors import CalibrationError, NoBoardError
 from calibgui.engine.opencv import Image
 from calibgui.engine.types import Array, Board, BoolArray, Calibration, Corners

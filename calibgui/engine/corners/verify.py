@@ -55,7 +55,7 @@ _UNEXPLAINED = 4.0
 """Greatest residual of the edge fit over the board's median residual ..."""
 _MISFIT = 0.15
 """... or over the corner's contrast, whichever is more."""
-_ASTRAY = 4.0
+_ASTRAY = 6.0
 """Farthest that a corner of such a residual may be from where those of less expect it, over their
 own rms distance from there ..."""
 _SLIGHTLY = 0.03

@@ -71,8 +71,9 @@ def test_work_is_bounded(name: str, monkeypatch: pytest.MonkeyPatch) -> None:
     for board in (None, (6, 9)):
         with contextlib.suppress(NoBoardError):
             find_corners(HOSTILE[name](), board)
-    levels = 4
-    assert len(candidates) <= 2 * (2 * levels - 1)  # all but the finest may be looked at again
+    levels, coarser = 4, 2
+    # All but the finest may be looked at again, and the coarsest once more with those beyond it.
+    assert len(candidates) <= 2 * (2 * levels - 1 + 1 + coarser)
     assert max(candidates, default=0) <= junctions.MAX_CANDIDATES
     assert len(rounds) <= 200
     assert sum(fitted) <= 8 * junctions.MAX_CANDIDATES

@@ -19,7 +19,7 @@ def test_the_same_grey_levels_around_corners(dtype: type, monkeypatch: pytest.Mo
     arguments = image, uv, right, down, rng.random(300) < 0.5
 
     def seen() -> tuple[np.ndarray, ...]:
-        around = appearance._around(*arguments[:4], appearance.PLACES)
+        around = appearance.around(*arguments[:4], appearance.PLACES)
         return around, *appearance.sectors(*arguments), appearance._surroundings(*arguments)
 
     compiled = seen()
@@ -30,5 +30,5 @@ def test_the_same_grey_levels_around_corners(dtype: type, monkeypatch: pytest.Mo
 
 def test_no_grey_level_where_there_is_no_place() -> None:
     nowhere, step = np.array([[np.nan, 5.0], [5.0, np.nan]]), np.ones((2, 2))
-    around = appearance._around(np.ones((9, 9)), nowhere, step, step, appearance.PLACES)
+    around = appearance.around(np.ones((9, 9)), nowhere, step, step, appearance.PLACES)
     assert np.isnan(around).all()

@@ -39,15 +39,15 @@ def in_noise() -> tuple[Image, junctions.Junctions]:
 
 
 def test_the_same_neighbours_in_noise() -> None:
-    readable = links._nearest(*in_noise())
+    readable = links._nearest(*in_noise(), junctions.CROSSED)
     assert np.count_nonzero(readable >= 0) > 100
-    np.testing.assert_array_equal(links._compiled_nearest(*in_noise()), readable)
+    np.testing.assert_array_equal(links._compiled_nearest(*in_noise(), junctions.CROSSED), readable)
 
 
 def test_only_edges_that_are_seen_from_both_ends_link() -> None:
-    ends = links._link(*in_noise()).ravel()
+    ends = links._link(*in_noise(), junctions.CROSSED).ravel()
     linked = np.flatnonzero(ends >= 0)
-    assert 20 < len(linked) < np.count_nonzero(links._nearest(*in_noise()) >= 0)
+    assert 20 < len(linked) < np.count_nonzero(links._nearest(*in_noise(), junctions.CROSSED) >= 0)
     np.testing.assert_array_equal(ends[ends[linked]], linked)
 
 
