@@ -1,9 +1,9 @@
 """Locating the corners of a checkerboard.
 
 `find_corners` runs the whole line: candidates (`junctions`), lattices (`links`, `lattice`,
-`growth`), coarse to fine (`finder`) or in a marked region (`roi`), refinement (`saddle` and
-`settle`, `edges`) and acceptance (`verify`, `appearance`) of each board (`located`), numbering (`ordering`), first
-estimates as the paper has them (`harris`).
+`growth`), coarse to fine (`finder`) or in a marked region (`roi`), refinement (`settle` by
+`saddle`, `edges`) and acceptance (`verify`, `appearance`) of each board (`located`), numbering
+(`ordering`), first estimates as the paper has them (`harris`).
 """
 
 from calibgui.engine.corners.extract import find_corners
