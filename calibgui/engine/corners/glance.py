@@ -32,7 +32,7 @@ _ENOUGH = 64
 """Corners, spread over a lattice, that tell what it is made of: as many as boards have."""
 _BULGE = 0.02
 """Greatest median difference of the spread away from the corner and near it, squares."""
-_SPREADS, _WITHIN = 0.018, 0.0075
+_SPREADS, _WITHIN = 0.018, 0.006
 """Greatest median deviation of the spreads in one direction from their median, squares: of what
 ends where the lattice does, and of a part of a pattern that goes on in another look."""
 _RISING, _STEADY = 0.03, 0.004

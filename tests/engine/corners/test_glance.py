@@ -55,7 +55,7 @@ def test_a_picture_printed_in_dots_is_no_board(seed: int) -> None:
         find_corners(boardless(seed))
 
 
-@pytest.mark.parametrize("seed", [62, 89, 98, 116, 179, 188, 197])
+@pytest.mark.parametrize("seed", [62, 89, 98, 116, 179, 188, 197, 3878])
 def test_nor_is_the_part_of_it_where_dots_are_squares(seed: int) -> None:
     with pytest.raises(NoBoardError):
         find_corners(boardless(seed))
