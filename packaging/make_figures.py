@@ -16,16 +16,13 @@ from calibgui.app.calibration import calibrate_views
 from calibgui.app.detection import find_views
 from calibgui.app.outputs import save_figure
 from calibgui.app.paths import find_images
-from calibgui.engine.calibrate import calibrate
-from calibgui.engine.estimation.projection import pixels
-from calibgui.engine.frames import rotation
+from calibgui.engine.assessment import compare_cameras, screen
+from calibgui.engine.boards import Board
+from calibgui.engine.calibration import Observation, calibrate
+from calibgui.engine.camera import Camera, pixels
+from calibgui.engine.geometry import rotation
 from calibgui.engine.images import read_image
-from calibgui.engine.quality.difference import difference
-from calibgui.engine.quality.next_view import next_views
-from calibgui.engine.quality.projection_uncertainty import projection_uncertainty
-from calibgui.engine.quality.screening import screen
-from calibgui.engine.quality.view_count import study
-from calibgui.engine.types import Camera, Observation, Target
+from calibgui.engine.uncertainty import estimate_projection_uncertainty, next_views, study
 from calibgui.report import figures, quality_figures
 
 RESOURCES = Path(__file__).resolve().parents[1] / "resources"
@@ -36,8 +33,8 @@ SQUARE = 25.0
 def bent_board() -> Figure:
     """A board that is bowed by 0.2 mm and printed 0.1 mm unevenly, as 20 noisy views show it."""
     rng = np.random.default_rng(1)
-    target = Target(rows=7, cols=10, square=SQUARE)
-    xy = target.points()
+    board = Board(rows=7, cols=10, square=SQUARE)
+    xy = board.points()
     far = (xy - xy.mean(axis=0)) / xy.max()
     bend = np.column_stack([0.1 * np.sin(5 * far[:, ::-1]), 0.6 * (far**2).sum(axis=1)])
     camera = Camera((640, 480), [660, 661, 309, 246, 0.27, 0.11, -0.06, -4e-4, 6e-4, 0])
@@ -48,9 +45,9 @@ def bent_board() -> Figure:
         point = point + rng.uniform([-20, -20, 300], [20, 20, 400])
         uv = pixels(point[:, :2] / point[:, 2:], camera)
         views.append(Observation(uv + rng.normal(0, 0.03, uv.shape), xy))
-    plate = calibrate(views, camera.size, plate="free").plate
-    assert plate is not None
-    return figures.plate_deviations(plate)
+    board_shape = calibrate(views, camera.size, board_shape="free").board_shape
+    assert board_shape is not None
+    return figures.board_shape_deviations(board_shape)
 
 
 def misplaced_corners(images: Sequence[str], views: Sequence[Observation], truth: Camera) -> Figure:
@@ -118,9 +115,9 @@ def main() -> None:
     halves = [calibrate(views[start::2], size).camera for start in (0, 1)]
     pictures = {
         "uncertainty": quality_figures.uncertainty(
-            projection_uncertainty(calibration, views), views, 0.01
+            estimate_projection_uncertainty(calibration, views), views, 0.01
         ),
-        "difference": quality_figures.difference(difference(*halves)),
+        "difference": quality_figures.difference(compare_cameras(*halves)),
         "views": quality_figures.view_count(study(calibration, views, solved=20), 0.03),
         "next-views": quality_figures.next_views(next_views(calibration, views), views, size),
     }

@@ -17,17 +17,16 @@ from pathlib import Path
 import numpy as np
 import numpy.typing as npt
 
+from calibgui.engine.arrays import Array
+from calibgui.engine.boards import Board
+from calibgui.engine.camera import MODELS, Camera, project_points
 from calibgui.engine.files import write_atomically
-from calibgui.engine.frames import rotation, rotation_vector
-from calibgui.engine.images import write_image
-from calibgui.engine.imaging.maps import project_points
-from calibgui.engine.imaging.render import Appearance, render
-from calibgui.engine.lens import MODELS
-from calibgui.engine.types import Array, Camera, Pose, Target
+from calibgui.engine.geometry import Pose, rotation, rotation_vector
+from calibgui.engine.images import Appearance, render, write_image
 
 FOLDER = Path(__file__).resolve().parents[1] / "resources" / "sample"
 
-TARGET = Target(rows=7, cols=10, square=25.0)
+TARGET = Board(rows=7, cols=10, square=25.0)
 CAMERA = Camera(
     (640, 480),
     np.array([660.4, 661.7, 309.2, 246.3, 0.27, 0.11, -0.06, -4.0e-4, 6.0e-4, 0.0]),
@@ -103,19 +102,19 @@ def truth() -> dict[str, object]:
         "views": [
             {
                 "image": f"view{number:02d}.png",
-                "rvec": plate.rvec.tolist(),
-                "tvec_mm": plate.tvec.tolist(),
-                "corners": project_points(TARGET.points(), CAMERA, plate).round(9).tolist(),
+                "rvec": board_shape.rvec.tolist(),
+                "tvec_mm": board_shape.tvec.tolist(),
+                "corners": project_points(TARGET.points(), CAMERA, board_shape).round(9).tolist(),
             }
-            for number, plate in enumerate(placed, start=1)
+            for number, board_shape in enumerate(placed, start=1)
         ],
     }
 
 
 def photograph(number: int) -> npt.NDArray[np.uint8]:
     """The image of view `number`, from 1."""
-    plate = pose(VIEWS[number - 1])
-    return render(CAMERA, plate, TARGET, blur=BLUR, noise=NOISE, seed=number, appearance=LOOK)
+    board_shape = pose(VIEWS[number - 1])
+    return render(CAMERA, board_shape, TARGET, blur=BLUR, noise=NOISE, seed=number, appearance=LOOK)
 
 
 def main() -> None:

@@ -23,11 +23,11 @@ from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QApplication
 
 from calibgui.app.resources import resource
-from calibgui.engine.types import PlateModel
+from calibgui.engine.boards import BoardShapeModel
 from calibgui.gui import theme
 from calibgui.gui.analysis import PANELS
 from calibgui.gui.main_window import MainWindow
-from calibgui.gui.panels.plate import PlatePanel
+from calibgui.gui.panels.board_shape import BoardShapePanel
 from calibgui.gui.panels.poses import PosesPanel
 from calibgui.gui.panels.synthetic import SyntheticPanel
 
@@ -73,8 +73,8 @@ class Photographer:
         self.take("result")
         assert window.analysis is not None
         for kind in PANELS[1:]:
-            if kind is PlatePanel:
-                self.estimate_plate()
+            if kind is BoardShapePanel:
+                self.estimate_board_shape()
             panel = window.analysis.show_panel(kind)
             if isinstance(panel, SyntheticPanel):
                 panel.run.click()
@@ -82,12 +82,12 @@ class Photographer:
             self.take(kind.__name__.removesuffix("Panel").lower())
         self.marking()
 
-    def estimate_plate(self) -> None:
+    def estimate_board_shape(self) -> None:
         """Calibrate once more, every corner of the board free."""
         session = self.window.session
         session.edit(
             "Settings",
-            lambda p: replace(p, settings=replace(p.settings, plate=PlateModel.FREE)),
+            lambda p: replace(p, settings=replace(p.settings, board_shape=BoardShapeModel.FREE)),
         )
         self.window.calibrate.click()
         wait(lambda: len(session.project.results) == 2 and not session.jobs.running)

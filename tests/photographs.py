@@ -6,12 +6,14 @@ from pathlib import Path
 
 import numpy as np
 
-from calibgui.engine.images import write_image
-from calibgui.engine.imaging.render import render
-from calibgui.engine.types import Camera, Pose, Target
+from calibgui.engine.boards.board import Board
+from calibgui.engine.camera.camera import Camera
+from calibgui.engine.geometry.pose import Pose
+from calibgui.engine.images.reading import write_image
+from calibgui.engine.images.rendering import render
 from tests.engine import scenes
 
-BOARD = Target(rows=6, cols=7, square=30.0)
+BOARD = Board(rows=6, cols=7, square=30.0)
 CAMERA = Camera((320, 240), [330.0, 333.0, 155.0, 122.0, 0.2, 0.05, 0.0, 3e-4, -4e-4, 0.0])
 COUNT = 6
 

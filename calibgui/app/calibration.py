@@ -12,27 +12,24 @@ import numpy as np
 from calibgui import engine
 from calibgui.app.marking import removed
 from calibgui.app.settings import USUAL, Settings
-from calibgui.engine.errors import CalibrationError, Cancelled, DegenerateError
-from calibgui.engine.estimation.degeneracy import copies
-from calibgui.engine.quality.counting import upside_down
-from calibgui.engine.quality.screening import screen
-from calibgui.engine.quality.validation import choose_plate
-from calibgui.engine.quality.view_weights import calibrate_weighted
-from calibgui.engine.threads import one_blas_thread
-from calibgui.engine.types import (
-    Ambiguity,
+from calibgui.dataset.corner_set import CornerSet
+from calibgui.dataset.result import Result
+from calibgui.dataset.view import View
+from calibgui.engine.arrays import IntArray, Size
+from calibgui.engine.assessment import calibrate_weighted, choose_board_shape, screen
+from calibgui.engine.boards import Ambiguity, BoardShapeModel
+from calibgui.engine.calibration import (
     Calibration,
     Cost,
-    IntArray,
+    DegenerateError,
     Iteration,
     Observation,
-    PlateModel,
     Report,
-    Size,
-    View,
+    copies,
 )
-from calibgui.formats.corners_json import CornerSet
-from calibgui.formats.result import Result
+from calibgui.engine.errors import CalibrationError, Cancelled
+from calibgui.engine.redetection import upside_down
+from calibgui.engine.threads import one_blas_thread
 from calibgui.report.numbers import counted
 
 _UNTRIED = (
@@ -90,15 +87,15 @@ def _calibrated(corner_set: CornerSet, settings: Settings, report: Report | None
     if settings.robust:
         views, said = _screened(corner_set, settings)
     used = [view for view in views if view.usable]
-    observations = [view.observation(corner_set.target) for view in used]
+    observations = [view.observation(corner_set.board) for view in used]
     camera: dict[str, Any] = {"fix": settings.fixed, "free": settings.freed}
-    plate = settings.plate
-    if plate is None:
-        plate, words = _predicting(observations, size, camera, report)
+    board_shape = settings.board_shape
+    if board_shape is None:
+        board_shape, words = _predicting(observations, size, camera, report)
         said = (words, *said)
     everything = camera | {
         "cost": settings.cost,
-        "plate": plate,
+        "board_shape": board_shape,
         "prior": settings.prior,
         "report": report,
         "names": short_names(used),
@@ -109,7 +106,7 @@ def _calibrated(corner_set: CornerSet, settings: Settings, report: Report | None
         said = (*said, _about_weights(observations, everything["names"]))
     else:
         calibration = engine.calibrate(observations, size, **everything)
-    return Result(_told(calibration, used, settings, said), views, corner_set.target)
+    return Result(_told(calibration, used, settings, said), views, corner_set.board)
 
 
 def _predicting(
@@ -117,7 +114,7 @@ def _predicting(
     size: Size,
     camera: Mapping[str, Any],
     report: Report | None,
-) -> tuple[PlateModel, str]:
+) -> tuple[BoardShapeModel, str]:
     """The plate model that predicts unseen views best, as far as it can be told, and why."""
     stopped = False
 
@@ -129,13 +126,13 @@ def _predicting(
         return True
 
     try:
-        choice = choose_plate(observations, size, report=watch, **camera)
+        choice = choose_board_shape(observations, size, report=watch, **camera)
     except DegenerateError:
-        return PlateModel.NOMINAL, _UNTRIED
+        return BoardShapeModel.NOMINAL, _UNTRIED
     except Cancelled:
         if not stopped:
             raise
-        return PlateModel.NOMINAL, _ABANDONED
+        return BoardShapeModel.NOMINAL, _ABANDONED
     return choice.model, choice.words
 
 
@@ -154,7 +151,10 @@ def _told(
 def _partly(corner_set: CornerSet, settings: Settings, report: Report | None) -> Result | None:
     """What views that do not determine the camera say of it, as they are; None if nothing."""
     plain = replace(
-        settings, robust=False, weigh_views=False, plate=settings.plate or PlateModel.NOMINAL
+        settings,
+        robust=False,
+        weigh_views=False,
+        board_shape=settings.board_shape or BoardShapeModel.NOMINAL,
     )
     try:
         _calibrated(corner_set, plain, report)
@@ -162,7 +162,7 @@ def _partly(corner_set: CornerSet, settings: Settings, report: Report | None) ->
         if error.partial is not None:
             used = [view for view in corner_set.views if view.usable]
             calibration = _told(error.partial, used, plain)
-            return Result(calibration, corner_set.views, corner_set.target)
+            return Result(calibration, corner_set.views, corner_set.board)
     return None
 
 
@@ -170,7 +170,7 @@ def _each_once(corner_set: CornerSet) -> tuple[View, ...]:
     """The views, of which those are left out that repeat another's very corners, unless all do."""
     views = list(corner_set.views)
     usable = [k for k, view in enumerate(views) if view.usable]
-    like = copies(views[k].observation(corner_set.target)[:2] for k in usable)
+    like = copies(views[k].observation(corner_set.board)[:2] for k in usable)
     for k, first in zip(usable, like.tolist(), strict=True):
         original = usable[first]
         if original != k and like.any():
@@ -218,7 +218,7 @@ def _unplaced(used: Sequence[View], calibration: Calibration) -> Iterator[str]:
             "pose there may be off by whole squares. The camera does not depend on it."
         )
     turned = {view.corners.ambiguity for view in used if view.corners is not None}
-    if calibration.plate is not None and (parts or turned - {Ambiguity.NONE}):
+    if calibration.board_shape is not None and (parts or turned - {Ambiguity.NONE}):
         yield (
             "Not all views are known to count the board's corners alike: its estimated shape may "
             "be a mixture of what these took for the same corner."
@@ -232,7 +232,7 @@ def _screened(
     places = [k for k, view in enumerate(corner_set.views) if view.usable]
     used = [corner_set.views[k] for k in places]
     names = short_names(used)
-    observations = [view.observation(corner_set.target) for view in used]
+    observations = [view.observation(corner_set.board) for view in used]
     screening = screen(
         observations, corner_set.size, names=names, fix=settings.fixed, free=settings.freed
     )

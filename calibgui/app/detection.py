@@ -17,13 +17,13 @@ from pathlib import Path
 from threading import Event
 
 from calibgui.app.workers import Crashed, spread
-from calibgui.engine.corners import METHODS
+from calibgui.dataset.corner_set import CornerSet
+from calibgui.dataset.view import View, ViewStatus
+from calibgui.engine.arrays import Array, GridSize, Size
+from calibgui.engine.boards import CHECKERBOARD, KINDS, Board, Pattern
+from calibgui.engine.detection import METHODS, Corners, find_corners
 from calibgui.engine.errors import CalibrationError, NoBoardError
 from calibgui.engine.images import image_size, read_image
-from calibgui.engine.targets.kinds import KINDS
-from calibgui.engine.targets.pattern import CHECKERBOARD, Pattern
-from calibgui.engine.types import Array, Board, Corners, Size, Target, View, ViewStatus
-from calibgui.formats.corners_json import CornerSet
 
 Progress = Callable[[int, int, View], None]
 """Told of each image done: how many are, of how many, and its view."""
@@ -37,7 +37,7 @@ class Detection:
     """One per image, in the images' order."""
     size: Size | None
     """Of the images, px; None if none could be read."""
-    board: Board | None
+    grid_size: GridSize | None
     """As given, or as most frequently seen; None if no board was seen whole."""
     pattern: Pattern = CHECKERBOARD
     """As given, with what the images tell of it."""
@@ -53,13 +53,13 @@ class Detection:
                 "None of the files can be read as an image.",
                 f"The first: {self.views[0].reason}",
             )
-        target = None if self.board is None else Target(*self.board, square, self.pattern)
-        return CornerSet(self.size, self.views, target)
+        board = None if self.grid_size is None else Board(*self.grid_size, square, self.pattern)
+        return CornerSet(self.size, self.views, board)
 
 
 def find_views(
     images: Sequence[Path],
-    board: Board | None = None,
+    grid_size: GridSize | None = None,
     rois: Mapping[Path, Array] | None = None,
     progress: Progress | None = None,
     stop: Event | None = None,
@@ -89,10 +89,10 @@ def find_views(
     waiting = [View(str(path), roi=rois.get(path)) for path in images]
     views, size = _sized(waiting, size)
 
-    def search(which: Sequence[int], board: Board | None, before: int = 0) -> None:
+    def search(which: Sequence[int], grid_size: GridSize | None, before: int = 0) -> None:
         items = [views[k] for k in which]
         results = spread(
-            partial(search_view, board=board, method=method, pattern=pattern),
+            partial(search_view, grid_size=grid_size, method=method, pattern=pattern),
             items,
             stop,
             preparing,
@@ -103,17 +103,17 @@ def find_views(
                 progress(done, before + len(which), views[which[i]])
 
     readable = [k for k, view in enumerate(views) if view.status is ViewStatus.WAITING]
-    search(readable, board)
-    if board is None and (board := usual_board(views)) is not None:
+    search(readable, grid_size)
+    if grid_size is None and (grid_size := usual_board(views)) is not None:
         pattern = usual_pattern(views, pattern)
-        again = [k for k, view in enumerate(views) if _worth_another_look(view, board, pattern)]
-        search(again, board, before=len(readable))
-    return Detection(tuple(views), size, board, usual_pattern(views, pattern))
+        again = [k for k, view in enumerate(views) if _worth_another_look(view, grid_size, pattern)]
+        search(again, grid_size, before=len(readable))
+    return Detection(tuple(views), size, grid_size, usual_pattern(views, pattern))
 
 
 def search_view(
     view: View,
-    board: Board | None = None,
+    grid_size: GridSize | None = None,
     method: str = METHODS[0],
     pattern: Pattern = CHECKERBOARD,
 ) -> View:
@@ -123,7 +123,7 @@ def search_view(
     except CalibrationError as error:
         return _without_corners(view, ViewStatus.UNREADABLE, str(error))
     try:
-        corners = pattern.find(pixels, board, view.roi, method)
+        corners = find_corners(pixels, grid_size, view.roi, method, pattern=pattern)
     except NoBoardError as error:
         return _without_corners(view, ViewStatus.NO_BOARD, str(error))
     return replace(view, status=ViewStatus.FOUND, reason="", corners=corners)
@@ -157,7 +157,7 @@ def _tried(one: tuple[str, Pattern]) -> View:
     return search_view(View(image), pattern=pattern)
 
 
-def usual_board(views: Iterable[View]) -> Board | None:
+def usual_board(views: Iterable[View]) -> GridSize | None:
     """The most frequent size of boards seen whole, of equally frequent ones the largest.
 
     Where corners say which they are the largest part seen is the board, or as much as is known.
@@ -169,7 +169,7 @@ def usual_board(views: Iterable[View]) -> Board | None:
     return max(seen, key=lambda shape: (seen[shape], shape[0] * shape[1]), default=None)
 
 
-def largest_part(found: Sequence[Corners]) -> Board | None:
+def largest_part(found: Sequence[Corners]) -> GridSize | None:
     """Rows and columns that parts of a board, perhaps never seen whole, amount to at least."""
     rows, cols = (max((corners.shape[i] for corners in found), default=0) for i in (0, 1))
     return (rows, cols) if rows and cols else None
@@ -181,10 +181,10 @@ def usual_pattern(views: Iterable[View], stated: Pattern) -> Pattern:
     return stated.completed([pattern for pattern in found if pattern.kind == stated.kind])
 
 
-def _worth_another_look(view: View, board: Board, pattern: Pattern) -> bool:
+def _worth_another_look(view: View, grid_size: GridSize, pattern: Pattern) -> bool:
     """Whether knowing the board can give a view other corners: fewer, more or renumbered."""
     if view.corners is not None:
-        return view.corners.shape != board
+        return view.corners.shape != grid_size
     known = view.roi is not None or pattern.identified
     return view.status is ViewStatus.NO_BOARD and known
 

@@ -12,8 +12,8 @@ import numpy as np
 import numpy.typing as npt
 
 from calibgui.engine import opencv
+from calibgui.engine.arrays import Size
 from calibgui.engine.images import Image, read_image, stretched
-from calibgui.engine.types import Size
 
 MEMORY = 400_000_000
 """Bytes that whole images may take together."""

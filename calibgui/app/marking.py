@@ -8,14 +8,18 @@ from typing import Any
 
 import numpy as np
 
-from calibgui.engine.corners import METHODS, saddle
-from calibgui.engine.corners.junctions import classify, find_saddles
-from calibgui.engine.corners.ordering import ambiguity
+from calibgui.engine.arrays import Array, GreyImage, GridSize, IntArray
+from calibgui.engine.boards import CHECKERBOARD, Pattern, checkerboard_ambiguity
+from calibgui.engine.detection import (
+    METHODS,
+    Corners,
+    classify,
+    find_corners,
+    find_saddles,
+    refine_saddles,
+)
 from calibgui.engine.errors import CalibrationError, NoBoardError
-from calibgui.engine.estimation import homography
-from calibgui.engine.opencv import Image
-from calibgui.engine.targets.pattern import CHECKERBOARD, Pattern
-from calibgui.engine.types import Array, Board, Corners, IntArray
+from calibgui.engine.geometry import fit_homography
 
 _CONTRAST = 0.1
 """Least contrast of a corner over the range of grey levels around the cursor."""
@@ -24,7 +28,7 @@ _BORDER = 8
 _PER_CORNER = ("grid", "uv", "estimate", "cov", "blur", "contrast", "residual")
 
 
-def snapped(image: Image, uv: Array, reach: float) -> Array | None:
+def snapped(image: GreyImage, uv: Array, reach: float) -> Array | None:
     """The corner (2,) px nearest to `uv` (2,) px within `reach`; None if there is none."""
     half = int(np.ceil(reach)) + _BORDER
     u, v = np.rint(uv).astype(int)
@@ -44,17 +48,17 @@ def snapped(image: Image, uv: Array, reach: float) -> Array | None:
     return refined(image, at[np.argmin(distance)], 2.0)
 
 
-def refined(image: Image, uv: Array, limit: float) -> Array | None:
+def refined(image: GreyImage, uv: Array, limit: float) -> Array | None:
     """The saddle point (2,) px within `limit` of `uv` (2,) px; None if there is none."""
-    at, good = saddle.refine(image, uv[None], np.array([1.2]), np.array([limit]))
+    at, good = refine_saddles(image, uv[None], np.array([1.2]), np.array([limit]))
     return at[0] if good[0] else None
 
 
 def marked(
-    image: Image,
+    image: GreyImage,
     points: Array,
-    board: Board | None,
-    usual: Board | None,
+    grid_size: GridSize | None,
+    usual: GridSize | None,
     pattern: Pattern = CHECKERBOARD,
     method: str = METHODS[0],
 ) -> Corners:
@@ -73,11 +77,11 @@ def marked(
         CalibrationError: the points do not go around a region.
     """
     try:
-        return pattern.find(image, board, points, method)
+        return find_corners(image, grid_size, points, method, pattern=pattern)
     except NoBoardError:
-        if board is not None or usual is None:
+        if grid_size is not None or usual is None:
             raise
-        return pattern.find(image, usual, points, method)
+        return find_corners(image, usual, points, method, pattern=pattern)
     except ValueError as error:
         raise CalibrationError(
             "The four points do not go around the board.",
@@ -85,14 +89,14 @@ def marked(
         ) from error
 
 
-def projected(points: Array, board: Board) -> Array:
+def projected(points: Array, grid_size: GridSize) -> Array:
     """(rows, cols, 2) px of the corners of a board whose outermost ones are `points` (4, 2).
 
     Rows run from the first point to the second; distortion is ignored: a picture to judge by.
     """
-    rows, cols = board
+    rows, cols = grid_size
     corners = np.array([(0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0)])
-    H = homography.dlt(corners[None], points[None], np.ones((1, 4)))[0]
+    H = fit_homography(corners[None], points[None], np.ones((1, 4)))[0]
     t, s = np.meshgrid(np.linspace(0, 1, rows), np.linspace(0, 1, cols), indexing="ij")
     q = np.stack([s, t, np.ones_like(s)], axis=-1) @ H.T
     return np.asarray(q[..., :2] / q[..., 2:])
@@ -121,7 +125,7 @@ def missing(corners: Corners) -> tuple[IntArray, Array]:
     return grid, np.array([_expected(corners, place) for place in grid])
 
 
-def restored(image: Image, corners: Corners, place: IntArray) -> Corners:
+def restored(image: GreyImage, corners: Corners, place: IntArray) -> Corners:
     """The corners with the one at `place` (row, column) found anew.
 
     Raises:
@@ -151,7 +155,9 @@ def turned(corners: Corners) -> Corners:
     _check_squares(corners)
     rows, cols = corners.shape
     grid = np.column_stack([corners.grid[:, 1], rows - 1 - corners.grid[:, 0]])
-    return replace(corners, shape=(cols, rows), grid=grid, ambiguity=ambiguity((cols, rows)))
+    return replace(
+        corners, shape=(cols, rows), grid=grid, ambiguity=checkerboard_ambiguity((cols, rows))
+    )
 
 
 def flipped(corners: Corners) -> Corners:
@@ -176,7 +182,7 @@ def _expected(corners: Corners, place: IntArray) -> Array:
     """Where the corner at `place` must be, by the homography of the nine nearest ones, px."""
     near = np.argsort(np.abs(corners.grid - place).sum(axis=1), kind="stable")[:12]
     xy, uv = corners.grid[near].astype(np.float64), corners.uv[near]
-    H = homography.dlt(xy[None], uv[None], np.ones((1, len(near))))[0]
+    H = fit_homography(xy[None], uv[None], np.ones((1, len(near))))[0]
     q = H @ np.append(place.astype(np.float64), 1.0)
     return np.asarray(q[:2] / q[2])
 

@@ -13,14 +13,12 @@ from types import MappingProxyType
 
 from calibgui.app.detection import largest_part, usual_board, usual_pattern
 from calibgui.app.settings import Settings
-from calibgui.engine.corners import METHODS
+from calibgui.dataset.result import Result
+from calibgui.dataset.view import View, ViewStatus
+from calibgui.engine.arrays import GridSize, Size
+from calibgui.engine.boards import CHECKERBOARD, KINDS, Board, Charuco, Circles, Pattern
+from calibgui.engine.detection import METHODS
 from calibgui.engine.errors import CalibrationError
-from calibgui.engine.targets.charuco import Charuco
-from calibgui.engine.targets.circles import Circles
-from calibgui.engine.targets.kinds import KINDS
-from calibgui.engine.targets.pattern import CHECKERBOARD, Pattern
-from calibgui.engine.types import Board, Size, Target, View, ViewStatus
-from calibgui.formats.result import Result
 
 DEFAULT_SQUARE = 30.0
 """Side of a square until the user states it, mm. Only the poses' lengths depend on it."""
@@ -49,7 +47,7 @@ class Project:
     """Width and height of the images, px; None until one has been read."""
     pattern: Pattern = CHECKERBOARD
     """What is printed on the target, as stated by the user."""
-    board: Board | None = None
+    grid_size: GridSize | None = None
     """Rows and columns of inner corners or circles as stated by the user; inferred if None."""
     method: str = METHODS[0]
     """Of locating corners, one of ``corners.METHODS``."""
@@ -63,12 +61,12 @@ class Project:
     """SHA-256 of the image files, by path, as far as they have been read."""
 
     @property
-    def target(self) -> Target | None:
+    def board(self) -> Board | None:
         """The board as stated or as seen; None while nothing is known of it."""
         found = [view.corners for view in self.views if view.corners is not None]
-        board = self.board or usual_board(self.views) or largest_part(found)
+        grid_size = self.grid_size or usual_board(self.views) or largest_part(found)
         pattern = usual_pattern(self.views, self.pattern)
-        return None if board is None else Target(*board, self.square, pattern)
+        return None if grid_size is None else Board(*grid_size, self.square, pattern)
 
     @property
     def usable(self) -> tuple[View, ...]:
@@ -79,7 +77,7 @@ class Project:
         """Whether `result` answers the views as they are now."""
         used, now = result.used, self.usable
         same = len(used) == len(now) and all(a is b for a, b in zip(used, now, strict=True))
-        return same and result.target == self.target
+        return same and result.board == self.board
 
     def find(self, image: str) -> int:
         """Place of the view of `image`; -1 if there is none."""
@@ -111,8 +109,8 @@ def with_pattern(project: Project, pattern: Pattern) -> Project:
 
     The size of a board of another kind does not stay.
     """
-    board = project.board if pattern.kind == project.pattern.kind else None
-    return replace(project, pattern=pattern, board=board, views=_waiting(project.views))
+    grid_size = project.grid_size if pattern.kind == project.pattern.kind else None
+    return replace(project, pattern=pattern, grid_size=grid_size, views=_waiting(project.views))
 
 
 def with_method(project: Project, method: str) -> Project:

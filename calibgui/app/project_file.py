@@ -30,14 +30,19 @@ from typing import Any
 
 from calibgui.app.project import Project, Unit, relocated
 from calibgui.app.settings import NAMES, Settings
-from calibgui.engine.corners import METHODS
-from calibgui.engine.targets.pattern import CHECKERBOARD
-from calibgui.engine.types import Cost, Plate, PlateModel, Target, View
+from calibgui.dataset.result import Result
+from calibgui.dataset.view import View
+from calibgui.engine.boards import CHECKERBOARD, Board, BoardShape, BoardShapeModel
+from calibgui.engine.calibration import Cost
+from calibgui.engine.detection import METHODS
+from calibgui.formats.board_shape_json import (
+    board_shape_record,
+    read_board_shape_record,
+    read_prior,
+)
 from calibgui.formats.corners_json import read_size
 from calibgui.formats.json_document import Node, check_format, read, same, write
 from calibgui.formats.pattern_json import pattern_record, read_pattern
-from calibgui.formats.plate_json import plate_record, read_plate_record, read_prior
-from calibgui.formats.result import Result
 from calibgui.formats.result_json import result_from, result_record
 from calibgui.formats.views_json import read_views, view_record
 
@@ -46,9 +51,9 @@ VERSION = 3
 _AUTO = "auto"
 
 
-def _nominal_plate(content: dict[str, Any]) -> dict[str, Any]:
+def _nominal_board(content: dict[str, Any]) -> dict[str, Any]:
     """Version 1 knew no other plate, and no outliers."""
-    settings = {"plate": PlateModel.NOMINAL, "prior_mm": None, "robust": False}
+    settings = {"plate": BoardShapeModel.NOMINAL, "prior_mm": None, "robust": False}
     return content | {"version": 2, "settings": content["settings"] | settings}
 
 
@@ -59,7 +64,7 @@ def _checkerboard(content: dict[str, Any]) -> dict[str, Any]:
 
 
 _MIGRATIONS: Mapping[int, Callable[[dict[str, Any]], dict[str, Any]]] = {
-    1: _nominal_plate,
+    1: _nominal_board,
     2: _checkerboard,
 }
 """By the version that they take: to the content of the next one."""
@@ -77,7 +82,7 @@ def write_project(project: Project, path: Path) -> None:
 def project_record(project: Project, folder: Path) -> dict[str, Any]:
     """The content of the file, with paths relative to `folder`."""
     project = _with_paths(project, lambda image: _relative(image, folder))
-    rows, cols = project.board or (None, None)
+    rows, cols = project.grid_size or (None, None)
     square = {"square_mm": project.square, "unit": project.unit}
     pattern = {"pattern": pattern_record(project.pattern), "corners": project.method}
     return {
@@ -92,14 +97,16 @@ def project_record(project: Project, folder: Path) -> dict[str, Any]:
 
 
 def _settings_record(settings: Settings) -> dict[str, Any]:
-    plate, prior = settings.plate, settings.prior
+    board_shape, prior = settings.board_shape, settings.prior
     # Versions that knew no values read the names as long as there are none.
     at_values = any(value is not None for value in settings.fixed.values())
     return {
         "cost": settings.cost,
         "fixed": settings.fixed if at_values else list(settings.fixed),
         "freed": settings.freed,
-        "plate": plate_record(plate) if isinstance(plate, Plate) else plate or _AUTO,
+        "plate": board_shape_record(board_shape)
+        if isinstance(board_shape, BoardShape)
+        else board_shape or _AUTO,
         "prior_mm": None if prior is None else (prior.in_plane, prior.out_of_plane),
         "robust": settings.robust,
         "weigh_views": settings.weigh_views,
@@ -138,18 +145,18 @@ def _view_record(view: View, project: Project) -> dict[str, Any]:
     return record if digest is None else record | {"sha256": digest}
 
 
-def _lattice(project: Project) -> Target:
+def _lattice(project: Project) -> Board:
     """Where found corners lie on the plate: that takes the squares' side, not their number."""
-    return project.target or Target(2, 2, project.square, project.pattern)
+    return project.board or Board(2, 2, project.square, project.pattern)
 
 
 def _read(node: Node) -> Project:
-    target = node["target"]
-    rows, cols, size = target.get("rows"), target.get("cols"), node.get("size")
-    if not (square := target["square_mm"]).number() > 0:
+    board = node["target"]
+    rows, cols, size = board.get("rows"), board.get("cols"), node.get("size")
+    if not (square := board["square_mm"]).number() > 0:
         square.fail("a length above 0")
-    pattern = read_pattern(target["pattern"])
-    views = read_views(node["views"], Target(2, 2, square.number(), pattern))
+    pattern = read_pattern(board["pattern"])
+    views = read_views(node["views"], Board(2, 2, square.number(), pattern))
     digests = {
         view.image: digest.text()
         for view, item in zip(views, node["views"].items(), strict=True)
@@ -159,10 +166,10 @@ def _read(node: Node) -> Project:
         views=views,
         size=read_size(size) if size else None,
         pattern=pattern,
-        board=(rows.integer(), cols.integer()) if rows and cols else None,
-        method=method.choice(METHODS) if (method := target.get("corners")) else METHODS[0],
+        grid_size=(rows.integer(), cols.integer()) if rows and cols else None,
+        method=method.choice(METHODS) if (method := board.get("corners")) else METHODS[0],
         square=square.number(),
-        unit=Unit(target["unit"].choice(list(Unit))),
+        unit=Unit(board["unit"].choice(list(Unit))),
         settings=_read_settings(node["settings"]),
         results=MappingProxyType(_read_results(node, views)),
         digests=MappingProxyType(digests),
@@ -175,7 +182,7 @@ def _read_settings(node: Node) -> Settings:
         cost=Cost(node["cost"].choice(list(Cost))),
         fixed=_read_fixed(node["fixed"]),
         freed=tuple(name.choice(NAMES) for name in node["freed"].items()),
-        plate=_read_plate(node["plate"]),
+        board_shape=_read_board_shape(node["plate"]),
         prior=None if prior is None else read_prior(prior),
         robust=node["robust"].flag(),
         weigh_views=weigh.flag() if (weigh := node.get("weigh_views")) else False,
@@ -194,11 +201,11 @@ def _read_fixed(node: Node) -> dict[str, float | None]:
     }
 
 
-def _read_plate(node: Node) -> PlateModel | Plate | None:
+def _read_board_shape(node: Node) -> BoardShapeModel | BoardShape | None:
     if isinstance(node.value, dict):
-        return read_plate_record(node)
-    model = node.choice([*PlateModel, _AUTO])
-    return None if model == _AUTO else PlateModel(model)
+        return read_board_shape_record(node)
+    model = node.choice([*BoardShapeModel, _AUTO])
+    return None if model == _AUTO else BoardShapeModel(model)
 
 
 def _read_results(node: Node, views: tuple[View, ...]) -> dict[str, Result]:

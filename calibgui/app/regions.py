@@ -8,9 +8,9 @@ from __future__ import annotations
 from collections.abc import Sequence
 from pathlib import Path
 
-from calibgui.engine.corners.roi import outline
+from calibgui.engine.arrays import Array
+from calibgui.engine.detection import outline
 from calibgui.engine.errors import CalibrationError
-from calibgui.engine.types import Array
 from calibgui.formats.json_document import read
 
 

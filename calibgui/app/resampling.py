@@ -15,18 +15,22 @@ from typing import cast
 
 from calibgui.app.outputs import make_folder
 from calibgui.app.paths import natural_key
+from calibgui.dataset.result import Result
+from calibgui.engine.arrays import Array, Size
+from calibgui.engine.camera import Camera
 from calibgui.engine.errors import CalibrationError
-from calibgui.engine.images import Pixels, read_colour, write_image
-from calibgui.engine.imaging.undistort import (
+from calibgui.engine.geometry import Pose
+from calibgui.engine.images import (
     FieldOfView,
+    Pixels,
     Resampled,
+    read_colour,
     rectify_image,
     undistort_image,
+    write_image,
 )
-from calibgui.engine.types import Array, Camera, Pose, Size
 from calibgui.formats.resampled_json import write_resampled
-from calibgui.formats.result import Result
-from calibgui.report.coverage import natural_scale, plate_extent
+from calibgui.report.coverage import board_extent_px, natural_scale
 
 GEOMETRY = "resampled.json"
 """Name of the file that says what the new images' pixels are."""
@@ -93,7 +97,7 @@ def rectify_files(
     """
     camera = result.calibration.camera
     scale = pixels_per_mm or natural_scale(result)
-    extent = plate_extent(result)
+    extent = board_extent_px(result)
     poses = _poses(result)
 
     def change(path: Path, pixels: Pixels) -> Resampled:
@@ -145,14 +149,14 @@ def _write_all(
     return written
 
 
-def _write_one(change: _Change, source: Path, target: Path) -> tuple[Written, _Geometry | None]:
+def _write_one(change: _Change, source: Path, board: Path) -> tuple[Written, _Geometry | None]:
     try:
         made = change(source, read_colour(source))
-        write_image(target, cast(Pixels, made.image))  # of the source's type
+        write_image(board, cast(Pixels, made.image))  # of the source's type
     except CalibrationError as error:
         return Written(source, None, str(error)), None
     height, width = made.image.shape[:2]
-    return Written(source, target), ((width, height), made.matrix)
+    return Written(source, board), ((width, height), made.matrix)
 
 
 def _targets(images: Iterable[Path], folder: Path) -> dict[Path, Path]:

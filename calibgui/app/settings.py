@@ -6,9 +6,10 @@ import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 
+from calibgui.engine.boards import BoardShape, BoardShapeModel, BoardShapePrior
+from calibgui.engine.calibration import Cost
+from calibgui.engine.camera import parameter_names
 from calibgui.engine.errors import CalibrationError
-from calibgui.engine.lens import parameter_names
-from calibgui.engine.types import Cost, Plate, PlateModel, Prior
 
 NAMES = parameter_names("lucchese")
 """The intrinsics of the lens that is estimated."""
@@ -23,10 +24,10 @@ class Settings:
     """Intrinsics to hold, at their values unless these are left open."""
     freed: tuple[str, ...] = ()
     """Names of intrinsics to estimate that are held by default."""
-    plate: PlateModel | Plate | None = PlateModel.NOMINAL
+    board_shape: BoardShapeModel | BoardShape | None = BoardShapeModel.NOMINAL
     """The board's shape: a model to estimate, a plate to hold, or None for the model that
     predicts unseen views best."""
-    prior: Prior | None = None
+    prior: BoardShapePrior | None = None
     """What is known of a free plate."""
     robust: bool = False
     """Whether to leave outliers out."""

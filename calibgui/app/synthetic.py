@@ -22,26 +22,16 @@ import scipy
 
 from calibgui import engine
 from calibgui.app.workers import Crashed, spread
-from calibgui.engine.corners import METHODS
-from calibgui.engine.errors import CalibrationError, NoBoardError
-from calibgui.engine.imaging.maps import project_points
-from calibgui.engine.imaging.render import Appearance, render
-from calibgui.engine.quality.repetition import settings_of
-from calibgui.engine.types import (
-    Array,
-    Calibration,
-    Camera,
-    Corners,
-    Cost,
-    IntArray,
-    PlateModel,
-    Pose,
-    Progress,
-    Target,
-    View,
-    ViewStatus,
-)
-from calibgui.formats.result import Result
+from calibgui.dataset.result import Result
+from calibgui.dataset.view import View, ViewStatus
+from calibgui.engine.arrays import Array, IntArray
+from calibgui.engine.boards import Board, BoardShapeModel
+from calibgui.engine.calibration import Calibration, Cost, settings_of
+from calibgui.engine.camera import Camera, project_points
+from calibgui.engine.detection import METHODS, Corners, find_corners
+from calibgui.engine.errors import CalibrationError, NoBoardError, Progress
+from calibgui.engine.geometry import Pose
+from calibgui.engine.images import Appearance, render
 
 BLUR = 1.0
 """Standard deviation of the rendered images' blur, px: that of a well focused photograph."""
@@ -92,22 +82,22 @@ def synthetic_check(
         CalibrationError: if the target is not known, or too few rendered views are found again.
         Cancelled: from `progress`.
     """
-    target = result.target
-    if target is None:
+    board = result.board
+    if board is None:
         raise CalibrationError(
             "The views cannot be rendered: the target's pattern is not known.",
             "Calibrate from images of the target, or state its rows, columns and square.",
         )
     camera, poses, views = result.calibration.camera, result.calibration.poses, [*result.used]
-    again = partial(_found_again, camera, target, _board_of(result.calibration), blur, noise)
+    again = partial(_found_again, camera, board, _board_of(result.calibration), blur, noise)
     items = list(zip(range(len(views)), views, poses, strict=True))
     with closing(spread(again, items)) as found:
         for done, (k, view) in enumerate(found, start=1):
             views[k] = _lost(views[k], _CRASHED) if isinstance(view, Crashed) else view
             if progress is not None:
                 progress(done, len(views))
-    observations = [view.observation(target) for view in views if view.usable]
-    settings = {**settings_of(result.calibration), "plate": PlateModel.NOMINAL}
+    observations = [view.observation(board) for view in views if view.usable]
+    settings = {**settings_of(result.calibration), "board_shape": BoardShapeModel.NOMINAL}
     calibration = engine.calibrate(observations, camera.size, **settings)
     return SyntheticCheck(result, replace(result, calibration=calibration, views=tuple(views)))
 
@@ -124,22 +114,22 @@ def _board_of(calibration: Calibration) -> Appearance:
 
 def _found_again(
     camera: Camera,
-    target: Target,
-    board: Appearance,
+    board: Board,
+    grid_size: Appearance,
     blur: float,
     noise: float,
     item: tuple[int, View, Pose],
 ) -> View:
     """The view with the corners of its rendered image."""
     k, real, pose = item
-    image = render(camera, pose, target, blur=blur, noise=noise, seed=k, appearance=board)
-    observed = real.observation(target)
+    image = render(camera, pose, board, blur=blur, noise=noise, seed=k, appearance=grid_size)
+    observed = real.observation(board)
     predicted = project_points(observed.xy, camera, pose)
-    grid = np.indices(target.board).reshape(2, -1).T
-    grid = grid[np.asarray(scipy.spatial.cKDTree(target.points(grid)).query(observed.xy)[1])]
+    grid = np.indices(board.grid_size).reshape(2, -1).T
+    grid = grid[np.asarray(scipy.spatial.cKDTree(board.points(grid)).query(observed.xy)[1])]
     try:
         method = METHODS[0] if real.corners is None else real.corners.method
-        found = target.pattern.find(image, target.board, method=method)
+        found = find_corners(image, board.grid_size, method=method, pattern=board.pattern)
         return replace(real, corners=_numbered(found, grid, predicted), points=None)
     except NoBoardError as error:
         return _lost(real, str(error))

@@ -12,14 +12,13 @@ from calibgui.app.detection import Detection, find_views
 from calibgui.app.paths import find_images
 from calibgui.app.regions import read_regions
 from calibgui.cli.console import Console
-from calibgui.engine.corners import METHODS
-from calibgui.engine.corners.lattice import MIN_LINES
+from calibgui.engine.arrays import GridSize
+from calibgui.engine.boards import CHECKERBOARD, Pattern
+from calibgui.engine.detection import METHODS, MIN_LINES
 from calibgui.engine.kernels import FINDER_SECONDS
-from calibgui.engine.targets.pattern import CHECKERBOARD, Pattern
-from calibgui.engine.types import Board
 
 
-def board(text: str) -> Board:
+def grid_size(text: str) -> GridSize:
     """Rows and columns of inner corners from "12x13"."""
     match = re.fullmatch(r"(\d+)[x×*,](\d+)", text.strip())
     if match is None:
@@ -64,7 +63,7 @@ def add_search(parser: argparse.ArgumentParser) -> None:
     """How the board is to be searched."""
     parser.add_argument(
         "--board",
-        type=board,
+        type=grid_size,
         metavar="ROWSxCOLS",
         help="inner corners of the board (squares minus one each way), inferred if left out; or "
         "circles of a grid",
@@ -107,7 +106,7 @@ def add_map(parser: argparse.ArgumentParser, points: str) -> None:
 def search(
     console: Console,
     paths: Iterable[str],
-    board: Board | None = None,
+    grid_size: GridSize | None = None,
     roi: Path | None = None,
     corners: str = METHODS[0],
     pattern: Pattern = CHECKERBOARD,
@@ -122,7 +121,7 @@ def search(
     with console.progress("searching") as advance:
         return find_views(
             images,
-            board,
+            grid_size,
             rois,
             lambda done, total, _: advance(done, total),
             method=corners,

@@ -12,8 +12,8 @@ from dataclasses import replace
 from pathlib import Path
 from typing import TypeVar
 
-from calibgui.app.again import calibrate_twice
 from calibgui.app.outputs import check_outputs
+from calibgui.app.redetection import calibrate_twice
 from calibgui.app.settings import NAMES, Settings, held_in, names_in
 from calibgui.cli.arguments import (
     add_images,
@@ -23,18 +23,20 @@ from calibgui.cli.arguments import (
     positive,
     search,
 )
+from calibgui.cli.boards import add_target, pattern_of
 from calibgui.cli.console import Console
-from calibgui.cli.targets import add_target, pattern_of
-from calibgui.engine.errors import CalibrationError, DegenerateError
+from calibgui.dataset.corner_set import CornerSet
+from calibgui.engine.boards import BoardShape, BoardShapeModel, BoardShapePrior
+from calibgui.engine.calibration import Cost, DegenerateError
+from calibgui.engine.camera import MODELS
+from calibgui.engine.errors import CalibrationError
 from calibgui.engine.kernels import SOLVER_SECONDS, when_compiling
-from calibgui.engine.lens import MODELS
-from calibgui.engine.types import Cost, Plate, PlateModel, Prior
 from calibgui.formats import EXPORTERS, export, find_exporter
-from calibgui.formats.corners_json import CornerSet, read_corners
-from calibgui.formats.plate_json import read_plate, write_plate
+from calibgui.formats.board_shape_json import read_board_shape, write_board_shape
+from calibgui.formats.corners_json import read_corners
 from calibgui.formats.result_json import result_record, write_result
 from calibgui.report import tables
-from calibgui.report.targets import learnt
+from calibgui.report.boards import learnt
 
 T = TypeVar("T")
 
@@ -92,8 +94,8 @@ def configure(parser: argparse.ArgumentParser) -> None:
     )
     parser.add_argument(
         "--plate",
-        type=_plate,
-        default=PlateModel.NOMINAL,
+        type=_board_shape,
+        default=BoardShapeModel.NOMINAL,
         metavar="MODEL|FILE",
         help="the board's shape: nominal (default), or estimated as affine (sides and shear), "
         "bow (two bends) or free (every corner), or auto, whichever predicts unseen views best; "
@@ -129,7 +131,7 @@ def run(options: argparse.Namespace, console: Console) -> None:
         cost=Cost(options.cost),
         fixed=options.fix,
         freed=options.free,
-        plate=options.plate,
+        board_shape=options.plate,
         prior=options.prior,
         robust=options.robust,
         weigh_views=options.weigh_views,
@@ -149,8 +151,8 @@ def run(options: argparse.Namespace, console: Console) -> None:
     if options.output:
         write_result(result, options.output)
         written.append(f"Wrote {options.output}.")
-    if options.save_plate and result.calibration.plate is not None:
-        write_plate(result.calibration.plate, options.save_plate)
+    if options.save_plate and result.calibration.board_shape is not None:
+        write_board_shape(result.calibration.board_shape, options.save_plate)
         written.append(f"Wrote {options.save_plate}.")
     diagnosis = result.calibration.diagnosis
     for name, path in options.export:
@@ -170,11 +172,11 @@ def _check_usage(options: argparse.Namespace) -> None:
     """End the program if options do not go together."""
     if both := options.fix.keys() & set(options.free):
         options.usage_error(f"{', '.join(sorted(both))} cannot be both held and freed")
-    if options.save_plate and options.plate is PlateModel.NOMINAL:
+    if options.save_plate and options.plate is BoardShapeModel.NOMINAL:
         options.usage_error("--save-plate needs a plate that is estimated: add --plate free")
     if options.weigh_views and options.cost != Cost.IMAGE:
         options.usage_error("--weigh-views is for the cost 'image'")
-    if options.prior and options.plate not in (PlateModel.FREE, None):
+    if options.prior and options.plate not in (BoardShapeModel.FREE, None):
         options.usage_error("--prior is of a free plate: add --plate free or auto")
     if is_corners_file(options.paths):
         if options.board or options.roi or options.target != "checkerboard":
@@ -194,7 +196,7 @@ def _corner_set(options: argparse.Namespace, console: Console) -> CornerSet:
     pattern = pattern_of(options)
     detection = search(console, options.paths, options.board, options.roi, options.corners, pattern)
     corner_set = detection.corner_set(options.square)
-    if words := learnt(pattern, corner_set.target):
+    if words := learnt(pattern, corner_set.board):
         console.say(words + "\n")
     return corner_set
 
@@ -204,11 +206,11 @@ def _from_corners_file(options: argparse.Namespace) -> CornerSet:
     corner_set = read_corners(options.paths[0])
     if options.square is None:
         return corner_set
-    if corner_set.target is None:
+    if corner_set.board is None:
         raise CalibrationError(
             f"{options.paths[0]} states its own millimetres.", "Leave out --square."
         )
-    return replace(corner_set, target=replace(corner_set.target, square=options.square))
+    return replace(corner_set, board=replace(corner_set.board, square=options.square))
 
 
 def _fixed(text: str) -> dict[str, float | None]:
@@ -227,26 +229,26 @@ def _usable(read: Callable[[str], T], text: str) -> T:
         raise argparse.ArgumentTypeError(str(error)) from error
 
 
-def _plate(text: str) -> PlateModel | Plate | None:
+def _board_shape(text: str) -> BoardShapeModel | BoardShape | None:
     """A model of the plate, None for the best, or a plate from a file."""
     if text == "auto":
         return None
-    if text in list(PlateModel):
-        return PlateModel(text)
+    if text in list(BoardShapeModel):
+        return BoardShapeModel(text)
     try:
-        return read_plate(text)
+        return read_board_shape(text)
     except CalibrationError as error:
-        models = ", ".join([*PlateModel, "auto"])
+        models = ", ".join([*BoardShapeModel, "auto"])
         raise argparse.ArgumentTypeError(f"{text!r} is none of {models}: {error}") from error
 
 
-def _prior(text: str) -> Prior:
+def _prior(text: str) -> BoardShapePrior:
     """Standard deviations from "0.1,0.3"."""
     try:
         in_plane, out_of_plane = map(positive, text.split(","))
     except (ValueError, argparse.ArgumentTypeError) as error:
         raise argparse.ArgumentTypeError(f"{text!r} is not XY,Z in mm, as 0.1,0.3") from error
-    return Prior(in_plane, out_of_plane)
+    return BoardShapePrior(in_plane, out_of_plane)
 
 
 def _export(text: str) -> tuple[str, Path]:

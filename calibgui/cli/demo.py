@@ -12,10 +12,9 @@ from calibgui.app.outputs import make_folder, save_figure
 from calibgui.app.resources import resource, sample_truth
 from calibgui.cli.arguments import search
 from calibgui.cli.console import Console
-from calibgui.engine.images import read_image
-from calibgui.engine.imaging.undistort import board_extent, rectify_image, undistort_image
+from calibgui.dataset.result import Result
+from calibgui.engine.images import board_extent, read_image, rectify_image, undistort_image
 from calibgui.formats import export
-from calibgui.formats.result import Result
 from calibgui.formats.result_json import result_record
 from calibgui.report import figures, tables
 
@@ -76,8 +75,8 @@ def _figures(result: Result) -> dict[str, Figure]:
     }
     if view.corners is not None:
         drawn["corners.png"] = figures.corners(photograph, view.corners)
-    if result.target is not None:
-        extent, scale = board_extent(result.target), calibration.reference_scale
+    if result.board is not None:
+        extent, scale = board_extent(result.board), calibration.reference_scale
         drawn["undistorted.png"] = figures.image_pair(
             undistort_image(photograph, camera).image,
             rectify_image(photograph, camera, pose, extent, scale).image,

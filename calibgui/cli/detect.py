@@ -8,12 +8,12 @@ from pathlib import Path
 from calibgui.app.outputs import check_outputs
 from calibgui.app.paths import find_images
 from calibgui.cli.arguments import add_images, add_search, positive, search
+from calibgui.cli.boards import add_target, pattern_of
 from calibgui.cli.console import Console
-from calibgui.cli.targets import add_target, pattern_of
 from calibgui.engine.errors import CalibrationError
 from calibgui.formats.corners_json import corners_record, write_corners
 from calibgui.report import tables
-from calibgui.report.targets import learnt
+from calibgui.report.boards import learnt
 
 
 def configure(parser: argparse.ArgumentParser) -> None:
@@ -46,7 +46,7 @@ def run(options: argparse.Namespace, console: Console) -> None:
         )
     console.answer(corners_record(corner_set))
     console.say(tables.detection(corner_set.views), otherwise=tables.unused(corner_set.views))
-    if words := learnt(pattern, corner_set.target):
+    if words := learnt(pattern, corner_set.board):
         console.say(tables.bullet(words))
     if options.output:
         write_corners(corner_set, options.output)

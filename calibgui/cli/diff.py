@@ -12,9 +12,9 @@ from calibgui.app.outputs import check_figure, save_figure
 from calibgui.cli.arguments import add_map
 from calibgui.cli.console import Console
 from calibgui.cli.result import read_camera
-from calibgui.engine.quality.difference import Difference, difference
-from calibgui.engine.quality.projection_uncertainty import projection_uncertainty
-from calibgui.formats.result import Result
+from calibgui.dataset.result import Result
+from calibgui.engine.assessment import Difference, compare_cameras
+from calibgui.engine.uncertainty import estimate_projection_uncertainty
 from calibgui.report import quality
 
 _MEDIAN_LENGTH = math.sqrt(2 * math.log(2))
@@ -38,7 +38,7 @@ def run(options: argparse.Namespace, console: Console) -> None:
     if options.output:
         check_figure(options.output)
     a, b = read_camera(options.a, console), read_camera(options.b, console)
-    found = difference(
+    found = compare_cameras(
         a.calibration.camera,
         b.calibration.camera,
         options.distance,
@@ -71,7 +71,7 @@ def run(options: argparse.Namespace, console: Console) -> None:
 def _expected(a: Result, b: Result, found: Difference) -> float:
     """Median length, px, of the difference that both uncertainties explain."""
     sigma = [
-        projection_uncertainty(one.calibration, one.observations(), found.distance).rms
+        estimate_projection_uncertainty(one.calibration, one.observations(), found.distance).rms
         for one in (a, b)
     ]
     return float(_MEDIAN_LENGTH * np.nanmedian(np.hypot(*sigma)[found.region]))

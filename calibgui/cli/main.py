@@ -112,7 +112,7 @@ def _report_bug() -> None:
     """The traceback with all versions, for a report."""
     traceback.print_exc()
     with contextlib.suppress(Exception):
-        from calibgui.formats.result import installed_versions
+        from calibgui.dataset.result import installed_versions
 
         versions = ", ".join(f"{name} {v}" for name, v in installed_versions().items())
         print(

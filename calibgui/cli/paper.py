@@ -12,9 +12,9 @@ from calibgui.app.settings import Settings
 from calibgui.app.synthetic import synthetic_check
 from calibgui.cli.arguments import add_method, search
 from calibgui.cli.console import Console
+from calibgui.dataset.result import Result
+from calibgui.engine.calibration import Cost
 from calibgui.engine.files import write_atomically
-from calibgui.engine.types import Cost
-from calibgui.formats.result import Result
 from calibgui.formats.result_json import result_record, write_result
 from calibgui.report import tables
 from calibgui.report.paper_figures import paper_figures

@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 from calibgui.cli.console import Console
-from calibgui.formats.result import Result
+from calibgui.dataset.result import Result
 from calibgui.formats.result_json import read_result
 
 

@@ -11,13 +11,12 @@ from calibgui.app.outputs import check_figure, save_figure
 from calibgui.cli.arguments import add_map, positive
 from calibgui.cli.console import Console
 from calibgui.cli.result import read_camera
-from calibgui.engine.quality.noise import examine
-from calibgui.engine.quality.projection_uncertainty import projection_uncertainty
-from calibgui.engine.quality.repetition import settings_of
-from calibgui.engine.quality.validation import bootstrap, choose_plate, cross_validate
+from calibgui.dataset.result import Result
+from calibgui.engine.assessment import bootstrap, choose_board_shape, cross_validate, examine
+from calibgui.engine.boards import BoardShapeModel
+from calibgui.engine.calibration import settings_of
 from calibgui.engine.threads import one_blas_thread
-from calibgui.engine.types import PlateModel
-from calibgui.formats.result import Result
+from calibgui.engine.uncertainty import estimate_projection_uncertainty
 from calibgui.report import quality
 
 
@@ -47,7 +46,7 @@ def run(options: argparse.Namespace, console: Console) -> None:
     result = read_camera(options.result, console)
     views = result.observations()
     with one_blas_thread():
-        found = projection_uncertainty(result.calibration, views, options.distance)
+        found = estimate_projection_uncertainty(result.calibration, views, options.distance)
         report = examine(result.calibration, views, short_names(result.used))
         sections = [quality.projection(found, options.limit), quality.noise(report)]
         if options.validate:
@@ -84,6 +83,8 @@ def _validated(result: Result) -> list[str]:
         quality.validation(cross_validate(views, size, min(5, len(views)), **settings)),
         quality.resampled(bootstrap(views, size, **settings), calibration),
     ]
-    if settings.pop("plate") is PlateModel.NOMINAL and calibration.cost == "image":
-        sections.append(quality.plates(choose_plate(views, size, min(5, len(views)), **settings)))
+    if settings.pop("plate") is BoardShapeModel.NOMINAL and calibration.cost == "image":
+        sections.append(
+            quality.board_shapes(choose_board_shape(views, size, min(5, len(views)), **settings))
+        )
     return sections

@@ -11,7 +11,7 @@ from calibgui.cli.arguments import add_images
 from calibgui.cli.console import Console
 from calibgui.cli.resampled import add_output, show_written
 from calibgui.cli.result import read_camera
-from calibgui.engine.imaging.undistort import FieldOfView
+from calibgui.engine.images import FieldOfView
 
 
 def configure(parser: argparse.ArgumentParser) -> None:

@@ -9,9 +9,8 @@ from calibgui.app.outputs import check_figure, save_figure
 from calibgui.cli.arguments import positive
 from calibgui.cli.console import Console
 from calibgui.cli.result import read_camera
-from calibgui.engine.quality.next_view import next_views
-from calibgui.engine.quality.view_count import QUANTITIES, study
 from calibgui.engine.threads import one_blas_thread
+from calibgui.engine.uncertainty import QUANTITIES, next_views, study
 from calibgui.report import quality
 
 _SOLVED = 20

@@ -2,52 +2,53 @@
 
 from __future__ import annotations
 
-from calibgui.engine.calibrate import calibrate
-from calibgui.engine.corners import find_corners
-from calibgui.engine.errors import CalibrationError, Cancelled, DegenerateError, NoBoardError
-from calibgui.engine.images import Image, read_image
-from calibgui.engine.imaging.maps import distort_points, project_points, undistort_points
-from calibgui.engine.imaging.render import Appearance, render
-from calibgui.engine.imaging.undistort import (
+from calibgui.engine.assessment.residual_statistics import Summary, summarise
+from calibgui.engine.boards.board import Board
+from calibgui.engine.boards.charuco import Charuco
+from calibgui.engine.boards.checkerboard import Checkerboard
+from calibgui.engine.boards.circle_grid import Circles
+from calibgui.engine.boards.pattern import Ambiguity
+from calibgui.engine.boards.shape import BoardShape, BoardShapeModel, BoardShapePrior
+from calibgui.engine.calibration.calibrate import calibrate
+from calibgui.engine.calibration.observations import Observation
+from calibgui.engine.calibration.refit import Refit, refit
+from calibgui.engine.calibration.result import (
+    Assumed,
+    Calibration,
+    Cost,
+    Degeneracy,
+    DegenerateError,
+    Diagnosis,
+    Iteration,
+    StageOne,
+    Status,
+    Undetermined,
+    ViewResiduals,
+)
+from calibgui.engine.camera.camera import Camera
+from calibgui.engine.camera.distortion import distort_points, project_points, undistort_points
+from calibgui.engine.detection.corners import Corners
+from calibgui.engine.detection.find_corners import find_corners
+from calibgui.engine.errors import CalibrationError, Cancelled, NoBoardError
+from calibgui.engine.geometry.pose import Pose
+from calibgui.engine.images.reading import Image, read_image
+from calibgui.engine.images.rendering import Appearance, render
+from calibgui.engine.images.undistortion import (
     FieldOfView,
     Resampled,
     board_extent,
     rectify_image,
     undistort_image,
 )
-from calibgui.engine.quality.statistics import Summary, summarise
-from calibgui.engine.refit import Refit, refit
-from calibgui.engine.targets.charuco import Charuco
-from calibgui.engine.targets.circles import Circles
-from calibgui.engine.targets.pattern import Checkerboard
-from calibgui.engine.types import (
-    Ambiguity,
-    Assumed,
-    Calibration,
-    Camera,
-    Corners,
-    Cost,
-    Degeneracy,
-    Diagnosis,
-    Iteration,
-    Observation,
-    Plate,
-    PlateModel,
-    Pose,
-    Prior,
-    StageOne,
-    Status,
-    Target,
-    Undetermined,
-    View,
-    ViewResiduals,
-    ViewStatus,
-)
 
 __all__ = [
     "Ambiguity",
     "Appearance",
     "Assumed",
+    "Board",
+    "BoardShape",
+    "BoardShapeModel",
+    "BoardShapePrior",
     "Calibration",
     "CalibrationError",
     "Camera",
@@ -65,20 +66,14 @@ __all__ = [
     "Iteration",
     "NoBoardError",
     "Observation",
-    "Plate",
-    "PlateModel",
     "Pose",
-    "Prior",
     "Refit",
     "Resampled",
     "StageOne",
     "Status",
     "Summary",
-    "Target",
     "Undetermined",
-    "View",
     "ViewResiduals",
-    "ViewStatus",
     "board_extent",
     "calibrate",
     "distort_points",

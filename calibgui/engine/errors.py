@@ -1,12 +1,13 @@
-"""The failures that the engine names."""
+"""The failures that the engine names.
+
+What a solve reports on its way, and what it results in.
+"""
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from enum import StrEnum
-from typing import TYPE_CHECKING, TypeVar
-
-if TYPE_CHECKING:
-    from calibgui.engine.types import Calibration
+from typing import TypeVar
 
 _Choice = TypeVar("_Choice", bound=StrEnum)
 
@@ -32,21 +33,6 @@ class NoBoardError(CalibrationError):
     """No acceptable checkerboard was found in an image."""
 
 
-class DegenerateError(CalibrationError):
-    """The views do not determine the camera, whatever their accuracy.
-
-    Args:
-        message: the cause.
-        hint: what to photograph.
-        partial: what they do determine, with the rest assumed (``Calibration.diagnosis``); None
-            if that is nothing.
-    """
-
-    def __init__(self, message: str, hint: str, partial: Calibration | None = None) -> None:
-        super().__init__(message, hint)
-        self.partial = partial
-
-
 class Cancelled(Exception):  # noqa: N818 - a request, not an error
     """Raised by a progress callback to abandon the work and discard its result."""
 
@@ -63,3 +49,7 @@ def one_of(kind: type[_Choice], value: str, what: str) -> _Choice:
         raise CalibrationError(
             f"There is no {what} {value!r}.", f"Choose from {', '.join(kind)}."
         ) from None
+
+
+Progress = Callable[[int, int], None]
+"""Told how many parts of the work are done, of how many; may raise ``Cancelled``."""

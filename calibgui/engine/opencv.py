@@ -12,15 +12,12 @@ import cv2
 import numpy as np
 import numpy.typing as npt
 
-from calibgui.engine.types import Array, BoolArray, IntArray
+from calibgui.engine.arrays import Array, BoolArray, FloatImage, GreyImage, IntArray
 
 VERSION: str = cv2.__version__
 
 # What fails here is answered to the caller, who names the file; OpenCV would print it besides.
 cv2.utils.logging.setLogLevel(cv2.utils.logging.LOG_LEVEL_SILENT)
-
-Image = npt.NDArray[Any]
-Image32 = npt.NDArray[np.float32]
 
 
 def use_threads(count: int) -> None:
@@ -28,7 +25,7 @@ def use_threads(count: int) -> None:
     cv2.setNumThreads(count)
 
 
-def half(image: Image) -> Image:
+def half(image: GreyImage) -> GreyImage:
     """Every second pixel of `image` (h, w), each the mean of its 2 x 2 block; odd edges drop.
 
     An odd size would make the blocks unequal, and corners drift by whole pixels.
@@ -38,7 +35,7 @@ def half(image: Image) -> Image:
     return np.asarray(cv2.resize(even, (width, height), interpolation=cv2.INTER_AREA))
 
 
-def smooth(image: Image, sigma: float) -> tuple[Image, float]:
+def smooth(image: GreyImage, sigma: float) -> tuple[GreyImage, float]:
     """`image` (h, w) blurred by a Gaussian of standard deviation `sigma` px, edges reflected.
 
     Returns:
@@ -50,19 +47,19 @@ def smooth(image: Image, sigma: float) -> tuple[Image, float]:
     return np.asarray(cv2.sepFilter2D(image, kind, levels * kernel, kernel)), levels
 
 
-def separable(image: Image, along_u: npt.ArrayLike, along_v: npt.ArrayLike) -> Image32:
+def separable(image: GreyImage, along_u: npt.ArrayLike, along_v: npt.ArrayLike) -> FloatImage:
     """Correlation of `image` (h, w) with the outer product of two odd kernels, edges reflected."""
     ku, kv = (np.asarray(kernel, dtype=np.float32) for kernel in (along_u, along_v))
     return np.asarray(cv2.sepFilter2D(image, cv2.CV_32F, ku, kv))
 
 
-def greatest(image: Image32, around: BoolArray) -> Image32:
+def greatest(image: FloatImage, around: BoolArray) -> FloatImage:
     """Greatest value of `image` (h, w) at the places around each pixel that are marked in the mask,
     which has odd sides."""
     return np.asarray(cv2.dilate(image, around.astype(np.uint8)))
 
 
-def tiles(image: Image, uv: Array, half: int) -> tuple[Image, Array]:
+def tiles(image: GreyImage, uv: Array, half: int) -> tuple[GreyImage, Array]:
     """Squares of (2 half + 1)^2 pixels of `image` (h, w) around the pixels nearest to `uv` (n, 2).
 
     Returns:
@@ -75,7 +72,7 @@ def tiles(image: Image, uv: Array, half: int) -> tuple[Image, Array]:
     return image[v[:, :, None], u[:, None, :]], origin.astype(np.float64)
 
 
-def decode(data: bytes, colour: bool) -> Image | None:
+def decode(data: bytes, colour: bool) -> GreyImage | None:
     """Pixels of an image file as stored, EXIF orientation ignored (but a TIFF's); None if damaged.
 
     Grey (h, w), or with `colour` RGB (h, w, 3) unless the file is grey; 16 bits are kept.
@@ -94,7 +91,7 @@ def decode(data: bytes, colour: bool) -> Image | None:
     return np.asarray(cv2.cvtColor(image, cv2.COLOR_BGR2RGB))
 
 
-def encode(suffix: str, image: Image) -> bytes | None:
+def encode(suffix: str, image: GreyImage) -> bytes | None:
     """`image`, (h, w) or RGB (h, w, 3), in the file format of `suffix`; None if it cannot be."""
     bgr = cv2.cvtColor(image, cv2.COLOR_RGB2BGR) if image.ndim == 3 else image
     lossless_webp = [cv2.IMWRITE_WEBP_QUALITY, 101] if suffix == ".webp" else []
@@ -105,7 +102,7 @@ def encode(suffix: str, image: Image) -> bytes | None:
     return bytes(data) if ok else None
 
 
-def resample(image: Image, uv: Array) -> Image:
+def resample(image: GreyImage, uv: Array) -> GreyImage:
     """`image` (h, w) or (h, w, c) at `uv` (H, W, 2) px, bilinear, its border replicated, its type.
 
     No side may exceed `LONGEST_SIDE` px.
@@ -140,7 +137,7 @@ def dictionaries() -> dict[str, int]:
     return {name: len(_dictionary(name).bytesList) for name in sorted(names)}
 
 
-def markers(image: Image, dictionary: str) -> tuple[IntArray, Array]:
+def markers(image: GreyImage, dictionary: str) -> tuple[IntArray, Array]:
     """The square markers of a predefined dictionary in an 8-bit image (h, w).
 
     Returns:
@@ -155,7 +152,7 @@ def markers(image: Image, dictionary: str) -> tuple[IntArray, Array]:
     return np.asarray(ids, np.int64).ravel(), np.array(corners, np.float64).reshape(-1, 4, 2)
 
 
-def dark_quads(image: Image) -> Array:
+def dark_quads(image: GreyImage) -> Array:
     """(n, 4, 2) px, corners of what in an 8-bit image (h, w) may be a marker of any dictionary."""
     any_one = cv2.aruco.Dictionary(np.zeros((1, 2, 4), np.uint8), 4, 0)
     detector = cv2.aruco.ArucoDetector(any_one, _marker_parameters(image))
@@ -163,7 +160,7 @@ def dark_quads(image: Image) -> Array:
     return np.array([*read, *others], np.float64).reshape(-1, 4, 2)
 
 
-def _marker_parameters(image: Image) -> Any:
+def _marker_parameters(image: GreyImage) -> Any:
     parameters = cv2.aruco.DetectorParameters()
     parameters.minMarkerPerimeterRate = min(0.03, 4 * _LEAST_MARKER / max(image.shape))
     return parameters
@@ -193,7 +190,7 @@ _LEAST_MARKER = 10.0
 """Side of the smallest markers that are looked for, px."""
 
 
-def dark_parts(image: Image, window: int) -> tuple[npt.NDArray[np.int32], int]:
+def dark_parts(image: GreyImage, window: int) -> tuple[npt.NDArray[np.int32], int]:
     """Connected parts of an 8-bit image (h, w) darker than the mean of the `window` px around.
 
     Returns:

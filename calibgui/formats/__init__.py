@@ -12,6 +12,7 @@ from __future__ import annotations
 import os
 from pathlib import Path
 
+from calibgui.dataset.result import Result
 from calibgui.engine.errors import CalibrationError
 from calibgui.formats import (
     colmap_cameras,
@@ -25,7 +26,6 @@ from calibgui.formats import (
     ros_yaml,
 )
 from calibgui.formats.exporter import Exporter, ExportReport
-from calibgui.formats.result import Result
 
 EXPORTERS: dict[str, Exporter] = {
     module.EXPORTER.name: module.EXPORTER

@@ -11,11 +11,11 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from calibgui.engine import frames
-from calibgui.engine.types import Camera
+from calibgui.dataset.result import Result
+from calibgui.engine.camera import Camera
+from calibgui.engine.geometry import corner_from_array
 from calibgui.formats.exporter import Exporter, ExportReport
 from calibgui.formats.forward_model import write_forward
-from calibgui.formats.result import Result
 
 
 def write_colmap(result: Result, path: Path) -> ExportReport:
@@ -25,7 +25,7 @@ def write_colmap(result: Result, path: Path) -> ExportReport:
 
 def cameras(camera: Camera, note: str) -> str:
     """The text of the file; `camera` is in OpenCV's model."""
-    values = [*camera.focal, *frames.corner_from_array(camera.centre), *camera.coefficients]
+    values = [*camera.focal, *corner_from_array(camera.centre), *camera.coefficients]
     numbers = " ".join(repr(float(value)) for value in [*values, 0.0, 0.0, 0.0])
     width, height = camera.size
     return (

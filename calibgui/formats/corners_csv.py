@@ -19,11 +19,13 @@ from pathlib import Path
 
 import numpy as np
 
+from calibgui.dataset.result import Result
+from calibgui.dataset.view import View, ViewStatus
+from calibgui.engine.boards import Board
+from calibgui.engine.calibration import Observation
 from calibgui.engine.errors import CalibrationError
 from calibgui.engine.files import write_atomically
-from calibgui.engine.types import Observation, Target, View, ViewStatus
 from calibgui.formats.exporter import Exporter, ExportReport
-from calibgui.formats.result import Result
 
 _POINT = ("u_px", "v_px", "x_mm", "y_mm")
 _COV = ("cov_uu", "cov_uv", "cov_vv")
@@ -31,7 +33,7 @@ _HEADER = ("image", "row", "col", *_POINT)
 
 
 def write_corners_csv(
-    views: Sequence[View], target: Target | None, path: str | os.PathLike[str]
+    views: Sequence[View], board: Board | None, path: str | os.PathLike[str]
 ) -> None:
     """Write the corners of all views that have any.
 
@@ -41,10 +43,10 @@ def write_corners_csv(
     text = io.StringIO()
     writer = csv.writer(text, lineterminator="\n")
     found = [view for view in views if view.status is ViewStatus.FOUND]
-    weighted = any(view.observation(target).cov is not None for view in found)
+    weighted = any(view.observation(board).cov is not None for view in found)
     writer.writerow(_HEADER + _COV if weighted else _HEADER)
     for view in found:
-        writer.writerows(_rows(view, view.observation(target)))
+        writer.writerows(_rows(view, view.observation(board)))
     # A file name that is not valid Unicode is written so that every reader takes it.
     write_atomically(path, text.getvalue().encode(errors="backslashreplace"))
 
@@ -112,7 +114,7 @@ def _view(image: str, numbers: list[list[float]], file: Path) -> View:
 
 
 def _export(result: Result, path: Path) -> ExportReport:
-    write_corners_csv(result.views, result.target, path)
+    write_corners_csv(result.views, result.board, path)
     return ExportReport(path, EXPORTER.limits)
 
 

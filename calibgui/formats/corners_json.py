@@ -12,31 +12,20 @@ Cannot hold: a calibration (see ``result_json.py``).
 from __future__ import annotations
 
 import os
-from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+from calibgui.dataset.corner_set import CornerSet
+from calibgui.dataset.result import Result
+from calibgui.engine.arrays import Size
 from calibgui.engine.errors import CalibrationError
-from calibgui.engine.types import Size, Target, View
 from calibgui.formats.exporter import Exporter, ExportReport
 from calibgui.formats.json_document import Node, read, write
 from calibgui.formats.pattern_json import read_target, target_record
-from calibgui.formats.result import Result
 from calibgui.formats.views_json import read_views, view_record
 
 _LONGEST = 1_000_000
 """Side of an image, px; no camera's is longer."""
-
-
-@dataclass(frozen=True, eq=False, slots=True)
-class CornerSet:
-    """Views of one camera and the board that they show."""
-
-    size: Size
-    """Of the images, px."""
-    views: tuple[View, ...]
-    target: Target | None = None
-    """The board, where the corners are of one of known layout."""
 
 
 def write_corners(corner_set: CornerSet, path: str | os.PathLike[str]) -> None:
@@ -51,9 +40,9 @@ def write_corners(corner_set: CornerSet, path: str | os.PathLike[str]) -> None:
 def corners_record(corner_set: CornerSet) -> dict[str, Any]:
     """The content of corners.json."""
     record: dict[str, Any] = {"size": corner_set.size}
-    if corner_set.target is not None:
-        record["target"] = target_record(corner_set.target)
-    return record | {"views": [view_record(view, corner_set.target) for view in corner_set.views]}
+    if corner_set.board is not None:
+        record["target"] = target_record(corner_set.board)
+    return record | {"views": [view_record(view, corner_set.board) for view in corner_set.views]}
 
 
 def read_corners(path: str | os.PathLike[str]) -> CornerSet:
@@ -69,8 +58,8 @@ def read_corners(path: str | os.PathLike[str]) -> CornerSet:
             f"{node.file} is a file of the format {other.value!r}, not corners.json.",
             "Name the corners: `calibgui detect -o` writes them, and `--export corners=`.",
         )
-    target = read_target(node.get("target"))
-    return CornerSet(read_size(node["size"]), read_views(node["views"], target), target)
+    board = read_target(node.get("target"))
+    return CornerSet(read_size(node["size"]), read_views(node["views"], board), board)
 
 
 def read_size(node: Node) -> Size:
@@ -83,7 +72,7 @@ def read_size(node: Node) -> Size:
 
 def _export(result: Result, path: Path) -> ExportReport:
     size = result.calibration.camera.size
-    write_corners(CornerSet(size, result.views, result.target), path)
+    write_corners(CornerSet(size, result.views, result.board), path)
     return ExportReport(path, EXPORTER.limits)
 
 

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from calibgui.engine.types import Assumed, Degeneracy, Diagnosis
+from calibgui.engine.calibration import Assumed, Degeneracy, Diagnosis
 from calibgui.formats.json_document import Node
 
 

@@ -8,10 +8,10 @@ from __future__ import annotations
 
 from pathlib import Path
 
+from calibgui.dataset.result import Result
+from calibgui.engine.calibration import Calibration
 from calibgui.engine.files import write_atomically
-from calibgui.engine.types import Calibration
 from calibgui.formats.exporter import FRAME, Exporter, ExportReport
-from calibgui.formats.result import Result
 
 _NOTE = "The camera as calibrated; nothing is refitted."
 

@@ -19,9 +19,12 @@ from typing import Any
 
 import numpy as np
 
-from calibgui.engine.types import Array, Pose, StageOne, View, ViewResiduals
+from calibgui.dataset.result import Result
+from calibgui.dataset.view import View
+from calibgui.engine.arrays import Array
+from calibgui.engine.calibration import StageOne, ViewResiduals
+from calibgui.engine.geometry import Pose
 from calibgui.formats.json_document import Node
-from calibgui.formats.result import Result
 
 _STAGE_ONE = ("xp", "yp", "k1", "aspect", "fx", "fy", "iterations", "rms", "converged")
 _PAPER_POSE = ("omega", "phi", "theta", "tx", "ty", "tz")

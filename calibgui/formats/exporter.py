@@ -6,7 +6,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 
-from calibgui.formats.result import Result
+from calibgui.dataset.result import Result
 
 FRAME = "Pixels count from 0 at the centre of the first pixel, u right, v down."
 """What a file in the array frame says of it."""

@@ -11,11 +11,10 @@ import math
 from collections.abc import Callable
 from pathlib import Path
 
+from calibgui.dataset.result import Result
+from calibgui.engine.calibration import Calibration, Refit, refit
 from calibgui.engine.files import write_atomically
-from calibgui.engine.refit import Refit, refit
-from calibgui.engine.types import Calibration
 from calibgui.formats.exporter import ExportReport
-from calibgui.formats.result import Result
 
 MODEL = "opencv"
 _USEFUL = 2.0

@@ -25,9 +25,9 @@ from typing import Any, NoReturn
 
 import numpy as np
 
+from calibgui.engine.arrays import Array, IntArray, freeze_array, freeze_ints
 from calibgui.engine.errors import CalibrationError
 from calibgui.engine.files import replacing
-from calibgui.engine.types import Array, IntArray, frozen, frozen_int
 
 _UNFINISHED = re.compile(r"(-|\.|[eE][-+]?|tr?u?|fa?l?s?|nu?l?)?\s*")
 """What JSON's parser stumbles over at the end of a file that is cut within a number or word."""
@@ -199,14 +199,14 @@ class Node:
                 self.named(self.where + place).fail(expected)
         # An empty list hides the lengths of its entries.
         lengths = [len(self.value) if n is None else n for n in shape]
-        return frozen(np.reshape(np.array(self.value, dtype=np.float64), lengths))
+        return freeze_array(np.reshape(np.array(self.value, dtype=np.float64), lengths))
 
     def integers(self, *shape: int | None) -> IntArray:
         """This array of integers; `shape` may begin with None for any length."""
         numbers = self.numbers(*shape)
         if (numbers != np.rint(numbers)).any():
             self.fail("an array of integers")
-        return frozen_int(numbers)
+        return freeze_ints(numbers)
 
 
 def _plain(value: Any) -> Any:

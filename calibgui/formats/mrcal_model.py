@@ -15,10 +15,11 @@ from pathlib import Path
 import numpy as np
 import scipy
 
-from calibgui.engine.types import Array, Camera
+from calibgui.dataset.result import Result
+from calibgui.engine.arrays import Array
+from calibgui.engine.camera import Camera
 from calibgui.formats.exporter import FRAME, Exporter, ExportReport
 from calibgui.formats.forward_model import write_forward
-from calibgui.formats.result import Result
 
 
 def write_mrcal(result: Result, path: Path) -> ExportReport:

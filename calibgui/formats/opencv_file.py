@@ -14,12 +14,13 @@ from pathlib import Path
 
 import numpy as np
 
+from calibgui.dataset.result import Result
 from calibgui.engine import opencv
-from calibgui.engine.quality.statistics import summarise
-from calibgui.engine.types import Array, Calibration
+from calibgui.engine.arrays import Array
+from calibgui.engine.assessment import summarise
+from calibgui.engine.calibration import Calibration
 from calibgui.formats.exporter import FRAME, Exporter, ExportReport
 from calibgui.formats.forward_model import write_forward
-from calibgui.formats.result import Result
 
 _NOTE = f"{FRAME} Lengths are in mm, angles in rad."
 

@@ -9,10 +9,10 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from calibgui.engine.types import Camera
+from calibgui.dataset.result import Result
+from calibgui.engine.camera import Camera
 from calibgui.formats.exporter import FRAME, Exporter, ExportReport
 from calibgui.formats.forward_model import write_forward
-from calibgui.formats.result import Result
 
 
 def write_opencv_python(result: Result, path: Path) -> ExportReport:

@@ -14,10 +14,8 @@ from collections.abc import Callable, Mapping
 from dataclasses import fields, replace
 from typing import Any
 
+from calibgui.engine.boards import CHECKERBOARD, KINDS, Board, Pattern
 from calibgui.engine.errors import CalibrationError
-from calibgui.engine.targets.kinds import KINDS
-from calibgui.engine.targets.pattern import CHECKERBOARD, Pattern
-from calibgui.engine.types import Target
 from calibgui.formats.json_document import Node
 
 
@@ -56,15 +54,15 @@ _READERS: Mapping[str, Callable[[Node], str | float | bool]] = {
 """By the name of a pattern's field."""
 
 
-def target_record(target: Target) -> dict[str, Any]:
+def target_record(board: Board) -> dict[str, Any]:
     """The JSON object of a target."""
-    record = {"rows": target.rows, "cols": target.cols, "square_mm": target.square}
-    if target.pattern == CHECKERBOARD:
+    record = {"rows": board.rows, "cols": board.cols, "square_mm": board.square}
+    if board.pattern == CHECKERBOARD:
         return record
-    return record | {"pattern": pattern_record(target.pattern)}
+    return record | {"pattern": pattern_record(board.pattern)}
 
 
-def read_target(node: Node | None) -> Target | None:
+def read_target(node: Node | None) -> Board | None:
     """The target of a JSON object."""
     if node is None:
         return None
@@ -75,4 +73,4 @@ def read_target(node: Node | None) -> Target | None:
         if not side.integer() >= 2:
             side.fail("a number of corners above 1")
     pattern = read_pattern(node.get("pattern"))
-    return Target(rows.integer(), cols.integer(), square.number(), pattern)
+    return Board(rows.integer(), cols.integer(), square.number(), pattern)

@@ -14,7 +14,7 @@ from __future__ import annotations
 import os
 from collections.abc import Mapping
 
-from calibgui.engine.types import Array, Size
+from calibgui.engine.arrays import Array, Size
 from calibgui.formats.json_document import write
 
 

@@ -21,19 +21,24 @@ from typing import Any
 
 import numpy as np
 
-from calibgui.engine import frames
-from calibgui.engine.estimation import uncertainty
-from calibgui.engine.lens import MODELS, Lucchese, parameter_names
-from calibgui.engine.quality.statistics import summarise
-from calibgui.engine.types import (
-    Array,
+from calibgui.dataset.result import Result
+from calibgui.engine.arrays import Array
+from calibgui.engine.assessment import summarise
+from calibgui.engine.boards import BoardShape
+from calibgui.engine.calibration import (
     Calibration,
-    Camera,
     Cost,
     Iteration,
-    Plate,
     Status,
     Undetermined,
+    paper_table,
+)
+from calibgui.engine.camera import MODELS, Camera, Lucchese, parameter_names
+from calibgui.engine.geometry import PAPER_NAMES
+from calibgui.formats.board_shape_json import (
+    board_shape_record,
+    read_board_shape_record,
+    read_prior,
 )
 from calibgui.formats.corners_json import read_size
 from calibgui.formats.diagnosis_json import diagnosis_record, read_diagnosis
@@ -49,8 +54,6 @@ from calibgui.formats.estimates_json import (
 from calibgui.formats.exporter import Exporter, ExportReport
 from calibgui.formats.json_document import Node, check_format, read, write
 from calibgui.formats.pattern_json import read_target, target_record
-from calibgui.formats.plate_json import plate_record, read_plate_record, read_prior
-from calibgui.formats.result import Result
 from calibgui.formats.views_json import read_views, view_record
 
 FORMAT = "calibgui-result"
@@ -106,9 +109,11 @@ def result_record(result: Result) -> dict[str, Any]:
         "settings": calibration.settings,
         "versions": result.versions,
         "inputs_sha256": calibration.digest,
-        "target": None if result.target is None else target_record(result.target),
-        "plate": None if calibration.plate is None else plate_record(calibration.plate),
-        "plate_doubt_mm": calibration.plate_doubt,
+        "target": None if result.board is None else target_record(result.board),
+        "plate": None
+        if calibration.board_shape is None
+        else board_shape_record(calibration.board_shape),
+        "plate_doubt_mm": calibration.board_shape_error,
         "view_scatter": calibration.view_scatter,
         "stage_one": stage_one_records(result),
         "history": [{k: getattr(i, k) for k in _ITERATION} for i in calibration.history],
@@ -121,8 +126,7 @@ def _paper_record(calibration: Calibration) -> dict[str, Any] | None:
     if not isinstance(MODELS[calibration.camera.model], Lucchese):
         return None
     values, sigma, printed = (
-        dict(zip(frames.PAPER_NAMES, column, strict=True))
-        for column in uncertainty.paper_table(calibration)
+        dict(zip(PAPER_NAMES, column, strict=True)) for column in paper_table(calibration)
     )
     return values | {"sigma": sigma, "sd_as_printed": printed}
 
@@ -130,7 +134,7 @@ def _paper_record(calibration: Calibration) -> dict[str, Any] | None:
 def _view_records(result: Result) -> list[dict[str, Any]]:
     estimates = iter(estimate_records(result))
     return [
-        view_record(view, result.target) | (next(estimates) if view.usable else no_estimate(view))
+        view_record(view, result.board) | (next(estimates) if view.usable else no_estimate(view))
         for view in result.views
     ]
 
@@ -149,15 +153,15 @@ def read_result(path: str | os.PathLike[str]) -> Result:
 
 def result_from(node: Node) -> Result:
     """The result in the content of a result.json. Raises as `read_result`."""
-    target = read_target(node.get("target"))
-    views = read_views(node["views"], target)
+    board = read_target(node.get("target"))
+    views = read_views(node["views"], board)
     used = [n for n, view in zip(node["views"].items(), views, strict=True) if view.usable]
     if not used:
         node["views"].fail("a list with usable views")
     return Result(
         _read_calibration(node, used),
         views,
-        target,
+        board,
         {name: version.text() for name, version in node["versions"].members().items()},
     )
 
@@ -188,8 +192,8 @@ def _read_calibration(node: Node, used: list[Node]) -> Calibration:
             for n in node["undetermined"].items()
         ),
         diagnosis=read_diagnosis(node.get("diagnosis")),
-        plate=_read_plate(node.get("plate")),
-        plate_doubt=doubt.number() if (doubt := node.get("plate_doubt_mm")) else 0.0,
+        board_shape=_read_board_shape(node.get("plate")),
+        board_shape_error=doubt.number() if (doubt := node.get("plate_doubt_mm")) else 0.0,
         view_scatter=scatter.number() if (scatter := node.get("view_scatter")) else 0.0,
         warnings=tuple(n.text() for n in node["warnings"].items()),
         settings=_read_settings(node["settings"]),
@@ -206,9 +210,9 @@ def _read_settings(node: Node) -> dict[str, Any]:
     return settings
 
 
-def _read_plate(node: Node | None) -> Plate | None:
+def _read_board_shape(node: Node | None) -> BoardShape | None:
     """The plate, which results written before plates were estimated do not have."""
-    return None if node is None or node.value is None else read_plate_record(node)
+    return None if node is None or node.value is None else read_board_shape_record(node)
 
 
 def _read_camera(node: Node, model: str) -> Camera:

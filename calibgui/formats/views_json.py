@@ -19,21 +19,15 @@ from typing import Any
 
 import numpy as np
 
-from calibgui.engine.targets.pattern import CHECKERBOARD
-from calibgui.engine.types import (
-    Ambiguity,
-    Corners,
-    Observation,
-    OtherBoard,
-    Target,
-    View,
-    ViewStatus,
-)
+from calibgui.dataset.view import View, ViewStatus
+from calibgui.engine.boards import CHECKERBOARD, Ambiguity, Board
+from calibgui.engine.calibration import Observation
+from calibgui.engine.detection import Corners, OtherBoard
 from calibgui.formats.json_document import Node
 from calibgui.formats.pattern_json import pattern_record, read_pattern
 
 
-def view_record(view: View, target: Target | None) -> dict[str, Any]:
+def view_record(view: View, board: Board | None) -> dict[str, Any]:
     """The JSON object of a view; `target` gives found corners their places on the plate."""
     record: dict[str, Any] = {
         "image": view.image,
@@ -47,8 +41,8 @@ def view_record(view: View, target: Target | None) -> dict[str, Any]:
         record["roi"] = view.roi
     if view.points is None and view.corners is None:
         return record | {"uv": [], "board": []}
-    uv, board, cov = view.observation(target)
-    record |= {"uv": uv, "board": board}
+    uv, xy, cov = view.observation(board)
+    record |= {"uv": uv, "board": xy}
     if cov is not None:
         record["cov"] = cov
     if view.corners is not None:
@@ -74,32 +68,32 @@ def _corners_record(corners: Corners) -> dict[str, Any]:
     return record
 
 
-def read_views(node: Node, target: Target | None) -> tuple[View, ...]:
+def read_views(node: Node, board: Board | None) -> tuple[View, ...]:
     """The views of a list of JSON objects.
 
     Raises:
         CalibrationError: naming file, view and entry.
     """
-    return tuple(_read_view(item, k, target) for k, item in enumerate(node.items()))
+    return tuple(_read_view(item, k, board) for k, item in enumerate(node.items()))
 
 
-def _read_view(node: Node, k: int, target: Target | None) -> View:
+def _read_view(node: Node, k: int, board: Board | None) -> View:
     image = node.named(f"view {k + 1}")["image"].text()
     node = node.named(f"view {k + 1} ({image})")
     uv = node["uv"].numbers(None, 2)
-    board = node["board"].numbers(len(uv), 2)
+    xy = node["board"].numbers(len(uv), 2)
     cov = node.get("cov")
-    points = Observation(uv, board, cov.numbers(len(uv), 2, 2) if cov else None)
+    points = Observation(uv, xy, cov.numbers(len(uv), 2, 2) if cov else None)
     corners = _read_corners(node, points) if len(uv) else None
     # Found corners take their places on the plate from the target, unless the file differs.
-    on_target = corners and target and np.array_equal(target.points(corners.grid), board)
+    on_board = corners and board and np.array_equal(board.points(corners.grid), xy)
     return View(
         image=image,
         status=_read_status(node, found=len(uv) > 0),
         reason=reason.text() if (reason := node.get("reason")) else "",
         note=note.text() if (note := node.get("note")) else "",
         corners=corners,
-        points=points if len(uv) and not on_target else None,
+        points=points if len(uv) and not on_board else None,
         roi=roi.numbers(4, 2) if (roi := node.get("roi")) else None,
         enabled=enabled.flag() if (enabled := node.get("enabled")) else True,
     )

@@ -19,15 +19,15 @@ from PySide6.QtWidgets import (
 )
 
 from calibgui.app.project import Project
-from calibgui.engine.types import Iteration
-from calibgui.formats.result import Result
+from calibgui.dataset.result import Result
+from calibgui.engine.calibration import Iteration
 from calibgui.gui import theme
+from calibgui.gui.panels.board_shape import BoardShapePanel
 from calibgui.gui.panels.convergence import ConvergencePanel
 from calibgui.gui.panels.coverage import CoveragePanel
 from calibgui.gui.panels.distortion import DistortionPanel
 from calibgui.gui.panels.histograms import HistogramsPanel
 from calibgui.gui.panels.panel import Panel
-from calibgui.gui.panels.plate import PlatePanel
 from calibgui.gui.panels.poses import PosesPanel
 from calibgui.gui.panels.residuals import ResidualsPanel
 from calibgui.gui.panels.result import ResultPanel
@@ -48,7 +48,7 @@ PANELS: tuple[type[Panel], ...] = (
     PosesPanel,
     CoveragePanel,
     UncertaintyPanel,
-    PlatePanel,
+    BoardShapePanel,
     SyntheticPanel,
 )
 """In the order of the list."""
@@ -110,7 +110,7 @@ class Analysis(QWidget):
                 panel.excluded.connect(self._exclude)
             if isinstance(panel, UndistortPanel):
                 panel.saving.connect(self.saving)
-            if isinstance(panel, PlatePanel):
+            if isinstance(panel, BoardShapePanel):
                 panel.failed.connect(self._session.failed)
             panel.show_result(self._shown)
             panel.select(self._place(self._session.image), self._session.corner)

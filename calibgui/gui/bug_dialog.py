@@ -15,7 +15,7 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
-from calibgui.formats.result import installed_versions
+from calibgui.dataset.result import installed_versions
 from calibgui.gui import theme
 from calibgui.gui.actions import closing
 

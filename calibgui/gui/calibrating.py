@@ -8,13 +8,13 @@ from functools import partial
 
 from PySide6.QtCore import QObject, Signal
 
-from calibgui.app.again import calibrate_twice
 from calibgui.app.project import answered, free_name
+from calibgui.app.redetection import calibrate_twice
+from calibgui.dataset.corner_set import CornerSet
+from calibgui.dataset.result import Result
+from calibgui.engine.calibration import Iteration, Status
 from calibgui.engine.errors import CalibrationError
 from calibgui.engine.kernels import SOLVER_SECONDS, when_compiling
-from calibgui.engine.types import Iteration, Status
-from calibgui.formats.corners_json import CornerSet
-from calibgui.formats.result import Result
 from calibgui.gui.detecting import Detector
 from calibgui.gui.job import Job
 from calibgui.gui.session import Session
@@ -80,7 +80,7 @@ class Calibrator(QObject):
             )
             self.ended.emit()
             return
-        corner_set = CornerSet(project.size, project.views, project.target)
+        corner_set = CornerSet(project.size, project.views, project.board)
         settings = project.settings
 
         preparing = self.tr("Preparing the solver for its first use (once, about {0} s)…").format(

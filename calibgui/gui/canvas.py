@@ -19,7 +19,7 @@ from PySide6.QtGui import (
 )
 from PySide6.QtWidgets import QFrame, QGraphicsScene, QGraphicsView, QWidget
 
-from calibgui.engine.types import Array
+from calibgui.engine.arrays import Array
 from calibgui.gui import theme
 from calibgui.gui.layers import Layer, Marks, paint
 from calibgui.gui.picture import Picture

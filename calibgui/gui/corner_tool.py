@@ -9,8 +9,8 @@ from PySide6.QtCore import QObject, QPointF, QRectF, Qt, Signal
 from PySide6.QtGui import QKeyEvent, QMouseEvent, QPainter
 
 from calibgui.app.marking import missing, refined
-from calibgui.engine.opencv import Image
-from calibgui.engine.types import Array, Corners
+from calibgui.engine.arrays import Array, GreyImage
+from calibgui.engine.detection import Corners
 from calibgui.gui import layers, theme
 from calibgui.gui.canvas import Canvas
 from calibgui.gui.loupe import paint_loupe
@@ -33,7 +33,9 @@ class CornerTool(QObject):
     """Row and column (2,) of a corner that is missing."""
     left = Signal()
 
-    def __init__(self, canvas: Canvas, image: Image, corners: Callable[[], Corners | None]) -> None:
+    def __init__(
+        self, canvas: Canvas, image: GreyImage, corners: Callable[[], Corners | None]
+    ) -> None:
         super().__init__(canvas)
         self._canvas = canvas
         self._image = image

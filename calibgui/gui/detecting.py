@@ -10,9 +10,11 @@ from PySide6.QtCore import QObject, Signal
 
 from calibgui.app.detection import Detection, find_views, usual_board, usual_pattern
 from calibgui.app.project import Project, with_each, without_digests
+from calibgui.dataset.view import View, ViewStatus
+from calibgui.engine.arrays import Array
+from calibgui.engine.boards import Pattern
+from calibgui.engine.detection import Corners
 from calibgui.engine.kernels import FINDER_SECONDS
-from calibgui.engine.targets.pattern import Pattern
-from calibgui.engine.types import Array, Corners, View, ViewStatus
 from calibgui.gui.job import Job
 from calibgui.gui.session import Session
 
@@ -56,7 +58,7 @@ class Detector(QObject):
             return
         self._asked = {view.image: view.roi for view in asked}
         self._given = dict.fromkeys(self._asked)
-        board = project.board or usual_board(project.views)
+        grid_size = project.grid_size or usual_board(project.views)
         self._sought = _sought(project)
         pattern = usual_pattern(project.views, project.pattern)
         rois = {Path(image): roi for image, roi in self._asked.items() if roi is not None}
@@ -75,7 +77,7 @@ class Detector(QObject):
             images = [Path(view.image) for view in asked]
             return find_views(
                 images,
-                board,
+                grid_size,
                 rois,
                 progress,
                 job.cancelling,

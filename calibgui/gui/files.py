@@ -12,19 +12,12 @@ from PySide6.QtWidgets import QFileDialog, QInputDialog, QLineEdit, QMessageBox,
 
 from calibgui.app.document import Document
 from calibgui.app.paths import find_images
-from calibgui.app.project import (
-    Project,
-    relocated,
-    renamed_result,
-    with_images,
-    without_result,
-)
+from calibgui.app.project import Project, relocated, renamed_result, with_images, without_result
 from calibgui.app.relocating import find_moved, missing_images
 from calibgui.app.resampling import Written, rectify_files, undistort_files
 from calibgui.app.resources import resource, sample_square
 from calibgui.engine.errors import CalibrationError
-from calibgui.engine.images import FORMATS
-from calibgui.engine.imaging.undistort import FieldOfView
+from calibgui.engine.images import FORMATS, FieldOfView
 from calibgui.gui.actions import show_dialog
 from calibgui.gui.calibrating import Calibrator
 from calibgui.gui.detecting import Detector
@@ -160,7 +153,7 @@ class Files(QObject):
 
     def print_board(self) -> None:
         """Offer a board to print, like the project's."""
-        show_dialog(PrintDialog(self._session.project.target, self._window))
+        show_dialog(PrintDialog(self._session.project.board, self._window))
 
     def check_images(self) -> None:
         """Announce images that are not where the project says."""

@@ -31,7 +31,7 @@ from PySide6.QtWidgets import (
 )
 
 from calibgui.app.project import with_each, without_views
-from calibgui.engine.types import View
+from calibgui.dataset.view import View
 from calibgui.gui import theme
 from calibgui.gui.actions import make_action
 from calibgui.gui.image_model import Criterion, ImageModel, Role
@@ -105,10 +105,10 @@ class _Delegate(QStyledItemDelegate):
         painter.fillRect(frame, QColor(theme.current().line))
         if pixmap is not None:
             size = pixmap.size().scaled(frame.size(), Qt.AspectRatioMode.KeepAspectRatio)
-            target = QRect(QPoint(), size)
-            target.moveCenter(frame.center())
+            board = QRect(QPoint(), size)
+            board.moveCenter(frame.center())
             painter.setRenderHint(QPainter.RenderHint.SmoothPixmapTransform)
-            painter.drawPixmap(target, pixmap)
+            painter.drawPixmap(board, pixmap)
 
     def _bar(
         self, painter: QPainter, rect: QRect, rms: float, text: QColor, selected: bool

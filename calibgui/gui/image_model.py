@@ -18,8 +18,9 @@ from PySide6.QtGui import QColor
 
 from calibgui.app.paths import natural_key
 from calibgui.app.project import Project
-from calibgui.engine.types import Ambiguity, View, ViewStatus
-from calibgui.formats.result import Result
+from calibgui.dataset.result import Result
+from calibgui.dataset.view import View, ViewStatus
+from calibgui.engine.boards import Ambiguity
 from calibgui.gui import theme
 from calibgui.gui.session import Session
 from calibgui.gui.thumbnails import Thumbnails

@@ -21,9 +21,9 @@ from PySide6.QtWidgets import (
 )
 
 from calibgui.app.project import Project
+from calibgui.dataset.result import Result
+from calibgui.dataset.view import View, ViewStatus
 from calibgui.engine.images import Image
-from calibgui.engine.types import View, ViewStatus
-from calibgui.formats.result import Result
 from calibgui.gui import theme
 from calibgui.gui.actions import make_action
 from calibgui.gui.canvas import Canvas
@@ -295,6 +295,6 @@ def _fitted(result: Result | None, view: View) -> tuple[np.ndarray | None, np.nd
         return None, None
     for used, residuals in zip(result.used, result.calibration.residuals, strict=True):
         if used.image == view.image and used.corners is view.corners:
-            measured = used.observation(result.target).uv
+            measured = used.observation(result.board).uv
             return measured, measured - residuals.image
     return None, None

@@ -15,7 +15,8 @@ import numpy as np
 from PySide6.QtCore import QLineF, QPointF, QRectF, Qt
 from PySide6.QtGui import QColor, QPainter, QPen, QPolygonF
 
-from calibgui.engine.types import Array, Corners
+from calibgui.engine.arrays import Array
+from calibgui.engine.detection import Corners
 from calibgui.gui import theme
 
 ToScreen = Callable[[Array], Array]

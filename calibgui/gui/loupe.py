@@ -6,8 +6,7 @@ import numpy as np
 from PySide6.QtCore import QPointF, QRectF, Qt
 from PySide6.QtGui import QColor, QPainter, QPainterPath, QPen
 
-from calibgui.engine.opencv import Image
-from calibgui.engine.types import Array
+from calibgui.engine.arrays import Array, GreyImage
 from calibgui.gui import theme
 from calibgui.gui.picture import qimage
 
@@ -19,7 +18,12 @@ _AWAY = 24.0
 
 
 def paint_loupe(
-    painter: QPainter, image: Image, uv: Array, mark: Array | None, cursor: QPointF, port: QRectF
+    painter: QPainter,
+    image: GreyImage,
+    uv: Array,
+    mark: Array | None,
+    cursor: QPointF,
+    port: QRectF,
 ) -> None:
     """Draw the neighbourhood of an image point in a circle.
 

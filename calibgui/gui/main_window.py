@@ -19,12 +19,13 @@ from PySide6.QtWidgets import (
 )
 
 from calibgui.app.recent import recent_projects
+from calibgui.dataset.result import Result
 from calibgui.engine.errors import CalibrationError
 from calibgui.engine.kernels import COMPILED
-from calibgui.formats.result import Result
 from calibgui.gui import qt_names, theme
 from calibgui.gui.actions import show_dialog
 from calibgui.gui.banner import Banner
+from calibgui.gui.board_panel import TargetPanel
 from calibgui.gui.bug_dialog import BugDialog
 from calibgui.gui.calibrating import Calibrator
 from calibgui.gui.detecting import Detector
@@ -38,7 +39,6 @@ from calibgui.gui.page_tabs import PageTabs
 from calibgui.gui.progress import Progress
 from calibgui.gui.session import Session
 from calibgui.gui.settings_panel import SettingsPanel
-from calibgui.gui.target_panel import TargetPanel
 from calibgui.gui.welcome import Welcome
 
 if TYPE_CHECKING:
@@ -60,7 +60,7 @@ class MainWindow(QMainWindow):
         self.files = Files(self.session, self.detector, self.calibrator, self)
         self.images = ImageList(self.session)
         self.page = ImagePage(self.session)
-        self.target = TargetPanel(self.session)
+        self.board = TargetPanel(self.session)
         self.settings = SettingsPanel(self.session)
         self.analysis: Analysis | None = None
         self._empty = True
@@ -101,7 +101,7 @@ class MainWindow(QMainWindow):
         self.setCentralWidget(middle)
 
         how = PageTabs()
-        how.add(self.target, self.tr("Board"))
+        how.add(self.board, self.tr("Board"))
         how.add(self.settings, self.tr("Settings"))
         left = QWidget()
         column = QVBoxLayout(left)
@@ -131,7 +131,7 @@ class MainWindow(QMainWindow):
         Offers(self.session, self.detector, self.files, self.images, self.banner)
         self.page.place.connect(self.place.setText)
         self.images.list.addActions(self.page.tools)
-        self.target.search_wanted.connect(self.detector.search)
+        self.board.search_wanted.connect(self.detector.search)
         self.calibrate.clicked.connect(self._calibrate_or_stop)
         self.calibrator.began.connect(lambda: self.need_analysis().began())
         self.calibrator.advanced.connect(lambda step: self.need_analysis().advanced(step))
@@ -140,7 +140,7 @@ class MainWindow(QMainWindow):
         for changed in (self.session.jobs.changed, self.calibrator.began, self.calibrator.ended):
             changed.connect(self._show_calibrate)
         self.files.saver.opened.connect(self.images.thumbnails.look_for_changes)
-        self.target.print_wanted.connect(self.files.print_board)
+        self.board.print_wanted.connect(self.files.print_board)
         self.welcome.folder_wanted.connect(self.files.ask_for_folder)
         self.welcome.images_wanted.connect(self.files.ask_for_images)
         self.welcome.sample_wanted.connect(self.files.open_sample)
@@ -279,7 +279,11 @@ def _accept_copy(event: QDropEvent) -> None:
 _NEEDED_SOON = (
     "scipy.stats",
     "calibgui.gui.analysis",
-    *(("calibgui.engine.kernels.plate", "calibgui.engine.kernels.stage_one") if COMPILED else ()),
+    *(
+        ("calibgui.engine.kernels.board_shape", "calibgui.engine.kernels.stage_one")
+        if COMPILED
+        else ()
+    ),
 )
 _FRAME = 16
 """Between two pictures on the screen, ms."""

@@ -11,8 +11,10 @@ from PySide6.QtCore import QObject, Signal
 
 from calibgui.app import marking
 from calibgui.app.project import with_each
+from calibgui.dataset.view import View, ViewStatus
+from calibgui.engine.arrays import Array, IntArray
+from calibgui.engine.detection import Corners
 from calibgui.engine.errors import CalibrationError
-from calibgui.engine.types import Array, Corners, IntArray, View, ViewStatus
 from calibgui.gui.canvas import Canvas
 from calibgui.gui.corner_tool import CornerTool
 from calibgui.gui.job import Job
@@ -60,8 +62,8 @@ class Marker(QObject):
         self._roi.left.connect(self.leave)
         self._canvas.set_tool(self._roi)
         self._canvas.setFocus()
-        if (target := self._session.project.target) is not None:
-            self.roi_bar.show_board((target.rows, target.cols))
+        if (board := self._session.project.board) is not None:
+            self.roi_bar.show_board((board.rows, board.cols))
         self.roi_bar.show()
         self._points_changed()
 
@@ -117,25 +119,25 @@ class Marker(QObject):
         )
 
     def _board_stated(self) -> None:
-        tool, board = self._roi, self.roi_bar.board
-        if tool is not None and tool.complete and board != tool.board:
-            self._search(board)
+        tool, grid_size = self._roi, self.roi_bar.grid_size
+        if tool is not None and tool.complete and grid_size != tool.grid_size:
+            self._search(grid_size)
 
     def _forget_preview(self, tool: RoiTool) -> None:
         tool.preview = None
         self.roi_bar.accept.setEnabled(False)
         self._canvas.viewport().update()
 
-    def _search(self, board: tuple[int, int] | None) -> None:
+    def _search(self, grid_size: tuple[int, int] | None) -> None:
         """Find the corners between the four points, beside the main thread."""
         tool = self._roi
         assert tool is not None
         self._forget_preview(tool)
         project = self._session.project
-        target = project.target
-        usual = None if target is None else target.board
-        pattern = project.pattern if target is None else target.pattern
-        tool.board = board or usual
+        board = project.board
+        usual = None if board is None else board.grid_size
+        pattern = project.pattern if board is None else board.pattern
+        tool.grid_size = grid_size or usual
         if self._job is not None:
             self._job.cancel()
         image = self._session.images.read(self._image).pixels
@@ -143,7 +145,7 @@ class Marker(QObject):
         self.roi_bar.words.setText(self.tr("Counting…"))
         self._job = self._session.jobs.start(
             "",
-            lambda _: marking.marked(image, points, board, usual, pattern, project.method),
+            lambda _: marking.marked(image, points, grid_size, usual, pattern, project.method),
             self._found,
             failed=self._not_found,
         )
@@ -152,15 +154,15 @@ class Marker(QObject):
         tool = self._roi
         if tool is None:
             return
-        tool.preview, tool.board = corners, corners.shape
+        tool.preview, tool.grid_size = corners, corners.shape
         self.roi_bar.show_board(corners.shape)
         rows, cols = corners.shape
         text = self.tr("{0} of {1} corners. Enter accepts; drag a handle to change them.").format(
             len(corners), rows * cols
         )
-        target = self._session.project.target
-        if target is not None and (target.rows, target.cols) != corners.shape:
-            text += self.tr(" The other images show {0} × {1}.").format(target.rows, target.cols)
+        board = self._session.project.board
+        if board is not None and (board.rows, board.cols) != corners.shape:
+            text += self.tr(" The other images show {0} × {1}.").format(board.rows, board.cols)
         self.roi_bar.words.setText(text)
         self.roi_bar.accept.setEnabled(True)
         self._canvas.viewport().update()

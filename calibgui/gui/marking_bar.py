@@ -14,7 +14,7 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
-from calibgui.engine.types import Board
+from calibgui.engine.arrays import GridSize
 from calibgui.gui import theme
 
 
@@ -84,13 +84,13 @@ class RoiBar(_Bar):
         )
 
     @property
-    def board(self) -> Board:
+    def grid_size(self) -> GridSize:
         """Rows and columns of inner corners."""
         return self.counts[0].value(), self.counts[1].value()
 
-    def show_board(self, board: Board) -> None:
+    def show_board(self, grid_size: GridSize) -> None:
         """Show a board's size without announcing it."""
-        for box, count in zip(self.counts, board, strict=True):
+        for box, count in zip(self.counts, grid_size, strict=True):
             box.blockSignals(True)
             box.setValue(count)
             box.blockSignals(False)

@@ -10,8 +10,8 @@ from PySide6.QtCore import QFileInfo, QLocale, QObject
 from calibgui.app.autosave import autosave_path
 from calibgui.app.detection import other_pattern
 from calibgui.app.project import with_pattern
-from calibgui.engine.targets.pattern import Pattern
-from calibgui.engine.types import ViewStatus
+from calibgui.dataset.view import ViewStatus
+from calibgui.engine.boards import Pattern
 from calibgui.gui.banner import Banner
 from calibgui.gui.detecting import Detector
 from calibgui.gui.files import Files

@@ -8,11 +8,8 @@ from PySide6.QtCore import Signal
 from PySide6.QtWidgets import QComboBox, QDoubleSpinBox, QFormLayout, QLabel, QWidget
 
 from calibgui.engine import opencv
+from calibgui.engine.boards import KINDS, Charuco, Circles, Pattern
 from calibgui.engine.errors import CalibrationError
-from calibgui.engine.targets.charuco import Charuco
-from calibgui.engine.targets.circles import Circles
-from calibgui.engine.targets.kinds import KINDS
-from calibgui.engine.targets.pattern import Pattern
 
 
 class PatternChoice(QWidget):

@@ -71,5 +71,5 @@ class Picture(QGraphicsItem):
         painter.setRenderHint(smooth, zoom < _PIXELS_SHOW)
         # Halving drops odd edges: a level covers a whole number of its own pixels.
         image, size = self._levels[level], 2.0**level
-        target = QRectF(-0.5, -0.5, image.width() * size, image.height() * size)
-        painter.drawPixmap(target, self._pixmaps[level], QRectF(image.rect()))
+        board = QRectF(-0.5, -0.5, image.width() * size, image.height() * size)
+        painter.drawPixmap(board, self._pixmaps[level], QRectF(image.rect()))

@@ -21,14 +21,14 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
-from calibgui.app.printable_target import PAPERS, Sheet, paper_for, settled, sheet, write_sheet
+from calibgui.app.printable_board import PAPERS, Sheet, paper_for, settled, sheet, write_sheet
+from calibgui.engine.boards import Board
 from calibgui.engine.errors import CalibrationError
-from calibgui.engine.types import Target
 from calibgui.gui import theme
 from calibgui.gui.actions import closing
 from calibgui.gui.pattern_choice import PatternChoice
 
-_DEFAULT = Target(7, 10, 25.0)
+_DEFAULT = Board(7, 10, 25.0)
 
 
 class _Preview(QWidget):
@@ -59,22 +59,22 @@ class _Preview(QWidget):
 class PrintDialog(QDialog):
     """Makes a PDF or SVG of a board in true size."""
 
-    def __init__(self, target: Target | None, parent: QWidget | None = None) -> None:
+    def __init__(self, board: Board | None, parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self.setWindowTitle(self.tr("Board to print"))
-        target = target or _DEFAULT
+        board = board or _DEFAULT
         self.rows, self.cols = (QSpinBox(minimum=3, maximum=200) for _ in range(2))
-        squares_more = 1 if target.pattern.squared else 0
-        self.rows.setValue(target.rows + squares_more)
-        self.cols.setValue(target.cols + squares_more)
+        squares_more = 1 if board.pattern.squared else 0
+        self.rows.setValue(board.rows + squares_more)
+        self.cols.setValue(board.cols + squares_more)
         self.pattern = PatternChoice(self.tr("usual"))
-        self.pattern.show_pattern(target.pattern, target.square)
+        self.pattern.show_pattern(board.pattern, board.square)
         self.counted, self.side = QLabel(), QLabel()
         self.square = QDoubleSpinBox(decimals=2, minimum=1.0, maximum=500.0, suffix=self.tr(" mm"))
-        self.square.setValue(target.square)
+        self.square.setValue(board.square)
         self.paper = QComboBox()
         self.paper.addItems(list(PAPERS))
-        self.paper.setCurrentText(paper_for(target))
+        self.paper.setCurrentText(paper_for(board))
         self.words = QLabel()
         self.words.setWordWrap(True)
         self.preview = _Preview()
@@ -115,9 +115,9 @@ class PrintDialog(QDialog):
     def content(self) -> Sheet:
         """The sheet as chosen. Raises CalibrationError if it does not fit the paper."""
         pattern, more = self.pattern.pattern, 1 if self.pattern.pattern.squared else 0
-        board = (self.rows.value() - more, self.cols.value() - more)
-        target = Target(*board, self.square.value(), settled(pattern, board))
-        return sheet(target, self.paper.currentText())
+        grid_size = (self.rows.value() - more, self.cols.value() - more)
+        board = Board(*grid_size, self.square.value(), settled(pattern, grid_size))
+        return sheet(board, self.paper.currentText())
 
     def _refresh(self) -> None:
         colours = theme.current()

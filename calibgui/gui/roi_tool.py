@@ -7,8 +7,8 @@ from PySide6.QtCore import QObject, QPointF, QRectF, Qt, Signal
 from PySide6.QtGui import QKeyEvent, QMouseEvent, QPainter
 
 from calibgui.app.marking import projected, snapped
-from calibgui.engine.opencv import Image
-from calibgui.engine.types import Array, Board, Corners
+from calibgui.engine.arrays import Array, GreyImage, GridSize
+from calibgui.engine.detection import Corners
 from calibgui.gui import layers, theme
 from calibgui.gui.canvas import Canvas
 from calibgui.gui.loupe import paint_loupe
@@ -32,17 +32,17 @@ class RoiTool(QObject):
     accepted = Signal()
     left = Signal()
 
-    def __init__(self, canvas: Canvas, image: Image) -> None:
+    def __init__(self, canvas: Canvas, image: GreyImage) -> None:
         super().__init__(canvas)
         self._canvas = canvas
         self._image = image
         self.points: list[Array] = []
-        self.board: Board | None = None
+        self.grid_size: GridSize | None = None
         """Rows and columns that the grid is drawn with."""
         self.preview: Corners | None = None
         """What was found between the points."""
         self._cursor: Array | None = None
-        self._target: Array | None = None
+        self._board: Array | None = None
         self._dragged = -1
 
     @property
@@ -63,7 +63,7 @@ class RoiTool(QObject):
 
     def move(self, uv: Array, event: QMouseEvent) -> bool:
         self._cursor = uv
-        self._target = self._snap(uv, event)
+        self._board = self._snap(uv, event)
         if self._dragged >= 0:
             self.points[self._dragged] = self._aim(uv, event)
             self.preview = None
@@ -94,7 +94,7 @@ class RoiTool(QObject):
         if self.complete:
             self._paint_grid(painter, canvas)
         elif self.points and self._cursor is not None:
-            aim = self._cursor if self._target is None else self._target
+            aim = self._cursor if self._board is None else self._board
             layers.outline(painter, canvas.to_screen(np.array([*self.points, aim])), theme.REGION)
         if self.points:
             at = canvas.to_screen(np.array(self.points))
@@ -102,18 +102,18 @@ class RoiTool(QObject):
             for number, place in enumerate(at, start=1):
                 layers.label(painter, place, str(number), theme.REGION)
         if self._cursor is not None and (not self.complete or self._dragged >= 0):
-            aim = self._cursor if self._target is None else self._target
+            aim = self._cursor if self._board is None else self._board
             cursor = QPointF(*canvas.to_screen(self._cursor[None])[0])
             port = QRectF(canvas.viewport().rect())
-            paint_loupe(painter, self._image, aim, self._target, cursor, port)
+            paint_loupe(painter, self._image, aim, self._board, cursor, port)
 
     def _paint_grid(self, painter: QPainter, canvas: Canvas) -> None:
         points = np.array(self.points)
         layers.outline(painter, canvas.to_screen(points), theme.REGION)
         if self.preview is not None:
             layers.crosses(painter, canvas.to_screen(self.preview.uv), theme.REFINED)
-        elif self.board is not None:
-            grid = projected(points, self.board)
+        elif self.grid_size is not None:
+            grid = projected(points, self.grid_size)
             for line in (*grid, *grid.swapaxes(0, 1)):
                 layers.polyline(painter, canvas.to_screen(line), theme.REGION)
 
@@ -126,8 +126,8 @@ class RoiTool(QObject):
         return nearest if distance[nearest] <= _GRAB else -1
 
     def _aim(self, uv: Array, event: QMouseEvent) -> Array:
-        target = self._snap(uv, event)
-        return uv if target is None else target
+        board = self._snap(uv, event)
+        return uv if board is None else board
 
     def _snap(self, uv: Array, event: QMouseEvent) -> Array | None:
         if event.modifiers() & Qt.KeyboardModifier.ControlModifier:

@@ -9,8 +9,8 @@ from PySide6.QtCore import QObject, Signal
 from calibgui.app.document import Change, Document
 from calibgui.app.image_store import ImageStore
 from calibgui.app.project import Project
-from calibgui.engine.types import View
-from calibgui.formats.result import Result
+from calibgui.dataset.result import Result
+from calibgui.dataset.view import View
 from calibgui.gui.jobs import Jobs
 
 
@@ -106,7 +106,7 @@ class Session(QObject):
     def question(self) -> Hashable:
         """What a calibration depends on: a result answers it as long as it stays the same."""
         project = self.project
-        return (project.usable, project.target, project.size, project.settings)
+        return (project.usable, project.board, project.size, project.settings)
 
     def _document_changed(self, before: Project, after: Project) -> None:
         if after.find(self.image) < 0:

@@ -16,12 +16,13 @@ from PySide6.QtWidgets import (
 )
 
 from calibgui.app.settings import NAMES, Settings, held_in
+from calibgui.engine.boards import BoardShapeModel
+from calibgui.engine.calibration import Cost
+from calibgui.engine.camera import MODELS
 from calibgui.engine.errors import CalibrationError
-from calibgui.engine.lens import MODELS
-from calibgui.engine.types import Cost, PlateModel
 from calibgui.gui import theme
+from calibgui.gui.board_shape_choice import BoardShapeChoice
 from calibgui.gui.narrow_combo import NarrowCombo
-from calibgui.gui.plate_choice import PlateChoice
 from calibgui.gui.session import Session
 
 _HELD = MODELS["lucchese"].held
@@ -36,7 +37,7 @@ class SettingsPanel(QWidget):
         super().__init__()
         self._session = session
         self.cost = self._make_cost()
-        self.plate = PlateChoice()
+        self.board_shape = BoardShapeChoice()
         self.robust = QCheckBox(self.tr("&Leave outliers out"))
         self.robust.setToolTip(
             self.tr(
@@ -63,10 +64,10 @@ class SettingsPanel(QWidget):
         self._lay_out()
         choices = (self.robust, self.weigh, self.again, *self.boxes.values())
         clicks = (box.clicked for box in choices)
-        for edited in (self.cost.activated, self.plate.changed, *clicks):
+        for edited in (self.cost.activated, self.board_shape.changed, *clicks):
             edited.connect(lambda: self._edit())
-        self.plate.slid.connect(lambda: self._edit(sliding=True))
-        self.plate.failed.connect(session.failed)
+        self.board_shape.slid.connect(lambda: self._edit(sliding=True))
+        self.board_shape.failed.connect(session.failed)
         session.changed.connect(self._refresh)
         self._refresh()
 
@@ -117,7 +118,9 @@ class SettingsPanel(QWidget):
     def _lay_out(self) -> None:
         label = QLabel(self.tr("&Minimise"))
         label.setBuddy(self.cost)
-        label.setMinimumWidth(self.plate.known.sizeHint().width())  # in line with what follows
+        label.setMinimumWidth(
+            self.board_shape.known.sizeHint().width()
+        )  # in line with what follows
         first = QFormLayout()
         first.addRow(label, self.cost)
         grid = QGridLayout()
@@ -131,7 +134,7 @@ class SettingsPanel(QWidget):
         last.addRow(self.tr("Held at"), self.values)
         layout = QVBoxLayout(self)
         layout.addLayout(first)
-        layout.addWidget(self.plate)
+        layout.addWidget(self.board_shape)
         for choice in (self.robust, self.weigh, self.again):
             layout.addWidget(choice)
         layout.addWidget(QLabel(self.tr("Estimate")))
@@ -142,10 +145,12 @@ class SettingsPanel(QWidget):
     def _refresh(self) -> None:
         settings = self._session.project.settings
         self.cost.setCurrentIndex(self.cost.findData(settings.cost))
-        self.plate.show_choice(settings.plate, settings.prior)
-        self.plate.setEnabled(settings.cost is Cost.IMAGE)
-        self.plate.setToolTip(
-            "" if self.plate.isEnabled() else self.tr("The error in the image takes any board.")
+        self.board_shape.show_choice(settings.board_shape, settings.prior)
+        self.board_shape.setEnabled(settings.cost is Cost.IMAGE)
+        self.board_shape.setToolTip(
+            ""
+            if self.board_shape.isEnabled()
+            else self.tr("The error in the image takes any board.")
         )
         self.robust.setChecked(settings.robust)
         self.weigh.setChecked(settings.weigh_views)
@@ -187,8 +192,8 @@ class SettingsPanel(QWidget):
             cost=cost,
             fixed={n: v for n, v in stated.items() if n not in _HELD or v is not None},
             freed=tuple(name for name in _HELD if name not in held),
-            plate=self.plate.plate if in_image else PlateModel.NOMINAL,
-            prior=self.plate.prior if in_image else None,
+            board_shape=self.board_shape.board_shape if in_image else BoardShapeModel.NOMINAL,
+            prior=self.board_shape.prior if in_image else None,
             robust=self.robust.isChecked(),
             weigh_views=self.weigh.isChecked() and in_image,
             once=not self.again.isChecked(),

@@ -10,8 +10,9 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from calibgui.engine.types import Array, Calibration
-from calibgui.formats.result import Result
+from calibgui.dataset.result import Result
+from calibgui.engine.arrays import Array
+from calibgui.engine.calibration import Calibration
 from calibgui.report.coverage import attitudes, density
 
 _TILTED = np.deg2rad(15)

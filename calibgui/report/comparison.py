@@ -10,7 +10,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from calibgui.engine.types import Calibration
+from calibgui.engine.calibration import Calibration
 
 
 @dataclass(frozen=True, slots=True)

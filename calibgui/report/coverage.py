@@ -14,10 +14,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from calibgui.engine import frames
-from calibgui.engine.imaging.undistort import Extent, board_extent
-from calibgui.engine.types import Array, Calibration, IntArray, Observation, Size
-from calibgui.formats.result import Result
+from calibgui.dataset.result import Result
+from calibgui.engine.arrays import Array, IntArray, Size
+from calibgui.engine.calibration import Calibration, Observation
+from calibgui.engine.geometry import rotation
+from calibgui.engine.images import Extent, board_extent
 
 CELLS = (9, 6)
 """Columns and rows in which the sensor is divided when its coverage is judged."""
@@ -49,7 +50,7 @@ class Attitudes:
 
 def attitudes(calibration: Calibration, observations: Sequence[Observation]) -> Attitudes:
     """The board's tilt, its direction and distance in each calibrated view."""
-    R = frames.rotation(np.array([pose.rvec for pose in calibration.poses]))
+    R = rotation(np.array([pose.rvec for pose in calibration.poses]))
     T = np.array([pose.tvec for pose in calibration.poses])
     middle = np.array([(view.xy.min(axis=0) + view.xy.max(axis=0)) / 2 for view in observations])
     normal = R[:, :, 2]
@@ -62,10 +63,10 @@ def attitudes(calibration: Calibration, observations: Sequence[Observation]) -> 
     )
 
 
-def plate_extent(result: Result) -> Extent:
+def board_extent_px(result: Result) -> Extent:
     """The part of the plate that the views are about: the board's squares, or else its corners."""
-    if result.target is not None:
-        return board_extent(result.target)
+    if result.board is not None:
+        return board_extent(result.board)
     xy = np.concatenate([view.xy for view in result.observations()])
     low, high = xy.min(axis=0), xy.max(axis=0)
     return float(low[0]), float(low[1]), float(high[0]), float(high[1])

@@ -15,17 +15,14 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.ticker import MaxNLocator
 
-from calibgui.engine import frames
-from calibgui.engine.estimation import cosines
-from calibgui.engine.imaging import maps
-from calibgui.engine.imaging.sampling import mesh
-from calibgui.engine.quality.statistics import (
-    Histogram,
-    component_histogram,
-    length_histogram,
-    stacked,
-)
-from calibgui.engine.types import Array, Calibration, Camera, Corners, Iteration, Plate, StageOne
+from calibgui.engine.arrays import Array
+from calibgui.engine.assessment import Histogram, component_histogram, length_histogram, stacked
+from calibgui.engine.boards import BoardShape
+from calibgui.engine.calibration import Calibration, Iteration, StageOne, cosines_equation
+from calibgui.engine.camera import Camera, Part, displacement
+from calibgui.engine.detection import Corners
+from calibgui.engine.geometry import centre_of_array
+from calibgui.engine.images import mesh
 
 Picture = npt.NDArray[np.generic]
 """(h, w) grey or (h, w, 3) colour image of any sample type."""
@@ -39,11 +36,11 @@ def _single(height: float = 4.2) -> tuple[Figure, Axes]:
     return figure, figure.subplots()
 
 
-def cosines_equation(stage_one: StageOne, view: int, literal: bool) -> Figure:
+def draw_cosines_equation(stage_one: StageOne, view: int, literal: bool) -> Figure:
     """Figure 4: g(r) of one view (counted from 1) with its root."""
     figure, axes = _single()
     axes.axhline(0, color="0.7", linewidth=0.8)
-    axes.plot(_SEARCHED, cosines.cosines_equation(stage_one.backward, _SEARCHED, literal))
+    axes.plot(_SEARCHED, cosines_equation(stage_one.backward, _SEARCHED, literal))
     root = stage_one.aspect
     if np.isfinite(root):
         axes.plot(root, 0, "o", color="tab:red", fillstyle="none", label=f"$r_0$ = {root:.4f}")
@@ -106,20 +103,20 @@ def distortion(camera: Camera) -> Figure:
     u, v = np.linspace(0, w - 1, 161), np.linspace(0, h - 1, 121)
     uv = mesh(u, v)
     sparse = uv[10:-1:20, 10:-1:20]
-    for axes, part, letter in zip(figure.subplots(1, 3), maps.Part, "abc", strict=True):
-        length = maps.displacement(uv, camera, part).length
+    for axes, part, letter in zip(figure.subplots(1, 3), Part, "abc", strict=True):
+        length = displacement(uv, camera, part).length
         shown = axes.imshow(length, extent=(-0.5, w - 0.5, h - 0.5, -0.5), cmap="gray")
         if np.ptp(length) > 0:
             levels = axes.contour(u, v, length, colors="tab:blue", linewidths=0.6)
             axes.clabel(levels, fontsize=7)
-        gradient = maps.displacement(sparse, camera, part).gradient
+        gradient = displacement(sparse, camera, part).gradient
         axes.quiver(
             *np.moveaxis(sparse, -1, 0),
             *np.moveaxis(gradient, -1, 0),
             angles="xy",
             color="tab:green",
         )
-        axes.plot(*frames.centre_of_array(camera.size), "+", color="yellow", markersize=12)
+        axes.plot(*centre_of_array(camera.size), "+", color="yellow", markersize=12)
         axes.plot(*camera.centre, "x", color="red", markersize=9)
         axes.set(title=f"({letter}) {part}", xlabel="u, px", ylabel="v, px")
         figure.colorbar(shown, ax=axes, label="displacement d, px", shrink=0.75)
@@ -185,10 +182,10 @@ def extrinsic_errors(errors: Array) -> Figure:
     return figure
 
 
-def plate_deviations(plate: Plate) -> Figure:
+def board_shape_deviations(board_shape: BoardShape) -> Figure:
     """Where the corners of an estimated plate are: arrows in the plane, colour out of it."""
     figure, axes = _single(5.2)
-    d, places = plate.deviation, plate.nominal
+    d, places = board_shape.deviation, board_shape.nominal
     reach = float(np.abs(d[:, 2]).max()) or 1.0
     x, y = places.T
     dots = axes.scatter(x, y, c=d[:, 2], cmap="coolwarm", vmin=-reach, vmax=reach, s=36)
@@ -199,7 +196,7 @@ def plate_deviations(plate: Plate) -> Figure:
     axes.set(aspect="equal", xlabel="X on the plate, mm", ylabel="Y on the plate, mm")
     axes.margins(0.12)
     axes.invert_yaxis()
-    axes.set_title(f"{plate.model} plate, {plate.rms:.2g} mm rms", loc="left")
+    axes.set_title(f"{board_shape.model} plate, {board_shape.rms:.2g} mm rms", loc="left")
     figure.colorbar(dots, label="out of the plane, away from the camera, mm", shrink=0.8)
     return figure
 

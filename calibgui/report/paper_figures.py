@@ -4,11 +4,9 @@ from __future__ import annotations
 
 from matplotlib.figure import Figure
 
-from calibgui.engine.images import read_image
-from calibgui.engine.imaging.render import render
-from calibgui.engine.imaging.undistort import board_extent, rectify_image, undistort_image
-from calibgui.engine.types import Array
-from calibgui.formats.result import Result
+from calibgui.dataset.result import Result
+from calibgui.engine.arrays import Array
+from calibgui.engine.images import board_extent, read_image, rectify_image, render, undistort_image
 from calibgui.report import figures
 from calibgui.report.printed import SHOWN_VIEW
 
@@ -29,15 +27,15 @@ def paper_figures(real: Result, synthetic: Result, errors: Array) -> dict[str, F
     a, b = real.calibration, synthetic.calibration
     shown = min(SHOWN_VIEW, len(a.poses)) - 1
     view, pose, row = real.used[shown], a.poses[shown], a.stage_one[shown]
-    if view.corners is None or real.target is None:
+    if view.corners is None or real.board is None:
         raise ValueError("the paper's figures need corners found on a checkerboard")
     photograph = read_image(view.image).pixels
-    rendered = render(a.camera, pose, real.target)
-    extent = board_extent(real.target)
+    rendered = render(a.camera, pose, real.board)
+    extent = board_extent(real.board)
     undistorted = undistort_image(photograph, a.camera).image
     rectified = rectify_image(photograph, a.camera, pose, extent, a.reference_scale).image
     return {
-        f"Figure 4: the cosines' equation of view {shown + 1}": figures.cosines_equation(
+        f"Figure 4: the cosines' equation of view {shown + 1}": figures.draw_cosines_equation(
             row, shown + 1, literal=True
         ),
         "Figure 5: pixel aspect ratio from each view": figures.aspect_ratios(a.stage_one),

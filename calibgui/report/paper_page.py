@@ -7,10 +7,10 @@ from html import escape
 
 import numpy as np
 
-from calibgui.engine.estimation.uncertainty import paper_table
-from calibgui.engine.frames import PAPER_NAMES
-from calibgui.engine.quality.statistics import summarise
-from calibgui.engine.types import Array, Calibration
+from calibgui.engine.arrays import Array
+from calibgui.engine.assessment import summarise
+from calibgui.engine.calibration import Calibration, paper_table
+from calibgui.engine.geometry import PAPER_NAMES
 from calibgui.report import printed
 
 _UNITS = ("px", "px", "px⁻²", "px⁻⁴", "px⁻⁶", "px⁻¹", "px⁻¹", "px⁻²", "px", "px")

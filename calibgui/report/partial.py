@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from calibgui.engine.types import Calibration, Diagnosis
+from calibgui.engine.calibration import Calibration, Diagnosis
 from calibgui.report.numbers import with_sigma
 
 

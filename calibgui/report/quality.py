@@ -7,13 +7,15 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from calibgui.engine.quality.difference import Difference
-from calibgui.engine.quality.next_view import NextView
-from calibgui.engine.quality.noise import NoiseReport
-from calibgui.engine.quality.projection_uncertainty import ProjectionUncertainty
-from calibgui.engine.quality.validation import Bootstrap, CrossValidation, PlateChoice
-from calibgui.engine.quality.view_count import QUANTITIES, ViewCount
-from calibgui.engine.types import Calibration
+from calibgui.engine.assessment import (
+    BoardShapeChoice,
+    Bootstrap,
+    CrossValidation,
+    Difference,
+    NoiseReport,
+)
+from calibgui.engine.calibration import Calibration
+from calibgui.engine.uncertainty import QUANTITIES, NextView, ProjectionUncertainty, ViewCount
 from calibgui.report.numbers import counted
 from calibgui.report.tables import aligned, bullet
 
@@ -64,7 +66,7 @@ def validation(found: CrossValidation) -> str:
     return "Cross-validation over the views\n" + aligned([head, *rows])
 
 
-def plates(choice: PlateChoice) -> str:
+def board_shapes(choice: BoardShapeChoice) -> str:
     """The plate models by their error on unseen views, and the recommendation."""
     rows = [
         [model, f"{found.training:.4f}", f"{found.held_out:.4f}"]

@@ -10,11 +10,10 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.ticker import FuncFormatter, MaxNLocator
 
-from calibgui.engine.quality.difference import Difference
-from calibgui.engine.quality.next_view import NextView
-from calibgui.engine.quality.projection_uncertainty import ProjectionUncertainty
-from calibgui.engine.quality.view_count import QUANTITIES, ViewCount
-from calibgui.engine.types import Array, Observation, Size
+from calibgui.engine.arrays import Array, Size
+from calibgui.engine.assessment import Difference
+from calibgui.engine.calibration import Observation
+from calibgui.engine.uncertainty import QUANTITIES, NextView, ProjectionUncertainty, ViewCount
 from calibgui.report.quality import where
 
 _WIDTH = 6.4

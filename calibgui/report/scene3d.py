@@ -18,10 +18,11 @@ from enum import StrEnum
 
 import numpy as np
 
-from calibgui.engine import frames
-from calibgui.engine.types import Array, Camera, Pose, freeze
-from calibgui.formats.result import Result
-from calibgui.report.coverage import plate_extent
+from calibgui.dataset.result import Result
+from calibgui.engine.arrays import Array, freeze
+from calibgui.engine.camera import Camera
+from calibgui.engine.geometry import Pose, rotation
+from calibgui.report.coverage import board_extent_px
 
 _DISTANCE = 3.0
 """Of the observer from the middle, in radii of the scene."""
@@ -66,12 +67,12 @@ def scene(result: Result, centre: Centre) -> tuple[Polygon, ...]:
     if centre is Centre.CAMERA:
         shared = [Polygon(face, Kind.CAMERA, -1) for face in body]
         placed = [
-            Polygon(_cam_from_plate(outline, pose), Kind.BOARD, k) for k, pose in enumerate(poses)
+            Polygon(_cam_from_board(outline, pose), Kind.BOARD, k) for k, pose in enumerate(poses)
         ]
     else:
         shared = [Polygon(outline, Kind.BOARD, -1)]
         placed = [
-            Polygon(_plate_from_cam(face, pose), Kind.CAMERA, k)
+            Polygon(_board_from_cam(face, pose), Kind.CAMERA, k)
             for k, pose in enumerate(poses)
             for face in body
         ]
@@ -135,7 +136,7 @@ def fitted(polygons: Sequence[Polygon], observer: Observer) -> Observer:
 def project(points: Array, observer: Observer) -> tuple[Array, Array]:
     """(n, 2) on the drawing plane and (n,) depth of points (n, 3) in radii from the middle."""
     a, e = observer.azimuth, observer.elevation
-    turn = frames.rotation(np.array([e, 0.0, 0.0])) @ frames.rotation(np.array([0.0, a, 0.0]))
+    turn = rotation(np.array([e, 0.0, 0.0])) @ rotation(np.array([0.0, a, 0.0]))
     p = points @ turn.T + np.array([0.0, 0.0, _DISTANCE])
     # A sphere of radius 1 at this distance is seen under asin(1 / distance).
     scale = observer.zoom * np.sqrt(_DISTANCE**2 - 1)
@@ -160,7 +161,7 @@ def _contains(outline: Array, point: Array) -> bool:
 
 def _board_outline(result: Result) -> Array:
     """(4, 3) corners of the board with its outer squares, from the origin's side round, mm."""
-    x0, y0, x1, y1 = plate_extent(result)
+    x0, y0, x1, y1 = board_extent_px(result)
     return np.array([[x0, y0, 0.0], [x1, y0, 0.0], [x1, y1, 0.0], [x0, y1, 0.0]])
 
 
@@ -174,9 +175,9 @@ def _camera_faces(camera: Camera, length: float) -> list[Array]:
     return [base, *(np.array([apex, base[i], base[(i + 1) % 4]]) for i in range(4))]
 
 
-def _cam_from_plate(points: Array, pose: Pose) -> Array:
-    return np.asarray(points @ frames.rotation(pose.rvec).T + pose.tvec)
+def _cam_from_board(points: Array, pose: Pose) -> Array:
+    return np.asarray(points @ rotation(pose.rvec).T + pose.tvec)
 
 
-def _plate_from_cam(points: Array, pose: Pose) -> Array:
-    return np.asarray((points - pose.tvec) @ frames.rotation(pose.rvec))
+def _board_from_cam(points: Array, pose: Pose) -> Array:
+    return np.asarray((points - pose.tvec) @ rotation(pose.rvec))

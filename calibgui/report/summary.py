@@ -14,11 +14,10 @@ from itertools import combinations
 
 import numpy as np
 
-from calibgui.engine.estimation.degeneracy import in_one_spot
-from calibgui.engine.estimation.uncertainty import correlations
-from calibgui.engine.quality.statistics import summarise
-from calibgui.engine.types import Calibration, Plate, Status
-from calibgui.formats.result import Result
+from calibgui.dataset.result import Result
+from calibgui.engine.assessment import summarise
+from calibgui.engine.boards import BoardShape
+from calibgui.engine.calibration import Calibration, Status, correlations, in_one_spot
 from calibgui.report import advice, partial
 from calibgui.report.numbers import counted, with_sigma
 from calibgui.report.words import short_name
@@ -63,7 +62,7 @@ def summary(result: Result) -> tuple[Sentence, ...]:
             _basis,
             _diagnosed,
             _ending,
-            _plate,
+            _board_shape,
             _fit,
             _determined,
             _correlated,
@@ -119,20 +118,20 @@ def _ending(result: Result) -> Iterator[Sentence]:
         yield Sentence(Tone.CAUTION, warning)
 
 
-def about_plate(plate: Plate) -> str:
+def about_board_shape(board_shape: BoardShape) -> str:
     """How far the board is from its drawing."""
-    across, along, out = np.sqrt(np.mean(plate.deviation**2, axis=0))
+    across, along, out = np.sqrt(np.mean(board_shape.deviation**2, axis=0))
     text = (
-        f"The board deviates from its drawing by {plate.rms:.2g} mm (rms): {across:.2g} mm "
+        f"The board deviates from its drawing by {board_shape.rms:.2g} mm (rms): {across:.2g} mm "
         f"along its rows, {along:.2g} mm along its columns and {out:.2g} mm out of its plane."
     )
-    chance = float(np.sqrt(np.mean(np.sum(plate.sigma**2, axis=1))))
-    if plate.rms < _BY_CHANCE * chance:
+    chance = float(np.sqrt(np.mean(np.sum(board_shape.sigma**2, axis=1))))
+    if board_shape.rms < _BY_CHANCE * chance:
         text += f" Noise alone makes as much ({chance:.2g} mm): it may well be as drawn."
     return text
 
 
-def about_plate_doubt(doubt: float) -> str:
+def about_board_shape_error(doubt: float) -> str:
     """That the residuals of a nominal plate suspect it of deviations of `doubt` mm rms."""
     return (
         f"The residuals are not noise: over the views the board's corners are off by "
@@ -150,13 +149,13 @@ def about_view_scatter(scatter: float) -> str:
     )
 
 
-def _plate(result: Result) -> Iterator[Sentence]:
+def _board_shape(result: Result) -> Iterator[Sentence]:
     """What is known, or suspected, of the board's shape, and whether the views agree."""
-    plate, doubt = result.calibration.plate, result.calibration.plate_doubt
+    board_shape, doubt = result.calibration.board_shape, result.calibration.board_shape_error
     if doubt > 0:
-        yield Sentence(Tone.CAUTION, about_plate_doubt(doubt))
-    if plate is not None:
-        yield Sentence(Tone.FACT, about_plate(plate))
+        yield Sentence(Tone.CAUTION, about_board_shape_error(doubt))
+    if board_shape is not None:
+        yield Sentence(Tone.FACT, about_board_shape(board_shape))
     if (scatter := result.calibration.view_scatter) > 0:
         tone = Tone.CAUTION if scatter > _STRIKING else Tone.FACT
         yield Sentence(tone, about_view_scatter(scatter))
@@ -168,8 +167,8 @@ def _fit(result: Result) -> Iterator[Sentence]:
     unknowns = int(np.count_nonzero(calibration.sigma)) + 6 * len(calibration.poses)
     if calibration.diagnosis is not None:
         unknowns -= len(calibration.diagnosis.assumed)
-    if calibration.plate is not None:
-        unknowns += int(np.count_nonzero(calibration.plate.sigma))
+    if calibration.board_shape is not None:
+        unknowns += int(np.count_nonzero(calibration.board_shape.sigma))
     yield Sentence(
         Tone.FACT,
         f"Corners scatter about the fitted camera with σ = {fit.sigma_x:.3f} px across and "
@@ -212,7 +211,7 @@ def _determined(result: Result) -> Iterator[Sentence]:
             f"Badly determined: {listed(poor)} px. "
             + (
                 "Estimate the plate."
-                if calibration.plate_doubt > 0
+                if calibration.board_shape_error > 0
                 else "Add views with the board tilted by 30 to 45 degrees in different directions."
             ),
         )
@@ -224,7 +223,7 @@ def _determined(result: Result) -> Iterator[Sentence]:
             f"Not told from zero: {listed(vague)}. They may be held at 0; to measure them, "
             + (
                 "estimate the plate."
-                if calibration.plate_doubt > 0
+                if calibration.board_shape_error > 0
                 else "bring corners closer to the image's edges."
             ),
         )
@@ -269,7 +268,7 @@ def _advice(result: Result) -> Iterator[Sentence]:
     wanted = advice.wanted(result)
     for text in wanted:
         yield Sentence(Tone.ADVICE, f"To improve it, {text}.")
-    if not wanted and result.calibration.plate_doubt == 0:
+    if not wanted and result.calibration.board_shape_error == 0:
         yield Sentence(
             Tone.GOOD,
             "The views cover sensor, tilts and distances; four times as many of the same kind "

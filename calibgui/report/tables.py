@@ -13,12 +13,13 @@ from pathlib import PurePath
 
 import numpy as np
 
-from calibgui.engine.estimation import uncertainty
-from calibgui.engine.frames import PAPER_NAMES
-from calibgui.engine.lens import MODELS, Lucchese
-from calibgui.engine.quality.statistics import summarise
-from calibgui.engine.types import Ambiguity, Calibration, Cost, View, ViewStatus
-from calibgui.formats.result import Result
+from calibgui.dataset.result import Result
+from calibgui.dataset.view import View, ViewStatus
+from calibgui.engine.assessment import summarise
+from calibgui.engine.boards import Ambiguity
+from calibgui.engine.calibration import Calibration, Cost, paper_table
+from calibgui.engine.camera import MODELS, Lucchese
+from calibgui.engine.geometry import PAPER_NAMES
 from calibgui.report.coverage import attitudes
 from calibgui.report.numbers import counted, with_sigma
 from calibgui.report.summary import summary
@@ -121,7 +122,7 @@ def intrinsics(calibration: Calibration) -> str:
         return f"{title}\n" + aligned([["", "array frame", ""], *left], left=(0, 1, 2))
     # The paper's values beside those of the same meaning.
     order = [PAPER_NAMES.index({"cx": "xp", "cy": "yp"}.get(name, name)) for name in names]
-    values, sigma, printed = uncertainty.paper_table(calibration)
+    values, sigma, printed = paper_table(calibration)
     right = [
         [
             PAPER_NAMES[i],

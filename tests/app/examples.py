@@ -11,11 +11,14 @@ import numpy as np
 from calibgui.app.calibration import calibrate_views
 from calibgui.app.project import Project, with_result
 from calibgui.app.settings import Settings
-from calibgui.engine.types import Camera, Corners, Target, View, ViewStatus
-from calibgui.formats.corners_json import CornerSet
+from calibgui.dataset.corner_set import CornerSet
+from calibgui.dataset.view import View, ViewStatus
+from calibgui.engine.boards.board import Board
+from calibgui.engine.camera.camera import Camera
+from calibgui.engine.detection.corners import Corners
 from tests.engine import scenes
 
-BOARD = Target(rows=6, cols=7, square=30.0)
+BOARD = Board(rows=6, cols=7, square=30.0)
 CAMERA = Camera((200, 150), [200.0, 204.0, 97.0, 76.0, 0.2, 0.05, 0.0, 1e-3, -1e-3, 0.0])
 
 
@@ -38,7 +41,7 @@ def calibrated(folder: Path) -> Project:
     """A project of those views with two results."""
     project = Project(views=views(folder), size=CAMERA.size)
     for name, fixed in (("Calibration 1", {}), ("k3 held", {"k3": None})):
-        corner_set = CornerSet(CAMERA.size, project.views, project.target)
+        corner_set = CornerSet(CAMERA.size, project.views, project.board)
         result = calibrate_views(corner_set, Settings(fixed=fixed))
         project = with_result(project, name, result)
     settings = replace(project.settings, fixed={"k3": None})

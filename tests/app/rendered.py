@@ -6,15 +6,19 @@ import numpy as np
 from scipy.spatial.transform import Rotation
 
 from calibgui import engine
-from calibgui.engine.types import Camera, Corners, Pose, Target, View, ViewStatus
-from calibgui.formats.result import Result
+from calibgui.dataset.result import Result
+from calibgui.dataset.view import View, ViewStatus
+from calibgui.engine.boards.board import Board
+from calibgui.engine.camera.camera import Camera
+from calibgui.engine.detection.corners import Corners
+from calibgui.engine.geometry.pose import Pose
 from tests.engine import scenes
 
-BOARD = Target(rows=6, cols=7, square=30.0)
+BOARD = Board(rows=6, cols=7, square=30.0)
 CAMERA = Camera((200, 150), [200.0, 204.0, 97.0, 76.0, 0.2, 0.05, 0.0, 1e-3, -1e-3, 0.0])
 
 
-def small_result(board: Target = BOARD, turned: bool = False) -> Result:
+def small_result(board: Board = BOARD, turned: bool = False) -> Result:
     """Five small views of which the second has lost corners, after an image without a board.
 
     `turned` holds the board upside down.
@@ -35,7 +39,7 @@ def small_result(board: Target = BOARD, turned: bool = False) -> Result:
     return Result(calibration, tuple(views), board)
 
 
-def _turned(pose: Pose, board: Target) -> Pose:
+def _turned(pose: Pose, board: Board) -> Pose:
     """The pose with the board turned by half about its middle."""
     R = Rotation.from_rotvec(np.array(pose.rvec))
     farthest = np.array([board.cols - 1, board.rows - 1, 0]) * board.square

@@ -11,13 +11,16 @@ from calibgui.app.calibration import calibrate_views, short_names
 from calibgui.app.detection import find_views
 from calibgui.app.resources import resource, sample_square
 from calibgui.app.settings import Settings
-from calibgui.engine import CalibrationError, Cancelled, Iteration, Observation, View, ViewStatus
-from calibgui.engine.calibrate import calibrate
-from calibgui.engine.estimation.projection import pixels
-from calibgui.engine.frames import rotation
-from calibgui.engine.quality.noise import examine
-from calibgui.engine.types import Array, Cost, Status
-from calibgui.formats.corners_json import CornerSet
+from calibgui.dataset.corner_set import CornerSet
+from calibgui.dataset.view import View, ViewStatus
+from calibgui.engine.arrays import Array
+from calibgui.engine.assessment.noise_test import examine
+from calibgui.engine.calibration.calibrate import calibrate
+from calibgui.engine.calibration.observations import Observation
+from calibgui.engine.calibration.result import Cost, Iteration, Status
+from calibgui.engine.camera.projection import pixels
+from calibgui.engine.errors import CalibrationError, Cancelled
+from calibgui.engine.geometry.rotations import rotation
 from tests.engine import scenes
 from tests.photographs import BOARD, CAMERA, poses
 
@@ -73,13 +76,15 @@ def test_names_are_short_where_that_is_enough() -> None:
     assert short_names([View("a/1.png"), View("b/1.png")]) == ["a/1.png", "b/1.png"]
 
 
-def noisy(plate: Array | None = None) -> CornerSet:
+def noisy(board_shape: Array | None = None) -> CornerSet:
     """Twelve views with 0.05 px of noise, of a board with deviations (n, 3) mm."""
     rng = np.random.default_rng(4)
     views = []
     for k, pose in enumerate(poses() + poses()[:4]):
         xy = BOARD.points()
-        point = np.column_stack([xy, np.zeros(len(xy))]) + (0 if plate is None else plate)
+        point = np.column_stack([xy, np.zeros(len(xy))]) + (
+            0 if board_shape is None else board_shape
+        )
         seen = point @ rotation(pose.rvec).T + pose.tvec
         uv = pixels(seen[:, :2] / seen[:, 2:], CAMERA) + rng.normal(0, 0.05, xy.shape)
         views.append(View(f"{k}.png", ViewStatus.FOUND, points=Observation(uv, xy)))
@@ -143,10 +148,10 @@ def test_of_few_views_none_is_left_out_or_weighed_and_that_is_kept() -> None:
 def test_the_best_plate_is_chosen_and_said() -> None:
     bow = 0.004 * (BOARD.points()[:, 0] - BOARD.points()[:, 0].mean()) ** 2
     bent = np.column_stack([np.zeros((len(bow), 2)), bow / 5])
-    result = calibrate_views(noisy(bent), Settings(plate=None))
-    assert result.calibration.plate is not None
+    result = calibrate_views(noisy(bent), Settings(board_shape=None))
+    assert result.calibration.board_shape is not None
     assert "unseen views" in result.calibration.warnings[0]
-    assert calibrate_views(noisy(), Settings(plate=None)).calibration.plate is None
+    assert calibrate_views(noisy(), Settings(board_shape=None)).calibration.board_shape is None
 
 
 @pytest.mark.slow
@@ -167,9 +172,9 @@ def test_the_comparison_of_plates_can_be_stopped_or_cancelled() -> None:
         told.append(iteration)
         return len(told) < 8
 
-    result = calibrate_views(noisy(), Settings(plate=None), stop)
+    result = calibrate_views(noisy(), Settings(board_shape=None), stop)
     assert result.calibration.status is Status.STOPPED
-    assert result.calibration.plate is None
+    assert result.calibration.board_shape is None
     assert "was stopped" in result.calibration.warnings[0]
     assert len(told) < 12
 
@@ -177,4 +182,4 @@ def test_the_comparison_of_plates_can_be_stopped_or_cancelled() -> None:
         raise Cancelled
 
     with pytest.raises(Cancelled):
-        calibrate_views(noisy(), Settings(plate=None), cancel)
+        calibrate_views(noisy(), Settings(board_shape=None), cancel)

@@ -9,13 +9,16 @@ from threading import Event
 import numpy as np
 import pytest
 
-from calibgui.app import detection
+from calibgui.app import detection, workers
 from calibgui.app.detection import Detection, find_views, search_view, usual_board
 from calibgui.app.paths import find_images
-from calibgui.engine import Ambiguity, CalibrationError, Cancelled, Corners, View, ViewStatus
-from calibgui.engine.images import read_image, write_image
-from calibgui.engine.imaging.maps import project_points
-from calibgui.engine.types import frozen
+from calibgui.dataset.view import View, ViewStatus
+from calibgui.engine.arrays import freeze_array
+from calibgui.engine.boards.pattern import Ambiguity
+from calibgui.engine.camera.distortion import project_points
+from calibgui.engine.detection.corners import Corners
+from calibgui.engine.errors import CalibrationError, Cancelled
+from calibgui.engine.images.reading import read_image, write_image
 from tests.photographs import BOARD, CAMERA, COUNT, poses
 
 
@@ -69,7 +72,7 @@ def test_a_bad_image_is_named_with_the_reason(
 
 
 def test_the_board_is_inferred_and_its_corners_are_right(found: Detection) -> None:
-    assert found.board == (BOARD.rows, BOARD.cols)
+    assert found.grid_size == (BOARD.rows, BOARD.cols)
     views = {Path(view.image).stem: view for view in found.views}
     for number, pose in enumerate(poses(), start=1):
         view = views[f"view{number}"]
@@ -111,7 +114,7 @@ def test_a_region_shows_which_of_two_boards_is_meant(photographs: Path, tmp_path
     width = CAMERA.size[0]
     corners = project_points(BOARD.points(), CAMERA, poses()[1]).reshape(BOARD.rows, BOARD.cols, 2)
     region = corners[[0, 0, -1, -1], [0, -1, -1, 0]] + [width, 0]
-    view = search_view(View(str(tmp_path / "two.png"), roi=frozen(region)), (6, 7))
+    view = search_view(View(str(tmp_path / "two.png"), roi=freeze_array(region)), (6, 7))
     assert view.corners is not None
     assert (view.corners.uv[:, 0] > width).all()
 
@@ -140,19 +143,19 @@ def test_a_partly_seen_board_is_counted_on_the_usual_one(photographs: Path, tmp_
     write_image(tmp_path / "view1.png", moved)
     found = find_views(find_images([str(tmp_path)]))
     view = found.views[0]
-    assert found.board == (6, 7)
+    assert found.grid_size == (6, 7)
     assert view.corners is not None
     assert view.corners.shape == (6, 7) and not view.corners.complete
 
 
 def test_a_crash_is_the_images_own(photographs: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     def spread(_: object, items: list[View], *__: object) -> list[tuple[int, object]]:
-        return [(k, detection.Crashed()) for k in range(len(items))]
+        return [(k, workers.Crashed()) for k in range(len(items))]
 
     monkeypatch.setattr(detection, "spread", spread)
     found = find_views(find_images([str(photographs)]))
     assert {view.status for view in found.views} == {ViewStatus.UNREADABLE}
-    assert found.board is None
+    assert found.grid_size is None
 
 
 def test_no_readable_image_is_an_error(tmp_path: Path) -> None:

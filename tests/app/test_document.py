@@ -27,7 +27,6 @@ from hypothesis.stateful import (
 from calibgui.app.document import Document
 from calibgui.app.project import (
     Project,
-    Settings,
     Unit,
     free_name,
     renamed_result,
@@ -38,7 +37,10 @@ from calibgui.app.project import (
     without_views,
 )
 from calibgui.app.project_file import project_record, read_project, write_project
-from calibgui.engine.types import Cost, PlateModel, Prior, View, ViewStatus
+from calibgui.app.settings import Settings
+from calibgui.dataset.view import View, ViewStatus
+from calibgui.engine.boards.shape import BoardShapeModel, BoardShapePrior
+from calibgui.engine.calibration.result import Cost
 from tests.app import examples
 
 _FOLDER = Path(tempfile.gettempdir()) / "calibgui images"
@@ -125,26 +127,26 @@ class Editing(RuleBasedStateMachine):
     def slide_square(self, square: float, unit: Unit) -> None:
         self.edit("Square", lambda p: replace(p, square=square, unit=unit), sliding=True)
 
-    @rule(board=st.none() | st.tuples(st.integers(3, 20), st.integers(3, 20)))
-    def state_board(self, board: tuple[int, int] | None) -> None:
-        self.edit("Board", lambda p: replace(p, board=board))
+    @rule(grid_size=st.none() | st.tuples(st.integers(3, 20), st.integers(3, 20)))
+    def state_board(self, grid_size: tuple[int, int] | None) -> None:
+        self.edit("Board", lambda p: replace(p, grid_size=grid_size))
 
     @rule(
         cost=st.sampled_from(Cost),
         fixed=st.dictionaries(st.sampled_from(["k2", "k3", "p1"]), st.none() | st.floats(-1, 1)),
-        plate=st.none() | st.sampled_from(PlateModel),
-        prior=st.none() | st.builds(Prior, st.floats(0.01, 1.0), st.floats(0.01, 1.0)),
+        board_shape=st.none() | st.sampled_from(BoardShapeModel),
+        prior=st.none() | st.builds(BoardShapePrior, st.floats(0.01, 1.0), st.floats(0.01, 1.0)),
         flags=st.tuples(*[st.booleans()] * 3),
     )
     def change_settings(
         self,
         cost: Cost,
         fixed: dict[str, float | None],
-        plate: PlateModel | None,
-        prior: Prior | None,
+        board_shape: BoardShapeModel | None,
+        prior: BoardShapePrior | None,
         flags: tuple[bool, bool, bool],
     ) -> None:
-        settings = Settings(cost, fixed, (), plate, prior, *flags)
+        settings = Settings(cost, fixed, (), board_shape, prior, *flags)
         self.edit("Settings", lambda p: replace(p, settings=settings))
 
     @rule(which=st.sampled_from(["Calibration 1", "k3 held"]))

@@ -8,7 +8,7 @@ import pytest
 
 from calibgui.app.image_store import ImageStore, read_thumbnail
 from calibgui.engine.errors import CalibrationError
-from calibgui.engine.images import write_image
+from calibgui.engine.images.reading import write_image
 
 
 def test_a_thumbnail_tells_size_and_digest(tmp_path: Path) -> None:

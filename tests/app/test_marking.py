@@ -8,14 +8,17 @@ import numpy as np
 import pytest
 
 from calibgui.app import marking
-from calibgui.engine.corners import find_corners
+from calibgui.engine.arrays import Array
+from calibgui.engine.boards.board import Board
+from calibgui.engine.boards.circle_grid import Circles
+from calibgui.engine.camera.camera import Camera
+from calibgui.engine.detection.corners import Corners
+from calibgui.engine.detection.find_corners import find_corners
 from calibgui.engine.errors import CalibrationError, NoBoardError
-from calibgui.engine.imaging.render import render
-from calibgui.engine.targets.circles import Circles
-from calibgui.engine.types import Array, Camera, Corners, Target
+from calibgui.engine.images.rendering import render
 from tests.engine import scenes
 
-BOARD = Target(6, 7, 30.0)
+BOARD = Board(6, 7, 30.0)
 CAMERA = Camera((320, 240), [320.0, 322.0, 157.0, 121.0, 0.1, 0.02, 0.0, 0.0, 0.0, 0.0])
 
 

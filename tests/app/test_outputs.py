@@ -9,8 +9,8 @@ import pytest
 from matplotlib.figure import Figure
 
 from calibgui.app.outputs import check_outputs, check_writable, make_folder, save_figure
-from calibgui.engine import CalibrationError
-from calibgui.engine.images import image_size
+from calibgui.engine.errors import CalibrationError
+from calibgui.engine.images.reading import image_size
 
 
 def test_a_file_in_an_existing_folder_is_fine(tmp_path: Path) -> None:

@@ -15,10 +15,12 @@ from calibgui.app.calibration import calibrate_views
 from calibgui.app.detection import find_views
 from calibgui.app.settings import Settings
 from calibgui.app.synthetic import synthetic_check
-from calibgui.engine.estimation.uncertainty import paper_table
-from calibgui.engine.types import Array, Cost, Target
-from calibgui.formats.corners_json import CornerSet
-from calibgui.formats.result import Result
+from calibgui.dataset.corner_set import CornerSet
+from calibgui.dataset.result import Result
+from calibgui.engine.arrays import Array
+from calibgui.engine.boards.board import Board
+from calibgui.engine.calibration.covariances import paper_table
+from calibgui.engine.calibration.result import Cost
 
 pytestmark = [pytest.mark.data, pytest.mark.slow]
 
@@ -68,15 +70,15 @@ def from_stored(found: Found, stored: list[tuple[Array, Array]]) -> list[tuple[A
 
 
 def test_every_corner_has_its_place(found: Found, stored: list[tuple[Array, Array]]) -> None:
-    assert found.corners.target == Target(12, 13, 30.0)
+    assert found.corners.board == Board(12, 13, 30.0)
     assert all(view.corners is not None and view.corners.complete for view in found.corners.views)
     distance, nearest = zip(*from_stored(found, stored), strict=True)
     # What separates the methods is coma, see the next test; 7 px separate the nearest corners.
     assert np.max(distance) < {"edges": 1.25, "saddle": 1.0}[found.method]
     assert np.median(distance) < {"edges": 0.25, "saddle": 0.20}[found.method]
     # One numbering for all views: what our grid calls (m, n) is the same point of the plate.
-    plates = [xy[index] for (_, xy), index in zip(stored, nearest, strict=True)]
-    assert np.ptp(plates, axis=0).max() == 0
+    board_shapes = [xy[index] for (_, xy), index in zip(stored, nearest, strict=True)]
+    assert np.ptp(board_shapes, axis=0).max() == 0
 
 
 def test_the_corners_are_nearer_the_truth_than_the_stored_ones(
@@ -92,10 +94,10 @@ def test_the_corners_are_nearer_the_truth_than_the_stored_ones(
     """
     index = [nearest for _, nearest in from_stored(found, stored)]
     theirs = [(uv[k], xy[k]) for k, (uv, xy) in zip(index, stored, strict=True)]
-    ours = [view.observation(found.corners.target) for view in found.corners.views]
+    ours = [view.observation(found.corners.board) for view in found.corners.views]
     size = found.image_cost.calibration.camera.size
     left = [
-        np.array([view.rms for view in engine.calibrate(views, size, plate="free").residuals])
+        np.array([view.rms for view in engine.calibrate(views, size, board_shape="free").residuals])
         for views in ([(view.uv, view.xy) for view in ours], theirs)
     ]
     allowed = {"edges": 1.0, "saddle": 1.15}[found.method]

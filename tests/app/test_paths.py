@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 
 from calibgui.app.paths import find_images, natural_key
-from calibgui.engine import CalibrationError
+from calibgui.engine.errors import CalibrationError
 
 
 @pytest.fixture

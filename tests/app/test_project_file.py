@@ -13,8 +13,8 @@ from calibgui.app import project_file
 from calibgui.app.project import relocated
 from calibgui.app.project_file import read_project, write_project
 from calibgui.app.settings import Settings
+from calibgui.engine.boards.shape import BoardShape, BoardShapeModel, BoardShapePrior
 from calibgui.engine.errors import CalibrationError
-from calibgui.engine.types import Plate, PlateModel, Prior
 from tests.app import examples
 
 
@@ -33,10 +33,10 @@ def test_numbers_read_back_to_the_last_bit(tmp_path: Path) -> None:
             np.testing.assert_array_equal(
                 getattr(result.calibration, field), getattr(again.results[name].calibration, field)
             )
-    assert (again.size, again.settings, again.target) == (
+    assert (again.size, again.settings, again.board) == (
         project.size,
         project.settings,
-        project.target,
+        project.board,
     )
     assert again.digests == project.digests
 
@@ -119,26 +119,26 @@ def test_old_versions_are_brought_up_to_date_step_by_step(
 
 
 def test_the_board_as_known_is_kept(tmp_path: Path) -> None:
-    plate = Plate(
-        PlateModel.BOW,
+    board_shape = BoardShape(
+        BoardShapeModel.BOW,
         examples.BOARD.points(np.array([[0, 0], [0, 1]])),
         np.full((2, 3), 0.1),
         np.zeros((2, 3)),
     )
     project = examples.calibrated(tmp_path)
     for settings in (
-        Settings(plate=None, robust=True, weigh_views=True, once=True),
+        Settings(board_shape=None, robust=True, weigh_views=True, once=True),
         Settings(fixed={"k3": None, "fx": 650.25}, freed=("p3",)),
-        Settings(plate=PlateModel.FREE, prior=Prior(0.125, 0.3)),
-        Settings(plate=plate),
+        Settings(board_shape=BoardShapeModel.FREE, prior=BoardShapePrior(0.125, 0.3)),
+        Settings(board_shape=board_shape),
     ):
         write_project(replace(project, settings=settings), tmp_path / "project.json")
         again = read_project(tmp_path / "project.json").settings
-        if settings.plate is plate:
-            assert isinstance(again.plate, Plate)
-            np.testing.assert_array_equal(again.plate.deviation, plate.deviation)
-            np.testing.assert_array_equal(again.plate.nominal, plate.nominal)
-            again = replace(again, plate=plate)
+        if settings.board_shape is board_shape:
+            assert isinstance(again.board_shape, BoardShape)
+            np.testing.assert_array_equal(again.board_shape.deviation, board_shape.deviation)
+            np.testing.assert_array_equal(again.board_shape.nominal, board_shape.nominal)
+            again = replace(again, board_shape=board_shape)
         assert again == settings
 
 

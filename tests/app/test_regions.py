@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 
 from calibgui.app.regions import read_regions
-from calibgui.engine import CalibrationError
+from calibgui.engine.errors import CalibrationError
 
 QUAD = [[10, 10], [90, 12], [88, 70], [9, 75]]
 IMAGES = [Path("a/1.png"), Path("b/1.png"), Path("b/2.png")]

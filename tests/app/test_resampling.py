@@ -12,13 +12,15 @@ import pytest
 from calibgui.app.calibration import calibrate_views
 from calibgui.app.paths import find_images
 from calibgui.app.resampling import GEOMETRY, Written, rectify_files, undistort_files
-from calibgui.engine import CalibrationError, Cancelled, Corners, View, ViewStatus
-from calibgui.engine.corners import find_corners
-from calibgui.engine.images import read_image, write_image
-from calibgui.engine.imaging.maps import distort_points
-from calibgui.engine.imaging.undistort import FieldOfView
-from calibgui.formats.corners_json import CornerSet
-from calibgui.formats.result import Result
+from calibgui.dataset.corner_set import CornerSet
+from calibgui.dataset.result import Result
+from calibgui.dataset.view import View, ViewStatus
+from calibgui.engine.camera.distortion import distort_points
+from calibgui.engine.detection.corners import Corners
+from calibgui.engine.detection.find_corners import find_corners
+from calibgui.engine.errors import CalibrationError, Cancelled
+from calibgui.engine.images.reading import read_image, write_image
+from calibgui.engine.images.undistortion import FieldOfView
 from tests.engine import scenes
 from tests.photographs import BOARD, CAMERA, COUNT, poses
 

@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 from calibgui.app.resources import resource, sample_square
-from calibgui.engine import CalibrationError
+from calibgui.engine.errors import CalibrationError
 
 
 def test_a_resource_is_found_in_this_checkout() -> None:

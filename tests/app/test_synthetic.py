@@ -9,9 +9,11 @@ import pytest
 
 from calibgui import engine
 from calibgui.app.synthetic import SyntheticCheck, synthetic_check
+from calibgui.dataset.result import Result
+from calibgui.dataset.view import ViewStatus
+from calibgui.engine.boards.board import Board
 from calibgui.engine.errors import CalibrationError, Cancelled
-from calibgui.engine.types import Pose, Target, ViewStatus
-from calibgui.formats.result import Result
+from calibgui.engine.geometry.pose import Pose
 from tests.app.rendered import BOARD, small_result
 
 
@@ -54,7 +56,7 @@ def test_views_keep_their_names_and_corners(check: SyntheticCheck) -> None:
 @pytest.mark.parametrize("turned", [False, True])
 def test_corners_are_numbered_as_in_the_real_views(turned: bool) -> None:
     """A board of even sides looks the same upside down, so the finder may count either way."""
-    check = synthetic_check(small_result(Target(6, 8, 30.0), turned))
+    check = synthetic_check(small_result(Board(6, 8, 30.0), turned))
     real, synthetic = (
         np.array([pose.rvec for pose in result.calibration.poses])
         for result in (check.real, check.synthetic)

@@ -15,7 +15,7 @@ from types import ModuleType
 import pytest
 
 from calibgui.app.workers import Crashed, spread
-from calibgui.engine import Cancelled
+from calibgui.engine.errors import Cancelled
 
 
 def test_every_item_is_done_and_told_with_its_index() -> None:

@@ -28,7 +28,7 @@ class Camera:
         axis = np.array([np.cos(about), np.sin(about), 0.0]) * np.radians(conditions.tilt)
         tilt, _ = cv2.Rodrigues(axis)
         spin, _ = cv2.Rodrigues(np.array([0.0, 0.0, turn]))
-        rows, cols = conditions.board
+        rows, cols = conditions.grid_size
         origin = np.array([(cols - 1) / 2, (rows - 1) / 2, 0.0])
         shift = conditions.shift * rng.uniform(-1, 1, 2)
         R = tilt @ spin

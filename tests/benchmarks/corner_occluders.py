@@ -37,7 +37,7 @@ def _object(
     mask: NDArray[np.uint8], conditions: Conditions, camera: Camera, rng: np.random.Generator
 ) -> None:
     """A smooth blob of 1.2 to 2.2 squares' radius near the board's middle."""
-    rows, cols = conditions.board
+    rows, cols = conditions.grid_size
     x, y = np.array([cols - 1, rows - 1]) / 2 + rng.uniform(-1, 1, 2)
     angle = np.linspace(0, 2 * np.pi, 90, endpoint=False)
     radius = rng.uniform(1.2, 2.2) * (1 + 0.2 * np.sin(2 * angle) + 0.1 * np.cos(5 * angle + 1))
@@ -49,7 +49,7 @@ def _hand(
     mask: NDArray[np.uint8], conditions: Conditions, camera: Camera, rng: np.random.Generator
 ) -> None:
     """Four fingers that reach 1 to 2.5 squares of corners in from a side, and a palm outside."""
-    rows, cols = conditions.board
+    rows, cols = conditions.grid_size
     side = int(rng.integers(4))
     start = rng.uniform(0, (cols, rows)[side % 2] - 4)
     fingers = np.arange(4) * 0.9 + start
@@ -62,11 +62,11 @@ def _hand(
 
 
 def _from_side(
-    camera: Camera, side: int, along: float, depth: Array, board: tuple[int, int]
+    camera: Camera, side: int, along: float, depth: Array, grid_size: tuple[int, int]
 ) -> Array:
     """Positions (n, 2) px `depth` (n,) squares inside one of the board's four sides, straight on
     in the image as from 1 to 0."""
-    rows, cols = board
+    rows, cols = grid_size
     inside = np.array([0.0, 1.0])
     same = np.full(2, along)
     x, y = [

@@ -14,9 +14,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from calibgui.engine.corners import find_corners
+from calibgui.engine.detection.corners import Corners
+from calibgui.engine.detection.find_corners import find_corners
 from calibgui.engine.errors import NoBoardError
-from calibgui.engine.types import Corners
 from tests.benchmarks.corner_scenes import Conditions, Scene, draw
 
 Board = tuple[int, int]

@@ -33,7 +33,7 @@ Array = NDArray[np.float64]
 class Conditions:
     """What a photograph is taken of, and how. Angles in degrees, lengths in pixels."""
 
-    board: tuple[int, int] = (6, 9)
+    grid_size: tuple[int, int] = (6, 9)
     size: tuple[int, int] = (640, 480)
     square: float = 30.0
     """Side of a square at the board's centre."""
@@ -126,7 +126,7 @@ def draw(conditions: Conditions, seed: int) -> Scene:
     """A photograph's scene; the pose and what else is random follow from `seed`."""
     rng = np.random.default_rng(seed)
     camera = Camera(conditions, rng)
-    rows, cols = conditions.board
+    rows, cols = conditions.grid_size
     width, height = conditions.size
     parts = conditions.parts
     fine_u = (np.arange(width * parts) + 0.5) / parts - 0.5
@@ -158,7 +158,7 @@ def draw(conditions: Conditions, seed: int) -> Scene:
 
 def _paper(x: Array, y: Array, conditions: Conditions, rng: np.random.Generator) -> Array:
     """Reflectance of what each part of a pixel sees, 0 dark to 1 bright."""
-    rows, cols = conditions.board
+    rows, cols = conditions.grid_size
     valid = np.isfinite(x) & np.isfinite(y)
     with np.errstate(invalid="ignore"):
         ink = abs(conditions.ink)

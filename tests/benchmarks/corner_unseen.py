@@ -27,10 +27,10 @@ def conditions(seed: int) -> Conditions:
     rng = np.random.default_rng([seed, 11])
     size = _SIZES[rng.choice(len(_SIZES), p=_SHARES)]
     rows = int(rng.integers(4, 9))
-    board = (rows, rows + int(rng.integers(1, 5)))
+    grid_size = (rows, rows + int(rng.integers(1, 5)))
     tilt = float(rng.uniform(0, 70))
     narrow = np.cos(np.radians(tilt))
-    largest = 0.7 * size[1] / (board[1] + 1.5)
+    largest = 0.7 * size[1] / (grid_size[1] + 1.5)
     square = float(np.exp(rng.uniform(np.log(min(10 / narrow, largest)), np.log(largest))))
     lens: dict[str, Any] = [
         {},
@@ -39,7 +39,7 @@ def conditions(seed: int) -> Conditions:
         {"fisheye": True, "focal": rng.uniform(0.4, 0.8)},
     ][rng.integers(4)]
     return Conditions(
-        board=board,
+        grid_size=grid_size,
         size=size,
         square=square,
         tilt=tilt,

@@ -21,7 +21,7 @@ from typing import Any
 import cv2
 import numpy as np
 
-from calibgui.engine.corners import find_corners
+from calibgui.engine.detection.find_corners import find_corners
 from calibgui.engine.errors import NoBoardError
 from tests.benchmarks import corner_partial, corner_unseen
 from tests.benchmarks.corner_boardless import KINDS, boardless
@@ -77,7 +77,7 @@ def score(method: Method, scenes: list[Scene], draws: int) -> Score:
     for k, scene in enumerate(scenes):
         for i in range(draws):
             image = scene.photograph(1000 * k + i)
-            located, spent = method(image, scene.conditions.board)
+            located, spent = method(image, scene.conditions.grid_size)
             seconds.append(spent)
             if located is None:
                 continue
@@ -133,7 +133,7 @@ def main() -> None:
     quick = options.quick
     scenes, draws = (1, 1) if quick else (3, 2)
     cv2.setNumThreads(1)
-    METHODS["ours"](draw(Conditions(), 0).photograph(0), Conditions().board)  # compiles
+    METHODS["ours"](draw(Conditions(), 0).photograph(0), Conditions().grid_size)  # compiles
     table: dict[str, dict[str, Score]] = {}
     print(f"{'':14}" + "".join(f"{name:>22}" for name in METHODS))
     print(f"{'condition':14}" + f"{'ratio  found    ms':>22}" * len(METHODS))

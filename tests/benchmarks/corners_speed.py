@@ -22,7 +22,7 @@ import cv2
 import numpy as np
 from numpy.typing import NDArray
 
-from calibgui.engine.corners import find_corners
+from calibgui.engine.detection.find_corners import find_corners
 from calibgui.engine.errors import NoBoardError
 from tests.benchmarks.corner_boardless import boardless
 
@@ -32,28 +32,32 @@ _TEXEL = 32
 
 class Case(NamedTuple):
     image: Image
-    board: tuple[int, int] | None
+    grid_size: tuple[int, int] | None
     """Rows and columns of inner corners, None if there is no board."""
     goal: float
     """ms, as the project asks; more where it asks nothing."""
 
 
-def photograph(size: tuple[int, int], board: tuple[int, int], square: float, blur: float) -> Image:
+def photograph(
+    size: tuple[int, int], grid_size: tuple[int, int], square: float, blur: float
+) -> Image:
     """A board seen in perspective, `square` px a square; good enough to be timed."""
     width, height = size
-    rows, cols = board
+    rows, cols = grid_size
     v, u = np.mgrid[: (rows + 3) * _TEXEL, : (cols + 3) * _TEXEL] // _TEXEL
     on_board = (v > 0) & (v < rows + 2) & (u > 0) & (u < cols + 2)
-    plate = np.where(on_board & ((u + v) % 2 == 0), 45, 205).astype(np.uint8)
+    board_shape = np.where(on_board & ((u + v) % 2 == 0), 45, 205).astype(np.uint8)
     half = np.array([cols + 3, rows + 3]) * square / 2
     outline = half * [(-1, -0.9), (1, -1), (0.95, 1), (-1, 1.02)]
     turn = np.radians(12.0)
     turned = outline @ [[np.cos(turn), np.sin(turn)], [-np.sin(turn), np.cos(turn)]]
-    ends = np.array([(0, 0), (1, 0), (1, 1), (0, 1)]) * plate.shape[::-1]
+    ends = np.array([(0, 0), (1, 0), (1, 1), (0, 1)]) * board_shape.shape[::-1]
     H = cv2.getPerspectiveTransform(
         ends.astype(np.float32), (turned + np.array(size) / 2).astype(np.float32)
     )
-    image = cv2.GaussianBlur(cv2.warpPerspective(plate, H, size, borderValue=(150,)), (0, 0), blur)
+    image = cv2.GaussianBlur(
+        cv2.warpPerspective(board_shape, H, size, borderValue=(150,)), (0, 0), blur
+    )
     noise = np.random.default_rng(0).standard_normal((height, width), dtype=np.float32)
     return np.clip(np.rint(image + 2 * noise), 0, 255).astype(np.uint8)
 
@@ -78,15 +82,15 @@ def engine(image: Image) -> tuple[int, int] | None:
         return None
 
 
-def classic(image: Image, board: tuple[int, int]) -> None:
-    ok, points = cv2.findChessboardCorners(image, board[::-1])
+def classic(image: Image, grid_size: tuple[int, int]) -> None:
+    ok, points = cv2.findChessboardCorners(image, grid_size[::-1])
     if ok:
         stop = (cv2.TERM_CRITERIA_EPS + cv2.TERM_CRITERIA_COUNT, 50, 1e-4)
         cv2.cornerSubPix(image, np.asarray(points, np.float32), (9, 9), (-1, -1), stop)
 
 
-def sector_based(image: Image, board: tuple[int, int]) -> None:
-    cv2.findChessboardCornersSB(image, board[::-1])
+def sector_based(image: Image, grid_size: tuple[int, int]) -> None:
+    cv2.findChessboardCornersSB(image, grid_size[::-1])
 
 
 def milliseconds(repeats: int, work: Callable[..., Any], *arguments: Any) -> float:
@@ -115,14 +119,14 @@ def main() -> None:
     cv2.setNumThreads(1)
     print(f"{'ms per image':14}{'ours':>9}{'goal':>8}{'memory':>9}{'classic':>10}{'SB':>10}")
     for name, make in CASES.items():
-        image, board, goal = make()
-        assert engine(image) == board, name
+        image, grid_size, goal = make()
+        assert engine(image) == grid_size, name
         print(f"{name:14}{milliseconds(7, engine, image):9.1f}", end="")
         print(f"{goal:8.0f}{peak(image):9.2f}", end="", flush=True)
         # In noise of that size OpenCV's finders search for a quarter of an hour and more.
-        slow = image.size > 1e6 and (options.quick or board is None)
+        slow = image.size > 1e6 and (options.quick or grid_size is None)
         for other in () if slow else (classic, sector_based):
-            print(f"{milliseconds(1, other, image, board or (6, 9)):10.1f}", end="", flush=True)
+            print(f"{milliseconds(1, other, image, grid_size or (6, 9)):10.1f}", end="", flush=True)
         print()
 
 

@@ -13,11 +13,13 @@ import time
 
 import numpy as np
 
-from calibgui.engine.calibrate import calibrate
-from calibgui.engine.types import Observation, Status, Target
+from calibgui.engine.boards.board import Board
+from calibgui.engine.calibration.calibrate import calibrate
+from calibgui.engine.calibration.observations import Observation
+from calibgui.engine.calibration.result import Status
 from tests.engine.scenes import VGA, barrel, looking, seen
 
-BOARD = Target(rows=12, cols=13, square=30.0)
+BOARD = Board(rows=12, cols=13, square=30.0)
 POSES = 200
 """Different ones; beyond these the views repeat with other noise."""
 
@@ -35,11 +37,11 @@ def main() -> None:
     arguments = parser.parse_args()
     camera, rng, xy = barrel(), np.random.default_rng(0), BOARD.points()
     poses = [looking(camera, rng, board=BOARD, fill=(0.4, 0.8)) for _ in range(POSES)]
-    exact = [view.uv for view in seen(camera, poses, board=BOARD).views]
+    exact = [view.uv for view in seen(camera, poses, grid_size=BOARD).views]
     noise = rng.normal(scale=0.1, size=(arguments.views, *xy.shape))
     views = [Observation(exact[k % POSES] + noise[k], xy) for k in range(arguments.views)]
     before, began = peak(), time.process_time()
-    found = calibrate(views, VGA, plate=arguments.plate)
+    found = calibrate(views, VGA, board_shape=arguments.board_shape)
     assert found.status is Status.CONVERGED
     print(f"{peak():.0f} {before:.0f} {time.process_time() - began:.2f}")
 

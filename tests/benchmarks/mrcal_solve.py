@@ -11,7 +11,7 @@ import time
 import mrcal
 import numpy as np
 
-from tests.engine.quality.mrcal_reference import problem
+from tests.engine.uncertainty.mrcal_reference import problem
 
 
 def main(given: str, repeats: str, clock: str) -> None:

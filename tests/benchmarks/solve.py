@@ -33,26 +33,29 @@ import numpy as np
 from matplotlib.figure import Figure
 from threadpoolctl import threadpool_limits
 
-from calibgui.engine import frames
-from calibgui.engine.calibrate import calibrate
-from calibgui.engine.estimation import problem, uncertainty
-from calibgui.engine.estimation.levenberg_marquardt import minimise
-from calibgui.engine.estimation.observations import (
+from calibgui.engine.boards.board import Board
+from calibgui.engine.calibration import covariances
+from calibgui.engine.calibration.calibrate import calibrate
+from calibgui.engine.calibration.initialisation.stage_one import prealign
+from calibgui.engine.calibration.initialisation.start import in_paper_frame, start_of_stage_two
+from calibgui.engine.calibration.observations import (
     REFERENCE_PITCH,
+    Observation,
     Observations,
     pack,
     pitch,
     view_names,
 )
-from calibgui.engine.estimation.stage_one import prealign
-from calibgui.engine.estimation.stage_two import State
-from calibgui.engine.estimation.start import in_paper_frame, start_of_stage_two
+from calibgui.engine.calibration.refinement import normal_equations
+from calibgui.engine.calibration.refinement.levenberg_marquardt import minimise
+from calibgui.engine.calibration.refinement.residuals import State
+from calibgui.engine.calibration.result import Cost
+from calibgui.engine.camera.models import MODELS, parameter_names
+from calibgui.engine.geometry import rotations
 from calibgui.engine.kernels import common
-from calibgui.engine.lens import MODELS, parameter_names
-from calibgui.engine.types import Cost, Observation
-from tests.engine.scenes import VGA, Target, brown, looking, seen
+from tests.engine.scenes import VGA, brown, looking, seen
 
-BOARD = Target(rows=12, cols=13, square=30.0)
+BOARD = Board(rows=12, cols=13, square=30.0)
 COUNTS = (10, 25, 50, 100, 200, 500, 1000, 2000, 5000)
 DRAWN = {
     "solve": "ours, forward model, with standard deviations",
@@ -75,12 +78,12 @@ def corners(count: int) -> list[Observation]:
     """`count` random views of a 12 x 13 board with 0.1 px of noise."""
     camera, rng = brown(), np.random.default_rng(count)
     poses = [looking(camera, rng, board=BOARD, fill=(0.4, 0.8)) for _ in range(count)]
-    return seen(camera, poses, board=BOARD).noisy(0.1, rng)
+    return seen(camera, poses, grid_size=BOARD).noisy(0.1, rng)
 
 
-def whole(views: list[Observation], model: str, plate: str = "nominal") -> float:
+def whole(views: list[Observation], model: str, board_shape: str = "nominal") -> float:
     """RMS of our calibration, px."""
-    residuals = calibrate(views, VGA, model=model, plate=plate).residuals
+    residuals = calibrate(views, VGA, model=model, board_shape=board_shape).residuals
     lengths = np.concatenate([np.linalg.norm(view.image, axis=1) for view in residuals])
     return float(np.sqrt(np.mean(lengths**2)))
 
@@ -99,13 +102,13 @@ def started(views: list[Observation], model: str) -> tuple[Observations, State]:
 def solve(observations: Observations, start: State, model: str) -> float:
     """RMS of our solve, px, with the standard deviations of camera and poses on the way."""
     free = np.arange(9)
-    normal_at = problem.stage_two(observations, model, Cost.IMAGE, 1.0, free)
+    normal_at = normal_equations.stage_two(observations, model, Cost.IMAGE, 1.0, free)
     square = float(np.sum(observations.uv**2))
     solution = minimise(normal_at, start, free, observations.count, square)
     names = tuple(parameter_names(model)[:9])
-    found = uncertainty.precision(solution.normal, names, observations.count, np.full(9, np.inf))
-    rvecs = frames.rotation_vector(solution.state.R)
-    uncertainty.pose_covariances(solution.normal, found.shared, rvecs, found.variance)
+    found = covariances.precision(solution.normal, names, observations.count, np.full(9, np.inf))
+    rvecs = rotations.rotation_vector(solution.state.R)
+    covariances.pose_covariances(solution.normal, found.shared, rvecs, found.variance)
     return float(np.sqrt(solution.normal.cost / observations.count))
 
 
@@ -132,7 +135,7 @@ def mrcal(
             given,
             boards=observations.uv.reshape(-1, BOARD.rows, BOARD.cols, 2),
             params=start.params,
-            poses=np.column_stack([frames.rotation_vector(start.R), start.T]),
+            poses=np.column_stack([rotations.rotation_vector(start.R), start.T]),
             size=np.array(VGA),
             square=BOARD.square,
         )
@@ -201,8 +204,8 @@ def main() -> None:
     times: dict[str, dict[int, float]] = {}
     with threadpool_limits(1):
         solve(*started(corners(2), "lucchese"), "lucchese")  # compiles, once
-        for plate in PLATES:
-            whole(corners(8), "opencv", plate)
+        for board_shape in PLATES:
+            whole(corners(8), "opencv", board_shape)
         for count in arguments.views:
             row = measured(count, arguments.repeats if count <= 500 else 3, clock, times)
             for name, seconds in row.items():
@@ -224,8 +227,8 @@ def measured(
     rms: dict[str, float] = {}
     row["whole, paper's model"], _ = run(partial(whole, views, "lucchese"))
     row["whole"], rms["whole"] = run(partial(whole, views, "opencv"))
-    for plate in PLATES:
-        row[f"whole, {plate} plate"], _ = run(partial(whole, views, "opencv", plate))
+    for board_shape in PLATES:
+        row[f"whole, {board_shape} plate"], _ = run(partial(whole, views, "opencv", board_shape))
     row["whole, OpenCV"], rms["OpenCV"] = run(partial(opencv, views))
     slow = before.get("whole, OpenCV with SDs", {})
     if not slow or slow[max(slow)] * (count / max(slow)) ** 3 < LONGEST:

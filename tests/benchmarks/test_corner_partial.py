@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from calibgui.engine.corners import find_corners
+from calibgui.engine.detection.find_corners import find_corners
 from tests.benchmarks.corner_partial import KINDS, Count, compare, count, scenes
 
 
@@ -21,7 +21,7 @@ def test_visible_corners_are_found_in_their_places() -> None:
 
 def test_the_count_sees_displaced_and_misplaced_corners() -> None:
     (scene,) = scenes("off 1 side", 1)
-    corners = find_corners(scene.photograph(0), scene.conditions.board)
+    corners = find_corners(scene.photograph(0), scene.conditions.grid_size)
     right, place = compare(corners, scene, known=True)
     assert right.all()
     assert np.array_equal(place, corners.grid)

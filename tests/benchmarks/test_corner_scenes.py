@@ -6,8 +6,9 @@ import numpy as np
 import pytest
 from scipy.ndimage import map_coordinates
 
-from calibgui.engine.corners import find_corners
+from calibgui.engine.detection.find_corners import find_corners
 from calibgui.engine.errors import NoBoardError
+from tests.benchmarks import corner_methods
 from tests.benchmarks import corners as benchmark
 from tests.benchmarks.corner_boardless import KINDS, boardless
 from tests.benchmarks.corner_scenes import Conditions, draw
@@ -32,7 +33,7 @@ def test_grey_levels_are_point_symmetric_about_the_truth(settings: dict[str, flo
 )
 def test_the_engine_reaches_the_bound(name: str) -> None:
     scene = draw(Conditions(**benchmark.CONDITIONS[name]), 0)
-    result = benchmark.score(benchmark.METHODS["ours"], [scene], 2)
+    result = benchmark.score(corner_methods.METHODS["ours"], [scene], 2)
     assert result.found == 1
     assert result.ratio < 1.25
     assert result.bias < 2

@@ -14,10 +14,11 @@ import pytest
 
 from calibgui.app.settings import Settings
 from calibgui.cli.main import main
+from calibgui.engine.boards.shape import BoardShapeModel, BoardShapePrior
+from calibgui.engine.calibration.result import Cost
+from calibgui.engine.camera.models import parameter_names
 from calibgui.engine.errors import CalibrationError
-from calibgui.engine.images import write_image
-from calibgui.engine.lens import parameter_names
-from calibgui.engine.types import Cost, PlateModel, Prior
+from calibgui.engine.images.reading import write_image
 from calibgui.formats.result_json import read_result
 from tests.photographs import BOARD, CAMERA, COUNT
 
@@ -72,8 +73,8 @@ def test_every_setting_has_its_option(corners_file: Path, monkeypatch: pytest.Mo
     assert changed == Settings(
         fixed={"k3": None, "fx": 650.0},
         freed=("p3",),
-        plate=PlateModel.FREE,
-        prior=Prior(0.1, 0.3),
+        board_shape=BoardShapeModel.FREE,
+        prior=BoardShapePrior(0.1, 0.3),
         robust=True,
         weigh_views=True,
         once=True,
@@ -85,7 +86,7 @@ def test_every_setting_has_its_option(corners_file: Path, monkeypatch: pytest.Mo
 def test_corners_need_no_square(corners_file: Path, tmp_path: Path) -> None:
     file = tmp_path / "result.json"
     assert main(["calibrate", str(corners_file), "-q", "-o", str(file)]) == 0
-    assert read_result(file).target == BOARD
+    assert read_result(file).board == BOARD
 
 
 def test_a_square_given_with_corners_scales_the_poses(corners_file: Path, tmp_path: Path) -> None:

@@ -10,7 +10,7 @@ import pytest
 
 from calibgui.app.resources import resource
 from calibgui.cli.main import main
-from calibgui.engine.images import image_size
+from calibgui.engine.images.reading import image_size
 from calibgui.formats.result_json import read_result
 
 

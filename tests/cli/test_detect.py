@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from calibgui.cli.main import main
-from calibgui.engine.images import write_image
+from calibgui.engine.images.reading import write_image
 from calibgui.formats.corners_json import read_corners
 from tests.photographs import BOARD, CAMERA, COUNT
 
@@ -20,7 +20,7 @@ def test_corners_are_written_and_listed(photographs: Path, tmp_path: Path, capsy
     file = tmp_path / "corners.json"
     assert main(["detect", str(photographs), "--square", "30", "-o", str(file)]) == 0
     corner_set = read_corners(file)
-    assert corner_set.size == CAMERA.size and corner_set.target == BOARD
+    assert corner_set.size == CAMERA.size and corner_set.board == BOARD
     assert [view.image for view in corner_set.views] == [
         str(photographs / f"view{k}.png") for k in range(1, COUNT + 1)
     ]

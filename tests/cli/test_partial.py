@@ -9,7 +9,8 @@ import numpy as np
 import pytest
 
 from calibgui.cli.main import main
-from calibgui.engine.types import Degeneracy, Observation
+from calibgui.engine.calibration.observations import Observation
+from calibgui.engine.calibration.result import Degeneracy
 from calibgui.formats.result_json import read_result
 from tests.engine import scenes
 from tests.engine.degenerate_scenes import LONG, one_view, parallel

@@ -9,7 +9,7 @@ import pytest
 
 from calibgui.app.resampling import GEOMETRY
 from calibgui.cli.main import main
-from calibgui.engine.images import image_size
+from calibgui.engine.images.reading import image_size
 from tests.photographs import CAMERA, COUNT
 
 Capture = pytest.CaptureFixture[str]

@@ -5,7 +5,8 @@ from __future__ import annotations
 import numpy as np
 from scipy.spatial.transform import Rotation
 
-from calibgui.engine.types import Camera, Pose
+from calibgui.engine.camera.camera import Camera
+from calibgui.engine.geometry.pose import Pose
 from tests.engine.scenes import BOARD, Scene, barrel, looking, seen
 
 LONG = barrel(focal=900.0)

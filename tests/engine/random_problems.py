@@ -12,13 +12,16 @@ from typing import NamedTuple
 import numpy as np
 from scipy.spatial.transform import Rotation
 
-from calibgui.engine.calibrate import calibrate
+from calibgui.engine.arrays import Size
+from calibgui.engine.calibration.calibrate import calibrate
+from calibgui.engine.calibration.observations import Observation, pack
+from calibgui.engine.calibration.refinement.levenberg_marquardt import minimise
+from calibgui.engine.calibration.refinement.normal_equations import stage_two
+from calibgui.engine.calibration.refinement.residuals import State
+from calibgui.engine.calibration.result import Cost, Status
+from calibgui.engine.camera.camera import Camera
 from calibgui.engine.errors import CalibrationError
-from calibgui.engine.estimation.levenberg_marquardt import minimise
-from calibgui.engine.estimation.observations import pack
-from calibgui.engine.estimation.problem import stage_two
-from calibgui.engine.estimation.stage_two import State
-from calibgui.engine.types import Camera, Cost, Observation, Pose, Size, Status
+from calibgui.engine.geometry.pose import Pose
 from tests.engine.scenes import Scene, looking, seen
 
 SIZES: list[Size] = [(640, 480), (4000, 3000), (1920, 1080)]

@@ -10,11 +10,15 @@ from pathlib import Path
 import numpy as np
 from scipy.spatial.transform import Rotation
 
-from calibgui.engine.estimation.projection import pixels
-from calibgui.engine.types import Array, Camera, Observation, Pose, Size, Target
+from calibgui.engine.arrays import Array, Size
+from calibgui.engine.boards.board import Board
+from calibgui.engine.calibration.observations import Observation
+from calibgui.engine.camera.camera import Camera
+from calibgui.engine.camera.projection import pixels
+from calibgui.engine.geometry.pose import Pose
 
 VGA: Size = (640, 480)
-BOARD = Target(rows=9, cols=12, square=30.0)
+BOARD = Board(rows=9, cols=12, square=30.0)
 
 
 @dataclass(frozen=True, eq=False)
@@ -78,7 +82,7 @@ def looking(
     fill: tuple[float, float] = (0.5, 0.9),
     roll: float = 20.0,
     towards: float | None = None,
-    board: Target = BOARD,
+    board: Board = BOARD,
 ) -> Pose:
     """A random pose of the board in front of the camera.
 
@@ -108,7 +112,7 @@ def looking(
 
 
 def seen(
-    camera: Camera, poses: Sequence[Pose], board: Target = BOARD, partial: bool = False
+    camera: Camera, poses: Sequence[Pose], board: Board = BOARD, partial: bool = False
 ) -> Scene:
     """What the camera sees of the board in each pose; partial boards lose what the image cuts."""
     xy = board.points()
@@ -132,7 +136,7 @@ def scene(
 
 
 def uneven(
-    camera: Camera, board: Target, count: int, deviation: float, turned: Sequence[int] = ()
+    camera: Camera, board: Board, count: int, deviation: float, turned: Sequence[int] = ()
 ) -> list[Observation]:
     """Views, with 0.1 px of noise, of a board whose corners are off in the plane, mm; in some
     (`turned`) the corners are listed from the other end."""

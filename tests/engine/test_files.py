@@ -7,7 +7,7 @@ from pathlib import Path
 
 import pytest
 
-from calibgui.engine import CalibrationError
+from calibgui.engine.errors import CalibrationError
 from calibgui.engine.files import write_atomically
 
 posix = pytest.mark.skipif(os.name != "posix", reason="links and pipes of POSIX")

@@ -8,20 +8,16 @@ import numpy as np
 import pytest
 
 from calibgui import engine
-from calibgui.engine.types import (
-    Ambiguity,
-    Camera,
-    Corners,
-    Observation,
-    OtherBoard,
-    Target,
-    View,
-    ViewStatus,
-)
-from calibgui.formats.result import Result
+from calibgui.dataset.result import Result
+from calibgui.dataset.view import View, ViewStatus
+from calibgui.engine.boards.board import Board
+from calibgui.engine.boards.pattern import Ambiguity
+from calibgui.engine.calibration.observations import Observation
+from calibgui.engine.camera.camera import Camera
+from calibgui.engine.detection.corners import Corners, OtherBoard
 from tests.engine import scenes
 
-BOARD = Target(rows=6, cols=8, square=30.0)
+BOARD = Board(rows=6, cols=8, square=30.0)
 _NOISE = 0.1
 
 

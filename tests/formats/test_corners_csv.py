@@ -9,10 +9,10 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from calibgui.dataset.result import Result
+from calibgui.dataset.view import View, ViewStatus
 from calibgui.engine.errors import CalibrationError
-from calibgui.engine.types import View, ViewStatus
 from calibgui.formats.corners_csv import read_corners_csv, write_corners_csv
-from calibgui.formats.result import Result
 from tests.formats.records import same
 
 _HEADER = "image,row,col,u_px,v_px,x_mm,y_mm\n"
@@ -24,19 +24,19 @@ def test_every_bit_of_the_corners_reads_back(
 ) -> None:
     result = request.getfixturevalue(name)
     file = tmp_path / "corners.csv"
-    write_corners_csv(result.views, result.target, file)
+    write_corners_csv(result.views, result.board, file)
     found = [view for view in result.views if view.status is ViewStatus.FOUND]
     for written, read in zip(found, read_corners_csv(file), strict=True):
         assert read.image == written.image
         assert same(
             tuple(read.observation(None)),
-            tuple(written.observation(result.target)),
+            tuple(written.observation(result.board)),
         )
 
 
 def test_any_csv_reader_finds_a_row_for_each_corner(tmp_path: Path, result: Result) -> None:
     file = tmp_path / "corners.csv"
-    write_corners_csv(result.views, result.target, file)
+    write_corners_csv(result.views, result.board, file)
     with file.open(encoding="utf-8", newline="") as stream:
         rows = list(csv.DictReader(stream))
     assert list(rows[0]) == _HEADER.strip().split(",")
@@ -101,5 +101,5 @@ def test_a_name_that_is_not_unicode_is_written_for_every_reader(
 ) -> None:
     first = next(view for view in result.views if view.status is ViewStatus.FOUND)
     file = tmp_path / "corners.csv"
-    write_corners_csv([replace(first, image="bad\udcff.png")], result.target, file)
+    write_corners_csv([replace(first, image="bad\udcff.png")], result.board, file)
     assert {view.image for view in read_corners_csv(file)} == {"bad\\udcff.png"}

@@ -12,11 +12,13 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from calibgui.dataset.corner_set import CornerSet
+from calibgui.dataset.result import Result
+from calibgui.dataset.view import ViewStatus
+from calibgui.engine.boards.board import Board
 from calibgui.engine.errors import CalibrationError
-from calibgui.engine.types import Target, ViewStatus
-from calibgui.formats.corners_json import CornerSet, corners_record, read_corners, write_corners
+from calibgui.formats.corners_json import corners_record, read_corners, write_corners
 from calibgui.formats.json_document import dumps
-from calibgui.formats.result import Result
 from tests.formats.mutations import mutated
 from tests.formats.records import same
 
@@ -46,7 +48,7 @@ def _read(tmp_path: Path, content: Any) -> CornerSet:
 def test_the_bare_format_of_any_program_is_read(tmp_path: Path) -> None:
     corners = _read(tmp_path, _FOREIGN)
     assert corners.size == (640, 480)
-    assert corners.target is None
+    assert corners.board is None
     a, b, c = corners.views
     assert (a.image, a.status, a.usable) == ("a.png", ViewStatus.FOUND, True)
     assert np.array_equal(a.observation(None).uv, [[1, 2], [3.5, 4]])
@@ -59,13 +61,13 @@ def test_the_bare_format_of_any_program_is_read(tmp_path: Path) -> None:
 def test_what_is_written_has_the_bare_format(tmp_path: Path, result: Result) -> None:
     """Read as a stranger would: nothing but the four public keys of each view."""
     file = tmp_path / "corners.json"
-    write_corners(CornerSet((640, 480), result.views, result.target), file)
+    write_corners(CornerSet((640, 480), result.views, result.board), file)
     content = json.loads(file.read_text(encoding="utf-8"))
     assert content["size"] == [640, 480]
     assert [view["image"] for view in content["views"]] == [view.image for view in result.views]
     for view, written in zip(result.views, content["views"], strict=True):
         if view.status is ViewStatus.FOUND:
-            points = view.observation(result.target)
+            points = view.observation(result.board)
             assert np.array_equal(written["uv"], points.uv)
             assert np.array_equal(written["board"], points.xy)
         else:
@@ -77,25 +79,25 @@ def test_everything_this_program_knows_reads_back(
     tmp_path: Path, name: str, request: pytest.FixtureRequest
 ) -> None:
     result = request.getfixturevalue(name)
-    corners = CornerSet((640, 480), result.views, result.target)
+    corners = CornerSet((640, 480), result.views, result.board)
     write_corners(corners, tmp_path / "corners.json")
     assert same(read_corners(tmp_path / "corners.json"), corners)
 
 
 def test_edited_plate_points_count_for_more_than_the_grid(tmp_path: Path, result: Result) -> None:
     """A measured plate: the corners keep their grid, the calibration gets the file's points."""
-    content = json.loads(dumps(corners_record(CornerSet((640, 480), result.views, result.target))))
+    content = json.loads(dumps(corners_record(CornerSet((640, 480), result.views, result.board))))
     content["views"][1]["board"][3] = [90.25, 0.5]
     view = _read(tmp_path, content).views[1]
     assert view.corners is not None
-    assert np.array_equal(view.observation(result.target).xy[3], [90.25, 0.5])
+    assert np.array_equal(view.observation(result.board).xy[3], [90.25, 0.5])
 
 
 def test_found_corners_follow_another_square_size(tmp_path: Path, result: Result) -> None:
-    content = corners_record(CornerSet((640, 480), result.views, result.target))
+    content = corners_record(CornerSet((640, 480), result.views, result.board))
     (tmp_path / "corners.json").write_text(dumps(content))
     view = read_corners(tmp_path / "corners.json").views[1]
-    assert view.observation(Target(6, 8, 60.0)).xy.max() == 7 * 60.0
+    assert view.observation(Board(6, 8, 60.0)).xy.max() == 7 * 60.0
 
 
 @pytest.mark.parametrize(
@@ -135,7 +137,7 @@ def test_what_is_wrong_is_named(tmp_path: Path, place: list[Any], value: Any, me
 def test_no_damage_ends_in_anything_but_a_named_error(
     tmp_path_factory: pytest.TempPathFactory, result: Result, data: st.DataObject
 ) -> None:
-    record = corners_record(CornerSet((640, 480), result.views[:3], result.target))
+    record = corners_record(CornerSet((640, 480), result.views[:3], result.board))
     content = mutated(json.loads(dumps(record)), data)
     file = tmp_path_factory.getbasetemp() / "damaged.json"
     file.write_text(json.dumps(content))

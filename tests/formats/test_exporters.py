@@ -14,13 +14,14 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from calibgui.dataset.result import Result
+from calibgui.engine.calibration.result import Calibration, ViewResiduals
+from calibgui.engine.camera.camera import Camera
 from calibgui.engine.errors import CalibrationError
-from calibgui.engine.types import Calibration, Camera, ViewResiduals
 from calibgui.formats import EXPORTERS, export, find_exporter
 from calibgui.formats.colmap_cameras import cameras
 from calibgui.formats.mrcal_model import cameramodel
 from calibgui.formats.opencv_file import storage
-from calibgui.formats.result import Result
 from calibgui.formats.result_json import read_result
 from calibgui.formats.ros_yaml import camera_info
 from tests.formats.records import same

@@ -6,11 +6,11 @@ import cv2
 import numpy as np
 import pytest
 
-from calibgui.engine.estimation.projection import rays
-from calibgui.engine.refit import Refit
-from calibgui.engine.types import Array
+from calibgui.dataset.result import Result
+from calibgui.engine.arrays import Array
+from calibgui.engine.calibration.refit import Refit
+from calibgui.engine.camera.projection import rays
 from calibgui.formats.forward_model import forward, refit_note
-from calibgui.formats.result import Result
 from tests.engine import scenes
 from tests.formats.conftest import solved
 

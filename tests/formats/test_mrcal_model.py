@@ -6,10 +6,10 @@ from pathlib import Path
 
 import numpy as np
 
-from calibgui.engine.estimation.projection import pixels
+from calibgui.dataset.result import Result
+from calibgui.engine.camera.projection import pixels
 from calibgui.formats.forward_model import forward
 from calibgui.formats.mrcal_model import write_mrcal
-from calibgui.formats.result import Result
 from tests.formats.readers import RAYS, in_other_python
 
 _MRCAL = """

@@ -10,12 +10,12 @@ import cv2
 import numpy as np
 import pytest
 
-from calibgui.engine import frames
-from calibgui.engine.estimation.projection import pixels
-from calibgui.engine.types import Array
+from calibgui.dataset.result import Result
+from calibgui.engine.arrays import Array
+from calibgui.engine.camera.projection import pixels
+from calibgui.engine.geometry import rotations
 from calibgui.formats.forward_model import forward
 from calibgui.formats.opencv_file import storage, write_opencv
-from calibgui.formats.result import Result
 from tests.formats.readers import in_other_python
 
 _SUFFIXES = pytest.mark.parametrize("suffix", [".yaml", ".yml", ".xml", ".json"])
@@ -66,7 +66,7 @@ def test_opencv_projects_what_it_reads_to_our_pixels(
             read["camera_matrix"],
             read["distortion_coefficients"],
         )[0].reshape(-1, 2)
-        X = xy @ frames.rotation(pose.rvec)[:, :2].T + pose.tvec
+        X = xy @ rotations.rotation(pose.rvec)[:, :2].T + pose.tvec
         assert np.abs(theirs - pixels(X[:, :2] / X[:, 2:], fitted.camera)).max() < 1e-9
         assert np.abs(uv - theirs - residuals.image).max() < 1e-9
         squares.append(np.sum((uv - theirs) ** 2, axis=1))

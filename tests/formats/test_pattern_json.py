@@ -8,12 +8,12 @@ from typing import Any
 
 import pytest
 
+from calibgui.engine.boards.board import Board
+from calibgui.engine.boards.charuco import Charuco
+from calibgui.engine.boards.circle_grid import Circles
+from calibgui.engine.boards.kinds import KINDS
+from calibgui.engine.boards.pattern import Pattern
 from calibgui.engine.errors import CalibrationError
-from calibgui.engine.targets.charuco import Charuco
-from calibgui.engine.targets.circles import Circles
-from calibgui.engine.targets.kinds import KINDS
-from calibgui.engine.targets.pattern import Pattern
-from calibgui.engine.types import Target
 from calibgui.formats.json_document import dumps, read
 from calibgui.formats.pattern_json import pattern_record, read_target, target_record
 
@@ -28,9 +28,9 @@ PATTERNS = [
 
 @pytest.mark.parametrize("pattern", PATTERNS)
 def test_read_back(tmp_path: Path, pattern: Pattern) -> None:
-    target = Target(6, 9, 12.5, pattern)
-    (tmp_path / "t.json").write_text(dumps(target_record(target)))
-    assert read_target(read(tmp_path / "t.json")) == target
+    board = Board(6, 9, 12.5, pattern)
+    (tmp_path / "t.json").write_text(dumps(target_record(board)))
+    assert read_target(read(tmp_path / "t.json")) == board
 
 
 @pytest.mark.parametrize(
@@ -45,12 +45,12 @@ def test_read_back(tmp_path: Path, pattern: Pattern) -> None:
     ],
 )
 def test_what_is_wrong_is_named(tmp_path: Path, wrong: dict[str, Any]) -> None:
-    record = target_record(Target(6, 9, 12.5)) | {"pattern": wrong}
+    record = target_record(Board(6, 9, 12.5)) | {"pattern": wrong}
     (tmp_path / "t.json").write_text(json.dumps(record))
     with pytest.raises(CalibrationError, match=r"t\.json"):
         read_target(read(tmp_path / "t.json"))
 
 
 def test_a_checkerboard_needs_no_pattern() -> None:
-    assert "pattern" not in target_record(Target(6, 9, 12.5))
+    assert "pattern" not in target_record(Board(6, 9, 12.5))
     assert pattern_record(KINDS["circles"]) == {"kind": "circles"}

@@ -10,10 +10,10 @@ import numpy as np
 import pytest
 
 from calibgui import engine
+from calibgui.dataset.result import Result
 from calibgui.formats.engine_python import write_engine_python
 from calibgui.formats.forward_model import forward
 from calibgui.formats.opencv_python import write_opencv_python
-from calibgui.formats.result import Result
 
 
 @pytest.mark.parametrize("name", ["result", "weighted", "forward_result"])
@@ -44,9 +44,9 @@ def test_opencv_lines_project_to_our_pixels(
     fitted = forward(result).calibration
     assert made["image_size"] == fitted.camera.size
     pose, (_, xy, _) = fitted.poses[0], result.observations()[0]
-    plate = np.column_stack([xy, np.zeros(len(xy))])
+    board_shape = np.column_stack([xy, np.zeros(len(xy))])
     theirs, _ = cv2.projectPoints(
-        plate, pose.rvec.copy(), pose.tvec.copy(), made["camera_matrix"], made["dist_coeffs"]
+        board_shape, pose.rvec.copy(), pose.tvec.copy(), made["camera_matrix"], made["dist_coeffs"]
     )
     ours = engine.project_points(xy, fitted.camera, pose)
     np.testing.assert_allclose(theirs.reshape(-1, 2), ours, atol=1e-9)

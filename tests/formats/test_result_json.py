@@ -16,12 +16,13 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from calibgui import engine
-from calibgui.engine.calibrate import calibrate
-from calibgui.engine.errors import CalibrationError, DegenerateError
-from calibgui.engine.types import Cost, Undetermined, View, ViewStatus
+from calibgui.dataset.result import Result
+from calibgui.dataset.view import View, ViewStatus
+from calibgui.engine.calibration.calibrate import calibrate
+from calibgui.engine.calibration.result import Cost, DegenerateError, Undetermined
+from calibgui.engine.errors import CalibrationError
 from calibgui.formats import export
 from calibgui.formats.json_document import dumps
-from calibgui.formats.result import Result
 from calibgui.formats.result_json import read_result, result_record, write_result
 from tests.engine import scenes
 from tests.formats.conftest import solved

@@ -11,9 +11,9 @@ import yaml
 from hypothesis import given
 from hypothesis import strategies as st
 
-from calibgui.engine.estimation.projection import pixels
+from calibgui.dataset.result import Result
+from calibgui.engine.camera.projection import pixels
 from calibgui.formats.forward_model import forward
-from calibgui.formats.result import Result
 from calibgui.formats.ros_yaml import _number, write_ros
 from tests.formats.readers import RAYS, in_other_python
 

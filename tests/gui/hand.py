@@ -11,7 +11,8 @@ from PySide6.QtGui import QMouseEvent
 from PySide6.QtWidgets import QApplication, QPushButton
 from pytestqt.qtbot import QtBot
 
-from calibgui.engine.types import Array, Corners
+from calibgui.engine.arrays import Array
+from calibgui.engine.detection.corners import Corners
 from calibgui.gui.image_model import Role
 from calibgui.gui.main_window import MainWindow
 

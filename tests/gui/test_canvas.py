@@ -9,7 +9,8 @@ from PySide6.QtGui import QColor, QWheelEvent
 from PySide6.QtWidgets import QApplication
 from pytestqt.qtbot import QtBot
 
-from calibgui.engine.types import Array, Corners
+from calibgui.engine.arrays import Array
+from calibgui.engine.detection.corners import Corners
 from calibgui.gui import layers, theme
 from calibgui.gui.canvas import Canvas
 from calibgui.gui.layers import Layer, Marks

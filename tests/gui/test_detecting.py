@@ -16,8 +16,8 @@ from pytestqt.qtbot import QtBot
 from calibgui.app.detection import Detection
 from calibgui.app.document import Document
 from calibgui.app.project import Project, with_each, with_images, with_method, without_views
+from calibgui.dataset.view import View, ViewStatus
 from calibgui.engine.errors import Cancelled
-from calibgui.engine.types import View, ViewStatus
 from calibgui.gui import detecting
 from calibgui.gui.calibrating import Calibrator
 from calibgui.gui.detecting import Detector

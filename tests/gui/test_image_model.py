@@ -11,7 +11,8 @@ from PySide6.QtWidgets import QApplication
 
 from calibgui.app.document import Document
 from calibgui.app.project import Project, with_each, with_images
-from calibgui.engine.types import Corners, OtherBoard, View, ViewStatus
+from calibgui.dataset.view import View, ViewStatus
+from calibgui.engine.detection.corners import Corners, OtherBoard
 from calibgui.gui import image_model
 from calibgui.gui.image_list import ImageList
 from calibgui.gui.image_model import Criterion

@@ -8,8 +8,9 @@ from pytestqt.qtbot import QtBot
 from calibgui.app.document import Document
 from calibgui.app.project import Project
 from calibgui.app.resources import resource
-from calibgui.engine import find_corners, read_image
-from calibgui.engine.types import View, ViewStatus
+from calibgui.dataset.view import View, ViewStatus
+from calibgui.engine.detection.find_corners import find_corners
+from calibgui.engine.images.reading import read_image
 from calibgui.gui.main_window import MainWindow
 from tests.gui.hand import Hand, outermost
 

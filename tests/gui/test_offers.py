@@ -12,31 +12,33 @@ from pytestqt.qtbot import QtBot
 from calibgui.app.detection import other_pattern
 from calibgui.app.document import Document
 from calibgui.app.project import with_images
+from calibgui.dataset.view import ViewStatus
+from calibgui.engine.boards.board import Board
+from calibgui.engine.boards.charuco import Charuco
+from calibgui.engine.boards.checkerboard import CHECKERBOARD
+from calibgui.engine.boards.circle_grid import Circles
+from calibgui.engine.boards.kinds import KINDS
+from calibgui.engine.boards.pattern import Pattern
 from calibgui.engine.errors import CalibrationError
-from calibgui.engine.images import write_image
-from calibgui.engine.targets.charuco import Charuco
-from calibgui.engine.targets.circles import Circles
-from calibgui.engine.targets.kinds import KINDS
-from calibgui.engine.targets.pattern import CHECKERBOARD, Pattern
-from calibgui.engine.types import Target, ViewStatus
+from calibgui.engine.images.reading import write_image
 from calibgui.gui.main_window import MainWindow
-from tests.engine.targets.conftest import Scene
+from tests.engine.detection.conftest import Scene
 
 pytestmark = pytest.mark.slow
 
 CIRCLES = Circles(False, 0.5)
 
 
-def photographs(folder: Path, pattern: Pattern, board: tuple[int, int], count: int = 1) -> None:
+def photographs(folder: Path, pattern: Pattern, grid_size: tuple[int, int], count: int = 1) -> None:
     """Of a target held in different ways."""
     for k in range(count):
         rvec = 0.4 * np.array([np.cos(2 * k), np.sin(2 * k), 0.3])
-        scene = Scene(Target(*board, 16.0, pattern), rvec=tuple(rvec))
+        scene = Scene(Board(*grid_size, 16.0, pattern), rvec=tuple(rvec))
         write_image(folder / f"{k}.png", scene.image(noise=2.0, seed=k))
 
 
 @pytest.mark.parametrize(
-    ("pattern", "board"),
+    ("pattern", "grid_size"),
     [
         (CIRCLES, (7, 9)),
         (Circles(True, 0.8), (11, 4)),
@@ -46,9 +48,9 @@ def photographs(folder: Path, pattern: Pattern, board: tuple[int, int], count: i
     ids=["circles", "asymmetric-circles", "charuco", "checkerboard"],
 )
 def test_the_kind_of_a_board_is_told(
-    tmp_path: Path, pattern: Pattern, board: tuple[int, int]
+    tmp_path: Path, pattern: Pattern, grid_size: tuple[int, int]
 ) -> None:
-    photographs(tmp_path, pattern, board)
+    photographs(tmp_path, pattern, grid_size)
     stated = Charuco() if pattern == CHECKERBOARD else CHECKERBOARD
     found = other_pattern([str(tmp_path / "0.png")], stated)
     assert found == KINDS[pattern.kind]

@@ -5,7 +5,7 @@ from __future__ import annotations
 from pytestqt.qtbot import QtBot
 
 from calibgui.app.project import with_pattern
-from calibgui.engine.targets.charuco import Charuco
+from calibgui.engine.boards.charuco import Charuco
 from calibgui.gui.main_window import MainWindow
 from calibgui.gui.page_tabs import PageTabs
 
@@ -13,11 +13,11 @@ from calibgui.gui.page_tabs import PageTabs
 def test_the_board_shows_all_its_fields_in_full(window: MainWindow, qtbot: QtBot) -> None:
     window.files.open_sample()
     tabs = window.findChildren(PageTabs)[0]
-    qtbot.waitUntil(lambda: window.target.rows.isVisible())
+    qtbot.waitUntil(lambda: window.board.rows.isVisible())
     low = tabs.height()
     window.session.edit("Pattern", lambda p: with_pattern(p, Charuco()))
     qtbot.waitUntil(lambda: tabs.height() > low)
-    for box in (window.target.rows, window.target.square, window.target.pattern):
+    for box in (window.board.rows, window.board.square, window.board.pattern):
         assert box.height() >= box.minimumSizeHint().height()
     window.session.document.undo()
     qtbot.waitUntil(lambda: tabs.height() == low)

@@ -22,8 +22,9 @@ from pytestqt.qtbot import QtBot
 from calibgui.app.document import Document
 from calibgui.app.project import Unit, with_each
 from calibgui.app.recent import recent_projects
+from calibgui.dataset.view import View, ViewStatus
+from calibgui.engine.calibration.result import Status
 from calibgui.engine.errors import CalibrationError
-from calibgui.engine.types import Status, View, ViewStatus
 from calibgui.gui import theme
 from calibgui.gui.bug_dialog import BugDialog
 from calibgui.gui.help_dialog import HelpDialog
@@ -37,7 +38,7 @@ LEFT = Qt.MouseButton.LeftButton
 
 
 def test_the_squares_side_keeps_its_length_in_every_unit(full: MainWindow, qtbot: QtBot) -> None:
-    panel, session = full.target, full.session
+    panel, session = full.board, full.session
     assert (panel.rows.value(), panel.cols.value()) == (6, 7)
     assert not panel.rows.isEnabled(), "what is counted is not stated"
     panel.square.selectAll()
@@ -56,15 +57,15 @@ def test_the_squares_side_keeps_its_length_in_every_unit(full: MainWindow, qtbot
 
 
 def test_stating_another_board_searches_again(full: MainWindow, qtbot: QtBot) -> None:
-    panel = full.target
+    panel = full.board
     qtbot.mouseClick(panel.inferred, LEFT, pos=QPoint(8, panel.inferred.height() // 2))
-    assert full.session.project.board == (6, 7)
+    assert full.session.project.grid_size == (6, 7)
     assert panel.rows.isEnabled()
     assert full.session.project.views[0].status is ViewStatus.FOUND, "it is the one that was found"
     with qtbot.waitSignal(panel.search_wanted):
         panel.rows.setValue(5)
         panel.rows.editingFinished.emit()
-    assert full.session.project.board == (5, 7)
+    assert full.session.project.grid_size == (5, 7)
     assert full.session.document.undo_label == "Number of corners"
     full.session.document.undo()
     assert full.session.project.views[0].corners is not None
@@ -159,9 +160,9 @@ def test_dropped_and_pasted_paths_become_images(
 
 def test_the_sample_comes_with_its_squares(window: MainWindow) -> None:
     window.files.open_sample()
-    assert window.target.square.value() == 25.0
+    assert window.board.square.value() == 25.0
     window.session.document.undo()
-    assert window.target.square.value() == 30.0
+    assert window.board.square.value() == 30.0
 
 
 def test_what_cannot_be_done_comes_with_a_remedy(window: MainWindow, qtbot: QtBot) -> None:

@@ -21,7 +21,7 @@ from pytestqt.qtbot import QtBot
 from calibgui.app.calibration import calibrate_views
 from calibgui.app.project import Project, with_result
 from calibgui.app.project_file import write_project
-from calibgui.formats.corners_json import CornerSet
+from calibgui.dataset.corner_set import CornerSet
 from calibgui.gui.main_window import MainWindow
 from calibgui.gui.panels.synthetic import SyntheticPanel
 from tests.app import examples
@@ -111,7 +111,7 @@ def many_views(count: int, folder: Path) -> Project:
         )
         views.append(replace(template, image=str(folder / f"{k}.png"), corners=corners))
     project = Project(views=tuple(views), size=scene.size)
-    corner_set = CornerSet(scene.size, project.views, project.target)
+    corner_set = CornerSet(scene.size, project.views, project.board)
     return with_result(project, "Calibration 1", calibrate_views(corner_set))
 
 

@@ -16,8 +16,9 @@ from pytestqt.qtbot import QtBot
 
 from calibgui.app.project import with_each
 from calibgui.app.settings import Settings
-from calibgui.engine.types import Cost, Plate, PlateModel, Prior
-from calibgui.formats.plate_json import write_plate
+from calibgui.engine.boards.shape import BoardShape, BoardShapeModel, BoardShapePrior
+from calibgui.engine.calibration.result import Cost
+from calibgui.formats.board_shape_json import write_board_shape
 from calibgui.gui.image_model import Role
 from calibgui.gui.main_window import MainWindow
 
@@ -77,8 +78,8 @@ def test_every_setting_is_in_the_panel_and_none_disturbs_another(full: MainWindo
         cost=Cost.IMAGE,
         fixed={"fx": 650.5, "k3": None},
         freed=("p3",),
-        plate=PlateModel.FREE,
-        prior=Prior(0.25, 0.5),
+        board_shape=BoardShapeModel.FREE,
+        prior=BoardShapePrior(0.25, 0.5),
         robust=True,
         weigh_views=True,
         once=True,
@@ -112,48 +113,50 @@ def test_the_boards_shape_is_a_setting(
     full: MainWindow, qtbot: QtBot, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     panel, session = full.settings, full.session
-    choice = panel.plate
+    choice = panel.board_shape
     assert not choice.known.isEnabled()
     choose(choice.model, "free")
-    assert session.project.settings.plate is PlateModel.FREE
+    assert session.project.settings.board_shape is BoardShapeModel.FREE
     qtbot.mouseClick(choice.known, LEFT, pos=QPoint(8, choice.known.height() // 2))
-    assert session.project.settings.prior == Prior(0.1, 0.3)
+    assert session.project.settings.prior == BoardShapePrior(0.1, 0.3)
     choice.in_plane.setFocus()
     choice.in_plane.selectAll()
     qtbot.keyClicks(choice.in_plane, "0.25")
     qtbot.keyClick(choice.in_plane, Qt.Key.Key_Return)
-    assert session.project.settings.prior == Prior(0.25, 0.3)
+    assert session.project.settings.prior == BoardShapePrior(0.25, 0.3)
     choose(choice.model, "what predicts best")
-    assert (session.project.settings.plate, session.project.settings.prior) == (None, None)
-    for prior in (Prior(0.25, 0.3), Prior(0.1, 0.3)):
+    assert (session.project.settings.board_shape, session.project.settings.prior) == (None, None)
+    for prior in (BoardShapePrior(0.25, 0.3), BoardShapePrior(0.1, 0.3)):
         session.document.undo()
         assert session.project.settings.prior == prior
         assert choice.in_plane.value() == prior.in_plane
 
     # A plate from a file; a dialog that is left changes nothing, and nor does another file.
-    plate = Plate(PlateModel.BOW, np.zeros((1, 2)), np.full((1, 3), 0.1), np.zeros((1, 3)))
-    write_plate(plate, tmp_path / "plate.json")
+    board_shape = BoardShape(
+        BoardShapeModel.BOW, np.zeros((1, 2)), np.full((1, 3), 0.1), np.zeros((1, 3))
+    )
+    write_board_shape(board_shape, tmp_path / "plate.json")
     (tmp_path / "other.json").write_text("{}")
     for name in ("", str(tmp_path / "other.json")):
         monkeypatch.setattr(QFileDialog, "getOpenFileName", lambda *_, name=name: (name, ""))
         choose(choice.model, "as in a file")
-        assert session.project.settings.plate is PlateModel.FREE
+        assert session.project.settings.board_shape is BoardShapeModel.FREE
         assert choice.model.currentText().startswith("free")
     assert "not a file of the format" in full.banner.text.text()
     monkeypatch.setattr(
         QFileDialog, "getOpenFileName", lambda *_: (str(tmp_path / "plate.json"), "")
     )
     choose(choice.model, "as in a file")
-    held = session.project.settings.plate
-    assert isinstance(held, Plate)
+    held = session.project.settings.board_shape
+    assert isinstance(held, BoardShape)
     assert choice.model.currentText() == "as in a file: 0.17 mm off"
 
     # Other costs take a board as drawn.
     choose(panel.cost, "error on the reference plane")
-    assert session.project.settings.plate is PlateModel.NOMINAL
+    assert session.project.settings.board_shape is BoardShapeModel.NOMINAL
     assert not choice.isEnabled()
     session.document.undo()
-    assert session.project.settings.plate is held
+    assert session.project.settings.board_shape is held
 
 
 def test_outliers_left_out_are_seen_in_the_images_and_undone(

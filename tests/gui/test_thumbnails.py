@@ -11,7 +11,7 @@ from pytestqt.qtbot import QtBot
 
 from calibgui.app.image_store import file_digest
 from calibgui.app.resources import resource
-from calibgui.engine.types import ViewStatus
+from calibgui.dataset.view import ViewStatus
 from calibgui.gui.image_model import Role
 from calibgui.gui.main_window import MainWindow
 

@@ -30,9 +30,9 @@ from pytestqt.qtbot import QtBot
 
 import calibgui.gui
 from calibgui.app.document import Document
-from calibgui.engine.images import Image
-from calibgui.engine.quality.noise import NoiseReport
-from calibgui.engine.types import Target
+from calibgui.engine.assessment.noise_test import NoiseReport
+from calibgui.engine.boards.board import Board
+from calibgui.engine.images.reading import Image
 from calibgui.formats import EXPORTERS
 from calibgui.gui import app
 from calibgui.gui.analysis import PANELS
@@ -145,7 +145,7 @@ def test_no_text_of_the_window_is_left_in_english(
     assert window.session.result is not None
     help_dialog = HelpDialog(window)
     export = ExportDialog(window.session.jobs, window.session.result, window)
-    others = PrintDialog(Target(5, 6, 20.0), window), BugDialog(ValueError("x"), window)
+    others = PrintDialog(Board(5, 6, 20.0), window), BugDialog(ValueError("x"), window)
     qtbot.waitUntil(lambda: not window.session.jobs.running, timeout=60_000)
     left = english(window, tmp_path)
     for dialog in (help_dialog, export, *others):

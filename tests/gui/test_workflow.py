@@ -15,10 +15,11 @@ from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QApplication, QFileDialog
 from pytestqt.qtbot import QtBot
 
+from calibgui.app import redetection
 from calibgui.app.project import Project
 from calibgui.app.project_file import project_record
 from calibgui.app.resources import resource
-from calibgui.engine.types import Status
+from calibgui.engine.calibration.result import Status
 from calibgui.formats.json_document import dumps
 from calibgui.formats.result_json import read_result
 from calibgui.gui import calibrating
@@ -92,7 +93,7 @@ def test_from_photographs_to_an_exported_camera(
         hand.click(point + np.array([1.5, 1.5]))
     hand.wait(window.page.marker.roi_bar.accept.isEnabled)
     bar = window.page.marker.roi_bar
-    assert bar.board == before.shape
+    assert bar.grid_size == before.shape
 
     # A wrong count is not accepted; the right one is, from the box it was typed into.
     bar.counts[1].stepDown()
@@ -166,7 +167,7 @@ def test_from_photographs_to_an_exported_camera(
 
         return calibrate_twice(corner_set, settings, slow, stop)
 
-    calibrate_twice = calibrating.calibrate_twice
+    calibrate_twice = redetection.calibrate_twice
     monkeypatch.setattr(calibrating, "calibrate_twice", slowly)
     hand.click_button(window.calibrate)
     assert window.calibrate.text() == "&Stop"

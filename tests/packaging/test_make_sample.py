@@ -11,9 +11,9 @@ from typing import Any
 import numpy as np
 import pytest
 
-from calibgui.engine.frames import rotation
-from calibgui.engine.images import read_image
-from calibgui.engine.imaging.maps import project_points
+from calibgui.engine.camera.distortion import project_points
+from calibgui.engine.geometry.rotations import rotation
+from calibgui.engine.images.reading import read_image
 
 ROOT = Path(__file__).resolve().parents[2]
 FOLDER = ROOT / "resources" / "sample"

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from calibgui import engine
-from calibgui.engine import frames
+from calibgui.engine.geometry import rotations
 from calibgui.report.coverage import attitudes, density
 from tests.engine import scenes
 
@@ -45,5 +45,5 @@ def test_distance_is_to_the_middle_of_the_board() -> None:
     distance = attitudes(calibration, scene.views).distance
     for pose, view, d in zip(scene.poses, scene.views, distance, strict=True):
         centre = (view.xy.min(axis=0) + view.xy.max(axis=0)) / 2
-        R = frames.rotation(pose.rvec)
+        R = rotations.rotation(pose.rvec)
         assert d == pytest.approx(float(np.linalg.norm(R[:, :2] @ centre + pose.tvec)), rel=1e-6)

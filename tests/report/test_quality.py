@@ -5,13 +5,19 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from calibgui.engine.calibrate import calibrate
-from calibgui.engine.quality.difference import difference
-from calibgui.engine.quality.noise import examine
-from calibgui.engine.quality.projection_uncertainty import projection_uncertainty
-from calibgui.engine.quality.validation import Bootstrap, bootstrap, choose_plate, cross_validate
-from calibgui.engine.quality.view_count import ViewCount, study
-from calibgui.engine.types import Calibration, Observation
+from calibgui.engine.assessment.comparison import compare_cameras
+from calibgui.engine.assessment.cross_validation import (
+    Bootstrap,
+    bootstrap,
+    choose_board_shape,
+    cross_validate,
+)
+from calibgui.engine.assessment.noise_test import examine
+from calibgui.engine.calibration.calibrate import calibrate
+from calibgui.engine.calibration.observations import Observation
+from calibgui.engine.calibration.result import Calibration
+from calibgui.engine.uncertainty.number_of_views import ViewCount, study
+from calibgui.engine.uncertainty.projection_uncertainty import estimate_projection_uncertainty
 from calibgui.report import quality, quality_figures
 from tests.engine.scenes import barrel, scene
 
@@ -28,12 +34,12 @@ def test_tables_fit_a_terminal(calibrated: Calibrated) -> None:
     result, views = calibrated
     size = barrel().size
     texts = [
-        quality.projection(projection_uncertainty(result, views, 500.0), 0.1),
+        quality.projection(estimate_projection_uncertainty(result, views, 500.0), 0.1),
         quality.noise(examine(result, views)),
         quality.validation(cross_validate(views, size, 4)),
-        quality.plates(choose_plate(views, size, 3)),
+        quality.board_shapes(choose_board_shape(views, size, 3)),
         quality.resampled(bootstrap(views, size, 12), result),
-        quality.difference(difference(barrel(), result.camera, 500.0), 0.1),
+        quality.difference(compare_cameras(barrel(), result.camera, 500.0), 0.1),
         quality.view_count(study(result, views, solved=4), 0.5),
     ]
     for text in texts:
@@ -59,7 +65,7 @@ def test_views_that_scatter_too_much_are_told(calibrated: Calibrated) -> None:
 
 
 def test_differences_are_judged_by_what_is_expected(calibrated: Calibrated) -> None:
-    found = difference(barrel(), calibrated[0].camera)
+    found = compare_cameras(barrel(), calibrated[0].camera)
     assert "agree" in quality.difference(found, found.median)
     assert "4.0 times" in quality.difference(found, found.median / 4)
 
@@ -91,9 +97,9 @@ def test_sentences_about_the_number_of_views() -> None:
 
 def test_figures_can_be_drawn(calibrated: Calibrated) -> None:
     result, views = calibrated
-    found = projection_uncertainty(result, views)
+    found = estimate_projection_uncertainty(result, views)
     assert quality_figures.uncertainty(found, views, found.median).axes
-    region = difference(barrel(), result.camera, views=views)
+    region = compare_cameras(barrel(), result.camera, views=views)
     assert quality_figures.difference(region).axes
-    assert quality_figures.difference(difference(barrel(), barrel())).axes
+    assert quality_figures.difference(compare_cameras(barrel(), barrel())).axes
     assert len(quality_figures.view_count(_count(-0.5), 0.5).axes) == 3

@@ -9,8 +9,9 @@ from hypothesis import strategies as st
 from scipy.spatial.transform import Rotation
 
 from calibgui import engine
-from calibgui.engine.types import Corners, View, ViewStatus
-from calibgui.formats.result import Result
+from calibgui.dataset.result import Result
+from calibgui.dataset.view import View, ViewStatus
+from calibgui.engine.detection.corners import Corners
 from calibgui.report.scene3d import Centre, Kind, Observer, draw, fitted, project, scene, view_at
 from tests.engine import scenes
 
@@ -20,14 +21,14 @@ observers = st.builds(Observer, st.floats(-3, 3), st.floats(-1.5, 1.5), st.float
 @pytest.fixture(scope="module")
 def result() -> Result:
     seen = scenes.scene(scenes.barrel(), 6, seed=2)
-    board = scenes.BOARD
-    grid = np.indices((board.rows, board.cols)).reshape(2, -1).T
-    shape = (board.rows, board.cols)
+    grid_size = scenes.BOARD
+    grid = np.indices((grid_size.rows, grid_size.cols)).reshape(2, -1).T
+    shape = (grid_size.rows, grid_size.cols)
     views = tuple(
         View(f"{k}.png", ViewStatus.FOUND, corners=Corners(shape, grid, v.uv, v.uv))
         for k, v in enumerate(seen.views)
     )
-    return Result(engine.calibrate(seen.views, seen.size), views, board)
+    return Result(engine.calibrate(seen.views, seen.size), views, grid_size)
 
 
 def test_boards_stand_where_their_poses_say(result: Result) -> None:
@@ -53,9 +54,9 @@ def test_unknown_target_is_outlined_by_its_corners(result: Result) -> None:
     points = tuple(
         View(v.image, v.status, points=v.observation(scenes.BOARD)) for v in result.views
     )
-    board = scene(Result(result.calibration, points), Centre.BOARD)[0]
-    assert board.points.max(axis=0).tolist() == [330.0, 240.0, 0.0]
-    assert board.points.min(axis=0).tolist() == [0.0, 0.0, 0.0]
+    grid_size = scene(Result(result.calibration, points), Centre.BOARD)[0]
+    assert grid_size.points.max(axis=0).tolist() == [330.0, 240.0, 0.0]
+    assert grid_size.points.min(axis=0).tolist() == [0.0, 0.0, 0.0]
 
 
 @given(observer=observers)

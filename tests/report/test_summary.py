@@ -9,9 +9,13 @@ import numpy as np
 import pytest
 
 from calibgui import engine
-from calibgui.engine.types import Observation, Plate, PlateModel, Pose, Status, View, ViewStatus
-from calibgui.formats.result import Result
-from calibgui.report.summary import Tone, about_plate, outlying_views, summary
+from calibgui.dataset.result import Result
+from calibgui.dataset.view import View, ViewStatus
+from calibgui.engine.boards.shape import BoardShape, BoardShapeModel
+from calibgui.engine.calibration.observations import Observation
+from calibgui.engine.calibration.result import Status
+from calibgui.engine.geometry.pose import Pose
+from calibgui.report.summary import Tone, about_board_shape, outlying_views, summary
 from tests.engine import scenes
 from tests.engine.degenerate_scenes import LONG, in_one_spot
 
@@ -50,8 +54,10 @@ def test_a_plate_that_noise_feigns_is_told_from_one_that_is_bent() -> None:
     nominal = np.array(scenes.BOARD.points())
     for size, feigned in ((0.02, True), (0.2, False)):
         deviation = np.full((len(nominal), 3), size)
-        plate = Plate(PlateModel.FREE, nominal, deviation, np.full_like(deviation, 0.02))
-        assert ("it may well be as drawn" in about_plate(plate)) is feigned
+        board_shape = BoardShape(
+            BoardShapeModel.FREE, nominal, deviation, np.full_like(deviation, 0.02)
+        )
+        assert ("it may well be as drawn" in about_board_shape(board_shape)) is feigned
 
 
 def test_corners_in_one_spot_are_said_to_be() -> None:

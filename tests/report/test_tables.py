@@ -10,14 +10,17 @@ import pytest
 from calibgui import engine
 from calibgui.app.calibration import calibrate_views
 from calibgui.app.settings import Settings
-from calibgui.engine import Ambiguity, Corners, Cost, Target, View, ViewStatus
-from calibgui.engine.types import OtherBoard, Undetermined
-from calibgui.formats.corners_json import CornerSet
-from calibgui.formats.result import Result
+from calibgui.dataset.corner_set import CornerSet
+from calibgui.dataset.result import Result
+from calibgui.dataset.view import View, ViewStatus
+from calibgui.engine.boards.board import Board
+from calibgui.engine.boards.pattern import Ambiguity
+from calibgui.engine.calibration.result import Cost, Undetermined
+from calibgui.engine.detection.corners import Corners, OtherBoard
 from calibgui.report import tables
 from tests.engine import scenes
 
-BOARD = Target(rows=8, cols=11, square=30.0)
+BOARD = Board(rows=8, cols=11, square=30.0)
 
 
 def calibrated(ambiguity: Ambiguity = Ambiguity.NONE, cost: Cost = Cost.IMAGE) -> Result:

@@ -20,7 +20,7 @@ from typing import Any
 import numpy as np
 from numba import config, njit
 
-from calibgui.engine.types import Array
+from calibgui.engine.arrays import Array
 
 _MATHS = {"contract", "nsz", "arcp", "reassoc"}
 """Freedoms that the compiler needs to vectorise sums; infinities and NaN stay as they are."""

@@ -4,9 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
+from calibgui.engine.arrays import Array, GreyImage
 from calibgui.engine.kernels.common import compiled
-from calibgui.engine.opencv import Image
-from calibgui.engine.types import Array
 
 
 @compiled
@@ -59,7 +58,7 @@ def _scores(image, origin, weights, sensitivity, out):  # type: ignore[no-untype
                 out[n, kv, ku] = uu * vv - uv * uv - sensitivity * (uu + vv) ** 2
 
 
-def scores(image: Image, uv: Array, weights: Array, sensitivity: float) -> Array:
+def scores(image: GreyImage, uv: Array, weights: Array, sensitivity: float) -> Array:
     """(n, k, k) ``harris._scores``.
 
     Args:

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
+from calibgui.engine.arrays import Array
 from calibgui.engine.kernels.common import compiled, in_blocks, plain
-from calibgui.engine.types import Array
 
 
 @compiled

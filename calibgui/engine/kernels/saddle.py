@@ -4,9 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
+from calibgui.engine.arrays import Array, BoolArray, GreyImage
 from calibgui.engine.kernels.common import compiled, factor, substitute
-from calibgui.engine.opencv import Image
-from calibgui.engine.types import Array, BoolArray
 
 _POWERS = np.array([(0, 0), (1, 0), (0, 1), (2, 0), (1, 1), (0, 2)])
 
@@ -94,7 +93,7 @@ def _iterate(image, start, sigma, limit, tolerance, most, uv, good):  # type: ig
 
 
 def iterate(
-    image: Image, start: Array, sigma: Array, limit: Array, tolerance: float, most: int
+    image: GreyImage, start: Array, sigma: Array, limit: Array, tolerance: float, most: int
 ) -> tuple[Array, BoolArray]:
     """Saddle points of `image` near the estimates `start` (n, 2), and whether (n,) found.
 

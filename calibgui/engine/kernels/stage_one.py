@@ -7,8 +7,8 @@ from __future__ import annotations
 
 import numpy as np
 
+from calibgui.engine.arrays import Array, BoolArray, IntArray
 from calibgui.engine.kernels.common import compiled, gram, in_blocks, plain
-from calibgui.engine.types import Array, BoolArray, IntArray
 
 
 @compiled

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from calibgui.engine.types import Array
+from calibgui.engine.arrays import Array
 
 
 def arrows(at: Array, vector: Array) -> Array:

@@ -9,7 +9,7 @@ import pyqtgraph as pg
 from contourpy import contour_generator
 from PySide6.QtGui import QColor, QPen
 
-from calibgui.engine.types import Array
+from calibgui.engine.arrays import Array
 from calibgui.gui.plots import Plot
 
 _EDGE = 3.0

@@ -7,8 +7,8 @@ import pyqtgraph as pg
 from PySide6.QtCore import QT_TRANSLATE_NOOP
 from PySide6.QtWidgets import QLabel, QVBoxLayout
 
-from calibgui.engine.types import Cost, Iteration, Status
-from calibgui.formats.result import Result
+from calibgui.dataset.result import Result
+from calibgui.engine.calibration import Cost, Iteration, Status
 from calibgui.gui import theme
 from calibgui.gui.panels.panel import Panel
 from calibgui.gui.plots import Plot

@@ -9,8 +9,8 @@ from PySide6.QtCore import QT_TRANSLATE_NOOP, Qt
 from PySide6.QtGui import QColor
 from PySide6.QtWidgets import QLabel, QVBoxLayout
 
-from calibgui.engine.quality.next_view import NextView, next_views
-from calibgui.formats.result import Result
+from calibgui.dataset.result import Result
+from calibgui.engine.uncertainty import NextView, next_views
 from calibgui.gui import theme
 from calibgui.gui.jobs import Jobs
 from calibgui.gui.panels.heat import HeatMap, whole

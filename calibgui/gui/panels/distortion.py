@@ -10,11 +10,11 @@ import scipy
 from PySide6.QtCore import QT_TRANSLATE_NOOP, QPointF
 from PySide6.QtWidgets import QCheckBox, QComboBox, QHBoxLayout, QLabel, QVBoxLayout
 
-from calibgui.engine.frames import centre_of_array
-from calibgui.engine.imaging.maps import Displacement, Part, displacement
-from calibgui.engine.imaging.sampling import mesh
-from calibgui.engine.types import Array, BoolArray, Size
-from calibgui.formats.result import Result
+from calibgui.dataset.result import Result
+from calibgui.engine.arrays import Array, BoolArray, Size
+from calibgui.engine.camera import Displacement, Part, displacement
+from calibgui.engine.geometry import centre_of_array
+from calibgui.engine.images import mesh
 from calibgui.gui.panels.arrows import arrows
 from calibgui.gui.panels.contours import Contours
 from calibgui.gui.panels.heat import HeatMap, whole

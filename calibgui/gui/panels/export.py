@@ -22,9 +22,9 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
+from calibgui.dataset.result import Result
 from calibgui.formats import EXPORTERS, export
 from calibgui.formats.exporter import Exporter, ExportReport
-from calibgui.formats.result import Result
 from calibgui.gui import theme
 from calibgui.gui.actions import closing
 from calibgui.gui.job import Job

@@ -6,7 +6,7 @@ import numpy as np
 import pyqtgraph as pg
 from PySide6.QtCore import QPointF, QRectF
 
-from calibgui.engine.types import Array, Size
+from calibgui.engine.arrays import Array, Size
 from calibgui.gui.plots import ColourBar, Plot
 
 

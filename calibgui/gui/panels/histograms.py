@@ -7,8 +7,12 @@ import pyqtgraph as pg
 from PySide6.QtCore import QT_TRANSLATE_NOOP, Qt
 from PySide6.QtWidgets import QVBoxLayout
 
-from calibgui.engine.quality.statistics import Histogram, component_histogram, length_histogram
-from calibgui.formats.result import Result
+from calibgui.dataset.result import Result
+from calibgui.engine.assessment import (
+    Histogram,
+    component_histogram,
+    length_histogram,
+)
 from calibgui.gui import theme
 from calibgui.gui.panels.panel import Panel
 from calibgui.gui.panels.plane import PlaneChoice

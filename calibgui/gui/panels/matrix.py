@@ -9,7 +9,7 @@ from PySide6.QtCore import QEvent, QRectF, QSize, Qt
 from PySide6.QtGui import QColor, QHelpEvent, QPainter, QPaintEvent
 from PySide6.QtWidgets import QToolTip, QWidget
 
-from calibgui.engine.types import Array
+from calibgui.engine.arrays import Array
 from calibgui.gui import theme
 
 _NEGATIVE, _POSITIVE = QColor("#0072B2"), QColor("#D55E00")

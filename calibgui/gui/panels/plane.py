@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from PySide6.QtWidgets import QComboBox
 
-from calibgui.engine.types import Array, Calibration
+from calibgui.engine.arrays import Array
+from calibgui.engine.calibration import Calibration
 
 
 class PlaneChoice(QComboBox):

@@ -17,8 +17,8 @@ from PySide6.QtGui import (
 from PySide6.QtWidgets import QComboBox, QHBoxLayout, QLabel, QPushButton, QVBoxLayout, QWidget
 
 from calibgui.app.calibration import short_names
-from calibgui.engine.types import Array
-from calibgui.formats.result import Result
+from calibgui.dataset.result import Result
+from calibgui.engine.arrays import Array
 from calibgui.gui import theme
 from calibgui.gui.panels.panel import Panel
 from calibgui.report.coverage import attitudes

@@ -9,9 +9,8 @@ from PySide6.QtCore import QT_TRANSLATE_NOOP, Qt, Signal
 from PySide6.QtWidgets import QLabel, QVBoxLayout, QWidget
 
 from calibgui.app.calibration import short_names
-from calibgui.engine.quality.noise import NoiseReport, examine
-from calibgui.engine.quality.statistics import summarise
-from calibgui.formats.result import Result
+from calibgui.dataset.result import Result
+from calibgui.engine.assessment import NoiseReport, examine, summarise
 from calibgui.gui.jobs import Jobs
 from calibgui.gui.panels.latest import Latest
 from calibgui.gui.panels.panel import Panel

@@ -9,9 +9,9 @@ import numpy as np
 from PySide6.QtCore import QT_TRANSLATE_NOOP
 from PySide6.QtWidgets import QTabWidget, QTextBrowser, QVBoxLayout
 
-from calibgui.engine.estimation.uncertainty import correlations, paper_table
-from calibgui.engine.frames import PAPER_NAMES
-from calibgui.formats.result import Result
+from calibgui.dataset.result import Result
+from calibgui.engine.calibration import correlations, paper_table
+from calibgui.engine.geometry import PAPER_NAMES
 from calibgui.gui import theme
 from calibgui.gui.jobs import Jobs
 from calibgui.gui.panels.estimates import estimate_columns

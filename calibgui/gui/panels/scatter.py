@@ -9,7 +9,7 @@ import numpy as np
 import pyqtgraph as pg
 from PySide6.QtCore import Qt, Signal
 
-from calibgui.engine.types import Array
+from calibgui.engine.arrays import Array
 from calibgui.gui import theme
 from calibgui.gui.plots import Plot
 

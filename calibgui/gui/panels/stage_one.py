@@ -12,9 +12,9 @@ from PySide6.QtCore import QT_TRANSLATE_NOOP
 from PySide6.QtWidgets import QVBoxLayout
 
 from calibgui.app.calibration import short_names
-from calibgui.engine.estimation.cosines import cosines_equation
-from calibgui.engine.types import Array, BoolArray, Cost, StageOne
-from calibgui.formats.result import Result
+from calibgui.dataset.result import Result
+from calibgui.engine.arrays import Array, BoolArray
+from calibgui.engine.calibration import Cost, StageOne, cosines_equation
 from calibgui.gui import theme
 from calibgui.gui.panels.panel import Panel
 from calibgui.gui.panels.split import Split

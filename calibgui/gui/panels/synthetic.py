@@ -16,21 +16,15 @@ from PySide6.QtWidgets import (
 
 from calibgui.app.calibration import short_names
 from calibgui.app.synthetic import BLUR, SyntheticCheck, synthetic_check
-from calibgui.engine.images import Image
-from calibgui.engine.imaging.render import render
-from calibgui.engine.quality.statistics import summarise
-from calibgui.formats.result import Result
+from calibgui.dataset.result import Result
+from calibgui.engine.assessment import summarise
+from calibgui.engine.images import Image, render
 from calibgui.gui.job import Job
 from calibgui.gui.jobs import Jobs
 from calibgui.gui.panels.before_after import BeforeAfter, Grey
 from calibgui.gui.panels.latest import Latest
 from calibgui.gui.panels.panel import Panel
-from calibgui.gui.panels.synthetic_figures import (
-    Histograms,
-    ParameterTable,
-    PoseErrors,
-    Scatters,
-)
+from calibgui.gui.panels.synthetic_figures import Histograms, ParameterTable, PoseErrors, Scatters
 
 
 class SyntheticPanel(Panel):
@@ -127,7 +121,7 @@ class SyntheticPanel(Panel):
     def _refresh(self, result: Result) -> None:
         check = self.check
         self.tabs.setVisible(check is not None)
-        self.run.setEnabled(result.target is not None)
+        self.run.setEnabled(result.board is not None)
         if check is None:
             if self._job is None:
                 self.words.setText(self._invitation(result))
@@ -150,7 +144,7 @@ class SyntheticPanel(Panel):
         )
 
     def _invitation(self, result: Result) -> str:
-        if result.target is None:
+        if result.board is None:
             return self.tr("The target's pattern is not known, so its views cannot be rendered.")
         return self.tr("Would the method find this camera again, if it were just so?")
 
@@ -191,7 +185,7 @@ def pictures(result: Result, k: int, read: Callable[[str], Image]) -> tuple[Grey
     Raises:
         CalibrationError: if the image cannot be read.
     """
-    assert result.target is not None
+    assert result.board is not None
     real = read(result.used[k].image).grey
     pose = result.calibration.poses[k]
-    return real, render(result.calibration.camera, pose, result.target, blur=BLUR)
+    return real, render(result.calibration.camera, pose, result.board, blur=BLUR)

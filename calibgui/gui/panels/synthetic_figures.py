@@ -8,7 +8,7 @@ from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QComboBox, QVBoxLayout, QWidget
 
 from calibgui.app.synthetic import SyntheticCheck
-from calibgui.engine.quality.statistics import component_histogram, length_histogram, stacked
+from calibgui.engine.assessment import component_histogram, length_histogram, stacked
 from calibgui.gui import theme
 from calibgui.gui.panels.estimates import estimate_columns
 from calibgui.gui.panels.histograms import HistogramPlot

@@ -9,11 +9,8 @@ import pyqtgraph as pg
 from PySide6.QtCore import QT_TRANSLATE_NOOP, QPointF, QRectF
 from PySide6.QtWidgets import QDoubleSpinBox, QHBoxLayout, QLabel, QVBoxLayout
 
-from calibgui.engine.quality.projection_uncertainty import (
-    ProjectionUncertainty,
-    projection_uncertainty,
-)
-from calibgui.formats.result import Result
+from calibgui.dataset.result import Result
+from calibgui.engine.uncertainty import ProjectionUncertainty, estimate_projection_uncertainty
 from calibgui.gui.jobs import Jobs
 from calibgui.gui.panels.contours import Contours
 from calibgui.gui.panels.heat import HeatMap
@@ -94,7 +91,7 @@ class UncertaintyPanel(Panel):
         distance = self.distance.value() or math.inf
         self._work.start(
             self.tr("Propagating the uncertainty"),
-            lambda _: projection_uncertainty(result.calibration, views, distance),
+            lambda _: estimate_projection_uncertainty(result.calibration, views, distance),
             self._show,
             lambda error: self.words.setText(str(error)),
         )

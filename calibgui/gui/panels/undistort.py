@@ -9,14 +9,13 @@ from PySide6.QtCore import QT_TRANSLATE_NOOP, Qt, Signal
 from PySide6.QtWidgets import QComboBox, QHBoxLayout, QLabel, QPushButton, QVBoxLayout
 
 from calibgui.app.calibration import short_names
-from calibgui.engine.images import Image
-from calibgui.engine.imaging.undistort import FieldOfView, rectify_image, undistort_image
-from calibgui.formats.result import Result
+from calibgui.dataset.result import Result
+from calibgui.engine.images import FieldOfView, Image, rectify_image, undistort_image
 from calibgui.gui.jobs import Jobs
 from calibgui.gui.panels.before_after import BeforeAfter, Grey
 from calibgui.gui.panels.latest import Latest
 from calibgui.gui.panels.panel import Panel
-from calibgui.report.coverage import natural_scale, plate_extent
+from calibgui.report.coverage import board_extent_px, natural_scale
 
 RECTIFIED = "rectified"
 """Stands beside the fields of view for an image rectified to the board."""
@@ -115,6 +114,6 @@ def changed(
     camera = result.calibration.camera
     if way != RECTIFIED:
         return grey, cast(Grey, undistort_image(grey, camera, way).image)
-    pose, extent = result.calibration.poses[k], plate_extent(result)
+    pose, extent = result.calibration.poses[k], board_extent_px(result)
     rectified = rectify_image(grey, camera, pose, extent, natural_scale(result))
     return None, cast(Grey, rectified.image)

@@ -15,7 +15,7 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
-from calibgui.engine.types import Array
+from calibgui.engine.arrays import Array
 from calibgui.gui import theme
 from calibgui.gui.plots import Plot
 

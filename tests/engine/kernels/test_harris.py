@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from calibgui.engine import kernels
-from calibgui.engine.corners import harris
+from calibgui.engine.detection.checkerboard import harris
 
 
 @pytest.mark.parametrize("dtype", [np.uint8, np.uint16, np.float32])

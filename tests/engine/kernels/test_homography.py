@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from calibgui.engine.estimation import homography
+from calibgui.engine.geometry import homography
 
 
 def test_the_compiled_sums_are_the_readable_ones() -> None:

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from calibgui.engine import kernels
-from calibgui.engine.corners.lattice import axes, predict
+from calibgui.engine.detection.lattice import axes, predict
 
 
 @pytest.mark.parametrize("share", [1.0, 0.7, 0.3, 0.1])

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from calibgui.engine import kernels
-from calibgui.engine.corners import saddle
+from calibgui.engine.detection.checkerboard import saddle
 from tests.benchmarks.corner_scenes import Conditions, draw
 
 
@@ -22,9 +22,9 @@ def test_the_same_saddle_points(kind: type, monkeypatch: pytest.MonkeyPatch) -> 
         ]
     )
     sigma, limit = rng.uniform(0.8, 2.0, len(start)), rng.uniform(1.0, 4.0, len(start))
-    uv, good = saddle.refine(image, start, sigma, limit)
+    uv, good = saddle.refine_saddles(image, start, sigma, limit)
     monkeypatch.setattr(kernels, "COMPILED", False)
-    expected, expected_good = saddle.refine(image, start, sigma, limit)
+    expected, expected_good = saddle.refine_saddles(image, start, sigma, limit)
     assert 40 < expected_good.sum() < 200
     np.testing.assert_array_equal(good, expected_good)
     np.testing.assert_allclose(uv, expected, atol=1e-6)

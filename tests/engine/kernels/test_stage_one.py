@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from calibgui.engine import kernels
-from calibgui.engine.estimation.stage_one import prealign
+from calibgui.engine.calibration.initialisation.stage_one import prealign
 
 
 def test_compiled_and_readable_find_the_same(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -13,10 +13,14 @@ from PySide6.QtWidgets import QApplication, QWidget
 from pytestqt.qtbot import QtBot
 
 from calibgui import engine
-from calibgui.engine.estimation.projection import pixels
-from calibgui.engine.frames import rotation
-from calibgui.engine.types import Array, Camera, Corners, Pose, View, ViewStatus
-from calibgui.formats.result import Result
+from calibgui.dataset.result import Result
+from calibgui.dataset.view import View, ViewStatus
+from calibgui.engine.arrays import Array
+from calibgui.engine.camera.camera import Camera
+from calibgui.engine.camera.projection import pixels
+from calibgui.engine.detection.corners import Corners
+from calibgui.engine.geometry.pose import Pose
+from calibgui.engine.geometry.rotations import rotation
 from calibgui.gui.jobs import Jobs
 from calibgui.gui.panels.panel import Panel
 from calibgui.gui.plots import Plot
@@ -32,19 +36,19 @@ def made(
 
     The board's middle is `bow` mm nearer to the camera than its corners.
     """
-    board = scenes.BOARD
+    grid_size = scenes.BOARD
     scene = scenes.scene(scenes.barrel(), count, seed)
     rng = np.random.default_rng(seed)
-    grid = np.indices((board.rows, board.cols)).reshape(2, -1).T
+    grid = np.indices((grid_size.rows, grid_size.cols)).reshape(2, -1).T
     views = []
     for k, pose in enumerate(scene.poses):
         uv = bowed(scene.camera, pose, bow) + rng.normal(scale=noise, size=(len(grid), 2))
         corners = Corners((9, 12), grid, uv, uv)
         views.append(View(f"view{k + 1}.png", ViewStatus.FOUND, corners=corners))
     views.insert(1, View("blank.png", ViewStatus.NO_BOARD, "No checkerboard was found."))
-    observations = [view.observation(board) for view in views if view.usable]
+    observations = [view.observation(grid_size) for view in views if view.usable]
     calibration = engine.calibrate(observations, scene.size, **settings)  # type: ignore[arg-type]
-    return Result(calibration, tuple(views), board)
+    return Result(calibration, tuple(views), grid_size)
 
 
 def bowed(camera: Camera, pose: Pose, bow: float) -> Array:

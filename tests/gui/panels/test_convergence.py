@@ -7,8 +7,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from calibgui.engine.types import Status
-from calibgui.formats.result import Result
+from calibgui.dataset.result import Result
+from calibgui.engine.calibration.result import Status
 from calibgui.gui.panels.convergence import ConvergencePanel
 from tests.gui.panels.conftest import Shown
 

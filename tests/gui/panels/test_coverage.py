@@ -10,8 +10,8 @@ import numpy as np
 import pytest
 from pytestqt.qtbot import QtBot
 
-from calibgui.engine.quality.next_view import NextView, next_views
-from calibgui.formats.result import Result
+from calibgui.dataset.result import Result
+from calibgui.engine.uncertainty.next_view import NextView, next_views
 from calibgui.gui.jobs import Jobs
 from calibgui.gui.panels import coverage
 from calibgui.gui.panels.coverage import CoveragePanel

@@ -7,9 +7,9 @@ import pytest
 from PySide6.QtCore import QPointF, Qt
 from pytestqt.qtbot import QtBot
 
-from calibgui.engine.frames import paper_intrinsics
-from calibgui.engine.types import Array
-from calibgui.formats.result import Result
+from calibgui.dataset.result import Result
+from calibgui.engine.arrays import Array
+from calibgui.engine.geometry.frames import paper_intrinsics
 from calibgui.gui.panels.distortion import DistortionPanel
 from tests.gui.panels.conftest import Shown, made, place
 

@@ -12,9 +12,9 @@ from PySide6.QtGui import QGuiApplication
 from PySide6.QtWidgets import QFileDialog
 from pytestqt.qtbot import QtBot
 
+from calibgui.dataset.result import Result
 from calibgui.formats import EXPORTERS
 from calibgui.formats.forward_model import forward
-from calibgui.formats.result import Result
 from calibgui.gui.jobs import Jobs
 from calibgui.gui.panels.export import ExportDialog
 
@@ -96,7 +96,7 @@ def test_a_wrong_suffix_is_explained(
 def test_a_format_that_fails_says_why(jobs: Jobs, result: Result, qtbot: QtBot) -> None:
     """Corners that are not numbers cannot be refitted."""
     few = tuple(
-        replace(v, points=v.observation(result.target)._replace(uv=np.full((108, 2), np.nan)))
+        replace(v, points=v.observation(result.board)._replace(uv=np.full((108, 2), np.nan)))
         if v.usable
         else v
         for v in result.views

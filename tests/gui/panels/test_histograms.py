@@ -7,8 +7,12 @@ import pytest
 from PySide6.QtCore import Qt
 from pytestqt.qtbot import QtBot
 
-from calibgui.engine.quality.statistics import component_histogram, length_histogram, stacked
-from calibgui.formats.result import Result
+from calibgui.dataset.result import Result
+from calibgui.engine.assessment.residual_statistics import (
+    component_histogram,
+    length_histogram,
+    stacked,
+)
 from calibgui.gui.panels.histograms import HistogramsPanel
 from tests.gui.panels.conftest import Shown
 

@@ -8,8 +8,8 @@ from PySide6.QtGui import QWheelEvent
 from PySide6.QtWidgets import QApplication
 from pytestqt.qtbot import QtBot
 
-from calibgui.engine import frames
-from calibgui.formats.result import Result
+from calibgui.dataset.result import Result
+from calibgui.engine.geometry import rotations
 from calibgui.gui.panels.poses import PosesPanel
 from calibgui.report.scene3d import Centre, Kind, Observer, draw, fitted, scene
 from tests.gui.panels.conftest import Shown, drag
@@ -92,6 +92,6 @@ def test_words_and_highlight_follow_the_selection(shown: Shown[PosesPanel], resu
     panel.select(4)
     assert panel.space.grab().toImage() != before
     pose = result.calibration.poses[3]
-    tilt = np.rad2deg(np.arccos(abs(frames.rotation(pose.rvec)[2, 2])))
+    tilt = np.rad2deg(np.arccos(abs(rotations.rotation(pose.rvec)[2, 2])))
     assert panel.words.text().startswith("view4.png: ")
     assert f"tilted by {tilt:.0f}°" in panel.words.text()

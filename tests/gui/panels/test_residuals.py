@@ -13,10 +13,10 @@ from PySide6.QtCore import Qt
 from pytestqt.qtbot import QtBot
 
 from calibgui.app.calibration import short_names
-from calibgui.engine.quality.noise import NoiseReport, examine
-from calibgui.engine.quality.statistics import stacked, summarise
-from calibgui.engine.types import Array
-from calibgui.formats.result import Result
+from calibgui.dataset.result import Result
+from calibgui.engine.arrays import Array
+from calibgui.engine.assessment.noise_test import NoiseReport, examine
+from calibgui.engine.assessment.residual_statistics import stacked, summarise
 from calibgui.gui.jobs import Jobs
 from calibgui.gui.panels import residuals
 from calibgui.gui.panels.residuals import ResidualsPanel
@@ -94,12 +94,12 @@ def test_dragging_the_threshold_excludes_the_views_above(
     rms = np.array([view.rms for view in result.calibration.residuals])
     assert views.above == () and not views.exclude.isEnabled()
     second, third = np.sort(rms)[[-2, -3]]
-    target = (second + third) / 2
-    start, end = (place(views.plot, 4.5, y) for y in (views.line.value(), target))
+    board = (second + third) / 2
+    start, end = (place(views.plot, 4.5, y) for y in (views.line.value(), board))
     drag(qtbot, views.plot.viewport(), start, end)
     worst = sorted(np.argsort(rms)[-2:].tolist())
     assert views.above == tuple(worst)
-    assert views.threshold.value() == pytest.approx(target, abs=2e-3)
+    assert views.threshold.value() == pytest.approx(board, abs=2e-3)
     with qtbot.waitSignal(panel.excluded) as signal:
         qtbot.mouseClick(views.exclude, Qt.MouseButton.LeftButton)
     assert [result.views[i] for i in signal.args[0]] == [result.used[k] for k in worst]

@@ -13,9 +13,9 @@ import pytest
 from PySide6.QtCore import QPoint, Qt
 from pytestqt.qtbot import QtBot
 
-from calibgui.engine.estimation.uncertainty import correlations, paper_table
-from calibgui.engine.types import Undetermined
-from calibgui.formats.result import Result
+from calibgui.dataset.result import Result
+from calibgui.engine.calibration.covariances import correlations, paper_table
+from calibgui.engine.calibration.result import Undetermined
 from calibgui.gui.jobs import Jobs
 from calibgui.gui.panels.result import ResultPanel
 from calibgui.gui.tables import Table

@@ -11,8 +11,8 @@ import pytest
 from PySide6.QtCore import Qt
 from pytestqt.qtbot import QtBot
 
-from calibgui.engine.estimation.cosines import cosines_equation
-from calibgui.formats.result import Result
+from calibgui.dataset.result import Result
+from calibgui.engine.calibration.initialisation.single_view_pose import cosines_equation
 from calibgui.gui.panels.stage_one import StageOnePanel
 from tests.gui.panels.conftest import Shown, click
 

@@ -13,10 +13,14 @@ from PySide6.QtCore import Qt
 from pytestqt.qtbot import QtBot
 
 from calibgui.app.synthetic import BLUR, SyntheticCheck, synthetic_check
-from calibgui.engine.images import Image
-from calibgui.engine.imaging.render import render
-from calibgui.engine.quality.statistics import component_histogram, length_histogram, stacked
-from calibgui.formats.result import Result
+from calibgui.dataset.result import Result
+from calibgui.engine.assessment.residual_statistics import (
+    component_histogram,
+    length_histogram,
+    stacked,
+)
+from calibgui.engine.images.reading import Image
+from calibgui.engine.images.rendering import render
 from calibgui.gui.jobs import Jobs
 from calibgui.gui.panels.synthetic import SyntheticPanel, pictures
 from tests.app.rendered import small_result
@@ -121,7 +125,7 @@ def test_the_selected_view_is_rendered(
     calibration = small.calibration
     real, made = pictures(small, 3, black)
     assert not real.any()
-    expected = render(calibration.camera, calibration.poses[3], small.target, blur=BLUR)
+    expected = render(calibration.camera, calibration.poses[3], small.board, blur=BLUR)
     np.testing.assert_array_equal(made, expected)
     panel.tabs.setCurrentWidget(panel.scatters)
     ring = np.transpose(panel.scatters.plots[0]._ring.getData())
@@ -143,7 +147,7 @@ def test_another_result_drops_the_check(
 
 def test_without_a_pattern_it_says_why_not(small: Result, jobs: Jobs, qtbot: QtBot) -> None:
     views = tuple(
-        replace(v, points=v.observation(small.target), corners=None) if v.usable else v
+        replace(v, points=v.observation(small.board), corners=None) if v.usable else v
         for v in small.views
     )
     panel = panel_of(Result(small.calibration, views), jobs, qtbot)

@@ -9,11 +9,11 @@ import pytest
 from PySide6.QtCore import QPointF, Qt
 from pytestqt.qtbot import QtBot
 
-from calibgui.engine.quality.projection_uncertainty import (
+from calibgui.dataset.result import Result
+from calibgui.engine.uncertainty.projection_uncertainty import (
     ProjectionUncertainty,
-    projection_uncertainty,
+    estimate_projection_uncertainty,
 )
-from calibgui.formats.result import Result
 from calibgui.gui.jobs import Jobs
 from calibgui.gui.panels.uncertainty import UncertaintyPanel
 from tests.gui.panels.conftest import Shown
@@ -30,7 +30,7 @@ def panel(
 
 @pytest.fixture(scope="module")
 def far(result: Result) -> ProjectionUncertainty:
-    return projection_uncertainty(result.calibration, result.observations())
+    return estimate_projection_uncertainty(result.calibration, result.observations())
 
 
 def test_map_and_words_are_the_engines(panel: UncertaintyPanel, far: ProjectionUncertainty) -> None:
@@ -70,7 +70,7 @@ def test_points_at_a_distance(
     qtbot.keyClicks(panel.distance, "500")
     qtbot.keyClick(panel.distance, Qt.Key.Key_Return)
     qtbot.waitUntil(lambda: not jobs.running)
-    near = projection_uncertainty(result.calibration, result.observations(), 500.0)
+    near = estimate_projection_uncertainty(result.calibration, result.observations(), 500.0)
     np.testing.assert_array_equal(panel.plot.image.image, near.worst_direction)
     assert "500 mm away" in panel.words.text()
 

@@ -11,14 +11,14 @@ from PySide6.QtCore import QPoint, Qt
 from PySide6.QtGui import QImage
 from pytestqt.qtbot import QtBot
 
+from calibgui.dataset.result import Result
+from calibgui.engine.arrays import Array
 from calibgui.engine.errors import CalibrationError
-from calibgui.engine.images import Image
-from calibgui.engine.imaging.undistort import rectify_image, undistort_image
-from calibgui.engine.types import Array
-from calibgui.formats.result import Result
+from calibgui.engine.images.reading import Image
+from calibgui.engine.images.undistortion import rectify_image, undistort_image
 from calibgui.gui.jobs import Jobs
 from calibgui.gui.panels.undistort import RECTIFIED, UndistortPanel
-from calibgui.report.coverage import natural_scale, plate_extent
+from calibgui.report.coverage import board_extent_px, natural_scale
 from tests.gui.panels.conftest import drag
 
 Read = Callable[[str], Image]
@@ -83,7 +83,7 @@ def test_rectified_of_the_selected_view(
         photograph("view5.png").grey,
         result.calibration.camera,
         result.calibration.poses[4],
-        plate_extent(result),
+        board_extent_px(result),
         natural_scale(result),
     )
     (only,) = shown(panel)

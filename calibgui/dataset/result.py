@@ -1,0 +1,67 @@
+"""What a calibration is kept and exported as: the estimates with the views that they answer."""
+
+from __future__ import annotations
+
+import platform
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+
+import numpy as np
+import scipy
+
+import calibgui
+from calibgui.dataset.view import View
+from calibgui.engine import opencv
+from calibgui.engine.boards import Board
+from calibgui.engine.calibration import Calibration, Observation
+from calibgui.engine.geometry import PaperPose, paper_from_pose
+
+
+def installed_versions() -> dict[str, str]:
+    """Versions of this program and of what its numbers depend on."""
+    return {
+        "calibgui": calibgui.__version__,
+        "numpy": np.__version__,
+        "scipy": scipy.__version__,
+        "opencv": opencv.VERSION,
+        "python": platform.python_version(),
+    }
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class Result:
+    """A calibration with the views that it was made from, used or not."""
+
+    calibration: Calibration
+    views: tuple[View, ...]
+    """All images; the calibration's k-th pose belongs to the k-th usable one."""
+    board: Board | None = None
+    """The board, where the corners are of one of known layout."""
+    versions: Mapping[str, str] = field(default_factory=installed_versions)
+    """Of the programs that made the calibration."""
+
+    def __post_init__(self) -> None:
+        if len(self.used) != len(self.calibration.poses):
+            raise ValueError(
+                f"{len(self.calibration.poses)} poses do not answer {len(self.used)} usable views"
+            )
+
+    @property
+    def used(self) -> tuple[View, ...]:
+        """The views that take part, in the order of the calibration's poses."""
+        return tuple(view for view in self.views if view.usable)
+
+    def observations(self) -> list[Observation]:
+        """What the calibration was made from."""
+        return [view.observation(self.board) for view in self.used]
+
+    def paper_poses(self) -> tuple[PaperPose, ...]:
+        """The paper's external parameters of the used views.
+
+        They are measured from the centre of the corners, at the distance L + f from which
+        the reference image has its scale (eq. 30).
+        """
+        corners = np.concatenate([xy for _, xy, _ in self.observations()])
+        centre = (corners.min(axis=0) + corners.max(axis=0)) / 2
+        distance = float(self.calibration.camera.focal[0]) / self.calibration.reference_scale
+        return tuple(paper_from_pose(pose, centre, distance) for pose in self.calibration.poses)

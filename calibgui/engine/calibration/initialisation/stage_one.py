@@ -1,0 +1,220 @@
+"""Stage I: each view registered on the reference plane by itself (paper 4.2).
+
+Unknowns of a view, z_r = (xp, yp, k1, a11, a21, a12, a22, d1, d2, c1, c2). With
+dx = x - xp, dy = y - yp, r2 = dx^2 + dy^2 the corrected point is (eq. 31)
+
+    psi1 = x + k1 r2 dx,      psi2 = y + k1 r2 dy
+
+and the registered one (eq. 33), with P = c1 (psi1 - xp) + c2 (psi2 - yp) + 1,
+
+    xi1 = (a11 psi1 + a12 psi2 + d1) / P,    xi2 = (a21 psi1 + a22 psi2 + d2) / P.
+
+Levenberg-Marquardt minimises the sum of |xi - x'|^2 (eq. 34) from the DLT homography and
+xp = yp = k1 = 0. The Jacobian is appendix B's, with a term that its (B1) leaves out because P
+depends on xp and yp as well:
+
+    d xi/dxp = [(a.1 - xi c1) dpsi1/dxp + (a.2 - xi c2) dpsi2/dxp + xi c1] / P   (yp: + xi c2).
+
+All views iterate together as one batch, each with its own damping. Lengths are divided by
+the spread of the points, without which k1 (1e-7 px^-2) would ruin the normal equations.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from calibgui.engine import kernels
+from calibgui.engine.arrays import Array, BoolArray, IntArray
+from calibgui.engine.geometry import homography
+
+_MAX_ITERATIONS = 50
+_CONVERGED = 1e-10
+"""Decrease of the cost that the linear model still predicts, relative to the cost."""
+_MAX_DAMPING = 1e8
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class Prealignment:
+    """Stage I of K views, in the paper's frame and units."""
+
+    centre: Array
+    """(K, 2) xp, yp, px."""
+    k1: Array
+    """(K,) px^-2."""
+    forward: Array
+    """(K, 3, 3) forward homographies (eq. 13): corrected image from the principal point to
+    reference px."""
+    spread: Array
+    """(K, 3) standard deviations of xp, yp, k1."""
+    rms: Array
+    """(K,) root mean square length of the residual, reference px."""
+    iterations: IntArray
+    converged: BoolArray
+
+
+def prealign(xy: Array, reference: Array, mask: Array) -> Prealignment:
+    """Register every view on the reference plane.
+
+    Args:
+        xy: (K, N, 2) measured corners in the paper's frame, px.
+        reference: (K, N, 2) the same corners x', y' on the reference plane, reference px.
+        mask: (K, N) what each corner's residual is multiplied with: 1 for a corner, 0 for
+            padding, between for one that is doubted.
+    """
+    count = mask.sum(axis=1)
+    s = np.sqrt((xy**2 * mask[..., None]).sum(axis=(1, 2)) / count)
+    s_ref = np.sqrt((reference**2 * mask[..., None]).sum(axis=(1, 2)) / count)
+    x, goal = xy / s[:, None, None], reference / s_ref[:, None, None]
+
+    H = homography.fit_homography(x, goal, mask)
+    z = np.zeros((len(x), 11))
+    z[:, 3:] = np.stack(
+        [H[:, i, j] for i, j in ((0, 0), (1, 0), (0, 1), (1, 1), (0, 2), (1, 2), (2, 0), (2, 1))],
+        axis=1,
+    )
+    z, products, iterations, converged = (_compiled if kernels.COMPILED else iterated)(
+        z, x, goal, mask
+    )
+    normal, cost = products[:, :11, :11], products[:, 11, 11]
+
+    xp, yp, k1, a11, a21, a12, a22, d1, d2, c1, c2 = z.T
+    one = np.ones_like(xp)
+    forward = np.stack(
+        [
+            np.stack([a11, a12, d1 + a11 * xp + a12 * yp], axis=1),  # eq. 32
+            np.stack([a21, a22, d2 + a21 * xp + a22 * yp], axis=1),
+            np.stack([c1, c2, one], axis=1),
+        ],
+        axis=1,
+    )
+    forward = forward * s_ref[:, None, None] ** np.array([[1.0], [1.0], [0.0]])
+    forward = forward / s[:, None, None] ** np.array([1.0, 1.0, 0.0])
+    variance = cost / np.maximum(2 * count - 11, 1)
+    # A pseudo-inverse, since few corners or no perspective leave xp, yp, k1 undetermined.
+    inverse = np.linalg.pinv(normal, rcond=1e-12, hermitian=True)
+    spread = np.sqrt(variance[:, None] * np.diagonal(inverse, axis1=1, axis2=2)[:, :3])
+    units = np.stack([s, s, s**-2], axis=1)
+    return Prealignment(
+        centre=z[:, :2] * s[:, None],
+        k1=k1 / s**2,
+        forward=forward,
+        spread=spread * units,
+        rms=s_ref * np.sqrt(cost / count),
+        iterations=iterations,
+        converged=converged,
+    )
+
+
+def registration_error(first: Prealignment, xy: Array, reference: Array) -> Array:
+    """(K, N) distance |xi - x'| that Stage I leaves between corners and grid, reference px.
+
+    Args:
+        first: of these views.
+        xy: (K, N, 2) as for `prealign`.
+        reference: (K, N, 2) as for `prealign`.
+    """
+    d = xy - first.centre[:, None]
+    corrected = d * (1 + first.k1[:, None, None] * np.sum(d**2, axis=-1, keepdims=True))
+    return np.linalg.norm(homography.apply(first.forward, corrected) - reference, axis=-1)
+
+
+def registration(z: Array, x: Array) -> tuple[Array, Array]:
+    """xi of eq. 33 and its Jacobian.
+
+    Args:
+        z: (K, 11) unknowns z_r.
+        x: (K, N, 2) measured points, paper's frame.
+
+    Returns:
+        (K, N, 2) registered points, (K, N, 2, 11) derivatives.
+    """
+    xp, yp, k1, a11, a21, a12, a22, d1, d2, c1, c2 = z.T[..., None]
+    dx, dy = x[..., 0] - xp, x[..., 1] - yp
+    r2 = dx**2 + dy**2
+    psi1, psi2 = x[..., 0] + k1 * r2 * dx, x[..., 1] + k1 * r2 * dy
+    P = c1 * (psi1 - xp) + c2 * (psi2 - yp) + 1
+    xi1 = (a11 * psi1 + a12 * psi2 + d1) / P
+    xi2 = (a21 * psi1 + a22 * psi2 + d2) / P
+
+    psi_by = np.stack(  # (K, N, psi, by xp yp k1), eq. B2
+        [
+            np.stack([-k1 * (r2 + 2 * dx**2), -2 * k1 * dx * dy, r2 * dx], axis=-1),
+            np.stack([-2 * k1 * dx * dy, -k1 * (r2 + 2 * dy**2), r2 * dy], axis=-1),
+        ],
+        axis=-2,
+    )
+    J = np.zeros((*x.shape, 11))
+    for i, (xi, a1, a2) in enumerate(((xi1, a11, a12), (xi2, a21, a22))):
+        by_psi = np.stack([a1 - xi * c1, a2 - xi * c2], axis=-1)
+        J[..., i, :3] = (by_psi[..., None, :] @ psi_by)[..., 0, :]
+        J[..., i, 0] += xi * c1
+        J[..., i, 1] += xi * c2
+        J[..., i, 3 + i] = psi1
+        J[..., i, 5 + i] = psi2
+        J[..., i, 7 + i] = 1.0
+        J[..., i, 9] = -xi * (psi1 - xp)
+        J[..., i, 10] = -xi * (psi2 - yp)
+    return np.stack([xi1, xi2], axis=-1), J / P[..., None, None]
+
+
+def iterated(
+    z: Array, x: Array, goal: Array, mask: Array
+) -> tuple[Array, Array, IntArray, BoolArray]:
+    """Minimise |xi - x'|^2 by Levenberg-Marquardt, all views as one batch.
+
+    Args:
+        z: (K, 11) unknowns to start from.
+        x: (K, N, 2) measured points.
+        goal: (K, N, 2) points to register them on.
+        mask: (K, N) what residuals are multiplied with.
+
+    Returns:
+        z, (K, 12, 12) products of the columns [J r] there, iterations, whether it converged.
+    """
+    z, K = z.copy(), len(z)
+    damping = np.full(K, 1e-3)
+    iterations = np.zeros(K, dtype=np.int64)
+    converged = np.zeros(K, dtype=bool)
+    active = np.arange(K)
+    products = _products(z, x, goal, mask)
+    for _ in range(_MAX_ITERATIONS):
+        normal, gradient = products[active, :11, :11], products[active, :11, 11]
+        cost = products[active, 11, 11]
+        diagonal = np.diagonal(normal, axis1=1, axis2=2)
+        damped = normal + (damping[active, None] * diagonal + 1e-14)[:, :, None] * np.eye(11)
+        step = np.linalg.solve(damped, -gradient[..., None])[..., 0]
+        predicted = -np.einsum("ki,ki->k", step, gradient)
+        done = predicted <= _CONVERGED * cost + 1e-28
+        converged[active[done]] = True
+        active, step = active[~done], step[~done]
+        if active.size == 0:
+            break
+        trial = z[active] + step
+        new = _products(trial, x[active], goal[active], mask[active])
+        iterations[active] += 1
+        better = new[:, 11, 11] < products[active, 11, 11]
+        won = active[better]
+        z[won], products[won] = trial[better], new[better]
+        damping[won] = np.maximum(damping[won] / 10, 1e-12)
+        damping[active[~better]] *= 10
+        active = active[damping[active] <= _MAX_DAMPING]
+    return z, products, iterations, converged
+
+
+def _products(z: Array, x: Array, goal: Array, mask: Array) -> Array:
+    with np.errstate(all="ignore"):  # a wild trial step overflows and is rejected by its cost
+        xi, J = registration(z, x)
+        columns = np.concatenate([J, (xi - goal)[..., None]], axis=-1) * mask[..., None, None]
+        columns = columns.reshape(len(z), -1, 12)
+        return np.swapaxes(columns, 1, 2) @ columns
+
+
+def _compiled(
+    z: Array, x: Array, goal: Array, mask: Array
+) -> tuple[Array, Array, IntArray, BoolArray]:
+    from calibgui.engine.kernels import stage_one  # takes a while: only when used
+
+    xT, goalT = np.swapaxes(x, 1, 2), np.swapaxes(goal, 1, 2)
+    return stage_one.iterated(z, xT, goalT, mask, _MAX_ITERATIONS, _CONVERGED, _MAX_DAMPING)

@@ -1,0 +1,133 @@
+"""Do the views agree about the camera as well as their corners' noise lets them?
+
+The covariance sigma^2 (J^T J)^-1 holds if the errors of a view's corners are independent. Those
+of a board that bends in the hand, of rows that are read one after the other, of a lens that the
+model does not follow, are not: they pull at the camera together, and averaging over corners does
+not reduce them. Averaging over views does, if one view's pull says nothing of the next one's.
+
+Let each view speak for itself. With the poses eliminated (``information.py``), view k pulls the
+camera's P parameters with the gradient and the information
+
+    h_k = Jc_k^T r_k - Wk Vk^-1 Jp_k^T r_k,      Rk = Uk - Wk Vk^-1 Wk^T,
+
+sum h_k = 0 at the solution and sum Rk = T, where T^-1 is their covariance over sigma^2. An
+estimated plate is eliminated as well: its corners follow the camera by dX_i = N_i dc, so that
+the rows of Jc are Jc_i + (d(u, v)/dX_i) N_i. The estimate itself follows view k's pull, so that
+noise alone gives h_k the covariance sigma^2 (Rk - Rk T^-1 Rk). In units in which T = 1,
+
+    X = (1 / P) sum_k h_k^T (1 - Rk)^-1 h_k / sigma^2
+
+therefore has the expectation 1 under noise and, of a quadratic form in Gaussian variables, the
+variance 2 / n with
+
+    n = P^2 / (sum_k tr Rk^2 + tr (sum_k Dk)^2 - sum_k tr Dk^2),      Dk = Rk (1 - Rk)^-1 Rk;
+
+it is distributed about as chi^2(n) / n. It says what the views' disagreement makes of the
+variances, averaged over the parameters.
+
+If X is too large for noise, the covariance clustered by view takes the place of the model's
+where it is larger. Without view k the camera would be at dc_k = (1 - Rk)^-1 h_k from where it
+is; the jackknife
+
+    cov = (K - 1) / K sum_k dc_k dc_k^T
+
+allows for each view's leverage in full (Bell and McCaffrey 2002: CR3), and is on the safe side
+by the little that a sum of few squares asks for. Where one view alone determines a parameter it
+would be without bounds; so nine tenths of the view are left out, (1 - 0.9 Rk)^-1 h_k, which is
+the same to first order and for noise at most three times the variance. An estimated plate has a
+leverage of its own, l = Q / (2N - 6K), about alike in all views: of noise's variance it leaves
+1 - l in X, and the jackknife's residuals are 1 / (1 - l) of those that are left.
+
+Of the two covariances the larger is reported in each direction of the parameters: with C = L L^T
+the model's and L^-1 cov L^-T = sum_i v_i u_i u_i^T, C becomes
+L (1 + sum_i max(v_i - 1, 0) u_i u_i^T) L^T. Poses and plate follow the camera as they do in the
+model. The cost is one more pass over the views.
+
+An error that all views share, as the plate's, does not make them disagree (``plate/doubt.py``).
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import scipy
+
+from calibgui.engine.arrays import Array, IntArray
+from calibgui.engine.boards.shape import BoardShape
+from calibgui.engine.calibration import covariances
+from calibgui.engine.calibration.refinement.normal_equations import Following, view_products
+from calibgui.engine.calibration.result_assembly import Estimate
+from calibgui.engine.geometry import rotations
+
+_CHANCE = 0.05
+"""Of noise alone widening the uncertainties."""
+_LEFT_OUT = 0.9
+"""Part of a view that the jackknife leaves out."""
+_LEAST_VIEWS = 6
+"""Views from which their disagreement can be judged."""
+
+
+def with_view_scatter(estimate: Estimate, model: str, free: IntArray) -> Estimate:
+    """The estimate with the uncertainty that the views' disagreement shows, if it is no chance.
+
+    Args:
+        estimate: with the image cost, on any plate.
+        model: the lens, a key of ``lens.MODELS``.
+        free: (P,) indices of the camera's parameters that may move.
+    """
+    K, P, sigma2 = len(estimate.poses), len(free), estimate.sigma2
+    if K < _LEAST_VIEWS or P == 0 or not sigma2 > 0:
+        return estimate
+    try:
+        unit = np.linalg.cholesky(estimate.by_noise / sigma2)  # T^-1 = unit unit^T
+    except np.linalg.LinAlgError:
+        return estimate  # a combination of parameters is undetermined, and says so
+    A = view_products(estimate.state, estimate.observations, model, free, estimate.following)
+    R, h, G = _eliminated(A, P)
+    R, h = unit.T @ R @ unit, (h - h.mean(axis=0)) @ unit
+    corners = estimate.observations.count
+    leverage = estimate.shape_unknowns / (2 * corners - 6 * K)
+    alone = np.linalg.inv(np.eye(P) - R)  # of the camera without view k
+    X = float(np.einsum("kp,kpq,kq->", h, alone, h)) / (P * sigma2 * (1 - leverage))
+    D = R @ alone @ R
+    n = P**2 / float(np.sum(R**2) + np.sum(D.sum(axis=0) ** 2) - np.sum(D**2))
+    if scipy.special.fdtrc(n, 2 * corners - 6 * K - P - estimate.shape_unknowns, X) > _CHANCE:
+        return estimate
+    moved = np.linalg.solve(np.eye(P) - _LEFT_OUT * R, h[..., None])[..., 0] @ unit.T
+    clustered = moved.T @ moved * (K - 1) / K / (1 - leverage) ** 2
+    added = _excess(clustered, estimate.camera)
+    turn = covariances.pose_by_local(rotations.rotation_vector(estimate.state.R)) @ G
+    return estimate._replace(
+        camera=estimate.camera + added,
+        poses=estimate.poses + turn @ added @ np.swapaxes(turn, 1, 2),
+        board_shape=_followed(estimate.board_shape, estimate.following, added),
+        view_scatter=float(np.sqrt(X)),
+    )
+
+
+def _eliminated(A: Array, P: int) -> tuple[Array, Array, Array]:
+    """Rk (K, P, P), h_k (K, P) and Vk^-1 Wk^T (K, 6, P) from `view_products`."""
+    W = A[:, :P, P:-1]
+    G = np.linalg.solve(A[:, P:-1, P:-1], A[:, P:-1, [*range(P), -1]])
+    left = A[:, :P, [*range(P), -1]] - W @ G
+    return left[..., :-1], left[..., -1], np.asarray(G[..., :-1])
+
+
+def _followed(
+    board_shape: BoardShape | None, following: Following | None, added: Array
+) -> BoardShape | None:
+    """An estimated plate with the uncertainty that it takes over from the camera."""
+    if board_shape is None or following is None:
+        return board_shape
+    more = np.einsum("iap,pq,iaq->ia", following.motion, added, following.motion)
+    return replace(board_shape, sigma=np.sqrt(board_shape.sigma**2 + more))
+
+
+def _excess(covariance: Array, reported: Array) -> Array:
+    """(P, P) to add to a reported covariance so that it is nowhere below the other one."""
+    root = np.linalg.cholesky(reported)
+    half = np.linalg.solve(root, covariance)
+    values, vectors = np.linalg.eigh(np.linalg.solve(root, half.T))
+    axes = root @ vectors
+    return np.asarray((axes * np.maximum(values - 1, 0.0)) @ axes.T)

@@ -1,0 +1,60 @@
+"""Weights from the corners' covariances, and the floor that the model's own errors set.
+
+A corner's residual has the covariance C_i + tau^2 I: what its location is uncertain by, and
+what plate and lens model get wrong, alike for all corners. Weighting by C_i alone would
+believe the sharpest corners far beyond what the model can follow, so tau is estimated: the
+value at which
+
+    sum_i r_i^T (C_i + tau^2 I)^-1 r_i = 2N - unknowns,
+
+falling steadily in tau^2, or 0 if the covariances explain the residuals by themselves. Weights
+are scaled to the median corner, so that costs stay in px^2.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import scipy
+
+from calibgui.engine.arrays import Array
+from calibgui.engine.calibration.observations import Observations
+
+
+def weighted(observations: Observations, tau2: float = 0.0) -> Observations:
+    """The observations with whitenings from (C + tau^2 I)^-1; unweighted without covariances.
+
+    Args:
+        observations: the views.
+        tau2: variance of the model's own errors along each axis, px^2.
+    """
+    if observations.cov is None:
+        return observations
+    total = observations.cov + tau2 * np.eye(2)
+    places = observations.mask > 0
+    typical = float(np.median(np.trace(total[places], axis1=1, axis2=2))) / 2
+    root = np.swapaxes(np.linalg.cholesky(np.linalg.inv(total)), -1, -2)
+    whitening = np.sqrt(typical) * root * observations.mask[..., None, None]
+    return replace(observations, whitening=whitening, tau2=tau2)
+
+
+def model_variance(observations: Observations, residual: Array, unknowns: int) -> float:
+    """tau^2, px^2, of residuals (K, N, 2) px under the observations' covariances.
+
+    0 without covariances or redundancy.
+    """
+    freedom = 2 * observations.count - unknowns
+    if observations.cov is None or freedom <= 0:
+        return 0.0
+    places = observations.mask > 0
+    r, C = residual[places], observations.cov[places]
+    values, axes = np.linalg.eigh(C)
+    along = (np.swapaxes(axes, -1, -2) @ r[..., None])[..., 0] ** 2
+
+    def excess(tau2: float) -> float:
+        return float(np.sum(along / (values + tau2))) - freedom
+
+    if excess(0.0) <= 0:
+        return 0.0
+    return float(scipy.optimize.brentq(excess, 0.0, float(along.sum()) / freedom, rtol=1e-6))

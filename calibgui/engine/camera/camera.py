@@ -1,0 +1,87 @@
+"""Arrays and sizes.
+
+A camera, and where it is.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from calibgui.engine.arrays import Array, Size, freeze
+from calibgui.engine.camera.models import parameter_names
+from calibgui.engine.errors import CalibrationError
+
+
+def check_image_size(size: Size) -> Size:
+    """Width and height of an image as whole numbers.
+
+    Raises:
+        CalibrationError: if they are no size.
+    """
+    width, height = (int(length) for length in size)
+    if min(width, height) < 1:
+        raise CalibrationError(
+            f"There is no image of {width} x {height} pixels.", "Give its width and height."
+        )
+    return width, height
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class Camera:
+    """Intrinsics in the array frame: a lens model's name and its parameters.
+
+    Raises:
+        CalibrationError: if there is no such model, it has another number of parameters, a number
+            is not finite, a focal length not positive, or the size none.
+    """
+
+    size: Size
+    """Width and height of its images, px."""
+    params: Array
+    """(P,) fx, fy, cx, cy (px) and the model's dimensionless coefficients, in the order of
+    `names`."""
+    model: str = "lucchese"
+    """A key of ``lens.MODELS``."""
+
+    def __post_init__(self) -> None:
+        freeze(self, "params")
+        object.__setattr__(self, "size", check_image_size(self.size))
+        if self.params.shape != (len(self.names),):
+            raise CalibrationError(
+                f"{self.params.size} numbers do not make a camera of the lens model "
+                f"{self.model!r}.",
+                f"Give {', '.join(self.names)}.",
+            )
+        if not (np.isfinite(self.params).all() and (self.params[:2] > 0).all()):
+            raise CalibrationError(
+                f"No camera has the parameters {self.params.tolist()}.",
+                "Give finite numbers, and focal lengths above 0.",
+            )
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        """(P,) names of the parameters."""
+        return parameter_names(self.model)
+
+    @property
+    def focal(self) -> Array:
+        """(2,) fx, fy, px."""
+        return self.params[0:2]
+
+    @property
+    def centre(self) -> Array:
+        """(2,) cx, cy, px."""
+        return self.params[2:4]
+
+    @property
+    def coefficients(self) -> Array:
+        """The lens coefficients, dimensionless."""
+        return self.params[4:]
+
+    @property
+    def matrix(self) -> Array:
+        """(3, 3) the camera matrix K."""
+        fx, fy, cx, cy = self.params[:4]
+        return np.array([[fx, 0.0, cx], [0.0, fy, cy], [0.0, 0.0, 1.0]])

@@ -1,0 +1,104 @@
+"""The inverse of a lens map, by Newton's method, with derivatives from the implicit function.
+
+To solve F(a, k) = b for a, Newton iterates a <- a - J^-1 (F(a, k) - b), J = dF/da. At the
+solution da/db = J^-1 and da/dk = -J^-1 dF/dk.
+
+A polynomial lens map is invertible only out to the fold where det J = 0, and may unfold again
+further out. The iteration therefore starts from the inverse of the radial part, which one
+table of r (1 + rho) up to its fold gives for all points; points that have no inverse inside
+the fold come back as NaN.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import numpy as np
+
+from calibgui.engine.arrays import Array
+from calibgui.engine.camera.model import Mapped
+
+_ITERATIONS = 50
+_TOLERANCE = 4e-15
+"""Of the last Newton step, relative to 1 + |a|: a few units in the last place."""
+_ACCEPTED = 1e-13
+"""A residual that is converged to the arithmetic's limit although the step test was not met."""
+_NODES = 1024
+"""Of the radial table: Newton then starts within 1e-3 of the radius."""
+
+
+def invert(forward: Callable[[Array], Mapped], b: Array, radial: Array) -> Mapped:
+    """Solve forward(a) = b for a, inside the fold around the origin.
+
+    Args:
+        forward: the map, with derivatives.
+        b: (..., 2) values to reach, dimensionless.
+        radial: (3,) k1, k2, k3 of the map's radial part r (1 + k1 r^2 + k2 r^4 + k3 r^6).
+    """
+    target = b.reshape(-1, 2)
+    a, reach = _radial_inverse(target, radial)
+    active = np.flatnonzero(np.isfinite(target).all(axis=1))
+    with np.errstate(all="ignore"):  # points without an inverse overflow; they end as NaN below
+        for _ in range(_ITERATIONS):
+            mapped = forward(a[active])
+            step = _solve(mapped.by_point, mapped.points - target[active])
+            a[active] -= step
+            length = np.hypot(*step.T)
+            moving = ~(length <= _TOLERANCE * (1 + np.hypot(*a[active].T))) & np.isfinite(length)
+            active = active[moving]
+            if active.size == 0:
+                break
+        mapped = forward(a)
+        J = mapped.by_point
+        miss = np.abs(mapped.points - target).max(axis=1, initial=0.0)
+        det = J[:, 0, 0] * J[:, 1, 1] - J[:, 0, 1] * J[:, 1, 0]
+        scale = 1 + np.abs(target).max(axis=1, initial=0.0)
+        inside = (det > 0) & (J[:, 0, 0] + J[:, 1, 1] > 0) & (np.hypot(*a.T) < reach)
+        bad = ~(inside & (miss <= _ACCEPTED * scale))
+        a[bad] = np.nan
+        inverse = np.empty_like(J)
+        inverse[:, 0, 0], inverse[:, 1, 1] = J[:, 1, 1] / det, J[:, 0, 0] / det
+        inverse[:, 0, 1], inverse[:, 1, 0] = -J[:, 0, 1] / det, -J[:, 1, 0] / det
+        inverse[bad] = np.nan
+    by_k = -inverse @ mapped.by_coefficients
+    count = by_k.shape[-1]
+    return Mapped(a.reshape(b.shape), inverse.reshape(*b.shape, 2), by_k.reshape(*b.shape, count))
+
+
+def _radial_inverse(target: Array, radial: Array) -> tuple[Array, float]:
+    """Where the radial part alone is `target` (n, 2), and how far the answer can be trusted.
+
+    The points end at 0.9 of the fold's radius: from inside, Newton's method approaches
+    solutions up to the fold steadily, while at the fold it has no slope to follow. The second
+    value is the radius midway between the fold and where the map unfolds again: solutions
+    further out belong to that other branch.
+    """
+    k1, k2, k3 = radial
+    inverse_squares = np.roots([1.0, 3 * k1, 5 * k2, 7 * k3])  # 1 / r^2 where the slope is 0
+    real = inverse_squares[inverse_squares.imag == 0].real
+    folds = np.sort(1 / np.sqrt(real[real > 0]))
+    fold = folds.min(initial=np.inf)
+    radius = np.hypot(*target.T)
+
+    def curve(r: Array) -> Array:
+        r2 = r * r
+        return r * (1 + r2 * (k1 + r2 * (k2 + r2 * k3)))
+
+    end = np.ones(1)
+    while end < fold and curve(end) < radius.max(initial=0.0, where=np.isfinite(radius)):
+        end *= 2
+    r = np.linspace(0.0, min(end[0], 0.9 * fold), _NODES)
+    with np.errstate(invalid="ignore"):
+        shrink = np.where(radius > 0, np.interp(radius, curve(r), r) / radius, 1.0)
+        start = target * shrink[:, None]
+    return start, float(folds[:2].mean()) if len(folds) > 1 else np.inf
+
+
+def _solve(J: Array, miss: Array) -> Array:
+    """J^-1 miss for (n, 2, 2) and (n, 2)."""
+    det = J[:, 0, 0] * J[:, 1, 1] - J[:, 0, 1] * J[:, 1, 0]
+    solved = [
+        J[:, 1, 1] * miss[:, 0] - J[:, 0, 1] * miss[:, 1],
+        J[:, 0, 0] * miss[:, 1] - J[:, 1, 0] * miss[:, 0],
+    ]
+    return np.stack(solved, axis=1) / det[:, None]

@@ -1,0 +1,73 @@
+"""Which dictionaries the quadrilaterals in an image may be markers of.
+
+To read the markers of one dictionary takes OpenCV long where the dictionary is large, whatever
+the image shows. What may be a marker at all is found once for all of them: a dark quadrilateral,
+of which k + 2 cells a side are looked at. The outermost are dark; the k x k others, as +1 and -1,
+have with each marker of the dictionary, turned by quarters, the inner product k^2 less twice the
+number of cells that differ. As many may differ as OpenCV would correct.
+"""
+
+from __future__ import annotations
+
+from functools import lru_cache
+
+import numpy as np
+
+from calibgui.engine import opencv
+from calibgui.engine.arrays import BoolArray, FloatImage, GreyImage
+from calibgui.engine.geometry import homography
+from calibgui.engine.images.sampling import sample
+
+_BORDER_ERRORS = 0.35
+"""Greatest number of bright cells in the border, over k^2: OpenCV's."""
+_WITHIN = np.array([(u, v) for v in (-0.2, 0.2) for u in (-0.2, 0.2)])
+"""Where a cell is looked at, cells from its centre."""
+
+
+class MarkerCandidates:
+    """The dark quadrilaterals of one image, each of which may be a marker."""
+
+    def __init__(self, image: GreyImage) -> None:
+        """
+        Args:
+            image: (h, w) 8-bit grey levels.
+        """
+        self._image = image
+        self._quads = opencv.dark_quads(image)
+        self._cells: dict[int, BoolArray] = {}
+
+    def fitting(self, dictionary: str) -> int:
+        """How many of them may be markers of a dictionary."""
+        codes, correctable = _codes(dictionary)
+        k = int(np.sqrt(codes.shape[1]))
+        if k not in self._cells:
+            self._cells[k] = self._dark_cells(k + 2)
+        dark = self._cells[k]
+        inner = dark[:, 1:-1, 1:-1]
+        bright = (k + 2) ** 2 - k * k - (dark.sum(axis=(1, 2)) - inner.sum(axis=(1, 2)))
+        inner = inner[bright <= _BORDER_ERRORS * k * k].reshape(-1, k * k)
+        alike = np.where(inner, 1.0, -1.0).astype(np.float32) @ codes.T
+        return int(np.count_nonzero((alike >= k * k - 2 * correctable).any(axis=1)))
+
+    def _dark_cells(self, side: int) -> BoolArray:
+        """(n, side, side) whether each cell is darker than the mid level of its quadrilateral."""
+        n = len(self._quads)
+        square = np.broadcast_to(side * np.array([(0.0, 0), (1, 0), (1, 1), (0, 1)]), (n, 4, 2))
+        H = homography.fit_homography(square, self._quads, np.ones((n, 4)))
+        v, u = np.indices((side, side)).reshape(2, -1) + 0.5
+        at = (np.column_stack([u, v])[:, None] + _WITHIN).reshape(-1, 2)
+        values = sample(self._image, homography.apply(H, np.broadcast_to(at, (n, *at.shape))))
+        level = values.reshape(n, side, side, len(_WITHIN)).mean(axis=3)
+        ends = level.min(axis=(1, 2)), level.max(axis=(1, 2))
+        return np.asarray(level < np.mean(ends, axis=0)[:, None, None])
+
+
+@lru_cache
+def _codes(dictionary: str) -> tuple[FloatImage, int]:
+    """(4 m, k^2) the dark (+1) and bright (-1) cells of a dictionary's markers, turned by quarters,
+    float32; and how many misread cells are corrected."""
+    count, correctable = opencv.dictionaries()[dictionary], opencv.correctable_cells(dictionary)
+    cells = [opencv.marker_cells(dictionary, k)[1:-1, 1:-1] for k in range(count)]
+    turned = np.stack([np.rot90(cells, turn, axes=(1, 2)) for turn in range(4)], axis=1)
+    codes = np.where(turned, 1.0, -1.0).astype(np.float32)
+    return codes.reshape(4 * count, -1), correctable

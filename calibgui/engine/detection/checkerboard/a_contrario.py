@@ -1,0 +1,44 @@
+"""Could a lattice have come about by chance?
+
+Where squares are dark or bright at random, as in codes, tilings and textures, some of them
+alternate like a board's. Given a corner, around which four do, the (a + 1)(b + 1) squares of a
+full rectangle of a x b corners that contains it all alternate with the probability
+2^(4 - (a + 1)(b + 1)), and it is contained in a b of them. Around J corners that makes an expected
+
+    J a b 2^(4 - (a + 1)(b + 1))
+
+rectangles by chance alone. A lattice means something if for its most surprising rectangle that
+number is far below one (a-contrario detection: Desolneux, Moisan and Morel 2000). Its size alone
+does not tell: ragged parts of almost any size hang together by chance.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from calibgui.engine.arrays import BoolArray
+
+_ALARMS = 1 / 16
+"""Boards that may be expected by chance in an image full of squares at random."""
+
+
+def meaningful(found: BoolArray, others: int) -> bool:
+    """Whether chance does not explain a lattice.
+
+    Args:
+        found: (rows, cols) where it has corners.
+        others: corners seen in the image that are not its own: J, which is one at least.
+    """
+    full = np.ones(found.shape, dtype=np.bool_)
+    least = np.inf
+    for height in range(1, len(found) + 1):
+        # Rows from which on the columns are full over the height, and how many such to the left.
+        full = full[: len(found) - height + 1] & found[height - 1 :]
+        column = np.arange(1, found.shape[1] + 1)
+        run = column - np.maximum.accumulate(np.where(full, 0, column), axis=1)
+        width = int(run.max())
+        if width == 0:
+            break
+        free = (height + 1) * (width + 1) - 4
+        least = min(least, np.log2(max(others, 1) * height * width) - free)
+    return bool(least < np.log2(_ALARMS))

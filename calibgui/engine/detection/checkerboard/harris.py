@@ -1,0 +1,63 @@
+"""First estimates of the corners: Harris' detector (paper 4.1, the red marks of figure 6).
+
+The structure tensor S = sum of w (grad I)(grad I)^T over a neighbourhood has two large
+eigenvalues where the grey levels vary in both directions. The neighbourhood must reach well into
+the squares: where bright ones outshine dark ones the dark tips stand apart, and a small one
+finds each of them instead of the corner. Harris and Stephens score it by
+
+    det S - 0.04 (tr S)^2
+
+without computing them; the corner is the pixel of the greatest score near where the lattice
+expects it. It is good to a pixel or two: an estimate to look at, and what the saddle point
+improves upon.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from calibgui.engine import kernels, opencv
+from calibgui.engine.arrays import Array, GreyImage
+
+_REACH = 2
+"""Greatest distance from the expected pixel, px along each axis."""
+_MARGIN = 9
+"""Reach of the neighbourhood's weights, px."""
+_SENSITIVITY = 0.04
+
+
+def first_estimates(image: GreyImage, uv: Array, spacing: Array) -> Array:
+    """(n, 2) pixel of the greatest Harris score near each of the corners `uv` (n, 2) px.
+
+    Args:
+        image: (h, w) grey levels.
+        uv: where corners are expected.
+        spacing: (n,) px to the next corner; sets the neighbourhood, and the search ends at a
+            quarter of it.
+    """
+    half = _REACH + _MARGIN
+    tried = np.arange(-_REACH, _REACH + 1)
+    # (n, k, side) weights around each of the k positions tried along an axis.
+    width = np.clip(spacing / 6, 1, _MARGIN / 3)[:, None, None]
+    w = np.exp(-0.5 * ((np.arange(-half, half + 1) - tried[:, None]) / width) ** 2)
+    score = (_compiled_scores if kernels.COMPILED else _scores)(image, uv, w)
+    within = abs(tried) <= np.maximum(spacing / 4, 1)[:, None]
+    score = np.where(within[:, :, None] & within[:, None, :], score, -np.inf)
+    best = np.argmax(score.reshape(len(uv), -1), axis=1)
+    v, u = np.unravel_index(best, score.shape[1:])
+    return np.asarray(np.rint(uv) + np.column_stack([u, v]) - _REACH)
+
+
+def _scores(image: GreyImage, uv: Array, w: Array) -> Array:
+    """(n, k, k) the score at each of the positions tried, down and across."""
+    tiles, _ = opencv.tiles(image, uv, w.shape[2] // 2)
+    gv, gu = (np.asarray(g) for g in np.gradient(tiles.astype(np.float64), axis=(1, 2)))
+    Suu, Svv, Suv = (w @ product @ w.transpose(0, 2, 1) for product in (gu * gu, gv * gv, gu * gv))
+    return np.asarray(Suu * Svv - Suv * Suv - _SENSITIVITY * (Suu + Svv) ** 2)
+
+
+def _compiled_scores(image: GreyImage, uv: Array, w: Array) -> Array:
+    """`_scores` by the compiled kernel."""
+    from calibgui.engine.kernels import harris
+
+    return harris.scores(image, uv, w, _SENSITIVITY)

@@ -1,0 +1,163 @@
+"""Corners as saddle points of the intensity surface (paper 4.1, the yellow marks of figure 6).
+
+Around a corner the surface is fitted by the quadratic
+
+    I(x, y) = g + d x + e y + a x^2 + b x y + c y^2,    x, y from the current estimate,
+
+by least squares with Gaussian weights, and the estimate moves to its stationary point
+
+    [2a  b] [x]     [d]
+    [ b 2c] [y] = - [e],
+
+a saddle where 4ac - b^2 < 0. This is repeated until it stands still.
+
+The weights are centred on the estimate itself, between the pixels. A corner's surface is point
+symmetric, hence so is the weighted problem at the true corner, and the fit has no bias however
+far from quadratic the surface is; with weights fixed to whole pixels the answer leans with the
+corner's sub-pixel phase. Their width follows the squares: wide enough to average noise, never
+so wide that the neighbours' edges come in. The weights being separable, the normal equations
+hold products of one-dimensional moments, and all corners are solved at once.
+
+Corners of a lattice moved to their saddle points, where they have one.
+
+Squares that overlap or part by more than the blur have none: what is printed between them is flat,
+and a saddle found there is noise. It shows in the grey level at the corner, which is not midway
+between those of the squares then.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from calibgui.engine import kernels, opencv
+from calibgui.engine.arrays import Array, BoolArray, GreyImage
+from calibgui.engine.detection.checkerboard.corner_template import Placed, around, placed
+from calibgui.engine.detection.lattice import Lattice
+
+_POWERS = np.array([(0, 0), (1, 0), (0, 1), (2, 0), (1, 1), (0, 2)])
+"""Powers of x and y of the terms g, d, e, a, b, c."""
+_TOLERANCE = 1e-4
+"""Step at which an estimate stands still, px."""
+_MAX_ITERATIONS = 20
+
+
+def window(spacing: Array) -> Array:
+    """(n,) standard deviation of the weights, px, for squares of side `spacing` (n,) px."""
+    return np.clip(spacing / 8, 0.8, 2.0)
+
+
+def refine_saddles(
+    image: GreyImage, uv: Array, sigma: Array, limit: Array
+) -> tuple[Array, BoolArray]:
+    """Saddle points nearest to the estimates `uv` (n, 2) px.
+
+    Args:
+        image: (h, w) grey levels.
+        uv: first estimates.
+        sigma: (n,) standard deviation of the weights, px; halved where that finds no saddle.
+        limit: (n,) farthest acceptable distance from the estimate, px.
+
+    Returns:
+        Positions (n, 2), and whether (n,) each converged to a saddle within its limit; the
+        estimate stays where it did not.
+    """
+    uv = uv.copy()
+    good = np.zeros(len(uv), dtype=np.bool_)
+    for narrower in (1.0, 0.5):
+        rest = np.flatnonzero(~good)
+        if len(rest):
+            search = _compiled if kernels.COMPILED else _iterate
+            uv[rest], good[rest] = search(image, uv[rest], narrower * sigma[rest], limit[rest])
+    return uv, good
+
+
+def _iterate(image: GreyImage, start: Array, sigma: Array, limit: Array) -> tuple[Array, BoolArray]:
+    """`refine` with one width of the weights."""
+    uv = start.copy()
+    good = np.ones(len(uv), dtype=np.bool_)
+    active = np.arange(len(uv))
+    for _ in range(_MAX_ITERATIONS):
+        step, is_saddle = _newton(image, uv[active], sigma[active])
+        uv[active] += step
+        near = np.linalg.norm(uv[active] - start[active], axis=1) <= limit[active]
+        good[active] = is_saddle & near
+        active = active[good[active] & (np.linalg.norm(step, axis=1) > _TOLERANCE)]
+        if not len(active):
+            break
+    good[active] = False
+    uv[~good] = start[~good]
+    return uv, good
+
+
+def _compiled(
+    image: GreyImage, start: Array, sigma: Array, limit: Array
+) -> tuple[Array, BoolArray]:
+    """`_iterate` by the compiled kernel."""
+    from calibgui.engine.kernels import saddle
+
+    return saddle.iterate(image, start, sigma, limit, _TOLERANCE, _MAX_ITERATIONS)
+
+
+def _newton(image: GreyImage, uv: Array, sigma: Array) -> tuple[Array, BoolArray]:
+    """Step (n, 2) px from each estimate to its fitted stationary point, and whether a saddle."""
+    reach = np.ceil(3 * sigma + 0.5)[:, None]
+    half = int(reach.max())
+    tiles, origin = opencv.tiles(image, uv, half)
+    height, width = image.shape
+    pixel = np.arange(2 * half + 1)
+    moments, weighted = [], []
+    for axis, extent in ((0, width), (1, height)):
+        at = origin[:, axis, None] + pixel
+        x = (at - uv[:, axis, None]) / sigma[:, None]
+        w = np.exp(-0.5 * x * x) * ((at >= 0) & (at < extent) & (abs(pixel - half) <= reach))
+        powers = x[:, None] ** np.arange(5)[:, None]
+        moments.append(np.sum(w[:, None] * powers, axis=2))
+        weighted.append(w[:, None] * powers[:, :3])
+    p, q = _POWERS.T
+    N = moments[0][:, p[:, None] + p] * moments[1][:, q[:, None] + q]
+    projected = weighted[1] @ tiles.astype(np.float64) @ weighted[0].transpose(0, 2, 1)
+    inside = np.all((uv >= 0) & (uv <= (width - 1, height - 1)), axis=1)
+    N[~inside] = np.eye(len(_POWERS))
+    fit = np.linalg.solve(N, projected[:, q, p][..., None])[..., 0]
+    _, d, e, a, b, c = fit.T
+    det = 4 * a * c - b * b
+    is_saddle = (det < 0) & inside
+    det = np.where(is_saddle, det, -1.0)
+    step = np.column_stack([b * e - 2 * c * d, b * d - 2 * a * e]) / det[:, None]
+    step *= (sigma * is_saddle)[:, None]
+    longest = np.maximum(np.linalg.norm(step, axis=1), sigma)
+    return step * (sigma / longest)[:, None], is_saddle
+
+
+_SQUARES = 0.2 * np.array([(1, 1), (-1, -1), (1, -1), (-1, 1)])
+"""Where the levels of the squares are taken, steps both ways ..."""
+_CORNER = 0.05 * np.array([(a, b) for a in (-1, 0, 1) for b in (-1, 0, 1)])
+"""... and where that of the corner is."""
+_OFF_MIDDLE = 0.42
+"""Greatest distance of a crossing's level from the middle, over the contrast."""
+
+
+def at_saddles(
+    image: GreyImage, lattice: Lattice, farthest: float = np.inf
+) -> tuple[Lattice, BoolArray]:
+    """The lattice with its corners moved to their saddle points, at most a quarter of a step and
+    `farthest` px, and which (rows, cols) have one there."""
+    corners = placed(lattice)
+    spacing = np.fmin(np.linalg.norm(corners.right, axis=1), np.linalg.norm(corners.down, axis=1))
+    limit = np.minimum(spacing / 4, farthest)
+    moved, good = refine_saddles(image, corners.uv, window(spacing), limit)
+    good &= not _parted(image, corners)
+    at_saddle = lattice.found
+    at_saddle[at_saddle] = good
+    uv = lattice.uv.copy()
+    uv[at_saddle] = moved[good]
+    return Lattice(uv, lattice.dark), at_saddle
+
+
+def _parted(image: GreyImage, corners: Placed) -> bool:
+    """Whether the squares at most of the corners overlap, or part, by more than the blur."""
+    uv, right, down, _ = corners
+    squares = around(image, uv, right, down, _SQUARES)
+    contrast = abs(squares @ np.array([0.5, 0.5, -0.5, -0.5]))
+    off = around(image, uv, right, down, _CORNER).mean(axis=1) - squares.mean(axis=1)
+    return bool(abs(np.median(off)) > _OFF_MIDDLE * np.median(contrast))

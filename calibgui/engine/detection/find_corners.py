@@ -1,0 +1,81 @@
+"""The way from an image to corners, whatever board it shows: the registry of detectors.
+
+A detector takes an image and what is known of the board and returns `Corners`, with covariances
+where it can tell them; it raises `NoBoardError` rather than return what it does not trust. It knows
+no camera and no solver. To add one, write it in a folder of its own and name it in `DETECTORS`
+under the kind of its pattern.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from types import MappingProxyType
+from typing import Any, Protocol
+
+import numpy.typing as npt
+
+from calibgui.engine.arrays import GridSize
+from calibgui.engine.boards.checkerboard import CHECKERBOARD
+from calibgui.engine.boards.pattern import Pattern
+from calibgui.engine.detection.charuco.find_charuco import find_charuco
+from calibgui.engine.detection.checkerboard.find_checkerboard import find_checkerboard
+from calibgui.engine.detection.circles.find_circles import find_circles
+from calibgui.engine.detection.corners import Corners
+
+
+class Detector(Protocol):
+    """A function that finds the boards of one kind of pattern; see `find_corners`."""
+
+    def __call__(
+        self,
+        image: npt.ArrayLike,
+        pattern: Any,
+        grid_size: GridSize | None,
+        roi: npt.ArrayLike | None,
+        method: str,
+    ) -> Corners: ...
+
+
+DETECTORS: Mapping[str, Detector] = MappingProxyType(
+    {
+        "checkerboard": find_checkerboard,
+        "charuco": find_charuco,
+        "circles": find_circles,
+        "asymmetric-circles": find_circles,
+    }
+)
+"""The detector for each kind of pattern."""
+
+
+def find_corners(
+    image: npt.ArrayLike,
+    grid_size: GridSize | None = None,
+    roi: npt.ArrayLike | None = None,
+    method: str = "edges",
+    pattern: Pattern = CHECKERBOARD,
+) -> Corners:
+    """Locate the corners of the board in an image, or the circles of a grid.
+
+    Args:
+        image: (h, w) grey levels, uint8, uint16 or floating.
+        board: rows and columns of inner corners; inferred if None. A checkerboard of which only a
+            part is seen then counts as what is seen of it.
+        roi: (4, 2) px, points at or just outside the board's outermost corners, in order around
+            it: only corners inside count, and where the pattern leaves the origin open it is the
+            corner nearest to the first point.
+        method: "edges", the edge model at the Cramer-Rao bound, with covariances; or "saddle",
+            the paper's. Circles have but one method.
+        pattern: what is printed on the board; what it leaves open is inferred.
+
+    Returns:
+        The corners, right-handed in the image, from an origin whose outer square is dark. Of a
+        board that is only partly seen `complete` is false, and `relative` is true where its
+        rows or columns could be counted otherwise. Corners seen but not trusted are `rejected`
+        with the reason; further boards are in `others`, but for those of much smaller squares:
+        these are looked for only until the wanted board is found.
+
+    Raises:
+        NoBoardError: no acceptable board, why, and what was found instead.
+        ValueError: arguments that make no sense.
+    """
+    return DETECTORS[pattern.kind](image, pattern, grid_size, roi, method)

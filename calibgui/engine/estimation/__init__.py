@@ -1,1 +1,0 @@
-"""The paper's two stages as an estimator: start, joint solve, covariances."""

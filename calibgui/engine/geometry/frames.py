@@ -1,0 +1,155 @@
+"""Coordinate frames, and the only conversions between them.
+
+array frame (u, v)   pixels, 0-based, integer coordinates at pixel centres, u right, v down.
+                     OpenCV's, and the frame of every interface of the engine. Its camera
+                     frame is right-handed: X right, Y down, Z forward.
+paper's frame (x, y) pixels, origin at the centre of the pixel array, x right, y up:
+                     x = u - (W - 1) / 2, y = (H - 1) / 2 - v. Its camera frame is
+                     left-handed: X right, Y up, Z forward. Used by Stage I and for display.
+corner frame         pixels, 0-based, integer coordinates at pixel corners: photogrammetry's.
+plate frame          millimetres in the plane of the target, as the caller numbers it.
+
+`b_from_a` names a transform of coordinates in a to coordinates in b.
+
+The paper measures a pose from the virtual centred fronto-parallel (CFP) camera, which
+looks at the plate's centre from the distance L + f: X_cam = R X' + T with
+X' = (X', Y', L + f) and t = T / (L + f) (eq. 6, 21). A plate point (X, Y) from the centre is
+thus at R[:, :2] (X, Y) + (L + f) (r3 + t): the planar pose's translation is (L + f) (r3 + t).
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from calibgui.engine.arrays import Array, Size
+from calibgui.engine.geometry.pose import Pose
+from calibgui.engine.geometry.rotations import (
+    paper_angles,
+    paper_rotation,
+    rotation,
+    rotation_vector,
+)
+
+_FLIP = np.array([1.0, -1.0, 1.0])
+"""The paper's camera axes in the array frame's: y changes sign."""
+
+
+def centre_of_array(size: Size) -> Array:
+    """(2,) the centre of the pixel array in the array frame, px."""
+    return np.array([(size[0] - 1) / 2, (size[1] - 1) / 2])
+
+
+def paper_from_array(uv: Array, size: Size) -> Array:
+    """(..., 2) image points in the paper's frame."""
+    return (uv - centre_of_array(size)) * _FLIP[:2]
+
+
+def array_from_paper(xy: Array, size: Size) -> Array:
+    """(..., 2) image points in the array frame."""
+    return xy * _FLIP[:2] + centre_of_array(size)
+
+
+def corner_from_array(uv: Array) -> Array:
+    """(..., 2) image points in the corner frame."""
+    return uv + 0.5
+
+
+PAPER_NAMES = ("xp", "yp", "k1", "k2", "k3", "p1", "p2", "p3", "fx", "fy")
+"""The paper's ten intrinsics in the order of Table 2."""
+
+
+def paper_intrinsics(params: Array, size: Size) -> tuple[Array, Array]:
+    """The paper's ten intrinsics, in its pixel units, from the array frame's.
+
+    k_j carries px^-2j, p1 and p2 px^-1, p3 px^-2, all by powers of fx; p2 changes sign with y.
+
+    Args:
+        params: (10,) fx, fy, cx, cy (px), k1, k2, k3, p1, p2, p3 (dimensionless).
+        size: of the image, px.
+
+    Returns:
+        Values (10,) in the order of `PAPER_NAMES` and their Jacobian (10, 10) with respect
+        to `params`, to carry a covariance over.
+    """
+    fx, fy, cx, cy = params[:4]
+    powers = np.array([2.0, 4.0, 6.0, 1.0, 1.0, 2.0])
+    signs = np.array([1.0, 1.0, 1.0, 1.0, -1.0, 1.0])
+    scale = signs * fx**-powers
+    xp, yp = paper_from_array(np.array([cx, cy]), size)
+    values = np.concatenate([[xp, yp], scale * params[4:], [fx, fy]])
+    J = np.zeros((10, 10))
+    J[0, 2], J[1, 3] = _FLIP[:2]
+    J[2:8, 4:] = np.diag(scale)
+    J[2:8, 0] = -powers * values[2:8] / fx
+    J[8, 0] = J[9, 1] = 1.0
+    return values, J
+
+
+def array_intrinsics(values: Array, size: Size) -> Array:
+    """Inverse of `paper_intrinsics`: (10,) array-frame parameters from the paper's ten."""
+    xp, yp, *coefficients, fx, fy = values
+    powers = np.array([2.0, 4.0, 6.0, 1.0, 1.0, 2.0])
+    signs = np.array([1.0, 1.0, 1.0, 1.0, -1.0, 1.0])
+    cx, cy = array_from_paper(np.array([xp, yp]), size)
+    return np.concatenate([[fx, fy, cx, cy], signs * fx**powers * np.asarray(coefficients)])
+
+
+@dataclass(frozen=True, slots=True)
+class PaperPose:
+    """The external parameters of one view as the paper writes them (3.2)."""
+
+    omega: float
+    phi: float
+    theta: float
+    tx: float
+    ty: float
+    tz: float
+    """t = T / (L + f), dimensionless."""
+    distance: float
+    """L + f, from the CFP camera to the plate, mm."""
+
+    @property
+    def vector(self) -> Array:
+        """(6,) omega, phi, theta (rad), tX, tY, tZ."""
+        return np.array([self.omega, self.phi, self.theta, self.tx, self.ty, self.tz])
+
+    @property
+    def absolute(self) -> Array:
+        """(3,) T = (L + f) t, mm (after eq. 30)."""
+        return self.distance * self.vector[3:]
+
+
+def _board_axes(R: Array) -> Array:
+    """(3,) signs that turn plate axes into the paper's left-handed ones.
+
+    Where the plate's Z points away from the camera its Y points down and is flipped; where
+    Z points at the camera Y is up already, and Z is flipped.
+    """
+    return _FLIP if R[2, 2] >= 0 else np.array([1.0, 1.0, -1.0])
+
+
+def paper_from_pose(pose: Pose, centre: Array, distance: float) -> PaperPose:
+    """The paper's external parameters of a pose.
+
+    Args:
+        pose: cam_from_plate in the array frame, mm.
+        centre: (2,) the plate's centre in plate coordinates, mm.
+        distance: L + f, mm (eq. 30).
+    """
+    R = rotation(pose.rvec)
+    axes = _board_axes(R)
+    paper_R = _FLIP[:, None] * R * axes
+    planar = _FLIP * (R[:, :2] @ centre + pose.tvec)
+    t = planar / distance - paper_R[:, 2]
+    return PaperPose(*paper_angles(paper_R), float(t[0]), float(t[1]), float(t[2]), distance)
+
+
+def pose_from_paper(paper: PaperPose, centre: Array, y_up: bool = False) -> Pose:
+    """Inverse of `paper_from_pose`; `y_up` says that plate coordinates have Y up."""
+    axes = np.array([1.0, 1.0, -1.0]) if y_up else _FLIP
+    paper_R = paper_rotation(paper.omega, paper.phi, paper.theta)
+    R = _FLIP[:, None] * paper_R * axes
+    planar = _FLIP * paper.distance * (paper_R[:, 2] + paper.vector[3:])
+    return Pose(rotation_vector(R), planar - R[:, :2] @ centre)

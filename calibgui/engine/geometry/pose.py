@@ -1,0 +1,24 @@
+"""A camera, and where it is."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from calibgui.engine.arrays import Array, freeze
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class Pose:
+    """cam_from_plate: X_cam = R X_plate + tvec, with R = exp(rvec)."""
+
+    rvec: Array
+    """(3,) rotation vector, rad."""
+    tvec: Array
+    """(3,) translation, mm."""
+
+    def __post_init__(self) -> None:
+        freeze(self, "rvec", "tvec")
+        if not self.rvec.shape == self.tvec.shape == (3,):
+            raise ValueError(
+                f"rvec and tvec must be of shape (3,), not {self.rvec.shape} and {self.tvec.shape}"
+            )

@@ -1,0 +1,96 @@
+"""Coordinate frames, and the only conversions between them.
+
+array frame (u, v)   pixels, 0-based, integer coordinates at pixel centres, u right, v down.
+                     OpenCV's, and the frame of every interface of the engine. Its camera
+                     frame is right-handed: X right, Y down, Z forward.
+paper's frame (x, y) pixels, origin at the centre of the pixel array, x right, y up:
+                     x = u - (W - 1) / 2, y = (H - 1) / 2 - v. Its camera frame is
+                     left-handed: X right, Y up, Z forward. Used by Stage I and for display.
+corner frame         pixels, 0-based, integer coordinates at pixel corners: photogrammetry's.
+plate frame          millimetres in the plane of the target, as the caller numbers it.
+
+`b_from_a` names a transform of coordinates in a to coordinates in b.
+
+The paper measures a pose from the virtual centred fronto-parallel (CFP) camera, which
+looks at the plate's centre from the distance L + f: X_cam = R X' + T with
+X' = (X', Y', L + f) and t = T / (L + f) (eq. 6, 21). A plate point (X, Y) from the centre is
+thus at R[:, :2] (X, Y) + (L + f) (r3 + t): the planar pose's translation is (L + f) (r3 + t).
+"""
+
+from __future__ import annotations
+
+import numpy as np
+import numpy.typing as npt
+
+from calibgui.engine.arrays import Array
+
+
+def rotation(rvec: Array) -> Array:
+    """(..., 3, 3) rotations exp(rvec) of rotation vectors (..., 3), by Rodrigues' formula."""
+    angle = np.linalg.norm(rvec, axis=-1)[..., None, None]
+    W = cross_matrix(rvec)
+    # np.sinc is sin(pi x) / (pi x), finite at 0.
+    a = np.sinc(angle / np.pi)
+    b = 0.5 * np.sinc(angle / (2 * np.pi)) ** 2
+    return np.eye(3) + a * W + b * (W @ W)
+
+
+def rotation_vector(R: Array) -> Array:
+    """(..., 3) rotation vectors of rotation matrices (..., 3, 3), of length at most pi."""
+    turned = np.swapaxes(R, -1, -2)
+    skew = (turned - R)[..., [1, 2, 0], [2, 0, 1]]
+    sine = np.linalg.norm(skew, axis=-1) / 2
+    cosine = (np.trace(R, axis1=-2, axis2=-1) - 1) / 2
+    angle = np.arctan2(sine, cosine)[..., None]
+    # Near a half turn the skew part vanishes: take the axis from the symmetric part
+    # R + R^T = 2 cos I + 2 (1 - cos) n n^T, and its sign from the skew part.
+    nn = (R + turned) / 2 - cosine[..., None, None] * np.eye(3)
+    longest = np.argmax(np.diagonal(nn, axis1=-2, axis2=-1), axis=-1)[..., None, None]
+    axis = np.take_along_axis(nn, longest, axis=-2)[..., 0, :]
+    sign = np.where(np.sum(axis * skew, axis=-1, keepdims=True) >= 0, 1.0, -1.0)
+    with np.errstate(invalid="ignore", divide="ignore"):
+        half_turn = sign * angle * axis / np.linalg.norm(axis, axis=-1, keepdims=True)
+        usual = skew / (2 * np.sinc(angle / np.pi))
+    return np.asarray(np.where(cosine[..., None] > -0.9, usual, half_turn))
+
+
+def cross_matrix(w: Array) -> Array:
+    """(..., 3, 3) matrices [w]x with [w]x a = w x a."""
+    zero = np.zeros(w.shape[:-1])
+    x, y, z = w[..., 0], w[..., 1], w[..., 2]
+    rows = [[zero, -z, y], [z, zero, -x], [-y, x, zero]]
+    return np.stack([np.stack(row, axis=-1) for row in rows], axis=-2)
+
+
+def rvec_by_local(rvec: Array) -> Array:
+    """(..., 3, 3) derivative of log(exp(w) exp(rvec)) with respect to w at w = 0.
+
+    The inverse of the left Jacobian of SO(3); carries the covariance of the solver's local
+    rotation over to the rotation vector.
+    """
+    angle = np.linalg.norm(rvec, axis=-1)[..., None, None]
+    W = cross_matrix(rvec)
+    half = angle / 2
+    with np.errstate(invalid="ignore", divide="ignore"):
+        c = np.where(angle > 1e-4, (1 - half / np.tan(half)) / angle**2, 1 / 12)
+    return np.eye(3) - 0.5 * W + c * (W @ W)
+
+
+def paper_rotation(omega: npt.ArrayLike, phi: npt.ArrayLike, theta: npt.ArrayLike) -> Array:
+    """(..., 3, 3) R = R(omega) R(phi) R(theta), eq. 7-8, in the paper's left-handed frame."""
+    angles = np.broadcast_arrays(*(np.asarray(a, dtype=np.float64) for a in (omega, phi, theta)))
+    (so, sp, st), (co, cp, ct) = np.sin(angles), np.cos(angles)
+    rows = [
+        [ct * cp, st * cp, -sp],
+        [-st * co + ct * sp * so, ct * co + st * sp * so, cp * so],
+        [st * so + ct * sp * co, -ct * so + st * sp * co, cp * co],
+    ]
+    return np.stack([np.stack(row, axis=-1) for row in rows], axis=-2)
+
+
+def paper_angles(R: Array) -> tuple[float, float, float]:
+    """omega, phi, theta of eq. 7 with phi in [-pi/2, pi/2], rad."""
+    omega = np.arctan2(R[1, 2], R[2, 2])
+    phi = np.arctan2(-R[0, 2], np.hypot(R[1, 2], R[2, 2]))
+    theta = np.arctan2(R[0, 1], R[0, 0])
+    return float(omega), float(phi), float(theta)

@@ -1,0 +1,27 @@
+"""Points over an image, and grey levels between the pixels."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from calibgui.engine.arrays import Array, GreyImage
+
+
+def mesh(u: Array, v: Array) -> Array:
+    """(len(v), len(u), 2) the points (u, v) of columns and rows."""
+    return np.stack(np.meshgrid(u, v), axis=-1)
+
+
+def sample(image: GreyImage, uv: Array) -> Array:
+    """Bilinear values of `image` (h, w) at `uv` (..., 2) px, the border replicated.
+
+    (OpenCV rounds positions to 1/32 px in some versions, and 8-bit values to whole grey levels.)
+    """
+    last = np.array(image.shape[::-1]) - 1
+    at = np.clip(uv, 0, last)
+    before = np.minimum(at.astype(np.int64), last - 1)
+    a, b = np.moveaxis(at - before, -1, 0)
+    u, v = np.moveaxis(before, -1, 0)
+    above = (1 - a) * image[v, u] + a * image[v, u + 1]
+    below = (1 - a) * image[v + 1, u] + a * image[v + 1, u + 1]
+    return np.asarray((1 - b) * above + b * below)

@@ -1,1 +1,0 @@
-"""Images and the camera: maps, undistortion, rectification, rendering."""

@@ -1,0 +1,92 @@
+"""Profiles across edges, compiled: what ``corners.profiles`` takes from their samples."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from calibgui.engine.arrays import Array, GreyImage
+from calibgui.engine.kernels.common import bilinear, compiled
+
+
+@compiled
+def _profile(image, uv, along, across, s, middle, half, grey):  # type: ignore[no-untyped-def]
+    """Fill grey with the levels s steps along an edge, from middle - half to middle + half steps
+    across it."""
+    height, width = image.shape
+    n = grey.shape[0]
+    step, first = 2 * half / (n - 1), middle - half
+    du, dv = step * across[0], step * across[1]
+    u, v = uv[0] + s * along[0] + first * across[0], uv[1] + s * along[1] + first * across[1]
+    far_u, far_v = u + (n - 1) * du, v + (n - 1) * dv
+    inside = 0 <= min(u, far_u) and max(u, far_u) < width - 1
+    if inside and 0 <= min(v, far_v) and max(v, far_v) < height - 1:
+        for j in range(n):
+            p, q = u + j * du, v + j * dv
+            c, r = int(p), int(q)
+            a, b = p - c, q - r
+            above = (1 - a) * image[r, c] + a * image[r, c + 1]
+            below = (1 - a) * image[r + 1, c] + a * image[r + 1, c + 1]
+            grey[j] = (1 - b) * above + b * below
+    else:
+        for j in range(n):
+            grey[j] = bilinear(image, u + j * du, v + j * dv)
+
+
+@compiled
+def _levels(image, uv, along, across, s, reach, samples, ends, first, last, total):  # type: ignore[no-untyped-def]
+    grey = np.empty(samples)
+    for i in range(uv.shape[0]):
+        for k in range(s.shape[0]):
+            _profile(image, uv[i], along[i], across[i], s[k], 0.0, reach, grey)
+            total[i, k] = -(grey[0] + grey[samples - 1]) / 2
+            for j in range(samples):
+                total[i, k] += grey[j]
+            for j in range(ends):
+                first[i, k] += grey[j] / ends
+                last[i, k] += grey[samples - 1 - j] / ends
+
+
+@compiled
+def _between(image, uv, along, across, s, middle, half, samples, first, rise, out):  # type: ignore[no-untyped-def]
+    grey = np.empty(samples)
+    for i in range(uv.shape[0]):
+        for k in range(s.shape[0]):
+            _profile(image, uv[i], along[i], across[i], s[k], middle[i, k], half[i], grey)
+            for j in range(samples):
+                out[i, k] += 0.25 < (grey[j] - first[i, k]) / rise[i, k] < 0.75
+
+
+def levels(
+    image: GreyImage,
+    uv: Array,
+    along: Array,
+    across: Array,
+    s: Array,
+    reach: float,
+    samples: int,
+    ends: int,
+) -> tuple[Array, Array, Array]:
+    """``profiles._levels``: (n, k) mean of the first and last `ends` of `samples` grey levels up
+    to `reach` steps to both sides, and the sum of all by the trapezoidal rule."""
+    first, last, total = np.zeros((3, len(uv), len(s)))
+    _levels(image, uv, along, across, s, reach, samples, ends, first, last, total)
+    return first, last, total
+
+
+def between(
+    image: GreyImage,
+    uv: Array,
+    along: Array,
+    across: Array,
+    s: Array,
+    middle: Array,
+    half: Array,
+    samples: int,
+    first: Array,
+    rise: Array,
+) -> Array:
+    """``profiles._between``: (n, k) how many of the `samples` from `middle` (n, k) up to `half`
+    (n,) steps to both sides lie between 25 and 75 % of the `rise` (n, k) from `first` (n, k)."""
+    out = np.zeros((len(uv), len(s)))
+    _between(image, uv, along, across, s, middle, half, samples, first, rise, out)
+    return out

@@ -1,1 +1,0 @@
-"""The plate as it is, not as it was drawn."""

@@ -1,1 +1,0 @@
-"""How far a calibration is to be trusted, and what would make it better."""

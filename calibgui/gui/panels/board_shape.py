@@ -1,0 +1,168 @@
+"""Where the corners of an estimated plate are: arrows in its plane, colour out of it."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pyqtgraph as pg
+import scipy
+from PySide6.QtCore import QT_TRANSLATE_NOOP, QPointF, QRectF, Signal
+from PySide6.QtWidgets import QFileDialog, QHBoxLayout, QLabel, QPushButton, QVBoxLayout
+
+from calibgui.dataset.result import Result
+from calibgui.engine.arrays import Array
+from calibgui.engine.boards import BoardShape
+from calibgui.engine.errors import CalibrationError
+from calibgui.formats.board_shape_json import write_board_shape
+from calibgui.gui import theme
+from calibgui.gui.panels.arrows import arrows
+from calibgui.gui.panels.panel import Panel
+from calibgui.gui.plots import ColourBar, Plot
+from calibgui.report.summary import about_board_shape, about_board_shape_error
+
+_LONGEST = 0.8
+"""Length of the longest arrow, in distances between corners."""
+_COLOURS = "CET-D1"
+
+
+class BoardShapePanel(Panel):
+    """The board's deviations from its drawing."""
+
+    title = str(QT_TRANSLATE_NOOP("PlatePanel", "Plate"))
+    icon = "plate"
+
+    failed = Signal(Exception)
+    """The plate could not be saved."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.words = QLabel()
+        self.words.setWordWrap(True)
+        self.save = QPushButton(self.tr("&Save plate…"))
+        self.save.setToolTip(
+            self.tr(
+                "Write the board as it is, for later calibrations with it: "
+                "Settings, Board is: as in a file."
+            )
+        )
+        self.save.clicked.connect(self._ask_and_save)
+        self.plot = Plot(
+            self.tr("X on the plate"),
+            self.tr("Y on the plate"),
+            self.tr("mm"),
+            self.tr("mm"),
+            square=True,
+        )
+        item = self.plot.getPlotItem()
+        item.getViewBox().invertY(True)
+        self.dots = pg.ScatterPlotItem(size=9, pen=pg.mkPen("#808080"))
+        self.colours = pg.colormap.get(_COLOURS)
+        self.bar = ColourBar(self.plot, self.tr("out of the plane [mm]"), self.colours)
+        self.plot.setToolTip(
+            self.tr(
+                "Arrows: from where corners should be to where they are, magnified.\n"
+                "Colours: out of the plane; red is away from the camera."
+            )
+        )
+        self.plot.addItem(self.dots)
+        self.arrows = self.plot.plot(connect="finite")
+        self.key = pg.TextItem(anchor=(0, 0.5))
+        self.plot.addItem(self.key)
+        self.plot.scene().sigMouseMoved.connect(self._hover)
+        self.under_cursor = QLabel()
+        below = QHBoxLayout()
+        below.addWidget(self.under_cursor, 1)
+        below.addWidget(self.save)
+        layout = QVBoxLayout(self.body)
+        layout.addWidget(self.words)
+        layout.addWidget(self.plot, 1)
+        layout.addLayout(below)
+
+    @property
+    def board_shape(self) -> BoardShape:
+        """The plate that is shown."""
+        assert self._result is not None
+        assert self._result.calibration.board_shape is not None
+        return self._result.calibration.board_shape
+
+    def _missing(self, result: Result) -> str:
+        calibration = result.calibration
+        if calibration.board_shape is not None:
+            return ""
+        how = self.tr(
+            "The board was taken as drawn. To estimate its shape, choose “free” or another "
+            "model at “Board is” in the Settings and calibrate again."
+        )
+        doubt = calibration.board_shape_error
+        return f"{about_board_shape_error(doubt)}\n\n{how}" if doubt > 0 else how
+
+    def _refresh(self, result: Result) -> None:  # noqa: ARG002 - `plate` is the result's
+        board_shape = self.board_shape
+        at, d = board_shape.nominal, board_shape.deviation
+        reach = float(np.abs(d[:, 2]).max()) or 1e-3
+        brushes = self.colours.map((d[:, 2] / reach + 1) / 2, mode="qcolor")
+        self.dots.setData(*at.T, brush=list(brushes))
+        self.bar.setLevels((-reach, reach))
+        nearest = scipy.spatial.cKDTree(at).query(at, k=2)[0]
+        pitch = self._pitch = float(np.asarray(nearest)[:, 1].min())
+        longest = float(np.linalg.norm(d[:, :2], axis=1).max()) or 1e-3
+        scale = _LONGEST * pitch / longest
+        corner, unit = at.min(axis=0) - [0.0, 1.4 * pitch], _round(longest)
+        key = np.array([[unit * scale, 0.0]])
+        tails = np.vstack([at + scale * d[:, :2] / 2, corner + key / 2])
+        self.arrows.setData(*arrows(tails, np.vstack([scale * d[:, :2], key])).T)
+        colours = theme.current()
+        self.arrows.setPen(pg.mkPen(colours.text, width=1.5))
+        self.key.setText(self.tr("{0:g} mm in the plane").format(unit), color=colours.text)
+        self.key.setPos(corner[0] + unit * scale + 0.2 * pitch, corner[1])
+        low, high = at.min(axis=0) - pitch * np.array([1.0, 2.0]), at.max(axis=0) + pitch
+        self.plot.enclose(QRectF(*low, *(high - low)))
+        words = about_board_shape(board_shape)
+        if board_shape.sigma.any():
+            known = float(np.median(board_shape.sigma[board_shape.sigma > 0]))
+            words += self.tr(" Each is known to ± {0:.2g} mm (1σ, median).").format(known)
+        self.words.setText(words)
+        self._hover(None)
+
+    def _hover(self, position: QPointF | None) -> None:
+        """Say the deviation of the corner under the cursor."""
+        k = -1 if position is None else self._corner_at(position)
+        if k < 0:
+            self.under_cursor.setText(self.tr("Point at a corner to read it."))
+            return
+        board_shape = self.board_shape
+        x, y, z = (
+            f"{value:+.3f} ± {sigma:.3f}"
+            for value, sigma in zip(board_shape.deviation[k], board_shape.sigma[k], strict=True)
+        )
+        self.under_cursor.setText(
+            self.tr("({0:g}, {1:g}) mm: x {2}, y {3}, z {4} mm").format(
+                *board_shape.nominal[k], x, y, z
+            )
+        )
+
+    def _corner_at(self, position: QPointF) -> int:
+        """The corner at a place of the scene; -1 for none."""
+        place = self.plot.getPlotItem().getViewBox().mapSceneToView(position)
+        away: Array = np.linalg.norm(self.board_shape.nominal - [place.x(), place.y()], axis=1)
+        k = int(away.argmin())
+        return k if away[k] < self._pitch / 2 else -1
+
+    def _ask_and_save(self) -> None:
+        name, _ = QFileDialog.getSaveFileName(
+            self, self.tr("Save plate"), "plate.json", self.tr("Plates (*.json)")
+        )
+        if not name:
+            return
+        path = Path(name)
+        try:
+            write_board_shape(self.board_shape, path if path.suffix else path.with_suffix(".json"))
+        except CalibrationError as error:
+            self.failed.emit(error)
+
+
+def _round(length: float) -> float:
+    """The largest of 1, 2 and 5 times a power of ten that is at most `length`."""
+    power = 10.0 ** np.floor(np.log10(length))
+    return float(power * max(m for m in (1, 2, 5) if m * power <= length * (1 + 1e-9)))

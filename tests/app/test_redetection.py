@@ -1,0 +1,120 @@
+"""A damaged photograph that only the camera calibrated from the others makes sense of."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from calibgui.app.calibration import calibrate_views
+from calibgui.app.detection import find_views
+from calibgui.app.redetection import calibrate_twice, search_again, view_again
+from calibgui.app.settings import Settings
+from calibgui.dataset.corner_set import CornerSet
+from calibgui.dataset.result import Result
+from calibgui.dataset.view import View, ViewStatus
+from calibgui.engine.boards.board import Board
+from calibgui.engine.boards.shape import BoardShapeModel
+from calibgui.engine.calibration.calibrate import calibrate
+from calibgui.engine.calibration.result import Cost
+from calibgui.engine.detection.corners import Corners
+from calibgui.engine.images.reading import read_image, write_image
+from tests import photographs
+from tests.engine import scenes
+from tests.photographs import BOARD, CAMERA
+
+SHAPE = (BOARD.rows, BOARD.cols)
+UV = scenes.imaged(CAMERA, photographs.poses()[0], BOARD.points()).reshape(*SHAPE, 2)
+HIDDEN = [(m, n) for m in range(6) for n in range(7) if m == 2 or n in (2, 5)]
+"""A row and two columns of the first photograph: six parts are left, none a board."""
+
+
+@pytest.fixture(scope="module")
+def damaged(tmp_path_factory: pytest.TempPathFactory) -> CornerSet:
+    folder = tmp_path_factory.mktemp("damaged")
+    photographs.take(folder)
+    first = folder / "view1.png"
+    image = read_image(first).pixels.copy()
+    v, u = np.indices(image.shape)
+    for place in HIDDEN:
+        image[np.hypot(u - UV[place][0], v - UV[place][1]) < 8] = 120
+    write_image(first, image)
+    return find_views(sorted(folder.glob("*.png")), SHAPE).corner_set(BOARD.square)
+
+
+def test_gains_the_view_and_calibrates_from_it(damaged: CornerSet) -> None:
+    assert [view.usable for view in damaged.views] == [False] + [True] * 5
+    once = calibrate_views(damaged)
+    twice = calibrate_twice(damaged)
+    assert len(twice.used) == len(once.used) + 1
+    gained = twice.views[0]
+    assert gained.corners is not None
+    assert gained.note.startswith("Found with the camera known")
+    assert not gained.reason
+    assert "view1.png for the first time" in twice.calibration.warnings[-1]
+    assert twice.views[1:] == damaged.views[1:]  # nothing to gain there
+    assert twice.calibration.residuals[0].rms < 3 * twice.calibration.noise
+    assert not {tuple(place) for place in gained.corners.grid.tolist()} & set(HIDDEN)
+
+
+def test_missed_corners_are_gained_and_noted(damaged: CornerSet) -> None:
+    whole = damaged.views[2]
+    found = whole.corners
+    assert found is not None
+    assert found.cov is not None
+    few = Corners(
+        SHAPE, found.grid[:20], found.uv[:20], found.uv[:20], found.cov[:20], method="edges"
+    )
+    views = tuple(replace(v, corners=few) if v is whole else v for v in damaged.views)
+    partly = replace(damaged, views=views)
+    more, said = search_again(partly, calibrate_views(partly))
+    assert more.views[2].corners is not None
+    assert more.views[2].corners.complete
+    assert more.views[2].note == "Searched again with the camera known: 22 corners more."
+    assert len(said) == 1
+
+
+def test_nothing_to_gain_leaves_everything_as_it_was(damaged: CornerSet) -> None:
+    complete = replace(damaged, views=damaged.views[1:])
+    result = calibrate_views(complete)
+    assert search_again(complete, result) == (complete, ())
+    registered = calibrate_views(damaged, Settings(cost=Cost.REFERENCE))
+    assert search_again(damaged, registered) == (damaged, ())
+
+
+def test_an_image_that_is_gone_stays_as_it_was(damaged: CornerSet, tmp_path: Path) -> None:
+    gone = View(str(tmp_path / "gone.png"), ViewStatus.NO_BOARD, "No board.")
+    calibration = calibrate_views(damaged).calibration
+    assert view_again(gone, calibration, SHAPE) is gone
+
+
+def test_boards_counted_from_the_wrong_end_are_named() -> None:
+    """By the deviations of an estimated board, and where these say nothing by its place."""
+    camera, grid_size, turned = scenes.barrel(), Board(6, 9, 30.0), (2, 5)
+
+    def result(deviation: float, board_shape: BoardShapeModel) -> Result:
+        made = scenes.uneven(camera, grid_size, 10, deviation, turned)
+        views = tuple(
+            View(f"{k}.png", ViewStatus.FOUND, points=view) for k, view in enumerate(made)
+        )
+        settings = Settings(board_shape=board_shape, robust=True)
+        return calibrate_twice(CornerSet(camera.size, views), settings)
+
+    found = result(0.3, BoardShapeModel.FREE)
+    told = [text for text in found.calibration.warnings if "wrong end" in text]
+    assert len(told) == 1
+    assert "wrong end in 2.png, 5.png, as its deviations" in told[0]
+    for k, view in enumerate(found.views):
+        assert (view.note != "") == (k in turned)
+    clean = calibrate(scenes.uneven(camera, grid_size, 10, 0.3), camera.size, board_shape="free")
+    apart = np.abs(found.calibration.camera.params - clean.camera.params)
+    assert (apart <= 1e-6 * np.maximum(clean.sigma, 1.0)).all()
+
+    for board_shape in (BoardShapeModel.NOMINAL, BoardShapeModel.FREE):
+        told = [
+            text for text in result(0.0, board_shape).calibration.warnings if "wrong end" in text
+        ]
+        assert len(told) == 1
+        assert "upside down in 2.png, 5.png" in told[0]

@@ -1,0 +1,86 @@
+"""The arrow-shaped normal equations against dense ones."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from calibgui.engine.arrays import Array
+from calibgui.engine.calibration.observations import CHUNK, pack
+from calibgui.engine.calibration.refinement.normal_equations import linearised, stage_two
+from calibgui.engine.calibration.refinement.residuals import Linearised, State
+from calibgui.engine.calibration.refinement.schur import factored, normal_equations, schur, solve
+from calibgui.engine.calibration.result import Cost
+from calibgui.engine.camera.models import MODELS
+from tests.engine.calibration.refinement.test_residuals import truth_of
+from tests.engine.scenes import barrel, scene
+
+MADE = scene(barrel(), 5, seed=4)
+VIEWS = pack(MADE.noisy(0.2, np.random.default_rng(0)))
+TRUTH = truth_of(MADE)
+FREE = np.array([0, 1, 2, 3, 4, 5, 7])
+COST = stage_two(VIEWS, "lucchese", Cost.IMAGE, 1.0, FREE)
+
+
+def jacobian(state: State) -> tuple[Array, Array]:
+    """Dense J and r of all unknowns, written out without any block structure."""
+    found = linearised(state, VIEWS, slice(0, 5), MODELS["lucchese"], Cost.IMAGE, 1.0)
+    K, N = found.residual.shape[:2]
+    J = np.zeros((K, N, 2, len(FREE) + 6 * K))
+    J[..., : len(FREE)] = found.by_params[..., FREE]
+    for k in range(K):
+        at = len(FREE) + 6 * k
+        J[k, ..., at : at + 6] = found.by_pose[k]
+    return J.reshape(2 * K * N, -1), found.residual.ravel()
+
+
+@pytest.mark.parametrize("damping", [0.0, 1e-3, 10.0])
+def test_the_step_solves_the_damped_normal_equations(damping: float) -> None:
+    J, r = jacobian(TRUTH)
+    A = J.T @ J
+    expected = np.linalg.solve(A + damping * np.diag(np.diag(A)), -J.T @ r)
+    shared, pose = solve(COST(TRUTH), damping)
+    # The dense matrix has a condition number of 1e14 in these units: compare its predictions.
+    np.testing.assert_allclose(
+        J @ np.concatenate([shared, pose.ravel()]), J @ expected, atol=1e-6 * np.abs(r).max()
+    )
+
+
+def test_the_schur_complement_is_the_inverse_of_the_covariance() -> None:
+    J, _ = jacobian(TRUTH)
+    unit = 1 / np.linalg.norm(J, axis=0)
+    inverse = np.linalg.inv((J * unit).T @ (J * unit)) * np.outer(unit, unit)
+    P = len(FREE)
+    np.testing.assert_allclose(
+        np.linalg.inv(schur(COST(TRUTH))[0]), inverse[:P, :P], rtol=1e-4, atol=1e-12
+    )
+
+
+def test_sums_over_chunks_are_the_sums() -> None:
+    """More views than a chunk holds, in two different orders of adding up."""
+    count = CHUNK + 3
+    rng = np.random.default_rng(0)
+    residual, by_params = rng.normal(size=(count, 4, 2)), rng.normal(size=(count, 4, 2, 9))
+    by_pose = rng.normal(size=(count, 4, 2, 6))
+
+    def linearise(state: State, views: slice) -> Linearised:  # noqa: ARG001
+        return Linearised(residual[views], by_params[views], by_pose[views])
+
+    state = State(np.zeros(9), np.zeros((count, 3, 3)), np.zeros((count, 3)))
+    found = normal_equations(linearise, state, np.arange(9))
+    np.testing.assert_allclose(found.cost, np.sum(residual**2))
+    J = by_params.reshape(-1, 9)
+    np.testing.assert_allclose(found.U, J.T @ J, rtol=1e-12)
+    np.testing.assert_allclose(found.shared, J.T @ residual.ravel(), rtol=1e-10, atol=1e-12)
+    np.testing.assert_allclose(
+        found.W[-1], np.einsum("nip,niq->pq", by_params[-1], by_pose[-1]), rtol=1e-12
+    )
+
+
+def test_factors_of_a_matrix_close_by_give_nearly_the_same_step() -> None:
+    moved = TRUTH.moved(np.zeros(10), np.tile([1e-6, -1e-6, 2e-6, 1e-4, 1e-4, 3e-4], (5, 1)))
+    near, here = factored(schur(COST(moved))), COST(TRUTH)
+    own, lent = solve(here, 0.0), near.at(here).step(here)
+    for ours, theirs in zip(own, lent, strict=True):
+        assert (np.abs(ours - theirs) <= 1e-3 * np.abs(ours).max(axis=0)).all()
+        assert (ours != theirs).any()

@@ -1,0 +1,54 @@
+"""Reported standard deviations are those that repeated solves show, for every lens model.
+
+``test_monte_carlo.py`` repeats whole calibrations; here only Stage II is repeated, from the truth,
+so that 500 draws are affordable, which know a standard deviation to 3 %. Noise alone is widened
+for the views' disagreement in about one draw of twenty (``view_scatter.py``).
+"""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from calibgui.engine.calibration import covariances
+from calibgui.engine.calibration.observations import pack
+from calibgui.engine.calibration.overdispersion import with_view_scatter
+from calibgui.engine.calibration.problem import state_of
+from calibgui.engine.calibration.refinement.levenberg_marquardt import minimise
+from calibgui.engine.calibration.refinement.normal_equations import stage_two
+from calibgui.engine.calibration.result import Cost
+from calibgui.engine.calibration.result_assembly import estimated
+from calibgui.engine.camera.models import MODELS, parameter_names
+from tests.engine.scenes import example, scene
+
+DRAWS = 500
+NOISE = 0.2
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("count", [10, 25])
+@pytest.mark.parametrize("model", list(MODELS))
+def test_repeated_solves_scatter_as_reported(model: str, count: int) -> None:
+    camera = example(model)
+    held = ("p3",)  # next to nothing determines it, where there is one
+    free = np.flatnonzero([name not in held for name in parameter_names(model)])
+    true = scene(camera, count, seed=4)
+    names = tuple(np.array(parameter_names(model))[free])
+    anything = np.full(len(free), np.inf)
+    start, rng = state_of(camera, true.poses), np.random.default_rng(count)
+    estimates, reported = [], []
+    for _ in range(DRAWS):
+        seen = pack(true.noisy(NOISE, rng))
+        problem = stage_two(seen, model, Cost.IMAGE, 1.0, free)
+        found = minimise(problem, start, free, seen.count, float(np.sum(seen.uv**2)))
+        precision = covariances.precision(found.normal, names, seen.count, anything)
+        told = with_view_scatter(estimated(found, seen, precision), model, free)
+        estimates.append(found.state.params[free])
+        reported.append(np.diag(told.camera))
+    scatter = np.std(estimates, axis=0, ddof=1)
+    ratio = scatter / np.sqrt(np.mean(reported, axis=0))
+    assert ((ratio > 0.9) & (ratio < 1.1)).all()
+    # The nonlinearity's bias is small: the means are within 0.2 of the standard deviations.
+    assert (np.abs(np.mean(estimates, axis=0) - camera.params[free]) < 0.2 * scatter).all()
+    inside = np.abs(np.array(estimates) - camera.params[free]) < 1.96 * np.sqrt(reported)
+    assert inside.mean(axis=0) == pytest.approx(np.full(len(free), 0.95), abs=0.03)

@@ -1,0 +1,63 @@
+"""What a camera and a pose take, and what they make of it."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from calibgui.engine.camera.camera import Camera
+from calibgui.engine.errors import CalibrationError
+from calibgui.engine.geometry.pose import Pose
+
+PARAMS = [600.0, 610.0, 320.0, 240.0, -0.2, 0.05, 1e-3, 2e-3, 0.01]
+
+
+def test_a_camera_knows_its_parameters_by_name() -> None:
+    camera = Camera((640, 480), PARAMS, "opencv")  # type: ignore[arg-type]
+    assert camera.names == ("fx", "fy", "cx", "cy", "k1", "k2", "p1", "p2", "k3")
+    np.testing.assert_array_equal(camera.matrix, [[600, 0, 320], [0, 610, 240], [0, 0, 1]])
+    np.testing.assert_array_equal(camera.coefficients, PARAMS[4:])
+
+
+def test_the_size_is_two_whole_numbers_whatever_it_came_as() -> None:
+    camera = Camera(np.array([640.0, 480.0]), PARAMS, "opencv")  # type: ignore[arg-type]
+    assert camera.size == (640, 480)
+    assert all(type(length) is int for length in camera.size)
+
+
+def test_its_parameters_are_its_own() -> None:
+    given = np.array(PARAMS)
+    camera = Camera((640, 480), given, "opencv")
+    given[0] = 0.0
+    assert camera.params[0] == 600.0
+    with pytest.raises(ValueError, match="read-only"):
+        camera.params[0] = 0.0
+
+
+@pytest.mark.parametrize(
+    ("size", "count", "model", "says"),
+    [
+        ((640, 480), 9, "fisheye", "no lens model 'fisheye'"),
+        ((640, 480), 4, "opencv", "4 numbers do not make a camera"),
+        ((640, 480), 9, "lucchese", "9 numbers do not make a camera"),
+        ((0, 480), 9, "opencv", "no image of 0 x 480"),
+    ],
+)
+def test_what_makes_no_camera_is_named(
+    size: tuple[int, int], count: int, model: str, says: str
+) -> None:
+    with pytest.raises(CalibrationError, match=says):
+        Camera(size, np.array(PARAMS[:count]), model)
+
+
+@pytest.mark.parametrize(("place", "value"), [(0, 0.0), (1, -600.0), (2, np.nan), (5, np.inf)])
+def test_numbers_that_no_camera_has_are_refused(place: int, value: float) -> None:
+    params = np.array(PARAMS)
+    params[place] = value
+    with pytest.raises(CalibrationError, match="No camera has"):
+        Camera((640, 480), params, "opencv")
+
+
+def test_a_pose_is_three_numbers_and_three() -> None:
+    with pytest.raises(ValueError, match="shape"):
+        Pose(np.zeros(2), np.zeros(3))

@@ -1,0 +1,173 @@
+"""ChArUco boards against rendered truth and against OpenCV's own drawing of them."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import cv2
+import numpy as np
+import pytest
+
+from calibgui.engine.boards.board import Board
+from calibgui.engine.boards.charuco import Charuco
+from calibgui.engine.boards.pattern import Ambiguity
+from calibgui.engine.boards.printed_pattern import Raster
+from calibgui.engine.calibration.calibrate import calibrate
+from calibgui.engine.detection.find_corners import find_corners
+from calibgui.engine.errors import CalibrationError, NoBoardError
+from calibgui.engine.images.reading import read_image
+from tests.engine.detection.conftest import Scene
+
+BOARDS = [
+    (Charuco("DICT_4X4_50", 0.75, False), (5, 8)),
+    (Charuco("DICT_5X5_100", 0.5, True), (5, 8)),
+    (Charuco("DICT_6X6_250", 0.7, False), (6, 6)),
+]
+
+
+@pytest.mark.parametrize(("pattern", "grid_size"), BOARDS)
+@pytest.mark.parametrize("known", [True, False], ids=["stated", "inferred"])
+def test_located_to_the_bound_and_identified(
+    pattern: Charuco, grid_size: tuple[int, int], known: bool
+) -> None:
+    scene = Scene(Board(*grid_size, 20.0, pattern))
+    corners = find_corners(
+        scene.image(), grid_size if known else None, pattern=(pattern if known else Charuco())
+    )
+    assert corners.shape == grid_size
+    assert corners.complete
+    assert corners.ambiguity is Ambiguity.NONE
+    error = scene.error(corners)
+    assert np.sqrt(np.mean(error**2)) < 0.006
+    assert corners.cov is not None
+    chi2 = np.einsum("ni,nij,nj->n", error, np.linalg.inv(corners.cov), error)
+    assert 0.5 < chi2.mean() / 2 < 1.6  # of 72 to 80 residuals
+    seen = corners.pattern
+    assert isinstance(seen, Charuco)
+    assert str(seen.dictionary).startswith(str(pattern.dictionary)[:9])
+    assert seen.legacy == pattern.legacy
+    assert seen.marker == pytest.approx(pattern.marker, abs=0.03)
+
+
+@pytest.mark.parametrize(("pattern", "grid_size"), BOARDS)
+def test_drawn_as_opencv_draws_it(pattern: Charuco, grid_size: tuple[int, int]) -> None:
+    assert pattern.dictionary is not None
+    assert pattern.marker is not None
+    rows, cols = grid_size[0] + 1, grid_size[1] + 1
+    dictionary = cv2.aruco.getPredefinedDictionary(getattr(cv2.aruco, pattern.dictionary))
+    drawn = cv2.aruco.CharucoBoard((cols, rows), 1.0, pattern.marker, dictionary)
+    drawn.setLegacyPattern(bool(pattern.legacy))
+    side = 160
+    image = drawn.generateImage((cols * side, rows * side))
+    ink = pattern.ink(grid_size)
+    assert isinstance(ink, Raster)
+    x, y = (
+        np.searchsorted(lines, (np.arange(n * side) + 0.5) / side - 1) - 1
+        for lines, n in ((ink.x, cols), (ink.y, rows))
+    )
+    mine = np.where(ink.dark[np.ix_(y, x)], 0, 255)
+    assert np.mean(mine != image) < 0.01  # lines between cells fall within a pixel
+    found = find_corners(np.pad(image, 100, constant_values=255), None, pattern=Charuco())
+    assert found.shape == grid_size
+    assert found.complete
+    places = np.array([(100, 100)]) + side * (found.grid[:, ::-1] + 1) - 0.5
+    assert np.abs(found.uv - places).max() < 0.1
+
+
+def test_parts_hidden_and_outside() -> None:
+    pattern, grid_size = BOARDS[0]
+    scene = Scene(Board(*grid_size, 20.0, pattern), aside=(70.0, 30.0))
+    image = scene.image()
+    image[300:430, 480:640] = 128
+    corners = find_corners(image, None, pattern=Charuco())
+    assert not corners.complete
+    assert len(corners) > 10
+    assert np.abs(scene.error(corners)).max() < 0.03
+    known = find_corners(image, grid_size, pattern=pattern)
+    assert known.shape == grid_size
+    np.testing.assert_array_equal(known.uv, corners.uv)
+
+
+def test_a_false_marker_is_left_out() -> None:
+    """A misread or foreign number agrees with no neighbour."""
+    pattern, grid_size = BOARDS[0]
+    scene = Scene(Board(*grid_size, 20.0, pattern), rvec=(0.0, 0.0, 0.0))
+    image = scene.image(noise=0.0)
+    first = np.rint(find_corners(image, grid_size, pattern=pattern).uv).astype(int)
+    (u, v), (w, _) = first[0], first[1]
+    side = w - u
+    # The square right of the first corner gets the marker of the one below its right neighbour.
+    inside = np.s_[v - side + 3 : v - 2, u + 3 : u + side - 2]
+    image[inside] = image[v + 3 : v + side - 2, u + side + 3 : u + 2 * side - 2]
+    corners = find_corners(image, grid_size, pattern=pattern)
+    assert np.abs(scene.error(corners)).max() < 0.05
+
+
+@pytest.mark.parametrize(
+    ("stated", "grid_size", "says"),
+    [
+        (Charuco(), (8, 5), "at least 5 rows and exactly 8 columns"),
+        (Charuco(), (4, 8), "at least 5 rows"),
+        (Charuco("DICT_6X6_50"), None, "DICT_4X4_50, not"),
+        (Charuco(marker=0.5), None, "of a square"),
+        (Charuco(legacy=True), (5, 8), "first square of this board is dark"),
+    ],
+)
+def test_what_is_wrongly_stated_is_told(
+    stated: Charuco, grid_size: tuple[int, int] | None, says: str
+) -> None:
+    scene = Scene(Board(5, 8, 20.0, BOARDS[0][0]))
+    with pytest.raises(NoBoardError, match=says):
+        find_corners(scene.image(), grid_size, pattern=stated)
+
+
+def test_no_board() -> None:
+    noise = np.random.default_rng(0).integers(0, 255, (300, 400)).astype(np.uint8)
+    checkerboard = Scene(Board(5, 8, 20.0)).image()
+    for image in (noise, checkerboard[::2, ::2].copy()):
+        with pytest.raises(NoBoardError, match="No ChArUco"):
+            find_corners(image, None, pattern=Charuco("DICT_4X4_50"))
+
+
+@pytest.mark.parametrize(
+    ("pattern", "grid_size"),
+    [(Charuco("DICT_4X4_50", 0.7), (9, 12)), (Charuco("DICT_4X4_50"), (4, 5)), (Charuco(), (4, 5))],
+)
+def test_cannot_be_drawn(pattern: Charuco, grid_size: tuple[int, int]) -> None:
+    with pytest.raises(CalibrationError):
+        pattern.ink(grid_size)
+
+
+def test_bad_statements() -> None:
+    with pytest.raises(CalibrationError, match="DICT_3X3"):
+        Charuco("DICT_3X3")
+    with pytest.raises(CalibrationError, match="smaller"):
+        Charuco(marker=1.5)
+
+
+def test_images_together_tell_more() -> None:
+    seen = [
+        Charuco("DICT_4X4_50", 0.70, False),
+        Charuco("DICT_4X4_100", 0.72, False),
+        Charuco("DICT_5X5_50", 0.74, False),
+    ]
+    assert Charuco().completed(seen) == Charuco("DICT_4X4_100", 0.72, False)
+    assert Charuco("DICT_4X4_250", 0.75).completed(seen) == Charuco("DICT_4X4_250", 0.75, False)
+    assert Charuco().completed([]) == Charuco()
+
+
+@pytest.mark.data
+def test_real_photographs(data_dir: Path) -> None:
+    """iPhone pictures of a board of 6 x 8 inner corners; two show only a part of its markers."""
+    folder = data_dir / "charuco_iphone_yzz"
+    views = []
+    for path in sorted(folder.glob("*.jpg")):
+        corners = find_corners(
+            read_image(path).pixels, (6, 8), pattern=Charuco("DICT_4X4_100", 0.5)
+        )
+        assert len(corners) >= 37
+        views.append((corners.uv, Board(6, 8, 40.0).points(corners.grid), corners.cov))
+    assert len(views) == 7
+    result = calibrate(views, (1024, 768))
+    assert [residual.rms < 0.6 for residual in result.residuals] == 7 * [True]
+    assert np.abs(result.camera.focal - 795).max() < 10

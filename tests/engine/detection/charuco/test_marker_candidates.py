@@ -1,0 +1,56 @@
+"""What may be a marker, against OpenCV's drawing and reading of markers."""
+
+from __future__ import annotations
+
+import cv2
+import numpy as np
+import pytest
+
+from calibgui.engine import arrays, opencv
+from calibgui.engine.boards.charuco import Charuco
+from calibgui.engine.detection.charuco.marker_candidates import MarkerCandidates
+from calibgui.engine.detection.find_corners import find_corners
+from calibgui.engine.errors import NoBoardError
+from tests.benchmarks.corner_boardless import boardless
+
+NAMES = ["DICT_4X4_50", "DICT_5X5_250", "DICT_6X6_50", "DICT_7X7_1000", "DICT_ARUCO_ORIGINAL"]
+
+
+def page(name: str, blur: float, noise: float) -> arrays.GreyImage:
+    """Twelve markers of a dictionary, seen obliquely and turned."""
+    cells = [opencv.marker_cells(name, k) for k in range(3, 15)]
+    side = 8 * len(cells[0])
+    sheet = np.full((4 * side, 5 * side), 220, np.uint8)
+    for k, dark in enumerate(cells):
+        v, u = (k // 4 * 5 + 1) * side // 4, (k % 4 * 5 + 1) * side // 4
+        marker = np.where(np.rot90(dark, k), 40, 220).astype(np.uint8)
+        sheet[v : v + side, u : u + side] = np.kron(marker, np.ones((8, 8), np.uint8))
+    corners = np.array([(0, 0), (5 * side, 0), (5 * side, 4 * side), (0, 4 * side)], np.float32)
+    seen = np.array([(60, 40), (560, 90), (600, 420), (30, 450)], np.float32)
+    H = cv2.getPerspectiveTransform(corners, seen)
+    image = cv2.warpPerspective(sheet, H, (640, 480), borderValue=(220,))
+    image = cv2.GaussianBlur(image, (0, 0), blur)
+    rng = np.random.default_rng(0)
+    return np.clip(np.rint(image + noise * rng.normal(size=image.shape)), 0, 255).astype(np.uint8)
+
+
+@pytest.mark.parametrize("name", NAMES)
+@pytest.mark.parametrize(("blur", "noise"), [(0.5, 2.0), (1.5, 6.0)])
+def test_what_opencv_reads_fits_its_dictionary(name: str, blur: float, noise: float) -> None:
+    image = page(name, blur, noise)
+    read = len(opencv.markers(image, name)[0])
+    assert read >= 10
+    candidates = MarkerCandidates(image)
+    assert candidates.fitting(name) >= read
+    others = [other for other in NAMES if other[:8] != name[:8]]
+    assert all(candidates.fitting(other) <= 2 for other in others)
+
+
+@pytest.mark.parametrize("seed", range(6))
+def test_no_marker_is_read_where_nothing_fits(seed: int, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Not even among the hundreds of bricks of one of these images."""
+    read: list[str] = []
+    monkeypatch.setattr(opencv, "markers", lambda _, name: read.append(name))
+    with pytest.raises(NoBoardError):
+        find_corners(boardless(seed), None, pattern=Charuco())
+    assert not read

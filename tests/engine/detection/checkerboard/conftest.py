@@ -1,0 +1,101 @@
+"""Boards drawn with exact truth, independent of the engine's own renderer."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import cache
+
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+from scipy.ndimage import gaussian_filter
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class Scene:
+    image: NDArray[np.uint8]
+    uv: Array
+    """(rows, cols, 2) true corners, px."""
+
+
+Draw = Callable[..., Scene]
+
+
+@pytest.fixture(scope="session")
+def draw() -> Draw:
+    return draw_board
+
+
+@cache
+def draw_board(
+    grid_size: tuple[int, int] = (6, 9),
+    size: tuple[int, int] = (640, 480),
+    *,
+    step: float = 40.0,
+    turn: float = 0.0,
+    tilt: tuple[float, float] = (0.0, 0.0),
+    shift: tuple[float, float] = (0.0, 0.0),
+    barrel: float = 0.0,
+    first: int = 0,
+    blur: float = 0.7,
+    noise: float = 0.0,
+    levels: tuple[float, float] = (40.0, 210.0),
+    seed: int = 0,
+) -> Scene:
+    """A board of `board` = (rows, cols) inner corners in an image of `size` = (width, height).
+
+    Args:
+        step: side of a square at the image's centre, px.
+        turn: of the board in the image, degrees, clockwise as seen.
+        tilt: perspective, gain of 1/distance per half image width and height.
+        shift: of the board's centre, px.
+        barrel: radial distortion at the half diagonal; the distorted point p is at the ideal
+            p (1 + barrel r^2).
+        first: colour of the first square, 0 dark, 1 bright.
+    """
+    rows, cols = grid_size
+    width, height = size
+    centre = np.array([(width - 1) / 2, (height - 1) / 2])
+    half = np.hypot(width, height) / 2
+    c, s = np.cos(np.radians(turn)), np.sin(np.radians(turn))
+    H = np.array([[c, -s, shift[0]], [s, c, shift[1]], [0.0, 0.0, 1.0]])
+    H[2, :2] = np.array([2 * tilt[0] / width, 2 * tilt[1] / height])
+    H = (
+        H
+        @ np.diag([step, step, 1.0])
+        @ np.array([[1, 0, -(cols - 1) / 2], [0, 1, -(rows - 1) / 2], [0, 0, 1.0]])
+    )
+
+    def ideal(p: Array) -> Array:
+        q = (p - centre) / half
+        return np.asarray((p - centre) * (1 + barrel * np.sum(q * q, axis=-1, keepdims=True)))
+
+    sub = (np.arange(4) + 0.5) / 4 - 0.5
+    v = (np.arange(height)[:, None] + sub).ravel()
+    u = (np.arange(width)[:, None] + sub).ravel()
+    p = np.stack(np.meshgrid(u, v), axis=-1)
+    q = np.concatenate([ideal(p), np.ones((*p.shape[:2], 1))], axis=-1) @ np.linalg.inv(H).T
+    x, y = q[..., 0] / q[..., 2], q[..., 1] / q[..., 2]
+    on = (x > -1) & (x < cols) & (y > -1) & (y < rows) & (q[..., 2] > 0)
+    dark = on & ((np.floor(x) + np.floor(y)).astype(np.int64) % 2 == first)
+    fine = np.where(dark, levels[0], levels[1])
+    image = fine.reshape(height, 4, width, 4).mean(axis=(1, 3))
+    image = gaussian_filter(image, blur)
+    image += noise * np.random.default_rng(seed).standard_normal(image.shape)
+
+    n, m = np.meshgrid(np.arange(cols), np.arange(rows))
+    corner = np.stack([n, m, np.ones_like(n)], axis=-1) @ H.T
+    board = corner[..., :2] / corner[..., 2:]
+    uv = board + centre
+    for _ in range(100):
+        uv = uv + board - ideal(uv)
+    return Scene(np.clip(np.rint(image), 0, 255).astype(np.uint8), uv)
+
+
+def random_squares(seed: int, side: int, shape: tuple[int, int]) -> NDArray[np.uint8]:
+    """Squares of `side` px, dark or bright by chance, in an image (h, w) at most."""
+    dark = np.random.default_rng(seed).random((shape[0] // side, shape[1] // side)) < 0.5
+    return np.kron(255 * dark, np.ones((side, side))).astype(np.uint8)

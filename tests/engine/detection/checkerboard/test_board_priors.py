@@ -1,0 +1,47 @@
+"""What is taken from the board as a whole stays so where the board is seen in part."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from calibgui.engine.detection.checkerboard.board_priors import Surroundings
+
+TAIL = {(0, c) for c in range(1, 9)} | {(1, 6), (1, 8)}
+COLUMN = {(r, 8) for r in range(6)}
+
+
+@pytest.mark.parametrize("missing", [set(), TAIL, COLUMN, TAIL | COLUMN])
+@pytest.mark.parametrize("degree", [1, 7])
+def test_gradients_do_not_run_away_where_lines_are_short(
+    missing: set[tuple[int, int]], degree: int
+) -> None:
+    found = np.ones((7, 9), np.bool_)
+    for place in missing:
+        found[place] = False
+    row, col = np.argwhere(found).T.astype(np.float64)
+    step = 30.0
+    steps = np.broadcast_to(step * np.eye(2), (len(row), 2, 2))
+    x = col / 8
+    values = np.column_stack([100 * x**degree, 2 * row])
+    values += 1e-3 * np.random.default_rng(0).standard_normal(values.shape)
+    got = Surroundings(found).gradients(steps, values)
+    expected = np.zeros((len(row), 2, 2))
+    expected[:, 0, 0] = 100 * degree * x ** (degree - 1) / 8 / step
+    expected[:, 1, 1] = 2 / step
+    np.testing.assert_allclose(got, expected, atol=0.05)
+
+
+def test_light_that_breaks_does_not_ring() -> None:
+    """Half of the board in shadow: the gradients are those on either side of the shadow's edge."""
+    found = np.ones((6, 9), np.bool_)
+    row, col = np.argwhere(found).T.astype(np.float64)
+    steps = np.broadcast_to(30.0 * np.eye(2), (len(row), 2, 2))
+    shadow = col + row / 2 > 5.2
+    smooth = 100 + 2 * col + 0.05 * row**2
+    values = np.column_stack([smooth, np.where(shadow, 0.4, 1.0) * smooth])
+    values += 0.01 * np.random.default_rng(0).standard_normal(values.shape)
+    whole, broken = Surroundings(found).gradients(steps, values).transpose(1, 0, 2)
+    np.testing.assert_allclose(whole[:, 0], 2 / 30, atol=2e-3)
+    expected = np.where(shadow, 0.4, 1.0)[:, None] * whole
+    np.testing.assert_allclose(broken, expected, atol=0.01)

@@ -1,0 +1,94 @@
+"""What a glance at a lattice's edges tells."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+import pytest
+from scipy.ndimage import gaussian_filter
+
+from calibgui.engine.detection.checkerboard import prefilter
+from calibgui.engine.detection.find_corners import find_corners
+from calibgui.engine.detection.lattice import Lattice
+from calibgui.engine.errors import NoBoardError
+from tests.benchmarks.corner_boardless import boardless
+from tests.benchmarks.corner_scenes import Conditions, draw
+
+
+@pytest.mark.parametrize(
+    "conditions",
+    [
+        {"ink": 0.08, "blur": 0.15 * 30},
+        {"ink": -0.08, "blur": 0.15 * 30},
+        {"square": 8.0, "noise": 20.0},
+        {"square": 45.0, "tilt": 70.0},
+        {"distortion": 0.5, "square": 38.0},
+        {"light": 1.0, "gamma": 2.2, "blur": 0.7, "blur_end": 4.0},
+    ],
+)
+def test_boards_are_plausible(conditions: dict[str, Any]) -> None:
+    scene = draw(Conditions(**conditions, parts=2), 0)
+    image = scene.photograph(0)
+    first, next_ = (
+        np.rint(np.mean(scene.uv[:2, k : k + 2], axis=(0, 1))).astype(int) for k in (0, 1)
+    )
+    dark = bool(scene.clean[*first[::-1]] < scene.clean[*next_[::-1]])
+    assert prefilter.plausible(Lattice(scene.uv, dark), image)
+
+
+@pytest.mark.parametrize(
+    ("pitch", "radius", "blur"),
+    [(15.8, 0.38, 1.0), (21.1, 0.36, 1.7), (19.9, 0.49, 1.6), (10.0, 0.38, 0.5)],
+)
+def test_the_edges_of_discs_bulge(pitch: float, radius: float, blur: float) -> None:
+    v, u = np.mgrid[:320, :480]
+    x, y = (0.96 * u + 0.28 * v) / pitch, (0.96 * v - 0.28 * u) / pitch
+    distance = np.hypot(x % 1 - 0.5, y % 1 - 0.5) - radius
+    image = 40 + 180 / (1 + np.exp(1.7 * distance * pitch / blur))
+    with pytest.raises(NoBoardError):
+        find_corners(image)
+
+
+@pytest.mark.parametrize("seed", [80, 8, 17])
+def test_a_picture_printed_in_dots_is_no_board(seed: int) -> None:
+    with pytest.raises(NoBoardError):
+        find_corners(boardless(seed))
+
+
+@pytest.mark.parametrize("seed", [62, 89, 98, 116, 179, 188, 197, 3878])
+def test_nor_is_the_part_of_it_where_dots_are_squares(seed: int) -> None:
+    with pytest.raises(NoBoardError):
+        find_corners(boardless(seed))
+
+
+def test_the_squares_of_one_print_spread_alike() -> None:
+    rng = np.random.default_rng(0)
+    one = 0.06 + rng.normal(0, 0.01, (100, 2))
+    one[rng.random(100) < 0.3] = np.nan
+    assert prefilter.alike(one)
+    assert prefilter.alike(one + np.array([0.03, 0.0]))  # sharpened in one direction
+    assert not prefilter.alike(one + np.linspace(-0.1, 0.1, 100)[:, None])  # dots that grow
+    assert not prefilter.alike(one + np.array([0.1, 0.0]))  # stripes that are shifted
+    assert prefilter.alike(np.full((100, 2), np.nan))
+
+
+def test_a_print_may_spread_more_where_more_light_blinds_the_camera() -> None:
+    rng = np.random.default_rng(0)
+    uv = rng.uniform(0, 640, (100, 2))
+    rise = 4e-4 * (uv[:, :1] - 320) * np.ones(2)
+    assert not prefilter.alike(rise)
+    one = rise / 2.5 + rng.normal(0, 0.002, (100, 2))
+    one[rng.random(100) < 0.3] = np.nan
+    assert not prefilter.alike(one)
+    assert prefilter.rising(one, uv)
+    assert not prefilter.rising(rise, uv)  # dots that grow
+    assert not prefilter.rising(one + 0.02 * np.sin(uv / 50), uv)
+    assert not prefilter.rising(one + np.array([0.1, 0.0]), uv)
+
+
+def test_a_board_is_found_where_light_blinds_the_camera_to_one_side() -> None:
+    scene = draw(Conditions(square=24.0, blur=3.0, parts=2), 402)
+    levels = np.clip(scene.clean * np.linspace(1, 2.2, 480)[:, None], 0, 400)
+    image = np.clip(gaussian_filter(levels, 1.0), 0, 255).astype(np.uint8)
+    assert len(find_corners(image).uv) == 54

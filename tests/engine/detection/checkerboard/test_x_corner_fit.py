@@ -1,0 +1,69 @@
+"""Positions and covariances of the edge fit, against drawn boards and their physical limit."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+import pytest
+
+from calibgui.engine.detection.find_corners import find_corners
+from tests.benchmarks.corner_scenes import Conditions, draw
+
+
+@pytest.mark.parametrize(
+    "condition",
+    [
+        {},
+        {"motion": 5.0},  # a blur that is not Gaussian
+        {"ink": 0.08},  # squares that overlap
+        {"ink": -0.08},  # and that part
+        {"blur": 5.0, "square": 36.0},  # neighbours' edges are near
+        {"fisheye": True, "focal": 0.32, "square": 80.0, "size": (720, 720)},  # near its front lens
+        {"distortion": 0.9, "focal": 0.5, "square": 60.0, "size": (800, 600)},
+        {"distortion": -0.3, "focal": 0.8, "square": 60.0, "size": (800, 600)},
+    ],
+    ids=str,
+)
+def test_errors_are_the_bound_and_what_the_covariance_says(condition: dict[str, Any]) -> None:
+    scene = draw(Conditions(**condition), 2)
+    squares, limits, honest = [], [], []
+    for seed in range(4):
+        corners = find_corners(scene.photograph(seed))
+        assert corners.shape == scene.conditions.grid_size
+        at = corners.grid[:, 0], corners.grid[:, 1]
+        error = corners.uv - scene.uv[at]
+        assert corners.cov is not None
+        squares.append(error**2)
+        limits.append(np.trace(scene.bound[at], axis1=1, axis2=2) / 2)
+        honest.append(np.einsum("ni,nij,nj->n", error, np.linalg.inv(corners.cov), error) / 2)
+    assert np.sqrt(np.mean(np.concatenate(squares)) / np.mean(np.concatenate(limits))) < 1.15
+    assert 0.75 < np.mean(np.concatenate(honest)) < 1.25
+
+
+@pytest.mark.parametrize("gamma", [1.0, 2.2])
+def test_light_that_varies_draws_no_corner_into_the_dark(gamma: float) -> None:
+    """A blur of 1.5 px would draw the whole board by 4e-3 px."""
+    scene = draw(Conditions(light=1.0, blur=1.5, noise=0.3, gamma=gamma), 1)
+    corners = find_corners(scene.photograph(0))
+    error = corners.uv - scene.uv[corners.grid[:, 0], corners.grid[:, 1]]
+    assert np.abs(error.mean(axis=0)).max() < 1.5e-3
+
+
+@pytest.mark.parametrize("dimmed", [0.4, 0.8])
+def test_the_edge_of_a_shadow_draws_no_corner_aside(dimmed: float) -> None:
+    """Corners that it runs through are left out, and the others none the worse."""
+    scene = draw(Conditions(turn=0.0, shift=0.0), 3)
+    v, u = np.indices(scene.clean.shape)
+    off = scene.uv @ [0.6, 0.8] - 400
+    shadowed = replace(scene, clean=scene.clean * np.where(0.6 * u + 0.8 * v > 400, dimmed, 1.0))
+    corners = find_corners(shadowed.photograph(0))
+    assert corners.cov is not None
+    at = corners.grid[:, 0], corners.grid[:, 1]
+    error = corners.uv - scene.uv[at]
+    far = abs(off[at]) > 25
+    chi2 = np.einsum("ni,nij,nj->n", error, np.linalg.inv(corners.cov), error) / 2
+    assert np.count_nonzero(far) > 35
+    assert np.mean(chi2[far]) < 1.3
+    assert np.linalg.norm(error, axis=1).max() < 0.1

@@ -1,0 +1,176 @@
+"""Grids of circles against rendered truth; the bias of their centres."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from calibgui.engine.boards.board import Board
+from calibgui.engine.boards.circle_grid import Circles
+from calibgui.engine.boards.pattern import Ambiguity
+from calibgui.engine.camera.camera import Camera
+from calibgui.engine.detection.find_corners import find_corners
+from calibgui.engine.detection.grid_map import fit_circle_map
+from calibgui.engine.errors import CalibrationError, NoBoardError
+from tests.engine.detection.conftest import CAMERA, Scene
+
+NO_LENS = Camera(CAMERA.size, [*CAMERA.params[:4], *np.zeros(6)])
+BENT = Camera(CAMERA.size, [*CAMERA.params[:4], 0.25, 0.02, 0.0, 0.0, 0.0, 0.0])
+WIDE = Camera(CAMERA.size, [340.0, 340.0, 500.0, 370.0, 0.35, 0.1, 0.0, 0.0, 0.0, 0.0])
+STEEP = (1.0, 0.1, 0.1)
+
+
+@pytest.mark.parametrize("camera", [NO_LENS, BENT], ids=["no lens", "strong lens"])
+@pytest.mark.parametrize(
+    ("pattern", "grid_size", "rvec"),
+    [
+        (Circles(False, 0.6), (7, 9), STEEP),
+        (Circles(True, 0.9), (11, 4), (-0.9, 0.2, 0.2)),
+    ],
+)
+def test_the_bias_of_the_centres_is_corrected(
+    camera: Camera, pattern: Circles, grid_size: tuple[int, int], rvec: tuple[float, float, float]
+) -> None:
+    """Of a large image without noise nothing but the grey levels' rounding is left."""
+    scene = Scene(Board(*grid_size, 16.0, pattern), camera, rvec, distance=260.0)
+    corners = find_corners(scene.image(noise=0.0), grid_size, pattern=Circles(pattern.asymmetric))
+    assert corners.complete
+    error = scene.error(corners)
+    assert np.sqrt(np.mean(error**2)) < 0.005
+    assert abs(error.mean(axis=0)).max() < 0.002
+    seen = corners.pattern
+    assert isinstance(seen, Circles)
+    assert seen.diameter == pytest.approx(pattern.diameter, abs=0.005)
+    # Left as they are, the ellipses' centres are off many times as far.
+    xy = pattern.places(corners.grid.astype(float))
+    bias = fit_circle_map(xy, corners.uv).bias(xy, seen.diameter / 2)
+    assert np.sqrt(np.mean((error + bias) ** 2)) > 10 * np.sqrt(np.mean(error**2))
+
+
+@pytest.mark.parametrize(
+    ("pattern", "grid_size"), [(Circles(False, 0.5), (7, 9)), (Circles(True, 0.6), (11, 4))]
+)
+def test_centres_are_right_near_a_wide_angle_lens(
+    pattern: Circles, grid_size: tuple[int, int]
+) -> None:
+    scene = Scene(Board(*grid_size, 16.0, pattern), WIDE, rvec=(0.15, 0.1, 0.1), distance=85.0)
+    corners = find_corners(scene.image(noise=1.0), grid_size, pattern=Circles(pattern.asymmetric))
+    assert corners.complete and corners.cov is not None
+    error = scene.error(corners)
+    assert np.abs(error).max() < 0.02
+    chi2 = np.einsum("ni,nij,nj->n", error, np.linalg.inv(corners.cov), error) / 2
+    assert np.mean(chi2) < 1.4
+
+
+def test_covariances_are_honest() -> None:
+    pattern = Circles(False, 0.5)
+    scene = Scene(Board(7, 9, 16.0, pattern))
+    chi2 = []
+    for seed in range(3):
+        corners = find_corners(scene.image(noise=5.0, seed=seed), (7, 9), pattern=pattern)
+        assert corners.cov is not None
+        error = scene.error(corners)
+        chi2.append(np.einsum("ni,nij,nj->n", error, np.linalg.inv(corners.cov), error).mean() / 2)
+    assert 0.8 < np.mean(chi2) < 1.25
+
+
+@pytest.mark.parametrize("turn", [0.0, 1.7, 3.1])
+def test_an_unique_origin_is_found(turn: float) -> None:
+    pattern = Circles(True, 0.8)
+    scene = Scene(Board(7, 4, 20.0, pattern), rvec=(0.2, 0.1, turn))
+    corners = find_corners(scene.image(), (7, 4), pattern=pattern)
+    assert corners.ambiguity is Ambiguity.NONE
+    assert np.abs(scene.error(corners)).max() < 0.03
+
+
+@pytest.mark.parametrize(
+    ("pattern", "grid_size", "ambiguity"),
+    [
+        (Circles(), (5, 7), Ambiguity.HALF_TURN),
+        (Circles(), (5, 5), Ambiguity.QUARTER_TURN),
+        (Circles(True), (11, 4), Ambiguity.NONE),
+        (Circles(True), (6, 4), Ambiguity.HALF_TURN),
+    ],
+)
+def test_turns_that_cannot_be_told(
+    pattern: Circles, grid_size: tuple[int, int], ambiguity: Ambiguity
+) -> None:
+    assert pattern.ambiguity(grid_size) is ambiguity
+    grid = np.indices(grid_size).reshape(2, -1).T.astype(float)
+    places = pattern.places(grid)
+    turned = places.max(axis=0) - places
+    same = {tuple(p) for p in turned.tolist()} == {tuple(p) for p in places.tolist()}
+    assert same == (ambiguity is not Ambiguity.NONE)
+
+
+def test_ambiguous_grid_is_upright_or_starts_where_marked() -> None:
+    pattern = Circles(False, 0.5)
+    scene = Scene(Board(5, 7, 20.0, pattern), rvec=(0.2, 0.1, 3.0))
+    image = scene.image()
+    upright = find_corners(image, (5, 7), pattern=pattern)
+    assert upright.ambiguity is Ambiguity.HALF_TURN
+    by_place = {tuple(g): uv for g, uv in zip(upright.grid.tolist(), upright.uv, strict=True)}
+    assert by_place[0, 6][0] > by_place[0, 0][0]
+    truth = scene.error(upright) * 0 + upright.uv - scene.error(upright)  # where truth has them
+    marked = truth[[0, 6, 34, 28]]
+    marked = marked.mean(axis=0) + 1.1 * (marked - marked.mean(axis=0))
+    corners = find_corners(image, (5, 7), marked, pattern=pattern)
+    assert np.abs(scene.error(corners)).max() < 0.03
+
+
+def test_dark_paper_and_16_bits() -> None:
+    pattern = Circles(False, 0.5)
+    image = Scene(Board(5, 7, 20.0, pattern)).image()
+    dark = find_corners(255 - image, (5, 7), pattern=pattern)
+    deep = find_corners(image.astype(np.uint16) * 200, (5, 7), pattern=pattern)
+    np.testing.assert_allclose(dark.uv, deep.uv, atol=1e-3)
+
+
+@pytest.mark.parametrize("pattern", [Circles(), Circles(asymmetric=True)])
+def test_nothing_else_is_a_grid(pattern: Circles) -> None:
+    rng = np.random.default_rng(0)
+    squares = Scene(Board(6, 8, 20.0)).image()
+    noise = rng.integers(0, 255, (300, 400)).astype(np.uint8)
+    for image in (noise, squares, np.zeros((200, 200), np.uint8)):
+        with pytest.raises(NoBoardError):
+            find_corners(image, (6, 4), pattern=pattern)
+
+
+def test_square_spots_are_not_circles() -> None:
+    image = np.full((480, 640), 220, np.uint8)
+    for i in range(5):
+        for j in range(7):
+            image[60 + 70 * i : 90 + 70 * i, 80 + 70 * j : 110 + 70 * j] = 30
+    with pytest.raises(NoBoardError):
+        find_corners(image, (5, 7), pattern=Circles())
+
+
+def test_what_is_wrongly_stated_is_told() -> None:
+    image = Scene(Board(5, 7, 20.0, Circles(False, 0.5))).image()
+    with pytest.raises(NoBoardError, match=r"measure 0\.50 of their distance, not 0\.70"):
+        find_corners(image, (5, 7), pattern=Circles(False, 0.7))
+    for grid_size in ((6, 7), (4, 7), (5, 5)):
+        with pytest.raises(NoBoardError, match=r"No grid of . x . circles was found, but one of 5"):
+            find_corners(image, grid_size, pattern=Circles())
+    with pytest.raises(CalibrationError, match="touch"):
+        Circles(False, 1.2)
+
+
+@pytest.mark.parametrize(("asymmetric", "grid_size"), [(False, (5, 7)), (True, (7, 4)), (True, (6, 5))])
+def test_the_number_of_circles_may_be_left_out(
+    asymmetric: bool, grid_size: tuple[int, int]
+) -> None:
+    pattern = Circles(asymmetric, 0.6)
+    image = Scene(Board(*grid_size, 20.0, pattern), rvec=(0.3, 0.4, 0.2)).image()
+    stated, counted = (
+        find_corners(image, grid_size, pattern=pattern),
+        find_corners(image, None, pattern=pattern),
+    )
+    assert counted.shape == grid_size
+    np.testing.assert_array_equal(counted.uv, stated.uv)
+
+
+def test_images_together_tell_the_diameter() -> None:
+    seen = [Circles(False, d) for d in (0.49, 0.5, 0.53)]
+    assert Circles().completed(seen) == Circles(False, 0.5)
+    assert Circles(False, 0.6).completed(seen) == Circles(False, 0.6)

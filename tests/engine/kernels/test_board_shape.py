@@ -1,0 +1,77 @@
+"""The compiled products of the plate's corners against the readable ones."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import numpy as np
+import pytest
+
+from calibgui.engine import kernels
+from calibgui.engine.arrays import Array
+from calibgui.engine.calibration.board_shape.estimate import corner_products, corners_of
+from calibgui.engine.calibration.observations import Observations, pack
+from calibgui.engine.calibration.refinement.normal_equations import Following, view_products
+from calibgui.engine.calibration.refinement.residuals import State
+from calibgui.engine.calibration.refinement.whitening import weighted
+from tests.engine.kernels.test_normal_equations import CAMERAS, scene
+
+FREE = np.array([0, 1, 2, 4, 6])
+
+
+def together(parts: Iterator[tuple[slice, Array, Array, Array]]) -> tuple[Array, Array, Array]:
+    """The products of all views at once."""
+    _, A, D, total = zip(*parts, strict=True)
+    return np.concatenate(A), np.concatenate(D), np.sum(total, axis=0)
+
+
+def products(state: State, observations: Observations, model: str) -> tuple[Array, ...]:
+    points, index = corners_of(observations)
+    parts = corner_products(state, observations, model, FREE, index, len(points))
+    return together(parts)
+
+
+@pytest.mark.parametrize("model", CAMERAS)
+@pytest.mark.parametrize("cov", [False, True])
+def test_the_compiled_products_are_the_readable_ones(
+    model: str, cov: bool, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    state, views = scene(model, cov)
+    observations = weighted(pack(views))
+    compiled = products(state, observations, model)
+    monkeypatch.setattr(kernels, "COMPILED", False)
+    readable = products(state, observations, model)
+    for ours, truth in zip(compiled, readable, strict=True):
+        assert ours.shape == truth.shape
+        np.testing.assert_allclose(ours, truth, rtol=1e-7, atol=1e-9 * np.abs(truth).max())
+
+
+@pytest.mark.parametrize("model", CAMERAS)
+@pytest.mark.parametrize("cov", [False, True])
+def test_a_plate_that_follows_gives_the_readable_products(
+    model: str, cov: bool, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    state, views = scene(model, cov)
+    observations = weighted(pack(views))
+    points, index = corners_of(observations)
+    motion = np.random.default_rng(0).normal(size=(len(points), 3, len(FREE)))
+    given = state, observations, model, FREE, Following(motion, index)
+    compiled = view_products(*given)
+    monkeypatch.setattr(kernels, "COMPILED", False)
+    readable = view_products(*given)
+    np.testing.assert_allclose(compiled, readable, rtol=1e-7, atol=1e-9 * np.abs(readable).max())
+
+
+def test_the_sums_do_not_depend_on_the_number_of_threads(monkeypatch: pytest.MonkeyPatch) -> None:
+    from calibgui.engine.kernels import common
+
+    state, views = scene("opencv", weighted=False)
+    many = pack(60 * views)
+    wide = State(state.params, np.tile(state.R, (60, 1, 1)), np.tile(state.T, (60, 1)))
+    results = []
+    for threads in (1, 2, 5):
+        monkeypatch.setattr(common, "THREADS", threads)
+        results.append(products(wide, many, "opencv"))
+    for other in results[1:]:
+        for ours, theirs in zip(results[0], other, strict=True):
+            np.testing.assert_array_equal(ours, theirs)
