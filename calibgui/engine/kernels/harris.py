@@ -1,4 +1,4 @@
-"""Harris' score around corners, compiled: ``corners.harris``, without its arrays of tiles."""
+"""Harris' score around corners, compiled: ``detection.checkerboard.harris``, without its arrays of tiles."""
 
 from __future__ import annotations
 
@@ -58,8 +58,8 @@ def _scores(image, origin, weights, sensitivity, out):  # type: ignore[no-untype
                 out[n, kv, ku] = uu * vv - uv * uv - sensitivity * (uu + vv) ** 2
 
 
-def scores(image: GreyImage, uv: Array, weights: Array, sensitivity: float) -> Array:
-    """(n, k, k) ``harris._scores``.
+def score_positions(image: GreyImage, uv: Array, weights: Array, sensitivity: float) -> Array:
+    """Compute ``detection.checkerboard.harris._score_positions``.
 
     Args:
         image: (h, w) grey levels.

@@ -15,8 +15,10 @@ def test_the_same_scores_also_at_the_border(dtype: type, monkeypatch: pytest.Mon
     image = rng.uniform(0, 255, (60, 80)).astype(dtype)
     uv = rng.uniform(-2, (82, 62), (100, 2))
     weights = rng.uniform(0, 1, (100, 5, 23))
-    compiled = harris._compiled_scores(image, uv, weights)
-    np.testing.assert_allclose(compiled, harris._scores(image, uv, weights), rtol=1e-9)
+    arguments = image, uv, weights, 0.04
+    compiled = harris._score_positions.kernel(*arguments)
+    readable = harris._score_positions.reference(*arguments)
+    np.testing.assert_allclose(compiled, readable, rtol=1e-9)
     spacing = rng.uniform(2, 40, 100)
     estimates = harris.first_estimates(image, uv, spacing)
     monkeypatch.setattr(kernels, "COMPILED", False)

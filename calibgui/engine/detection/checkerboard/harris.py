@@ -40,7 +40,7 @@ def first_estimates(image: GreyImage, uv: Array, spacing: Array) -> Array:
     # (n, k, side) weights around each of the k positions tried along an axis.
     width = np.clip(spacing / 6, 1, _MARGIN / 3)[:, None, None]
     w = np.exp(-0.5 * ((np.arange(-half, half + 1) - tried[:, None]) / width) ** 2)
-    score = (_compiled_scores if kernels.COMPILED else _scores)(image, uv, w)
+    score = _score_positions(image, uv, w, _SENSITIVITY)
     within = abs(tried) <= np.maximum(spacing / 4, 1)[:, None]
     score = np.where(within[:, :, None] & within[:, None, :], score, -np.inf)
     best = np.argmax(score.reshape(len(uv), -1), axis=1)
@@ -48,16 +48,19 @@ def first_estimates(image: GreyImage, uv: Array, spacing: Array) -> Array:
     return np.asarray(np.rint(uv) + np.column_stack([u, v]) - _REACH)
 
 
-def _scores(image: GreyImage, uv: Array, w: Array) -> Array:
-    """(n, k, k) the score at each of the positions tried, down and across."""
-    tiles, _ = opencv.tiles(image, uv, w.shape[2] // 2)
+@kernels.with_kernel("harris", "score_positions")
+def _score_positions(image: GreyImage, uv: Array, weights: Array, sensitivity: float) -> Array:
+    """Return (n, k, k) Harris scores at each of the k x k positions tried, down and across.
+
+    Args:
+        image: (h, w) grey levels.
+        uv: (n, 2) px.
+        weights: (n, k, side) along either axis, of each of the k positions tried along it.
+        sensitivity: the factor of the squared trace.
+    """
+    tiles, _ = opencv.tiles(image, uv, weights.shape[2] // 2)
     gv, gu = (np.asarray(g) for g in np.gradient(tiles.astype(np.float64), axis=(1, 2)))
-    Suu, Svv, Suv = (w @ product @ w.transpose(0, 2, 1) for product in (gu * gu, gv * gv, gu * gv))
-    return np.asarray(Suu * Svv - Suv * Suv - _SENSITIVITY * (Suu + Svv) ** 2)
-
-
-def _compiled_scores(image: GreyImage, uv: Array, w: Array) -> Array:
-    """`_scores` by the compiled kernel."""
-    from calibgui.engine.kernels import harris
-
-    return harris.scores(image, uv, w, _SENSITIVITY)
+    Suu, Svv, Suv = (
+        weights @ product @ weights.transpose(0, 2, 1) for product in (gu * gu, gv * gv, gu * gv)
+    )
+    return np.asarray(Suu * Svv - Suv * Suv - sensitivity * (Suu + Svv) ** 2)

@@ -156,7 +156,9 @@ def test_what_is_wrongly_stated_is_told() -> None:
         Circles(False, 1.2)
 
 
-@pytest.mark.parametrize(("asymmetric", "grid_size"), [(False, (5, 7)), (True, (7, 4)), (True, (6, 5))])
+@pytest.mark.parametrize(
+    ("asymmetric", "grid_size"), [(False, (5, 7)), (True, (7, 4)), (True, (6, 5))]
+)
 def test_the_number_of_circles_may_be_left_out(
     asymmetric: bool, grid_size: tuple[int, int]
 ) -> None:
