@@ -76,7 +76,7 @@ def say(text: str) -> None:
 
 
 def succeeds(*command: str | Path, env: dict[str, str] | None = None) -> bool:
-    """Whether `command` can be started and ends well; its output is dropped."""
+    """Return whether `command` can be started and ends well; its output is dropped."""
     try:
         return (
             subprocess.run(
@@ -89,7 +89,7 @@ def succeeds(*command: str | Path, env: dict[str, str] | None = None) -> bool:
 
 
 def output(*command: str | Path, env: dict[str, str] | None = None) -> str:
-    """What `command` prints."""
+    """Return what `command` prints."""
     return subprocess.run(command, env=env, capture_output=True, text=True, check=False).stdout
 
 
@@ -113,12 +113,12 @@ def hand_over_to_newer_python() -> None:
 
 
 def base_python() -> str:
-    """The Python outside any virtual environment, so that ours can be rebuilt from within."""
+    """Return the Python outside any virtual environment, which can rebuild ours from within."""
     return getattr(sys, "_base_executable", None) or sys.executable
 
 
 def venv_package() -> list[str]:
-    """The Debian package that `python -m venv` lacks, if it does."""
+    """Return the Debian package that `python -m venv` lacks, if it does."""
     if not LINUX or succeeds(base_python(), "-c", "import venv, ensurepip"):
         return []
     return [f"python3.{sys.version_info[1]}-venv"]
@@ -128,7 +128,7 @@ def venv_package() -> list[str]:
 
 
 def place() -> Path:
-    """Where the virtual environment is, or is to be."""
+    """Return the folder of the virtual environment, whether it exists or not."""
     if "CALIBGUI_VENV" in os.environ:
         return Path(os.environ["CALIBGUI_VENV"]).absolute()
     here = ROOT / ".venv"
@@ -152,7 +152,7 @@ class Environment:
         """Tells where their fonts are, if there are any among them."""
 
     def variables(self) -> dict[str, str]:
-        """The caller's variables without what would lead Python or pip astray, in UTF-8.
+        """Return the caller's variables without what would lead Python or pip astray, in UTF-8.
 
         pip's own settings, and so the package index chosen for the machine, stay.
         """
@@ -169,7 +169,7 @@ class Environment:
         return env
 
     def source(self) -> str:
-        """Digest of what the environment is built from: another one asks for a new environment."""
+        """Return the digest of what the environment is built from: if it differs, so must that."""
         python = Path(base_python()).resolve()
         digest = hashlib.sha256(f"{sys.version}\n{python}\n{ROOT}\n".encode())
         for name in ("pyproject.toml", "calibgui/__init__.py"):
@@ -177,7 +177,7 @@ class Environment:
         return digest.hexdigest()
 
     def holds(self) -> str | None:
-        """What is installed: "dev", "" (the dependencies alone), or None if nothing of use."""
+        """Return what is installed: "dev", "" (the dependencies alone); None if nothing of use."""
         try:
             stamp = json.loads(self.stamp.read_text(encoding="utf-8"))
         except (OSError, ValueError):
@@ -189,7 +189,7 @@ class Environment:
         return extra if complete else None
 
     def begin(self) -> None:
-        """An empty folder marked as this script's and not yet usable."""
+        """Make an empty folder, marked as this script's and not yet usable."""
         if self.folder.exists() and any(self.folder.iterdir()) and not self.stamp.exists():
             raise SetupError(
                 f"{self.folder} was made by something else and is left alone. Move it away, or "
@@ -201,7 +201,7 @@ class Environment:
         self.stamp.touch()
 
     def create(self) -> None:
-        """Python and pip, in the folder that `begin` left."""
+        """Put Python and pip in the folder that `begin` left."""
         wheel = next(self.debian.glob("usr/share/python-wheels/pip-*.whl"), None)
         options = ["--without-pip"] if wheel else []
         command = [base_python(), "-m", "venv", *options, str(self.folder)]
@@ -223,7 +223,7 @@ class Environment:
         self.pip("-c", PIP_IN_WHEEL, str(wheel), str(certificates), "install", "pip")
 
     def install(self, extra: str) -> None:
-        """The project, editable, with its dependencies."""
+        """Install the project, editable, with its dependencies."""
         say("installing calibgui and what it needs (some 300 MB the first time)")
         project = f"{ROOT}[{extra}]" if extra else str(ROOT)
         self.pip("-m", "pip", "install", "--editable", project)
@@ -233,7 +233,7 @@ class Environment:
     def compile(self) -> None:
         """Calibrate the sample, so that the first calibration need not wait for its kernels.
 
-        Nothing is lost where that fails: they are compiled when they are needed.
+        Nothing is lost if that fails: they are compiled when they are needed.
         """
         say("compiling what is slow in Python (half a minute, once)")
         sample = ROOT / "resources" / "sample"
@@ -241,7 +241,7 @@ class Environment:
         succeeds(self.python, *calibrate, env=self.variables())
 
     def pip(self, *arguments: str) -> None:
-        """Run pip; where nobody watches it work, only what it says of a failure is shown."""
+        """Run pip; if nobody watches it work, only its messages on a failure are shown."""
         watched = sys.stdout.isatty()
         command = [str(self.python), *arguments, *([] if watched else ["--quiet"])]
         done = subprocess.run(
@@ -265,7 +265,7 @@ class Environment:
 
 
 def missing_libraries(environment: Environment, purposes: set[str]) -> list[str]:
-    """Debian packages of the shared libraries that cannot be loaded, of those for `purposes`."""
+    """Return the Debian packages of the libraries for `purposes` that cannot be loaded."""
     if not LINUX or not purposes:
         return []
     text = (ROOT / "packaging" / "debian-packages.txt").read_text(encoding="utf-8")
@@ -276,7 +276,7 @@ def missing_libraries(environment: Environment, purposes: set[str]) -> list[str]
 
 
 def administrator() -> list[str] | None:
-    """What to put before a command to give it root's rights; None where they are not to be had."""
+    """Return what to put before a command to give it root's rights; None if that cannot be."""
     if os.geteuid() == 0:
         return []
     return ["sudo", "-n"] if succeeds("sudo", "-n", "apt-get", "--version") else None
@@ -335,7 +335,7 @@ def unpack(environment: Environment, packages: list[str]) -> bool:
 
 
 def set_up(extra: str, purposes: set[str]) -> Environment:
-    """The environment with `extra` installed and the shared libraries for `purposes`."""
+    """Return the environment with `extra` installed and the libraries for `purposes`."""
     environment = Environment(place())
     held = environment.holds()
     if held is None:
@@ -371,7 +371,7 @@ def run() -> int:
 
 
 def test(arguments: list[str]) -> int:
-    """Run the test suite on all processors; pytest's exit code."""
+    """Run the test suite on all processors and return pytest's exit code."""
     environment = set_up("dev", {"qt"})
     env = {"QT_QPA_PLATFORM": "offscreen", **environment.variables()}
     cache = [] if os.access(ROOT, os.W_OK) else ["-p", "no:cacheprovider"]

@@ -16,22 +16,26 @@ from calibgui.app.calibration import calibrate_views
 from calibgui.app.detection import find_views
 from calibgui.app.outputs import save_figure
 from calibgui.app.paths import find_images
-from calibgui.engine.assessment import compare_cameras, screen
+from calibgui.engine.assessment import compare_cameras, screen_outliers
 from calibgui.engine.boards import Board
 from calibgui.engine.calibration import Observation, calibrate
-from calibgui.engine.camera import Camera, pixels
-from calibgui.engine.geometry import rotation
+from calibgui.engine.camera import Camera, pixels_from_rays
+from calibgui.engine.geometry import rotation_from_vector
 from calibgui.engine.images import read_image
-from calibgui.engine.uncertainty import estimate_projection_uncertainty, next_views, study
+from calibgui.engine.uncertainty import (
+    estimate_projection_uncertainty,
+    propose_views,
+    study_number_of_views,
+)
 from calibgui.report import figures, quality_figures
 
 RESOURCES = Path(__file__).resolve().parents[1] / "resources"
 SQUARE = 25.0
-"""Of the sample's board, mm."""
+"""Side of a square of the sample's board, mm."""
 
 
-def bent_board() -> Figure:
-    """A board that is bowed by 0.2 mm and printed 0.1 mm unevenly, as 20 noisy views show it."""
+def draw_bent_board() -> Figure:
+    """Draw a board, bowed by 0.2 mm and printed 0.1 mm unevenly, as 20 noisy views show it."""
     rng = np.random.default_rng(1)
     board = Board(rows=7, cols=10, square=SQUARE)
     xy = board.points()
@@ -40,23 +44,25 @@ def bent_board() -> Figure:
     camera = Camera((640, 480), [660, 661, 309, 246, 0.27, 0.11, -0.06, -4e-4, 6e-4, 0])
     views = []
     for _ in range(20):
-        R = rotation(rng.uniform(-0.6, 0.6, 3))
+        R = rotation_from_vector(rng.uniform(-0.6, 0.6, 3))
         point = (np.column_stack([xy - xy.mean(axis=0), np.zeros(len(xy))]) + bend) @ R.T
         point = point + rng.uniform([-20, -20, 300], [20, 20, 400])
-        uv = pixels(point[:, :2] / point[:, 2:], camera)
+        uv = pixels_from_rays(point[:, :2] / point[:, 2:], camera)
         views.append(Observation(uv + rng.normal(0, 0.03, uv.shape), xy))
     board_shape = calibrate(views, camera.size, board_shape="free").board_shape
     assert board_shape is not None
-    return figures.board_shape_deviations(board_shape)
+    return figures.draw_board_shape(board_shape)
 
 
-def misplaced_corners(images: Sequence[str], views: Sequence[Observation], truth: Camera) -> Figure:
-    """One corner in twenty moved by 3 to 50 px: those of one image, and what becomes of the camera.
+def draw_misplaced_corners(
+    images: Sequence[str], views: Sequence[Observation], truth: Camera
+) -> Figure:
+    """Move one corner in twenty by 3 to 50 px, and draw one image and the effect on the camera.
 
     Args:
-        images: of the views.
-        views: with their corners where they are.
-        truth: what took the images.
+        images: paths of the images.
+        views: their true corners.
+        truth: camera that took the images.
     """
     rng = np.random.default_rng(4)
     spoilt, moved = [], []
@@ -66,7 +72,7 @@ def misplaced_corners(images: Sequence[str], views: Sequence[Observation], truth
         shift = np.column_stack([np.cos(angle), np.sin(angle)]) * (far * chosen)[:, None]
         spoilt.append(Observation(uv + shift, xy))
         moved.append(chosen)
-    screening = screen(spoilt, truth.size)
+    screening = screen_outliers(spoilt, truth.size)
     found = {
         "as they are": (calibrate(views, truth.size), "tab:green"),
         "5 % misplaced": (calibrate(spoilt, truth.size), "tab:red"),
@@ -108,23 +114,28 @@ def misplaced_corners(images: Sequence[str], views: Sequence[Observation], truth
 
 
 def main() -> None:
+    """Draw all figures and save them."""
     images = find_images([str(RESOURCES / "sample")])
     result = calibrate_views(find_views(images).corner_set(SQUARE))
     calibration, views = result.calibration, result.observations()
     size = calibration.camera.size
     halves = [calibrate(views[start::2], size).camera for start in (0, 1)]
     pictures = {
-        "uncertainty": quality_figures.uncertainty(
+        "uncertainty": quality_figures.draw_projection_uncertainty(
             estimate_projection_uncertainty(calibration, views), views, 0.01
         ),
-        "difference": quality_figures.difference(compare_cameras(*halves)),
-        "views": quality_figures.view_count(study(calibration, views, solved=20), 0.03),
-        "next-views": quality_figures.next_views(next_views(calibration, views), views, size),
+        "difference": quality_figures.draw_camera_difference(compare_cameras(*halves)),
+        "views": quality_figures.draw_number_of_views(
+            study_number_of_views(calibration, views, solved=20), 0.03
+        ),
+        "next-views": quality_figures.draw_next_views(
+            propose_views(calibration, views), views, size
+        ),
     }
-    pictures["plate"] = bent_board()
+    pictures["plate"] = draw_bent_board()
     truth = json.loads((RESOURCES / "sample" / "truth.json").read_text())["camera"]
     camera = Camera(size, list(truth["params"].values()))
-    pictures["robust"] = misplaced_corners([v.image for v in result.used], views, camera)
+    pictures["robust"] = draw_misplaced_corners([v.image for v in result.used], views, camera)
     for name, figure in pictures.items():
         save_figure(figure, RESOURCES / "images" / f"{name}.png")
 

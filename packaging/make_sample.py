@@ -21,12 +21,12 @@ from calibgui.engine.arrays import Array
 from calibgui.engine.boards import Board
 from calibgui.engine.camera import MODELS, Camera, project_points
 from calibgui.engine.files import write_atomically
-from calibgui.engine.geometry import Pose, rotation, rotation_vector
-from calibgui.engine.images import Appearance, render, write_image
+from calibgui.engine.geometry import Pose, rotation_from_vector, vector_from_rotation
+from calibgui.engine.images import Appearance, render_view, write_image
 
 FOLDER = Path(__file__).resolve().parents[1] / "resources" / "sample"
 
-TARGET = Board(rows=7, cols=10, square=25.0)
+BOARD = Board(rows=7, cols=10, square=25.0)
 CAMERA = Camera(
     (640, 480),
     np.array([660.4, 661.7, 309.2, 246.3, 0.27, 0.11, -0.06, -4.0e-4, 6.0e-4, 0.0]),
@@ -36,11 +36,11 @@ LOOK = Appearance(quiet_zone=0.4, shading=(0.25, -0.15))
 BLUR, NOISE = 0.7, 2.0
 """Standard deviations of the Gaussian blur, px, and of the noise, grey levels."""
 CLEARANCE = 3.0
-"""Distance of the sheet from the side of the image that it touches, px."""
+"""Distance of the paper from the side of the image that it touches, px."""
 
 VIEWS = (
     # Tilt about the image's x axis, about y, and turn in its plane, degrees; side of the image
-    # that the sheet touches along u and v (-1, 1; 0: it is centred); distance, mm.
+    # that the paper touches along u and v (-1, 1; 0: it is centred); distance, mm.
     (0, 0, 2, 0, 0, 315),
     (30, 0, -4, 0, 0, 350),
     (-32, 3, 3, 0, 0, 360),
@@ -58,38 +58,38 @@ VIEWS = (
 )
 
 
-def pose(view: tuple[int, ...]) -> Pose:
-    """Where the plate is in one of `VIEWS`."""
+def place_board(view: tuple[int, ...]) -> Pose:
+    """Return the pose of the board in one of `VIEWS`."""
     *angles, u_side, v_side, distance = view
     about_x, about_y, turn = (
-        rotation(np.deg2rad(a) * e) for a, e in zip(angles, np.eye(3), strict=True)
+        rotation_from_vector(np.deg2rad(a) * e) for a, e in zip(angles, np.eye(3), strict=True)
     )
-    rvec = rotation_vector(about_x @ about_y @ turn).round(6)
-    to_centre = rotation(rvec)[:, :2] @ TARGET.points().mean(axis=0)
-    room = (np.array(CAMERA.size) - 1) / 2
+    rvec = vector_from_rotation(about_x @ about_y @ turn).round(6)
+    to_centre = rotation_from_vector(rvec)[:, :2] @ BOARD.points().mean(axis=0)
+    half = (np.array(CAMERA.size) - 1) / 2
     side = np.array([u_side, v_side])
     ray = np.zeros(2)
-    for _ in range(30):  # moving the plate hardly changes its outline: this converges fast
+    for _ in range(30):  # moving the board hardly changes its outline: this converges fast
         placed = Pose(rvec, (distance * np.append(ray, 1.0) - to_centre).round(2))
-        uv = project_points(outline(), CAMERA, placed)
+        uv = project_points(draw_outline(), CAMERA, placed)
         low, high = uv.min(axis=0), uv.max(axis=0)
         touching = np.where(side < 0, low, np.where(side > 0, high, (low + high) / 2))
-        ray += (room + side * (room - CLEARANCE) - touching) / CAMERA.focal
+        ray += (half + side * (half - CLEARANCE) - touching) / CAMERA.focal
     return placed
 
 
-def outline() -> Array:
-    """(n, 2) points along the edge of the white sheet, mm."""
+def draw_outline() -> Array:
+    """Return (n, 2) points along the edge of the white paper, mm."""
     margin = 1 + LOOK.quiet_zone
-    X = np.linspace(-margin, TARGET.cols - 1 + margin, 45)
-    Y = np.linspace(-margin, TARGET.rows - 1 + margin, 45)
+    X = np.linspace(-margin, BOARD.cols - 1 + margin, 45)
+    Y = np.linspace(-margin, BOARD.rows - 1 + margin, 45)
     sides = [(X, Y[:1]), (X, Y[-1:]), (X[:1], Y), (X[-1:], Y)]
-    return TARGET.square * np.concatenate([np.stack(np.broadcast_arrays(*s), 1) for s in sides])
+    return BOARD.square * np.concatenate([np.stack(np.broadcast_arrays(*s), 1) for s in sides])
 
 
-def truth() -> dict[str, object]:
-    """What the sample set was made from."""
-    placed = [pose(view) for view in VIEWS]
+def describe_truth() -> dict[str, object]:
+    """Return what the sample set was made from, as truth.json holds it."""
+    poses = [place_board(view) for view in VIEWS]
     names = ("fx", "fy", "cx", "cy", *MODELS[CAMERA.model].names)
     return {
         "camera": {
@@ -97,24 +97,24 @@ def truth() -> dict[str, object]:
             "size": CAMERA.size,
             "params": dict(zip(names, CAMERA.params.tolist(), strict=True)),
         },
-        "target": {"rows": TARGET.rows, "cols": TARGET.cols, "square_mm": TARGET.square},
+        "target": {"rows": BOARD.rows, "cols": BOARD.cols, "square_mm": BOARD.square},
         "rendering": {"blur_px": BLUR, "noise_levels": NOISE, **asdict(LOOK)},
         "views": [
             {
                 "image": f"view{number:02d}.png",
-                "rvec": board_shape.rvec.tolist(),
-                "tvec_mm": board_shape.tvec.tolist(),
-                "corners": project_points(TARGET.points(), CAMERA, board_shape).round(9).tolist(),
+                "rvec": pose.rvec.tolist(),
+                "tvec_mm": pose.tvec.tolist(),
+                "corners": project_points(BOARD.points(), CAMERA, pose).round(9).tolist(),
             }
-            for number, board_shape in enumerate(placed, start=1)
+            for number, pose in enumerate(poses, start=1)
         ],
     }
 
 
-def photograph(number: int) -> npt.NDArray[np.uint8]:
-    """The image of view `number`, from 1."""
-    board_shape = pose(VIEWS[number - 1])
-    return render(CAMERA, board_shape, TARGET, blur=BLUR, noise=NOISE, seed=number, appearance=LOOK)
+def draw_photograph(number: int) -> npt.NDArray[np.uint8]:
+    """Render the image of view `number`, from 1."""
+    pose = place_board(VIEWS[number - 1])
+    return render_view(CAMERA, pose, BOARD, blur=BLUR, noise=NOISE, seed=number, appearance=LOOK)
 
 
 def main() -> None:
@@ -123,9 +123,11 @@ def main() -> None:
     parser.add_argument("folder", nargs="?", type=Path, default=FOLDER)
     folder = parser.parse_args().folder
     folder.mkdir(parents=True, exist_ok=True)
-    write_atomically(folder / "truth.json", (json.dumps(truth(), indent=1) + "\n").encode())
+    write_atomically(
+        folder / "truth.json", (json.dumps(describe_truth(), indent=1) + "\n").encode()
+    )
     for number in range(1, len(VIEWS) + 1):
-        write_image(folder / f"view{number:02d}.png", photograph(number))
+        write_image(folder / f"view{number:02d}.png", draw_photograph(number))
 
 
 if __name__ == "__main__":

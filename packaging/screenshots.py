@@ -22,14 +22,14 @@ from PySide6.QtCore import QEventLoop, QPoint, QSettings, Qt, QTimer
 from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QApplication
 
-from calibgui.app.resources import resource
+from calibgui.app.resources import find_resource
 from calibgui.engine.boards import BoardShapeModel
-from calibgui.gui import theme
-from calibgui.gui.analysis import PANELS
-from calibgui.gui.main_window import MainWindow
+from calibgui.gui.panels.analysis import PANELS
 from calibgui.gui.panels.board_shape import BoardShapePanel
 from calibgui.gui.panels.poses import PosesPanel
 from calibgui.gui.panels.synthetic import SyntheticPanel
+from calibgui.gui.widgets import theme
+from calibgui.gui.window.main_window import MainWindow
 
 _PATIENCE = 600.0
 
@@ -67,7 +67,7 @@ class Photographer:
         """The way from the empty window through every panel."""
         window, session = self.window, self.window.session
         self.take("welcome")
-        window.files.open_paths([str(resource("sample"))])
+        window.files.open_paths([str(find_resource("sample"))])
         wait(lambda: session.result is not None)
         session.select(session.project.views[2].image)
         self.take("result")

@@ -1,4 +1,8 @@
-"""What all tests share: where the real image sets are, and a repeatable hypothesis."""
+"""What all tests share: where the real image sets are, and how hypothesis takes its examples.
+
+CI takes the same 50 examples each time; ``CALIBGUI_HYPOTHESIS=random pytest tests/engine/geometry``
+takes 2000 new ones for each invariant and prints how to repeat the one that fails.
+"""
 
 from __future__ import annotations
 
@@ -8,18 +12,40 @@ from pathlib import Path
 import pytest
 from hypothesis import HealthCheck, settings
 
-from tests.photographs import take
+from calibgui.engine.kernels import COMPILED
+from tests.photographs import write_photographs
 
 settings.register_profile(
-    "calibgui",
+    "repeatable",
     derandomize=True,
     deadline=None,
     max_examples=50,
     suppress_health_check=[HealthCheck.too_slow],
 )
-settings.load_profile("calibgui")
+settings.register_profile(
+    "random",
+    derandomize=False,
+    deadline=None,
+    max_examples=2000,
+    print_blob=True,
+    suppress_health_check=[HealthCheck.too_slow],
+)
+settings.load_profile(os.environ.get("CALIBGUI_HYPOTHESIS", "repeatable"))
 
 _REPOSITORY = Path(__file__).resolve().parents[1]
+
+
+def pytest_ignore_collect(collection_path: Path) -> bool | None:
+    """Keep the search for examples in docstrings from importing what is no test.
+
+    Nor are the tests of kernels imported where there is no numba to compile them.
+    """
+    name = collection_path.name
+    if not name.endswith(".py"):
+        return None
+    needs_numba = collection_path.parent.name == "kernels" and name != "test_fallback.py"
+    is_test = name.startswith("test_") and (COMPILED or not needs_numba)
+    return None if is_test else True
 
 
 @pytest.fixture(scope="session")
@@ -41,5 +67,5 @@ def bouguet(data_dir: Path) -> Path:
 def photographs(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """Folder of six rendered photographs, see `tests.photographs`; not to be changed."""
     folder = tmp_path_factory.mktemp("photographs")
-    take(folder)
+    write_photographs(folder)
     return folder

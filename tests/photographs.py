@@ -10,7 +10,7 @@ from calibgui.engine.boards.board import Board
 from calibgui.engine.camera.camera import Camera
 from calibgui.engine.geometry.pose import Pose
 from calibgui.engine.images.reading import write_image
-from calibgui.engine.images.rendering import render
+from calibgui.engine.images.rendering import render_view
 from tests.engine import scenes
 
 BOARD = Board(rows=6, cols=7, square=30.0)
@@ -18,14 +18,14 @@ CAMERA = Camera((320, 240), [330.0, 333.0, 155.0, 122.0, 0.2, 0.05, 0.0, 3e-4, -
 COUNT = 6
 
 
-def poses() -> list[Pose]:
-    """Where the board is in each photograph."""
+def draw_poses() -> list[Pose]:
+    """Return the pose of the board in each photograph."""
     rng = np.random.default_rng(5)
     return [scenes.looking(CAMERA, rng, fill=(0.5, 0.6), board=BOARD) for _ in range(COUNT)]
 
 
-def take(folder: Path) -> None:
+def write_photographs(folder: Path) -> None:
     """Write view1.png to view6.png."""
-    for number, pose in enumerate(poses(), start=1):
-        image = render(CAMERA, pose, BOARD, blur=0.7, noise=1.0, seed=number)
+    for number, pose in enumerate(draw_poses(), start=1):
+        image = render_view(CAMERA, pose, BOARD, blur=0.7, noise=1.0, seed=number)
         write_image(folder / f"view{number}.png", image)

@@ -36,7 +36,7 @@ def test_command_lines(elsewhere: Path, capsys: pytest.CaptureFixture[str]) -> N
     lines = re.findall(r"^calibgui (.+)$", "".join(blocks("sh")), re.MULTILINE)
     window, *lines = lines
     assert Path(window).is_dir()
-    # The paper's images and those of other targets are not bundled; see cli/test_targets.py.
+    # The paper's images and those of other boards are not bundled; see cli/test_boards.py.
     lines = [line for line in lines if not line.startswith(("paper", "calibrate photographs"))]
     for line in lines:
         assert main(shlex.split(line)) == 0, capsys.readouterr().err

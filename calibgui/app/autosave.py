@@ -1,4 +1,4 @@
-"""Unsaved work in a file beside the project's, for the case that the program is killed."""
+"""Unsaved work in a file beside the project's, in case the program is killed."""
 
 from __future__ import annotations
 
@@ -7,29 +7,29 @@ from pathlib import Path
 from calibgui.app.project import Project
 from calibgui.app.project_file import write_project
 
-DELAY = 2.0
-"""From an edit until it is in the file, s."""
+AUTOSAVE_DELAY_S = 2.0
+"""Time from an edit until it is in the file, s."""
 
 
-def autosave_path(project_file: Path) -> Path:
-    """The file that holds the unsaved state of the project in `project_file`."""
+def get_autosave_path(project_file: Path) -> Path:
+    """Return the file that holds the unsaved state of the project in `project_file`."""
     return project_file.with_name(f".{project_file.name}.autosave")
 
 
 def autosave(project: Project, project_file: Path) -> None:
     """Write the unsaved state of `project`.
 
-    Paths in it are relative to the same folder as in the project's own file.
+    Paths are relative to the same folder as in the project's own file.
 
     Raises:
         CalibrationError: if it cannot be written.
     """
-    write_project(project, autosave_path(project_file))
+    write_project(project, get_autosave_path(project_file))
 
 
-def unsaved_work(project_file: Path) -> Path | None:
-    """The autosave of `project_file` if there is one newer than the file itself."""
-    candidate = autosave_path(project_file)
+def find_unsaved_work(project_file: Path) -> Path | None:
+    """Return the autosave of `project_file` if it is newer than the file itself, else None."""
+    candidate = get_autosave_path(project_file)
     if not candidate.exists():
         return None
     if project_file.exists() and project_file.stat().st_mtime_ns > candidate.stat().st_mtime_ns:
@@ -37,6 +37,6 @@ def unsaved_work(project_file: Path) -> Path | None:
     return candidate
 
 
-def discard(project_file: Path) -> None:
-    """Remove the autosave of `project_file`: its content is saved, or not wanted."""
-    autosave_path(project_file).unlink(missing_ok=True)
+def discard_autosave(project_file: Path) -> None:
+    """Remove the autosave of `project_file`, whose content is saved or not wanted."""
+    get_autosave_path(project_file).unlink(missing_ok=True)

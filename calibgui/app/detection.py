@@ -1,10 +1,10 @@
-"""From photographs to views: read each image and search it for the target.
+"""Search of photographs for the board.
 
-What goes wrong with one image is recorded in its view and stops nothing. One camera has one
-image size: the most frequent one counts, images of another are left out unread. If the
-board's size is not given, the most frequent one among the boards seen whole is taken to be
-it, and images in which something else was counted are searched again for that size. What a
-pattern leaves open, as the dictionary of its markers, is settled in the same way.
+A failure with one image is recorded in its view and does not stop the search. One camera has one
+image size, the most frequent one; images of another size are left out unread. If the grid size of
+the board is not given, the most frequent one among completely seen boards is taken, and images in
+which another size was found are searched again. Unknown properties of a pattern, such as the
+dictionary of its markers, are inferred in the same way.
 """
 
 from __future__ import annotations
@@ -16,34 +16,33 @@ from functools import partial
 from pathlib import Path
 from threading import Event
 
-from calibgui.app.workers import Crashed, spread
-from calibgui.dataset.corner_set import CornerSet
-from calibgui.dataset.view import View, ViewStatus
+from calibgui.app.workers import Crashed, map_in_processes
+from calibgui.dataset import CornerSet, View, ViewStatus
 from calibgui.engine.arrays import Array, GridSize, Size
 from calibgui.engine.boards import CHECKERBOARD, KINDS, Board, Pattern
 from calibgui.engine.detection import METHODS, Corners, find_corners
 from calibgui.engine.errors import CalibrationError, NoBoardError
-from calibgui.engine.images import image_size, read_image
+from calibgui.engine.images import read_image, read_image_size
 
 Progress = Callable[[int, int, View], None]
-"""Told of each image done: how many are, of how many, and its view."""
+"""Function that is called with the number of finished images, of all images, and the last view."""
 
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Detection:
-    """The views of a set of images, with what they have in common."""
+    """The views of a set of images, with the size and the board that they share."""
 
     views: tuple[View, ...]
-    """One per image, in the images' order."""
+    """One view per image, in the order of the images."""
     size: Size | None
-    """Of the images, px; None if none could be read."""
+    """Width and height of the images, px; None if none could be read."""
     grid_size: GridSize | None
-    """As given, or as most frequently seen; None if no board was seen whole."""
+    """Rows and columns, given or most frequent; None if no board was seen completely."""
     pattern: Pattern = CHECKERBOARD
-    """As given, with what the images tell of it."""
+    """The given pattern, completed from the images."""
 
     def corner_set(self, square: float) -> CornerSet:
-        """The views as a calibration takes them, on a board of squares of side `square` mm.
+        """Return the views for a calibration, on a board of squares of side `square` mm.
 
         Raises:
             CalibrationError: if no image could be read.
@@ -71,44 +70,46 @@ def find_views(
     """Search all images for the board, on all processors.
 
     Args:
-        images: files; their order is the views'.
-        board: rows and columns of inner corners; inferred over the whole set if None.
-        rois: (4, 2) px, the region to search in some of the images.
-        progress: told of each image searched; those searched again add to the total.
+        images: files, in the order of the views.
+        grid_size: rows and columns of inner corners; inferred from the whole set if None.
+        rois: (4, 2) px, regions to search in some of the images.
+        progress: called after each image; images searched again add to the total.
         stop: abandons the search within 0.2 s when set.
         size: width and height of the camera's images; the most frequent ones if None.
-        method: of locating corners, one of ``corners.METHODS``.
-        pattern: of the target; what it leaves open is inferred over the whole set.
-        preparing: called if the corner finder has to be prepared for its first use, which takes
-            some `kernels.FINDER_SECONDS`.
+        method: of locating corners, one of ``detection.METHODS``.
+        pattern: of the board; its unknown properties are inferred from the whole set.
+        preparing: called if the corner finder has to be compiled for its first use, which takes
+            about ``kernels.FINDER_SECONDS``.
 
     Raises:
         Cancelled: if `stop` was set.
     """
     rois = rois or {}
     waiting = [View(str(path), roi=rois.get(path)) for path in images]
-    views, size = _sized(waiting, size)
+    views, size = _check_image_sizes(waiting, size)
 
     def search(which: Sequence[int], grid_size: GridSize | None, before: int = 0) -> None:
         items = [views[k] for k in which]
-        results = spread(
+        results = map_in_processes(
             partial(search_view, grid_size=grid_size, method=method, pattern=pattern),
             items,
             stop,
             preparing,
         )
         for done, (i, view) in enumerate(results, start=before + 1):
-            views[which[i]] = _crashed(items[i]) if isinstance(view, Crashed) else view
+            views[which[i]] = _record_crash(items[i]) if isinstance(view, Crashed) else view
             if progress is not None:
                 progress(done, before + len(which), views[which[i]])
 
     readable = [k for k, view in enumerate(views) if view.status is ViewStatus.WAITING]
     search(readable, grid_size)
-    if grid_size is None and (grid_size := usual_board(views)) is not None:
-        pattern = usual_pattern(views, pattern)
-        again = [k for k, view in enumerate(views) if _worth_another_look(view, grid_size, pattern)]
+    if grid_size is None and (grid_size := infer_grid_size(views)) is not None:
+        pattern = infer_pattern(views, pattern)
+        again = [
+            k for k, view in enumerate(views) if _is_worth_searching_again(view, grid_size, pattern)
+        ]
         search(again, grid_size, before=len(readable))
-    return Detection(tuple(views), size, grid_size, usual_pattern(views, pattern))
+    return Detection(tuple(views), size, grid_size, infer_pattern(views, pattern))
 
 
 def search_view(
@@ -117,24 +118,24 @@ def search_view(
     method: str = METHODS[0],
     pattern: Pattern = CHECKERBOARD,
 ) -> View:
-    """The view with the corners found in its image, or with the reason why there are none."""
+    """Return the view with the corners found in its image, or the reason why there are none."""
     try:
         pixels = read_image(view.image).pixels
     except CalibrationError as error:
-        return _without_corners(view, ViewStatus.UNREADABLE, str(error))
+        return _clear_corners(view, ViewStatus.UNREADABLE, str(error))
     try:
         corners = find_corners(pixels, grid_size, view.roi, method, pattern=pattern)
     except NoBoardError as error:
-        return _without_corners(view, ViewStatus.NO_BOARD, str(error))
+        return _clear_corners(view, ViewStatus.NO_BOARD, str(error))
     return replace(view, status=ViewStatus.FOUND, reason="", corners=corners)
 
 
-def other_pattern(
+def find_other_pattern(
     images: Iterable[str], stated: Pattern, stop: Event | None = None
 ) -> Pattern | None:
-    """Another pattern than the one `stated`, if it is found in any of the `images`.
+    """Return another pattern than `stated` that is found in some of the `images`, else None.
 
-    Of several that which is found in most, with most corners.
+    Of several, the one found in most images is returned, then the one with most corners.
 
     Raises:
         Cancelled: if `stop` was set.
@@ -143,7 +144,7 @@ def other_pattern(
     tries = [(image, pattern) for image in images for pattern in others]
     found: Counter[str] = Counter()
     corners: Counter[str] = Counter()
-    for i, view in spread(_tried, tries, stop):
+    for i, view in map_in_processes(_try_pattern, tries, stop):
         if isinstance(view, View) and view.corners is not None:
             kind = tries[i][1].kind
             found[kind] += 1
@@ -152,62 +153,68 @@ def other_pattern(
     return None if best is None else KINDS[best]
 
 
-def _tried(one: tuple[str, Pattern]) -> View:
-    image, pattern = one
+def _try_pattern(attempt: tuple[str, Pattern]) -> View:
+    image, pattern = attempt
     return search_view(View(image), pattern=pattern)
 
 
-def usual_board(views: Iterable[View]) -> GridSize | None:
-    """The most frequent size of boards seen whole, of equally frequent ones the largest.
+def infer_grid_size(views: Iterable[View]) -> GridSize | None:
+    """Return the most frequent grid size of completely seen boards; of equals, the largest.
 
-    Where corners say which they are the largest part seen is the board, or as much as is known.
+    If the corners identify themselves, the largest part seen is taken. None if there is no board.
     """
     found = [view.corners for view in views if view.corners is not None]
-    if found and all(corners.pattern.identified for corners in found):
-        return largest_part(found)
+    if found and all(corners.pattern.identifies_points for corners in found):
+        return measure_largest_part(found)
     seen = Counter(corners.shape for corners in found if corners.complete)
     return max(seen, key=lambda shape: (seen[shape], shape[0] * shape[1]), default=None)
 
 
-def largest_part(found: Sequence[Corners]) -> GridSize | None:
-    """Rows and columns that parts of a board, perhaps never seen whole, amount to at least."""
+def measure_largest_part(found: Sequence[Corners]) -> GridSize | None:
+    """Return the most rows and columns seen in parts of a board; None if there are no parts."""
     rows, cols = (max((corners.shape[i] for corners in found), default=0) for i in (0, 1))
     return (rows, cols) if rows and cols else None
 
 
-def usual_pattern(views: Iterable[View], stated: Pattern) -> Pattern:
-    """The `stated` pattern with what it leaves open as the images show it."""
+def infer_pattern(views: Iterable[View], stated: Pattern) -> Pattern:
+    """Return the `stated` pattern, with unknown properties as the images show them."""
     found = [view.corners.pattern for view in views if view.corners is not None]
-    return stated.completed([pattern for pattern in found if pattern.kind == stated.kind])
+    return stated.complete_from([pattern for pattern in found if pattern.kind == stated.kind])
 
 
-def _worth_another_look(view: View, grid_size: GridSize, pattern: Pattern) -> bool:
-    """Whether knowing the board can give a view other corners: fewer, more or renumbered."""
+def _is_worth_searching_again(view: View, grid_size: GridSize, pattern: Pattern) -> bool:
+    """Return whether a search for the known board can change the corners of a view."""
     if view.corners is not None:
         return view.corners.shape != grid_size
-    known = view.roi is not None or pattern.identified
+    known = view.roi is not None or pattern.identifies_points
     return view.status is ViewStatus.NO_BOARD and known
 
 
-def _sized(views: Iterable[View], size: Size | None) -> tuple[list[View], Size | None]:
-    """The views, without those whose image is unreadable or not of `size`, by default the usual."""
+def _check_image_sizes(views: Iterable[View], size: Size | None) -> tuple[list[View], Size | None]:
+    """Mark the views whose image is unreadable or not of `size`, by default the most frequent one.
+
+    Returns:
+        The views, and the size, None if no image is readable.
+    """
     sizes: dict[int, Size] = {}
     result = list(views)
     for k, view in enumerate(result):
         try:
-            sizes[k] = image_size(view.image)
+            sizes[k] = read_image_size(view.image)
         except CalibrationError as error:
-            result[k] = _without_corners(view, ViewStatus.UNREADABLE, str(error))
+            result[k] = _clear_corners(view, ViewStatus.UNREADABLE, str(error))
     count = Counter(sizes.values())
     most = max(count, key=lambda size: (count[size], size[0] * size[1]), default=None)
     usual = size or most
-    for k, own in sizes.items():
-        if own != usual:
-            result[k] = _without_corners(result[k], ViewStatus.WRONG_SIZE, _wrong(own, usual))
+    for k, image_size_px in sizes.items():
+        if image_size_px != usual:
+            result[k] = _clear_corners(
+                result[k], ViewStatus.WRONG_SIZE, _describe_wrong_size(image_size_px, usual)
+            )
     return result, usual
 
 
-def _wrong(size: Size, usual: Size | None) -> str:
+def _describe_wrong_size(size: Size, usual: Size | None) -> str:
     remedy = "Leave it out, or calibrate images of each size by themselves."
     if usual == size[::-1]:
         remedy = "Turn it like the others (without EXIF rotation), or leave it out."
@@ -215,10 +222,10 @@ def _wrong(size: Size, usual: Size | None) -> str:
     return f"It has {size[0]} x {size[1]} pixels, most have {width} x {height}. {remedy}"
 
 
-def _crashed(view: View) -> View:
+def _record_crash(view: View) -> View:
     reason = "Searching it ended the process that did. Leave it out."
-    return _without_corners(view, ViewStatus.UNREADABLE, reason)
+    return _clear_corners(view, ViewStatus.UNREADABLE, reason)
 
 
-def _without_corners(view: View, status: ViewStatus, reason: str) -> View:
+def _clear_corners(view: View, status: ViewStatus, reason: str) -> View:
     return replace(view, status=status, reason=reason, corners=None)

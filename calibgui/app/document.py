@@ -1,8 +1,8 @@
-"""The project through time: a tuple of snapshots, of which one is shown.
+"""The history of a project: a tuple of snapshots, of which one is shown.
 
 An edit is a function from project to project with a name that the user reads in the menu;
-undo and redo move an index. What the program finds out by itself (corners in an image) is no
-edit: it is learnt by every snapshot that asks the question, so that undo never loses it.
+undo and redo move an index. Findings of the program itself (corners in an image) are no edits:
+they are added to all snapshots that lack them, so that undo never loses them.
 """
 
 from __future__ import annotations
@@ -15,26 +15,26 @@ from calibgui.app.project import Project
 
 Change = Callable[[Project], Project]
 Listener = Callable[[Project, Project], None]
-"""Told of the project before and after."""
+"""Function that is called with the project before and after a change."""
 
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Step:
-    """A snapshot and how it came about."""
+    """A snapshot, and the edit that made it."""
 
     label: str
     project: Project
     sliding: bool = False
-    """Whether an edit of the same name may still take its place."""
+    """True if an edit of the same name may replace it."""
 
 
 class Document:
     """A project, its past and its undone future.
 
     Args:
-        project: where the history begins.
+        project: the first snapshot.
         path: its file; None if it has none yet.
-        saved: whether the file holds it.
+        saved: true if the file holds it.
     """
 
     def __init__(
@@ -54,12 +54,12 @@ class Document:
 
     @property
     def edits(self) -> int:
-        """How many edits lead to what is shown."""
+        """Number of edits that lead to the shown snapshot."""
         return self._index
 
     @property
     def saved(self) -> bool:
-        """Whether the file holds what is shown."""
+        """True if the file holds the shown snapshot."""
         return self.project is self._saved
 
     @property
@@ -77,9 +77,9 @@ class Document:
 
         Args:
             label: the edit's name for the user; not empty.
-            change: from the present project to the next; the same one makes no step.
-            sliding: whether following edits of the same name, as of a slider that is being
-                dragged, continue this step.
+            change: function from the present project to the next; the same project makes no step.
+            sliding: true if following edits of the same name, such as those of a slider that is
+                being dragged, continue this step.
         """
         before = self.project
         after = change(before)
@@ -92,12 +92,12 @@ class Document:
         self._index = keep
         self._announce(before)
 
-    def settle(self) -> None:
-        """End a sliding edit: the next one of the same name will be a step of its own."""
+    def end_sliding_edit(self) -> None:
+        """End a sliding edit: the next edit of the same name makes a new step."""
         self._replace_all(lambda step: replace(step, sliding=False))
 
     def learn(self, change: Change) -> None:
-        """Apply what was found out to every snapshot; `change` returns others as they are."""
+        """Add a finding to all snapshots; `change` returns snapshots that it does not concern."""
         before = self.project
         self._replace_all(lambda step: replace(step, project=change(step.project)))
         if self.project is not before:
@@ -119,6 +119,8 @@ class Document:
 
     def _move(self, index: int) -> None:
         before = self.project
+        if index != self._index:
+            self.end_sliding_edit()  # a slider that goes on later does not continue what was left
         self._index = index
         if self.project is not before:
             self._announce(before)

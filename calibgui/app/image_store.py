@@ -1,4 +1,4 @@
-"""Pictures of the project's images: small ones of all, whole ones of those looked at lately."""
+"""Pixels of the project's images: thumbnails of all, whole images of those used last."""
 
 from __future__ import annotations
 
@@ -13,22 +13,22 @@ import numpy.typing as npt
 
 from calibgui.engine import opencv
 from calibgui.engine.arrays import Size
-from calibgui.engine.images import Image, read_image, stretched
+from calibgui.engine.images import Image, read_image, stretch_levels
 
-MEMORY = 400_000_000
-"""Bytes that whole images may take together."""
-_SIDE = 96
-"""Least long side of a thumbnail, px, if the image has as much."""
+MAX_MEMORY_BYTES = 400_000_000
+"""Memory that whole images may take together, bytes."""
+_MIN_THUMBNAIL_SIDE = 96
+"""Least long side of a thumbnail, px, unless the image itself is smaller."""
 
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Thumbnail:
-    """A small picture of an image file, and what reading it told."""
+    """A small picture of an image file, with the size and the digest of the file."""
 
     grey: npt.NDArray[np.uint8]
     """(h, w)"""
     size: Size
-    """Of the image itself, px."""
+    """Width and height of the image itself, px."""
     digest: str
     """SHA-256 of the file, as hexadecimal digits."""
 
@@ -41,17 +41,17 @@ def read_thumbnail(path: str) -> Thumbnail:
     """
     image = read_image(path)
     pixels = image.pixels
-    while max(pixels.shape) >= 4 * _SIDE:
-        pixels = opencv.half(pixels)
-    return Thumbnail(stretched(pixels), image.size, file_digest(path))
+    while max(pixels.shape) >= 4 * _MIN_THUMBNAIL_SIDE:
+        pixels = opencv.halve_image(pixels)
+    return Thumbnail(stretch_levels(pixels), image.size, compute_file_digest(path))
 
 
 Signature = tuple[int, int]
 """Time of a file's last change, ns, and its length; zeros where there is no file."""
 
 
-def signature(path: str | Path) -> Signature:
-    """What changes when a file is written to, without reading it."""
+def read_signature(path: str | Path) -> Signature:
+    """Return a value that changes when a file is written to, without reading the file."""
     try:
         state = Path(path).stat()
     except OSError:
@@ -59,29 +59,29 @@ def signature(path: str | Path) -> Signature:
     return state.st_mtime_ns, state.st_size
 
 
-def file_digest(path: str | Path) -> str:
-    """SHA-256 of a file's content."""
+def compute_file_digest(path: str | Path) -> str:
+    """Compute the SHA-256 of a file's content."""
     with Path(path).open("rb") as file:
         return hashlib.file_digest(file, "sha256").hexdigest()
 
 
 class ImageStore:
-    """Reads images and keeps those used last, within bounds; safe to use from any thread."""
+    """Images in memory, those used last within a limit; safe to use from any thread."""
 
-    def __init__(self, memory: int = MEMORY) -> None:
+    def __init__(self, memory: int = MAX_MEMORY_BYTES) -> None:
         self._memory = memory
         self._kept: OrderedDict[str, Image] = OrderedDict()
         self._lock = threading.Lock()
 
     def kept(self, path: str) -> Image | None:
-        """The image if it is in memory."""
+        """Return the image if it is in memory, else None."""
         with self._lock:
             if path in self._kept:
                 self._kept.move_to_end(path)
             return self._kept.get(path)
 
     def read(self, path: str) -> Image:
-        """The image, from memory or from its file.
+        """Return the image, from memory or from its file.
 
         Raises:
             CalibrationError: as ``read_image``.
@@ -96,11 +96,11 @@ class ImageStore:
         return image
 
     def forget(self, path: str) -> None:
-        """Read the image anew when it is wanted next."""
+        """Drop an image from memory, so that it is read again."""
         with self._lock:
             self._kept.pop(path, None)
 
     @property
     def size(self) -> int:
-        """Bytes that the kept images take."""
+        """Memory that the kept images take, bytes."""
         return sum(image.pixels.nbytes for image in self._kept.values())

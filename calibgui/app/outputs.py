@@ -1,4 +1,4 @@
-"""Places to write to, checked before long work rather than after it, and whole pictures."""
+"""Checks of output files before long work, and writing of figures."""
 
 from __future__ import annotations
 
@@ -9,25 +9,26 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from calibgui.engine.errors import CalibrationError
-from calibgui.engine.files import refuse_special, unwritable, write_atomically
+from calibgui.engine.files import describe_write_error, refuse_special_file, write_atomically
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure  # slow to import, and not needed to check
 
 
-FIGURES = (".png", ".svg", ".pdf")
+FIGURE_SUFFIXES = (".png", ".svg", ".pdf")
 """Suffixes of the files that `save_figure` writes."""
 
 
 def check_figure(path: Path) -> None:
-    """Refuse a figure's file that could not be written.
+    """Refuse the file of a figure that could not be written.
 
     Raises:
         CalibrationError: if its format is unknown, or as `check_writable`.
     """
-    if path.suffix.lower() not in FIGURES:
+    if path.suffix.lower() not in FIGURE_SUFFIXES:
         raise CalibrationError(
-            f"{path} is not named as a figure.", f"Give it the suffix {' or '.join(FIGURES)}."
+            f"{path} is not named as a figure.",
+            f"Give it the suffix {' or '.join(FIGURE_SUFFIXES)}.",
         )
     check_writable(path)
 
@@ -43,11 +44,11 @@ def check_writable(path: Path) -> None:
     try:
         if path.is_dir():
             raise CalibrationError(f"{path} is a folder.", "Name a file in it.")
-        refuse_special(path)
+        refuse_special_file(path)
         if not folder.is_dir():
             raise CalibrationError(f"The folder {folder} does not exist.", "Create it first.")
     except OSError as error:  # a folder on the way is closed, or the name too long
-        raise unwritable(path, error) from error
+        raise describe_write_error(path, error) from error
     if not os.access(folder, os.W_OK | os.X_OK):
         raise CalibrationError(
             f"{path} cannot be written: you may not write to {folder}.", "Choose another folder."

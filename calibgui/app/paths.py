@@ -1,4 +1,4 @@
-"""From what a user names (files, folders, patterns) to the images meant."""
+"""From the names that a user gives (files, folders, patterns) to image files."""
 
 from __future__ import annotations
 
@@ -14,31 +14,31 @@ from calibgui.engine.images import FORMATS
 
 
 def find_images(names: Iterable[str]) -> tuple[Path, ...]:
-    """The image files that `names` stand for, each once, in natural order (Image2 before Image10).
+    """Return the image files that `names` mean, once each, naturally sorted (Image2, Image10).
 
-    A file is taken whatever it holds, a folder for the images directly in it, anything else
-    as a pattern (*, ?, [..], ** for folders at any depth).
+    The name of a file means this file whatever it holds, that of a folder the images directly in
+    it, and any other name is a pattern (*, ?, [..], ** for folders at any depth).
 
     Raises:
-        CalibrationError: if a name stands for nothing, or for what may not be looked at.
+        CalibrationError: if a name means no file, or one that must not be read.
     """
     found: dict[str, Path] = {}
     for name in names:
-        for path in _meant(name):
+        for path in _find_files(name):
             found.setdefault(os.path.realpath(path), path)
-    return tuple(sorted(found.values(), key=natural_key))
+    return tuple(sorted(found.values(), key=make_natural_key))
 
 
-def natural_key(path: Path) -> list[tuple[str, int]]:
-    """Sorting key that compares runs of digits as numbers, and letters without their case."""
+def make_natural_key(path: Path) -> list[tuple[str, int]]:
+    """Return a sorting key that compares runs of digits as numbers and ignores case."""
     text = unicodedata.normalize("NFC", str(path)).casefold()
     return [(word, int(digits or -1)) for word, digits in re.findall(r"([^0-9]*)([0-9]*)", text)]
 
 
-def _meant(name: str) -> list[Path]:
-    """The files that one name stands for."""
+def _find_files(name: str) -> list[Path]:
+    """Return the files that one name means."""
     try:
-        return _listed(name)
+        return _list_files(name)
     except OSError as error:
         raise CalibrationError(
             f"{error.filename} cannot be read: {error.strerror}.",
@@ -46,8 +46,8 @@ def _meant(name: str) -> list[Path]:
         ) from error
 
 
-def _listed(name: str) -> list[Path]:
-    """The files that one name stands for, as the system tells."""
+def _list_files(name: str) -> list[Path]:
+    """Return the files that one name means; raise OSError if a folder cannot be read."""
     path = Path(name)
     if name and path.is_dir():
         images = [p for p in path.iterdir() if _is_image(p)]
@@ -71,9 +71,9 @@ def _listed(name: str) -> list[Path]:
 
 
 def _is_image(path: Path) -> bool:
-    """Whether an entry of a folder is meant; hidden ones are other programs' notes.
+    """Return whether an entry of a folder is an image; hidden files are other programs' notes.
 
-    A link to nowhere is: it would be missed if nobody told that it cannot be read.
+    A broken link counts as an image, so that the user is told that it cannot be read.
     """
     hidden = path.name.startswith(".")
     image = not hidden and path.suffix.lower() in FORMATS

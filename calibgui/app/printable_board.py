@@ -1,8 +1,8 @@
-"""A target to print, as PDF or SVG in true size, with a bar to check the print by.
+"""A board to print, as PDF or SVG in true size, with a scale bar to check the print.
 
-The board has one square more each way than inner corners, its first square is dark, and at
-least half a square of white around it, which the corner finder needs. Printers scale: the bar
-below it is measured with a ruler before anything is believed.
+The board has one square more each way than inner corners. Its first square is dark, and it has at
+least half a square of white around it, which the corner finder needs. Printers often scale pages:
+the user measures the scale bar with a ruler.
 """
 
 from __future__ import annotations
@@ -13,12 +13,12 @@ from pathlib import Path
 
 from calibgui.engine import opencv
 from calibgui.engine.arrays import GridSize
-from calibgui.engine.boards import Board, Charuco, Circles, Discs, Pattern, Raster
+from calibgui.engine.boards import Board, Charuco, Circles, Pattern, PrintedDiscs, PrintedRectangles
 from calibgui.engine.errors import CalibrationError
 from calibgui.engine.files import write_atomically
-from calibgui.report.boards import described
+from calibgui.report.boards import describe_board
 
-PAPERS = {
+PAPER_SIZES_MM = {
     "A4": (210.0, 297.0),
     "A3": (297.0, 420.0),
     "A2": (420.0, 594.0),
@@ -27,43 +27,43 @@ PAPERS = {
     "Letter": (215.9, 279.4),
     "Tabloid": (279.4, 431.8),
 }
-"""Width and height of a sheet held upright, mm."""
+"""Width and height of upright paper, mm."""
 
-_EDGE = 8.0
-"""Of the sheet that printers leave blank, mm."""
-_FOOT = 14.0
-"""Height of the bar with its text, mm."""
-_BARS = (1000.0, 500.0, 200.0, 100.0, 50.0, 20.0)
-"""Lengths that the bar may have, mm."""
-_TEXT = 3.2
+_MARGIN_MM = 8.0
+"""Width of the margin that printers leave blank, mm."""
+_FOOT_HEIGHT_MM = 14.0
+"""Height of the scale bar with its text, mm."""
+_BAR_LENGTHS_MM = (1000.0, 500.0, 200.0, 100.0, 50.0, 20.0)
+"""Possible lengths of the scale bar, mm."""
+_TEXT_HEIGHT_MM = 3.2
 """Height of the text, mm."""
-_ADVANCE = 0.5
-"""Mean advance of the text's letters over their height."""
-_POINT = 72 / 25.4
-"""PDF's units in a mm."""
+_TEXT_ADVANCE_RATIO = 0.5
+"""Mean width of a letter of the text, as a fraction of the height."""
+_POINTS_PER_MM = 72 / 25.4
+"""Number of PDF's units in a millimetre."""
 
 Rectangle = tuple[float, float, float, float]
-"""Left, top, width, height on the sheet, mm."""
+"""Left, top, width, height on the page, mm."""
 Disc = tuple[float, float, float]
-"""Centre and radius on the sheet, mm."""
+"""Centre and radius on the page, mm."""
 
 
 @dataclass(frozen=True, slots=True)
-class Sheet:
-    """What is printed where: black rectangles and discs, and a line of text."""
+class Page:
+    """The content of a page: black rectangles and discs, and a line of text."""
 
     size: tuple[float, float]
-    """Width and height of the sheet, mm."""
+    """Width and height of the page, mm."""
     rectangles: tuple[Rectangle, ...]
     discs: tuple[Disc, ...]
     bar: float
-    """Length of the bar, mm."""
+    """Length of the scale bar, mm."""
     text: str
     text_at: tuple[float, float]
-    """Left end of the text's base line, mm."""
+    """Left end of the base line of the text, mm."""
 
     def svg(self) -> str:
-        """The sheet as SVG."""
+        """Return the page as SVG."""
         width, height = self.size
         shapes = "".join(
             f'<rect x="{x:.4f}" y="{y:.4f}" width="{w:.4f}" height="{h:.4f}"/>\n'
@@ -79,23 +79,23 @@ class Sheet:
             f'<rect width="{width}" height="{height}" fill="white"/>\n'
             f'<g fill="black" shape-rendering="crispEdges">\n{shapes}</g>\n'
             f'<text x="{x:.4f}" y="{y:.4f}" font-family="Helvetica, Arial, sans-serif" '
-            f'font-size="{_TEXT}">{escape(self.text)}</text>\n</svg>\n'
+            f'font-size="{_TEXT_HEIGHT_MM}">{escape(self.text)}</text>\n</svg>\n'
         )
 
     def pdf(self) -> bytes:
-        """The sheet as PDF 1.4, one page of true size."""
+        """Return the page as PDF 1.4 in true size."""
         width, height = self.size
         squares = "".join(
             f"{x:.4f} {height - y - h:.4f} {w:.4f} {h:.4f} re\n" for x, y, w, h in self.rectangles
         )
-        squares += "".join(_circle(x, height - y, r) for x, y, r in self.discs)
+        squares += "".join(_draw_disc(x, height - y, r) for x, y, r in self.discs)
         x, y = self.text_at
         text = self.text.replace("\\", "\\\\").replace("(", "\\(").replace(")", "\\)")
         drawing = (
-            f"{_POINT:.8f} 0 0 {_POINT:.8f} 0 0 cm\n{squares}f\n"
-            f"BT /F1 {_TEXT} Tf {x:.4f} {height - y:.4f} Td ({text}) Tj ET\n"
+            f"{_POINTS_PER_MM:.8f} 0 0 {_POINTS_PER_MM:.8f} 0 0 cm\n{squares}f\n"
+            f"BT /F1 {_TEXT_HEIGHT_MM} Tf {x:.4f} {height - y:.4f} Td ({text}) Tj ET\n"
         ).encode("cp1252")
-        box = f"[0 0 {width * _POINT:.4f} {height * _POINT:.4f}]"
+        box = f"[0 0 {width * _POINTS_PER_MM:.4f} {height * _POINTS_PER_MM:.4f}]"
         objects = [
             b"<< /Type /Catalog /Pages 2 0 R /ViewerPreferences << /PrintScaling /None >> >>",
             b"<< /Type /Pages /Kids [3 0 R] /Count 1 >>",
@@ -104,76 +104,85 @@ class Sheet:
             b"<< /Length %d >>\nstream\n%s\nendstream" % (len(drawing), drawing),
             b"<< /Type /Font /Subtype /Type1 /BaseFont /Helvetica /Encoding /WinAnsiEncoding >>",
         ]
-        return _pdf_file(objects)
+        return _assemble_pdf(objects)
 
 
-def settled(pattern: Pattern, grid_size: GridSize) -> Pattern:
-    """The pattern with what it leaves open as it is usually printed, for a board of that size."""
+def complete_pattern(pattern: Pattern, grid_size: GridSize) -> Pattern:
+    """Return the pattern with its unknown properties as usually printed on a board of that size."""
     if isinstance(pattern, Charuco):
         needed = (grid_size[0] + 1) * (grid_size[1] + 1) // 2
-        sizes = opencv.dictionaries()
+        sizes = opencv.list_dictionaries()
         usual = [name for name in sizes if name.startswith("DICT_4X4_") and sizes[name] >= needed]
         dictionary = min(usual or ["DICT_4X4_1000"], key=lambda name: sizes[name])
         return Charuco(
             pattern.dictionary or dictionary, pattern.marker or 0.75, bool(pattern.legacy)
         )
     if isinstance(pattern, Circles):
-        return replace(pattern, diameter=pattern.diameter or pattern.reach)
+        return replace(pattern, diameter=pattern.diameter or pattern.half_distance)
     return pattern
 
 
-def paper_for(board: Board) -> str:
-    """The first of `PAPERS` that holds the target in true size; the largest if none does."""
-    for paper in PAPERS:
+def choose_paper(board: Board) -> str:
+    """Return the first of `PAPER_SIZES_MM` that holds the board in true size, else the largest."""
+    for paper in PAPER_SIZES_MM:
         try:
-            sheet(replace(board, pattern=settled(board.pattern, board.grid_size)), paper)
+            lay_out_page(
+                replace(board, pattern=complete_pattern(board.pattern, board.grid_size)), paper
+            )
         except CalibrationError:
             continue
         return paper
-    return max(PAPERS, key=lambda paper: PAPERS[paper])
+    return max(PAPER_SIZES_MM, key=lambda paper: PAPER_SIZES_MM[paper])
 
 
-def sheet(board: Board, paper: str) -> Sheet:
-    """A target in true size on a sheet of paper.
+def lay_out_page(board: Board, paper: str) -> Page:
+    """Lay out a board in true size on paper.
 
     Raises:
-        CalibrationError: it does not fit, with what would, or something of it is open.
+        CalibrationError: if it does not fit, with the largest square that does, or if a property of
+            its pattern is not known.
     """
-    ink = board.pattern.ink(board.grid_size)
+    ink = board.pattern.draw(board.grid_size)
     left, top, right, bottom = ink.extent
     across, down, side = right - left, bottom - top, board.square
-    short, long = PAPERS[paper]
+    short, long = PAPER_SIZES_MM[paper]
     width, height = (long, short) if across > down else (short, long)
-    largest = min((width - 2 * _EDGE) / (across + 1), (height - 2 * _EDGE - _FOOT) / (down + 1))
+    largest = min(
+        (width - 2 * _MARGIN_MM) / (across + 1),
+        (height - 2 * _MARGIN_MM - _FOOT_HEIGHT_MM) / (down + 1),
+    )
     if side > largest:
         raise CalibrationError(
-            f"{described(board)} does not fit on {paper} with {side:g} mm.",
+            f"{describe_board(board)} does not fit on {paper} with {side:g} mm.",
             f"Use at most {largest:.1f} mm, or larger paper.",
         )
     x0 = (width - across * side) / 2 - left * side
-    y0 = (height - _FOOT - down * side) / 2 - top * side
+    y0 = (height - _FOOT_HEIGHT_MM - down * side) / 2 - top * side
     rectangles: list[Rectangle] = []
     discs: list[Disc] = []
-    if isinstance(ink, Raster):
-        for u, v, w, z in (side * ink.rectangles()).tolist():
+    if isinstance(ink, PrintedRectangles):
+        for u, v, w, z in (side * ink.list_rectangles()).tolist():
             rectangles.append((x0 + u, y0 + v, w - u, z - v))
-    if isinstance(ink, Discs):
+    if isinstance(ink, PrintedDiscs):
         discs = [(x0 + u, y0 + v, side * ink.radius) for u, v in (side * ink.centres).tolist()]
-    bar = next(length for length in _BARS if length <= width - 2 * _EDGE)
-    x, y = (width - bar) / 2, height - _EDGE - _FOOT / 2
+    bar = next(length for length in _BAR_LENGTHS_MM if length <= width - 2 * _MARGIN_MM)
+    x, y = (width - bar) / 2, height - _MARGIN_MM - _FOOT_HEIGHT_MM / 2
     step = bar / 10
     ruler = [(x + 2 * k * step, y, step, 2.0) for k in range(5)] + [(x, y + 2.0, bar, 0.3)]
-    unit = "squares" if board.pattern.squared else "distance"
+    unit = "squares" if board.pattern.has_squares else "distance"
     text = (
-        f"{bar:g} mm. Print without scaling and measure the bar. {described(board)}, {unit} of "
-        f"{side:g} mm."
+        f"{bar:g} mm. Print without scaling and measure the bar. "
+        f"{describe_board(board)}, {unit} of {side:g} mm."
     )
-    text_at = (min(x, width - _EDGE - _ADVANCE * _TEXT * len(text)), y + 2.3 + 1.4 * _TEXT)
-    return Sheet((width, height), (*rectangles, *ruler), tuple(discs), bar, text, text_at)
+    text_at = (
+        min(x, width - _MARGIN_MM - _TEXT_ADVANCE_RATIO * _TEXT_HEIGHT_MM * len(text)),
+        y + 2.3 + 1.4 * _TEXT_HEIGHT_MM,
+    )
+    return Page((width, height), (*rectangles, *ruler), tuple(discs), bar, text, text_at)
 
 
-def _circle(x: float, y: float, r: float) -> str:
-    """A disc in PDF: four Bezier curves, true to 3e-4 of its radius."""
+def _draw_disc(x: float, y: float, r: float) -> str:
+    """Draw a disc in PDF: four Bezier curves, true to 3e-4 of its radius."""
     k = 0.5522847 * r
     path = f"{x + r:.4f} {y:.4f} m\n"
     for c, s, e, f in ((1, 0, 0, 1), (0, 1, -1, 0), (-1, 0, 0, -1), (0, -1, 1, 0)):
@@ -186,11 +195,11 @@ def _circle(x: float, y: float, r: float) -> str:
     return path + "h\n"
 
 
-def write_sheet(content: Sheet, path: Path) -> None:
-    """Write a sheet as PDF or SVG, by the suffix of `path`.
+def write_page(content: Page, path: Path) -> None:
+    """Write a page as PDF or SVG, by the suffix of `path`.
 
     Raises:
-        CalibrationError: another suffix, or it cannot be written.
+        CalibrationError: if the suffix is another one, or the file cannot be written.
     """
     match path.suffix.lower():
         case ".pdf":
@@ -203,8 +212,8 @@ def write_sheet(content: Sheet, path: Path) -> None:
             )
 
 
-def _pdf_file(objects: list[bytes]) -> bytes:
-    """A PDF file of numbered objects, the first its catalogue."""
+def _assemble_pdf(objects: list[bytes]) -> bytes:
+    """Assemble a PDF file from numbered objects, the first of which is the catalogue."""
     content = b"%PDF-1.4\n"
     places = []
     for number, body in enumerate(objects, start=1):

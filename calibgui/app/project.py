@@ -1,7 +1,7 @@
-"""What the user works on: images, board, settings and named results, as one frozen record.
+"""A project: images, board, settings and named results, as one frozen record.
 
-Everything else that the window shows (which board, how many views are usable, whether a result
-is out of date) follows from it and is computed, not stored.
+All else that the window shows (the inferred board, the number of usable views, which results are
+out of date) follows from the project and is computed, not stored.
 """
 
 from __future__ import annotations
@@ -11,21 +11,20 @@ from dataclasses import dataclass, field, replace
 from enum import StrEnum
 from types import MappingProxyType
 
-from calibgui.app.detection import largest_part, usual_board, usual_pattern
+from calibgui.app.detection import infer_grid_size, infer_pattern, measure_largest_part
 from calibgui.app.settings import Settings
-from calibgui.dataset.result import Result
-from calibgui.dataset.view import View, ViewStatus
+from calibgui.dataset import Result, View, ViewStatus
 from calibgui.engine.arrays import GridSize, Size
 from calibgui.engine.boards import CHECKERBOARD, KINDS, Board, Charuco, Circles, Pattern
 from calibgui.engine.detection import METHODS
 from calibgui.engine.errors import CalibrationError
 
 DEFAULT_SQUARE = 30.0
-"""Side of a square until the user states it, mm. Only the poses' lengths depend on it."""
+"""Side of a square until the user states it, mm. Only lengths in the poses depend on it."""
 
 
 class Unit(StrEnum):
-    """In which the user states the side of a square; kept in mm."""
+    """Unit in which the user states the side of a square; it is kept in mm."""
 
     MM = "mm"
     CM = "cm"
@@ -33,70 +32,76 @@ class Unit(StrEnum):
 
     @property
     def mm(self) -> float:
-        """Its length, mm."""
+        """Length of the unit, mm."""
         return {"mm": 1.0, "cm": 10.0, "inch": 25.4}[self]
 
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Project:
-    """Images of a board, what was found in them and what was made of it."""
+    """Images of a board, the corners found in them, and the calibrations from these."""
 
     views: tuple[View, ...] = ()
-    """One per image, under its absolute path."""
+    """One view per image, with its absolute path."""
     size: Size | None = None
     """Width and height of the images, px; None until one has been read."""
     pattern: Pattern = CHECKERBOARD
-    """What is printed on the target, as stated by the user."""
+    """Pattern of the board, as stated by the user."""
     grid_size: GridSize | None = None
     """Rows and columns of inner corners or circles as stated by the user; inferred if None."""
     method: str = METHODS[0]
-    """Of locating corners, one of ``corners.METHODS``."""
+    """Method of locating corners, one of ``detection.METHODS``."""
     square: float = DEFAULT_SQUARE
     """Side of a square, mm."""
     unit: Unit = Unit.MM
     settings: Settings = field(default_factory=Settings)
     results: Mapping[str, Result] = field(default_factory=lambda: MappingProxyType({}))
-    """By name, oldest first."""
+    """Results by name, the oldest first."""
     digests: Mapping[str, str] = field(default_factory=lambda: MappingProxyType({}))
-    """SHA-256 of the image files, by path, as far as they have been read."""
+    """SHA-256 of the image files that have been read, by path."""
 
     @property
     def board(self) -> Board | None:
-        """The board as stated or as seen; None while nothing is known of it."""
+        """Return the board as stated or as seen; None while nothing is known of it."""
         found = [view.corners for view in self.views if view.corners is not None]
-        grid_size = self.grid_size or usual_board(self.views) or largest_part(found)
-        pattern = usual_pattern(self.views, self.pattern)
+        grid_size = self.grid_size or infer_grid_size(self.views) or measure_largest_part(found)
+        pattern = infer_pattern(self.views, self.pattern)
         return None if grid_size is None else Board(*grid_size, self.square, pattern)
 
     @property
     def usable(self) -> tuple[View, ...]:
-        """The views that a calibration would use."""
+        """Views that a calibration would use."""
         return tuple(view for view in self.views if view.usable)
 
     def is_current(self, result: Result) -> bool:
-        """Whether `result` answers the views as they are now."""
+        """Return whether `result` is from the views as they are now."""
         used, now = result.used, self.usable
         same = len(used) == len(now) and all(a is b for a, b in zip(used, now, strict=True))
         return same and result.board == self.board
 
     def find(self, image: str) -> int:
-        """Place of the view of `image`; -1 if there is none."""
+        """Return the index of the view of `image`; -1 if there is none."""
         return next((k for k, view in enumerate(self.views) if view.image == image), -1)
 
 
-def with_square(project: Project, square: float) -> Project:
-    """The project with squares (or distances of circles) of `square` mm; what else is printed
-    keeps its size, or is to be found out if it does not fit."""
+def set_square(project: Project, square: float) -> Project:
+    """Return the project with squares (or distances of circles) of `square` mm.
+
+    Markers and circles keep their size, or become unknown if they do not fit.
+    """
     ratio = project.square / square
     try:
-        pattern = _scaled(project.pattern, ratio)
+        pattern = _scale_pattern(project.pattern, ratio)
     except CalibrationError:
         pattern = KINDS[project.pattern.kind]
     return replace(project, square=square, pattern=pattern)
 
 
-def _scaled(pattern: Pattern, ratio: float) -> Pattern:
-    """The pattern with its own lengths times `ratio`. Raises CalibrationError for none."""
+def _scale_pattern(pattern: Pattern, ratio: float) -> Pattern:
+    """Return the pattern with its own lengths times `ratio`.
+
+    Raises:
+        CalibrationError: if these do not fit the squares.
+    """
     if isinstance(pattern, Charuco) and pattern.marker is not None:
         return replace(pattern, marker=pattern.marker * ratio)
     if isinstance(pattern, Circles) and pattern.diameter is not None:
@@ -104,22 +109,24 @@ def _scaled(pattern: Pattern, ratio: float) -> Pattern:
     return pattern
 
 
-def with_pattern(project: Project, pattern: Pattern) -> Project:
-    """The project with another pattern: what was found of the one before is searched anew.
+def set_pattern(project: Project, pattern: Pattern) -> Project:
+    """Return the project with another pattern, for which all images are to be searched again.
 
-    The size of a board of another kind does not stay.
+    The grid size is dropped if the kind of pattern is another one.
     """
     grid_size = project.grid_size if pattern.kind == project.pattern.kind else None
-    return replace(project, pattern=pattern, grid_size=grid_size, views=_waiting(project.views))
+    return replace(
+        project, pattern=pattern, grid_size=grid_size, views=_reset_searches(project.views)
+    )
 
 
-def with_method(project: Project, method: str) -> Project:
-    """The project with corners located in another way: all are searched anew."""
-    return replace(project, method=method, views=_waiting(project.views))
+def set_method(project: Project, method: str) -> Project:
+    """Return the project with another method of locating corners: images are searched again."""
+    return replace(project, method=method, views=_reset_searches(project.views))
 
 
-def _waiting(views: Iterable[View]) -> tuple[View, ...]:
-    """The views without what a search made of them."""
+def _reset_searches(views: Iterable[View]) -> tuple[View, ...]:
+    """Return the views without the outcome of a search."""
 
     def again(view: View) -> View:
         searched = view.status in (ViewStatus.FOUND, ViewStatus.NO_BOARD)
@@ -130,78 +137,80 @@ def _waiting(views: Iterable[View]) -> tuple[View, ...]:
     return tuple(map(again, views))
 
 
-def with_images(project: Project, images: Iterable[str]) -> Project:
-    """The project with views of those `images` that it does not have, in the order given."""
+def add_images(project: Project, images: Iterable[str]) -> Project:
+    """Return the project with views of those `images` that it lacks, in the order given."""
     known = {view.image for view in project.views}
     new = [image for image in dict.fromkeys(images) if image not in known]
     return replace(project, views=(*project.views, *map(View, new)))
 
 
-def without_views(project: Project, images: Iterable[str]) -> Project:
-    """The project without the views of `images`."""
+def remove_views(project: Project, images: Iterable[str]) -> Project:
+    """Return the project without the views of `images`."""
     gone = set(images)
     views = tuple(view for view in project.views if view.image not in gone)
     return replace(project, views=views, size=project.size if views else None)
 
 
-def with_each(project: Project, images: Iterable[str], change: Callable[[View], View]) -> Project:
+def change_views(
+    project: Project, images: Iterable[str], change: Callable[[View], View]
+) -> Project:
     """The project with the views of `images` changed."""
     chosen = set(images)
     views = tuple(change(view) if view.image in chosen else view for view in project.views)
     return replace(project, views=views)
 
 
-def with_result(project: Project, name: str, result: Result) -> Project:
-    """The project with `result` under `name`, as the newest."""
+def add_result(project: Project, name: str, result: Result) -> Project:
+    """Return the project with `result` under `name`, as the newest."""
     others = {key: value for key, value in project.results.items() if key != name}
     return replace(project, results=MappingProxyType({**others, name: result}))
 
 
-def answered(project: Project, name: str, asked: Sequence[View], result: Result) -> Project:
-    """The project with the `result` of a calibration from the views `asked`.
+def record_result(project: Project, name: str, inputs: Sequence[View], result: Result) -> Project:
+    """Return the project with the `result` of a calibration from the views `inputs`.
 
-    What the calibration left out as outliers is left out of the project's views as well: there
-    it is seen, and undo brings it back.
+    Outliers that the calibration left out are left out of the project's views as well: there the
+    user sees it, and undo restores them.
     """
-    pairs = zip(asked, result.views, strict=True)
+    pairs = zip(inputs, result.views, strict=True)
     screened = {id(before): after for before, after in pairs if before is not after}
     if screened:
         views = tuple(screened.get(id(view), view) for view in project.views)
         project = replace(project, views=views)
-    return with_result(project, name, result)
+    return add_result(project, name, result)
 
 
-def without_result(project: Project, name: str) -> Project:
-    """The project without the result of that name."""
+def remove_result(project: Project, name: str) -> Project:
+    """Return the project without the result of that name."""
     others = {key: value for key, value in project.results.items() if key != name}
     return replace(project, results=MappingProxyType(others))
 
 
-def renamed_result(project: Project, old: str, new: str) -> Project:
-    """The project with the result `old` called `new`, at its place."""
+def rename_result(project: Project, old: str, new: str) -> Project:
+    """Return the project with the result `old` under the name `new`, at its place."""
     results = {new if key == old else key: value for key, value in project.results.items()}
     return replace(project, results=MappingProxyType(results))
 
 
-def with_digests(project: Project, digests: Mapping[str, str]) -> Project:
-    """The project with the SHA-256 of more images."""
+def add_digests(project: Project, digests: Mapping[str, str]) -> Project:
+    """Return the project with the SHA-256 of more images."""
     return replace(project, digests=MappingProxyType({**project.digests, **digests}))
 
 
-def without_digests(project: Project, images: Iterable[str]) -> Project:
-    """The project that does not say what the files of `images` held."""
+def remove_digests(project: Project, images: Iterable[str]) -> Project:
+    """Return the project without the SHA-256 of `images`."""
     gone = set(images)
     digests = {image: digest for image, digest in project.digests.items() if image not in gone}
     return replace(project, digests=MappingProxyType(digests))
 
 
-def relocated(project: Project, moved: Mapping[str, str]) -> Project:
-    """The project with images under new paths; results follow."""
+def relocate_images(project: Project, moved: Mapping[str, str]) -> Project:
+    """Return the project with images under new paths, in the results too."""
 
     def view_at(view: View) -> View:
         return replace(view, image=moved[view.image]) if view.image in moved else view
 
-    # A view that a result shares with the project must go on being the same object.
+    # A view that a result shares with the project must remain the same object.
     renewed: dict[int, View] = {}
 
     def views_at(views: Sequence[View]) -> tuple[View, ...]:
@@ -220,8 +229,8 @@ def relocated(project: Project, moved: Mapping[str, str]) -> Project:
     )
 
 
-def free_name(project: Project, stem: str) -> str:
-    """`stem` with the lowest number that no result has."""
+def find_free_name(project: Project, stem: str) -> str:
+    """Return `stem` with the lowest number that no result has."""
     count = 1
     while f"{stem} {count}" in project.results:
         count += 1

@@ -1,18 +1,18 @@
 """A project as a JSON file beside its images.
 
-    format, version     "calibgui-project", 3
-    target              rows, cols (null: inferred from the images), square_mm, unit and
+    format, version     "calibgui-project", 4
+    target              the board: rows, cols (null: inferred from the images), square_mm, unit and
                         pattern as in ``pattern_json.py``; corners, the method of locating them
-                        ("edges" where it is missing)
+                        ("edges" where missing)
     size                width and height of the images, px
-    settings            cost, freed, fixed (names, or an object of them with their values or
-                        null); plate (a model, "auto" or a plate as in ``plate_json.py``),
-                        prior_mm (in the plane and out of it, or null), robust; weigh_views and
-                        once (false where they are missing)
-    views               as in ``views_json.py``, and the image file's sha256 where known
+    settings            cost, model (of the lens), method, freed, fixed (names, or an object of
+                        them with their values or null); plate (the board's shape: a model, "auto"
+                        or a shape as in ``board_shape_json.py``), prior_mm (in the plane and out
+                        of it, or null), robust; weigh_views and once (false where missing)
+    views               as in ``views_json.py``, and sha256 of the image file where known
     results             by name, each as a result.json is (``result_json.py``)
 
-Paths are relative to the file's folder, with "/", so that folder and project move together.
+Paths are relative to the folder of the file, with "/", so that folder and project move together.
 Cannot hold: the images; undone edits.
 
 A change that old programs could misread takes a new version: raise `VERSION` and add to
@@ -22,52 +22,62 @@ A change that old programs could misread takes a new version: raise `VERSION` an
 from __future__ import annotations
 
 import os
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path, PurePath
 from types import MappingProxyType
 from typing import Any
 
-from calibgui.app.project import Project, Unit, relocated
-from calibgui.app.settings import NAMES, Settings
-from calibgui.dataset.result import Result
-from calibgui.dataset.view import View
+from calibgui.app.project import Project, Unit, relocate_images
+from calibgui.app.settings import DEFAULT_METHOD, DEFAULT_MODEL, MODEL_CHOICES, Settings
+from calibgui.dataset import Result, View
 from calibgui.engine.boards import CHECKERBOARD, Board, BoardShape, BoardShapeModel
+from calibgui.engine.calibration import METHODS as CALIBRATION_METHODS
 from calibgui.engine.calibration import Cost
+from calibgui.engine.camera import parameter_names
 from calibgui.engine.detection import METHODS
-from calibgui.formats.board_shape_json import (
-    board_shape_record,
-    read_board_shape_record,
-    read_prior,
+from calibgui.formats.board_shape_json import decode_board_shape, decode_prior, encode_board_shape
+from calibgui.formats.corners_json import decode_size
+from calibgui.formats.json_document import (
+    Node,
+    are_same_values,
+    check_format,
+    read_json,
+    write_json,
 )
-from calibgui.formats.corners_json import read_size
-from calibgui.formats.json_document import Node, check_format, read, same, write
-from calibgui.formats.pattern_json import pattern_record, read_pattern
-from calibgui.formats.result_json import result_from, result_record
-from calibgui.formats.views_json import read_views, view_record
+from calibgui.formats.pattern_json import decode_pattern, encode_pattern
+from calibgui.formats.result_json import decode_model, decode_result, encode_result
+from calibgui.formats.views_json import decode_views, encode_view
 
 FORMAT = "calibgui-project"
-VERSION = 3
-_AUTO = "auto"
+VERSION = 4
+_AUTO_BOARD_SHAPE = "auto"
 
 
-def _nominal_board(content: dict[str, Any]) -> dict[str, Any]:
-    """Version 1 knew no other plate, and no outliers."""
+def _add_board_shape(content: dict[str, Any]) -> dict[str, Any]:
+    """Turn version 1, which knew flat boards only and no outliers, into version 2."""
     settings = {"plate": BoardShapeModel.NOMINAL, "prior_mm": None, "robust": False}
     return content | {"version": 2, "settings": content["settings"] | settings}
 
 
-def _checkerboard(content: dict[str, Any]) -> dict[str, Any]:
-    """Version 2 knew no other pattern."""
-    pattern = {"pattern": pattern_record(CHECKERBOARD)}
+def _add_pattern(content: dict[str, Any]) -> dict[str, Any]:
+    """Turn version 2, which knew checkerboards only, into version 3."""
+    pattern = {"pattern": encode_pattern(CHECKERBOARD)}
     return content | {"version": 3, "target": content["target"] | pattern}
 
 
+def _add_model_and_method(content: dict[str, Any]) -> dict[str, Any]:
+    """Turn version 3, in which lens model and method could not be chosen, into version 4."""
+    settings = {"model": DEFAULT_MODEL, "method": DEFAULT_METHOD}
+    return content | {"version": 4, "settings": content["settings"] | settings}
+
+
 _MIGRATIONS: Mapping[int, Callable[[dict[str, Any]], dict[str, Any]]] = {
-    1: _nominal_board,
-    2: _checkerboard,
+    1: _add_board_shape,
+    2: _add_pattern,
+    3: _add_model_and_method,
 }
-"""By the version that they take: to the content of the next one."""
+"""Functions that turn the content of a version, the key, into the content of the next one."""
 
 
 def write_project(project: Project, path: Path) -> None:
@@ -76,37 +86,39 @@ def write_project(project: Project, path: Path) -> None:
     Raises:
         CalibrationError: if it cannot be written.
     """
-    write(path, project_record(project, path.parent))
+    write_json(path, encode_project(project, path.parent))
 
 
-def project_record(project: Project, folder: Path) -> dict[str, Any]:
-    """The content of the file, with paths relative to `folder`."""
-    project = _with_paths(project, lambda image: _relative(image, folder))
+def encode_project(project: Project, folder: Path) -> dict[str, Any]:
+    """Return the content of the file, with paths relative to `folder`."""
+    project = _change_paths(project, lambda image: _make_relative(image, folder))
     rows, cols = project.grid_size or (None, None)
     square = {"square_mm": project.square, "unit": project.unit}
-    pattern = {"pattern": pattern_record(project.pattern), "corners": project.method}
+    pattern = {"pattern": encode_pattern(project.pattern), "corners": project.method}
     return {
         "format": FORMAT,
         "version": VERSION,
         "target": {"rows": rows, "cols": cols, **square, **pattern},
         "size": project.size,
-        "settings": _settings_record(project.settings),
-        "views": [_view_record(view, project) for view in project.views],
-        "results": {name: result_record(result) for name, result in project.results.items()},
+        "settings": _encode_settings(project.settings),
+        "views": [_encode_view(view, project) for view in project.views],
+        "results": {name: encode_result(result) for name, result in project.results.items()},
     }
 
 
-def _settings_record(settings: Settings) -> dict[str, Any]:
+def _encode_settings(settings: Settings) -> dict[str, Any]:
     board_shape, prior = settings.board_shape, settings.prior
     # Versions that knew no values read the names as long as there are none.
     at_values = any(value is not None for value in settings.fixed.values())
     return {
         "cost": settings.cost,
+        "model": settings.model,
+        "method": settings.method,
         "fixed": settings.fixed if at_values else list(settings.fixed),
         "freed": settings.freed,
-        "plate": board_shape_record(board_shape)
+        "plate": encode_board_shape(board_shape)
         if isinstance(board_shape, BoardShape)
-        else board_shape or _AUTO,
+        else board_shape or _AUTO_BOARD_SHAPE,
         "prior_mm": None if prior is None else (prior.in_plane, prior.out_of_plane),
         "robust": settings.robust,
         "weigh_views": settings.weigh_views,
@@ -119,44 +131,44 @@ def read_project(path: Path, folder: Path | None = None) -> Project:
 
     Args:
         path: the file.
-        folder: what its paths are relative to, if not to the folder that it is in.
+        folder: the folder that its paths are relative to; the one that it is in if None.
 
     Raises:
         CalibrationError: if the file cannot be read, is of another format or a newer version,
-            or something in it is wrong, naming the place.
+            or something in it is wrong; the message names the place.
     """
-    node = read(path)
+    node = read_json(path)
     check_format(node, FORMAT, VERSION)
-    project = _read(_migrated(node))
+    project = _decode_project(_migrate(node))
     base = (folder or path.parent).absolute()
-    return _with_paths(project, lambda image: os.path.normpath(base / image))
+    return _change_paths(project, lambda image: os.path.normpath(base / image))
 
 
-def _migrated(node: Node) -> Node:
+def _migrate(node: Node) -> Node:
     content = node.value
     for version in range(content["version"], VERSION):
         content = _MIGRATIONS[version](content)
     return Node(content, node.where, node.file)
 
 
-def _view_record(view: View, project: Project) -> dict[str, Any]:
-    record = view_record(view, _lattice(project))
+def _encode_view(view: View, project: Project) -> dict[str, Any]:
+    record = encode_view(view, _make_board(project))
     digest = project.digests.get(view.image)
     return record if digest is None else record | {"sha256": digest}
 
 
-def _lattice(project: Project) -> Board:
-    """Where found corners lie on the plate: that takes the squares' side, not their number."""
+def _make_board(project: Project) -> Board:
+    """Return a board for the places of found corners, which its grid size does not change."""
     return project.board or Board(2, 2, project.square, project.pattern)
 
 
-def _read(node: Node) -> Project:
+def _decode_project(node: Node) -> Project:
     board = node["target"]
     rows, cols, size = board.get("rows"), board.get("cols"), node.get("size")
     if not (square := board["square_mm"]).number() > 0:
         square.fail("a length above 0")
-    pattern = read_pattern(board["pattern"])
-    views = read_views(node["views"], Board(2, 2, square.number(), pattern))
+    pattern = decode_pattern(board["pattern"])
+    views = decode_views(node["views"], Board(2, 2, square.number(), pattern))
     digests = {
         view.image: digest.text()
         for view, item in zip(views, node["views"].items(), strict=True)
@@ -164,76 +176,84 @@ def _read(node: Node) -> Project:
     }
     return Project(
         views=views,
-        size=read_size(size) if size else None,
+        size=decode_size(size) if size else None,
         pattern=pattern,
         grid_size=(rows.integer(), cols.integer()) if rows and cols else None,
         method=method.choice(METHODS) if (method := board.get("corners")) else METHODS[0],
         square=square.number(),
         unit=Unit(board["unit"].choice(list(Unit))),
-        settings=_read_settings(node["settings"]),
-        results=MappingProxyType(_read_results(node, views)),
+        settings=_decode_settings(node["settings"]),
+        results=MappingProxyType(_decode_results(node, views)),
         digests=MappingProxyType(digests),
     )
 
 
-def _read_settings(node: Node) -> Settings:
+def _decode_settings(node: Node) -> Settings:
     prior = node.get("prior_mm")
+    model = decode_model(node["model"], MODEL_CHOICES)
+    names = parameter_names(model)
     return Settings(
         cost=Cost(node["cost"].choice(list(Cost))),
-        fixed=_read_fixed(node["fixed"]),
-        freed=tuple(name.choice(NAMES) for name in node["freed"].items()),
-        board_shape=_read_board_shape(node["plate"]),
-        prior=None if prior is None else read_prior(prior),
+        model=model,
+        method=node["method"].choice(list(CALIBRATION_METHODS)),
+        fixed=_decode_fixed(node["fixed"], names),
+        freed=tuple(name.choice(names) for name in node["freed"].items()),
+        board_shape=_decode_board_shape(node["plate"]),
+        prior=None if prior is None else decode_prior(prior),
         robust=node["robust"].flag(),
         weigh_views=weigh.flag() if (weigh := node.get("weigh_views")) else False,
         once=once.flag() if (once := node.get("once")) else False,
     )
 
 
-def _read_fixed(node: Node) -> dict[str, float | None]:
+def _decode_fixed(node: Node, names: Sequence[str]) -> dict[str, float | None]:
     if isinstance(node.value, list):
-        return dict.fromkeys(name.choice(NAMES) for name in node.items())
+        return dict.fromkeys(name.choice(names) for name in node.items())
     for name in node.members():
-        Node(name, node.where, node.file).choice(NAMES)
+        Node(name, node.where, node.file).choice(names)
     return {
         name: None if value.value is None else value.number()
         for name, value in node.members().items()
     }
 
 
-def _read_board_shape(node: Node) -> BoardShapeModel | BoardShape | None:
+def _decode_board_shape(node: Node) -> BoardShapeModel | BoardShape | None:
     if isinstance(node.value, dict):
-        return read_board_shape_record(node)
-    model = node.choice([*BoardShapeModel, _AUTO])
-    return None if model == _AUTO else BoardShapeModel(model)
+        return decode_board_shape(node)
+    model = node.choice([*BoardShapeModel, _AUTO_BOARD_SHAPE])
+    return None if model == _AUTO_BOARD_SHAPE else BoardShapeModel(model)
 
 
-def _read_results(node: Node, views: tuple[View, ...]) -> dict[str, Result]:
-    """The results; what they and the project hold alike becomes one object, as it was."""
-    own = {
+def _decode_results(node: Node, views: tuple[View, ...]) -> dict[str, Result]:
+    """Return the results; a view that equals the project's becomes the same object, as it was."""
+    views_here = {
         view.image: (view, {k: v for k, v in item.items() if k != "sha256"})
         for view, item in zip(views, node["views"].value, strict=True)
     }
 
     def shared(view: View, item: dict[str, Any]) -> View:
-        mine, record = own.get(view.image, (view, {}))
-        return mine if all(same(item.get(key), record[key]) for key in record) else view
+        same_image, record = views_here.get(view.image, (view, {}))
+        return (
+            same_image
+            if all(are_same_values(item.get(key), record[key]) for key in record)
+            else view
+        )
 
     results = {}
     for name, record in node["results"].value.items():
-        result = result_from(node["results"][name])
+        result = decode_result(node["results"][name])
         pairs = zip(result.views, record["views"], strict=True)
         results[name] = replace(result, views=tuple(shared(*pair) for pair in pairs))
     return results
 
 
-def _with_paths(project: Project, change: Callable[[str], str]) -> Project:
+def _change_paths(project: Project, change: Callable[[str], str]) -> Project:
     images = {view.image for view in project.views}
     images |= {view.image for result in project.results.values() for view in result.views}
-    return relocated(project, {image: change(image) for image in images})
+    return relocate_images(project, {image: change(image) for image in images})
 
 
-def _relative(image: str, folder: Path) -> str:
+def _make_relative(image: str, folder: Path) -> str:
     try:
         return PurePath(os.path.relpath(image, folder)).as_posix()
     except ValueError:  # on another drive

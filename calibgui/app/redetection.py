@@ -1,7 +1,9 @@
-"""What a first calibration lets be done better: images searched again, and views counted alike.
+"""Calibration in two rounds: the first camera shows what can be found and numbered better.
 
-Only those images are read again in which something may be gained: no board was found, corners are
-missing that the image should show, or it is open which part of the board is seen.
+After a first calibration only those images are searched again in which something may be gained: no
+board was found, corners are missing that the image should show, or it is open which part of the
+board is seen. Then the corners of symmetric boards are labelled alike in all views
+(``labelling.py``). If either changed a view, the calibration is repeated.
 """
 
 from __future__ import annotations
@@ -13,13 +15,16 @@ from threading import Event
 
 import numpy as np
 
-from calibgui.app.calibration import calibrate_views, short_names
-from calibgui.app.labelling import about_turned, counted_alike, recounted, same_places
-from calibgui.app.settings import USUAL, Settings
-from calibgui.app.workers import Crashed, spread
-from calibgui.dataset.corner_set import CornerSet
-from calibgui.dataset.result import Result
-from calibgui.dataset.view import View, ViewStatus
+from calibgui.app.calibration import calibrate_views, shorten_names
+from calibgui.app.labelling import (
+    carry_view_labels,
+    describe_turned_boards,
+    have_same_labels,
+    relabel_views,
+)
+from calibgui.app.settings import DEFAULT_SETTINGS, Settings
+from calibgui.app.workers import Crashed, map_in_processes
+from calibgui.dataset import CornerSet, Result, View, ViewStatus
 from calibgui.engine.arrays import GridSize
 from calibgui.engine.boards import CHECKERBOARD, Board
 from calibgui.engine.calibration import Calibration, Cost, Report, Status
@@ -28,29 +33,31 @@ from calibgui.engine.detection import Corners
 from calibgui.engine.errors import CalibrationError
 from calibgui.engine.geometry import Pose
 from calibgui.engine.images import read_image
-from calibgui.engine.redetection import find_again
-from calibgui.report.numbers import counted
+from calibgui.engine.redetection import redetect_corners
+from calibgui.report.numbers import format_count
 
-_FEW = 6
-"""Images up to which starting other processes takes longer than searching."""
+_MAX_SERIAL_IMAGES = 6
+"""Number of images up to which starting other processes takes longer than searching."""
 _BORDER = 8.0
-"""Width of the image's border in which no corner is missed, px."""
+"""Width of the image's border in which a missing corner is not looked for, px."""
 
 
 def calibrate_twice(
     corner_set: CornerSet,
-    settings: Settings = USUAL,
+    settings: Settings = DEFAULT_SETTINGS,
     report: Report | None = None,
     stop: Event | None = None,
     search: bool = True,
 ) -> Result:
-    """Calibrate; unless asked for once, search again, count all views alike, and calibrate again
-    if that changed any.
+    """Calibrate, search images again and label views alike, and calibrate again.
+
+    The second round is left out if the settings want one only (``Settings.once``), or if the first
+    was stopped or did not determine the camera.
 
     Args:
         corner_set, settings: as for ``calibrate_views``.
-        report: told of the iterations of both.
-        stop: abandons the search when set.
+        report: a function that is called with the iterations of both calibrations.
+        stop: an event that abandons the search when it is set.
         search: whether images may be searched again.
 
     Raises:
@@ -59,35 +66,36 @@ def calibrate_twice(
     """
     result = calibrate_views(corner_set, settings, report)
     calibration = result.calibration
-    ended = calibration.status is Status.STOPPED or calibration.diagnosis is not None
-    if settings.once or ended:
+    is_final = calibration.status is Status.STOPPED or calibration.diagnosis is not None
+    if settings.once or is_final:
         return result
-    more, said = search_again(corner_set, result, stop) if search else (corner_set, ())
-    if said:
+    more, sentences = redetect_views(corner_set, result, stop) if search else (corner_set, ())
+    if sentences:
         result = calibrate_views(more, settings, report)
-    alike = counted_alike(result)
-    if same_places(alike, result.views):
-        result = replace(result, views=alike)
+    labelled = relabel_views(result)
+    if have_same_labels(labelled, result.views):
+        result = replace(result, views=labelled)
     else:
-        said = (*said, *about_turned(alike, result.views))
-        views = tuple(map(recounted, more.views, result.views, alike))
+        sentences = (*sentences, *describe_turned_boards(labelled, result.views))
+        views = tuple(map(carry_view_labels, more.views, result.views, labelled))
         result = calibrate_views(replace(more, views=views), settings, report)
-    warnings = (*result.calibration.warnings, *said)
+    warnings = (*result.calibration.warnings, *sentences)
     return replace(result, calibration=replace(result.calibration, warnings=warnings))
 
 
-def search_again(
+def redetect_views(
     corner_set: CornerSet, result: Result, stop: Event | None = None
 ) -> tuple[CornerSet, tuple[str, ...]]:
-    """The corners with what the calibrated camera lets be found besides.
+    """Search images again with the calibrated camera.
 
     Args:
-        corner_set: that `result` was calibrated from.
-        result: of a calibration with the image cost.
-        stop: abandons the search when set.
+        corner_set: the corners that `result` was calibrated from.
+        result: the result of a calibration with the image cost.
+        stop: an event that abandons the search when it is set.
 
     Returns:
-        The same set if nothing was gained; and what was, in a sentence or none.
+        The corners with those that were gained, and a sentence that names the gain; the same set
+        and no sentence if nothing was gained.
 
     Raises:
         Cancelled: if `stop` was set.
@@ -96,44 +104,52 @@ def search_again(
     if board is None or board.pattern != CHECKERBOARD or calibration.cost is not Cost.IMAGE:
         return corner_set, ()
     poses = dict(zip((view.image for view in result.used), calibration.poses, strict=True))
-    which = [
+    chosen = [
         k
         for k, view in enumerate(corner_set.views)
-        if _promising(view, board, calibration, poses.get(view.image))
+        if _is_promising(view, board, calibration, poses.get(view.image))
     ]
     views = list(corner_set.views)
-    task = partial(view_again, calibration=calibration, grid_size=(board.rows, board.cols))
-    for i, view in _each(task, [views[k] for k in which], stop):
-        views[which[i]] = view
-    changed = [k for k in which if views[k] is not corner_set.views[k]]
+    task = partial(redetect_view, calibration=calibration, grid_size=(board.rows, board.cols))
+    for i, view in _process_views(task, [views[k] for k in chosen], stop):
+        views[chosen[i]] = view
+    changed = [k for k in chosen if views[k] is not corner_set.views[k]]
     if not changed:
         return corner_set, ()
     before = [corner_set.views[k] for k in changed]
-    said = _gained(before, [views[k] for k in changed])
-    return replace(corner_set, views=tuple(views)), (said,)
+    sentence = _describe_gain(before, [views[k] for k in changed])
+    return replace(corner_set, views=tuple(views)), (sentence,)
 
 
-def view_again(view: View, calibration: Calibration, grid_size: GridSize) -> View:
-    """The view with the corners that the camera lets be found in its image; the same if there
-    are no others than before."""
+def redetect_view(view: View, calibration: Calibration, grid_size: GridSize) -> View:
+    """Search one image again with the camera known.
+
+    Args:
+        view: the view as it was found before.
+        calibration: the calibration of its camera.
+        grid_size: rows and columns of the board's corners.
+
+    Returns:
+        The view with the corners that are found now; the same object if these are no others.
+    """
     before = view.corners
     try:
-        corners = find_again(read_image(view.image).pixels, calibration, grid_size, before)
+        corners = redetect_corners(read_image(view.image).pixels, calibration, grid_size, before)
     except CalibrationError:
         return view
     if before is None:
         note = "Found with the camera known from the other images."
-    elif note := ", ".join(_changes(before, corners)):
+    elif note := ", ".join(_describe_changes(before, corners)):
         note = f"Searched again with the camera known: {note}."
     else:
         return view
     return replace(view, status=ViewStatus.FOUND, reason="", corners=corners, note=note)
 
 
-def _promising(view: View, board: Board, calibration: Calibration, pose: Pose | None) -> bool:
-    """Whether another search can gain something."""
+def _is_promising(view: View, board: Board, calibration: Calibration, pose: Pose | None) -> bool:
+    """Return whether another search may gain something."""
     if not view.enabled or view.points is not None or view.roi is not None:
-        return False  # not wanted, not ours, or the user has said where to search
+        return False  # left out, given from elsewhere, or searched where the user wants it
     if view.corners is None:
         return view.status is ViewStatus.NO_BOARD
     if view.corners.method != "edges" or view.corners.complete or pose is None:
@@ -144,20 +160,21 @@ def _promising(view: View, board: Board, calibration: Calibration, pose: Pose | 
     return bool(view.corners.relative or shown > len(view.corners))
 
 
-def _each(
+def _process_views(
     task: partial[View], items: Sequence[View], stop: Event | None
 ) -> Iterator[tuple[int, View]]:
-    if len(items) <= _FEW:
+    """Apply a task to views, in other processes if they are many; yield index and result."""
+    if len(items) <= _MAX_SERIAL_IMAGES:
         for i, item in enumerate(items):
             yield i, task(item)
         return
-    for i, view in spread(task, items, stop):
+    for i, view in map_in_processes(task, items, stop):
         if not isinstance(view, Crashed):
             yield i, view
 
 
-def _changes(before: Corners, after: Corners) -> Iterator[str]:
-    """What is new in the corners."""
+def _describe_changes(before: Corners, after: Corners) -> Iterator[str]:
+    """Name the changes from the corners found before to those found after."""
     old, new = (set(map(tuple, corners.grid.tolist())) for corners in (before, after))
     more, fewer = len(new - old), len(old - new)
     if before.relative:  # the numbers may all be others
@@ -165,18 +182,18 @@ def _changes(before: Corners, after: Corners) -> Iterator[str]:
         if not after.relative:
             yield "its place on the board is known"
     if more:
-        yield f"{counted(more, 'corner')} more"
+        yield f"{format_count(more, 'corner')} more"
     if fewer:
-        yield f"{counted(fewer, 'corner')} left out, far from where the camera would see it"
+        yield f"{format_count(fewer, 'corner')} left out, far from where the camera would see it"
 
 
-def _gained(before: Sequence[View], after: Sequence[View]) -> str:
-    """In a sentence."""
+def _describe_gain(before: Sequence[View], after: Sequence[View]) -> str:
+    """Say in a sentence what was gained."""
     found = [view for old, view in zip(before, after, strict=True) if old.corners is None]
     corners = sum(len(view.corners or ()) for view in after)
     corners -= sum(len(view.corners or ()) for view in before)
-    text = f"Searched again with the camera known: {counted(corners, 'corner')} more in "
-    text += counted(len(after), "image")
+    text = f"Searched again with the camera known: {format_count(corners, 'corner')} more in "
+    text += format_count(len(after), "image")
     if found:
-        text += f", {', '.join(short_names(found))} for the first time"
+        text += f", {', '.join(shorten_names(found))} for the first time"
     return text + "."

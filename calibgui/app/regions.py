@@ -9,19 +9,21 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from calibgui.engine.arrays import Array
-from calibgui.engine.detection import outline
+from calibgui.engine.detection import check_outline
 from calibgui.engine.errors import CalibrationError
-from calibgui.formats.json_document import read
+from calibgui.formats.json_document import read_json
 
 
 def read_regions(file: str | Path, images: Sequence[Path]) -> dict[Path, Array]:
-    """Regions (4, 2) px of some of `images`, which the file names with or without their folder.
+    """Read the regions (4, 2) px of some of `images`.
+
+    The file names images with or without their folder.
 
     Raises:
         CalibrationError: if the file cannot be read, a region is not four points around a
-            convex area, or it names no image or several.
+            convex area, or a name is that of no image or of several.
     """
-    node = read(file)
+    node = read_json(file)
     if not isinstance(node.value, dict):
         node.fail("an object with a member for each image")
     regions = {}
@@ -35,10 +37,10 @@ def read_regions(file: str | Path, images: Sequence[Path]) -> dict[Path, Array]:
             )
         region = node[name].numbers(4, 2)
         try:
-            outline(region)
+            check_outline(region)
         except ValueError as error:
             raise CalibrationError(
-                f"{file}: the region of {name} is useless: {error}.", "Correct the four points."
+                f"{file}: the region of {name} cannot be used: {error}.", "Correct the four points."
             ) from error
         regions[meant[0]] = region
     return regions

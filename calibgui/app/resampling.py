@@ -1,7 +1,7 @@
-"""Many photographs undistorted, or rectified to the plate, into a folder of their own.
+"""Undistortion and rectification of many photographs into a separate folder.
 
-The work is decoding, resampling and encoding, which leave the interpreter to other threads;
-threads also finish the file that they are writing when the work is abandoned.
+The images are worked on in threads: decoding, resampling and encoding release the interpreter's
+lock, and a thread finishes the file that it is writing when the work is cancelled.
 """
 
 from __future__ import annotations
@@ -14,8 +14,8 @@ from pathlib import Path
 from typing import cast
 
 from calibgui.app.outputs import make_folder
-from calibgui.app.paths import natural_key
-from calibgui.dataset.result import Result
+from calibgui.app.paths import make_natural_key
+from calibgui.dataset import Result
 from calibgui.engine.arrays import Array, Size
 from calibgui.engine.camera import Camera
 from calibgui.engine.errors import CalibrationError
@@ -23,34 +23,35 @@ from calibgui.engine.geometry import Pose
 from calibgui.engine.images import (
     FieldOfView,
     Pixels,
-    Resampled,
+    ResampledImage,
     read_colour,
     rectify_image,
     undistort_image,
     write_image,
 )
 from calibgui.formats.resampled_json import write_resampled
-from calibgui.report.coverage import board_extent_px, natural_scale
+from calibgui.report.coverage import find_shown_extent, measure_natural_scale
 
-GEOMETRY = "resampled.json"
-"""Name of the file that says what the new images' pixels are."""
+GEOMETRY_FILE = "resampled.json"
+"""Name of the file with the geometry of the new images."""
 
 
 @dataclass(frozen=True, slots=True)
-class Written:
-    """What became of one photograph."""
+class WrittenImage:
+    """The outcome for one photograph."""
 
     source: Path
     path: Path | None
-    """The new image, or None."""
+    """Path of the new image, or None."""
     reason: str = ""
-    """Why there is none."""
+    """Reason why there is no new image."""
 
 
-Progress = Callable[[int, int, Written], None]
-"""Told of each image done: how many are, of how many, and its outcome; may raise Cancelled."""
+Progress = Callable[[int, int, WrittenImage], None]
+"""Function that is called with the number of finished images, of all images, and the last outcome;
+it may raise Cancelled."""
 
-_Change = Callable[[Path, Pixels], Resampled]
+_Change = Callable[[Path, Pixels], ResampledImage]
 _Geometry = tuple[Size, Array]
 """Size and matrix, the same for all new images."""
 
@@ -61,7 +62,7 @@ def undistort_files(
     folder: Path,
     view: FieldOfView = FieldOfView.ALL,
     progress: Progress | None = None,
-) -> tuple[Written, ...]:
+) -> tuple[WrittenImage, ...]:
     """Write every image without distortion into `folder`, with the new camera matrix.
 
     Raises:
@@ -69,10 +70,10 @@ def undistort_files(
         Cancelled: from `progress`.
     """
 
-    def change(_: Path, pixels: Pixels) -> Resampled:
+    def change(_: Path, pixels: Pixels) -> ResampledImage:
         return undistort_image(pixels, camera, view)
 
-    return _write_all("undistorted", change, images, folder, progress)
+    return _write_images("undistorted", change, images, folder, progress)
 
 
 def rectify_files(
@@ -81,14 +82,14 @@ def rectify_files(
     folder: Path,
     pixels_per_mm: float | None = None,
     progress: Progress | None = None,
-) -> tuple[Written, ...]:
+) -> tuple[WrittenImage, ...]:
     """Write the board of every calibrated image as seen from straight above into `folder`.
 
     Args:
-        result: the calibration; images are matched to its views by path, or else by name.
+        result: the calibration; images are matched to its views by path, else by name.
         images: to rectify.
         folder: to write to, created if missing.
-        pixels_per_mm: scale; that of the original images in the middle of the boards if None.
+        pixels_per_mm: scale; as in the middle of the boards in the original images if None.
         progress: see `Progress`.
 
     Raises:
@@ -96,11 +97,11 @@ def rectify_files(
         Cancelled: from `progress`.
     """
     camera = result.calibration.camera
-    scale = pixels_per_mm or natural_scale(result)
-    extent = board_extent_px(result)
-    poses = _poses(result)
+    scale = pixels_per_mm or measure_natural_scale(result)
+    extent = find_shown_extent(result)
+    poses = _collect_poses(result)
 
-    def change(path: Path, pixels: Pixels) -> Resampled:
+    def change(path: Path, pixels: Pixels) -> ResampledImage:
         pose = poses.get(str(path)) or poses.get(path.name)
         if pose is None:
             raise CalibrationError(
@@ -109,31 +110,31 @@ def rectify_files(
             )
         return rectify_image(pixels, camera, pose, extent, scale)
 
-    return _write_all("rectified", change, images, folder, progress)
+    return _write_images("rectified", change, images, folder, progress)
 
 
-def _poses(result: Result) -> dict[str, Pose]:
-    """The poses by the images' paths and, where they are unique, names."""
+def _collect_poses(result: Result) -> dict[str, Pose]:
+    """Return the poses by the paths of the images and, where these are unique, their names."""
     pairs = list(zip(result.used, result.calibration.poses, strict=True))
     names = [Path(view.image).name for view, _ in pairs]
     poses = {n: pose for n, (_, pose) in zip(names, pairs, strict=True) if names.count(n) == 1}
     return poses | {view.image: pose for view, pose in pairs}
 
 
-def _write_all(
+def _write_images(
     kind: str,
     change: _Change,
     images: Sequence[Path],
     folder: Path,
     progress: Progress | None,
-) -> tuple[Written, ...]:
+) -> tuple[WrittenImage, ...]:
     """Read, `change` and write every image, under its own name, and the geometry file."""
-    targets = _targets(images, folder)
-    outcomes: dict[Path, Written] = {}
+    targets = _choose_paths(images, folder)
+    outcomes: dict[Path, WrittenImage] = {}
     geometry: _Geometry | None = None
     executor = ThreadPoolExecutor(os.cpu_count())
     try:
-        jobs = [executor.submit(_write_one, change, path, targets[path]) for path in images]
+        jobs = [executor.submit(_write_image, change, path, targets[path]) for path in images]
         for done, job in enumerate(as_completed(jobs), start=1):
             outcome, made = job.result()
             outcomes[outcome.source] = outcome
@@ -145,25 +146,27 @@ def _write_all(
     written = tuple(outcomes[path] for path in images)
     if geometry is not None:
         names = {w.path.name: str(w.source) for w in written if w.path is not None}
-        write_resampled(folder / GEOMETRY, kind, *geometry, names)
+        write_resampled(folder / GEOMETRY_FILE, kind, *geometry, names)
     return written
 
 
-def _write_one(change: _Change, source: Path, board: Path) -> tuple[Written, _Geometry | None]:
+def _write_image(
+    change: _Change, source: Path, board: Path
+) -> tuple[WrittenImage, _Geometry | None]:
     try:
         made = change(source, read_colour(source))
         write_image(board, cast(Pixels, made.image))  # of the source's type
     except CalibrationError as error:
-        return Written(source, None, str(error)), None
+        return WrittenImage(source, None, str(error)), None
     height, width = made.image.shape[:2]
-    return Written(source, board), ((width, height), made.matrix)
+    return WrittenImage(source, board), ((width, height), made.matrix)
 
 
-def _targets(images: Iterable[Path], folder: Path) -> dict[Path, Path]:
-    """Where each image goes: its name in `folder`, which is created if missing."""
+def _choose_paths(images: Iterable[Path], folder: Path) -> dict[Path, Path]:
+    """Return the path of each new image in `folder`, which is created if missing."""
     make_folder(folder)
     taken: dict[str, Path] = {}
-    for path in sorted(images, key=natural_key):
+    for path in sorted(images, key=make_natural_key):
         if path.resolve().parent == folder.resolve():
             raise CalibrationError(
                 f"{path} would be overwritten.", "Choose another folder for the new images."
@@ -171,6 +174,6 @@ def _targets(images: Iterable[Path], folder: Path) -> dict[Path, Path]:
         if (other := taken.setdefault(path.name.casefold(), path)) != path:
             raise CalibrationError(
                 f"{other} and {path} would have the same name in {folder}.",
-                "Do their folders one by one.",
+                "Work on one folder after the other.",
             )
     return {path: folder / path.name for path in taken.values()}

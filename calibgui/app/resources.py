@@ -1,4 +1,4 @@
-"""Files that come with the program: the sample set, schemas, targets, icons."""
+"""Files that come with the program: the sample set, schemas, boards to print, icons."""
 
 from __future__ import annotations
 
@@ -7,13 +7,13 @@ from pathlib import Path
 
 import calibgui
 from calibgui.engine.errors import CalibrationError
-from calibgui.formats.json_document import Node, read
+from calibgui.formats.json_document import Node, read_json
 
 _PACKAGE = Path(calibgui.__file__).resolve().parent
 
 
-def resource(name: str) -> Path:
-    """The file or folder `name` of resources/, in an installed package or in a checkout.
+def find_resource(name: str) -> Path:
+    """Return the file or folder `name` of resources/, in an installed package or in a checkout.
 
     Raises:
         CalibrationError: if it is missing.
@@ -26,18 +26,18 @@ def resource(name: str) -> Path:
     )
 
 
-def sample_truth() -> Node:
-    """What the sample set was rendered from.
+def read_sample_truth() -> Node:
+    """Read the camera and the board from which the sample set was rendered.
 
     Raises:
         CalibrationError: if it is missing.
     """
-    return read(resource("sample") / "truth.json")
+    return read_json(find_resource("sample") / "truth.json")
 
 
-def sample_square(images: Iterable[Path]) -> float | None:
-    """Side of the squares, mm, if `images` are the sample's; None of any others."""
+def find_sample_square(images: Iterable[Path]) -> float | None:
+    """Return the side of the squares, mm, if `images` are the sample set; None for others."""
     folders = {path.absolute().parent for path in images}
-    if folders != {resource("sample")}:
+    if folders != {find_resource("sample")}:
         return None
-    return sample_truth()["target"]["square_mm"].number()
+    return read_sample_truth()["target"]["square_mm"].number()

@@ -1,9 +1,9 @@
-"""Independent pieces of work on all processors, in processes that can be stopped at once.
+"""Independent tasks on all processors, in processes that can be stopped at once.
 
-Processes rather than threads: the corner search is many short numpy calls, which hold the
-interpreter's lock, so that two threads take as long as one; a process can be ended in the
-middle of an image that takes too long; and one that crashes takes only its own image along.
-Workers are spawned, not forked, because the window's threads must not be copied.
+The workers are processes, not threads: the corner search is many short numpy calls that hold the
+interpreter's lock, so that two threads take as long as one; a process can be killed in the middle
+of an image; and a crash costs only the image that was worked on. Workers are spawned, not forked,
+because the threads of the window must not be copied.
 """
 
 from __future__ import annotations
@@ -23,54 +23,56 @@ from typing import Any, TypeVar, cast
 from calibgui.engine import opencv
 from calibgui.engine.errors import Cancelled
 from calibgui.engine.kernels import when_compiling
-from calibgui.engine.threads import one_blas_thread
+from calibgui.engine.threads import limit_blas_threads
 
 T = TypeVar("T")
 R = TypeVar("R")
 
-_POLL = 0.05
-"""Seconds between looks at `stop`."""
+_POLL_SECONDS = 0.05
+"""Time between two checks of `stop`, s."""
 _CONTEXT = multiprocessing.get_context("spawn")
 
 
 class Crashed(Exception):  # noqa: N818 - a value, never raised
-    """Stands for the result of a piece of work whose process died."""
+    """The result of a task whose process died."""
 
 
 class _Compiling:
-    """Sent before a result that will be long in coming."""
+    """A message from a worker that has to compile kernels first."""
 
 
-def spread(
+def map_in_processes(
     task: Callable[[T], R],
     items: Sequence[T],
     stop: Event | None = None,
     preparing: Callable[[], None] | None = None,
 ) -> Generator[tuple[int, R | Crashed], None, None]:
-    """Index and task(item) of each item, as they are completed; closing it ends the work.
+    """Yield the index and task(item) of each item, in the order of completion.
+
+    Closing the generator kills the workers.
 
     Args:
-        task: a module's function, or a partial of one: it is sent to other processes.
-        items: what to do it to.
+        task: a function of a module, or a partial of one, which is sent to other processes.
+        items: arguments of the task.
         stop: ends the work at once when set.
-        preparing: called, once, if kernels have to be compiled first.
+        preparing: called once if kernels have to be compiled first.
 
     Raises:
         Cancelled: if `stop` was set.
-        Exception: whatever `task` raised, with the worker's traceback as a note.
+        Exception: any that `task` raised, with the traceback in the worker as a note.
     """
     waiting = list(enumerate(items))[::-1]
-    team = [_start(task) for _ in range(min(len(items), os.cpu_count() or 1))]
-    # What each worker is busy with: an item's index, or None until it has reported for work.
+    team = [_start_worker(task) for _ in range(min(len(items), os.cpu_count() or 1))]
+    # The index of the item that each worker is busy with; None until it has started.
     busy: dict[Connection, int | None] = {connection: None for connection, _ in team}
     try:
         while busy:
-            ready = cast(list[Connection], wait(list(busy), _POLL))
+            ready = cast(list[Connection], wait(list(busy), _POLL_SECONDS))
             if stop is not None and stop.is_set():
                 raise Cancelled
             for connection in ready:
                 index = busy.pop(connection)
-                result, lost = _receive(connection)
+                result, lost = _receive_result(connection)
                 if isinstance(result, _Compiling):
                     busy[connection] = index
                     if preparing is not None:
@@ -80,7 +82,7 @@ def spread(
                 if lost and index is None:
                     raise RuntimeError("A worker process could not be started.")
                 if lost and waiting:
-                    team.append(_start(task))
+                    team.append(_start_worker(task))
                     busy[team[-1][0]] = None
                 elif waiting:
                     busy[connection], item = waiting.pop()
@@ -96,18 +98,18 @@ def spread(
             connection.close()
 
 
-def _start(task: Callable[[Any], Any]) -> tuple[Connection, SpawnProcess]:
-    """A worker and the connection on which it takes items and returns results."""
+def _start_worker(task: Callable[[Any], Any]) -> tuple[Connection, SpawnProcess]:
+    """Start a worker; return it with the connection for items and results."""
     ours, theirs = _CONTEXT.Pipe()
-    process = _CONTEXT.Process(target=_work, args=(task, theirs), daemon=True)
-    with _interrupts_kept_off():
+    process = _CONTEXT.Process(target=_run_worker, args=(task, theirs), daemon=True)
+    with _block_interrupts():
         process.start()
     theirs.close()
     return ours, process
 
 
-def _receive(connection: Connection) -> tuple[Any, bool]:
-    """What a worker answers, and whether it died instead. Raises what its task raised."""
+def _receive_result(connection: Connection) -> tuple[Any, bool]:
+    """Return a message of a worker, and whether it has died. Raises an exception of its task."""
     try:
         error, result = connection.recv()
     except (EOFError, ConnectionError):
@@ -117,31 +119,31 @@ def _receive(connection: Connection) -> tuple[Any, bool]:
     return result, False
 
 
-def _work(task: Callable[[Any], Any], connection: Connection) -> None:
-    """Report for work, then do `task` to what arrives until the other end is closed."""
+def _run_worker(task: Callable[[Any], Any], connection: Connection) -> None:
+    """Report that the worker has started, then do `task` until the connection is closed."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     opencv.use_threads(1)
-    with one_blas_thread(), contextlib.suppress(EOFError, ConnectionError):
+    with limit_blas_threads(), contextlib.suppress(EOFError, ConnectionError):
         connection.send((None, None))
         with when_compiling(lambda: connection.send((None, _Compiling()))):
-            _answer(task, connection)
+            _serve_items(task, connection)
 
 
-def _answer(task: Callable[[Any], Any], connection: Connection) -> None:
-    """Do `task` to what arrives."""
+def _serve_items(task: Callable[[Any], Any], connection: Connection) -> None:
+    """Do `task` to every item that arrives, and send the results."""
     while True:
         item = connection.recv()
         try:
-            answer: tuple[Exception | None, Any] = (None, task(item))
+            message: tuple[Exception | None, Any] = (None, task(item))
         except Exception as error:
             error.add_note(traceback.format_exc())
-            answer = (error, None)
-        connection.send(answer)
+            message = (error, None)
+        connection.send(message)
 
 
 @contextlib.contextmanager
-def _interrupts_kept_off() -> Iterator[None]:
-    """Block Ctrl-C in processes started within: it is for their parent, which ends them."""
+def _block_interrupts() -> Iterator[None]:
+    """Block Ctrl-C in processes started meanwhile; their parent receives it and kills them."""
     if not hasattr(signal, "pthread_sigmask"):  # Windows
         yield
         return

@@ -1,1 +1,1 @@
-"""The command line: one module per subcommand, over the same actions as the window."""
+"""The command line: one module per subcommand, with the same actions as the window."""

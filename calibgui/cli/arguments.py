@@ -1,4 +1,4 @@
-"""Arguments that several subcommands share, and what they stand for."""
+"""Arguments that several subcommands share, and the reading of their values."""
 
 from __future__ import annotations
 
@@ -18,8 +18,8 @@ from calibgui.engine.detection import METHODS, MIN_LINES
 from calibgui.engine.kernels import FINDER_SECONDS
 
 
-def grid_size(text: str) -> GridSize:
-    """Rows and columns of inner corners from "12x13"."""
+def parse_grid_size(text: str) -> GridSize:
+    """Read rows and columns of inner corners such as "12x13"."""
     match = re.fullmatch(r"(\d+)[x×*,](\d+)", text.strip())
     if match is None:
         raise argparse.ArgumentTypeError(f"{text!r} is not ROWSxCOLS, as 12x13")
@@ -31,8 +31,8 @@ def grid_size(text: str) -> GridSize:
     return size
 
 
-def positive(text: str) -> float:
-    """A positive, finite number."""
+def parse_positive(text: str) -> float:
+    """Read a finite number above 0."""
     try:
         value = float(text)
     except ValueError:
@@ -42,31 +42,31 @@ def positive(text: str) -> float:
     return value
 
 
-def add_images(parser: argparse.ArgumentParser, nargs: str = "+") -> None:
-    """The images to work on."""
+def add_image_paths(parser: argparse.ArgumentParser, nargs: str = "+") -> None:
+    """Add the paths of the images to work on."""
     parser.add_argument(
         "paths", nargs=nargs, metavar="PATH", help="image, folder of images or pattern"
     )
 
 
 def is_corners_file(paths: Sequence[str]) -> bool:
-    """Whether corners to read are named, rather than photographs to search."""
+    """Return whether the paths name a file of corners to read, not photographs to search."""
     return [Path(path).suffix.lower() for path in paths] == [".json"]
 
 
-def meant_files(paths: Sequence[str]) -> Sequence[str | Path]:
-    """The files that will be read."""
+def list_input_files(paths: Sequence[str]) -> Sequence[str | Path]:
+    """Return the files that will be read."""
     return paths if is_corners_file(paths) else find_images(paths)
 
 
-def add_search(parser: argparse.ArgumentParser) -> None:
-    """How the board is to be searched."""
+def add_search_options(parser: argparse.ArgumentParser) -> None:
+    """Add the options on how the board is searched."""
     parser.add_argument(
         "--board",
-        type=grid_size,
+        type=parse_grid_size,
         metavar="ROWSxCOLS",
-        help="inner corners of the board (squares minus one each way), inferred if left out; or "
-        "circles of a grid",
+        help="inner corners of the board (one fewer than squares each way), or circles of a grid; "
+        "inferred from the photographs if left out",
     )
     parser.add_argument(
         "--roi",
@@ -75,35 +75,35 @@ def add_search(parser: argparse.ArgumentParser) -> None:
         help="JSON file {image name: [[u, v] x 4]}: the board's four outermost corners, px",
     )
 
-    add_method(parser)
+    add_corner_method(parser)
 
 
-def add_method(parser: argparse.ArgumentParser) -> None:
-    """How corners are to be located."""
+def add_corner_method(parser: argparse.ArgumentParser) -> None:
+    """Add the option on how corners are located."""
     parser.add_argument(
         "--corners",
         choices=METHODS,
         default=METHODS[0],
-        help="locate corners by their edges (default), or as the paper does, by the saddle point "
+        help="locate corners by their edges (default) or, as the paper does, by the saddle point "
         "of the grey levels",
     )
 
 
-def add_map(parser: argparse.ArgumentParser, points: str) -> None:
-    """The distance of the `points` that a map over the image is for, and its file."""
+def add_map_options(parser: argparse.ArgumentParser, points: str) -> None:
+    """Add the options of a map over the image: the distance of the `points`, and its file."""
     parser.add_argument(
         "--distance",
-        type=positive,
+        type=parse_positive,
         default=math.inf,
         metavar="MM",
-        help=f"of the points that {points} (default: far away)",
+        help=f"distance of the points that {points} (default: far away)",
     )
     parser.add_argument(
         "-o", "--output", type=Path, metavar="FILE", help="draw the map (.png, .svg, .pdf)"
     )
 
 
-def search(
+def search_images(
     console: Console,
     paths: Iterable[str],
     grid_size: GridSize | None = None,
@@ -111,14 +111,14 @@ def search(
     corners: str = METHODS[0],
     pattern: Pattern = CHECKERBOARD,
 ) -> Detection:
-    """Find the images that are meant and search them for the board, showing progress.
+    """Find the images that `paths` name and search them for the board, showing progress.
 
     Raises:
-        CalibrationError: if a path stands for nothing, or the regions in `roi` are no good.
+        CalibrationError: if a path names no image, or the regions in `roi` cannot be used.
     """
     images = find_images(paths)
     rois = read_regions(roi, images) if roi else {}
-    with console.progress("searching") as advance:
+    with console.show_progress("searching") as advance:
         return find_views(
             images,
             grid_size,
@@ -126,7 +126,7 @@ def search(
             lambda done, total, _: advance(done, total),
             method=corners,
             pattern=pattern,
-            preparing=lambda: console.notice(
+            preparing=lambda: console.print_notice(
                 f"Preparing the corner finder for its first use (once, about {FINDER_SECONDS} s)…"
             ),
         )

@@ -1,4 +1,4 @@
-"""Which target the photographs show."""
+"""The options that describe the board which the photographs show."""
 
 from __future__ import annotations
 
@@ -6,39 +6,44 @@ import argparse
 from dataclasses import replace
 from typing import Any
 
-from calibgui.cli.arguments import positive
+from calibgui.cli.arguments import parse_positive
 from calibgui.engine.boards import KINDS, Pattern
 from calibgui.engine.errors import CalibrationError
 
-_OWN = {"dictionary": "charuco", "marker": "charuco", "legacy": "charuco", "diameter": "circles"}
-"""The option that describes a pattern, and what kinds of pattern it is for."""
-_LENGTHS = ("marker", "diameter")
-"""Options in mm, kept over the side of a square."""
+_PATTERN_OPTIONS = {
+    "dictionary": "charuco",
+    "marker": "charuco",
+    "legacy": "charuco",
+    "diameter": "circles",
+}
+"""Options that describe a pattern, each with the kind of pattern that it is for."""
+_LENGTH_OPTIONS = ("marker", "diameter")
+"""Names of the options in mm, which a pattern keeps as fractions of the side of a square."""
 
 
-def add_target(parser: argparse.ArgumentParser) -> None:
-    """What the target is."""
+def add_board_options(parser: argparse.ArgumentParser) -> None:
+    """Add the options that describe the board."""
     parser.set_defaults(usage_error=parser.error)
     group = parser.add_argument_group(
-        "target", "What is not stated of a ChArUco board is inferred from the photographs."
+        "board", "Properties of a ChArUco board that are not given are read from the photographs."
     )
     group.add_argument(
         "--target",
         choices=list(KINDS),
         default="checkerboard",
         metavar="KIND",
-        help=f"what is printed, one of {', '.join(KINDS)}; --board counts inner corners or "
-        "circles, and --square is the side of a square, the distance of circles, or that of the "
-        "rows of an asymmetric grid",
+        help=f"the printed pattern, one of {', '.join(KINDS)}; --board counts inner corners or "
+        "circles, and --square is the side of a square, the distance of circles, or the distance "
+        "of the rows of an asymmetric grid",
     )
     group.add_argument(
         "--dictionary",
         type=str.upper,
         metavar="NAME",
-        help="of the markers of a ChArUco board, as DICT_4X4_50",
+        help="dictionary of the markers of a ChArUco board, as DICT_4X4_50",
     )
     group.add_argument(
-        "--marker", type=positive, metavar="MM", help="side of a marker of a ChArUco board"
+        "--marker", type=parse_positive, metavar="MM", help="side of a marker of a ChArUco board"
     )
     group.add_argument(
         "--legacy",
@@ -48,25 +53,34 @@ def add_target(parser: argparse.ArgumentParser) -> None:
         "squares its first square is white",
     )
     group.add_argument(
-        "--diameter", type=positive, metavar="MM", help="of a circle; measured if left out"
+        "--diameter",
+        type=parse_positive,
+        metavar="MM",
+        help="diameter of a circle; measured if left out",
     )
 
 
-def pattern_of(options: argparse.Namespace) -> Pattern:
-    """The pattern that the options of `add_target`, --board, --square and --corners state.
+def read_pattern_options(options: argparse.Namespace) -> Pattern:
+    """Return the pattern that `add_board_options`, --board, --square and --corners describe.
 
-    Exits with a usage error if they do not go together.
+    The program ends with a usage error if they do not go together.
     """
     usual: Any = KINDS[options.target]
-    stated = {name: getattr(options, name) for name in _OWN if getattr(options, name) is not None}
+    stated = {
+        name: getattr(options, name)
+        for name in _PATTERN_OPTIONS
+        if getattr(options, name) is not None
+    }
     for name in stated:
         if not hasattr(usual, name):
-            options.usage_error(f"--{name} is for --target {_OWN[name]}, not for {options.target}")
-        if name in _LENGTHS:
+            options.usage_error(
+                f"--{name} is for --target {_PATTERN_OPTIONS[name]}, not for {options.target}"
+            )
+        if name in _LENGTH_OPTIONS:
             if options.square is None:
                 options.usage_error(f"--{name} needs --square MM as well")
             stated[name] /= options.square
-    if not usual.squared and options.corners != "edges":
+    if not usual.has_squares and options.corners != "edges":
         options.usage_error(f"--corners {options.corners} is for corners, not for circles")
     try:
         pattern: Pattern = replace(usual, **stated)

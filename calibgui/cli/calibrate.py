@@ -1,54 +1,58 @@
-"""Calibrate a camera from photographs of a target, or from a corners.json file.
+"""Calibrate a camera from photographs of a board, or from a corners.json file.
 
-Of views that do not determine the camera it prints and writes what they do determine, a partial
-calibration, says what to photograph, and ends with exit code 1.
+If the views do not determine the camera, the command prints and writes a partial calibration,
+says what to photograph, and ends with exit code 1.
 """
 
 from __future__ import annotations
 
 import argparse
-from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
-from typing import TypeVar
 
 from calibgui.app.outputs import check_outputs
 from calibgui.app.redetection import calibrate_twice
-from calibgui.app.settings import NAMES, Settings, held_in, names_in
-from calibgui.cli.arguments import (
-    add_images,
-    add_search,
-    is_corners_file,
-    meant_files,
-    positive,
-    search,
+from calibgui.app.settings import (
+    DEFAULT_METHOD,
+    DEFAULT_MODEL,
+    MODEL_CHOICES,
+    Settings,
+    check_settings,
+    parse_fixed,
+    parse_names,
 )
-from calibgui.cli.boards import add_target, pattern_of
+from calibgui.cli.arguments import (
+    add_image_paths,
+    add_search_options,
+    is_corners_file,
+    list_input_files,
+    parse_positive,
+    search_images,
+)
+from calibgui.cli.boards import add_board_options, read_pattern_options
 from calibgui.cli.console import Console
-from calibgui.dataset.corner_set import CornerSet
+from calibgui.dataset import CornerSet, Result
 from calibgui.engine.boards import BoardShape, BoardShapeModel, BoardShapePrior
-from calibgui.engine.calibration import Cost, DegenerateError
-from calibgui.engine.camera import MODELS
+from calibgui.engine.calibration import METHODS, Cost, DegenerateError
+from calibgui.engine.camera import MODELS, parameter_names
 from calibgui.engine.errors import CalibrationError
 from calibgui.engine.kernels import SOLVER_SECONDS, when_compiling
 from calibgui.formats import EXPORTERS, export, find_exporter
 from calibgui.formats.board_shape_json import read_board_shape, write_board_shape
 from calibgui.formats.corners_json import read_corners
-from calibgui.formats.result_json import result_record, write_result
+from calibgui.formats.result_json import encode_result, write_result
 from calibgui.report import tables
-from calibgui.report.boards import learnt
-
-T = TypeVar("T")
+from calibgui.report.boards import describe_recognised_board
 
 
 def configure(parser: argparse.ArgumentParser) -> None:
     """Describe the arguments."""
-    add_images(parser)
-    add_search(parser)
-    add_target(parser)
+    add_image_paths(parser)
+    add_search_options(parser)
+    add_board_options(parser)
     parser.add_argument(
         "--square",
-        type=positive,
+        type=parse_positive,
         metavar="MM",
         help="side of a square, mm; needed for photographs",
     )
@@ -60,20 +64,30 @@ def configure(parser: argparse.ArgumentParser) -> None:
         "the reference plane, or the paper's formulation to the letter",
     )
     parser.add_argument(
+        "--model",
+        choices=MODEL_CHOICES,
+        default=DEFAULT_MODEL,
+        help=f"the lens model to estimate: {_describe_models()}",
+    )
+    parser.add_argument(
+        "--method",
+        choices=METHODS,
+        default=DEFAULT_METHOD,
+        help="the method of calibration: "
+        + "; ".join(f"{name}, {method.title}" for name, method in METHODS.items()),
+    )
+    parser.add_argument(
         "--fix",
-        type=_fixed,
-        default={},
         metavar="NAMES",
-        help="intrinsics to hold, as k3,p1=0,fx=650; coefficients at 0, the centre at the "
-        f"image's and focal lengths at the closed form unless given. Names: {' '.join(NAMES)}",
+        help="parameters of the lens model to hold, as k3,p1=0,fx=650; without a value "
+        "coefficients are held at 0, the centre at the middle of the image and focal lengths at "
+        f"their first estimate. {_describe_parameters()}",
     )
     parser.add_argument(
         "--free",
-        type=_names,
-        default=(),
         metavar="NAMES",
-        help="intrinsics to estimate that are held by default "
-        f"({', '.join(MODELS['lucchese'].held)})",
+        help="parameters of the lens model to estimate that are held by default: "
+        + "; ".join(f"{' '.join(MODELS[name].held) or 'none'} of {name}" for name in MODEL_CHOICES),
     )
     parser.add_argument(
         "--robust",
@@ -90,31 +104,36 @@ def configure(parser: argparse.ArgumentParser) -> None:
         "--weigh-views",
         action="store_true",
         help="weigh every view by the noise that is found in it, so that poor views spoil less; "
-        "best with an estimated plate",
+        "best with an estimated board shape",
     )
     parser.add_argument(
+        "--board-shape",
         "--plate",
-        type=_board_shape,
+        type=_read_board_shape,
         default=BoardShapeModel.NOMINAL,
         metavar="MODEL|FILE",
-        help="the board's shape: nominal (default), or estimated as affine (sides and shear), "
-        "bow (two bends) or free (every corner), or auto, whichever predicts unseen views best; "
-        "or held as in a plate.json made before",
+        help="the board's shape: nominal (default, flat and as drawn); estimated as affine (sides "
+        "and shear), bow (two bends) or free (every corner); auto, whichever of these predicts "
+        "unseen views best; or a file written by --save-board-shape, whose shape is held",
     )
     parser.add_argument(
         "--prior",
-        type=_prior,
+        type=_parse_prior,
         metavar="XY,Z",
-        help="what is known of a free plate: standard deviations of its corners in the plane "
-        "and out of it, mm, as 0.1,0.3",
+        help="what is known of a free board shape: standard deviations of its corners in the "
+        "plane and out of it, mm, as 0.1,0.3",
     )
     parser.add_argument(
-        "--save-plate", type=Path, metavar="FILE", help="write the estimated plate as plate.json"
+        "--save-board-shape",
+        "--save-plate",
+        type=Path,
+        metavar="FILE",
+        help="write the estimated board shape, for later calibrations with the same board",
     )
     parser.add_argument("-o", "--output", type=Path, metavar="FILE", help="write result.json")
     parser.add_argument(
         "--export",
-        type=_export,
+        type=_parse_export,
         action="append",
         default=[],
         metavar="FORMAT=FILE",
@@ -124,60 +143,100 @@ def configure(parser: argparse.ArgumentParser) -> None:
 
 def run(options: argparse.Namespace, console: Console) -> None:
     """Search, calibrate, write and print."""
+    settings = _read_settings(options)
     _check_usage(options)
-    outputs = filter(None, [options.output, options.save_plate])
-    check_outputs([*outputs, *(path for _, path in options.export)], meant_files(options.paths))
-    settings = Settings(
-        cost=Cost(options.cost),
-        fixed=options.fix,
-        freed=options.free,
-        board_shape=options.plate,
-        prior=options.prior,
-        robust=options.robust,
-        weigh_views=options.weigh_views,
-        once=options.once,
+    outputs = filter(None, [options.output, options.save_board_shape])
+    check_outputs(
+        [*outputs, *(path for _, path in options.export)], list_input_files(options.paths)
     )
-    corner_set = _corner_set(options, console)
+    corner_set = _read_or_search(options, console)
     try:
         preparing = f"Preparing the solver for its first use (once, about {SOLVER_SECONDS} s)…"
-        with when_compiling(lambda: console.notice(preparing)):
+        with when_compiling(lambda: console.print_notice(preparing)):
             search = not is_corners_file(options.paths)
             result = calibrate_twice(corner_set, settings, search=search)
     except CalibrationError:
-        if unused := tables.unused(corner_set.views):
-            console.problem(unused)
+        if unused := tables.list_unused_views(corner_set.views):
+            console.print_problem(unused)
         raise
-    written = []
+    messages, errors = _write_files(result, options)
+    console.print_json(encode_result(result))
+    console.print_text(
+        tables.format_report(result), otherwise=tables.list_unused_views(result.views)
+    )
+    if messages:
+        console.print_text("\n" + "\n".join(map(tables.format_bullet, messages)))
+    diagnosis = result.calibration.diagnosis
+    if diagnosis is not None:  # the user wanted a whole calibration
+        errors.append(DegenerateError(diagnosis.message, diagnosis.hint, result.calibration))
+    for error in errors[:-1]:
+        console.print_problem(f"calibgui: {error}")
+    if errors:
+        raise errors[-1]
+
+
+def _write_files(
+    result: Result, options: argparse.Namespace
+) -> tuple[list[str], list[CalibrationError]]:
+    """Write all files that the options name.
+
+    Returns:
+        A sentence on each file, and the reasons why some could not be exported.
+
+    Raises:
+        CalibrationError: if the result or the board's shape cannot be written.
+    """
+    calibration = result.calibration
+    messages, errors = [], []
     if options.output:
         write_result(result, options.output)
-        written.append(f"Wrote {options.output}.")
-    if options.save_plate and result.calibration.board_shape is not None:
-        write_board_shape(result.calibration.board_shape, options.save_plate)
-        written.append(f"Wrote {options.save_plate}.")
-    diagnosis = result.calibration.diagnosis
+        messages.append(f"Wrote {options.output}.")
+    if options.save_board_shape and calibration.board_shape is not None:
+        write_board_shape(calibration.board_shape, options.save_board_shape)
+        messages.append(f"Wrote {options.save_board_shape}.")
     for name, path in options.export:
-        if diagnosis is not None and not EXPORTERS[name].partial:
-            written.append(f"{path} is not written: it could not say that this is partial.")
-        else:
-            written.append(f"Wrote {path}. {export(result, name, path).note}")
-    console.answer(result_record(result))
-    console.say(tables.report(result), otherwise=tables.unused(result.views))
-    if written:
-        console.say("\n" + "\n".join(map(tables.bullet, written)))
-    if diagnosis is not None:  # not what was asked for
-        raise DegenerateError(diagnosis.message, diagnosis.hint, result.calibration)
+        if calibration.diagnosis is not None and not EXPORTERS[name].partial:
+            messages.append(
+                f"{path} is not written: the format cannot state that a calibration is partial."
+            )
+            continue
+        try:
+            messages.append(f"Wrote {path}. {export(result, name, path).note}")
+        except CalibrationError as error:
+            errors.append(error)
+    return messages, errors
+
+
+def _read_settings(options: argparse.Namespace) -> Settings:
+    """Return the settings that the options state, or end the program if they are impossible."""
+    model = options.model
+    try:
+        settings = Settings(
+            cost=Cost(options.cost),
+            model=model,
+            method=options.method,
+            fixed={} if options.fix is None else parse_fixed(options.fix, model),
+            freed=() if options.free is None else parse_names(options.free, model),
+            board_shape=options.board_shape,
+            prior=options.prior,
+            robust=options.robust,
+            weigh_views=options.weigh_views,
+            once=options.once,
+        )
+        check_settings(settings)
+    except CalibrationError as error:
+        options.usage_error(str(error))
+    return settings
 
 
 def _check_usage(options: argparse.Namespace) -> None:
     """End the program if options do not go together."""
-    if both := options.fix.keys() & set(options.free):
-        options.usage_error(f"{', '.join(sorted(both))} cannot be both held and freed")
-    if options.save_plate and options.plate is BoardShapeModel.NOMINAL:
-        options.usage_error("--save-plate needs a plate that is estimated: add --plate free")
-    if options.weigh_views and options.cost != Cost.IMAGE:
-        options.usage_error("--weigh-views is for the cost 'image'")
-    if options.prior and options.plate not in (BoardShapeModel.FREE, None):
-        options.usage_error("--prior is of a free plate: add --plate free or auto")
+    if options.save_board_shape and options.board_shape is BoardShapeModel.NOMINAL:
+        options.usage_error(
+            "--save-board-shape needs a shape that is estimated: add --board-shape free"
+        )
+    if options.prior and options.board_shape not in (BoardShapeModel.FREE, None):
+        options.usage_error("--prior is for a free board shape: add --board-shape free or auto")
     if is_corners_file(options.paths):
         if options.board or options.roi or options.target != "checkerboard":
             options.usage_error(
@@ -189,48 +248,49 @@ def _check_usage(options: argparse.Namespace) -> None:
         options.usage_error("--square MM, side of a square or distance of circles, is needed")
 
 
-def _corner_set(options: argparse.Namespace, console: Console) -> CornerSet:
-    """The views to calibrate from, searched or read."""
+def _read_or_search(options: argparse.Namespace, console: Console) -> CornerSet:
+    """Return the views to calibrate from, searched in photographs or read from a file."""
     if is_corners_file(options.paths):
-        return _from_corners_file(options)
-    pattern = pattern_of(options)
-    detection = search(console, options.paths, options.board, options.roi, options.corners, pattern)
+        return _read_corners_file(options)
+    pattern = read_pattern_options(options)
+    detection = search_images(
+        console, options.paths, options.board, options.roi, options.corners, pattern
+    )
     corner_set = detection.corner_set(options.square)
-    if words := learnt(pattern, corner_set.board):
-        console.say(words + "\n")
+    if words := describe_recognised_board(pattern, corner_set.board):
+        console.print_text(words + "\n")
     return corner_set
 
 
-def _from_corners_file(options: argparse.Namespace) -> CornerSet:
-    """The views of a corners.json; with --square, of a board of squares of that side."""
+def _read_corners_file(options: argparse.Namespace) -> CornerSet:
+    """Return the views of a corners.json; --square replaces the side of the board's squares."""
     corner_set = read_corners(options.paths[0])
     if options.square is None:
         return corner_set
     if corner_set.board is None:
         raise CalibrationError(
-            f"{options.paths[0]} states its own millimetres.", "Leave out --square."
+            f"{options.paths[0]} already gives the corners' places on the board in millimetres.",
+            "Leave out --square.",
         )
     return replace(corner_set, board=replace(corner_set.board, square=options.square))
 
 
-def _fixed(text: str) -> dict[str, float | None]:
-    return _usable(held_in, text)
+def _describe_models() -> str:
+    """List the lens models to choose from with their titles, the default one marked."""
+    return "; ".join(
+        f"{name}{' (default)' if name == DEFAULT_MODEL else ''}, {MODELS[name].title}"
+        for name in MODEL_CHOICES
+    )
 
 
-def _names(text: str) -> tuple[str, ...]:
-    return _usable(names_in, text)
+def _describe_parameters() -> str:
+    """List the parameters of the lens models to choose from."""
+    models = (f"{name}: {' '.join(parameter_names(name))}" for name in MODEL_CHOICES)
+    return f"Parameters of {'; of '.join(models)}"
 
 
-def _usable(read: Callable[[str], T], text: str) -> T:
-    """What `read` takes from an argument; what it refuses is an error of usage."""
-    try:
-        return read(text)
-    except CalibrationError as error:
-        raise argparse.ArgumentTypeError(str(error)) from error
-
-
-def _board_shape(text: str) -> BoardShapeModel | BoardShape | None:
-    """A model of the plate, None for the best, or a plate from a file."""
+def _read_board_shape(text: str) -> BoardShapeModel | BoardShape | None:
+    """Return a model of the board's shape, None for the best one, or the shape in a file."""
     if text == "auto":
         return None
     if text in list(BoardShapeModel):
@@ -242,16 +302,17 @@ def _board_shape(text: str) -> BoardShapeModel | BoardShape | None:
         raise argparse.ArgumentTypeError(f"{text!r} is none of {models}: {error}") from error
 
 
-def _prior(text: str) -> BoardShapePrior:
-    """Standard deviations from "0.1,0.3"."""
+def _parse_prior(text: str) -> BoardShapePrior:
+    """Read two standard deviations such as "0.1,0.3", mm."""
     try:
-        in_plane, out_of_plane = map(positive, text.split(","))
+        in_plane, out_of_plane = map(parse_positive, text.split(","))
     except (ValueError, argparse.ArgumentTypeError) as error:
         raise argparse.ArgumentTypeError(f"{text!r} is not XY,Z in mm, as 0.1,0.3") from error
     return BoardShapePrior(in_plane, out_of_plane)
 
 
-def _export(text: str) -> tuple[str, Path]:
+def _parse_export(text: str) -> tuple[str, Path]:
+    """Read the name of a format and a file such as "ros=camera.yaml"."""
     name, equals, file = text.partition("=")
     if not equals:
         raise argparse.ArgumentTypeError(f"{text!r} is not FORMAT=FILE")

@@ -1,4 +1,4 @@
-"""What a subcommand prints, and where: tables to stdout, progress and problems to stderr."""
+"""Printing of a subcommand: tables on stdout, progress and problems on stderr."""
 
 from __future__ import annotations
 
@@ -13,14 +13,14 @@ from tqdm import tqdm
 
 from calibgui.engine.errors import CalibrationError
 from calibgui.formats.json_document import dumps
-from calibgui.report.words import printable
+from calibgui.report.names import make_printable
 
 Advance = Callable[[int, int], None]
-"""Told how many are done, of how many."""
+"""Function that is called with the number of finished items and the number of all."""
 
 
 def configure(parser: argparse.ArgumentParser) -> None:
-    """Add the options that every subcommand has."""
+    """Add the options that all subcommands have."""
     parser.add_argument("-q", "--quiet", action="store_true", help="print problems only")
     parser.add_argument(
         "--json", action="store_true", help="print the result as JSON, and nothing else, on stdout"
@@ -28,42 +28,44 @@ def configure(parser: argparse.ArgumentParser) -> None:
 
 
 class Console:
-    """Prints as the user asked: tables, JSON or nothing."""
+    """The output of a subcommand: tables, JSON or nothing, as the user wants."""
 
     def __init__(self, quiet: bool = False, json: bool = False) -> None:
         self.quiet = quiet
         self.json = json
 
-    def say(self, text: str, otherwise: str = "") -> None:
-        """Print text for people, or if they want problems only, `otherwise`."""
+    def print_text(self, text: str, otherwise: str = "") -> None:
+        """Print text for people; with --quiet, print `otherwise` as a problem instead."""
         if not (self.quiet or self.json):
-            _print(harmless(text))
+            _print(escape_controls(text))
         elif otherwise and not self.json:
-            self.problem(otherwise)
+            self.print_problem(otherwise)
 
-    def answer(self, value: Any) -> None:
-        """Print the result for programs, if they asked."""
+    def print_json(self, value: Any) -> None:
+        """Print the result for programs, with --json only."""
         if self.json:
             _print(dumps(value))
 
-    def problem(self, text: str) -> None:
-        """Print what went wrong but ends nothing."""
-        print(harmless(text), file=sys.stderr)
+    def print_problem(self, text: str) -> None:
+        """Print on stderr a problem that does not end the program."""
+        print(escape_controls(text), file=sys.stderr)
 
-    def notice(self, text: str) -> None:
-        """Tell on stderr why nothing seems to happen; nothing if quiet or no terminal."""
-        if not self._alone:
-            tqdm.write(harmless(text), file=sys.stderr)
+    def print_notice(self, text: str) -> None:
+        """Print on stderr the reason for a wait, unless nobody watches."""
+        if not self._is_unwatched:
+            tqdm.write(escape_controls(text), file=sys.stderr)
 
     @property
-    def _alone(self) -> bool:
-        """Whether nobody watches."""
+    def _is_unwatched(self) -> bool:
+        """True with --quiet, or if stderr is no terminal."""
         return self.quiet or sys.stderr is None or not sys.stderr.isatty()
 
     @contextlib.contextmanager
-    def progress(self, what: str, unit: str = "image") -> Iterator[Advance]:
-        """A bar on stderr while things are worked on; nothing if quiet or no terminal."""
-        with tqdm(desc=what, unit=unit, disable=self._alone, leave=False, file=sys.stderr) as bar:
+    def show_progress(self, what: str, unit: str = "image") -> Iterator[Advance]:
+        """Show a progress bar on stderr, unless nobody watches."""
+        with tqdm(
+            desc=what, unit=unit, disable=self._is_unwatched, leave=False, file=sys.stderr
+        ) as bar:
 
             def advance(done: int, total: int) -> None:
                 bar.total = total
@@ -72,13 +74,13 @@ class Console:
             yield advance
 
 
-def harmless(text: str) -> str:
-    """`text` without what would command the terminal, which a file's name may hold."""
-    return "\n".join(map(printable, text.split("\n")))
+def escape_controls(text: str) -> str:
+    """Escape characters that control the terminal, which the name of a file may contain."""
+    return "\n".join(map(make_printable, text.split("\n")))
 
 
-def leave_stdout() -> None:
-    """Let what is still to be printed go nowhere, so that nothing fails when Python exits."""
+def discard_stdout() -> None:
+    """Discard what is still to be printed on stdout, so that nothing fails when Python exits."""
     os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
 
 
@@ -86,16 +88,16 @@ def _print(text: str) -> None:
     """Print to stdout at once.
 
     Raises:
-        CalibrationError: if it cannot be, as on a full disk.
-        BrokenPipeError: if its reader is gone.
+        CalibrationError: if stdout cannot be written, as on a full disk.
+        BrokenPipeError: if the program that reads it has ended.
     """
     try:
         print(text, flush=True)
     except BrokenPipeError:
         raise
     except OSError as error:
-        leave_stdout()
+        discard_stdout()
         raise CalibrationError(
             f"Standard output cannot be written: {error.strerror}.",
-            "Free some space, or send it elsewhere.",
+            "Free some space, or send the output elsewhere.",
         ) from error

@@ -1,4 +1,4 @@
-"""Calibrate the bundled sample, whose truth is known, and write everything there is to see."""
+"""Calibrate the bundled sample, whose true camera is known, and write all results and figures."""
 
 from __future__ import annotations
 
@@ -9,16 +9,16 @@ from matplotlib.figure import Figure
 
 from calibgui.app.calibration import calibrate_views
 from calibgui.app.outputs import make_folder, save_figure
-from calibgui.app.resources import resource, sample_truth
-from calibgui.cli.arguments import search
+from calibgui.app.resources import find_resource, read_sample_truth
+from calibgui.cli.arguments import search_images
 from calibgui.cli.console import Console
-from calibgui.dataset.result import Result
-from calibgui.engine.images import board_extent, read_image, rectify_image, undistort_image
+from calibgui.dataset import Result
+from calibgui.engine.images import compute_board_extent, read_image, rectify_image, undistort_image
 from calibgui.formats import export
-from calibgui.formats.result_json import result_record
+from calibgui.formats.result_json import encode_result
 from calibgui.report import figures, tables
 
-_EXPORTS = {
+_EXPORT_FILES = {
     "result": "result.json",
     "opencv": "opencv.yaml",
     "ros": "ros.yaml",
@@ -43,41 +43,43 @@ def run(options: argparse.Namespace, console: Console) -> None:
     """Search, calibrate, compare, write and print."""
     out: Path = options.output
     make_folder(out)
-    sample = resource("sample")
-    truth = sample_truth()
+    sample = find_resource("sample")
+    truth = read_sample_truth()
     square = truth["target"]["square_mm"].number()
-    result = calibrate_views(search(console, [str(sample)]).corner_set(square))
-    for name, file in _EXPORTS.items():
+    result = calibrate_views(search_images(console, [str(sample)]).corner_set(square))
+    for name, file in _EXPORT_FILES.items():
         export(result, name, out / file)
-    for file, figure in _figures(result).items():
+    for file, figure in _draw_figures(result).items():
         save_figure(figure, out / file)
     params = truth["camera"]["params"]
     names = result.calibration.camera.names
-    console.answer(result_record(result))
-    console.say(tables.report(result))
-    console.say(
+    console.print_json(encode_result(result))
+    console.print_text(tables.format_report(result))
+    console.print_text(
         "\n"
-        + tables.comparison(result.calibration, {name: params[name].number() for name in names})
-        + f"\n\nWrote the results in {len(_EXPORTS)} formats, and figures, to {out.resolve()}."
+        + tables.tabulate_errors(
+            result.calibration, {name: params[name].number() for name in names}
+        )
+        + f"\n\nWrote the results in {len(_EXPORT_FILES)} formats, and figures, to {out.resolve()}."
     )
 
 
-def _figures(result: Result) -> dict[str, Figure]:
-    """What there is to see, by file name."""
+def _draw_figures(result: Result) -> dict[str, Figure]:
+    """Draw the figures, by the names of their files."""
     calibration, view = result.calibration, result.used[0]
     camera, pose = calibration.camera, calibration.poses[0]
     photograph = read_image(view.image).pixels
     drawn = {
-        "convergence.png": figures.convergence(calibration.history, "px"),
-        "distortion.png": figures.distortion(camera),
-        "residuals.png": figures.residual_scatter(calibration, on_reference=False),
-        "histograms.png": figures.residual_histograms(calibration, on_reference=False),
+        "convergence.png": figures.draw_convergence(calibration.history, "px"),
+        "distortion.png": figures.draw_distortion(camera),
+        "residuals.png": figures.draw_residual_scatter(calibration, on_reference=False),
+        "histograms.png": figures.draw_residual_histograms(calibration, on_reference=False),
     }
     if view.corners is not None:
-        drawn["corners.png"] = figures.corners(photograph, view.corners)
+        drawn["corners.png"] = figures.draw_corners(photograph, view.corners)
     if result.board is not None:
-        extent, scale = board_extent(result.board), calibration.reference_scale
-        drawn["undistorted.png"] = figures.image_pair(
+        extent, scale = compute_board_extent(result.board), calibration.reference_scale
+        drawn["undistorted.png"] = figures.draw_image_pair(
             undistort_image(photograph, camera).image,
             rectify_image(photograph, camera, pose, extent, scale).image,
             ("undistorted", "rectified"),

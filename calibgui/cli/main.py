@@ -1,7 +1,7 @@
-"""Entry point: choose the subcommand, run it, and turn every ending into an exit code.
+"""Entry point: choose the subcommand, run it, and return an exit code.
 
-0 it is done; 1 it cannot be done, for the reason on stderr; 2 wrong usage; 70 a bug;
-130 interrupted (Ctrl-C, SIGTERM); 141 the reader of our output went away.
+The exit codes are 0 success; 1 the task is impossible, for the reason on stderr; 2 wrong usage;
+70 a bug; 130 interrupted (Ctrl-C, SIGTERM); 141 the program that read our output has ended.
 
 To add a subcommand, write a module in this folder with `configure(parser)` and
 `run(options, console)`, and name it in `COMMANDS`.
@@ -21,17 +21,17 @@ from importlib import import_module
 from calibgui import __version__
 
 COMMANDS = {
-    "calibrate": "calibrate a camera from photographs of a checkerboard or another target",
-    "detect": "locate the board's corners in photographs",
+    "calibrate": "calibrate a camera from photographs of a checkerboard or another board",
+    "detect": "locate the corners of the board in photographs",
     "undistort": "write photographs without lens distortion",
-    "rectify": "write the board as seen from straight above",
+    "rectify": "write photographs of the board as seen from straight above",
     "uncertainty": "show how far a calibration can be trusted",
     "diff": "compare two calibrations of a camera",
     "views": "study how many views are enough, and where to hold the board next",
-    "demo": "calibrate the bundled sample and show everything there is",
-    "paper": "reproduce the paper from its 25 images, with every printed number beside ours",
+    "demo": "calibrate the bundled sample and write all results and figures",
+    "paper": "reproduce the paper from its 25 images, with its printed numbers beside ours",
 }
-"""Subcommands, each with its module's name and what it does; imported only when chosen."""
+"""Subcommands, which are also the names of their modules, and their help texts."""
 
 _CANNOT, _USAGE, _BUG, _INTERRUPTED, _NO_READER = 1, 2, 70, 130, 141
 
@@ -44,7 +44,7 @@ def main(argv: Sequence[str] | None = None) -> int:
     """
     arguments = list(sys.argv[1:] if argv is None else argv)
     for stream in (sys.stdout, sys.stderr):
-        # No file name or sign may fail on a terminal that cannot show it.
+        # Characters that the terminal cannot show must not raise errors.
         if hasattr(stream, "reconfigure"):
             stream.reconfigure(errors="backslashreplace")
     try:
@@ -56,7 +56,7 @@ def main(argv: Sequence[str] | None = None) -> int:
         print("calibgui: interrupted.", file=sys.stderr)
         return _INTERRUPTED
     except BrokenPipeError:
-        import_module("calibgui.cli.console").leave_stdout()
+        import_module("calibgui.cli.console").discard_stdout()
         return _NO_READER
     except Exception:
         _report_bug()
@@ -66,7 +66,7 @@ def main(argv: Sequence[str] | None = None) -> int:
 def _run(arguments: list[str]) -> int:
     parser = argparse.ArgumentParser(
         prog="calibgui",
-        description="Geometric camera calibration from photographs of a flat target.",
+        description="Geometric camera calibration from photographs of a flat board.",
         epilog="calibgui COMMAND --help describes a command. Without one, calibgui [FOLDER | "
         "IMAGES | PROJECT] opens the window.",
     )
@@ -75,7 +75,7 @@ def _run(arguments: list[str]) -> int:
     parsers = {name: choices.add_parser(name, help=text) for name, text in COMMANDS.items()}
     chosen = next((name for name in arguments[:1] if name in COMMANDS), None)
     if chosen is None:
-        if _wants_window(arguments):
+        if _should_open_window(arguments):
             return int(import_module("calibgui.gui.app").run(arguments))
         parser.parse_args(arguments)
         parser.print_help()
@@ -90,18 +90,18 @@ def _run(arguments: list[str]) -> int:
     options = parser.parse_args(arguments)
     output = console.Console(options.quiet, options.json)
     with contextlib.suppress(ValueError):  # only the main thread may
-        # What is asked to end does so as by Ctrl-C, with its workers and temporary files.
+        # SIGTERM ends the program as Ctrl-C does: workers and temporary files are removed.
         signal.signal(signal.SIGTERM, signal.default_int_handler)
     try:
         command.run(options, output)
     except errors.CalibrationError as error:
-        output.problem(f"calibgui: {error}")
+        output.print_problem(f"calibgui: {error}")
         return _CANNOT
     return 0
 
 
-def _wants_window(arguments: list[str]) -> bool:
-    """Whether nothing but files and folders is named, and there is a screen to show them on."""
+def _should_open_window(arguments: list[str]) -> bool:
+    """Return whether only files and folders are named, and there is a screen to show them on."""
     screen = sys.platform in ("win32", "darwin") or any(
         os.environ.get(name) for name in ("DISPLAY", "WAYLAND_DISPLAY")
     )
@@ -109,12 +109,12 @@ def _wants_window(arguments: list[str]) -> bool:
 
 
 def _report_bug() -> None:
-    """The traceback with all versions, for a report."""
+    """Print the traceback and all versions, for a bug report."""
     traceback.print_exc()
     with contextlib.suppress(Exception):
-        from calibgui.dataset.result import installed_versions
+        from calibgui.dataset import list_installed_versions
 
-        versions = ", ".join(f"{name} {v}" for name, v in installed_versions().items())
+        versions = ", ".join(f"{name} {v}" for name, v in list_installed_versions().items())
         print(
             f"calibgui: this is a bug; please report the lines above. {versions}, {sys.platform}.",
             file=sys.stderr,

@@ -1,4 +1,4 @@
-"""Write the board of calibrated photographs as seen from straight above."""
+"""Write the board in calibrated photographs as seen from straight above."""
 
 from __future__ import annotations
 
@@ -7,10 +7,10 @@ from pathlib import Path
 
 from calibgui.app.paths import find_images
 from calibgui.app.resampling import rectify_files
-from calibgui.cli.arguments import add_images, positive
+from calibgui.cli.arguments import add_image_paths, parse_positive
 from calibgui.cli.console import Console
-from calibgui.cli.resampled import add_output, show_written
-from calibgui.cli.result import read_camera
+from calibgui.cli.resampled import add_output_folder, report_written
+from calibgui.cli.result import read_result_and_warn
 
 
 def configure(parser: argparse.ArgumentParser) -> None:
@@ -18,21 +18,21 @@ def configure(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "result", type=Path, metavar="RESULT", help="result.json with the photographs' poses"
     )
-    add_images(parser, nargs="*")
-    add_output(parser)
+    add_image_paths(parser, nargs="*")
+    add_output_folder(parser)
     parser.add_argument(
         "--scale",
-        type=positive,
+        type=parse_positive,
         metavar="PX_PER_MM",
-        help="pixels per millimetre on the board; about that of the photographs if left out",
+        help="pixels per millimetre on the board; about as in the photographs if left out",
     )
 
 
 def run(options: argparse.Namespace, console: Console) -> None:
     """Read, rectify and write."""
-    result = read_camera(options.result, console)
+    result = read_result_and_warn(options.result, console)
     images = find_images(options.paths or [view.image for view in result.used])
-    with console.progress("rectifying") as advance:
+    with console.show_progress("rectifying") as advance:
         written = rectify_files(
             result,
             images,
@@ -40,4 +40,4 @@ def run(options: argparse.Namespace, console: Console) -> None:
             options.scale,
             progress=lambda done, total, _: advance(done, total),
         )
-    show_written(written, options.output, console)
+    report_written(written, options.output, console)

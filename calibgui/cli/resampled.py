@@ -1,4 +1,4 @@
-"""What undistort and rectify have in common: a folder of new images."""
+"""The common part of undistort and rectify: a folder of new images."""
 
 from __future__ import annotations
 
@@ -6,14 +6,14 @@ import argparse
 from collections.abc import Sequence
 from pathlib import Path
 
-from calibgui.app.resampling import GEOMETRY, Written
+from calibgui.app.resampling import GEOMETRY_FILE, WrittenImage
 from calibgui.cli.console import Console
 from calibgui.engine.errors import CalibrationError
-from calibgui.report.numbers import counted
+from calibgui.report.numbers import format_count
 
 
-def add_output(parser: argparse.ArgumentParser) -> None:
-    """The folder of the new images."""
+def add_output_folder(parser: argparse.ArgumentParser) -> None:
+    """Add the option that names the folder of the new images."""
     parser.add_argument(
         "-o",
         "--output",
@@ -24,24 +24,26 @@ def add_output(parser: argparse.ArgumentParser) -> None:
     )
 
 
-def show_written(written: Sequence[Written], folder: Path, console: Console) -> None:
-    """Say what was written and what was not.
+def report_written(written: Sequence[WrittenImage], folder: Path, console: Console) -> None:
+    """Print which images were written and which were not.
 
     Raises:
-        CalibrationError: if nothing was.
+        CalibrationError: if no image was written.
     """
-    failed = [one for one in written if one.path is None]
-    for one in failed:
-        console.problem(f"calibgui: skipped {one.source}: {one.reason}")
+    failed = [image for image in written if image.path is None]
+    for image in failed:
+        console.print_problem(f"calibgui: skipped {image.source}: {image.reason}")
     done = len(written) - len(failed)
     if not done:
         raise CalibrationError("No image was written.", "See the reasons above.")
-    console.answer(
+    console.print_json(
         {
             "folder": str(folder),
-            "geometry": str(folder / GEOMETRY),
-            "written": {str(one.source): str(one.path) for one in written if one.path},
-            "skipped": {str(one.source): one.reason for one in failed},
+            "geometry": str(folder / GEOMETRY_FILE),
+            "written": {str(image.source): str(image.path) for image in written if image.path},
+            "skipped": {str(image.source): image.reason for image in failed},
         }
     )
-    console.say(f"Wrote {counted(done, 'image')} and their geometry, {GEOMETRY}, to {folder}.")
+    console.print_text(
+        f"Wrote {format_count(done, 'image')} and their geometry, {GEOMETRY_FILE}, to {folder}."
+    )

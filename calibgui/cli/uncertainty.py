@@ -1,4 +1,4 @@
-"""Show how far a calibration can be trusted: projection uncertainty and the look of residuals."""
+"""Show how far a calibration can be trusted: projection uncertainty and tests of residuals."""
 
 from __future__ import annotations
 
@@ -6,16 +6,21 @@ import argparse
 import math
 from pathlib import Path
 
-from calibgui.app.calibration import short_names
+from calibgui.app.calibration import shorten_names
 from calibgui.app.outputs import check_figure, save_figure
-from calibgui.cli.arguments import add_map, positive
+from calibgui.cli.arguments import add_map_options, parse_positive
 from calibgui.cli.console import Console
-from calibgui.cli.result import read_camera
-from calibgui.dataset.result import Result
-from calibgui.engine.assessment import bootstrap, choose_board_shape, cross_validate, examine
+from calibgui.cli.result import read_result_and_warn
+from calibgui.dataset import Result
+from calibgui.engine.assessment import (
+    bootstrap_views,
+    check_residuals,
+    choose_board_shape,
+    cross_validate,
+)
 from calibgui.engine.boards import BoardShapeModel
-from calibgui.engine.calibration import settings_of
-from calibgui.engine.threads import one_blas_thread
+from calibgui.engine.calibration import recover_arguments
+from calibgui.engine.threads import limit_blas_threads
 from calibgui.engine.uncertainty import estimate_projection_uncertainty
 from calibgui.report import quality
 
@@ -23,19 +28,19 @@ from calibgui.report import quality
 def configure(parser: argparse.ArgumentParser) -> None:
     """Describe the arguments."""
     parser.add_argument("result", type=Path, metavar="RESULT", help="result.json of the camera")
-    add_map(parser, "the camera will look at")
+    add_map_options(parser, "the camera will look at")
     parser.add_argument(
         "--limit",
-        type=positive,
+        type=parse_positive,
         default=0.1,
         metavar="PX",
-        help="uncertainty that you can live with; the region within it is measured (default 0.1)",
+        help="largest acceptable uncertainty; the region within it is measured (default 0.1)",
     )
     parser.add_argument(
         "--validate",
         action="store_true",
-        help="calibrate again without some of the views and try these, from resampled views, and "
-        "if the plate is nominal with every other model of it",
+        help="also calibrate without some of the views and test on these, calibrate from "
+        "resampled views and, if the board shape is nominal, with all other models of it",
     )
 
 
@@ -43,21 +48,26 @@ def run(options: argparse.Namespace, console: Console) -> None:
     """Read, propagate, examine, draw and print."""
     if options.output:
         check_figure(options.output)
-    result = read_camera(options.result, console)
+    result = read_result_and_warn(options.result, console)
     views = result.observations()
-    with one_blas_thread():
+    with limit_blas_threads():
         found = estimate_projection_uncertainty(result.calibration, views, options.distance)
-        report = examine(result.calibration, views, short_names(result.used))
-        sections = [quality.projection(found, options.limit), quality.noise(report)]
+        report = check_residuals(result.calibration, views, shorten_names(result.used))
+        sections = [
+            quality.tabulate_projection_uncertainty(found, options.limit),
+            quality.tabulate_noise_report(report),
+        ]
         if options.validate:
-            sections += _validated(result)
+            sections += _validate(result)
     if options.output:
         from calibgui.report import quality_figures  # matplotlib takes a while to import
 
-        save_figure(quality_figures.uncertainty(found, views, options.limit), options.output)
+        save_figure(
+            quality_figures.draw_projection_uncertainty(found, views, options.limit), options.output
+        )
         sections.append(f"Wrote {options.output}.")
     cause = report.cause
-    console.answer(
+    console.print_json(
         {
             "distance_mm": found.distance if math.isfinite(found.distance) else None,
             "centre_px": found.centre,
@@ -72,19 +82,23 @@ def run(options: argparse.Namespace, console: Console) -> None:
             "cause": None if cause is None else {"name": cause.name, "advice": cause.advice},
         }
     )
-    console.say("\n\n".join(sections))
+    console.print_text("\n\n".join(sections))
 
 
-def _validated(result: Result) -> list[str]:
-    """What calibrations from other views say."""
+def _validate(result: Result) -> list[str]:
+    """Describe calibrations from parts of the views, and with other board shapes."""
     calibration, views = result.calibration, result.observations()
-    size, settings = calibration.camera.size, settings_of(calibration)
+    size, settings = calibration.camera.size, recover_arguments(calibration)
     sections = [
-        quality.validation(cross_validate(views, size, min(5, len(views)), **settings)),
-        quality.resampled(bootstrap(views, size, **settings), calibration),
+        quality.tabulate_cross_validation(
+            cross_validate(views, size, min(5, len(views)), **settings)
+        ),
+        quality.tabulate_bootstrap(bootstrap_views(views, size, **settings), calibration),
     ]
-    if settings.pop("plate") is BoardShapeModel.NOMINAL and calibration.cost == "image":
+    if settings.pop("board_shape") is BoardShapeModel.NOMINAL and calibration.cost == "image":
         sections.append(
-            quality.board_shapes(choose_board_shape(views, size, min(5, len(views)), **settings))
+            quality.tabulate_board_shape_choice(
+                choose_board_shape(views, size, min(5, len(views)), **settings)
+            )
         )
     return sections

@@ -1,4 +1,4 @@
-"""Study how many views are enough, and where to hold the board next."""
+"""Study how many views are enough, and propose where to hold the board next."""
 
 from __future__ import annotations
 
@@ -6,15 +6,15 @@ import argparse
 from pathlib import Path
 
 from calibgui.app.outputs import check_figure, save_figure
-from calibgui.cli.arguments import positive
+from calibgui.cli.arguments import parse_positive
 from calibgui.cli.console import Console
-from calibgui.cli.result import read_camera
-from calibgui.engine.threads import one_blas_thread
-from calibgui.engine.uncertainty import QUANTITIES, next_views, study
+from calibgui.cli.result import read_result_and_warn
+from calibgui.engine.threads import limit_blas_threads
+from calibgui.engine.uncertainty import QUANTITIES, propose_views, study_number_of_views
 from calibgui.report import quality
 
-_SOLVED = 20
-"""Random sets of each size that are calibrated."""
+_SETS_PER_SIZE = 20
+"""Number of random sets of views of each size that are calibrated."""
 
 
 def configure(parser: argparse.ArgumentParser) -> None:
@@ -22,7 +22,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("result", type=Path, metavar="RESULT", help="result.json of the camera")
     parser.add_argument(
         "--limit",
-        type=positive,
+        type=parse_positive,
         default=0.5,
         metavar="PX",
         help="uncertainty to reach (default 0.5)",
@@ -39,23 +39,26 @@ def run(options: argparse.Namespace, console: Console) -> None:
     """Read, study, propose, draw and print."""
     for path in filter(None, [options.output, options.next]):
         check_figure(path)
-    result = read_camera(options.result, console)
+    result = read_result_and_warn(options.result, console)
     calibration, views = result.calibration, result.observations()
-    with one_blas_thread(), console.progress("calibrating", "size") as advance:
-        found = study(calibration, views, _SOLVED, progress=advance)
-        proposed = next_views(calibration, views)
-    sections = [quality.view_count(found, options.limit), quality.next_views(proposed)]
+    with limit_blas_threads(), console.show_progress("calibrating", "size") as advance:
+        found = study_number_of_views(calibration, views, _SETS_PER_SIZE, progress=advance)
+        proposed = propose_views(calibration, views)
+    sections = [
+        quality.tabulate_number_of_views(found, options.limit),
+        quality.describe_next_views(proposed),
+    ]
     if options.output or options.next:
         from calibgui.report import quality_figures  # matplotlib takes a while to import
 
         if options.output:
-            save_figure(quality_figures.view_count(found, options.limit), options.output)
+            save_figure(quality_figures.draw_number_of_views(found, options.limit), options.output)
         if options.next:
             size = calibration.camera.size
-            save_figure(quality_figures.next_views(proposed, views, size), options.next)
+            save_figure(quality_figures.draw_next_views(proposed, views, size), options.next)
         written = [str(path) for path in (options.output, options.next) if path]
         sections.append(f"Wrote {' and '.join(written)}.")
-    console.answer(
+    console.print_json(
         {
             "limit_px": options.limit,
             "views": found.counts,
@@ -65,21 +68,21 @@ def run(options: argparse.Namespace, console: Console) -> None:
             "scatter_px": found.scatter,
             "enough": {
                 name: {
-                    "random": found.enough(name, options.limit),
-                    "chosen": found.enough(name, options.limit, chosen=True),
+                    "random": found.find_sufficient_count(name, options.limit),
+                    "chosen": found.find_sufficient_count(name, options.limit, chosen=True),
                 }
                 for name in QUANTITIES
             },
             "next": [
                 {
-                    "words": one.words,
-                    "rvec": one.pose.rvec,
-                    "tvec_mm": one.pose.tvec,
-                    "before_px": one.before,
-                    "after_px": one.after,
+                    "words": view.instruction,
+                    "rvec": view.pose.rvec,
+                    "tvec_mm": view.pose.tvec,
+                    "before_px": view.before,
+                    "after_px": view.after,
                 }
-                for one in proposed
+                for view in proposed
             ],
         }
     )
-    console.say("\n\n".join(sections))
+    console.print_text("\n\n".join(sections))

@@ -1,1 +1,15 @@
-"""."""
+"""The data of one camera: photographs, what was found in them, and the calibration that answers.
+
+`View` is one photograph with its corners, or with the reason why there are none. `CornerSet` is
+what a calibration is made from: the views of one camera, and the board that they show. `Result`
+is what it leads to: the calibration, with the views that it was made from. The records know no
+file format (``calibgui.formats``) and no window.
+"""
+
+from __future__ import annotations
+
+from calibgui.dataset.corner_set import CornerSet
+from calibgui.dataset.result import Result, list_installed_versions
+from calibgui.dataset.view import View, ViewStatus
+
+__all__ = ["CornerSet", "Result", "View", "ViewStatus", "list_installed_versions"]

@@ -1,13 +1,4 @@
-"""corners.json: located corners with their places on the plate, from this or any program.
-
-    {"size": [w, h], "views": [{"image", "uv": [[u, v], ...], "board": [[x, y], ...], "cov"}]}
-
-Reader: `read_corners`, and any JSON reader. Positions are pixels in the array frame (0-based,
-integer at pixel centres, v down), `board` millimetres on the plate, `cov` (optional) 2 x 2
-covariances in px^2. This program adds the board as `target` (``pattern_json.py``) and per view
-what ``views_json.py`` lists; a reader may ignore all of it. Views without corners have empty lists.
-Cannot hold: a calibration (see ``result_json.py``).
-"""
+"""The located corners of a set of photographs: what a calibration is made from."""
 
 from __future__ import annotations
 
@@ -23,7 +14,8 @@ class CornerSet:
     """Views of one camera and the board that they show."""
 
     size: Size
-    """Of the images, px."""
+    """Width and height of the images, px."""
     views: tuple[View, ...]
+    """All photographs, those without corners included."""
     board: Board | None = None
-    """The board, where the corners are of one of known layout."""
+    """The board of known layout; None where the corners came with their board points."""

@@ -1,4 +1,4 @@
-"""What a calibration is kept and exported as: the estimates with the views that they answer."""
+"""A calibration together with the views that it was made from: what is saved and exported."""
 
 from __future__ import annotations
 
@@ -17,8 +17,8 @@ from calibgui.engine.calibration import Calibration, Observation
 from calibgui.engine.geometry import PaperPose, paper_from_pose
 
 
-def installed_versions() -> dict[str, str]:
-    """Versions of this program and of what its numbers depend on."""
+def list_installed_versions() -> dict[str, str]:
+    """Return the versions of this program and of the libraries that its numbers depend on."""
     return {
         "calibgui": calibgui.__version__,
         "numpy": np.__version__,
@@ -34,11 +34,11 @@ class Result:
 
     calibration: Calibration
     views: tuple[View, ...]
-    """All images; the calibration's k-th pose belongs to the k-th usable one."""
+    """All photographs; the calibration's k-th pose belongs to the k-th usable one."""
     board: Board | None = None
-    """The board, where the corners are of one of known layout."""
-    versions: Mapping[str, str] = field(default_factory=installed_versions)
-    """Of the programs that made the calibration."""
+    """The board of known layout; None where the corners came with their board points."""
+    versions: Mapping[str, str] = field(default_factory=list_installed_versions)
+    """Versions of the programs that made the calibration, by name."""
 
     def __post_init__(self) -> None:
         if len(self.used) != len(self.calibration.poses):
@@ -48,15 +48,15 @@ class Result:
 
     @property
     def used(self) -> tuple[View, ...]:
-        """The views that take part, in the order of the calibration's poses."""
+        """Views that take part, in the order of the calibration's poses."""
         return tuple(view for view in self.views if view.usable)
 
     def observations(self) -> list[Observation]:
-        """What the calibration was made from."""
+        """Return the corners of the used views, with their points on the board."""
         return [view.observation(self.board) for view in self.used]
 
     def paper_poses(self) -> tuple[PaperPose, ...]:
-        """The paper's external parameters of the used views.
+        """Return the paper's external parameters of the used views.
 
         They are measured from the centre of the corners, at the distance L + f from which
         the reference image has its scale (eq. 30).

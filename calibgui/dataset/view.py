@@ -1,4 +1,4 @@
-"""Targets, and what images show of them."""
+"""One photograph with its corners, or with the reason why it has none."""
 
 from __future__ import annotations
 
@@ -12,48 +12,57 @@ from calibgui.engine.detection import Corners
 
 
 class ViewStatus(StrEnum):
-    """What is known of one image."""
+    """Outcome of the search for the board in one photograph."""
 
     WAITING = "waiting"
     """Not searched yet."""
     FOUND = "found"
+    """The board was found."""
     NO_BOARD = "no-board"
+    """No board was found."""
     UNREADABLE = "unreadable"
+    """The file is missing, damaged or no image."""
     WRONG_SIZE = "wrong-size"
+    """The image has another size than the others."""
 
 
 @dataclass(frozen=True, eq=False, slots=True)
 class View:
-    """One image of a project, with its corners or the reason why there are none."""
+    """One photograph of a project, with its corners or the reason why there are none."""
 
     image: str
     """Path or name of the image."""
     status: ViewStatus = ViewStatus.WAITING
+    """Outcome of the search for the board."""
     reason: str = ""
     """Why the image cannot be used, and the remedy; empty if it can."""
     note: str = ""
-    """How its corners came about, where that is worth knowing."""
+    """How the corners were found, where that is worth knowing; otherwise empty."""
     corners: Corners | None = None
-    """Corners found on a target of known layout."""
+    """Corners found on a board of known layout."""
     points: Observation | None = None
-    """Corners with their plate points, where they came from elsewhere (a corners file)."""
+    """Corners with their points on the board, where another program located them."""
     roi: Array | None = None
-    """(4, 2) region of interest given by the user, px."""
+    """(4, 2) corners of the region of interest that the user gave, px."""
     enabled: bool = True
-    """Whether the user wants it in the calibration."""
+    """True if the user wants the view in the calibration."""
 
     def __post_init__(self) -> None:
         freeze(self, "roi")
 
     @property
     def usable(self) -> bool:
-        """Whether the view takes part in a calibration."""
+        """True if the view takes part in a calibration: its board is found, and it is enabled."""
         return self.enabled and self.status is ViewStatus.FOUND
 
     def observation(self, board: Board | None) -> Observation:
-        """What the view contributes to a calibration, on `target` (needed for found corners)."""
+        """Return the corners with their points on `board`, as a calibration takes them.
+
+        Raises:
+            ValueError: if the view has no corners, or corners found on a board that is not given.
+        """
         if self.points is not None:
             return self.points
         if self.corners is None or board is None:
-            raise ValueError(f"{self.image} has no corners on a known target")
+            raise ValueError(f"{self.image} has no corners on a known board")
         return Observation(self.corners.uv, board.points(self.corners.grid), self.corners.cov)

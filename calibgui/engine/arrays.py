@@ -1,8 +1,6 @@
-"""Arrays and sizes.
+"""Types of arrays, images and sizes, and the means to make arrays read-only.
 
-The one place that imports OpenCV: its shapes and names differ between 4.x and 5.x.
-
-Points come back as (n, 2) float64 whatever the version.
+The ground floor of the engine: it imports no other module of the project.
 """
 
 from __future__ import annotations
@@ -13,35 +11,36 @@ import numpy as np
 import numpy.typing as npt
 
 Array = npt.NDArray[np.float64]
+"""Numbers, unless another type says so."""
 IntArray = npt.NDArray[np.int64]
 Int32Array = npt.NDArray[np.int32]
 BoolArray = npt.NDArray[np.bool_]
 
 Size = tuple[int, int]
-"""Width and height of an image, pixels."""
+"""Width and height of an image, px."""
 
 GridSize = tuple[int, int]
-"""Rows and columns of a target's points: inner corners of a checkerboard, circles of a grid."""
+"""Rows and columns of a board's points: inner corners of a checkerboard, circles of a grid."""
 
 
 def freeze_array(values: npt.ArrayLike) -> Array:
-    """A read-only float64 copy of `values`."""
+    """Return a read-only float64 copy of `values`."""
     array = np.array(values, dtype=np.float64, order="C")
     array.flags.writeable = False
     return array
 
 
 def freeze_ints(values: npt.ArrayLike) -> IntArray:
-    """A read-only int64 copy of `values`."""
+    """Return a read-only int64 copy of `values`."""
     array = np.array(values, dtype=np.int64, order="C")
     array.flags.writeable = False
     return array
 
 
 def freeze(record: object, *names: str) -> None:
-    """Make the named arrays of a frozen dataclass read-only float64 copies; None stays.
+    """Replace the named arrays of a frozen dataclass by read-only float64 copies; None stays.
 
-    To be called where the record is made, in ``__post_init__``.
+    The record's ``__post_init__`` calls it.
     """
     for name in names:
         if (values := getattr(record, name)) is not None:
@@ -49,4 +48,5 @@ def freeze(record: object, *names: str) -> None:
 
 
 GreyImage = npt.NDArray[Any]
+"""An image (h, w) of any type of number; where a docstring says so, a colour image (h, w, 3)."""
 FloatImage = npt.NDArray[np.float32]

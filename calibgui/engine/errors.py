@@ -1,7 +1,4 @@
-"""The failures that the engine names.
-
-What a solve reports on its way, and what it results in.
-"""
+"""The errors that the engine raises on purpose, and the type of progress callbacks."""
 
 from __future__ import annotations
 
@@ -13,11 +10,11 @@ _Choice = TypeVar("_Choice", bound=StrEnum)
 
 
 class CalibrationError(Exception):
-    """An operation that cannot be done, said so that its reader can act.
+    """An error that the user can act on: an operation that cannot be done, and why.
 
     Args:
-        message: what is wrong, naming the file or view concerned.
-        hint: what to do about it.
+        message: the fault, with the file or view concerned.
+        hint: the remedy.
     """
 
     def __init__(self, message: str, hint: str = "") -> None:
@@ -30,18 +27,23 @@ class CalibrationError(Exception):
 
 
 class NoBoardError(CalibrationError):
-    """No acceptable checkerboard was found in an image."""
+    """An error: no acceptable board was found in an image."""
 
 
 class Cancelled(Exception):  # noqa: N818 - a request, not an error
-    """Raised by a progress callback to abandon the work and discard its result."""
+    """The request of a progress callback to abandon the work and discard its result."""
 
 
-def one_of(kind: type[_Choice], value: str, what: str) -> _Choice:
-    """`value` as one of the choices that there are of `what`.
+def parse_choice(kind: type[_Choice], value: str, what: str) -> _Choice:
+    """Return `value` as a member of an enumeration.
+
+    Args:
+        kind: the enumeration.
+        value: the text to convert.
+        what: what the enumeration is of, for the message.
 
     Raises:
-        CalibrationError: if it is none of them, naming them.
+        CalibrationError: if there is no such member, with the list of members.
     """
     try:
         return kind(value)
@@ -52,4 +54,5 @@ def one_of(kind: type[_Choice], value: str, what: str) -> _Choice:
 
 
 Progress = Callable[[int, int], None]
-"""Told how many parts of the work are done, of how many; may raise ``Cancelled``."""
+"""A function of the number of parts of the work that are done and of all parts; it may raise
+``Cancelled``."""

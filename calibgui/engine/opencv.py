@@ -1,6 +1,7 @@
-"""The one place that imports OpenCV: its shapes and names differ between 4.x and 5.x.
+"""OpenCV's image processing behind functions that hide its versions.
 
-Points come back as (n, 2) float64 whatever the version.
+No other module imports cv2, because its shapes and names differ between 4.x and 5.x. Points come
+back as (n, 2) float64 whatever the version.
 """
 
 from __future__ import annotations
@@ -16,7 +17,7 @@ from calibgui.engine.arrays import Array, BoolArray, FloatImage, GreyImage, IntA
 
 VERSION: str = cv2.__version__
 
-# What fails here is answered to the caller, who names the file; OpenCV would print it besides.
+# The caller reports failures and names the file; OpenCV would print them as well.
 cv2.utils.logging.setLogLevel(cv2.utils.logging.LOG_LEVEL_SILENT)
 
 
@@ -25,8 +26,8 @@ def use_threads(count: int) -> None:
     cv2.setNumThreads(count)
 
 
-def half(image: GreyImage) -> GreyImage:
-    """Every second pixel of `image` (h, w), each the mean of its 2 x 2 block; odd edges drop.
+def halve_image(image: GreyImage) -> GreyImage:
+    """Halve `image` (h, w): each pixel is the mean of a 2 x 2 block; an odd edge is dropped.
 
     An odd size would make the blocks unequal, and corners drift by whole pixels.
     """
@@ -35,32 +36,39 @@ def half(image: GreyImage) -> GreyImage:
     return np.asarray(cv2.resize(even, (width, height), interpolation=cv2.INTER_AREA))
 
 
-def smooth(image: GreyImage, sigma: float) -> tuple[GreyImage, float]:
-    """`image` (h, w) blurred by a Gaussian of standard deviation `sigma` px, edges reflected.
+def blur_image(image: GreyImage, sigma: float) -> tuple[GreyImage, float]:
+    """Blur `image` (h, w) by a Gaussian of standard deviation `sigma` px, edges reflected.
 
     Returns:
-        The blurred image, and how many of its levels make one of `image`. Of 8 bits it is int16,
-        in steps finer than any noise and half the size of float32, which it is otherwise.
+        The blurred image, and the number of its levels that make one of `image`. It is int16 for
+        an image of 8 bits, in steps finer than any noise and half the size of float32, and
+        float32 otherwise.
     """
     levels, kind = (128.0, cv2.CV_16S) if image.dtype == np.uint8 else (1.0, cv2.CV_32F)
     kernel = cv2.getGaussianKernel(2 * round(4 * sigma) + 1, sigma, cv2.CV_32F)
     return np.asarray(cv2.sepFilter2D(image, kind, levels * kernel, kernel)), levels
 
 
-def separable(image: GreyImage, along_u: npt.ArrayLike, along_v: npt.ArrayLike) -> FloatImage:
-    """Correlation of `image` (h, w) with the outer product of two odd kernels, edges reflected."""
+def correlate_separable(
+    image: GreyImage, along_u: npt.ArrayLike, along_v: npt.ArrayLike
+) -> FloatImage:
+    """Correlate `image` (h, w) with the outer product of two odd kernels, edges reflected."""
     ku, kv = (np.asarray(kernel, dtype=np.float32) for kernel in (along_u, along_v))
     return np.asarray(cv2.sepFilter2D(image, cv2.CV_32F, ku, kv))
 
 
-def greatest(image: FloatImage, around: BoolArray) -> FloatImage:
-    """Greatest value of `image` (h, w) at the places around each pixel that are marked in the mask,
-    which has odd sides."""
+def dilate_image(image: FloatImage, around: BoolArray) -> FloatImage:
+    """Return the greatest value of `image` (h, w) in a neighbourhood of each pixel.
+
+    Args:
+        image: the image.
+        around: the neighbourhood, a mask of odd sides.
+    """
     return np.asarray(cv2.dilate(image, around.astype(np.uint8)))
 
 
-def tiles(image: GreyImage, uv: Array, half: int) -> tuple[GreyImage, Array]:
-    """Squares of (2 half + 1)^2 pixels of `image` (h, w) around the pixels nearest to `uv` (n, 2).
+def cut_tiles(image: GreyImage, uv: Array, half: int) -> tuple[GreyImage, Array]:
+    """Cut squares of (2 half + 1)^2 px from `image` (h, w), around the pixels nearest to `uv`.
 
     Returns:
         Tiles (n, side, side), the border replicated, and the pixel (n, 2) of their first entry.
@@ -72,10 +80,11 @@ def tiles(image: GreyImage, uv: Array, half: int) -> tuple[GreyImage, Array]:
     return image[v[:, :, None], u[:, None, :]], origin.astype(np.float64)
 
 
-def decode(data: bytes, colour: bool) -> GreyImage | None:
-    """Pixels of an image file as stored, EXIF orientation ignored (but a TIFF's); None if damaged.
+def decode_image(data: bytes, colour: bool) -> GreyImage | None:
+    """Return the pixels of an image file as stored; None if it is damaged.
 
-    Grey (h, w), or with `colour` RGB (h, w, 3) unless the file is grey; 16 bits are kept.
+    The EXIF orientation is ignored (but a TIFF's is not). The result is grey (h, w), or with
+    `colour` RGB (h, w, 3) unless the file is grey; 16 bits are kept.
     """
     flags = cv2.IMREAD_ANYDEPTH | cv2.IMREAD_IGNORE_ORIENTATION
     if colour:
@@ -91,8 +100,8 @@ def decode(data: bytes, colour: bool) -> GreyImage | None:
     return np.asarray(cv2.cvtColor(image, cv2.COLOR_BGR2RGB))
 
 
-def encode(suffix: str, image: GreyImage) -> bytes | None:
-    """`image`, (h, w) or RGB (h, w, 3), in the file format of `suffix`; None if it cannot be."""
+def encode_image(suffix: str, image: GreyImage) -> bytes | None:
+    """Encode `image`, (h, w) or RGB (h, w, 3), in the format of `suffix`; None if that fails."""
     bgr = cv2.cvtColor(image, cv2.COLOR_RGB2BGR) if image.ndim == 3 else image
     lossless_webp = [cv2.IMWRITE_WEBP_QUALITY, 101] if suffix == ".webp" else []
     try:
@@ -102,25 +111,29 @@ def encode(suffix: str, image: GreyImage) -> bytes | None:
     return bytes(data) if ok else None
 
 
-def resample(image: GreyImage, uv: Array) -> GreyImage:
-    """`image` (h, w) or (h, w, c) at `uv` (H, W, 2) px, bilinear, its border replicated, its type.
+def resample_image(image: GreyImage, uv: Array) -> GreyImage:
+    """Interpolate `image`, (h, w) or (h, w, c), at `uv` (H, W, 2) px, in the type of `image`.
 
-    No side may exceed `LONGEST_SIDE` px.
+    The interpolation is bilinear, the border replicated.
+
+    No side may exceed `MAX_SIDE` px.
     """
     points = uv.astype(np.float32)
     return np.asarray(cv2.remap(image, points, None, cv2.INTER_LINEAR, None, cv2.BORDER_REPLICATE))
 
 
-LONGEST_SIDE = 32_766
-"""Of the images that `resample` takes and returns, px."""
+MAX_SIDE = 32_766
+"""Longest side, px, of the images that `resample_image` takes and returns: OpenCV's limit."""
 
 
-def storage(suffix: str, values: Mapping[str, int | float | str | Array], comment: str = "") -> str:
-    """The text of a cv2.FileStorage file holding `values`.
+def format_storage(
+    suffix: str, values: Mapping[str, int | float | str | Array], comment: str = ""
+) -> str:
+    """Return the text of a cv2.FileStorage file with `values`.
 
     Args:
         suffix: ".yml", ".yaml", ".xml" or ".json", which decides the format.
-        values: by name, in the order to be written.
+        values: the values by name, in the order of the file.
         comment: lines for the head of the file; JSON has no comments that others can read.
     """
     file = cv2.FileStorage(suffix, cv2.FILE_STORAGE_WRITE | cv2.FILE_STORAGE_MEMORY)
@@ -131,17 +144,17 @@ def storage(suffix: str, values: Mapping[str, int | float | str | Array], commen
     return str(file.releaseAndGetString())
 
 
-def dictionaries() -> dict[str, int]:
-    """Names of the predefined dictionaries of markers, and how many markers each has."""
+def list_dictionaries() -> dict[str, int]:
+    """Return the names of the predefined dictionaries of markers with their numbers of markers."""
     names = {name.upper() for name in vars(cv2.aruco) if name.startswith("DICT_")}
     return {name: len(_dictionary(name).bytesList) for name in sorted(names)}
 
 
-def markers(image: GreyImage, dictionary: str) -> tuple[IntArray, Array]:
-    """The square markers of a predefined dictionary in an 8-bit image (h, w).
+def detect_markers(image: GreyImage, dictionary: str) -> tuple[IntArray, Array]:
+    """Detect the square markers of a predefined dictionary in an 8-bit image (h, w).
 
     Returns:
-        Their numbers (n,) and corners (n, 4, 2) px: first, clockwise as printed, the upper left.
+        Their numbers (n,) and corners (n, 4, 2) px, clockwise as printed from the upper left.
     """
     parameters = _marker_parameters(image)
     parameters.cornerRefinementMethod = cv2.aruco.CORNER_REFINE_SUBPIX
@@ -152,8 +165,8 @@ def markers(image: GreyImage, dictionary: str) -> tuple[IntArray, Array]:
     return np.asarray(ids, np.int64).ravel(), np.array(corners, np.float64).reshape(-1, 4, 2)
 
 
-def dark_quads(image: GreyImage) -> Array:
-    """(n, 4, 2) px, corners of what in an 8-bit image (h, w) may be a marker of any dictionary."""
+def detect_dark_quads(image: GreyImage) -> Array:
+    """Return corners (n, 4, 2) px of the shapes in an 8-bit image (h, w) that may be markers."""
     any_one = cv2.aruco.Dictionary(np.zeros((1, 2, 4), np.uint8), 4, 0)
     detector = cv2.aruco.ArucoDetector(any_one, _marker_parameters(image))
     read, _, others = detector.detectMarkers(image)
@@ -162,18 +175,17 @@ def dark_quads(image: GreyImage) -> Array:
 
 def _marker_parameters(image: GreyImage) -> Any:
     parameters = cv2.aruco.DetectorParameters()
-    parameters.minMarkerPerimeterRate = min(0.03, 4 * _LEAST_MARKER / max(image.shape))
+    parameters.minMarkerPerimeterRate = min(0.03, 4 * _MIN_MARKER_SIDE / max(image.shape))
     return parameters
 
 
-def correctable_cells(dictionary: str) -> int:
-    """How many of a marker's cells may be misread for it to be told from the dictionary's others
-    still."""
-    return int(_dictionary(dictionary).maxCorrectionBits * _CORRECTED)
+def count_correctable_cells(dictionary: str) -> int:
+    """Return the number of a marker's cells that may be misread without a confusion."""
+    return int(_dictionary(dictionary).maxCorrectionBits * _CORRECTED_SHARE)
 
 
-def marker_cells(dictionary: str, number: int) -> BoolArray:
-    """(k, k) which cells of a marker are dark, its border of one cell included."""
+def draw_marker_cells(dictionary: str, number: int) -> BoolArray:
+    """Return (k, k) true for the dark cells of a marker, its border of one cell included."""
     source = _dictionary(dictionary)
     side = source.markerSize + 2
     return np.asarray(cv2.aruco.generateImageMarker(source, number, side)) == 0
@@ -184,17 +196,17 @@ def _dictionary(name: str) -> Any:
     return cv2.aruco.getPredefinedDictionary(known[name])
 
 
-_CORRECTED = 0.6
-"""Share of a dictionary's correctable cells that OpenCV corrects."""
-_LEAST_MARKER = 10.0
-"""Side of the smallest markers that are looked for, px."""
+_CORRECTED_SHARE = 0.6
+"""Share of a dictionary's correctable cells that OpenCV corrects (its default)."""
+_MIN_MARKER_SIDE = 10.0
+"""Side of the smallest markers that are detected, px."""
 
 
-def dark_parts(image: GreyImage, window: int) -> tuple[npt.NDArray[np.int32], int]:
-    """Connected parts of an 8-bit image (h, w) darker than the mean of the `window` px around.
+def label_dark_parts(image: GreyImage, window: int) -> tuple[npt.NDArray[np.int32], int]:
+    """Label connected parts of an 8-bit image (h, w) darker than the mean of `window` px around.
 
     Returns:
-        The number (h, w) of the part that each pixel belongs to, 0 for none, and the numbers' end.
+        The number (h, w) of each pixel's part, 0 for none, and one more than the highest number.
     """
     dark = cv2.adaptiveThreshold(
         image, 255, cv2.ADAPTIVE_THRESH_MEAN_C, cv2.THRESH_BINARY_INV, 2 * (window // 2) + 1, 8

@@ -1,4 +1,4 @@
-"""One thread for BLAS: on small matrices it is the fastest, and its results never vary."""
+"""One thread for BLAS: it is the fastest on small matrices, and its results do not vary."""
 
 from __future__ import annotations
 
@@ -15,23 +15,23 @@ _T = TypeVar("_T")
 
 @cache
 def _controller() -> ThreadpoolController:
-    """Of the libraries that are loaded; looking for them takes milliseconds."""
+    """Return the controller of the libraries that are loaded; finding them takes milliseconds."""
     import scipy.linalg  # noqa: F401 - brings a BLAS of its own, which has to be there to be found
 
     return ThreadpoolController()
 
 
-def one_blas_thread() -> AbstractContextManager[Any]:
-    """NumPy's and SciPy's BLAS have one thread from now on, or to the end of a `with` block."""
+def limit_blas_threads() -> AbstractContextManager[Any]:
+    """Limit NumPy's and SciPy's BLAS to one thread from now on, or to the end of a `with` block."""
     return _controller().limit(limits=1, user_api="blas")
 
 
-def on_one_blas_thread(function: Callable[_P, _T]) -> Callable[_P, _T]:
-    """`function` with one BLAS thread, so that it sums in the same order on every machine."""
+def with_one_blas_thread(function: Callable[_P, _T]) -> Callable[_P, _T]:
+    """Decorate a function to run on one BLAS thread: it then sums alike on every machine."""
 
     @wraps(function)
     def limited(*args: _P.args, **kwargs: _P.kwargs) -> _T:
-        with one_blas_thread():
+        with limit_blas_threads():
             return function(*args, **kwargs)
 
     return limited

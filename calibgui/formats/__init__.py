@@ -1,10 +1,11 @@
 """File formats: one module each, which names its reader, its convention and what it cannot hold.
 
 To add an exporter, write a module with a function (result, path) -> ExportReport that writes
-through ``engine.files.write_atomically``, describe it in a constant `EXPORTER`, and list that
-below: command line and window take it from there. A format whose lens model distorts ideal
-points is written by ``forward_model.write_forward``. It is done when a test reads the file with
-the program that it is for and projects the same points to the same pixels.
+through ``engine.files.write_atomically``, describe it in a constant `EXPORTER`, and list the module
+below: command line and window take it from there. `Exporter.models` names the lens models that the
+format holds; ``camera_refit.write_in_models`` writes these as calibrated, refits others and refuses
+a refit that cannot follow the lens. The exporter is complete when a test reads the file with the
+program that it is for and projects the same points to the same pixels.
 """
 
 from __future__ import annotations
@@ -12,7 +13,7 @@ from __future__ import annotations
 import os
 from pathlib import Path
 
-from calibgui.dataset.result import Result
+from calibgui.dataset import Result
 from calibgui.engine.errors import CalibrationError
 from calibgui.formats import (
     colmap_cameras,
@@ -41,7 +42,7 @@ EXPORTERS: dict[str, Exporter] = {
         corners_csv,
     )
 }
-"""By name, in the order of menus."""
+"""Exporters by name, in the order of menus."""
 
 
 def export(result: Result, name: str, path: str | os.PathLike[str]) -> ExportReport:
@@ -49,7 +50,8 @@ def export(result: Result, name: str, path: str | os.PathLike[str]) -> ExportRep
 
     Raises:
         CalibrationError: for an unknown format, a suffix that is not the format's, a file
-            that cannot be written, or a partial calibration that the format would pass for whole.
+            that cannot be written, a lens that the format's lens model cannot follow, or a partial
+            calibration if the format cannot state what was assumed.
     """
     exporter = find_exporter(name, path)
     diagnosis = result.calibration.diagnosis
@@ -63,7 +65,7 @@ def export(result: Result, name: str, path: str | os.PathLike[str]) -> ExportRep
 
 
 def find_exporter(name: str, path: str | os.PathLike[str]) -> Exporter:
-    """The exporter `name`, if it can write `path`: for a check before long work.
+    """Return the exporter `name` after a check that it can write `path`.
 
     Raises:
         CalibrationError: for an unknown format or a suffix that is not the format's.

@@ -1,11 +1,11 @@
-"""plate.json: the shape of a target as it was found to be, for later calibrations to hold.
+"""board-shape.json: the estimated shape of a board, for later calibrations to hold.
 
     {"format": "calibgui-plate", "version": 1, "model", "nominal_mm": [[x, y], ...],
      "deviation_mm": [[dx, dy, dz], ...], "sigma_mm": [[sx, sy, sz], ...]}
 
-Reader: `read_plate`, and any JSON reader. Millimetres in the plate's frame: the nominal corner
-plus its deviation is where the corner is; z is along x cross y. Cannot hold: how the plate was
-found (see ``result_json.py``).
+Reader: `read_board_shape`, and any JSON reader. Lengths are millimetres in the board's frame: a
+corner is at its nominal place plus its deviation; z is along x cross y. Cannot hold: the
+calibration that estimated the shape (see ``result_json.py``).
 """
 
 from __future__ import annotations
@@ -14,34 +14,34 @@ import os
 from typing import Any
 
 from calibgui.engine.boards import BoardShape, BoardShapeModel, BoardShapePrior
-from calibgui.formats.json_document import Node, check_format, read, write
+from calibgui.formats.json_document import Node, check_format, read_json, write_json
 
 FORMAT = "calibgui-plate"
 VERSION = 1
 
 
 def write_board_shape(board_shape: BoardShape, path: str | os.PathLike[str]) -> None:
-    """Write plate.json.
+    """Write the shape of a board.
 
     Raises:
         CalibrationError: if the file cannot be written.
     """
-    write(path, {"format": FORMAT, "version": VERSION, **board_shape_record(board_shape)})
+    write_json(path, {"format": FORMAT, "version": VERSION, **encode_board_shape(board_shape)})
 
 
 def read_board_shape(path: str | os.PathLike[str]) -> BoardShape:
-    """Read plate.json.
+    """Read the shape of a board.
 
     Raises:
-        CalibrationError: if the file cannot be read or is no plate.
+        CalibrationError: if the file cannot be read or is of another format.
     """
-    node = read(path)
+    node = read_json(path)
     check_format(node, FORMAT, VERSION)
-    return read_board_shape_record(node)
+    return decode_board_shape(node)
 
 
-def board_shape_record(board_shape: BoardShape) -> dict[str, Any]:
-    """A plate as JSON holds it, in this file and in a result."""
+def encode_board_shape(board_shape: BoardShape) -> dict[str, Any]:
+    """Return the JSON object of a board's shape, the same in this file and in a result."""
     return {
         "model": board_shape.model,
         "nominal_mm": board_shape.nominal,
@@ -50,8 +50,8 @@ def board_shape_record(board_shape: BoardShape) -> dict[str, Any]:
     }
 
 
-def read_board_shape_record(node: Node) -> BoardShape:
-    """The inverse of `plate_record`."""
+def decode_board_shape(node: Node) -> BoardShape:
+    """Return the board's shape of a JSON object."""
     nominal = node["nominal_mm"].numbers(None, 2)
     return BoardShape(
         BoardShapeModel(node["model"].choice(list(BoardShapeModel))),
@@ -61,8 +61,8 @@ def read_board_shape_record(node: Node) -> BoardShape:
     )
 
 
-def read_prior(node: Node) -> BoardShapePrior:
-    """What is known of a plate, [in_plane, out_of_plane] mm, where a file keeps it."""
+def decode_prior(node: Node) -> BoardShapePrior:
+    """Return the prior standard deviations [in_plane, out_of_plane], mm, of a board's shape."""
     if not (sigma := node.numbers(2)).min() > 0:
         node.fail("two lengths above 0")
     return BoardShapePrior(*sigma.tolist())

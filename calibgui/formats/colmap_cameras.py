@@ -3,28 +3,29 @@
 Reader: COLMAP and pycolmap, which take it for the first camera of a sparse model. Pixels of COLMAP
 have whole numbers at their corners: the principal point is half a pixel more than OpenCV's.
 FULL_OPENCV's coefficients are k1 k2 p1 p2 k3 k4 k5 k6, of which the last three are 0.
-Cannot hold: the paper's correction (its forward counterpart is refitted), standard deviations,
-poses, corners.
+Cannot hold: other lens models (they are refitted), standard deviations, poses, corners.
 """
 
 from __future__ import annotations
 
 from pathlib import Path
 
-from calibgui.dataset.result import Result
+from calibgui.dataset import Result
 from calibgui.engine.camera import Camera
 from calibgui.engine.geometry import corner_from_array
+from calibgui.formats.camera_refit import FORWARD_MODELS, write_in_models
 from calibgui.formats.exporter import Exporter, ExportReport
-from calibgui.formats.forward_model import write_forward
 
 
 def write_colmap(result: Result, path: Path) -> ExportReport:
     """Write a cameras.txt with one camera."""
-    return write_forward(result, path, lambda fitted, note: cameras(fitted.camera, note))
+    return write_in_models(
+        result, path, EXPORTER.models, lambda fitted, note: format_cameras(fitted.camera, note)
+    )
 
 
-def cameras(camera: Camera, note: str) -> str:
-    """The text of the file; `camera` is in OpenCV's model."""
+def format_cameras(camera: Camera, note: str) -> str:
+    """Return the text of the file; `camera` is in one of `FORWARD_MODELS`."""
     values = [*camera.focal, *corner_from_array(camera.centre), *camera.coefficients]
     numbers = " ".join(repr(float(value)) for value in [*values, 0.0, 0.0, 0.0])
     width, height = camera.size
@@ -42,6 +43,7 @@ EXPORTER = Exporter(
     name="colmap",
     title="COLMAP cameras.txt",
     suffixes=(".txt",),
+    models=FORWARD_MODELS,
     limits="Forward distortion model (FULL_OPENCV) refitted; no standard deviations, no poses.",
     write=write_colmap,
 )

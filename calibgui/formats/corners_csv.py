@@ -3,8 +3,8 @@
     image,row,col,u_px,v_px,x_mm,y_mm[,cov_uu,cov_uv,cov_vv]
 
 Reader: `read_corners_csv`, and any reader of CSV. Positions are pixels in the array frame
-(0-based, integer at pixel centres, v down) and millimetres on the plate, covariances px^2.
-`row` and `col` are empty for corners that are not of a board of known layout.
+(0-based, integer at pixel centres, v down) and millimetres on the board, covariances px^2.
+`row` and `col` are empty for corners whose place on a board of known layout is not known.
 Cannot hold: the images' size, the board's, images without corners, first estimates.
 """
 
@@ -19,23 +19,23 @@ from pathlib import Path
 
 import numpy as np
 
-from calibgui.dataset.result import Result
-from calibgui.dataset.view import View, ViewStatus
+from calibgui.dataset import Result, View, ViewStatus
 from calibgui.engine.boards import Board
 from calibgui.engine.calibration import Observation
+from calibgui.engine.camera import MODELS
 from calibgui.engine.errors import CalibrationError
 from calibgui.engine.files import write_atomically
 from calibgui.formats.exporter import Exporter, ExportReport
 
-_POINT = ("u_px", "v_px", "x_mm", "y_mm")
-_COV = ("cov_uu", "cov_uv", "cov_vv")
-_HEADER = ("image", "row", "col", *_POINT)
+_POINT_COLUMNS = ("u_px", "v_px", "x_mm", "y_mm")
+_COVARIANCE_COLUMNS = ("cov_uu", "cov_uv", "cov_vv")
+_COLUMNS = ("image", "row", "col", *_POINT_COLUMNS)
 
 
 def write_corners_csv(
     views: Sequence[View], board: Board | None, path: str | os.PathLike[str]
 ) -> None:
-    """Write the corners of all views that have any.
+    """Write the corners of all views that have corners.
 
     Raises:
         CalibrationError: if the file cannot be written.
@@ -44,14 +44,14 @@ def write_corners_csv(
     writer = csv.writer(text, lineterminator="\n")
     found = [view for view in views if view.status is ViewStatus.FOUND]
     weighted = any(view.observation(board).cov is not None for view in found)
-    writer.writerow(_HEADER + _COV if weighted else _HEADER)
+    writer.writerow(_COLUMNS + _COVARIANCE_COLUMNS if weighted else _COLUMNS)
     for view in found:
-        writer.writerows(_rows(view, view.observation(board)))
+        writer.writerows(_make_rows(view, view.observation(board)))
     # A file name that is not valid Unicode is written so that every reader takes it.
     write_atomically(path, text.getvalue().encode(errors="backslashreplace"))
 
 
-def _rows(view: View, points: Observation) -> Iterator[list[str | int | float]]:
+def _make_rows(view: View, points: Observation) -> Iterator[list[str | int | float]]:
     for i in range(len(points.uv)):
         place = ["", ""] if view.corners is None else view.corners.grid[i].tolist()
         row = [view.image, *place, *points.uv[i].tolist(), *points.xy[i].tolist()]
@@ -64,8 +64,8 @@ def read_corners_csv(path: str | os.PathLike[str]) -> tuple[View, ...]:
     """Read the views of such a file; `row` and `col` may be missing.
 
     Raises:
-        CalibrationError: if the file cannot be read, lacks a column or holds what is not a
-            number, naming the line.
+        CalibrationError: if the file cannot be read, lacks a column or holds something else than a
+            finite number; the message names the line.
     """
     file = Path(path)
     try:
@@ -76,20 +76,26 @@ def read_corners_csv(path: str | os.PathLike[str]) -> tuple[View, ...]:
         ) from error
     except (ValueError, csv.Error) as error:
         raise CalibrationError(f"{file} is not a CSV file: {error}.", "Choose another.") from error
-    missing = [name for name in ("image", *_POINT) if rows and name not in rows[0]]
+    missing = [name for name in ("image", *_POINT_COLUMNS) if rows and name not in rows[0]]
     if missing or not rows:
         raise CalibrationError(
             f"{file} has no {', '.join(missing) if missing else 'corners'}.",
-            f"Its first line must name the columns {', '.join(_HEADER)}.",
+            f"Its first line must name the columns {', '.join(_COLUMNS)}.",
         )
     views: dict[str, list[list[float]]] = {}
     for line, row in enumerate(rows, start=2):
-        names = _POINT + _COV if row.get(_COV[0]) else _POINT
-        views.setdefault(row["image"], []).append([_number(row, n, file, line) for n in names])
-    return tuple(_view(image, numbers, file) for image, numbers in views.items())
+        names = (
+            _POINT_COLUMNS + _COVARIANCE_COLUMNS
+            if row.get(_COVARIANCE_COLUMNS[0])
+            else _POINT_COLUMNS
+        )
+        views.setdefault(row["image"], []).append(
+            [_parse_number(row, n, file, line) for n in names]
+        )
+    return tuple(_make_view(image, numbers, file) for image, numbers in views.items())
 
 
-def _number(row: dict[str, str], name: str, file: Path, line: int) -> float:
+def _parse_number(row: dict[str, str], name: str, file: Path, line: int) -> float:
     try:
         number = float(row[name])
     except (TypeError, ValueError, KeyError):
@@ -102,7 +108,7 @@ def _number(row: dict[str, str], name: str, file: Path, line: int) -> float:
     return number
 
 
-def _view(image: str, numbers: list[list[float]], file: Path) -> View:
+def _make_view(image: str, numbers: list[list[float]], file: Path) -> View:
     if len({len(row) for row in numbers}) > 1:
         raise CalibrationError(
             f"{file}: some corners of {image} have covariances and some have none.",
@@ -122,7 +128,8 @@ EXPORTER = Exporter(
     name="corners-csv",
     title="Corners as CSV",
     suffixes=(".csv",),
-    limits="Corners and their places on the plate; no calibration, no images without corners.",
+    models=tuple(MODELS),
+    limits="Corners and their places on the board; no calibration, no images without corners.",
     write=_export,
     partial=True,
 )

@@ -1,20 +1,20 @@
-"""Why views do not determine a camera and what was assumed, as result.json holds it.
+"""The diagnosis of a partial calibration, as result.json holds it.
 
     {"kind", "message", "hint", "assumed": [{"name", "value", "sigma"}, ...]}
 
-`kind` is one of ``Degeneracy``. `sigma` is one standard deviation of what a value may be off by.
+`kind` is one of ``Degeneracy``. `sigma` is one standard deviation of the error of an assumed value.
 """
 
 from __future__ import annotations
 
 from typing import Any
 
-from calibgui.engine.calibration import Assumed, Degeneracy, Diagnosis
+from calibgui.engine.calibration import Assumption, Degeneracy, Diagnosis
 from calibgui.formats.json_document import Node
 
 
-def diagnosis_record(diagnosis: Diagnosis | None) -> dict[str, Any] | None:
-    """A diagnosis as a result holds it; null for a whole calibration."""
+def encode_diagnosis(diagnosis: Diagnosis | None) -> dict[str, Any] | None:
+    """Return the JSON object of a diagnosis; null for a whole calibration."""
     if diagnosis is None:
         return None
     return {
@@ -22,13 +22,13 @@ def diagnosis_record(diagnosis: Diagnosis | None) -> dict[str, Any] | None:
         "message": diagnosis.message,
         "hint": diagnosis.hint,
         "assumed": [
-            {"name": a.name, "value": a.value, "sigma": a.doubt} for a in diagnosis.assumed
+            {"name": a.name, "value": a.value, "sigma": a.sigma} for a in diagnosis.assumptions
         ],
     }
 
 
-def read_diagnosis(node: Node | None) -> Diagnosis | None:
-    """The inverse of `diagnosis_record`; None for older results, which have none."""
+def decode_diagnosis(node: Node | None) -> Diagnosis | None:
+    """Return the diagnosis of a JSON object; None where an older result has none."""
     if node is None or node.value is None:
         return None
     return Diagnosis(
@@ -36,7 +36,7 @@ def read_diagnosis(node: Node | None) -> Diagnosis | None:
         node["message"].text(),
         node["hint"].text(),
         tuple(
-            Assumed(n["name"].text(), n["value"].number(), n["sigma"].number())
+            Assumption(n["name"].text(), n["value"].number(), n["sigma"].number())
             for n in node["assumed"].items()
         ),
     )

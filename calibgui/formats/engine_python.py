@@ -1,4 +1,4 @@
-"""The camera as a few lines of Python for this program's engine, to paste into a program.
+"""The camera as a few lines of Python for this program's own engine, to paste into a program.
 
 Reader: Python with calibgui. Pixels count from 0 at the centre of the first one, coefficients
 are dimensionless; nothing is refitted. Cannot hold: correlations, poses, corners.
@@ -8,8 +8,9 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from calibgui.dataset.result import Result
+from calibgui.dataset import Result
 from calibgui.engine.calibration import Calibration
+from calibgui.engine.camera import MODELS
 from calibgui.engine.files import write_atomically
 from calibgui.formats.exporter import FRAME, Exporter, ExportReport
 
@@ -18,12 +19,12 @@ _NOTE = "The camera as calibrated; nothing is refitted."
 
 def write_engine_python(result: Result, path: Path) -> ExportReport:
     """Write the lines as a file."""
-    write_atomically(path, lines(result.calibration).encode())
+    write_atomically(path, format_lines(result.calibration).encode())
     return ExportReport(path, _NOTE)
 
 
-def lines(calibration: Calibration) -> str:
-    """The program text."""
+def format_lines(calibration: Calibration) -> str:
+    """Return the program text."""
     camera = calibration.camera
     rows = "\n".join(
         f"    {value!r},  # {name} +- {sigma:.2g}"
@@ -54,6 +55,7 @@ EXPORTER = Exporter(
     name="python",
     title="Python lines for calibgui",
     suffixes=(".py",),
+    models=tuple(MODELS),
     limits="The camera as calibrated, sigma as comments; no poses.",
     write=write_engine_python,
 )

@@ -1,4 +1,4 @@
-"""What every exporter provides, and what it tells of a file that it wrote."""
+"""The description of a file format that results can be written in, and of a written file."""
 
 from __future__ import annotations
 
@@ -6,10 +6,10 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 
-from calibgui.dataset.result import Result
+from calibgui.dataset import Result
 
 FRAME = "Pixels count from 0 at the centre of the first pixel, u right, v down."
-"""What a file in the array frame says of it."""
+"""The sentence with which a file in the array frame states its convention."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -18,10 +18,10 @@ class ExportReport:
 
     path: Path
     note: str
-    """What the user should know of it, in one or two sentences."""
+    """One or two sentences that the user should know about the file."""
     largest_error_px: float | None = None
-    """Of the exported camera against the calibrated one, over the whole image, px; NaN where
-    it cannot follow it everywhere; None if nothing was refitted."""
+    """Largest distance between the exported camera and the calibrated one over the whole image,
+    px; NaN if the exported one is not defined everywhere; None if nothing was refitted."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -29,14 +29,17 @@ class Exporter:
     """A file format that results can be written in."""
 
     name: str
-    """By which the command line knows it."""
+    """Name of the format on the command line."""
     title: str
-    """By which a menu knows it."""
+    """Name of the format in a menu."""
     suffixes: tuple[str, ...]
-    """Of its files, the usual one first."""
+    """Suffixes of its files, the usual one first."""
+    models: tuple[str, ...]
+    """Names of the lens models that it holds as calibrated. A camera of another model is refitted
+    in the first of them, and not written if that cannot follow the lens."""
     limits: str
     """Conventions, what is refitted and what the format cannot hold."""
     write: Callable[[Result, Path], ExportReport]
-    """Raises CalibrationError if the file cannot be written."""
+    """Function that writes a file; it raises CalibrationError if it cannot."""
     partial: bool = False
-    """Whether it says of a camera what was assumed, or holds no camera."""
+    """True if the format states what was assumed of a camera, or holds no camera."""

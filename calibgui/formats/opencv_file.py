@@ -5,7 +5,7 @@ centres), lengths millimetres, names those of OpenCV's own calibration sample:
 `camera_matrix`, `distortion_coefficients` (k1 k2 p1 p2 k3), `extrinsic_parameters` (a row
 rvec, tvec per used view), `avg_reprojection_error` (its RMS); standard deviations are one
 sigma, left out where the data leave one undetermined.
-Cannot hold: the paper's correction (its forward counterpart is refitted), correlations, corners.
+Cannot hold: other lens models (they are refitted), correlations, corners.
 """
 
 from __future__ import annotations
@@ -14,13 +14,13 @@ from pathlib import Path
 
 import numpy as np
 
-from calibgui.dataset.result import Result
+from calibgui.dataset import Result
 from calibgui.engine import opencv
 from calibgui.engine.arrays import Array
-from calibgui.engine.assessment import summarise
+from calibgui.engine.assessment import summarise_residuals
 from calibgui.engine.calibration import Calibration
+from calibgui.formats.camera_refit import FORWARD_MODELS, write_in_models
 from calibgui.formats.exporter import FRAME, Exporter, ExportReport
-from calibgui.formats.forward_model import write_forward
 
 _NOTE = f"{FRAME} Lengths are in mm, angles in rad."
 
@@ -28,11 +28,13 @@ _NOTE = f"{FRAME} Lengths are in mm, angles in rad."
 def write_opencv(result: Result, path: Path) -> ExportReport:
     """Write OpenCV's YAML, XML or JSON file."""
     suffix = path.suffix.lower()
-    return write_forward(result, path, lambda fitted, note: storage(fitted, suffix, note))
+    return write_in_models(
+        result, path, EXPORTER.models, lambda fitted, note: format_storage(fitted, suffix, note)
+    )
 
 
-def storage(calibration: Calibration, suffix: str, note: str) -> str:
-    """The text of the file; `calibration` is in OpenCV's model."""
+def format_storage(calibration: Calibration, suffix: str, note: str) -> str:
+    """Return the text of the file; `calibration` is in one of `FORWARD_MODELS`."""
     camera = calibration.camera
     values: dict[str, int | float | str | Array] = {
         "image_width": camera.size[0],
@@ -40,21 +42,22 @@ def storage(calibration: Calibration, suffix: str, note: str) -> str:
         "nframes": len(calibration.poses),
         "camera_matrix": camera.matrix,
         "distortion_coefficients": camera.coefficients[None],
-        "avg_reprojection_error": summarise(calibration.residuals).rms,
+        "avg_reprojection_error": summarise_residuals(calibration.residuals).rms,
         "extrinsic_parameters": np.array([[*p.rvec, *p.tvec] for p in calibration.poses]),
     }
     if np.isfinite(calibration.sigma).all():
         values["camera_matrix_std_dev"] = calibration.sigma[None, :4]
         values["distortion_coefficients_std_dev"] = calibration.sigma[None, 4:]
     if suffix == ".json":
-        return opencv.storage(suffix, {"note": f"{note} {_NOTE}"} | values)
-    return opencv.storage(suffix, values, f"{note}\n{_NOTE}")
+        return opencv.format_storage(suffix, {"note": f"{note} {_NOTE}"} | values)
+    return opencv.format_storage(suffix, values, f"{note}\n{_NOTE}")
 
 
 EXPORTER = Exporter(
     name="opencv",
     title="OpenCV YAML, XML or JSON",
     suffixes=(".yaml", ".yml", ".xml", ".json"),
+    models=FORWARD_MODELS,
     limits="Forward distortion model refitted; standard deviations but no correlations.",
     write=write_opencv,
 )

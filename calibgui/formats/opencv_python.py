@@ -1,27 +1,28 @@
 """The camera as a few lines of Python for OpenCV, to paste into a program.
 
 Reader: Python with numpy and cv2. Pixels are OpenCV's; dist_coeffs are k1 k2 p1 p2 k3.
-Cannot hold: the paper's correction (its forward counterpart is refitted), standard deviations,
-poses, corners.
+Cannot hold: other lens models (they are refitted), standard deviations, poses, corners.
 """
 
 from __future__ import annotations
 
 from pathlib import Path
 
-from calibgui.dataset.result import Result
+from calibgui.dataset import Result
 from calibgui.engine.camera import Camera
+from calibgui.formats.camera_refit import FORWARD_MODELS, write_in_models
 from calibgui.formats.exporter import FRAME, Exporter, ExportReport
-from calibgui.formats.forward_model import write_forward
 
 
 def write_opencv_python(result: Result, path: Path) -> ExportReport:
     """Write the lines as a file."""
-    return write_forward(result, path, lambda fitted, note: lines(fitted.camera, note))
+    return write_in_models(
+        result, path, EXPORTER.models, lambda fitted, note: format_lines(fitted.camera, note)
+    )
 
 
-def lines(camera: Camera, note: str) -> str:
-    """The program text; `camera` is in OpenCV's model."""
+def format_lines(camera: Camera, note: str) -> str:
+    """Return the program text; `camera` is in one of `FORWARD_MODELS`."""
     fx, fy, cx, cy, *coefficients = camera.params.tolist()
     return f"""\
 # {note}
@@ -43,6 +44,7 @@ EXPORTER = Exporter(
     name="opencv-python",
     title="Python lines for OpenCV",
     suffixes=(".py",),
+    models=FORWARD_MODELS,
     limits="Forward distortion model refitted; no standard deviations, no poses.",
     write=write_opencv_python,
 )

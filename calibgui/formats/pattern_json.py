@@ -1,8 +1,8 @@
-"""A target and its pattern as JSON objects, the same in every file that holds them.
+"""A board and its pattern as JSON objects, the same in every file that holds them.
 
 rows, cols      of inner corners, or of circles
 square_mm       side of a square, distance of circles (of rows of an asymmetric grid)
-pattern         left out for a checkerboard; else its `kind` and what is known of it:
+pattern         left out for a checkerboard; else its `kind` and its known properties:
   charuco             dictionary (OpenCV's name), marker (over the square), legacy (layout)
   circles             diameter (over the distance)
   asymmetric-circles  diameter (over the distance of the rows)
@@ -19,8 +19,8 @@ from calibgui.engine.errors import CalibrationError
 from calibgui.formats.json_document import Node
 
 
-def pattern_record(pattern: Pattern) -> dict[str, Any]:
-    """The JSON object of a pattern."""
+def encode_pattern(pattern: Pattern) -> dict[str, Any]:
+    """Return the JSON object of a pattern."""
     usual: Any = KINDS[pattern.kind]
     known = {field.name: getattr(pattern, field.name) for field in fields(usual)}
     return {"kind": pattern.kind} | {
@@ -28,15 +28,15 @@ def pattern_record(pattern: Pattern) -> dict[str, Any]:
     }
 
 
-def read_pattern(node: Node | None) -> Pattern:
-    """The pattern of a JSON object; a checkerboard where there is none."""
+def decode_pattern(node: Node | None) -> Pattern:
+    """Return the pattern of a JSON object; a checkerboard if there is none."""
     if node is None:
         return CHECKERBOARD
     usual: Any = KINDS[node["kind"].choice(list(KINDS))]
     known = {}
     for field in fields(usual):
         if (value := node.get(field.name)) is not None:
-            known[field.name] = _READERS[field.name](value)
+            known[field.name] = _FIELD_READERS[field.name](value)
     try:
         pattern: Pattern = replace(usual, **known)
     except CalibrationError as error:
@@ -44,26 +44,26 @@ def read_pattern(node: Node | None) -> Pattern:
     return pattern
 
 
-_READERS: Mapping[str, Callable[[Node], str | float | bool]] = {
+_FIELD_READERS: Mapping[str, Callable[[Node], str | float | bool]] = {
     "dictionary": Node.text,
     "marker": Node.number,
     "legacy": Node.flag,
     "diameter": Node.number,
     "asymmetric": Node.flag,
 }
-"""By the name of a pattern's field."""
+"""Functions that read a pattern's field, by its name."""
 
 
-def target_record(board: Board) -> dict[str, Any]:
-    """The JSON object of a target."""
+def encode_board(board: Board) -> dict[str, Any]:
+    """Return the JSON object of a board."""
     record = {"rows": board.rows, "cols": board.cols, "square_mm": board.square}
     if board.pattern == CHECKERBOARD:
         return record
-    return record | {"pattern": pattern_record(board.pattern)}
+    return record | {"pattern": encode_pattern(board.pattern)}
 
 
-def read_target(node: Node | None) -> Board | None:
-    """The target of a JSON object."""
+def decode_board(node: Node | None) -> Board | None:
+    """Return the board of a JSON object; None if there is none."""
     if node is None:
         return None
     rows, cols, square = node["rows"], node["cols"], node["square_mm"]
@@ -72,5 +72,5 @@ def read_target(node: Node | None) -> Board | None:
     for side in (rows, cols):
         if not side.integer() >= 2:
             side.fail("a number of corners above 1")
-    pattern = read_pattern(node.get("pattern"))
+    pattern = decode_pattern(node.get("pattern"))
     return Board(rows.integer(), cols.integer(), square.number(), pattern)

@@ -5,7 +5,7 @@
 
 Reader: any JSON reader. Pixels are in the array frame (0-based, integer at pixel centres, v
 down). `matrix` is the pinhole camera matrix of undistorted images, which have no distortion
-left, or takes plate points (X, Y, 1) mm to pixels of rectified ones.
+left, or takes points (X, Y, 1) mm of the board to pixels of rectified ones.
 Cannot hold: the camera that took the images (see ``result_json.py``).
 """
 
@@ -15,7 +15,7 @@ import os
 from collections.abc import Mapping
 
 from calibgui.engine.arrays import Array, Size
-from calibgui.formats.json_document import write
+from calibgui.formats.json_document import write_json
 
 
 def write_resampled(
@@ -26,4 +26,4 @@ def write_resampled(
     Raises:
         CalibrationError: if the file cannot be written.
     """
-    write(path, {"kind": kind, "size": size, "matrix": matrix, "images": images})
+    write_json(path, {"kind": kind, "size": size, "matrix": matrix, "images": images})

@@ -1,10 +1,10 @@
 """A view as a JSON object, the same in corners.json, result.json and whatever holds views.
 
     image    name or path                       uv      (n, 2) px, array frame; [] if none
-    status   see ViewStatus                     board   (n, 2) mm on the plate
+    status   see ViewStatus                     board   (n, 2) mm on the board
     reason   why it cannot be used              cov     (n, 2, 2) px^2, where known
-    enabled  whether the user wants it          roi     (4, 2) px, where given by the user
-    note     how its corners came about, if worth knowing
+    enabled  true if the user wants it          roi     (4, 2) px, where given by the user
+    note     how its corners were found, if unusual
 
 and for corners found on a board of known layout their `grid` (row, column), the board's
 `shape`, first `estimate`, `ambiguity`, `relative`, `method` and the searched `outline`; also
@@ -19,16 +19,16 @@ from typing import Any
 
 import numpy as np
 
-from calibgui.dataset.view import View, ViewStatus
-from calibgui.engine.boards import CHECKERBOARD, Ambiguity, Board
+from calibgui.dataset import View, ViewStatus
+from calibgui.engine.boards import CHECKERBOARD, Board, Symmetry
 from calibgui.engine.calibration import Observation
 from calibgui.engine.detection import Corners, OtherBoard
 from calibgui.formats.json_document import Node
-from calibgui.formats.pattern_json import pattern_record, read_pattern
+from calibgui.formats.pattern_json import decode_pattern, encode_pattern
 
 
-def view_record(view: View, board: Board | None) -> dict[str, Any]:
-    """The JSON object of a view; `target` gives found corners their places on the plate."""
+def encode_view(view: View, board: Board | None) -> dict[str, Any]:
+    """Return the JSON object of a view; `board` gives found corners their places, mm."""
     record: dict[str, Any] = {
         "image": view.image,
         "status": view.status,
@@ -46,11 +46,11 @@ def view_record(view: View, board: Board | None) -> dict[str, Any]:
     if cov is not None:
         record["cov"] = cov
     if view.corners is not None:
-        record |= _corners_record(view.corners)
+        record |= _encode_corners(view.corners)
     return record
 
 
-def _corners_record(corners: Corners) -> dict[str, Any]:
+def _encode_corners(corners: Corners) -> dict[str, Any]:
     record: dict[str, Any] = {
         "shape": corners.shape,
         "grid": corners.grid,
@@ -64,32 +64,32 @@ def _corners_record(corners: Corners) -> dict[str, Any]:
     if corners.others:
         record["others"] = [other._asdict() for other in corners.others]
     if corners.pattern != CHECKERBOARD:
-        record["pattern"] = pattern_record(corners.pattern)
+        record["pattern"] = encode_pattern(corners.pattern)
     return record
 
 
-def read_views(node: Node, board: Board | None) -> tuple[View, ...]:
-    """The views of a list of JSON objects.
+def decode_views(node: Node, board: Board | None) -> tuple[View, ...]:
+    """Return the views of a list of JSON objects.
 
     Raises:
-        CalibrationError: naming file, view and entry.
+        CalibrationError: if something is wrong; the message names file, view and entry.
     """
-    return tuple(_read_view(item, k, board) for k, item in enumerate(node.items()))
+    return tuple(_decode_view(item, k, board) for k, item in enumerate(node.items()))
 
 
-def _read_view(node: Node, k: int, board: Board | None) -> View:
+def _decode_view(node: Node, k: int, board: Board | None) -> View:
     image = node.named(f"view {k + 1}")["image"].text()
     node = node.named(f"view {k + 1} ({image})")
     uv = node["uv"].numbers(None, 2)
     xy = node["board"].numbers(len(uv), 2)
     cov = node.get("cov")
     points = Observation(uv, xy, cov.numbers(len(uv), 2, 2) if cov else None)
-    corners = _read_corners(node, points) if len(uv) else None
-    # Found corners take their places on the plate from the target, unless the file differs.
+    corners = _decode_corners(node, points) if len(uv) else None
+    # Found corners take their places from the board, unless the file gives others.
     on_board = corners and board and np.array_equal(board.points(corners.grid), xy)
     return View(
         image=image,
-        status=_read_status(node, found=len(uv) > 0),
+        status=_decode_status(node, found=len(uv) > 0),
         reason=reason.text() if (reason := node.get("reason")) else "",
         note=note.text() if (note := node.get("note")) else "",
         corners=corners,
@@ -99,7 +99,7 @@ def _read_view(node: Node, k: int, board: Board | None) -> View:
     )
 
 
-def _read_status(node: Node, found: bool) -> ViewStatus:
+def _decode_status(node: Node, found: bool) -> ViewStatus:
     stated = node.get("status")
     if stated is None:
         return ViewStatus.FOUND if found else ViewStatus.NO_BOARD
@@ -111,8 +111,8 @@ def _read_status(node: Node, found: bool) -> ViewStatus:
     return status
 
 
-def _read_corners(node: Node, points: Observation) -> Corners | None:
-    """The corners with their places on a board, if the file tells them."""
+def _decode_corners(node: Node, points: Observation) -> Corners | None:
+    """Return the corners with their places on a board; None if the file does not give these."""
     grid, shape = node.get("grid"), node.get("shape")
     if grid is None or shape is None:
         return None
@@ -127,15 +127,15 @@ def _read_corners(node: Node, points: Observation) -> Corners | None:
         uv=points.uv,
         estimate=estimate.numbers(n, 2) if estimate else points.uv,
         cov=points.cov,
-        ambiguity=Ambiguity(ambiguity.choice(list(Ambiguity))) if ambiguity else Ambiguity.NONE,
+        ambiguity=Symmetry(ambiguity.choice(list(Symmetry))) if ambiguity else Symmetry.NONE,
         roi=outline.numbers(4, 2) if outline else None,
         method=method.text() if (method := node.get("method")) else "",
         relative=relative.flag() if relative else False,
-        others=tuple(map(_read_other, others.items())) if others else (),
-        pattern=read_pattern(node.get("pattern")),
+        others=tuple(map(_decode_other, others.items())) if others else (),
+        pattern=decode_pattern(node.get("pattern")),
     )
 
 
-def _read_other(node: Node) -> OtherBoard:
+def _decode_other(node: Node) -> OtherBoard:
     rows, cols = node["shape"].integers(2)
     return OtherBoard((int(rows), int(cols)), node["outline"].numbers(4, 2))

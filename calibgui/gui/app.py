@@ -13,10 +13,10 @@ from PySide6.QtCore import QLibraryInfo, QLocale, QTimer, QTranslator
 from PySide6.QtGui import QIcon
 from PySide6.QtWidgets import QApplication
 
-from calibgui.app.resources import resource
+from calibgui.app.resources import find_resource
 from calibgui.engine.errors import CalibrationError
-from calibgui.gui import theme
-from calibgui.gui.main_window import MainWindow
+from calibgui.gui.widgets import theme
+from calibgui.gui.window.main_window import MainWindow
 
 
 def run(arguments: Sequence[str]) -> int:
@@ -27,7 +27,7 @@ def run(arguments: Sequence[str]) -> int:
     app.setOrganizationName("calibgui")
     app.setDesktopFileName("calibgui")
     with contextlib.suppress(CalibrationError):  # a window without its icon is still a window
-        app.setWindowIcon(QIcon(str(resource("icons/calibgui.svg"))))
+        app.setWindowIcon(QIcon(str(find_resource("icons/calibgui.svg"))))
     _translate(app)
     theme.apply(app, theme.chosen())
     theme.follow_system(app)
@@ -48,7 +48,7 @@ def _translate(app: QApplication) -> None:
     """Speak the user's language as far as Qt and resources/translations/calibgui_<language> do."""
     places = [QLibraryInfo.path(QLibraryInfo.LibraryPath.TranslationsPath)]
     with contextlib.suppress(CalibrationError):
-        places.append(str(resource("translations")))
+        places.append(str(find_resource("translations")))
     for name, place in zip(("qtbase", "calibgui"), places, strict=False):
         translator = QTranslator(app)
         if translator.load(QLocale(), name, "_", place):

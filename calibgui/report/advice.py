@@ -1,4 +1,4 @@
-"""What to photograph to improve a calibration.
+"""Advice on what to photograph to improve a calibration.
 
 It follows from what the views leave out: regions of the sensor, tilts and their directions,
 distances (``coverage``).
@@ -10,57 +10,59 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from calibgui.dataset.result import Result
+from calibgui.dataset import Result
 from calibgui.engine.arrays import Array
 from calibgui.engine.calibration import Calibration
-from calibgui.report.coverage import attitudes, density
+from calibgui.report.coverage import count_corners_per_cell, measure_attitudes
 
-_TILTED = np.deg2rad(15)
-"""A board tilted less adds little to the focal length."""
-_FEW_VIEWS = 8
-_DISTANCES = 1.3
-"""Farthest over nearest board that counts as different distances."""
-_REGIONS = (
+_MIN_TILT = np.deg2rad(15)
+"""Tilt, rad, below which a view adds little to the focal length."""
+_MIN_VIEWS = 8
+"""Number of views below which more are advised."""
+_MIN_DISTANCE_RATIO = 1.3
+"""Ratio of the farthest to the nearest distance, below which all count as the same."""
+_REGION_NAMES = (
     ("upper left", "top", "upper right"),
     ("left", "middle", "right"),
     ("lower left", "bottom", "lower right"),
 )
+"""Names of the ninths of the image, row by row."""
 
 
-def wanted(result: Result) -> list[str]:
-    """What to do, each as the end of a sentence; nothing if the views cover everything."""
+def advise_photographs(result: Result) -> list[str]:
+    """List what to photograph, each as the end of a sentence; empty if nothing is left out."""
     calibration, observations = result.calibration, result.observations()
-    attitude = attitudes(calibration, observations)
+    attitude = measure_attitudes(calibration, observations)
     uv = np.concatenate([view.uv for view in observations])
     texts = [
-        *_empty_regions(uv, calibration),
-        *_missing_tilts(attitude.tilt, attitude.direction),
+        *_advise_regions(uv, calibration),
+        *_advise_tilts(attitude.tilt, attitude.direction),
     ]
-    if attitude.distance.max() < _DISTANCES * attitude.distance.min():
+    if attitude.distance.max() < _MIN_DISTANCE_RATIO * attitude.distance.min():
         texts.append("hold the board at different distances: all views have nearly the same")
-    if len(observations) < _FEW_VIEWS:
+    if len(observations) < _MIN_VIEWS:
         texts.append(
             f"take more views: {len(observations)} leave little to average and to check against"
         )
     return texts
 
 
-def _empty_regions(uv: Array, calibration: Calibration) -> Iterator[str]:
-    """Ninths of the sensor of which more than half saw no corner."""
-    cells = density(uv, calibration.camera.size) == 0
+def _advise_regions(uv: Array, calibration: Calibration) -> Iterator[str]:
+    """Advise on ninths of the sensor in which more than half of the cells saw no corner."""
+    cells = count_corners_per_cell(uv, calibration.camera.size) == 0
     rows, cols = cells.shape
     empty = cells.reshape(3, rows // 3, 3, cols // 3).mean(axis=(1, 3)) > 0.5
-    names = [_REGIONS[i][j] for i, j in np.argwhere(empty)]
+    names = [_REGION_NAMES[i][j] for i, j in np.argwhere(empty)]
     if names:
         yield (
-            f"bring the board into the image's {_joined(names)}, where few or no corners were "
+            f"bring the board into the image's {_join_names(names)}, where few or no corners were "
             "seen: the lens correction is extrapolated there"
         )
 
 
-def _missing_tilts(tilt: Array, direction: Array) -> Iterator[str]:
-    """Of tilts (K,) from the sensor and their directions (K,), rad."""
-    tilted = direction[tilt > _TILTED]
+def _advise_tilts(tilt: Array, direction: Array) -> Iterator[str]:
+    """Advise on tilts (K,) against the sensor and their directions (K,), rad."""
+    tilted = direction[tilt > _MIN_TILT]
     if len(tilted) < 3:
         yield (
             "tilt the board by 30 to 45 degrees in at least three views: "
@@ -74,5 +76,6 @@ def _missing_tilts(tilt: Array, direction: Array) -> Iterator[str]:
         yield "tilt the board about another axis too: all tilts are about the same one"
 
 
-def _joined(names: list[str]) -> str:
+def _join_names(names: list[str]) -> str:
+    """Join names to "a, b and c"."""
     return names[0] if len(names) == 1 else f"{', '.join(names[:-1])} and {names[-1]}"

@@ -1,12 +1,12 @@
-"""A target in words."""
+"""Boards in words."""
 
 from __future__ import annotations
 
 from calibgui.engine.boards import Board, Charuco, Circles, Pattern
 
 
-def described(board: Board) -> str:
-    """What the target is, as "ChArUco board of 6 x 8 inner corners, DICT_4X4_50, ..."."""
+def describe_board(board: Board) -> str:
+    """Describe a board, as "ChArUco board of 6 x 8 inner corners, DICT_4X4_50, ..."."""
     rows, cols, pattern = board.rows, board.cols, board.pattern
     if isinstance(pattern, Charuco):
         text = f"ChArUco board of {rows} x {cols} inner corners"
@@ -14,7 +14,7 @@ def described(board: Board) -> str:
             text += f", {pattern.dictionary}"
         if pattern.marker is not None:
             text += f", markers {pattern.marker:.2f} of a square"
-        legacy = not pattern.first_dark((rows, cols))
+        legacy = not pattern.is_first_square_dark((rows, cols))
         return text + (", first square white (layout before OpenCV 4.6)" if legacy else "")
     if isinstance(pattern, Circles):
         kind = "Asymmetric" if pattern.asymmetric else "Symmetric"
@@ -24,8 +24,8 @@ def described(board: Board) -> str:
     return f"Checkerboard of {rows} x {cols} inner corners"
 
 
-def learnt(stated: Pattern, board: Board | None) -> str:
-    """In words the target of which only `stated` was given before; empty if nothing was open."""
+def describe_recognised_board(stated: Pattern, board: Board | None) -> str:
+    """Describe a board of which only `stated` was given before; empty if that was all of it."""
     if board is None or board.pattern == stated:
         return ""
-    return f"The photographs show: {described(board)}."
+    return f"The photographs show: {describe_board(board)}."

@@ -1,4 +1,4 @@
-"""What a set of views covers: the sensor, the board's tilts and distances.
+"""Coverage of a set of views: the sensor, the board's tilts and distances.
 
 The tilt of a view is the angle between the board's normal and the optical axis, r3 being the
 board's third axis in the camera frame: tilt = acos |r33|, and its direction is where the part of
@@ -14,18 +14,20 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from calibgui.dataset.result import Result
+from calibgui.dataset import Result
 from calibgui.engine.arrays import Array, IntArray, Size
 from calibgui.engine.calibration import Calibration, Observation
-from calibgui.engine.geometry import rotation
-from calibgui.engine.images import Extent, board_extent
+from calibgui.engine.geometry import rotation_from_vector
+from calibgui.engine.images import Extent, compute_board_extent
 
-CELLS = (9, 6)
-"""Columns and rows in which the sensor is divided when its coverage is judged."""
+COVERAGE_CELLS = (9, 6)
+"""Numbers of columns and rows of cells by which the coverage of the sensor is judged."""
 
 
-def density(uv: Array, size: Size, cells: tuple[int, int] = CELLS) -> IntArray:
-    """(rows, columns) numbers of corners `uv` (n, 2) in equal cells of the sensor."""
+def count_corners_per_cell(
+    uv: Array, size: Size, cells: tuple[int, int] = COVERAGE_CELLS
+) -> IntArray:
+    """Count corners `uv` (n, 2), px, in equal cells (rows, columns) of the sensor."""
     w, h = size
     counts, _, _ = np.histogram2d(
         uv[:, 1],
@@ -38,19 +40,19 @@ def density(uv: Array, size: Size, cells: tuple[int, int] = CELLS) -> IntArray:
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Attitudes:
-    """How the board was held in each view."""
+    """Tilt and distance of the board in each of K views."""
 
     tilt: Array
     """(K,) angle between the board's normal and the optical axis, rad."""
     direction: Array
-    """(K,) where in the image the board recedes, rad: 0 to the right, pi/2 up."""
+    """(K,) direction in the image in which the board recedes, rad: 0 to the right, pi/2 up."""
     distance: Array
-    """(K,) from the camera's centre to the middle of the corners seen, mm."""
+    """(K,) distance from the camera's centre to the middle of the corners seen, mm."""
 
 
-def attitudes(calibration: Calibration, observations: Sequence[Observation]) -> Attitudes:
-    """The board's tilt, its direction and distance in each calibrated view."""
-    R = rotation(np.array([pose.rvec for pose in calibration.poses]))
+def measure_attitudes(calibration: Calibration, observations: Sequence[Observation]) -> Attitudes:
+    """Measure the board's tilt, its direction and distance in each calibrated view."""
+    R = rotation_from_vector(np.array([pose.rvec for pose in calibration.poses]))
     T = np.array([pose.tvec for pose in calibration.poses])
     middle = np.array([(view.xy.min(axis=0) + view.xy.max(axis=0)) / 2 for view in observations])
     normal = R[:, :, 2]
@@ -63,16 +65,16 @@ def attitudes(calibration: Calibration, observations: Sequence[Observation]) -> 
     )
 
 
-def board_extent_px(result: Result) -> Extent:
-    """The part of the plate that the views are about: the board's squares, or else its corners."""
+def find_shown_extent(result: Result) -> Extent:
+    """Return the rectangle that the views show, mm: the board's squares, or else its corners."""
     if result.board is not None:
-        return board_extent(result.board)
+        return compute_board_extent(result.board)
     xy = np.concatenate([view.xy for view in result.observations()])
     low, high = xy.min(axis=0), xy.max(axis=0)
     return float(low[0]), float(low[1]), float(high[0]), float(high[1])
 
 
-def natural_scale(result: Result) -> float:
-    """Pixels per mm with which the median view shows the board."""
-    distance = attitudes(result.calibration, result.observations()).distance
+def measure_natural_scale(result: Result) -> float:
+    """Return the scale with which the median view shows the board, px per mm."""
+    distance = measure_attitudes(result.calibration, result.observations()).distance
     return float(result.calibration.camera.focal.mean() / np.median(distance))

@@ -1,7 +1,6 @@
-"""The paper's figures, drawn with matplotlib for pages and files (the window has its own plots).
+"""Figures of the paper, drawn with matplotlib for pages and files (the window has its own plots).
 
-Each function returns a Figure and knows nothing of where it goes. Numbers in the names are
-the paper's.
+Each function returns a Figure and saves nothing. The numbers of figures are the paper's.
 """
 
 from __future__ import annotations
@@ -16,31 +15,41 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import MaxNLocator
 
 from calibgui.engine.arrays import Array
-from calibgui.engine.assessment import Histogram, component_histogram, length_histogram, stacked
+from calibgui.engine.assessment import (
+    Histogram,
+    make_component_histogram,
+    make_length_histogram,
+    stack_residuals,
+)
 from calibgui.engine.boards import BoardShape
-from calibgui.engine.calibration import Calibration, Iteration, StageOne, cosines_equation
-from calibgui.engine.camera import Camera, Part, displacement
+from calibgui.engine.calibration import Calibration, Iteration, StageOne, evaluate_cosines_equation
+from calibgui.engine.camera import Camera, DisplacementPart, compute_displacement
 from calibgui.engine.detection import Corners
 from calibgui.engine.geometry import centre_of_array
-from calibgui.engine.images import mesh
+from calibgui.engine.images import make_mesh
 
 Picture = npt.NDArray[np.generic]
 """(h, w) grey or (h, w, 3) colour image of any sample type."""
 
-_WIDTH = 6.4
-_SEARCHED = np.linspace(0.6, 1.4, 801)
+_WIDTH_INCHES = 6.4
+"""Width of a figure of one plot."""
+_SEARCHED_ASPECTS = np.linspace(0.6, 1.4, 801)
+"""Aspect ratios over which the cosines' equation is drawn."""
 
 
-def _single(height: float = 4.2) -> tuple[Figure, Axes]:
-    figure = Figure(figsize=(_WIDTH, height), layout="constrained")
+def _make_single_axes(height: float = 4.2) -> tuple[Figure, Axes]:
+    """Make a figure of one plot, `height` inches high."""
+    figure = Figure(figsize=(_WIDTH_INCHES, height), layout="constrained")
     return figure, figure.subplots()
 
 
 def draw_cosines_equation(stage_one: StageOne, view: int, literal: bool) -> Figure:
-    """Figure 4: g(r) of one view (counted from 1) with its root."""
-    figure, axes = _single()
+    """Draw figure 4: g(r) of one view (counted from 1) with its root."""
+    figure, axes = _make_single_axes()
     axes.axhline(0, color="0.7", linewidth=0.8)
-    axes.plot(_SEARCHED, cosines_equation(stage_one.backward, _SEARCHED, literal))
+    axes.plot(
+        _SEARCHED_ASPECTS, evaluate_cosines_equation(stage_one.backward, _SEARCHED_ASPECTS, literal)
+    )
     root = stage_one.aspect
     if np.isfinite(root):
         axes.plot(root, 0, "o", color="tab:red", fillstyle="none", label=f"$r_0$ = {root:.4f}")
@@ -49,9 +58,9 @@ def draw_cosines_equation(stage_one: StageOne, view: int, literal: bool) -> Figu
     return figure
 
 
-def aspect_ratios(stage_one: Sequence[StageOne]) -> Figure:
-    """Figure 5: the aspect ratio that each view gives by itself."""
-    figure, axes = _single()
+def draw_aspect_ratios(stage_one: Sequence[StageOne]) -> Figure:
+    """Draw figure 5: the aspect ratio that each view gives by itself."""
+    figure, axes = _make_single_axes()
     aspect = np.array([row.aspect for row in stage_one])
     views = np.arange(1, len(aspect) + 1)
     axes.axhline(1, color="0.7", linewidth=0.8)
@@ -68,9 +77,9 @@ def aspect_ratios(stage_one: Sequence[StageOne]) -> Figure:
     return figure
 
 
-def corners(image: Picture, found: Corners) -> Figure:
-    """Figure 6: region of interest with first estimates (a) and refined corners (b)."""
-    figure = Figure(figsize=(2 * _WIDTH, 5.2), layout="constrained")
+def draw_corners(image: Picture, found: Corners) -> Figure:
+    """Draw figure 6: region of interest with first estimates (a) and refined corners (b)."""
+    figure = Figure(figsize=(2 * _WIDTH_INCHES, 5.2), layout="constrained")
     for axes, points, colour, title in zip(
         figure.subplots(1, 2),
         (found.estimate, found.uv),
@@ -86,9 +95,9 @@ def corners(image: Picture, found: Corners) -> Figure:
     return figure
 
 
-def convergence(history: Sequence[Iteration], unit: str) -> Figure:
-    """Figure 7: the cost of Stage II against its iterations."""
-    figure, axes = _single()
+def draw_convergence(history: Sequence[Iteration], unit: str) -> Figure:
+    """Draw figure 7: the cost of Stage II against its iterations."""
+    figure, axes = _make_single_axes()
     axes.semilogy([i.index for i in history], [i.cost for i in history], "o-", markersize=4)
     axes.set(xlabel="iteration", ylabel=f"cost c, {unit}²")
     axes.xaxis.set_major_locator(MaxNLocator(integer=True))
@@ -96,20 +105,20 @@ def convergence(history: Sequence[Iteration], unit: str) -> Figure:
     return figure
 
 
-def distortion(camera: Camera) -> Figure:
-    """Figure 8: net corrective displacement, complete (a), radial (b) and decentering (c)."""
-    figure = Figure(figsize=(2.6 * _WIDTH, 4.6), layout="constrained")
+def draw_distortion(camera: Camera) -> Figure:
+    """Draw figure 8: net corrective displacement, complete (a), radial (b), decentering (c)."""
+    figure = Figure(figsize=(2.6 * _WIDTH_INCHES, 4.6), layout="constrained")
     w, h = camera.size
     u, v = np.linspace(0, w - 1, 161), np.linspace(0, h - 1, 121)
-    uv = mesh(u, v)
+    uv = make_mesh(u, v)
     sparse = uv[10:-1:20, 10:-1:20]
-    for axes, part, letter in zip(figure.subplots(1, 3), Part, "abc", strict=True):
-        length = displacement(uv, camera, part).length
+    for axes, part, letter in zip(figure.subplots(1, 3), DisplacementPart, "abc", strict=True):
+        length = compute_displacement(uv, camera, part).length
         shown = axes.imshow(length, extent=(-0.5, w - 0.5, h - 0.5, -0.5), cmap="gray")
         if np.ptp(length) > 0:
             levels = axes.contour(u, v, length, colors="tab:blue", linewidths=0.6)
             axes.clabel(levels, fontsize=7)
-        gradient = displacement(sparse, camera, part).gradient
+        gradient = compute_displacement(sparse, camera, part).gradient
         axes.quiver(
             *np.moveaxis(sparse, -1, 0),
             *np.moveaxis(gradient, -1, 0),
@@ -123,28 +132,28 @@ def distortion(camera: Camera) -> Figure:
     return figure
 
 
-def image_pair(left: Picture, right: Picture, titles: tuple[str, str]) -> Figure:
-    """Figures 9 and 13: two grey images side by side."""
-    figure = Figure(figsize=(2 * _WIDTH, 5.2), layout="constrained")
+def draw_image_pair(left: Picture, right: Picture, titles: tuple[str, str]) -> Figure:
+    """Draw two grey images side by side (figures 9 and 13)."""
+    figure = Figure(figsize=(2 * _WIDTH_INCHES, 5.2), layout="constrained")
     for axes, image, title in zip(figure.subplots(1, 2), (left, right), titles, strict=True):
         _show_image(axes, image)
         axes.set_title(title)
     return figure
 
 
-def superposed(real: Picture, synthetic: Picture) -> Picture:
-    """(H, W, 3) the real image in green over the synthetic in magenta: grey where they agree."""
+def superpose_images(real: Picture, synthetic: Picture) -> Picture:
+    """Superpose two images (h, w) as (h, w, 3), green and magenta, which is grey if they agree."""
     return np.stack([synthetic, real, synthetic], axis=-1)
 
 
-def residual_scatter(calibration: Calibration, on_reference: bool = True) -> Figure:
-    """Figures 10 and 15: residuals of all corners, coloured by view."""
-    figure, axes = _single(5.2)
+def draw_residual_scatter(calibration: Calibration, on_reference: bool = True) -> Figure:
+    """Draw the residuals of all corners, coloured by view (figures 10 and 15)."""
+    figure, axes = _make_single_axes(5.2)
     colours = colormaps["turbo"](np.linspace(0.05, 0.95, len(calibration.residuals)))
     for colour, view in zip(colours, calibration.residuals, strict=True):
         points = view.reference if on_reference else view.image
         axes.plot(*points.T, ".", color=colour, markersize=2.5)
-    reach = 1.05 * float(np.nanmax(np.abs(stacked(calibration, on_reference))))
+    reach = 1.05 * float(np.nanmax(np.abs(stack_residuals(calibration, on_reference))))
     names = ("Δx′", "Δy′", "reference px") if on_reference else ("Δu", "Δv", "px")
     axes.set(
         xlim=(-reach, reach),
@@ -157,34 +166,34 @@ def residual_scatter(calibration: Calibration, on_reference: bool = True) -> Fig
     return figure
 
 
-def residual_histograms(calibration: Calibration, on_reference: bool = True) -> Figure:
-    """Figures 11, 12 and 16: components with Gaussian fits, lengths with a Rayleigh fit."""
-    residuals = stacked(calibration, on_reference)
+def draw_residual_histograms(calibration: Calibration, on_reference: bool = True) -> Figure:
+    """Draw the residuals' histograms with their fits (figures 11, 12 and 16)."""
+    residuals = stack_residuals(calibration, on_reference)
     names = ("Δx′", "Δy′", "e′") if on_reference else ("Δu", "Δv", "e")
     unit = "reference px" if on_reference else "px"
     histograms = (
-        component_histogram(residuals[:, 0]),
-        component_histogram(residuals[:, 1]),
-        length_histogram(np.linalg.norm(residuals, axis=1)),
+        make_component_histogram(residuals[:, 0]),
+        make_component_histogram(residuals[:, 1]),
+        make_length_histogram(np.linalg.norm(residuals, axis=1)),
     )
-    figure = Figure(figsize=(2.2 * _WIDTH, 3.8), layout="constrained")
+    figure = Figure(figsize=(2.2 * _WIDTH_INCHES, 3.8), layout="constrained")
     for axes, histogram, name in zip(figure.subplots(1, 3), histograms, names, strict=True):
         _draw_histogram(axes, histogram)
         axes.set(xlabel=f"{name}, {unit}", ylabel=f"density, 1/{unit}")
     return figure
 
 
-def extrinsic_errors(errors: Array) -> Figure:
-    """Figure 14: relative errors of the external parameters (eq. 51), a fraction."""
-    figure, axes = _single()
+def draw_extrinsic_errors(errors: Array) -> Figure:
+    """Draw figure 14: relative errors of the external parameters (eq. 51), given as a fraction."""
+    figure, axes = _make_single_axes()
     axes.hist(100 * errors, bins=50, color="0.7")
     axes.set(xlabel="relative error of an external parameter, %", ylabel="count")
     return figure
 
 
-def board_shape_deviations(board_shape: BoardShape) -> Figure:
-    """Where the corners of an estimated plate are: arrows in the plane, colour out of it."""
-    figure, axes = _single(5.2)
+def draw_board_shape(board_shape: BoardShape) -> Figure:
+    """Draw the estimated deviations of a board's corners: arrows in its plane, colour out of it."""
+    figure, axes = _make_single_axes(5.2)
     d, places = board_shape.deviation, board_shape.nominal
     reach = float(np.abs(d[:, 2]).max()) or 1.0
     x, y = places.T
@@ -193,10 +202,10 @@ def board_shape_deviations(board_shape: BoardShape) -> Figure:
     if longest > 0:
         arrows = axes.quiver(x, y, *d[:, :2].T, angles="xy", width=0.003)
         axes.quiverkey(arrows, 0.88, 1.03, longest, f"{longest:.2g} mm", labelpos="E")
-    axes.set(aspect="equal", xlabel="X on the plate, mm", ylabel="Y on the plate, mm")
+    axes.set(aspect="equal", xlabel="X on the board, mm", ylabel="Y on the board, mm")
     axes.margins(0.12)
     axes.invert_yaxis()
-    axes.set_title(f"{board_shape.model} plate, {board_shape.rms:.2g} mm rms", loc="left")
+    axes.set_title(f"{board_shape.model} shape, {board_shape.rms:.2g} mm rms", loc="left")
     figure.colorbar(dots, label="out of the plane, away from the camera, mm", shrink=0.8)
     return figure
 
@@ -209,7 +218,7 @@ def _show_image(axes: Axes, image: Picture) -> None:
 def _draw_histogram(axes: Axes, histogram: Histogram) -> None:
     axes.stairs(histogram.density, histogram.edges, fill=True, color="0.8")
     x = np.linspace(histogram.edges[0], histogram.edges[-1], 400)
-    law = "Rayleigh" if histogram.rayleigh else "Gaussian"
-    axes.plot(x, histogram.fitted(x), color="tab:red", linewidth=1.2, label=law)
+    law = "Rayleigh" if histogram.is_rayleigh else "Gaussian"
+    axes.plot(x, histogram.evaluate_density(x), color="tab:red", linewidth=1.2, label=law)
     axes.set_title(f"mean {histogram.mean:.4f}, SD {histogram.sd:.4f}")
     axes.legend(loc="upper right")

@@ -1,4 +1,4 @@
-"""One page that sets every number printed in the paper beside ours."""
+"""Page of HTML that sets every number printed in the paper beside ours."""
 
 from __future__ import annotations
 
@@ -8,10 +8,10 @@ from html import escape
 import numpy as np
 
 from calibgui.engine.arrays import Array
-from calibgui.engine.assessment import summarise
-from calibgui.engine.calibration import Calibration, paper_table
+from calibgui.engine.assessment import summarise_residuals
+from calibgui.engine.calibration import Calibration, make_paper_table
 from calibgui.engine.geometry import PAPER_NAMES
-from calibgui.report import printed
+from calibgui.report import printed_values
 
 _UNITS = ("px", "px", "px⁻²", "px⁻⁴", "px⁻⁶", "px⁻¹", "px⁻¹", "px⁻²", "px", "px")
 
@@ -24,21 +24,21 @@ figure { margin: 1.5rem 0 } img { max-width: 100% } figcaption { color: #555 }
 """
 
 
-def paper_page(
+def make_paper_page(
     real: Calibration,
     synthetic: Calibration,
     image_cost: Calibration,
     extrinsic_errors: Array,
     figures: Mapping[str, str],
 ) -> str:
-    """The page as HTML.
+    """Make the page, as HTML.
 
     Args:
-        real: the printed method (`Cost.PAPER`) on the real images.
-        synthetic: the same on their synthetic versions (5.2).
-        image_cost: the real images with the default cost.
-        extrinsic_errors: relative errors of eq. 51.
-        figures: file name of each figure's picture, by its caption.
+        real: calibration by the printed method (`Cost.PAPER`) on the real images.
+        synthetic: calibration by the same method on their synthetic versions (5.2).
+        image_cost: calibration from the real images with the default cost.
+        extrinsic_errors: (K, 6) relative errors of eq. 51.
+        figures: file names of the figures, by their captions.
     """
     parts = [
         "<h1>Lucchese 2005, printed and reproduced</h1>",
@@ -46,13 +46,13 @@ def paper_page(
         "not know the residuals; <i>1σ</i> is σ sqrt(diag((JᵀJ)⁻¹)), what the residuals support. "
         "Differences are in units of the printed SD.</p>",
         "<h2>Table 1: Stage I</h2>",
-        _table_1(real),
+        _make_table_1(real),
         "<h2>Table 2: intrinsics from the real images</h2>",
-        _intrinsics(real, printed.TABLE_2, printed.TABLE_2_SD),
+        _make_intrinsics_table(real, printed_values.TABLE_2, printed_values.TABLE_2_SD),
         "<h2>Table 3: intrinsics from the synthetic images</h2>",
-        _intrinsics(synthetic, printed.TABLE_3, printed.TABLE_3_SD),
+        _make_intrinsics_table(synthetic, printed_values.TABLE_3, printed_values.TABLE_3_SD),
         "<h2>Other figures in the text</h2>",
-        _others(real, synthetic, image_cost, extrinsic_errors),
+        _make_table_of_others(real, synthetic, image_cost, extrinsic_errors),
         "<h2>Figures</h2>",
         *(
             f'<figure><img src="{escape(name)}" alt="{escape(caption)}">'
@@ -68,7 +68,8 @@ def paper_page(
     )
 
 
-def _table(header: Sequence[str], rows: Iterable[Sequence[str]]) -> str:
+def _make_table(header: Sequence[str], rows: Iterable[Sequence[str]]) -> str:
+    """Make an HTML table."""
     head = "".join(f"<th>{escape(cell)}</th>" for cell in header)
     body = "\n".join(
         "<tr>" + "".join(f"<td>{escape(cell)}</td>" for cell in row) + "</tr>" for row in rows
@@ -76,25 +77,29 @@ def _table(header: Sequence[str], rows: Iterable[Sequence[str]]) -> str:
     return f"<table>\n<tr>{head}</tr>\n{body}\n</table>"
 
 
-def _table_1(real: Calibration) -> str:
+def _make_table_1(real: Calibration) -> str:
+    """Make table 1: xp, yp and k1 of every view after Stage I."""
     ours = np.array([(row.xp, row.yp, 1e7 * row.k1) for row in real.stage_one])
-    theirs = np.array(printed.TABLE_1) * [1, 1, 1e7]
+    theirs = np.array(printed_values.TABLE_1) * [1, 1, 1e7]
     rows = [
         [str(k + 1), *(f"{v:.4f}" for pair in zip(theirs[k], ours[k], strict=True) for v in pair)]
         for k in range(min(len(ours), len(theirs)))
     ]
-    means = [*printed.TABLE_1_MEAN, theirs[:, 2].mean()]
+    means = [*printed_values.TABLE_1_MEAN, theirs[:, 2].mean()]
     rows.append(
         ["mean", *(f"{v:.4f}" for pair in zip(means, ours.mean(axis=0), strict=True) for v in pair)]
     )
     header = ["view"]
     for name in ("xp, px", "yp, px", "k1, 1e-7 px⁻²"):
         header += [f"{name}: printed", "ours"]
-    return _table(header, rows)
+    return _make_table(header, rows)
 
 
-def _intrinsics(ours: Calibration, theirs: Sequence[float], their_sd: Sequence[float]) -> str:
-    values, honest, sd = paper_table(ours)
+def _make_intrinsics_table(
+    ours: Calibration, theirs: Sequence[float], their_sd: Sequence[float]
+) -> str:
+    """Make table 2 or 3: the intrinsics with their standard deviations."""
+    values, honest, sd = make_paper_table(ours)
     rows = [
         [
             f"{name}, {unit}",
@@ -110,51 +115,58 @@ def _intrinsics(ours: Calibration, theirs: Sequence[float], their_sd: Sequence[f
         )
     ]
     header = ("", "printed", "ours", "difference / SD", "SD printed", "SD ours", "1σ ours")
-    return _table(header, rows)
+    return _make_table(header, rows)
 
 
-def _others(
+def _make_table_of_others(
     real: Calibration, synthetic: Calibration, image_cost: Calibration, errors: Array
 ) -> str:
-    on_plane, made, image = (summarise(c.residuals) for c in (real, synthetic, image_cost))
-    shown = real.stage_one[printed.SHOWN_VIEW - 1]
+    """Make the table of the numbers in the text."""
+    on_plane, made, image = (
+        summarise_residuals(c.residuals) for c in (real, synthetic, image_cost)
+    )
+    shown = real.stage_one[printed_values.SHOWN_VIEW - 1]
 
     def pair(a: float, b: float, digits: int, join: str = " ± ") -> str:
         return f"{a:.{digits}f}{join}{b:.{digits}f}"
 
     rows = [
-        ("pixel aspect ratio from view 13", f"{printed.ASPECT_OF_VIEW_13}", f"{shown.aspect:.4f}"),
-        ("iterations of Stage II", printed.STAGE_TWO_ITERATIONS, str(len(real.history) - 1)),
+        (
+            "pixel aspect ratio from view 13",
+            f"{printed_values.ASPECT_OF_VIEW_13}",
+            f"{shown.aspect:.4f}",
+        ),
+        ("iterations of Stage II", printed_values.STAGE_TWO_ITERATIONS, str(len(real.history) - 1)),
         (
             "residual e′ on the reference plane, reference px",
-            pair(*printed.REFERENCE_RESIDUAL, 1),
+            pair(*printed_values.REFERENCE_RESIDUAL, 1),
             pair(on_plane.reference_mean, on_plane.reference_sd, 3),
         ),
         (
             "σ of the reprojection residuals x, y, px (ours exact)",
-            pair(*printed.IMAGE_SIGMA, 3, ", "),
+            pair(*printed_values.IMAGE_SIGMA, 3, ", "),
             pair(on_plane.sigma_x, on_plane.sigma_y, 4, ", "),
         ),
         (
-            "the same with the image cost (isotropic plate, p3 = 0)",
+            "the same with the image cost (isotropic board, p3 = 0)",
             "",
             pair(image.sigma_x, image.sigma_y, 4, ", "),
         ),
         (
             "residual e′, synthetic images, reference px",
-            pair(*printed.SYNTHETIC_RESIDUAL, 3),
+            pair(*printed_values.SYNTHETIC_RESIDUAL, 3),
             pair(made.reference_mean, made.reference_sd, 4),
         ),
         (
             "largest relative error of the extrinsics",
-            f"about {100 * printed.EXTRINSIC_ERROR[0]:.1f} %",
+            f"about {100 * printed_values.EXTRINSIC_ERROR[0]:.1f} %",
             f"{100 * float(errors.max()):.3f} %",
         ),
         (
-            f"extrinsics within {100 * printed.EXTRINSIC_ERROR[1]:.2f} %",
+            f"extrinsics within {100 * printed_values.EXTRINSIC_ERROR[1]:.2f} %",
             "most",
-            f"{100 * float(np.mean(errors < printed.EXTRINSIC_ERROR[1])):.0f} %",
+            f"{100 * float(np.mean(errors < printed_values.EXTRINSIC_ERROR[1])):.0f} %",
         ),
     ]
     rows.append(("corners", "3900", str(on_plane.count)))
-    return _table(("", "printed", "ours"), rows)
+    return _make_table(("", "printed", "ours"), rows)

@@ -1,43 +1,43 @@
-"""A partial calibration in words: what was assumed, and what is determined all the same."""
+"""Partial calibrations in words: the assumptions, and what is determined all the same."""
 
 from __future__ import annotations
 
 import numpy as np
 
 from calibgui.engine.calibration import Calibration, Diagnosis
-from calibgui.report.numbers import with_sigma
+from calibgui.report.numbers import format_with_sigma
 
 
-def about_assumed(diagnosis: Diagnosis) -> str:
-    """What was taken for the quantities that the views leave open."""
-    if not diagnosis.assumed:
+def describe_assumptions(diagnosis: Diagnosis) -> str:
+    """Describe what was assumed of the quantities that the views leave open."""
+    if not diagnosis.assumptions:
         return (
             "Nothing had to be assumed, but what is said of focal length and principal point "
             "rests on the lens's distortion alone."
         )
-    lengths = [a for a in diagnosis.assumed if a.name[0] in "fc"]
-    zero = [a.name for a in diagnosis.assumed if a not in lengths]
-    listed = [f"{a.name} = {with_sigma(a.value, a.doubt)}" for a in lengths]
+    lengths = [a for a in diagnosis.assumptions if a.name[0] in "fc"]
+    zero = [a.name for a in diagnosis.assumptions if a not in lengths]
+    listed = [f"{a.name} = {format_with_sigma(a.value, a.sigma)}" for a in lengths]
     listed += [f"{', '.join(zero)} = 0"] if zero else []
     follows = "The other focal length and the coefficients go with it. "
     return (
         f"Assumed, as of an ordinary camera: {', '.join(listed)}. "
-        + follows * scale_assumed(diagnosis)
+        + follows * is_scale_assumed(diagnosis)
         + "Every ± includes what this may be off by; what has a small ± is determined."
     )
 
 
-def about_determined(calibration: Calibration) -> str:
-    """What is known although the focal length is assumed."""
+def describe_aspect_ratio(calibration: Calibration) -> str:
+    """Describe the aspect ratio, which is known although the focal length is assumed."""
     fx, fy = calibration.camera.focal
     J = np.array([-fy / fx, 1.0]) / fx
     sigma = float(np.sqrt(J @ calibration.covariance[:2, :2] @ J))
     return (
-        f"Determined all the same: fy/fx = {with_sigma(fy / fx, sigma)}, and of the lens what has "
-        "a small ± in the paper's units."
+        f"Determined all the same: fy/fx = {format_with_sigma(fy / fx, sigma)}, and of the lens "
+        "what has a small ± in the paper's units."
     )
 
 
-def scale_assumed(diagnosis: Diagnosis | None) -> bool:
-    """Whether the focal length is assumed, and all that goes with it."""
-    return diagnosis is not None and any(a.name in ("fx", "fy") for a in diagnosis.assumed)
+def is_scale_assumed(diagnosis: Diagnosis | None) -> bool:
+    """Return whether the focal length is assumed, and all that goes with it."""
+    return diagnosis is not None and any(a.name in ("fx", "fy") for a in diagnosis.assumptions)

@@ -1,4 +1,4 @@
-"""What a calibration can be trusted with, as text that fits a terminal of 80 columns."""
+"""Text about the quality of a calibration that fits a terminal of 80 columns."""
 
 from __future__ import annotations
 
@@ -10,76 +10,99 @@ import numpy as np
 from calibgui.engine.assessment import (
     BoardShapeChoice,
     Bootstrap,
+    CameraDifference,
     CrossValidation,
-    Difference,
     NoiseReport,
 )
 from calibgui.engine.calibration import Calibration
-from calibgui.engine.uncertainty import QUANTITIES, NextView, ProjectionUncertainty, ViewCount
-from calibgui.report.numbers import counted
-from calibgui.report.tables import aligned, bullet
+from calibgui.engine.uncertainty import QUANTITIES, NextView, ProjectionUncertainty, ViewCountStudy
+from calibgui.report.numbers import format_count
+from calibgui.report.tables import align_columns, format_bullet
 
-_TABLED = (2, 3, 4, 5, 6, 8, 10, 12, 15, 20, 25, 30, 40, 50, 70, 100, 150, 200, 300, 500, 1000)
+_TABULATED_COUNTS = (
+    2,
+    3,
+    4,
+    5,
+    6,
+    8,
+    10,
+    12,
+    15,
+    20,
+    25,
+    30,
+    40,
+    50,
+    70,
+    100,
+    150,
+    200,
+    300,
+    500,
+    1000,
+)
+"""Numbers of views that have a row in the table."""
+_MAX_BOOTSTRAP_RATIO = 1.5
+"""Median ratio of bootstrap to reported sigma, above which the latter is taken as too small."""
 
-_INCREDIBLE = 1.5
-"""Bootstrap over reported sigma from which the latter is too small beyond chance."""
 
-
-def where(distance: float) -> str:
-    """Which points are meant, in words."""
+def describe_distance(distance: float) -> str:
+    """Describe where points are that lie `distance` mm from the camera."""
     return f"{distance:g} mm away" if math.isfinite(distance) else "far away"
 
 
-def projection(found: ProjectionUncertainty, limit: float) -> str:
-    """Projection uncertainty in numbers."""
+def tabulate_projection_uncertainty(found: ProjectionUncertainty, limit: float) -> str:
+    """Tabulate projection uncertainty, with the share of the image known to `limit` px."""
     rows = [
         ["at the image's centre", f"{found.centre:.3f}"],
         ["median over the image", f"{found.median:.3f}"],
         ["worst in the image", f"{found.worst:.3f}"],
     ]
     head = ["", "px"]
-    title = f"Projection uncertainty of points {where(found.distance)} (one sigma, worst direction)"
+    points = f"points {describe_distance(found.distance)}"
+    title = f"Projection uncertainty of {points} (one sigma, worst direction)"
     inside = f"{100 * found.fraction(limit):.0f} % of the image is known to {limit:g} px or better."
-    return f"{title}\n{aligned([head, *rows], left=(0,))}\n{bullet(inside)}"
+    return f"{title}\n{align_columns([head, *rows], left=(0,))}\n{format_bullet(inside)}"
 
 
-def noise(report: NoiseReport) -> str:
-    """Whether the residuals look like noise, with the cause where they do not."""
+def tabulate_noise_report(report: NoiseReport) -> str:
+    """Tabulate the tests of the residuals for noise, with the cause where one fails."""
     rows = [
         [check.name, "as noise" if check.passed else "NOT noise", check.finding]
         for check in report.checks
     ]
-    text = "Do the residuals look like noise?\n" + aligned(rows, left=(0, 1, 2))
+    text = "Do the residuals look like noise?\n" + align_columns(rows, left=(0, 1, 2))
     cause = report.cause
     remark = "Nothing speaks against the standard deviations." if cause is None else cause.advice
-    return f"{text}\n{bullet(remark)}"
+    return f"{text}\n{format_bullet(remark)}"
 
 
-def validation(found: CrossValidation) -> str:
-    """Errors on views that were held out, fold by fold."""
+def tabulate_cross_validation(found: CrossValidation) -> str:
+    """Tabulate errors on views that were held out, fold by fold."""
     rows = [
         [str(n), str(len(fold.views)), f"{fold.training:.4f}", f"{fold.held_out:.4f}"]
         for n, fold in enumerate(found.folds, start=1)
     ]
     rows.append(["all", "", f"{found.training:.4f}", f"{found.held_out:.4f}"])
     head = ["fold", "held out", "rms of the others, px", "rms of these, px"]
-    return "Cross-validation over the views\n" + aligned([head, *rows])
+    return "Cross-validation over the views\n" + align_columns([head, *rows])
 
 
-def board_shapes(choice: BoardShapeChoice) -> str:
-    """The plate models by their error on unseen views, and the recommendation."""
+def tabulate_board_shape_choice(choice: BoardShapeChoice) -> str:
+    """Tabulate models of the board's shape by their error on unseen views, and recommend one."""
     rows = [
         [model, f"{found.training:.4f}", f"{found.held_out:.4f}"]
         for model, found in choice.validations.items()
     ]
-    head = ["plate", "training rms, px", "held-out rms, px"]
-    table = "Plate models on unseen views\n" + aligned([head, *rows], left=(0,))
+    head = ["shape", "training rms, px", "held-out rms, px"]
+    table = "Board shapes on unseen views\n" + align_columns([head, *rows], left=(0,))
     refused = [f"{model}: {reason}" for model, reason in choice.refused.items()]
-    return "\n".join([table, *map(bullet, [*refused, choice.words])])
+    return "\n".join([table, *map(format_bullet, [*refused, choice.recommendation])])
 
 
-def resampled(found: Bootstrap, calibration: Calibration) -> str:
-    """Bootstrap over the views beside the reported standard deviations."""
+def tabulate_bootstrap(found: Bootstrap, calibration: Calibration) -> str:
+    """Tabulate bootstrap standard deviations beside the reported ones."""
     names = calibration.camera.names
     rows = [
         [name, f"{sigma:.3g}", f"{reported:.3g}", f"{ratio:.2f}"]
@@ -94,18 +117,18 @@ def resampled(found: Bootstrap, calibration: Calibration) -> str:
     verdict = (
         f"The views scatter {typical:.1f} times as much as reported: their errors are not "
         "independent from corner to corner. Believe the larger of the two."
-        if typical > _INCREDIBLE
+        if typical > _MAX_BOOTSTRAP_RATIO
         else "The views scatter no more than is reported."
     )
-    return f"{title}\n{aligned([head, *rows], left=(0,))}\n{bullet(verdict)}"
+    return f"{title}\n{align_columns([head, *rows], left=(0,))}\n{format_bullet(verdict)}"
 
 
-def difference(found: Difference, expected: float) -> str:
-    """The difference of two cameras in numbers.
+def tabulate_camera_difference(found: CameraDifference, expected: float) -> str:
+    """Tabulate the difference of two cameras.
 
     Args:
         found: the difference.
-        expected: median of what their own uncertainties explain, px.
+        expected: median of the difference that their own uncertainties explain, px.
     """
     rows = [
         ["root mean square", f"{found.rms:.3f}"],
@@ -113,17 +136,18 @@ def difference(found: Difference, expected: float) -> str:
         ["worst", f"{found.worst:.3f}"],
         ["expected from both uncertainties (median)", f"{expected:.3f}"],
     ]
-    title = f"Difference in where points {where(found.distance)} are imaged, px"
+    title = f"Difference in where points {describe_distance(found.distance)} are imaged, px"
     turn = np.degrees(found.turn)
     motion = f"B is turned against A by ({turn[0]:+.3f}, {turn[1]:+.3f}, {turn[2]:+.3f}) degrees"
     if math.isfinite(found.distance):
         x, y, z = found.shift
         motion += f" and shifted by ({x:+.2f}, {y:+.2f}, {z:+.2f}) mm"
-    remarks = [f"{motion}, which is taken out.", _verdict(found.median, expected)]
-    return "\n".join([title, aligned(rows, left=(0,)), *map(bullet, remarks)])
+    remarks = [f"{motion}, which is taken out.", _describe_agreement(found.median, expected)]
+    return "\n".join([title, align_columns(rows, left=(0,)), *map(format_bullet, remarks)])
 
 
-def _verdict(median: float, expected: float) -> str:
+def _describe_agreement(median: float, expected: float) -> str:
+    """Say whether two cameras differ by more than their uncertainties explain."""
     if median <= 2 * expected:
         return "The two agree within their uncertainties."
     return (
@@ -132,50 +156,54 @@ def _verdict(median: float, expected: float) -> str:
     )
 
 
-def view_count(study: ViewCount, limit: float) -> str:
-    """The uncertainty against the number of views, and what it means."""
-    chosen = [i for i, n in enumerate(study.counts) if n in _TABLED or n == study.counts[-1]]
+def tabulate_number_of_views(study: ViewCountStudy, limit: float) -> str:
+    """Tabulate uncertainty against the number of views, and say which number reaches `limit` px."""
+    chosen = [
+        i for i, n in enumerate(study.counts) if n in _TABULATED_COUNTS or n == study.counts[-1]
+    ]
     rows = []
     for i in chosen:
         centre, focal, image = zip(study.random[i, 1], study.chosen[i], strict=True)
         solved = study.scatter[i]
         cells = [*centre, solved[0], *focal, solved[1], *image]
-        rows.append([str(study.counts[i]), *(_number(float(cell)) for cell in cells)])
+        rows.append([str(study.counts[i]), *(_format_number(float(cell)) for cell in cells)])
     head = ["views", *["random", "chosen", "solved"] * 2, "random", "chosen"]
     title = "One sigma against the number of views"
-    table = aligned([head, *rows])
+    table = align_columns([head, *rows])
     over = "         " + "principal point, px".center(24) + "focal length, px".center(24)
     over += "projection, px".center(16)
     legend = (
         "random: median of random sets; chosen: well-chosen sets; solved: scatter of random sets "
         "that were calibrated."
     )
-    remarks = [legend, *sentences(study, limit)]
-    return "\n".join([title, over.rstrip(), table, *map(bullet, remarks)])
+    remarks = [legend, *describe_number_of_views(study, limit)]
+    return "\n".join([title, over.rstrip(), table, *map(format_bullet, remarks)])
 
 
-def sentences(study: ViewCount, limit: float) -> list[str]:
-    """How many views are enough, in words."""
-    said = []
+def describe_number_of_views(study: ViewCountStudy, limit: float) -> list[str]:
+    """Describe how many views reach `limit` px."""
+    texts = []
     for column, name in enumerate(QUANTITIES):
         last = float(study.random[-1, 1, column])
-        at_random, chosen = (study.enough(name, limit, well) for well in (False, True))
+        at_random, chosen = (
+            study.find_sufficient_count(name, limit, well) for well in (False, True)
+        )
         if at_random is None:
-            said.append(
+            texts.append(
                 f"The {name} is not known to {limit:g} px: {last:.2g} px from all "
-                f"{counted(int(study.counts[-1]), 'view')}."
+                f"{format_count(int(study.counts[-1]), 'view')}."
             )
             continue
         well = f", or {chosen} well-chosen ones" if chosen and chosen < at_random else ""
-        said.append(
+        texts.append(
             f"The {name} is known to {limit:g} px from {at_random} random views{well}; "
             f"to {last:.2g} px from all {study.counts[-1]}."
         )
-    return [*said, *_scatter(study)]
+    return [*texts, *_describe_scatter(study)]
 
 
-def _scatter(study: ViewCount) -> list[str]:
-    """How the principal point moves between sets of views that were calibrated."""
+def _describe_scatter(study: ViewCountStudy) -> list[str]:
+    """Describe how the principal point scatters between sets of views that were calibrated."""
     tried = np.isfinite(study.scatter[:, 0])
     if tried.sum() < 2:
         return []
@@ -195,11 +223,15 @@ def _scatter(study: ViewCount) -> list[str]:
     ]
 
 
-def next_views(proposed: Sequence[NextView]) -> str:
-    """Where to hold the board next."""
-    lines = [f"{one.words} Projection: {one.before:.3f} to {one.after:.3f} px." for one in proposed]
-    return "What to photograph next\n" + "\n".join(map(bullet, lines))
+def describe_next_views(proposed: Sequence[NextView]) -> str:
+    """Describe where to hold the board next, and what that gains."""
+    lines = [
+        f"{view.instruction} Projection: {view.before:.3f} to {view.after:.3f} px."
+        for view in proposed
+    ]
+    return "What to photograph next\n" + "\n".join(map(format_bullet, lines))
 
 
-def _number(value: float) -> str:
+def _format_number(value: float) -> str:
+    """Format a standard deviation in px, or "-" if it is not known."""
     return "-" if math.isnan(value) else f"{value:.3f}" if value < 100 else f"{value:.0f}"

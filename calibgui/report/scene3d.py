@@ -1,8 +1,8 @@
-"""Camera and boards in space, drawn by projection to a plane: no 3-D graphics needed.
+"""Scene of camera and boards in space, projected to a plane: no 3-D graphics needed.
 
 A scene is a list of flat polygons. Camera-centric, the world is the camera's frame (X right,
-Y down, Z forward) and the boards stand in it; board-centric, it is the plate's frame and the
-cameras X_plate = R^T (X_cam - T) stand in it. An observer at a distance of three times the
+Y down, Z forward) and the boards stand in it; board-centric, it is the board's frame and the
+cameras X_board = R^T (X_cam - T) stand in it. An observer at a distance of three times the
 scene's radius orbits about its middle: with B = B_x(elevation) B_y(azimuth) a point X is at
 
     p = B (X - middle) + (0, 0, 3 radius),      s = zoom (p_x, p_y) / p_z,
@@ -18,27 +18,27 @@ from enum import StrEnum
 
 import numpy as np
 
-from calibgui.dataset.result import Result
+from calibgui.dataset import Result
 from calibgui.engine.arrays import Array, freeze
 from calibgui.engine.camera import Camera
-from calibgui.engine.geometry import Pose, rotation
-from calibgui.report.coverage import board_extent_px
+from calibgui.engine.geometry import Pose, rotation_from_vector
+from calibgui.report.coverage import find_shown_extent
 
-_DISTANCE = 3.0
-"""Of the observer from the middle, in radii of the scene."""
-_CAMERA_SIZE = 0.12
+_OBSERVER_DISTANCE = 3.0
+"""Distance of the observer from the middle, in radii of the scene."""
+_RELATIVE_CAMERA_LENGTH = 0.12
 """Length of a drawn camera over the mean distance of the boards."""
 
 
-class Centre(StrEnum):
-    """What stands still."""
+class SceneCentre(StrEnum):
+    """Object that stands still in the scene."""
 
     CAMERA = "camera"
     BOARD = "board"
 
 
-class Kind(StrEnum):
-    """What a polygon is part of."""
+class PolygonKind(StrEnum):
+    """Object that a polygon is part of."""
 
     BOARD = "board"
     CAMERA = "camera"
@@ -49,30 +49,32 @@ class Polygon:
     """A flat outline in the world; its first corner is the board's origin or the camera's apex."""
 
     points: Array
-    """(n, 3) mm."""
-    kind: Kind
+    """(n, 3) corners, mm."""
+    kind: PolygonKind
+    """Object that it is part of."""
     view: int
-    """The calibrated view that it stands for; -1 for what all views share."""
+    """Index of the calibrated view that it stands for; -1 for what all views share."""
 
     def __post_init__(self) -> None:
         freeze(self, "points")
 
 
-def scene(result: Result, centre: Centre) -> tuple[Polygon, ...]:
-    """The calibrated views' boards around the camera, or cameras around the board."""
+def build_scene(result: Result, centre: SceneCentre) -> tuple[Polygon, ...]:
+    """Build the scene: the views' boards around the camera, or their cameras around the board."""
     camera, poses = result.calibration.camera, result.calibration.poses
-    outline = _board_outline(result)
-    size = _CAMERA_SIZE * float(np.mean([np.linalg.norm(pose.tvec) for pose in poses]))
-    body = _camera_faces(camera, size)
-    if centre is Centre.CAMERA:
-        shared = [Polygon(face, Kind.CAMERA, -1) for face in body]
+    outline = _make_board_outline(result)
+    size = _RELATIVE_CAMERA_LENGTH * float(np.mean([np.linalg.norm(pose.tvec) for pose in poses]))
+    body = _make_camera_faces(camera, size)
+    if centre is SceneCentre.CAMERA:
+        shared = [Polygon(face, PolygonKind.CAMERA, -1) for face in body]
         placed = [
-            Polygon(_cam_from_board(outline, pose), Kind.BOARD, k) for k, pose in enumerate(poses)
+            Polygon(_transform_to_camera(outline, pose), PolygonKind.BOARD, k)
+            for k, pose in enumerate(poses)
         ]
     else:
-        shared = [Polygon(outline, Kind.BOARD, -1)]
+        shared = [Polygon(outline, PolygonKind.BOARD, -1)]
         placed = [
-            Polygon(_board_from_cam(face, pose), Kind.CAMERA, k)
+            Polygon(_transform_to_board(face, pose), PolygonKind.CAMERA, k)
             for k, pose in enumerate(poses)
             for face in body
         ]
@@ -81,43 +83,45 @@ def scene(result: Result, centre: Centre) -> tuple[Polygon, ...]:
 
 @dataclass(frozen=True, slots=True)
 class Observer:
-    """Where the scene is looked at from: radians, and a zoom; at 1 all fits from every side."""
+    """Direction from which the scene is looked at, rad, and zoom; at 1 all fits from every side."""
 
     azimuth: float = 0.6
     elevation: float = 0.4
     zoom: float = 1.0
 
     def turned(self, right: float, down: float) -> Observer:
-        """Moved about the scene by angles; never over the poles."""
+        """Return the observer moved about the scene by angles, rad, never over the poles."""
         elevation = float(np.clip(self.elevation + down, -np.pi / 2, np.pi / 2))
         return replace(self, azimuth=self.azimuth - right, elevation=elevation)
 
     def zoomed(self, factor: float) -> Observer:
-        """Seen larger by `factor`, within reason."""
+        """Return the observer with the zoom times `factor`, between 0.2 and 20."""
         return replace(self, zoom=float(np.clip(self.zoom * factor, 0.2, 20.0)))
 
 
 @dataclass(frozen=True, eq=False, slots=True)
-class Drawn:
+class DrawnPolygon:
     """A polygon on the drawing plane."""
 
     polygon: Polygon
+    """The polygon in space."""
     points: Array
     """(n, 2), x right, y down; the whole scene lies within the unit circle at zoom 1."""
     depth: float
+    """Mean depth of the corners, radii of the scene."""
 
 
-def draw(polygons: Sequence[Polygon], observer: Observer) -> tuple[Drawn, ...]:
-    """The polygons in the order in which to paint them. What is behind the observer is left out."""
+def draw_scene(polygons: Sequence[Polygon], observer: Observer) -> tuple[DrawnPolygon, ...]:
+    """Project polygons, and order them for painting; those behind the observer are left out."""
     if not polygons:
         return ()
     everything = np.concatenate([polygon.points for polygon in polygons])
     middle = (everything.min(axis=0) + everything.max(axis=0)) / 2
     radius = float(np.linalg.norm(everything - middle, axis=1).max()) or 1.0
-    points, depth = project((everything - middle) / radius, observer)
+    points, depth = project_to_plane((everything - middle) / radius, observer)
     ends = np.cumsum([len(polygon.points) for polygon in polygons])[:-1]
     drawn = [
-        Drawn(polygon, at, float(far.mean()))
+        DrawnPolygon(polygon, at, float(far.mean()))
         for polygon, at, far in zip(
             polygons, np.split(points, ends), np.split(depth, ends), strict=True
         )
@@ -126,47 +130,49 @@ def draw(polygons: Sequence[Polygon], observer: Observer) -> tuple[Drawn, ...]:
     return tuple(sorted(drawn, key=lambda d: -d.depth))
 
 
-def fitted(polygons: Sequence[Polygon], observer: Observer) -> Observer:
-    """The observer with the zoom at which the scene, seen from there, fills a square of side 2."""
-    drawn = draw(polygons, replace(observer, zoom=1.0))
+def fit_zoom(polygons: Sequence[Polygon], observer: Observer) -> Observer:
+    """Return the observer with the zoom at which the scene fills a square of side 2."""
+    drawn = draw_scene(polygons, replace(observer, zoom=1.0))
     reach = max((float(np.abs(item.points).max()) for item in drawn), default=1.0)
     return replace(observer, zoom=1.0 / reach)
 
 
-def project(points: Array, observer: Observer) -> tuple[Array, Array]:
-    """(n, 2) on the drawing plane and (n,) depth of points (n, 3) in radii from the middle."""
+def project_to_plane(points: Array, observer: Observer) -> tuple[Array, Array]:
+    """Project points (n, 3), radii from the middle, to the plane (n, 2), with depths (n,)."""
     a, e = observer.azimuth, observer.elevation
-    turn = rotation(np.array([e, 0.0, 0.0])) @ rotation(np.array([0.0, a, 0.0]))
-    p = points @ turn.T + np.array([0.0, 0.0, _DISTANCE])
+    turn = rotation_from_vector(np.array([e, 0.0, 0.0])) @ rotation_from_vector(
+        np.array([0.0, a, 0.0])
+    )
+    p = points @ turn.T + np.array([0.0, 0.0, _OBSERVER_DISTANCE])
     # A sphere of radius 1 at this distance is seen under asin(1 / distance).
-    scale = observer.zoom * np.sqrt(_DISTANCE**2 - 1)
+    scale = observer.zoom * np.sqrt(_OBSERVER_DISTANCE**2 - 1)
     return scale * p[:, :2] / p[:, 2:], p[:, 2]
 
 
-def view_at(drawn: Sequence[Drawn], point: Array) -> int:
-    """The view of the nearest polygon at `point` (2,) of the drawing plane; -1 if none."""
+def find_view_at(drawn: Sequence[DrawnPolygon], point: Array) -> int:
+    """Find the view of the nearest polygon at `point` (2,) of the drawing plane; -1 if none."""
     for item in reversed(drawn):
-        if item.polygon.view >= 0 and _contains(item.points, point):
+        if item.polygon.view >= 0 and _is_inside(item.points, point):
             return item.polygon.view
     return -1
 
 
-def _contains(outline: Array, point: Array) -> bool:
-    """Whether a convex outline (n, 2) holds the point."""
+def _is_inside(outline: Array, point: Array) -> bool:
+    """Return whether a convex outline (n, 2) contains the point."""
     edge = np.roll(outline, -1, axis=0) - outline
     to = point - outline
     side = edge[:, 0] * to[:, 1] - edge[:, 1] * to[:, 0]
     return bool((side >= 0).all() or (side <= 0).all())
 
 
-def _board_outline(result: Result) -> Array:
-    """(4, 3) corners of the board with its outer squares, from the origin's side round, mm."""
-    x0, y0, x1, y1 = board_extent_px(result)
+def _make_board_outline(result: Result) -> Array:
+    """Return corners (4, 3) of the board with its outer squares, from the origin's on, mm."""
+    x0, y0, x1, y1 = find_shown_extent(result)
     return np.array([[x0, y0, 0.0], [x1, y0, 0.0], [x1, y1, 0.0], [x0, y1, 0.0]])
 
 
-def _camera_faces(camera: Camera, length: float) -> list[Array]:
-    """The pyramid from the camera's centre to its image plane, `length` mm long."""
+def _make_camera_faces(camera: Camera, length: float) -> list[Array]:
+    """Return the faces of the pyramid from the camera's centre to its image, `length` mm long."""
     w, h = camera.size
     corners = np.array([[0.0, 0.0], [w, 0.0], [w, h], [0.0, h]]) - 0.5
     rays = (corners - camera.centre) / camera.focal
@@ -175,9 +181,11 @@ def _camera_faces(camera: Camera, length: float) -> list[Array]:
     return [base, *(np.array([apex, base[i], base[(i + 1) % 4]]) for i in range(4))]
 
 
-def _cam_from_board(points: Array, pose: Pose) -> Array:
-    return np.asarray(points @ rotation(pose.rvec).T + pose.tvec)
+def _transform_to_camera(points: Array, pose: Pose) -> Array:
+    """Transform points (n, 3) from the board\'s to the camera\'s frame, mm."""
+    return np.asarray(points @ rotation_from_vector(pose.rvec).T + pose.tvec)
 
 
-def _board_from_cam(points: Array, pose: Pose) -> Array:
-    return np.asarray((points - pose.tvec) @ rotation(pose.rvec))
+def _transform_to_board(points: Array, pose: Pose) -> Array:
+    """Transform points (n, 3) from the camera\'s to the board\'s frame, mm."""
+    return np.asarray((points - pose.tvec) @ rotation_from_vector(pose.rvec))

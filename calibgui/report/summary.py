@@ -1,8 +1,8 @@
-"""A calibration in plain sentences: what it rests on, how good it is, what would improve it.
+"""Summary of a calibration in plain sentences: its basis, its quality, and advice.
 
 How well a parameter is determined is judged by what its standard deviation does to the image:
 a focal length or centre is good to 0.1 % of itself or of the image's width; a lens coefficient
-counts if it can be told from zero. What to photograph: ``advice``.
+counts if it can be told from zero. The advice on what to photograph is in ``advice``.
 """
 
 from __future__ import annotations
@@ -14,31 +14,32 @@ from itertools import combinations
 
 import numpy as np
 
-from calibgui.dataset.result import Result
-from calibgui.engine.assessment import summarise
+from calibgui.dataset import Result
+from calibgui.engine.assessment import summarise_residuals
 from calibgui.engine.boards import BoardShape
-from calibgui.engine.calibration import Calibration, Status, correlations, in_one_spot
+from calibgui.engine.calibration import Calibration, Status, compute_correlations, is_in_one_spot
 from calibgui.report import advice, partial
-from calibgui.report.numbers import counted, with_sigma
-from calibgui.report.words import short_name
+from calibgui.report.names import shorten_name
+from calibgui.report.numbers import format_count, format_with_sigma
 
-_GOOD = 1e-3
-_POOR = 5e-3
-"""Relative standard deviation below which a length counts as well, above which as badly known."""
-_TOLD_FROM_ZERO = 2.0
-"""Standard deviations that a lens coefficient must be away from zero."""
-_TRADED = 0.98
-"""Correlation above which two lens coefficients are said to stand in for each other."""
-_OUTLYING = 2.5
-"""A view's RMS over the median of all, above which it is named."""
-_STRIKING = 1.5
-"""Times that the views disagree more than noise explains, above which it asks for attention."""
-_BY_CHANCE = 1.3
-"""A plate's deviation over its standard deviation below which it may be none."""
+_MAX_GOOD_RELATIVE_SIGMA = 1e-3
+"""Relative standard deviation of a length below which it counts as well determined."""
+_MIN_POOR_RELATIVE_SIGMA = 5e-3
+"""Relative standard deviation of a length above which it counts as badly determined."""
+_MIN_SIGMAS_FROM_ZERO = 2.0
+"""Ratio of a lens coefficient to its sigma, below which it is not told from zero."""
+_MIN_STRONG_CORRELATION = 0.98
+"""Correlation above which two lens coefficients are named as exchangeable."""
+_MAX_RMS_OVER_MEDIAN = 2.5
+"""Ratio of a view's RMS to the median of all, above which it is named."""
+_MIN_STRIKING_SCATTER = 1.5
+"""Ratio of the views' disagreement to that of noise, above which it is a caution."""
+_MAX_CHANCE_RATIO = 1.3
+"""Ratio of a board's deviation to its sigma, below which it may be none."""
 
 
 class Tone(StrEnum):
-    """What a sentence is for."""
+    """Purpose of a sentence."""
 
     FACT = "fact"
     GOOD = "good"
@@ -51,48 +52,51 @@ class Sentence:
     """One statement about a calibration."""
 
     tone: Tone
+    """Its purpose."""
     text: str
+    """The sentence, or a few."""
 
 
-def summary(result: Result) -> tuple[Sentence, ...]:
-    """The calibration in words, the most important first."""
+def describe_calibration(result: Result) -> tuple[Sentence, ...]:
+    """Describe the calibration in words, the most important first."""
     return tuple(
         sentence
         for part in (
-            _basis,
-            _diagnosed,
-            _ending,
-            _board_shape,
-            _fit,
-            _determined,
-            _correlated,
-            _outlying,
-            _advice,
+            _describe_basis,
+            _describe_diagnosis,
+            _describe_ending,
+            _describe_board,
+            _describe_fit,
+            _describe_parameters,
+            _describe_correlations,
+            _describe_outlying_views,
+            _describe_advice,
         )
         for sentence in part(result)
     )
 
 
-def _basis(result: Result) -> Iterator[Sentence]:
+def _describe_basis(result: Result) -> Iterator[Sentence]:
+    """Describe how many views and corners were used."""
     used = len(result.used)
     corners = sum(len(view.image) for view in result.calibration.residuals)
-    text = f"Calibrated from {counted(used, 'view')} with {counted(corners, 'corner')}"
+    text = f"Calibrated from {format_count(used, 'view')} with {format_count(corners, 'corner')}"
     left_out = len(result.views) - used
-    text += f"; {counted(left_out, 'image')} left out." if left_out else ", every image used."
+    text += f"; {format_count(left_out, 'image')} left out." if left_out else ", every image used."
     yield Sentence(Tone.FACT, text)
 
 
-def _diagnosed(result: Result) -> Iterator[Sentence]:
-    """Why the views do not determine the camera, or only a part of the image."""
+def _describe_diagnosis(result: Result) -> Iterator[Sentence]:
+    """Describe why the views do not determine the camera, or only for a part of the image."""
     calibration = result.calibration
     uv = np.concatenate([view.uv for view in result.observations()])
     if (diagnosis := calibration.diagnosis) is not None:
         yield Sentence(Tone.CAUTION, f"A partial calibration. {diagnosis.message}")
         yield Sentence(Tone.ADVICE, diagnosis.hint)
-        yield Sentence(Tone.CAUTION, partial.about_assumed(diagnosis))
-        if partial.scale_assumed(diagnosis):
-            yield Sentence(Tone.GOOD, partial.about_determined(calibration))
-    elif in_one_spot(uv, calibration.camera.size):
+        yield Sentence(Tone.CAUTION, partial.describe_assumptions(diagnosis))
+        if partial.is_scale_assumed(diagnosis):
+            yield Sentence(Tone.GOOD, partial.describe_aspect_ratio(calibration))
+    elif is_in_one_spot(uv, calibration.camera.size):
         yield Sentence(
             Tone.CAUTION,
             "All corners lie in one spot of the image: what is said of the lens elsewhere is "
@@ -100,7 +104,8 @@ def _diagnosed(result: Result) -> Iterator[Sentence]:
         )
 
 
-def _ending(result: Result) -> Iterator[Sentence]:
+def _describe_ending(result: Result) -> Iterator[Sentence]:
+    """Describe how the solve ended, where it did not converge, and its warnings."""
     calibration = result.calibration
     if calibration.status is Status.STOPPED:
         yield Sentence(
@@ -118,30 +123,30 @@ def _ending(result: Result) -> Iterator[Sentence]:
         yield Sentence(Tone.CAUTION, warning)
 
 
-def about_board_shape(board_shape: BoardShape) -> str:
-    """How far the board is from its drawing."""
+def describe_board_shape(board_shape: BoardShape) -> str:
+    """Describe how far the board is from its drawing."""
     across, along, out = np.sqrt(np.mean(board_shape.deviation**2, axis=0))
     text = (
         f"The board deviates from its drawing by {board_shape.rms:.2g} mm (rms): {across:.2g} mm "
         f"along its rows, {along:.2g} mm along its columns and {out:.2g} mm out of its plane."
     )
     chance = float(np.sqrt(np.mean(np.sum(board_shape.sigma**2, axis=1))))
-    if board_shape.rms < _BY_CHANCE * chance:
+    if board_shape.rms < _MAX_CHANCE_RATIO * chance:
         text += f" Noise alone makes as much ({chance:.2g} mm): it may well be as drawn."
     return text
 
 
-def about_board_shape_error(doubt: float) -> str:
-    """That the residuals of a nominal plate suspect it of deviations of `doubt` mm rms."""
+def describe_board_shape_error(rms: float) -> str:
+    """Describe that the residuals suggest deviations of the board of `rms` mm."""
     return (
         f"The residuals are not noise: over the views the board's corners are off by "
-        f"{doubt:.2g} mm (rms), as if it were not flat or not printed true. Every ± includes "
-        "what this does to the camera. Estimate the plate to remove it."
+        f"{rms:.2g} mm (rms), as if it were not flat or not printed true. Every ± includes "
+        "what this does to the camera. Estimate the board's shape to remove it."
     )
 
 
-def about_view_scatter(scatter: float) -> str:
-    """That the views disagree `scatter` times as much as the corners' noise explains."""
+def describe_view_scatter(scatter: float) -> str:
+    """Describe that the views disagree `scatter` times as much as the corners' noise explains."""
     return (
         f"The views disagree about the camera {scatter:.1f} times as much as the scatter of their "
         "corners explains: the errors within a view hang together. Every ± is therefore what the "
@@ -149,24 +154,25 @@ def about_view_scatter(scatter: float) -> str:
     )
 
 
-def _board_shape(result: Result) -> Iterator[Sentence]:
-    """What is known, or suspected, of the board's shape, and whether the views agree."""
-    board_shape, doubt = result.calibration.board_shape, result.calibration.board_shape_error
-    if doubt > 0:
-        yield Sentence(Tone.CAUTION, about_board_shape_error(doubt))
+def _describe_board(result: Result) -> Iterator[Sentence]:
+    """Describe the board's shape, known or suspected, and whether the views agree."""
+    board_shape, error = result.calibration.board_shape, result.calibration.board_shape_error
+    if error > 0:
+        yield Sentence(Tone.CAUTION, describe_board_shape_error(error))
     if board_shape is not None:
-        yield Sentence(Tone.FACT, about_board_shape(board_shape))
-    if (scatter := result.calibration.view_scatter) > 0:
-        tone = Tone.CAUTION if scatter > _STRIKING else Tone.FACT
-        yield Sentence(tone, about_view_scatter(scatter))
+        yield Sentence(Tone.FACT, describe_board_shape(board_shape))
+    if (scatter := result.calibration.overdispersion) > 0:
+        tone = Tone.CAUTION if scatter > _MIN_STRIKING_SCATTER else Tone.FACT
+        yield Sentence(tone, describe_view_scatter(scatter))
 
 
-def _fit(result: Result) -> Iterator[Sentence]:
+def _describe_fit(result: Result) -> Iterator[Sentence]:
+    """Describe the residuals."""
     calibration = result.calibration
-    fit = summarise(calibration.residuals)
+    fit = summarise_residuals(calibration.residuals)
     unknowns = int(np.count_nonzero(calibration.sigma)) + 6 * len(calibration.poses)
     if calibration.diagnosis is not None:
-        unknowns -= len(calibration.diagnosis.assumed)
+        unknowns -= len(calibration.diagnosis.assumptions)
     if calibration.board_shape is not None:
         unknowns += int(np.count_nonzero(calibration.board_shape.sigma))
     yield Sentence(
@@ -178,19 +184,19 @@ def _fit(result: Result) -> Iterator[Sentence]:
     )
 
 
-def _determined(result: Result) -> Iterator[Sentence]:
-    """The parameters by how well they are known."""
+def _describe_parameters(result: Result) -> Iterator[Sentence]:
+    """Describe the parameters by how well they are determined."""
     calibration = result.calibration
     camera, sigma = calibration.camera, calibration.sigma
     names = camera.names
-    texts = dict(zip(names, map(with_sigma, camera.params, sigma), strict=True))
+    texts = dict(zip(names, map(format_with_sigma, camera.params, sigma), strict=True))
     scale = np.concatenate([camera.params[:2], [camera.size[0]] * 2])
     relative = dict(zip(names[:4], sigma[:4] / scale, strict=True))
     free = [n for n in names if n not in calibration.fixed]
     missing = {u.name for u in calibration.undetermined}
     if calibration.diagnosis is not None:
-        missing |= {a.name for a in calibration.diagnosis.assumed}
-    if partial.scale_assumed(calibration.diagnosis):
+        missing |= {a.name for a in calibration.diagnosis.assumptions}
+    if partial.is_scale_assumed(calibration.diagnosis):
         missing |= {"fx", "fy", *names[4:]}
 
     def listed(chosen: list[str]) -> str:
@@ -203,41 +209,41 @@ def _determined(result: Result) -> Iterator[Sentence]:
             "Hold it, or add views that differ more from each other.",
         )
     lengths = [n for n in names[:4] if n in free and n not in missing]
-    if good := [n for n in lengths if relative[n] < _GOOD]:
+    if good := [n for n in lengths if relative[n] < _MAX_GOOD_RELATIVE_SIGMA]:
         yield Sentence(Tone.GOOD, f"Well determined: {listed(good)} px.")
-    if poor := [n for n in lengths if relative[n] > _POOR]:
+    if poor := [n for n in lengths if relative[n] > _MIN_POOR_RELATIVE_SIGMA]:
         yield Sentence(
             Tone.CAUTION,
             f"Badly determined: {listed(poor)} px. "
             + (
-                "Estimate the plate."
+                "Estimate the board's shape."
                 if calibration.board_shape_error > 0
                 else "Add views with the board tilted by 30 to 45 degrees in different directions."
             ),
         )
     coefficients = [n for n in names[4:] if n in free and n not in missing]
     away = np.abs(camera.params) / np.where(sigma > 0, sigma, np.inf)
-    if vague := [n for n in coefficients if away[names.index(n)] < _TOLD_FROM_ZERO]:
+    if vague := [n for n in coefficients if away[names.index(n)] < _MIN_SIGMAS_FROM_ZERO]:
         yield Sentence(
             Tone.CAUTION,
             f"Not told from zero: {listed(vague)}. They may be held at 0; to measure them, "
             + (
-                "estimate the plate."
+                "estimate the board's shape."
                 if calibration.board_shape_error > 0
                 else "bring corners closer to the image's edges."
             ),
         )
 
 
-def _correlated(result: Result) -> Iterator[Sentence]:
-    """Pairs of lens coefficients of which only a combination is known."""
+def _describe_correlations(result: Result) -> Iterator[Sentence]:
+    """Describe pairs of lens coefficients of which only a combination is determined."""
     calibration = result.calibration
     names = calibration.camera.names
-    matrix = correlations(calibration.covariance)
+    matrix = compute_correlations(calibration.covariance)
     pairs = [
         f"{names[i]} and {names[j]} ({matrix[i, j]:+.3f})"
         for i, j in combinations(range(4, len(names)), 2)
-        if abs(matrix[i, j]) > _TRADED
+        if abs(matrix[i, j]) > _MIN_STRONG_CORRELATION
     ]
     if pairs:
         yield Sentence(
@@ -247,9 +253,10 @@ def _correlated(result: Result) -> Iterator[Sentence]:
         )
 
 
-def _outlying(result: Result) -> Iterator[Sentence]:
-    for k in outlying_views(result.calibration):
-        name = short_name(result.used[k].image)
+def _describe_outlying_views(result: Result) -> Iterator[Sentence]:
+    """Name the views that fit much worse than the others."""
+    for k in find_outlying_views(result.calibration):
+        name = shorten_name(result.used[k].image)
         yield Sentence(
             Tone.CAUTION,
             f"{name} fits much worse than the others ({result.calibration.residuals[k].rms:.3f} "
@@ -257,18 +264,18 @@ def _outlying(result: Result) -> Iterator[Sentence]:
         )
 
 
-def outlying_views(calibration: Calibration) -> tuple[int, ...]:
-    """Indices of the calibrated views whose RMS is far above the median."""
+def find_outlying_views(calibration: Calibration) -> tuple[int, ...]:
+    """Find the indices of the calibrated views whose RMS is far above the median."""
     rms = np.array([view.rms for view in calibration.residuals])
-    return tuple(int(k) for k in np.flatnonzero(rms > _OUTLYING * np.median(rms)))
+    return tuple(int(k) for k in np.flatnonzero(rms > _MAX_RMS_OVER_MEDIAN * np.median(rms)))
 
 
-def _advice(result: Result) -> Iterator[Sentence]:
-    """What to photograph to improve the calibration."""
-    wanted = advice.wanted(result)
-    for text in wanted:
+def _describe_advice(result: Result) -> Iterator[Sentence]:
+    """Describe what to photograph to improve the calibration."""
+    texts = advice.advise_photographs(result)
+    for text in texts:
         yield Sentence(Tone.ADVICE, f"To improve it, {text}.")
-    if not wanted and result.calibration.board_shape_error == 0:
+    if not texts and result.calibration.board_shape_error == 0:
         yield Sentence(
             Tone.GOOD,
             "The views cover sensor, tilts and distances; four times as many of the same kind "

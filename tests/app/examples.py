@@ -9,10 +9,9 @@ from pathlib import Path
 import numpy as np
 
 from calibgui.app.calibration import calibrate_views
-from calibgui.app.project import Project, with_result
+from calibgui.app.project import Project, add_result
 from calibgui.app.settings import Settings
-from calibgui.dataset.corner_set import CornerSet
-from calibgui.dataset.view import View, ViewStatus
+from calibgui.dataset import CornerSet, View, ViewStatus
 from calibgui.engine.boards.board import Board
 from calibgui.engine.camera.camera import Camera
 from calibgui.engine.detection.corners import Corners
@@ -43,7 +42,7 @@ def calibrated(folder: Path) -> Project:
     for name, fixed in (("Calibration 1", {}), ("k3 held", {"k3": None})):
         corner_set = CornerSet(CAMERA.size, project.views, project.board)
         result = calibrate_views(corner_set, Settings(fixed=fixed))
-        project = with_result(project, name, result)
+        project = add_result(project, name, result)
     settings = replace(project.settings, fixed={"k3": None})
     first = project.views[0].image
     return replace(project, settings=settings, digests={first: "ab" * 32})

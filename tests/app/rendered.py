@@ -6,8 +6,7 @@ import numpy as np
 from scipy.spatial.transform import Rotation
 
 from calibgui import engine
-from calibgui.dataset.result import Result
-from calibgui.dataset.view import View, ViewStatus
+from calibgui.dataset import Result, View, ViewStatus
 from calibgui.engine.boards.board import Board
 from calibgui.engine.camera.camera import Camera
 from calibgui.engine.detection.corners import Corners

@@ -7,26 +7,25 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from calibgui.app.calibration import calibrate_views, short_names
+from calibgui.app.calibration import calibrate_views, shorten_names
 from calibgui.app.detection import find_views
-from calibgui.app.resources import resource, sample_square
+from calibgui.app.resources import find_resource, find_sample_square
 from calibgui.app.settings import Settings
-from calibgui.dataset.corner_set import CornerSet
-from calibgui.dataset.view import View, ViewStatus
+from calibgui.dataset import CornerSet, View, ViewStatus
 from calibgui.engine.arrays import Array
-from calibgui.engine.assessment.noise_test import examine
+from calibgui.engine.assessment.noise_test import check_residuals
 from calibgui.engine.calibration.calibrate import calibrate
 from calibgui.engine.calibration.observations import Observation
 from calibgui.engine.calibration.result import Cost, Iteration, Status
-from calibgui.engine.camera.projection import pixels
+from calibgui.engine.camera.projection import pixels_from_rays
 from calibgui.engine.errors import CalibrationError, Cancelled
-from calibgui.engine.geometry.rotations import rotation
+from calibgui.engine.geometry.rotations import rotation_from_vector
 from tests.engine import scenes
-from tests.photographs import BOARD, CAMERA, poses
+from tests.photographs import BOARD, CAMERA, draw_poses
 
 
 def corner_set() -> CornerSet:
-    scene = scenes.seen(CAMERA, poses(), BOARD)
+    scene = scenes.seen(CAMERA, draw_poses(), BOARD)
     views = [
         View(f"a/{k}.png", ViewStatus.FOUND, points=Observation(view.uv, view.xy))
         for k, view in enumerate(scene.views)
@@ -72,21 +71,21 @@ def test_a_report_can_cancel() -> None:
 
 
 def test_names_are_short_where_that_is_enough() -> None:
-    assert short_names([View("a/1.png"), View("b/2.png")]) == ["1.png", "2.png"]
-    assert short_names([View("a/1.png"), View("b/1.png")]) == ["a/1.png", "b/1.png"]
+    assert shorten_names([View("a/1.png"), View("b/2.png")]) == ["1.png", "2.png"]
+    assert shorten_names([View("a/1.png"), View("b/1.png")]) == ["a/1.png", "b/1.png"]
 
 
 def noisy(board_shape: Array | None = None) -> CornerSet:
     """Twelve views with 0.05 px of noise, of a board with deviations (n, 3) mm."""
     rng = np.random.default_rng(4)
     views = []
-    for k, pose in enumerate(poses() + poses()[:4]):
+    for k, pose in enumerate(draw_poses() + draw_poses()[:4]):
         xy = BOARD.points()
         point = np.column_stack([xy, np.zeros(len(xy))]) + (
             0 if board_shape is None else board_shape
         )
-        seen = point @ rotation(pose.rvec).T + pose.tvec
-        uv = pixels(seen[:, :2] / seen[:, 2:], CAMERA) + rng.normal(0, 0.05, xy.shape)
+        seen = point @ rotation_from_vector(pose.rvec).T + pose.tvec
+        uv = pixels_from_rays(seen[:, :2] / seen[:, 2:], CAMERA) + rng.normal(0, 0.05, xy.shape)
         views.append(View(f"{k}.png", ViewStatus.FOUND, points=Observation(uv, xy)))
     return CornerSet(CAMERA.size, tuple(views))
 
@@ -109,7 +108,7 @@ def test_outliers_are_left_out_by_name() -> None:
     assert kept is not None and len(kept.uv) == len(BOARD.points()) - 2
     first, second, third = result.calibration.warnings
     assert [first.split()[0], second.split()[0]] == ["1.png", "7.png"]
-    assert third.startswith("The board is upside down in 5.png, as its corners are counted.")
+    assert third.startswith("The board is upside down in 5.png, as its corners are numbered.")
 
 
 def test_views_are_weighed_by_their_noise() -> None:
@@ -157,10 +156,10 @@ def test_the_best_plate_is_chosen_and_said() -> None:
 @pytest.mark.slow
 def test_what_is_left_of_the_sample_looks_like_noise() -> None:
     """Its photographs are rendered: nothing is wrong with board, camera or lens."""
-    images = sorted(resource("sample").glob("*.png"))
-    found = find_views(images).corner_set(sample_square(images))
+    images = sorted(find_resource("sample").glob("*.png"))
+    found = find_views(images).corner_set(find_sample_square(images))
     result = calibrate_views(found)
-    report = examine(result.calibration, result.observations())
+    report = check_residuals(result.calibration, result.observations())
     assert report.passed, report.cause
 
 

@@ -10,16 +10,16 @@ import numpy as np
 import pytest
 
 from calibgui.app import detection, workers
-from calibgui.app.detection import Detection, find_views, search_view, usual_board
+from calibgui.app.detection import Detection, find_views, infer_grid_size, search_view
 from calibgui.app.paths import find_images
-from calibgui.dataset.view import View, ViewStatus
+from calibgui.dataset import View, ViewStatus
 from calibgui.engine.arrays import freeze_array
-from calibgui.engine.boards.pattern import Ambiguity
+from calibgui.engine.boards.pattern import Symmetry
 from calibgui.engine.camera.distortion import project_points
 from calibgui.engine.detection.corners import Corners
 from calibgui.engine.errors import CalibrationError, Cancelled
 from calibgui.engine.images.reading import read_image, write_image
-from tests.photographs import BOARD, CAMERA, COUNT, poses
+from tests.photographs import BOARD, CAMERA, COUNT, draw_poses
 
 
 @pytest.fixture(scope="module")
@@ -74,7 +74,7 @@ def test_a_bad_image_is_named_with_the_reason(
 def test_the_board_is_inferred_and_its_corners_are_right(found: Detection) -> None:
     assert found.grid_size == (BOARD.rows, BOARD.cols)
     views = {Path(view.image).stem: view for view in found.views}
-    for number, pose in enumerate(poses(), start=1):
+    for number, pose in enumerate(draw_poses(), start=1):
         view = views[f"view{number}"]
         assert view.corners is not None and view.corners.complete
         expected = project_points(BOARD.points(), CAMERA, pose)
@@ -112,7 +112,9 @@ def test_a_region_shows_which_of_two_boards_is_meant(photographs: Path, tmp_path
     left, right = (read_image(photographs / f"view{k}.png").pixels for k in (1, 2))
     write_image(tmp_path / "two.png", np.hstack([left, right]))
     width = CAMERA.size[0]
-    corners = project_points(BOARD.points(), CAMERA, poses()[1]).reshape(BOARD.rows, BOARD.cols, 2)
+    corners = project_points(BOARD.points(), CAMERA, draw_poses()[1]).reshape(
+        BOARD.rows, BOARD.cols, 2
+    )
     region = corners[[0, 0, -1, -1], [0, -1, -1, 0]] + [width, 0]
     view = search_view(View(str(tmp_path / "two.png"), roi=freeze_array(region)), (6, 7))
     assert view.corners is not None
@@ -121,22 +123,22 @@ def test_a_region_shows_which_of_two_boards_is_meant(photographs: Path, tmp_path
 
 def corners(shape: tuple[int, int], count: int) -> View:
     grid = np.indices(shape).reshape(2, -1).T[:count]
-    found = Corners(shape, grid, grid * 10.0, grid * 10.0, ambiguity=Ambiguity.NONE)
+    found = Corners(shape, grid, grid * 10.0, grid * 10.0, ambiguity=Symmetry.NONE)
     return View("x.png", ViewStatus.FOUND, corners=found)
 
 
 def test_the_usual_board_is_the_most_frequent_complete_one() -> None:
     whole, part, larger = corners((6, 7), 42), corners((5, 7), 30), corners((7, 8), 56)
-    assert usual_board([part, part, part, whole, larger, whole]) == (6, 7)
-    assert usual_board([whole, larger]) == (7, 8)
-    assert usual_board([part, View("blank.png", ViewStatus.NO_BOARD)]) is None
+    assert infer_grid_size([part, part, part, whole, larger, whole]) == (6, 7)
+    assert infer_grid_size([whole, larger]) == (7, 8)
+    assert infer_grid_size([part, View("blank.png", ViewStatus.NO_BOARD)]) is None
 
 
 def test_a_partly_seen_board_is_counted_on_the_usual_one(photographs: Path, tmp_path: Path) -> None:
     shutil.copytree(photographs, tmp_path, dirs_exist_ok=True)
     # The right-most column of the first view is outside the image.
     pixels = read_image(photographs / "view1.png").pixels
-    uv = project_points(BOARD.points(), CAMERA, poses()[0]).reshape(BOARD.rows, BOARD.cols, 2)
+    uv = project_points(BOARD.points(), CAMERA, draw_poses()[0]).reshape(BOARD.rows, BOARD.cols, 2)
     shift = CAMERA.size[0] - int(uv[:, -2, 0].max()) - 8
     moved = np.roll(pixels, shift, axis=1)
     moved[:, :shift] = pixels[:, :1].mean()
@@ -152,7 +154,7 @@ def test_a_crash_is_the_images_own(photographs: Path, monkeypatch: pytest.Monkey
     def spread(_: object, items: list[View], *__: object) -> list[tuple[int, object]]:
         return [(k, workers.Crashed()) for k in range(len(items))]
 
-    monkeypatch.setattr(detection, "spread", spread)
+    monkeypatch.setattr(detection, "map_in_processes", spread)
     found = find_views(find_images([str(photographs)]))
     assert {view.status for view in found.views} == {ViewStatus.UNREADABLE}
     assert found.grid_size is None

@@ -26,19 +26,20 @@ from hypothesis.stateful import (
 
 from calibgui.app.document import Document
 from calibgui.app.project import (
+    DEFAULT_SQUARE,
     Project,
     Unit,
-    free_name,
-    renamed_result,
-    with_each,
-    with_images,
-    with_result,
-    without_result,
-    without_views,
+    add_images,
+    add_result,
+    change_views,
+    find_free_name,
+    remove_result,
+    remove_views,
+    rename_result,
 )
-from calibgui.app.project_file import project_record, read_project, write_project
-from calibgui.app.settings import Settings
-from calibgui.dataset.view import View, ViewStatus
+from calibgui.app.project_file import encode_project, read_project, write_project
+from calibgui.app.settings import MODEL_CHOICES, Settings
+from calibgui.dataset import View, ViewStatus
 from calibgui.engine.boards.shape import BoardShapeModel, BoardShapePrior
 from calibgui.engine.calibration.result import Cost
 from tests.app import examples
@@ -49,7 +50,7 @@ _FOLDER = Path(tempfile.gettempdir()) / "calibgui images"
 @lru_cache
 def content(project: Project) -> str:
     """Everything that a project holds, to compare."""
-    return json.dumps(project_record(project, _FOLDER), default=_plain)
+    return json.dumps(encode_project(project, _FOLDER), default=_plain)
 
 
 def _plain(value: Mapping[str, Any] | np.ndarray) -> Any:
@@ -99,7 +100,7 @@ class Editing(RuleBasedStateMachine):
     @rule(count=st.integers(1, 3))
     def add_images(self, count: int) -> None:
         names = [str(_FOLDER / f"new {next(self.count)}.png") for _ in range(count)]
-        self.edit("Add images", lambda p: with_images(p, names))
+        self.edit("Add images", lambda p: add_images(p, names))
 
     @rule()
     def add_found_views(self) -> None:
@@ -112,7 +113,7 @@ class Editing(RuleBasedStateMachine):
     @rule(data=st.data())
     def remove_images(self, data: st.DataObject) -> None:
         view = data.draw(st.sampled_from(self.document.project.views), label="removed")
-        self.edit("Remove images", lambda p: without_views(p, [view.image]))
+        self.edit("Remove images", lambda p: remove_views(p, [view.image]))
 
     @precondition(lambda self: self.document.project.views)
     @rule(data=st.data())
@@ -120,7 +121,7 @@ class Editing(RuleBasedStateMachine):
         view = data.draw(st.sampled_from(self.document.project.views), label="toggled")
         self.edit(
             "Exclude",
-            lambda p: with_each(p, [view.image], lambda v: replace(v, enabled=not v.enabled)),
+            lambda p: change_views(p, [view.image], lambda v: replace(v, enabled=not v.enabled)),
         )
 
     @rule(square=st.floats(1.0, 100.0), unit=st.sampled_from(Unit))
@@ -133,6 +134,7 @@ class Editing(RuleBasedStateMachine):
 
     @rule(
         cost=st.sampled_from(Cost),
+        model=st.sampled_from(MODEL_CHOICES),
         fixed=st.dictionaries(st.sampled_from(["k2", "k3", "p1"]), st.none() | st.floats(-1, 1)),
         board_shape=st.none() | st.sampled_from(BoardShapeModel),
         prior=st.none() | st.builds(BoardShapePrior, st.floats(0.01, 1.0), st.floats(0.01, 1.0)),
@@ -141,28 +143,39 @@ class Editing(RuleBasedStateMachine):
     def change_settings(
         self,
         cost: Cost,
+        model: str,
         fixed: dict[str, float | None],
         board_shape: BoardShapeModel | None,
         prior: BoardShapePrior | None,
         flags: tuple[bool, bool, bool],
     ) -> None:
-        settings = Settings(cost, fixed, (), board_shape, prior, *flags)
+        robust, weigh_views, once = flags
+        settings = Settings(
+            cost=cost,
+            model=model,
+            fixed=fixed,
+            board_shape=board_shape,
+            prior=prior,
+            robust=robust,
+            weigh_views=weigh_views,
+            once=once,
+        )
         self.edit("Settings", lambda p: replace(p, settings=settings))
 
     @rule(which=st.sampled_from(["Calibration 1", "k3 held"]))
     def calibrate(self, which: str) -> None:
         result = examples.calibrated(_FOLDER).results[which]
-        self.edit("Calibrate", lambda p: with_result(p, free_name(p, "Calibration"), result))
+        self.edit("Calibrate", lambda p: add_result(p, find_free_name(p, "Calibration"), result))
 
     @precondition(lambda self: self.document.project.results)
     @rule(data=st.data(), delete=st.booleans())
     def delete_or_rename_result(self, data: st.DataObject, delete: bool) -> None:
         name = data.draw(st.sampled_from(list(self.document.project.results)), label="result")
         if delete:
-            self.edit("Delete", lambda p: without_result(p, name))
+            self.edit("Delete", lambda p: remove_result(p, name))
         else:
             new = f"renamed {next(self.count)}"
-            self.edit("Rename", lambda p: renamed_result(p, name, new))
+            self.edit("Rename", lambda p: rename_result(p, name, new))
 
     @precondition(
         lambda self: any(v.status is ViewStatus.WAITING for v in self.document.project.views)
@@ -177,7 +190,7 @@ class Editing(RuleBasedStateMachine):
 
         def learnt(project: Project) -> Project:
             waits = [v.image for v in project.views if v.status is ViewStatus.WAITING]
-            return with_each(project, [asked.image], answer) if asked.image in waits else project
+            return change_views(project, [asked.image], answer) if asked.image in waits else project
 
         self.document.learn(learnt)
         self.past = [answered(text, asked.image) for text in self.past]
@@ -185,12 +198,14 @@ class Editing(RuleBasedStateMachine):
     @rule()
     def undo(self) -> None:
         self.document.undo()
-        self.at = max(self.at - 1, 0)
+        if self.at:
+            self.at, self.sliding_label = self.at - 1, ""
 
     @rule()
     def redo(self) -> None:
         self.document.redo()
-        self.at = min(self.at + 1, len(self.past) - 1)
+        if self.at + 1 < len(self.past):
+            self.at, self.sliding_label = self.at + 1, ""
 
     @rule()
     def save_and_reopen(self) -> None:
@@ -216,3 +231,48 @@ class Editing(RuleBasedStateMachine):
 
 def test_any_sequence_of_edits_can_be_undone_redone_saved_and_reopened() -> None:
     run_state_machine_as_test(Editing, settings=settings(max_examples=30, stateful_step_count=30))
+
+
+def slide_square(document: Document, millimetres: float) -> None:
+    """Change the side of the squares as a slider does that is being dragged."""
+    document.edit("Square", lambda p: replace(p, square=millimetres), sliding=True)
+
+
+def test_a_slider_that_goes_on_after_saving_leaves_the_saved_state_a_step() -> None:
+    document = Document()
+    slide_square(document, 31.0)
+    slide_square(document, 32.0)
+    assert not document.saved
+    saved = document.project
+    document.mark_saved(saved, _FOLDER / "project.json")
+    assert document.saved
+    slide_square(document, 33.0)
+    assert not document.saved
+    slide_square(document, 34.0)
+    document.undo()
+    assert document.project is saved
+    assert document.saved, "the file holds what undo shows"
+    document.undo()
+    assert document.project.square == DEFAULT_SQUARE, "what was slid before is one step"
+    assert not document.saved
+    document.redo()
+    assert document.saved
+
+
+def test_an_edit_that_changes_nothing_leaves_the_document_saved() -> None:
+    document = Document()
+    document.edit("Nothing", lambda p: p)
+    assert document.saved
+    assert document.undo_label == ""
+
+
+def test_saving_an_older_state_leaves_the_newer_one_unsaved() -> None:
+    document = Document()
+    slide_square(document, 31.0)
+    older = document.project
+    document.end_sliding_edit()
+    slide_square(document, 32.0)
+    document.mark_saved(older, _FOLDER / "project.json")
+    assert not document.saved
+    document.undo()
+    assert document.saved

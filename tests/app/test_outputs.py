@@ -10,7 +10,7 @@ from matplotlib.figure import Figure
 
 from calibgui.app.outputs import check_outputs, check_writable, make_folder, save_figure
 from calibgui.engine.errors import CalibrationError
-from calibgui.engine.images.reading import image_size
+from calibgui.engine.images.reading import read_image_size
 
 
 def test_a_file_in_an_existing_folder_is_fine(tmp_path: Path) -> None:
@@ -45,7 +45,7 @@ def test_a_folder_is_made_with_those_above_it_unless_a_file_is_there(tmp_path: P
 def test_a_figure_is_written_whole_or_not_at_all(tmp_path: Path) -> None:
     figure = Figure(figsize=(2, 1))
     save_figure(figure, tmp_path / "figure.png")
-    assert image_size(tmp_path / "figure.png") == (220, 110)
+    assert read_image_size(tmp_path / "figure.png") == (220, 110)
     with pytest.raises(CalibrationError, match="cannot be written"):
         save_figure(figure, tmp_path / "missing" / "figure.svg")
     assert [path.name for path in tmp_path.iterdir()] == ["figure.png"]

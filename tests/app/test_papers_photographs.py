@@ -14,12 +14,11 @@ from calibgui import engine
 from calibgui.app.calibration import calibrate_views
 from calibgui.app.detection import find_views
 from calibgui.app.settings import Settings
-from calibgui.app.synthetic import synthetic_check
-from calibgui.dataset.corner_set import CornerSet
-from calibgui.dataset.result import Result
+from calibgui.app.synthetic import run_synthetic_check
+from calibgui.dataset import CornerSet, Result
 from calibgui.engine.arrays import Array
 from calibgui.engine.boards.board import Board
-from calibgui.engine.calibration.covariances import paper_table
+from calibgui.engine.calibration.refinement.covariances import make_paper_table
 from calibgui.engine.calibration.result import Cost
 
 pytestmark = [pytest.mark.data, pytest.mark.slow]
@@ -107,7 +106,7 @@ def test_the_corners_are_nearer_the_truth_than_the_stored_ones(
 
 def test_the_image_cost(found: Found) -> None:
     camera = found.image_cost.calibration.camera
-    summary = engine.summarise(found.image_cost.calibration.residuals)
+    summary = engine.summarise_residuals(found.image_cost.calibration.residuals)
     assert summary.count == 25 * 156
     assert summary.sigma_x <= {"edges": 0.085, "saddle": 0.102}[found.method]
     assert summary.sigma_y <= {"edges": 0.097, "saddle": 0.112}[found.method]
@@ -118,7 +117,7 @@ def test_the_image_cost(found: Found) -> None:
 
 def test_the_papers_preset(found: Found) -> None:
     calibration = found.papers.calibration
-    values, _, unscaled = paper_table(calibration)
+    values, _, unscaled = make_paper_table(calibration)
     assert (np.abs(values - TABLE_2) < 1.5 * np.array(PRINTED_SD)).all()
     # Those of p3 and fx are printed otherwise than they follow from the formula (NOTES 5).
     compared = [0, 1, 2, 3, 4, 5, 6, 9]
@@ -130,9 +129,9 @@ def test_the_papers_preset(found: Found) -> None:
 
 def test_the_synthetic_versions(found: Found) -> None:
     """Section 5.2 of the paper: mean e' 0.01 px there."""
-    check = synthetic_check(found.image_cost)
+    check = run_synthetic_check(found.image_cost)
     synthetic, real = check.synthetic.calibration, check.real.calibration
-    summary = engine.summarise(synthetic.residuals)
+    summary = engine.summarise_residuals(synthetic.residuals)
     assert summary.reference_mean <= {"edges": 0.0015, "saddle": 0.020}[found.method]
     free = real.sigma > 0
     miss = (synthetic.camera.params - real.camera.params)[free] / real.sigma[free]

@@ -10,7 +10,14 @@ import numpy as np
 import pytest
 from scipy.ndimage import gaussian_filter
 
-from calibgui.app.printable_board import PAPERS, Sheet, paper_for, settled, sheet, write_sheet
+from calibgui.app.printable_board import (
+    PAPER_SIZES_MM,
+    Page,
+    choose_paper,
+    complete_pattern,
+    lay_out_page,
+    write_page,
+)
 from calibgui.engine.arrays import Array
 from calibgui.engine.boards.board import Board
 from calibgui.engine.boards.kinds import KINDS
@@ -20,7 +27,7 @@ from calibgui.engine.errors import CalibrationError
 _PER_MM = 4
 
 
-def rasterised(content: Sheet) -> Array:
+def rasterised(content: Page) -> Array:
     """The SVG's rectangles as an image of 4 pixels a mm."""
     root = ElementTree.fromstring(content.svg())
     width, height = (float(root.attrib[k].removesuffix("mm")) for k in ("width", "height"))
@@ -40,7 +47,7 @@ def rasterised(content: Sheet) -> Array:
 
 @pytest.mark.parametrize("grid_size", [(6, 9), (9, 6)])
 def test_the_finder_sees_the_board_in_its_size(grid_size: tuple[int, int]) -> None:
-    content = sheet(Board(*grid_size, 20.0), "A4")
+    content = lay_out_page(Board(*grid_size, 20.0), "A4")
     corners = find_corners(rasterised(content), grid_size)
     assert corners.complete
     row = corners.uv[corners.grid[:, 0] == 0]
@@ -50,9 +57,9 @@ def test_the_finder_sees_the_board_in_its_size(grid_size: tuple[int, int]) -> No
 
 
 def test_pdf_and_svg_hold_the_same_rectangles(tmp_path: Path) -> None:
-    content = sheet(Board(5, 8, 22.5), "A4")
+    content = lay_out_page(Board(5, 8, 22.5), "A4")
     for name in ("board.pdf", "board.svg"):
-        write_sheet(content, tmp_path / name)
+        write_page(content, tmp_path / name)
     pdf = (tmp_path / "board.pdf").read_bytes().decode("cp1252")
     found = [
         tuple(map(float, m))
@@ -65,15 +72,15 @@ def test_pdf_and_svg_hold_the_same_rectangles(tmp_path: Path) -> None:
     for place in re.findall(r"^(\d{10}) 00000 n", pdf, re.M):
         assert re.match(r"\d+ 0 obj", pdf[int(place) :])
     with pytest.raises(CalibrationError, match="neither"):
-        write_sheet(content, tmp_path / "board.png")
+        write_page(content, tmp_path / "board.png")
 
 
-@pytest.mark.parametrize("paper", PAPERS)
+@pytest.mark.parametrize("paper", PAPER_SIZES_MM)
 def test_everything_is_on_the_sheet_with_white_around(paper: str) -> None:
     with pytest.raises(CalibrationError) as error:
-        sheet(Board(6, 9, 5000.0), paper)
+        lay_out_page(Board(6, 9, 5000.0), paper)
     largest = float(re.search(r"at most ([\d.]+) mm", error.value.hint)[1])
-    content = sheet(Board(6, 9, largest - 0.1), paper)
+    content = lay_out_page(Board(6, 9, largest - 0.1), paper)
     squares = np.array([r for r in content.rectangles if np.isclose(r[2], r[3])])
     width, height = content.size
     left, top = squares[:, :2].min(axis=0)
@@ -88,15 +95,15 @@ def test_everything_is_on_the_sheet_with_white_around(paper: str) -> None:
 @pytest.mark.parametrize("kind", ["charuco", "circles", "asymmetric-circles"])
 def test_other_patterns_are_found_on_their_sheet(kind: str, tmp_path: Path) -> None:
     grid_size = (9, 4)
-    board = Board(*grid_size, 15.0, settled(KINDS[kind], grid_size))
-    content = sheet(board, "A4")
+    board = Board(*grid_size, 15.0, complete_pattern(KINDS[kind], grid_size))
+    content = lay_out_page(board, "A4")
     seen = gaussian_filter(rasterised(content), 1.5)
     corners = find_corners(seen, grid_size, pattern=KINDS[kind])
     assert corners.complete
     assert corners.pattern.kind == kind
     size = np.linalg.norm(np.ptp(corners.uv, axis=0))
     assert size == pytest.approx(_PER_MM * np.linalg.norm(np.ptp(board.points(), axis=0)), rel=0.01)
-    write_sheet(content, tmp_path / "board.pdf")
+    write_page(content, tmp_path / "board.pdf")
     pdf = (tmp_path / "board.pdf").read_bytes()
     assert pdf.count(b" c\n") == 4 * len(content.discs)
 
@@ -111,4 +118,4 @@ def test_other_patterns_are_found_on_their_sheet(kind: str, tmp_path: Path) -> N
     ],
 )
 def test_paper_is_as_large_as_the_target_asks_for(board: Board, paper: str) -> None:
-    assert paper_for(board) == paper
+    assert choose_paper(board) == paper

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from calibgui.app import project_file
-from calibgui.app.project import relocated
+from calibgui.app.project import relocate_images
 from calibgui.app.project_file import read_project, write_project
 from calibgui.app.settings import Settings
 from calibgui.engine.boards.shape import BoardShape, BoardShapeModel, BoardShapePrior
@@ -66,7 +66,7 @@ def test_a_changed_view_makes_its_results_old(tmp_path: Path) -> None:
 def test_relocated_images_keep_their_results_current(tmp_path: Path) -> None:
     project = examples.calibrated(tmp_path)
     old, new = project.views[0].image, str(tmp_path / "elsewhere" / "0.png")
-    moved = relocated(project, {old: new})
+    moved = relocate_images(project, {old: new})
     assert moved.views[0].image == new
     assert moved.is_current(moved.results["k3 held"])
     assert moved.digests == {new: "ab" * 32}
@@ -87,6 +87,18 @@ def test_what_is_no_project_is_refused_by_name(tmp_path: Path) -> None:
         (newer, "version 99"),
         ('{"format": "something"}', "not a file of the format"),
         (text.replace('"square_mm": 30.0', '"square_mm": -1.0', 1), "a length above 0"),
+        (
+            text.replace('"model": "lucchese"', '"model": "pinhole"', 1),
+            "settings.model is not one of",
+        ),
+        (text.replace('"model": "lucchese"', '"model": "lucchese-pixels"', 1), "is not one of"),
+        (
+            text.replace('"model": "lucchese"', '"model": "brown-conrady"', 1).replace(
+                '["k3"]', '["p3"]', 1
+            ),
+            "settings.fixed[0] is not one of fx",
+        ),
+        (text.replace('"method": "lucchese"', '"method": "none"', 1), "settings.method is not one"),
         (text.replace('"prior_mm": null', '"prior_mm": [0.1, 0]', 1), "two lengths above 0"),
         (text.replace('"plate": "nominal"', '"plate": "round"', 1), "one of nominal"),
         (text.replace('"status": "found"', '"status": "lost"', 1), "view 1 (0.png)"),
@@ -129,6 +141,7 @@ def test_the_board_as_known_is_kept(tmp_path: Path) -> None:
     for settings in (
         Settings(board_shape=None, robust=True, weigh_views=True, once=True),
         Settings(fixed={"k3": None, "fx": 650.25}, freed=("p3",)),
+        Settings(model="brown-conrady", fixed={"k3": 0.5}),
         Settings(board_shape=BoardShapeModel.FREE, prior=BoardShapePrior(0.125, 0.3)),
         Settings(board_shape=board_shape),
     ):
@@ -150,6 +163,19 @@ def test_the_first_version_knew_a_nominal_plate_only(tmp_path: Path) -> None:
         del old["settings"][name]
     del old["target"]["corners"]
     assert read_project(broken(tmp_path, json.dumps(old))).settings == Settings(fixed={"k3": None})
+
+
+def test_a_project_of_the_version_before_the_lens_model_could_be_chosen(tmp_path: Path) -> None:
+    """A file as version 3 wrote it, down to the order of its members."""
+    shutil.copy(Path(__file__).parents[1] / "golden" / "project-3.json", tmp_path)
+    project = read_project(tmp_path / "project-3.json")
+    assert project.settings == Settings(fixed={"k3": None}, freed=("p3",), robust=True)
+    assert (project.settings.model, project.settings.method) == ("lucchese", "lucchese")
+    assert project.board == examples.BOARD and len(project.usable) == 6
+    assert project.is_current(project.results["Forward model"])
+    # The result calls its lens model by the name that it had then.
+    forward = project.results["Forward model"].calibration
+    assert forward.camera.model == forward.settings["model"] == "brown-conrady"
 
 
 def test_images_on_another_drive_keep_their_whole_path(

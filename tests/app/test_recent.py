@@ -4,7 +4,7 @@ from pathlib import Path
 
 import pytest
 
-from calibgui.app.recent import recent_projects, remember_project, state_folder
+from calibgui.app.recent import find_state_folder, list_recent_projects, remember_project
 
 
 @pytest.fixture(autouse=True)
@@ -14,22 +14,22 @@ def home(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
 
 
 def test_newest_first_each_once_and_only_what_exists(tmp_path: Path) -> None:
-    assert recent_projects() == []
+    assert list_recent_projects() == []
     paths = [tmp_path / f"{i}.json" for i in range(12)]
     for path in paths:
         path.touch()
         remember_project(path)
     remember_project(paths[5])
-    assert recent_projects()[:2] == [paths[5], paths[11]]
-    assert len(recent_projects()) == 10
+    assert list_recent_projects()[:2] == [paths[5], paths[11]]
+    assert len(list_recent_projects()) == 10
     paths[11].unlink()
-    assert paths[11] not in recent_projects()
+    assert paths[11] not in list_recent_projects()
 
 
 def test_damaged_notes_are_no_obstacle(tmp_path: Path) -> None:
-    (state_folder() / "recent.json").write_text('{"no": ', encoding="utf-8")
-    assert recent_projects() == []
+    (find_state_folder() / "recent.json").write_text('{"no": ', encoding="utf-8")
+    assert list_recent_projects() == []
     project = tmp_path / "a.json"
     project.touch()
     remember_project(project)
-    assert recent_projects() == [project]
+    assert list_recent_projects() == [project]

@@ -10,11 +10,9 @@ import pytest
 
 from calibgui.app.calibration import calibrate_views
 from calibgui.app.detection import find_views
-from calibgui.app.redetection import calibrate_twice, search_again, view_again
+from calibgui.app.redetection import calibrate_twice, redetect_view, redetect_views
 from calibgui.app.settings import Settings
-from calibgui.dataset.corner_set import CornerSet
-from calibgui.dataset.result import Result
-from calibgui.dataset.view import View, ViewStatus
+from calibgui.dataset import CornerSet, Result, View, ViewStatus
 from calibgui.engine.boards.board import Board
 from calibgui.engine.boards.shape import BoardShapeModel
 from calibgui.engine.calibration.calibrate import calibrate
@@ -26,7 +24,7 @@ from tests.engine import scenes
 from tests.photographs import BOARD, CAMERA
 
 SHAPE = (BOARD.rows, BOARD.cols)
-UV = scenes.imaged(CAMERA, photographs.poses()[0], BOARD.points()).reshape(*SHAPE, 2)
+UV = scenes.imaged(CAMERA, photographs.draw_poses()[0], BOARD.points()).reshape(*SHAPE, 2)
 HIDDEN = [(m, n) for m in range(6) for n in range(7) if m == 2 or n in (2, 5)]
 """A row and two columns of the first photograph: six parts are left, none a board."""
 
@@ -34,7 +32,7 @@ HIDDEN = [(m, n) for m in range(6) for n in range(7) if m == 2 or n in (2, 5)]
 @pytest.fixture(scope="module")
 def damaged(tmp_path_factory: pytest.TempPathFactory) -> CornerSet:
     folder = tmp_path_factory.mktemp("damaged")
-    photographs.take(folder)
+    photographs.write_photographs(folder)
     first = folder / "view1.png"
     image = read_image(first).pixels.copy()
     v, u = np.indices(image.shape)
@@ -69,28 +67,28 @@ def test_missed_corners_are_gained_and_noted(damaged: CornerSet) -> None:
     )
     views = tuple(replace(v, corners=few) if v is whole else v for v in damaged.views)
     partly = replace(damaged, views=views)
-    more, said = search_again(partly, calibrate_views(partly))
+    more, sentences = redetect_views(partly, calibrate_views(partly))
     assert more.views[2].corners is not None
     assert more.views[2].corners.complete
     assert more.views[2].note == "Searched again with the camera known: 22 corners more."
-    assert len(said) == 1
+    assert len(sentences) == 1
 
 
 def test_nothing_to_gain_leaves_everything_as_it_was(damaged: CornerSet) -> None:
     complete = replace(damaged, views=damaged.views[1:])
     result = calibrate_views(complete)
-    assert search_again(complete, result) == (complete, ())
+    assert redetect_views(complete, result) == (complete, ())
     registered = calibrate_views(damaged, Settings(cost=Cost.REFERENCE))
-    assert search_again(damaged, registered) == (damaged, ())
+    assert redetect_views(damaged, registered) == (damaged, ())
 
 
 def test_an_image_that_is_gone_stays_as_it_was(damaged: CornerSet, tmp_path: Path) -> None:
     gone = View(str(tmp_path / "gone.png"), ViewStatus.NO_BOARD, "No board.")
     calibration = calibrate_views(damaged).calibration
-    assert view_again(gone, calibration, SHAPE) is gone
+    assert redetect_view(gone, calibration, SHAPE) is gone
 
 
-def test_boards_counted_from_the_wrong_end_are_named() -> None:
+def test_boards_numbered_from_the_wrong_end_are_named() -> None:
     """By the deviations of an estimated board, and where these say nothing by its place."""
     camera, grid_size, turned = scenes.barrel(), Board(6, 9, 30.0), (2, 5)
 
@@ -103,9 +101,9 @@ def test_boards_counted_from_the_wrong_end_are_named() -> None:
         return calibrate_twice(CornerSet(camera.size, views), settings)
 
     found = result(0.3, BoardShapeModel.FREE)
-    told = [text for text in found.calibration.warnings if "wrong end" in text]
-    assert len(told) == 1
-    assert "wrong end in 2.png, 5.png, as its deviations" in told[0]
+    named = [text for text in found.calibration.warnings if "wrong end" in text]
+    assert len(named) == 1
+    assert "wrong end in 2.png, 5.png, as its deviations" in named[0]
     for k, view in enumerate(found.views):
         assert (view.note != "") == (k in turned)
     clean = calibrate(scenes.uneven(camera, grid_size, 10, 0.3), camera.size, board_shape="free")
@@ -113,8 +111,8 @@ def test_boards_counted_from_the_wrong_end_are_named() -> None:
     assert (apart <= 1e-6 * np.maximum(clean.sigma, 1.0)).all()
 
     for board_shape in (BoardShapeModel.NOMINAL, BoardShapeModel.FREE):
-        told = [
+        named = [
             text for text in result(0.0, board_shape).calibration.warnings if "wrong end" in text
         ]
-        assert len(told) == 1
-        assert "upside down in 2.png, 5.png" in told[0]
+        assert len(named) == 1
+        assert "upside down in 2.png, 5.png" in named[0]

@@ -11,10 +11,8 @@ import pytest
 
 from calibgui.app.calibration import calibrate_views
 from calibgui.app.paths import find_images
-from calibgui.app.resampling import GEOMETRY, Written, rectify_files, undistort_files
-from calibgui.dataset.corner_set import CornerSet
-from calibgui.dataset.result import Result
-from calibgui.dataset.view import View, ViewStatus
+from calibgui.app.resampling import GEOMETRY_FILE, WrittenImage, rectify_files, undistort_files
+from calibgui.dataset import CornerSet, Result, View, ViewStatus
 from calibgui.engine.camera.distortion import distort_points
 from calibgui.engine.detection.corners import Corners
 from calibgui.engine.detection.find_corners import find_corners
@@ -22,12 +20,12 @@ from calibgui.engine.errors import CalibrationError, Cancelled
 from calibgui.engine.images.reading import read_image, write_image
 from calibgui.engine.images.undistortion import FieldOfView
 from tests.engine import scenes
-from tests.photographs import BOARD, CAMERA, COUNT, poses
+from tests.photographs import BOARD, CAMERA, COUNT, draw_poses
 
 
 @pytest.fixture(scope="module")
 def result(photographs: Path) -> Result:
-    scene = scenes.seen(CAMERA, poses(), BOARD)
+    scene = scenes.seen(CAMERA, draw_poses(), BOARD)
     views = []
     for number, seen in enumerate(scene.views, start=1):
         grid = np.rint(seen.xy[:, ::-1] / BOARD.square)
@@ -45,7 +43,7 @@ def test_undistorted_images_are_a_pinholes(photographs: Path, tmp_path: Path) ->
     )
     assert [one.source for one in written] == list(images)
     assert told == list(range(COUNT - 1, -1, -1))
-    geometry = json.loads((tmp_path / GEOMETRY).read_text())
+    geometry = json.loads((tmp_path / GEOMETRY_FILE).read_text())
     assert geometry["kind"] == "undistorted"
     assert set(geometry["images"]) == {path.name for path in images}
     # Corners of the new image, distorted again, are the corners of the photograph.
@@ -60,7 +58,7 @@ def test_rectified_images_show_the_board_square(
     result: Result, photographs: Path, tmp_path: Path
 ) -> None:
     written = rectify_files(result, find_images([str(photographs)]), tmp_path, pixels_per_mm=1.0)
-    geometry = json.loads((tmp_path / GEOMETRY).read_text())
+    geometry = json.loads((tmp_path / GEOMETRY_FILE).read_text())
     assert geometry["size"] == [8 * 30, 7 * 30]
     matrix = np.array(geometry["matrix"])
     for one in written:
@@ -74,11 +72,11 @@ def test_the_scale_left_open_is_about_the_photographs(
     result: Result, photographs: Path, tmp_path: Path
 ) -> None:
     rectify_files(result, find_images([str(photographs)]), tmp_path)
-    width, _ = json.loads((tmp_path / GEOMETRY).read_text())["size"]
+    width, _ = json.loads((tmp_path / GEOMETRY_FILE).read_text())["size"]
     assert 0.5 < width / CAMERA.size[0] < 1.1
 
 
-def reasons(written: tuple[Written, ...]) -> dict[str, str]:
+def reasons(written: tuple[WrittenImage, ...]) -> dict[str, str]:
     return {one.source.name: one.reason for one in written if one.path is None}
 
 

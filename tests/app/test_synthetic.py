@@ -8,9 +8,8 @@ import numpy as np
 import pytest
 
 from calibgui import engine
-from calibgui.app.synthetic import SyntheticCheck, synthetic_check
-from calibgui.dataset.result import Result
-from calibgui.dataset.view import ViewStatus
+from calibgui.app.synthetic import SyntheticCheck, run_synthetic_check
+from calibgui.dataset import Result, ViewStatus
 from calibgui.engine.boards.board import Board
 from calibgui.engine.errors import CalibrationError, Cancelled
 from calibgui.engine.geometry.pose import Pose
@@ -24,7 +23,7 @@ def result() -> Result:
 
 @pytest.fixture(scope="module")
 def check(result: Result) -> SyntheticCheck:
-    return synthetic_check(result)
+    return run_synthetic_check(result)
 
 
 def test_the_rendering_camera_is_found_again(check: SyntheticCheck) -> None:
@@ -33,7 +32,7 @@ def test_the_rendering_camera_is_found_again(check: SyntheticCheck) -> None:
     miss = (synthetic.camera.params - real.camera.params)[free] / real.sigma[free]
     assert np.abs(miss).max() < 2
     # What is left is the finder's error, well below the noise of the real corners.
-    assert engine.summarise(synthetic.residuals).rms < 0.04
+    assert engine.summarise_residuals(synthetic.residuals).rms < 0.04
     assert np.median(check.extrinsic_errors) < 1e-3
 
 
@@ -56,7 +55,7 @@ def test_views_keep_their_names_and_corners(check: SyntheticCheck) -> None:
 @pytest.mark.parametrize("turned", [False, True])
 def test_corners_are_numbered_as_in_the_real_views(turned: bool) -> None:
     """A board of even sides looks the same upside down, so the finder may count either way."""
-    check = synthetic_check(small_result(Board(6, 8, 30.0), turned))
+    check = run_synthetic_check(small_result(Board(6, 8, 30.0), turned))
     real, synthetic = (
         np.array([pose.rvec for pose in result.calibration.poses])
         for result in (check.real, check.synthetic)
@@ -76,7 +75,7 @@ def test_a_view_that_is_not_found_again_is_left_out(result: Result) -> None:
     poses = list(result.calibration.poses)
     poses[2] = Pose(poses[2].rvec, poses[2].tvec * [1, 1, 12])
     distant = replace(result, calibration=replace(result.calibration, poses=tuple(poses)))
-    check = synthetic_check(distant)
+    check = run_synthetic_check(distant)
     lost = check.synthetic.views[2]
     assert lost.status is ViewStatus.NO_BOARD and lost.reason
     assert check.extrinsic_errors.shape == (4, 6)
@@ -92,7 +91,7 @@ def test_progress_counts_views_and_may_cancel(result: Result) -> None:
             raise Cancelled
 
     with pytest.raises(Cancelled):
-        synthetic_check(result, progress=progress)
+        run_synthetic_check(result, progress=progress)
     assert told == [(1, 5), (2, 5)]
 
 
@@ -101,5 +100,5 @@ def test_a_target_is_needed(result: Result) -> None:
         replace(view, points=view.observation(BOARD), corners=None) if view.usable else view
         for view in result.views
     )
-    with pytest.raises(CalibrationError, match="pattern is not known"):
-        synthetic_check(Result(result.calibration, points, None))
+    with pytest.raises(CalibrationError, match="pattern of the board is not known"):
+        run_synthetic_check(Result(result.calibration, points, None))

@@ -14,18 +14,18 @@ from types import ModuleType
 
 import pytest
 
-from calibgui.app.workers import Crashed, spread
+from calibgui.app.workers import Crashed, map_in_processes
 from calibgui.engine.errors import Cancelled
 
 
 def test_every_item_is_done_and_told_with_its_index() -> None:
     items = [4.0, 9.0, 16.0]
-    assert dict(spread(partial(pow, exp=2), items)) == {0: 16.0, 1: 81.0, 2: 256.0}
+    assert dict(map_in_processes(partial(pow, exp=2), items)) == {0: 16.0, 1: 81.0, 2: 256.0}
     assert not multiprocessing.active_children()
 
 
 def test_nothing_to_do_starts_nothing() -> None:
-    assert list(spread(abs, [])) == []
+    assert list(map_in_processes(abs, [])) == []
 
 
 def test_each_worker_keeps_to_one_thread() -> None:
@@ -33,22 +33,26 @@ def test_each_worker_keeps_to_one_thread() -> None:
         "__import__('cv2').getNumThreads()",
         "max(x['num_threads'] for x in __import__('threadpoolctl').threadpool_info())",
     ]
-    assert dict(spread(eval, asked)) == {0: 1, 1: 1}
+    assert dict(map_in_processes(eval, asked)) == {0: 1, 1: 1}
 
 
 def test_who_waits_for_a_compiler_is_told_once() -> None:
     pytest.importorskip("numba", reason="numba is not installed")
     told: list[None] = []
     works = ["__import__('numba').njit(lambda x: x + 1)(2)"] * 3
-    assert dict(spread(eval, works, preparing=lambda: told.append(None))) == {0: 3, 1: 3, 2: 3}
+    assert dict(map_in_processes(eval, works, preparing=lambda: told.append(None))) == {
+        0: 3,
+        1: 3,
+        2: 3,
+    }
     assert len(told) == 1
-    assert dict(spread(eval, ["1 + 1"], preparing=lambda: told.append(None))) == {0: 2}
+    assert dict(map_in_processes(eval, ["1 + 1"], preparing=lambda: told.append(None))) == {0: 2}
     assert len(told) == 1
 
 
 def test_a_set_event_ends_work_under_way() -> None:
     stop = Event()
-    work = spread(time.sleep, [0.0, 3600.0, 3600.0], stop)
+    work = map_in_processes(time.sleep, [0.0, 3600.0, 3600.0], stop)
     next(work)
     stop.set()
     with pytest.raises(Cancelled):
@@ -57,7 +61,7 @@ def test_a_set_event_ends_work_under_way() -> None:
 
 
 def test_closing_ends_work_under_way() -> None:
-    work = spread(time.sleep, [0.0, 3600.0, 3600.0])
+    work = map_in_processes(time.sleep, [0.0, 3600.0, 3600.0])
     next(work)
     work.close()
     assert not multiprocessing.active_children()
@@ -65,7 +69,7 @@ def test_closing_ends_work_under_way() -> None:
 
 def test_a_process_that_dies_costs_its_item_only() -> None:
     expressions = ["1", "__import__('os')._exit(3)", "__import__('os')._exit(3)", "2", "3"]
-    results = dict(spread(eval, expressions))
+    results = dict(map_in_processes(eval, expressions))
     assert isinstance(results.pop(1), Crashed)
     assert isinstance(results.pop(2), Crashed)
     assert results == {0: 1, 3: 2, 4: 3}
@@ -73,7 +77,7 @@ def test_a_process_that_dies_costs_its_item_only() -> None:
 
 def test_an_exception_comes_through_with_its_traceback() -> None:
     with pytest.raises(ZeroDivisionError) as caught:
-        list(spread(eval, ["1 / 0"]))
+        list(map_in_processes(eval, ["1 / 0"]))
     assert "Traceback" in "".join(caught.value.__notes__)
 
 
@@ -82,7 +86,7 @@ def test_workers_that_cannot_start_are_an_error(monkeypatch: pytest.MonkeyPatch)
     exec("def task(item):\n    return item\n", only_here.__dict__)
     monkeypatch.setitem(sys.modules, "only_here", only_here)
     with pytest.raises(RuntimeError, match="could not be started"):
-        list(spread(only_here.task, [1, 2, 3]))
+        list(map_in_processes(only_here.task, [1, 2, 3]))
     assert not multiprocessing.active_children()
 
 
@@ -91,10 +95,10 @@ def test_the_first_worker_is_as_deaf_to_ctrl_c_as_the_others(tmp_path: Path) -> 
     """Python starts a process of its own with it, and unblocks the signal after that."""
     script = tmp_path / "first.py"
     script.write_text(
-        "from calibgui.app.workers import spread\n"
+        "from calibgui.app.workers import map_in_processes\n"
         "blocked = \"__import__('signal').pthread_sigmask(0, [])\"\n"
         "if __name__ == '__main__':\n"
-        "    print([sorted(mask) for _, mask in spread(eval, [blocked])])\n",
+        "    print([sorted(mask) for _, mask in map_in_processes(eval, [blocked])])\n",
         encoding="utf-8",
     )
     done = subprocess.run([sys.executable, script], capture_output=True, text=True, check=True)

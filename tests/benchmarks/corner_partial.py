@@ -17,7 +17,8 @@ from numpy.typing import NDArray
 from calibgui.engine.detection.corners import Corners
 from calibgui.engine.detection.find_corners import find_corners
 from calibgui.engine.errors import NoBoardError
-from tests.benchmarks.corner_scenes import Conditions, Scene, draw
+from tests.scenes.checkerboards import Scene, draw
+from tests.scenes.conditions import Conditions
 
 Board = tuple[int, int]
 SCENES = 12
@@ -56,7 +57,7 @@ def scenes(kind: str, count: int) -> list[Scene]:
     for seed in range(count):
         rng = np.random.default_rng([seed, 7])
         varied: dict[str, Any] = {
-            "board": [(6, 9), (5, 7), (7, 10), (6, 8)][seed % 4],
+            "grid_size": [(6, 9), (5, 7), (7, 10), (6, 8)][seed % 4],
             "tilt": rng.uniform(0, 50),
             "distortion": rng.choice([0.0, 0.3, -0.15]),
             "blur": rng.uniform(0.5, 2.0),
@@ -72,7 +73,9 @@ def count(scene: Scene, known: bool, seed: int = 0) -> Count:
     """What is found of the board in a photograph of `scene`, its size known or not."""
     visible = scene.visible
     try:
-        corners = find_corners(scene.photograph(seed), scene.conditions.board if known else None)
+        corners = find_corners(
+            scene.photograph(seed), scene.conditions.grid_size if known else None
+        )
     except NoBoardError:
         return Count(visible=int(visible.sum()))
     right, place = compare(corners, scene, known)
@@ -91,7 +94,7 @@ def compare(
     off = distance.min(axis=1)
     at_all = off < np.maximum(scene.spacing.ravel()[nearest] / 10, 1.0)
     best = np.zeros(len(corners), np.bool_)
-    for turn in _turns(scene.conditions.board, known and not corners.relative):
+    for turn in _turns(scene.conditions.grid_size, known and not corners.relative):
         moved = corners.grid - place @ turn.T
         _, index, counts = np.unique(moved, axis=0, return_inverse=True, return_counts=True)
         agree = index.ravel() == np.argmax(counts)

@@ -13,7 +13,8 @@ from typing import Any
 import numpy as np
 
 from tests.benchmarks.corner_partial import Count, count
-from tests.benchmarks.corner_scenes import Conditions, Scene, draw
+from tests.scenes.checkerboards import Scene, draw
+from tests.scenes.conditions import Conditions
 
 SCENES = 60
 _SIZES = [(640, 480), (1280, 960), (1920, 1080), (4000, 3000), (8192, 6144)]

@@ -2,7 +2,7 @@
 
     python -m tests.benchmarks.corners [--quick] [--output FOLDER]
 
-draws boards under many conditions (`corner_scenes`), locates their corners with every method at
+draws boards under many conditions (`tests.scenes`), locates their corners with every method at
 hand (`corner_methods`), and prints per condition the root mean square error per axis over the
 Cramer-Rao bound, the boards found in full, and the time. The engine is told nothing but the image;
 the others are told the board's size, which they need. Then ours are counted where only a part of
@@ -24,11 +24,12 @@ import numpy as np
 from calibgui.engine.detection.find_corners import find_corners
 from calibgui.engine.errors import NoBoardError
 from tests.benchmarks import corner_partial, corner_unseen
-from tests.benchmarks.corner_boardless import KINDS, boardless
 from tests.benchmarks.corner_methods import METHODS, Method
 from tests.benchmarks.corner_partial import Count
 from tests.benchmarks.corner_report import Report, Score, summed_up, write
-from tests.benchmarks.corner_scenes import Conditions, Scene, draw
+from tests.scenes.checkerboards import Scene, draw
+from tests.scenes.conditions import Conditions
+from tests.scenes.without_board import KINDS, draw_without_board
 
 _TOLD = 0.0005
 """Standard error of our mean error along u or v, px: a quarter of the bias that is tolerated."""
@@ -120,7 +121,7 @@ def false_boards(count: int) -> dict[str, int]:
     reported: Counter[str] = Counter()
     for seed in range(count):
         with contextlib.suppress(NoBoardError):
-            find_corners(boardless(seed))
+            find_corners(draw_without_board(seed))
             reported[KINDS[seed % len(KINDS)]] += 1
     return dict(reported)
 

@@ -24,10 +24,10 @@ from numpy.typing import NDArray
 
 from calibgui.engine.detection.find_corners import find_corners
 from calibgui.engine.errors import NoBoardError
-from tests.benchmarks.corner_boardless import boardless
+from tests.scenes.perspective import photograph_board
+from tests.scenes.without_board import draw_without_board
 
 Image = NDArray[np.uint8]
-_TEXEL = 32
 
 
 class Case(NamedTuple):
@@ -38,37 +38,13 @@ class Case(NamedTuple):
     """ms, as the project asks; more where it asks nothing."""
 
 
-def photograph(
-    size: tuple[int, int], grid_size: tuple[int, int], square: float, blur: float
-) -> Image:
-    """A board seen in perspective, `square` px a square; good enough to be timed."""
-    width, height = size
-    rows, cols = grid_size
-    v, u = np.mgrid[: (rows + 3) * _TEXEL, : (cols + 3) * _TEXEL] // _TEXEL
-    on_board = (v > 0) & (v < rows + 2) & (u > 0) & (u < cols + 2)
-    board_shape = np.where(on_board & ((u + v) % 2 == 0), 45, 205).astype(np.uint8)
-    half = np.array([cols + 3, rows + 3]) * square / 2
-    outline = half * [(-1, -0.9), (1, -1), (0.95, 1), (-1, 1.02)]
-    turn = np.radians(12.0)
-    turned = outline @ [[np.cos(turn), np.sin(turn)], [-np.sin(turn), np.cos(turn)]]
-    ends = np.array([(0, 0), (1, 0), (1, 1), (0, 1)]) * board_shape.shape[::-1]
-    H = cv2.getPerspectiveTransform(
-        ends.astype(np.float32), (turned + np.array(size) / 2).astype(np.float32)
-    )
-    image = cv2.GaussianBlur(
-        cv2.warpPerspective(board_shape, H, size, borderValue=(150,)), (0, 0), blur
-    )
-    noise = np.random.default_rng(0).standard_normal((height, width), dtype=np.float32)
-    return np.clip(np.rint(image + 2 * noise), 0, 255).astype(np.uint8)
-
-
 CASES: dict[str, Callable[[], Case]] = {
-    "VGA, 54": lambda: Case(photograph((640, 480), (6, 9), 36, 0.8), (6, 9), 12),
-    "VGA, noise": lambda: Case(boardless(0), None, 25),
-    "VGA, clutter": lambda: Case(boardless(4), None, 25),
-    "12 MP, 54": lambda: Case(photograph((4000, 3000), (6, 9), 240, 1.2), (6, 9), 40),
-    "12 MP, 609": lambda: Case(photograph((4000, 3000), (21, 29), 110, 1.2), (21, 29), 250),
-    "48 MP, 54": lambda: Case(photograph((8000, 6000), (6, 9), 480, 2.0), (6, 9), 90),
+    "VGA, 54": lambda: Case(photograph_board((640, 480), (6, 9), 36, 0.8), (6, 9), 12),
+    "VGA, noise": lambda: Case(draw_without_board(0), None, 25),
+    "VGA, clutter": lambda: Case(draw_without_board(4), None, 25),
+    "12 MP, 54": lambda: Case(photograph_board((4000, 3000), (6, 9), 240, 1.2), (6, 9), 40),
+    "12 MP, 609": lambda: Case(photograph_board((4000, 3000), (21, 29), 110, 1.2), (21, 29), 250),
+    "48 MP, 54": lambda: Case(photograph_board((8000, 6000), (6, 9), 480, 2.0), (6, 9), 90),
     "12 MP, noise": lambda: Case(
         np.random.default_rng(0).integers(0, 256, (3000, 4000), np.uint8), None, np.inf
     ),

@@ -34,19 +34,22 @@ from matplotlib.figure import Figure
 from threadpoolctl import threadpool_limits
 
 from calibgui.engine.boards.board import Board
-from calibgui.engine.calibration import covariances
 from calibgui.engine.calibration.calibrate import calibrate
-from calibgui.engine.calibration.initialisation.stage_one import prealign
-from calibgui.engine.calibration.initialisation.start import in_paper_frame, start_of_stage_two
+from calibgui.engine.calibration.initialisation.stage_one import register_views
+from calibgui.engine.calibration.initialisation.start import (
+    convert_to_paper_frame,
+    initialise_stage_two,
+)
 from calibgui.engine.calibration.observations import (
     REFERENCE_PITCH,
     Observation,
     Observations,
-    pack,
-    pitch,
-    view_names,
+    measure_pitch,
+    name_views,
+    pack_observations,
 )
-from calibgui.engine.calibration.refinement import normal_equations
+from calibgui.engine.calibration.refinement import covariances
+from calibgui.engine.calibration.refinement import residuals as residuals_module
 from calibgui.engine.calibration.refinement.levenberg_marquardt import minimise
 from calibgui.engine.calibration.refinement.residuals import State
 from calibgui.engine.calibration.result import Cost
@@ -90,25 +93,29 @@ def whole(views: list[Observation], model: str, board_shape: str = "nominal") ->
 
 def started(views: list[Observation], model: str) -> tuple[Observations, State]:
     """The views as the solver takes them, and its start."""
-    observations = pack(views)
-    scale = REFERENCE_PITCH / pitch(observations)
-    first = prealign(*in_paper_frame(observations, scale, VGA, view_names(len(views))))
+    observations = pack_observations(views)
+    scale = REFERENCE_PITCH / measure_pitch(observations)
+    first = register_views(
+        *convert_to_paper_frame(observations, scale, VGA, name_views(len(views)))
+    )
     names = parameter_names(model)
     held: dict[str, float | None] = {"p3": None} if model == "lucchese" else {}
-    start, _ = start_of_stage_two(observations, first, VGA, MODELS[model], names, held)
+    start, _ = initialise_stage_two(observations, first, VGA, MODELS[model], names, held)
     return observations, start
 
 
 def solve(observations: Observations, start: State, model: str) -> float:
     """RMS of our solve, px, with the standard deviations of camera and poses on the way."""
     free = np.arange(9)
-    normal_at = normal_equations.stage_two(observations, model, Cost.IMAGE, 1.0, free)
+    normal_at = residuals_module.build_stage_two(observations, model, Cost.IMAGE, 1.0, free)
     square = float(np.sum(observations.uv**2))
     solution = minimise(normal_at, start, free, observations.count, square)
     names = tuple(parameter_names(model)[:9])
-    found = covariances.precision(solution.normal, names, observations.count, np.full(9, np.inf))
-    rvecs = rotations.rotation_vector(solution.state.R)
-    covariances.pose_covariances(solution.normal, found.shared, rvecs, found.variance)
+    found = covariances.measure_precision(
+        solution.normal, names, observations.count, np.full(9, np.inf)
+    )
+    rvecs = rotations.vector_from_rotation(solution.state.R)
+    covariances.compute_pose_covariances(solution.normal, found.shared, rvecs, found.variance)
     return float(np.sqrt(solution.normal.cost / observations.count))
 
 
@@ -135,7 +142,7 @@ def mrcal(
             given,
             boards=observations.uv.reshape(-1, BOARD.rows, BOARD.cols, 2),
             params=start.params,
-            poses=np.column_stack([rotations.rotation_vector(start.R), start.T]),
+            poses=np.column_stack([rotations.vector_from_rotation(start.R), start.T]),
             size=np.array(VGA),
             square=BOARD.square,
         )
@@ -205,7 +212,7 @@ def main() -> None:
     with threadpool_limits(1):
         solve(*started(corners(2), "lucchese"), "lucchese")  # compiles, once
         for board_shape in PLATES:
-            whole(corners(8), "opencv", board_shape)
+            whole(corners(8), "brown-conrady", board_shape)
         for count in arguments.views:
             row = measured(count, arguments.repeats if count <= 500 else 3, clock, times)
             for name, seconds in row.items():
@@ -226,17 +233,19 @@ def measured(
     row: dict[str, float] = {}
     rms: dict[str, float] = {}
     row["whole, paper's model"], _ = run(partial(whole, views, "lucchese"))
-    row["whole"], rms["whole"] = run(partial(whole, views, "opencv"))
+    row["whole"], rms["whole"] = run(partial(whole, views, "brown-conrady"))
     for board_shape in PLATES:
-        row[f"whole, {board_shape} plate"], _ = run(partial(whole, views, "opencv", board_shape))
+        row[f"whole, {board_shape} plate"], _ = run(
+            partial(whole, views, "brown-conrady", board_shape)
+        )
     row["whole, OpenCV"], rms["OpenCV"] = run(partial(opencv, views))
     slow = before.get("whole, OpenCV with SDs", {})
     if not slow or slow[max(slow)] * (count / max(slow)) ** 3 < LONGEST:
         row["whole, OpenCV with SDs"], _ = best(partial(opencv, views, None, True), 1, clock)
     paper = started(views, "lucchese")
     row["solve, paper's model"], _ = run(partial(solve, *paper, "lucchese"))
-    observations, start = started(views, "opencv")
-    row["solve"], rms["solve"] = run(partial(solve, observations, start, "opencv"))
+    observations, start = started(views, "brown-conrady")
+    row["solve"], rms["solve"] = run(partial(solve, observations, start, "brown-conrady"))
     row["solve, OpenCV"], _ = run(partial(opencv, views, start))
     if found := mrcal(observations, start, repeats, clock):
         row["solve, mrcal"], rms["mrcal"] = found

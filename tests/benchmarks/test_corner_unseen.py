@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import pytest
 
-from tests.benchmarks.corner_scenes import draw
 from tests.benchmarks.corner_unseen import SCENES, Outcome, conditions, outcome
+from tests.scenes.checkerboards import draw
 
 
 @pytest.mark.slow

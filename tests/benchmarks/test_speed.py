@@ -20,7 +20,9 @@ def test_calibrate_from_100_views(benchmark: BenchmarkFixture) -> None:
 
 def test_find_the_corners_of_a_photograph(benchmark: BenchmarkFixture) -> None:
     made = scene(barrel(), 1, seed=1)
-    image = engine.render(made.camera, made.poses[0], engine.Board(9, 12, 30.0), blur=1, noise=2)
+    image = engine.render_view(
+        made.camera, made.poses[0], engine.Board(9, 12, 30.0), blur=1, noise=2
+    )
     corners = benchmark(engine.find_corners, image)
     assert len(corners) == 108
 

@@ -9,14 +9,14 @@ import jsonschema
 import numpy as np
 import pytest
 
-from calibgui.app.synthetic import synthetic_check
+from calibgui.app.synthetic import run_synthetic_check
 from calibgui.cli.main import main
 from calibgui.engine.boards.board import Board
 from calibgui.engine.boards.charuco import Charuco
 from calibgui.engine.boards.circle_grid import Circles
 from calibgui.engine.camera.camera import Camera
 from calibgui.engine.images.reading import write_image
-from calibgui.engine.images.rendering import render
+from calibgui.engine.images.rendering import render_view
 from calibgui.formats.result_json import read_result
 from tests.engine import scenes
 
@@ -39,7 +39,7 @@ def folder(kind: str, tmp_path_factory: pytest.TempPathFactory) -> Path:
     rng, grid_size = np.random.default_rng(2), BOARDS[kind]
     for k in range(6):
         pose = scenes.looking(CAMERA, rng, fill=(0.45, 0.55), board=grid_size)
-        image = render(CAMERA, pose, grid_size, blur=0.7, noise=1.0, seed=k)
+        image = render_view(CAMERA, pose, grid_size, blur=0.7, noise=1.0, seed=k)
         write_image(folder / f"view{k}.png", image)
     return folder
 
@@ -68,7 +68,7 @@ def test_from_photographs_to_exports(
     assert main(["calibrate", str(corners), "-q", "-o", str(tmp_path / "again.json")]) == 0
     again = read_result(tmp_path / "again.json").calibration.camera
     np.testing.assert_allclose(again.params, camera.params, rtol=1e-9)
-    check = synthetic_check(result, blur=0.7)
+    check = run_synthetic_check(result, blur=0.7)
     assert all(view.usable for view in check.synthetic.views)
     drawn = check.synthetic.calibration.camera.params
     np.testing.assert_allclose(drawn[:4], camera.params[:4], atol=0.25)

@@ -60,16 +60,19 @@ def test_every_setting_has_its_option(corners_file: Path, monkeypatch: pytest.Mo
         "p3",
         "--robust",
         "--weigh-views",
-        "--plate",
+        "--board-shape",
         "free",
         "--prior",
         "0.1,0.3",
         "--once",
     ]
     main(["calibrate", str(corners_file), *options])
-    main(["calibrate", str(corners_file), "--cost", "reference"])
-    changed, other = asked
+    main(["calibrate", str(corners_file), "--cost", "reference", "--plate", "free"])
+    main(["calibrate", str(corners_file), "--model", "brown-conrady", "--method", "lucchese"])
+    changed, other, forward = asked
     assert other.cost is Cost.REFERENCE
+    assert other.board_shape is BoardShapeModel.FREE  # by the older name of the option
+    assert forward.model == "brown-conrady"
     assert changed == Settings(
         fixed={"k3": None, "fx": 650.0},
         freed=("p3",),
@@ -79,7 +82,8 @@ def test_every_setting_has_its_option(corners_file: Path, monkeypatch: pytest.Mo
         weigh_views=True,
         once=True,
     )
-    names = {field.name for field in fields(Settings)} - {"cost"}
+    # There is one method to choose from.
+    names = {field.name for field in fields(Settings)} - {"cost", "model", "method"}
     assert all(getattr(changed, name) != getattr(Settings(), name) for name in names)
 
 
@@ -151,6 +155,50 @@ def test_exports_are_written_and_described(
     assert main(["calibrate", str(corners_file), *options]) == 0
     assert "camera_matrix" in yaml.read_text() and csv.exists()
     assert "refitted" in capsys.readouterr().out
+
+
+def test_the_lens_model_is_chosen(corners_file: Path, tmp_path: Path, capsys: Capture) -> None:
+    file, yaml = tmp_path / "result.json", tmp_path / "camera.yaml"
+    options = ["--model", "brown-conrady", "--fix", "k3", "-o", str(file)]
+    assert main(["calibrate", str(corners_file), *options, "--export", f"ros={yaml}"]) == 0
+    camera = read_result(file).calibration.camera
+    assert camera.names == ("fx", "fy", "cx", "cy", "k1", "k2", "p1", "p2", "k3")
+    assert camera.params[8] == 0.0
+    assert "as calibrated" in " ".join(capsys.readouterr().out.split())
+    assert str(camera.params[0]) in yaml.read_text()  # nothing was refitted
+
+
+def test_the_printed_lens_belongs_to_the_papers_cost(
+    corners_file: Path, tmp_path: Path, capsys: Capture
+) -> None:
+    file = tmp_path / "result.json"
+    assert main(["calibrate", str(corners_file), "--cost", "paper", "-q", "-o", str(file)]) == 0
+    assert read_result(file).calibration.camera.model == "lucchese-pixels"
+    with pytest.raises(SystemExit):
+        main(["calibrate", str(corners_file), "--cost", "paper", "--model", "brown-conrady"])
+    problem = " ".join(capsys.readouterr().err.split())
+    assert "cannot be combined with 'brown-conrady'" in problem
+
+
+def test_names_are_judged_against_the_chosen_model(corners_file: Path, capsys: Capture) -> None:
+    with pytest.raises(SystemExit):
+        main(["calibrate", str(corners_file), "--model", "brown-conrady", "--fix", "p3"])
+    problem = " ".join(capsys.readouterr().err.split())
+    assert "'brown-conrady' has no parameter 'p3'" in problem
+    assert "Choose from fx, fy, cx, cy, k1, k2, p1, p2, k3" in problem
+
+
+def test_an_export_that_cannot_follow_the_lens_costs_only_itself(
+    corners_file: Path, tmp_path: Path, capsys: Capture, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("calibgui.formats.camera_refit.MAX_REFIT_ERROR", 0.0)
+    result, yaml, lines = (tmp_path / name for name in ("result.json", "a.yaml", "a.py"))
+    options = ["-o", str(result), "--export", f"ros={yaml}", "--export", f"python={lines}"]
+    assert main(["calibrate", str(corners_file), *options]) == 1
+    printed, problems = capsys.readouterr()
+    assert "cannot follow this lens" in problems and str(yaml) in problems
+    assert "Camera, 320 x 240 px" in printed and f"Wrote {lines}" in printed
+    assert result.exists() and lines.exists() and not yaml.exists()
 
 
 def test_bad_images_are_reported_by_name_and_skipped(
@@ -265,6 +313,15 @@ def test_outputs_are_checked_before_the_work(
         ["a.png", "--square", "30", "--export", "opencv"],
         ["a.png", "--square", "30", "--export", "none=a.json"],
         ["a.png", "--square", "30", "--export", "ros=a.txt"],
+        ["a.png", "--square", "30", "--model", "pinhole"],
+        ["a.png", "--square", "30", "--model", "lucchese-pixels"],
+        ["a.png", "--square", "30", "--model", "brown-conrady", "--cost", "paper"],
+        ["a.png", "--square", "30", "--model", "brown-conrady", "--fix", "p3"],
+        ["a.png", "--square", "30", "--model", "brown-conrady", "--free", "p3"],
+        ["a.png", "--square", "30", "--method", "none"],
+        ["a.png", "--square", "30", "--weigh-views", "--cost", "paper"],
+        ["a.png", "--square", "30", "--save-board-shape", "a.json"],
+        ["a.png", "--square", "30", "--board-shape", "free", "--prior", "0.1"],
         ["a.png", "--square", "30", "--plate", "free", "--prior", "0.1"],
         ["a.png", "--square", "30", "--plate", "bow", "--prior", "0.1,0.3"],
         ["a.png", "b.json", "--square", "30"],

@@ -16,9 +16,9 @@ def test_a_wait_is_explained_to_who_watches(
 ) -> None:
     monkeypatch.setattr(sys.stderr, "isatty", lambda: watched)
     console = Console(quiet=quiet)
-    with console.progress("searching") as advance:
+    with console.show_progress("searching") as advance:
         advance(0, 2)
-        console.notice("Preparing…")
+        console.print_notice("Preparing…")
     printed, problems = capsys.readouterr()
     assert printed == ""
     assert ("Preparing…\n" in problems) is (watched and not quiet)

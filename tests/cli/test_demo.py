@@ -8,9 +8,9 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from calibgui.app.resources import resource
+from calibgui.app.resources import find_resource
 from calibgui.cli.main import main
-from calibgui.engine.images.reading import image_size
+from calibgui.engine.images.reading import read_image_size
 from calibgui.formats.result_json import read_result
 
 
@@ -21,7 +21,7 @@ def test_the_sample_is_calibrated_to_its_truth(
     assert main(["demo"]) == 0
     out = tmp_path / "calibgui-demo"
     result = read_result(out / "result.json")
-    truth = json.loads((resource("sample") / "truth.json").read_text())
+    truth = json.loads((find_resource("sample") / "truth.json").read_text())
     assert len(result.used) == len(truth["views"])
     sigma = result.calibration.sigma
     error = result.calibration.camera.params - list(truth["camera"]["params"].values())
@@ -30,7 +30,7 @@ def test_the_sample_is_calibrated_to_its_truth(
     assert str(out) in printed and "in sigmas" in printed
     assert max(len(line) for line in printed.splitlines() if str(out) not in line) <= 80
     for name in ("corners", "distortion", "residuals", "histograms", "undistorted", "convergence"):
-        assert image_size(out / f"{name}.png")[0] > 400
+        assert read_image_size(out / f"{name}.png")[0] > 400
     for name in ("opencv.yaml", "ros.yaml", "corners.json", "corners.csv"):
         assert (out / name).stat().st_size > 500
     # Running it again does the same.

@@ -69,7 +69,7 @@ def test_an_unknown_command_is_wrong_usage(capsys: Capture) -> None:
 def test_a_bug_shows_traceback_and_versions(
     monkeypatch: pytest.MonkeyPatch, capsys: Capture
 ) -> None:
-    monkeypatch.setattr(detect, "search", lambda *_, **__: 1 / 0)
+    monkeypatch.setattr(detect, "search_images", lambda *_, **__: 1 / 0)
     assert main(["detect", "a.png"]) == 70
     problems = capsys.readouterr().err
     for word in ("Traceback", "ZeroDivisionError", "bug", f"calibgui {__version__}", "numpy"):
@@ -80,7 +80,7 @@ def test_an_interruption_is_not_a_bug(monkeypatch: pytest.MonkeyPatch, capsys: C
     def interrupt(*_: object) -> None:
         raise KeyboardInterrupt
 
-    monkeypatch.setattr(detect, "search", interrupt)
+    monkeypatch.setattr(detect, "search_images", interrupt)
     assert main(["detect", "a.png"]) == 130
     assert capsys.readouterr() == ("", "calibgui: interrupted.\n")
 

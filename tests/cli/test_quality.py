@@ -48,7 +48,7 @@ def test_uncertainty_as_json(result_file: Path, capsys: Capture) -> None:
 def test_uncertainty_validates(result_file: Path, capsys: Capture) -> None:
     assert main(["uncertainty", str(result_file), "--validate"]) == 0
     out = capsys.readouterr().out
-    for title in ("Cross-validation", "resamplings of the views", "Plate models on unseen views"):
+    for title in ("Cross-validation", "resamplings of the views", "Board shapes on unseen views"):
         assert title in out
     assert max(map(len, out.splitlines())) <= 80
 

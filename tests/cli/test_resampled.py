@@ -7,9 +7,9 @@ from pathlib import Path
 
 import pytest
 
-from calibgui.app.resampling import GEOMETRY
+from calibgui.app.resampling import GEOMETRY_FILE
 from calibgui.cli.main import main
-from calibgui.engine.images.reading import image_size
+from calibgui.engine.images.reading import read_image_size
 from tests.photographs import CAMERA, COUNT
 
 Capture = pytest.CaptureFixture[str]
@@ -21,7 +21,7 @@ def test_undistort_writes_a_folder(
     out = tmp_path / "new" / "folder"
     assert main(["undistort", str(result_file), str(photographs), "-o", str(out)]) == 0
     assert f"Wrote {COUNT} images" in capsys.readouterr().out
-    assert image_size(out / "view1.png") == CAMERA.size
+    assert read_image_size(out / "view1.png") == CAMERA.size
     assert len(list(out.iterdir())) == COUNT + 1
 
 
@@ -32,7 +32,7 @@ def test_the_field_of_view_is_passed_on(
     for view in ("all", "same-scale", "no-border"):
         arguments = [str(result_file), str(photographs / "view1.png"), "--view", view, "-q"]
         assert main(["undistort", *arguments, "-o", str(tmp_path / view)]) == 0
-        focal[view] = json.loads((tmp_path / view / GEOMETRY).read_text())["matrix"][0][0]
+        focal[view] = json.loads((tmp_path / view / GEOMETRY_FILE).read_text())["matrix"][0][0]
     assert focal["all"] < focal["no-border"]
     assert focal["same-scale"] == pytest.approx(CAMERA.focal[0], rel=1e-2)
 
@@ -44,7 +44,7 @@ def test_rectify_takes_the_calibrated_images_by_default(
     assert main(["rectify", str(result_file), *options]) == 0
     answer = json.loads(capsys.readouterr().out)
     assert len(answer["written"]) == COUNT and answer["skipped"] == {}
-    assert image_size(tmp_path / "out" / "view1.png") == (8 * 60, 7 * 60)
+    assert read_image_size(tmp_path / "out" / "view1.png") == (8 * 60, 7 * 60)
 
 
 def test_a_skipped_image_is_named_and_none_written_fails(

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from calibgui.dataset.result import Result
+from calibgui.dataset import Result
 from tests.engine import scenes
 from tests.formats.conftest import solved
 

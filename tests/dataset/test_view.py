@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from calibgui.dataset.view import View
+from calibgui.dataset import View
 from calibgui.engine.boards.board import Board
 from calibgui.engine.errors import CalibrationError
 
@@ -14,8 +14,8 @@ from calibgui.engine.errors import CalibrationError
     ("rows", "cols", "square"),
     [(0, 8, 25.0), (6, -1, 25.0), (6, 8, 0.0), (6, 8, float("nan")), (6, 8, float("inf"))],
 )
-def test_what_makes_no_target_is_named(rows: int, cols: int, square: float) -> None:
-    with pytest.raises(CalibrationError, match="no target"):
+def test_what_makes_no_board_is_named(rows: int, cols: int, square: float) -> None:
+    with pytest.raises(CalibrationError, match="no board"):
         Board(rows, cols, square)
 
 

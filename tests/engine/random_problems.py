@@ -1,8 +1,7 @@
 """Random calibration problems, and how near a calibration comes to the minimum of each.
 
-Cameras, lenses and views are drawn far beyond what people use. The answer to compare with is
-the solve that starts at the truth: both minimise the same cost, so that the one that ends
-higher has failed.
+Cameras, lenses and views are drawn far beyond what people use. The reference is the solve that
+starts at the truth: both minimise the same cost, so that the one that ends higher has failed.
 """
 
 from __future__ import annotations
@@ -14,10 +13,9 @@ from scipy.spatial.transform import Rotation
 
 from calibgui.engine.arrays import Size
 from calibgui.engine.calibration.calibrate import calibrate
-from calibgui.engine.calibration.observations import Observation, pack
+from calibgui.engine.calibration.observations import Observation, pack_observations
 from calibgui.engine.calibration.refinement.levenberg_marquardt import minimise
-from calibgui.engine.calibration.refinement.normal_equations import stage_two
-from calibgui.engine.calibration.refinement.residuals import State
+from calibgui.engine.calibration.refinement.residuals import State, build_stage_two
 from calibgui.engine.calibration.result import Cost, Status
 from calibgui.engine.camera.camera import Camera
 from calibgui.engine.errors import CalibrationError
@@ -29,13 +27,13 @@ FREE = np.arange(9)
 
 
 class Outcome(NamedTuple):
-    """What became of one problem."""
+    """The outcome of one problem."""
 
     seed: int
     reached: bool
-    """Whether the calibration converged at the minimum."""
+    """True if the calibration converged at the minimum."""
     silent: bool
-    """Whether it says that it converged, and did not."""
+    """True if it reports convergence but is not at the minimum."""
     words: str
 
 
@@ -77,10 +75,10 @@ def problem(seed: int) -> tuple[Scene, list[Observation]]:
 
 def least_cost(made: Scene, views: list[Observation]) -> float:
     """The cost that a solve from the truth ends with."""
-    observations = pack(views)
+    observations = pack_observations(views)
     R = Rotation.from_rotvec(np.array([pose.rvec for pose in made.poses])).as_matrix()
     truth = State(np.array(made.camera.params), R, np.array([pose.tvec for pose in made.poses]))
-    cost = stage_two(observations, "lucchese", Cost.IMAGE, 1.0, FREE)
+    cost = build_stage_two(observations, "lucchese", Cost.IMAGE, 1.0, FREE)
     data = float(np.sum(observations.uv**2))
     return minimise(cost, truth, FREE, observations.count, data).normal.cost
 

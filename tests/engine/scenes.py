@@ -14,7 +14,7 @@ from calibgui.engine.arrays import Array, Size
 from calibgui.engine.boards.board import Board
 from calibgui.engine.calibration.observations import Observation
 from calibgui.engine.camera.camera import Camera
-from calibgui.engine.camera.projection import pixels
+from calibgui.engine.camera.projection import pixels_from_rays
 from calibgui.engine.geometry.pose import Pose
 
 VGA: Size = (640, 480)
@@ -51,14 +51,14 @@ def barrel(aspect: float = 1.0, focal: float = 650.0, size: Size = VGA) -> Camer
 def brown(aspect: float = 1.0, size: Size = VGA) -> Camera:
     """The same kind of camera in OpenCV's model."""
     params = [650.0, 650.0 * aspect, 303.0, 243.0]
-    return Camera(size, [*params, -0.25, 0.12, 3e-4, -5e-4, -0.03], "opencv")
+    return Camera(size, [*params, -0.25, 0.12, 3e-4, -5e-4, -0.03], "brown-conrady")
 
 
 _ALL_AT_WORK = (0.25, 0.1, -0.04, 4e-4, -7e-4, 0.4)
 LENSES = {
     "lucchese": _ALL_AT_WORK,
     "lucchese-pixels": _ALL_AT_WORK,
-    "opencv": (-0.25, 0.12, 3e-4, -5e-4, -0.03),
+    "brown-conrady": (-0.25, 0.12, 3e-4, -5e-4, -0.03),
 }
 """A lens of each model: what `example` is made with, and the tests of all models are."""
 
@@ -72,7 +72,7 @@ def imaged(camera: Camera, pose: Pose, xy: Array) -> Array:
     """(n, 2) where the camera sees plate points (n, 2), px; NaN behind it or beyond the lens."""
     point = xy @ Rotation.from_rotvec(np.array(pose.rvec)).as_matrix()[:, :2].T + pose.tvec
     depth = np.where(point[:, 2:] > 0, point[:, 2:], np.nan)
-    return pixels(point[:, :2] / depth, camera)
+    return pixels_from_rays(point[:, :2] / depth, camera)
 
 
 def looking(

@@ -11,9 +11,9 @@ def test_the_blas_that_scipy_brings_along_is_limited_too() -> None:
     code = (
         "import sys\n"
         "from threadpoolctl import threadpool_info\n"
-        "from calibgui.engine.threads import one_blas_thread\n"
+        "from calibgui.engine.threads import limit_blas_threads\n"
         "assert 'scipy.linalg' not in sys.modules\n"
-        "with one_blas_thread():\n"
+        "with limit_blas_threads():\n"
         "    import scipy.stats\n"
         "    assert {pool['num_threads'] for pool in threadpool_info()} == {1}\n"
     )

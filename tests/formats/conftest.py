@@ -8,10 +8,9 @@ import numpy as np
 import pytest
 
 from calibgui import engine
-from calibgui.dataset.result import Result
-from calibgui.dataset.view import View, ViewStatus
+from calibgui.dataset import Result, View, ViewStatus
 from calibgui.engine.boards.board import Board
-from calibgui.engine.boards.pattern import Ambiguity
+from calibgui.engine.boards.pattern import Symmetry
 from calibgui.engine.calibration.observations import Observation
 from calibgui.engine.camera.camera import Camera
 from calibgui.engine.detection.corners import Corners, OtherBoard
@@ -45,7 +44,7 @@ def _found(image: str, points: Observation, weighted: bool) -> View:
         uv=points.uv,
         estimate=np.rint(points.uv),
         cov=_covariances(len(points.uv)) if weighted else None,
-        ambiguity=Ambiguity.HALF_TURN,
+        ambiguity=Symmetry.HALF_TURN,
         roi=np.array([[1.5, 2], [600, 3], [610, 470], [5, 460]]),
         relative=len(points.uv) < BOARD.rows * BOARD.cols,
         others=(OtherBoard((4, 5), np.array([[9.5, 8], [90, 7], [95, 60], [8, 70]])),),
@@ -75,4 +74,4 @@ def weighted() -> Result:
 @pytest.fixture(scope="session")
 def forward_result() -> Result:
     """OpenCV's model, calibrated as such."""
-    return solved(scenes.brown(), model="opencv")
+    return solved(scenes.brown(), model="brown-conrady")

@@ -6,10 +6,10 @@ from pathlib import Path
 
 import numpy as np
 
-from calibgui.dataset.result import Result
-from calibgui.engine.camera.projection import pixels
+from calibgui.dataset import Result
+from calibgui.engine.camera.projection import pixels_from_rays
+from calibgui.formats.camera_refit import express_in_models
 from calibgui.formats.colmap_cameras import write_colmap
-from calibgui.formats.forward_model import forward
 from tests.formats.readers import RAYS, in_other_python
 
 _COLMAP = """
@@ -38,7 +38,7 @@ def test_half_a_pixel_is_added(tmp_path: Path, result: Result) -> None:
     first, *_, last = (tmp_path / "cameras.txt").read_text().splitlines()
     assert first == f"# {report.note}"
     number, model, width, height, *values = last.split()
-    camera = forward(result).calibration.camera
+    camera = express_in_models(result).calibration.camera
     assert (number, model, int(width), int(height)) == ("1", "FULL_OPENCV", *camera.size)
     fx, fy, cx, cy, *lens = map(float, values)
     assert np.array_equal([fx, fy, cx - 0.5, cy - 0.5], camera.params[:4])
@@ -48,7 +48,7 @@ def test_half_a_pixel_is_added(tmp_path: Path, result: Result) -> None:
 def test_colmap_projects_what_it_reads_to_our_pixels(tmp_path: Path, result: Result) -> None:
     write_colmap(result, tmp_path / "cameras.txt")
     read = in_other_python(_COLMAP, tmp_path, RAYS.tolist(), needs="import pycolmap")
-    camera = forward(result).calibration.camera
+    camera = express_in_models(result).calibration.camera
     assert (tuple(read["size"]), read["model"]) == (camera.size, "FULL_OPENCV")
-    ours = pixels(RAYS[:, :2] / RAYS[:, 2:], camera)
+    ours = pixels_from_rays(RAYS[:, :2] / RAYS[:, 2:], camera)
     assert np.abs(np.array(read["seen"]) - 0.5 - ours).max() < 1e-9

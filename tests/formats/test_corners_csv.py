@@ -9,8 +9,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from calibgui.dataset.result import Result
-from calibgui.dataset.view import View, ViewStatus
+from calibgui.dataset import Result, View, ViewStatus
 from calibgui.engine.errors import CalibrationError
 from calibgui.formats.corners_csv import read_corners_csv, write_corners_csv
 from tests.formats.records import same

@@ -12,12 +12,10 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from calibgui.dataset.corner_set import CornerSet
-from calibgui.dataset.result import Result
-from calibgui.dataset.view import ViewStatus
+from calibgui.dataset import CornerSet, Result, ViewStatus
 from calibgui.engine.boards.board import Board
 from calibgui.engine.errors import CalibrationError
-from calibgui.formats.corners_json import corners_record, read_corners, write_corners
+from calibgui.formats.corners_json import encode_corners, read_corners, write_corners
 from calibgui.formats.json_document import dumps
 from tests.formats.mutations import mutated
 from tests.formats.records import same
@@ -86,7 +84,7 @@ def test_everything_this_program_knows_reads_back(
 
 def test_edited_plate_points_count_for_more_than_the_grid(tmp_path: Path, result: Result) -> None:
     """A measured plate: the corners keep their grid, the calibration gets the file's points."""
-    content = json.loads(dumps(corners_record(CornerSet((640, 480), result.views, result.board))))
+    content = json.loads(dumps(encode_corners(CornerSet((640, 480), result.views, result.board))))
     content["views"][1]["board"][3] = [90.25, 0.5]
     view = _read(tmp_path, content).views[1]
     assert view.corners is not None
@@ -94,7 +92,7 @@ def test_edited_plate_points_count_for_more_than_the_grid(tmp_path: Path, result
 
 
 def test_found_corners_follow_another_square_size(tmp_path: Path, result: Result) -> None:
-    content = corners_record(CornerSet((640, 480), result.views, result.board))
+    content = encode_corners(CornerSet((640, 480), result.views, result.board))
     (tmp_path / "corners.json").write_text(dumps(content))
     view = read_corners(tmp_path / "corners.json").views[1]
     assert view.observation(Board(6, 8, 60.0)).xy.max() == 7 * 60.0
@@ -137,7 +135,7 @@ def test_what_is_wrong_is_named(tmp_path: Path, place: list[Any], value: Any, me
 def test_no_damage_ends_in_anything_but_a_named_error(
     tmp_path_factory: pytest.TempPathFactory, result: Result, data: st.DataObject
 ) -> None:
-    record = corners_record(CornerSet((640, 480), result.views[:3], result.board))
+    record = encode_corners(CornerSet((640, 480), result.views[:3], result.board))
     content = mutated(json.loads(dumps(record)), data)
     file = tmp_path_factory.getbasetemp() / "damaged.json"
     file.write_text(json.dumps(content))

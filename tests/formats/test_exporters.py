@@ -14,16 +14,16 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from calibgui.dataset.result import Result
+from calibgui.dataset import Result
 from calibgui.engine.calibration.result import Calibration, ViewResiduals
 from calibgui.engine.camera.camera import Camera
 from calibgui.engine.errors import CalibrationError
 from calibgui.formats import EXPORTERS, export, find_exporter
-from calibgui.formats.colmap_cameras import cameras
-from calibgui.formats.mrcal_model import cameramodel
-from calibgui.formats.opencv_file import storage
+from calibgui.formats.colmap_cameras import format_cameras
+from calibgui.formats.mrcal_model import format_camera_model
+from calibgui.formats.opencv_file import format_storage
 from calibgui.formats.result_json import read_result
-from calibgui.formats.ros_yaml import camera_info
+from calibgui.formats.ros_yaml import format_camera_info
 from tests.formats.records import same
 
 _GOLDEN = Path(__file__).parents[1] / "golden"
@@ -77,7 +77,7 @@ def _forward(calibration: Calibration) -> Calibration:
     params = [650.25, 649.5, 303.0, 243.125, -0.25, 0.12, 1e-05, -5e-4, 1e-17]
     return replace(
         calibration,
-        camera=Camera((640, 480), params, "opencv"),
+        camera=Camera((640, 480), params, "brown-conrady"),
         sigma=np.full(9, 0.5),
         covariance=np.eye(9),
         residuals=(ViewResiduals([[3.0, 4.0]], [[0.0, 0.0]]),),
@@ -104,12 +104,12 @@ def test_corners_are_written_as_they_always_were(
 
 def test_other_programs_files_are_written_as_they_always_were(golden: Result) -> None:
     calibration = _forward(golden.calibration)
-    xml = storage(calibration, ".xml", "How it was refitted.")
+    xml = format_storage(calibration, ".xml", "How it was refitted.")
     assert xml == (_GOLDEN / "opencv.xml").read_text()
-    info = camera_info(calibration.camera, "camera", "How it was refitted.")
+    info = format_camera_info(calibration.camera, "camera", "How it was refitted.")
     assert info == (_GOLDEN / "camera_info.yaml").read_text()
     region = np.array([[0.0, 0.5], [600.0, 1.0], [20.0, 470.25]])
-    model = cameramodel(calibration.camera, region, "How it was refitted.")
+    model = format_camera_model(calibration.camera, region, "How it was refitted.")
     assert model == (_GOLDEN / "camera.cameramodel").read_text()
-    listed = cameras(calibration.camera, "How it was refitted.")
+    listed = format_cameras(calibration.camera, "How it was refitted.")
     assert listed == (_GOLDEN / "cameras.txt").read_text()

@@ -12,7 +12,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from calibgui.engine.errors import CalibrationError
-from calibgui.formats.json_document import Node, check_format, dumps, read, same
+from calibgui.formats.json_document import Node, are_same_values, check_format, dumps, read_json
 
 _SCALARS = (
     st.none()
@@ -53,7 +53,7 @@ def test_file_names_of_any_kind_survive(tmp_path: Path) -> None:
     names = ["Büro 日本.png", 'a"b\\c\n.png', "\udcff.png"]
     file = tmp_path / "names.json"
     file.write_text(dumps(names), encoding="utf-8")
-    assert [node.text() for node in read(file).items()] == names
+    assert [node.text() for node in read_json(file).items()] == names
     assert "日本" in file.read_text(encoding="utf-8")
 
 
@@ -118,7 +118,7 @@ def test_a_table_is_read_alike_as_lists_and_as_the_array_that_a_file_holds(
         except CalibrationError as error:
             return error.message
 
-    tables = read(file)["a"], Node(value, "a", str(file))
+    tables = read_json(file)["a"], Node(value, "a", str(file))
     for shape in ((), (None,), (None, 2), (2, 1), (None, 2, 2)):
         assert repr(answer(tables[0], shape)) == repr(answer(tables[1], shape))
 
@@ -127,7 +127,7 @@ def test_points_of_a_file_are_an_array_at_once(tmp_path: Path) -> None:
     """As lists they would be many enough for the garbage collector to be felt."""
     file = tmp_path / "a.json"
     file.write_text('{"uv": [[1, 2.5], [3, 4]], "size": [640, 480], "mixed": [[1, true]]}')
-    node = read(file)
+    node = read_json(file)
     assert isinstance(node["uv"].value, np.ndarray)
     assert [row.numbers(2).tolist() for row in node["uv"].items()] == [[1.0, 2.5], [3.0, 4.0]]
     assert node["size"].value == [640, 480]
@@ -137,16 +137,20 @@ def test_points_of_a_file_are_an_array_at_once(tmp_path: Path) -> None:
 def test_values_are_the_same_number_for_number(tmp_path: Path) -> None:
     file = tmp_path / "a.json"
     file.write_text('{"a": {"uv": [[1, 2]], "o": [{"uv": [[3, 4]]}]}, "b": {"uv": [[1, 2.5]]}}')
-    a, b = read(file)["a"].value, read(file)["b"].value
-    assert same(a, read(file)["a"].value)
-    assert not same(a, b) and not same(a["uv"], b["uv"]) and not same(a["uv"], None)
-    assert not same(a["o"], a["o"] * 2)
+    a, b = read_json(file)["a"].value, read_json(file)["b"].value
+    assert are_same_values(a, read_json(file)["a"].value)
+    assert (
+        not are_same_values(a, b)
+        and not are_same_values(a["uv"], b["uv"])
+        and not are_same_values(a["uv"], None)
+    )
+    assert not are_same_values(a["o"], a["o"] * 2)
 
 
 def test_a_byte_order_mark_is_no_error(tmp_path: Path) -> None:
     file = tmp_path / "bom.json"
     file.write_bytes(b"\xef\xbb\xbf[1]")
-    assert read(file).numbers(1) == [1.0]
+    assert read_json(file).numbers(1) == [1.0]
 
 
 @pytest.mark.parametrize(
@@ -166,14 +170,14 @@ def test_files_that_are_not_json_are_named(tmp_path: Path, content: bytes, messa
     file = tmp_path / "a.json"
     file.write_bytes(content)
     with pytest.raises(CalibrationError, match=message) as caught:
-        read(file)
+        read_json(file)
     assert str(file) in caught.value.message
 
 
 def test_a_missing_file_and_a_folder_are_named(tmp_path: Path) -> None:
     for path in (tmp_path / "absent.json", tmp_path):
         with pytest.raises(CalibrationError, match="cannot be read") as caught:
-            read(path)
+            read_json(path)
         assert str(path) in caught.value.message
 
 

@@ -6,9 +6,9 @@ from pathlib import Path
 
 import numpy as np
 
-from calibgui.dataset.result import Result
-from calibgui.engine.camera.projection import pixels
-from calibgui.formats.forward_model import forward
+from calibgui.dataset import Result
+from calibgui.engine.camera.projection import pixels_from_rays
+from calibgui.formats.camera_refit import express_in_models
 from calibgui.formats.mrcal_model import write_mrcal
 from tests.formats.readers import RAYS, in_other_python
 
@@ -36,10 +36,10 @@ def test_mrcal_projects_what_it_reads_to_our_pixels(tmp_path: Path, result: Resu
     report = write_mrcal(result, file)
     assert f"# {report.note}\n" in file.read_text()
     read = in_other_python(_MRCAL, file, RAYS.tolist(), needs="import mrcal")
-    camera = forward(result).calibration.camera
+    camera = express_in_models(result).calibration.camera
     assert tuple(read["size"]) == camera.size
     assert read["pose"] == [0.0] * 6
-    assert np.abs(read["seen"] - pixels(RAYS[:, :2] / RAYS[:, 2:], camera)).max() < 1e-9
+    assert np.abs(read["seen"] - pixels_from_rays(RAYS[:, :2] / RAYS[:, 2:], camera)).max() < 1e-9
     corners = np.concatenate([view.uv for view in result.observations()])
     assert read["region"][0] == read["region"][-1]
     assert {tuple(uv) for uv in read["region"]} <= {tuple(uv) for uv in corners.tolist()}

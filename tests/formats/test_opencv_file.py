@@ -10,12 +10,12 @@ import cv2
 import numpy as np
 import pytest
 
-from calibgui.dataset.result import Result
+from calibgui.dataset import Result
 from calibgui.engine.arrays import Array
-from calibgui.engine.camera.projection import pixels
+from calibgui.engine.camera.projection import pixels_from_rays
 from calibgui.engine.geometry import rotations
-from calibgui.formats.forward_model import forward
-from calibgui.formats.opencv_file import storage, write_opencv
+from calibgui.formats.camera_refit import express_in_models
+from calibgui.formats.opencv_file import format_storage, write_opencv
 from tests.formats.readers import in_other_python
 
 _SUFFIXES = pytest.mark.parametrize("suffix", [".yaml", ".yml", ".xml", ".json"])
@@ -48,7 +48,7 @@ def test_opencv_projects_what_it_reads_to_our_pixels(
     file = tmp_path / f"camera{suffix}"
     report = write_opencv(result, file)
     read = _read(file)
-    fitted = forward(result).calibration
+    fitted = express_in_models(result).calibration
     assert read["size"].tolist() == list(result.calibration.camera.size)
     assert len(read["extrinsic_parameters"]) == len(result.used)
     squares = []
@@ -66,8 +66,8 @@ def test_opencv_projects_what_it_reads_to_our_pixels(
             read["camera_matrix"],
             read["distortion_coefficients"],
         )[0].reshape(-1, 2)
-        X = xy @ rotations.rotation(pose.rvec)[:, :2].T + pose.tvec
-        assert np.abs(theirs - pixels(X[:, :2] / X[:, 2:], fitted.camera)).max() < 1e-9
+        X = xy @ rotations.rotation_from_vector(pose.rvec)[:, :2].T + pose.tvec
+        assert np.abs(theirs - pixels_from_rays(X[:, :2] / X[:, 2:], fitted.camera)).max() < 1e-9
         assert np.abs(uv - theirs - residuals.image).max() < 1e-9
         squares.append(np.sum((uv - theirs) ** 2, axis=1))
     assert read["rms"] == pytest.approx(np.sqrt(np.concatenate(squares).mean()), rel=1e-9)
@@ -100,15 +100,15 @@ def test_any_json_reader_reads_the_json_file(tmp_path: Path, result: Result) -> 
     assert content["note"].startswith(report.note)
     assert (
         content["camera_matrix"]["data"]
-        == forward(result).calibration.camera.matrix.ravel().tolist()
+        == express_in_models(result).calibration.camera.matrix.ravel().tolist()
     )
 
 
 def test_an_undetermined_deviation_leaves_the_deviations_out(result: Result) -> None:
     """A NaN would make the file unreadable for others than OpenCV."""
-    fitted = forward(result).calibration
+    fitted = express_in_models(result).calibration
     sigma = fitted.sigma.copy()
     sigma[8] = np.nan
-    text = storage(replace(fitted, sigma=sigma), ".json", "note")
+    text = format_storage(replace(fitted, sigma=sigma), ".json", "note")
     assert "std_dev" not in text and "nan" not in text.lower()
-    assert "std_dev" in storage(fitted, ".json", "note")
+    assert "std_dev" in format_storage(fitted, ".json", "note")

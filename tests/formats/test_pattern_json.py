@@ -14,8 +14,8 @@ from calibgui.engine.boards.circle_grid import Circles
 from calibgui.engine.boards.kinds import KINDS
 from calibgui.engine.boards.pattern import Pattern
 from calibgui.engine.errors import CalibrationError
-from calibgui.formats.json_document import dumps, read
-from calibgui.formats.pattern_json import pattern_record, read_target, target_record
+from calibgui.formats.json_document import dumps, read_json
+from calibgui.formats.pattern_json import decode_board, encode_board, encode_pattern
 
 PATTERNS = [
     *KINDS.values(),
@@ -29,8 +29,8 @@ PATTERNS = [
 @pytest.mark.parametrize("pattern", PATTERNS)
 def test_read_back(tmp_path: Path, pattern: Pattern) -> None:
     board = Board(6, 9, 12.5, pattern)
-    (tmp_path / "t.json").write_text(dumps(target_record(board)))
-    assert read_target(read(tmp_path / "t.json")) == board
+    (tmp_path / "t.json").write_text(dumps(encode_board(board)))
+    assert decode_board(read_json(tmp_path / "t.json")) == board
 
 
 @pytest.mark.parametrize(
@@ -45,12 +45,12 @@ def test_read_back(tmp_path: Path, pattern: Pattern) -> None:
     ],
 )
 def test_what_is_wrong_is_named(tmp_path: Path, wrong: dict[str, Any]) -> None:
-    record = target_record(Board(6, 9, 12.5)) | {"pattern": wrong}
+    record = encode_board(Board(6, 9, 12.5)) | {"pattern": wrong}
     (tmp_path / "t.json").write_text(json.dumps(record))
     with pytest.raises(CalibrationError, match=r"t\.json"):
-        read_target(read(tmp_path / "t.json"))
+        decode_board(read_json(tmp_path / "t.json"))
 
 
 def test_a_checkerboard_needs_no_pattern() -> None:
-    assert "pattern" not in target_record(Board(6, 9, 12.5))
-    assert pattern_record(KINDS["circles"]) == {"kind": "circles"}
+    assert "pattern" not in encode_board(Board(6, 9, 12.5))
+    assert encode_pattern(KINDS["circles"]) == {"kind": "circles"}

@@ -10,9 +10,9 @@ import numpy as np
 import pytest
 
 from calibgui import engine
-from calibgui.dataset.result import Result
+from calibgui.dataset import Result
+from calibgui.formats.camera_refit import express_in_models
 from calibgui.formats.engine_python import write_engine_python
-from calibgui.formats.forward_model import forward
 from calibgui.formats.opencv_python import write_opencv_python
 
 
@@ -41,7 +41,7 @@ def test_opencv_lines_project_to_our_pixels(
     file = tmp_path / "camera.py"
     report = write_opencv_python(result, file)
     made = runpy.run_path(str(file))
-    fitted = forward(result).calibration
+    fitted = express_in_models(result).calibration
     assert made["image_size"] == fitted.camera.size
     pose, (_, xy, _) = fitted.poses[0], result.observations()[0]
     board_shape = np.column_stack([xy, np.zeros(len(xy))])

@@ -16,14 +16,13 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from calibgui import engine
-from calibgui.dataset.result import Result
-from calibgui.dataset.view import View, ViewStatus
+from calibgui.dataset import Result, View, ViewStatus
 from calibgui.engine.calibration.calibrate import calibrate
 from calibgui.engine.calibration.result import Cost, DegenerateError, Undetermined
 from calibgui.engine.errors import CalibrationError
 from calibgui.formats import export
 from calibgui.formats.json_document import dumps
-from calibgui.formats.result_json import read_result, result_record, write_result
+from calibgui.formats.result_json import encode_result, read_result, write_result
 from tests.engine import scenes
 from tests.formats.conftest import solved
 from tests.formats.mutations import mutated
@@ -41,7 +40,7 @@ def _validator() -> jsonschema.Draft202012Validator:
 
 
 def _content(result: Result) -> Any:
-    return json.loads(dumps(result_record(result)))
+    return json.loads(dumps(encode_result(result)))
 
 
 @pytest.fixture(scope="module")
@@ -64,7 +63,7 @@ def test_a_partial_calibration_reads_back_as_such(tmp_path: Path) -> None:
     partial = caught.value.partial
     assert partial is not None
     assert partial.diagnosis is not None
-    assert partial.diagnosis.assumed
+    assert partial.diagnosis.assumptions
     view = View("0.png", ViewStatus.FOUND, points=made.views[0])
     result = Result(partial, (view,), None)
     _validator().validate(_content(result))
@@ -241,8 +240,21 @@ def test_a_camera_that_cannot_be_is_refused(
         read_result(file)
 
 
+def test_an_older_name_of_the_lens_model_is_read(tmp_path: Path, forward_result: Result) -> None:
+    content = _content(forward_result)
+    assert content["camera"]["model"] == content["settings"]["model"] == "brown-conrady"
+    content["camera"]["model"] = content["settings"]["model"] = "opencv"
+    _validator().validate(content)
+    (tmp_path / "old.json").write_text(json.dumps(content))
+    assert same(read_result(tmp_path / "old.json"), forward_result)
+    content["camera"]["model"] = "pinhole"
+    (tmp_path / "odd.json").write_text(json.dumps(content))
+    with pytest.raises(CalibrationError, match=r"camera\.model is not one of lucchese"):
+        read_result(tmp_path / "odd.json")
+
+
 def test_a_file_cut_anywhere_is_refused(tmp_path: Path, result: Result) -> None:
-    text = dumps(result_record(result))
+    text = dumps(encode_result(result))
     for length in np.linspace(0, len(text) - 1, 60).astype(int):
         (tmp_path / "cut.json").write_text(text[:length], encoding="utf-8")
         with pytest.raises(CalibrationError, match=r"cut\.json is (cut short|not a JSON file)"):

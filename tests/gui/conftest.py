@@ -19,8 +19,9 @@ from PySide6.QtWidgets import QApplication
 from pytestqt.qtbot import QtBot
 
 from calibgui.app.document import Document
-from calibgui.gui import theme
-from calibgui.gui.main_window import MainWindow
+from calibgui.gui.jobs.jobs import Jobs
+from calibgui.gui.widgets import theme
+from calibgui.gui.window.main_window import MainWindow
 from tests.app import examples
 
 
@@ -68,6 +69,14 @@ def clean(
     # The offscreen platform says this of every window that is shown.
     warnings = [r.message for r in qtlog.records if "propagateSizeHints" not in r.message]
     assert not warnings, f"Qt warned: {warnings}"
+
+
+@pytest.fixture
+def jobs() -> Iterator[Jobs]:
+    """Work beside the window, ended with the test."""
+    running = Jobs()
+    yield running
+    running.close()
 
 
 @pytest.fixture

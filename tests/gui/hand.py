@@ -13,8 +13,8 @@ from pytestqt.qtbot import QtBot
 
 from calibgui.engine.arrays import Array
 from calibgui.engine.detection.corners import Corners
-from calibgui.gui.image_model import Role
-from calibgui.gui.main_window import MainWindow
+from calibgui.gui.images.image_model import Role
+from calibgui.gui.window.main_window import MainWindow
 
 LEFT = Qt.MouseButton.LeftButton
 

@@ -11,9 +11,9 @@ from PySide6.QtGui import QAction, QKeySequence
 from PySide6.QtWidgets import QAbstractButton, QApplication, QLabel, QMenu, QTabWidget, QWidget
 from pytestqt.qtbot import QtBot
 
-from calibgui.gui.analysis import PANELS
-from calibgui.gui.main_window import MainWindow
+from calibgui.gui.panels.analysis import PANELS
 from calibgui.gui.panels.panel import Panel
+from calibgui.gui.window.main_window import MainWindow
 
 
 def labels(window: MainWindow) -> Iterator[str]:

@@ -20,18 +20,18 @@ from PySide6.QtWidgets import (
 from pytestqt.qtbot import QtBot
 
 from calibgui.app.document import Document
-from calibgui.app.project import Unit, with_each
-from calibgui.app.recent import recent_projects
-from calibgui.dataset.view import View, ViewStatus
+from calibgui.app.project import Unit, change_views
+from calibgui.app.recent import list_recent_projects
+from calibgui.dataset import View, ViewStatus
 from calibgui.engine.calibration.result import Status
 from calibgui.engine.errors import CalibrationError
-from calibgui.gui import theme
-from calibgui.gui.bug_dialog import BugDialog
-from calibgui.gui.help_dialog import HelpDialog
-from calibgui.gui.main_window import MainWindow
+from calibgui.gui.dialogs.bug_dialog import BugDialog
+from calibgui.gui.dialogs.help_dialog import HelpDialog
+from calibgui.gui.dialogs.print_dialog import PrintDialog
 from calibgui.gui.panels.result import ResultPanel
 from calibgui.gui.panels.split import Split
-from calibgui.gui.print_dialog import PrintDialog
+from calibgui.gui.widgets import theme
+from calibgui.gui.window.main_window import MainWindow
 from tests.app import examples
 
 LEFT = Qt.MouseButton.LeftButton
@@ -80,7 +80,7 @@ def test_views_that_do_not_determine_the_camera_say_what_to_photograph(
     def excluded(view: View) -> View:
         return replace(view, enabled=False)
 
-    session.edit("Exclude", lambda p: with_each(p, others, excluded))
+    session.edit("Exclude", lambda p: change_views(p, others, excluded))
     qtbot.mouseClick(full.calibrate, LEFT)
     qtbot.waitUntil(lambda: len(session.project.results) == 3, timeout=30_000)
     assert session.result is not None
@@ -217,7 +217,7 @@ def test_missing_images_are_found_again(
     assert window.session.project.views[1].image == str(new / "1.png")
     assert window.session.result is not None
     assert window.session.project.is_current(window.session.result)
-    assert recent_projects() == [tmp_path / "project.json", tmp_path / "empty.json"]
+    assert list_recent_projects() == [tmp_path / "project.json", tmp_path / "empty.json"]
 
 
 @pytest.mark.parametrize("answer", ["Save", "Discard", "Cancel"])
@@ -252,7 +252,7 @@ def test_a_board_is_printed_in_the_size_chosen(
         QFileDialog, "getSaveFileName", lambda *_: (str(tmp_path / "board"), "SVG drawing (*.svg)")
     )
     qtbot.mouseClick(dialog.save, LEFT)
-    assert (tmp_path / "board.svg").read_text(encoding="utf-8") == dialog.content().svg()
+    assert (tmp_path / "board.svg").read_text(encoding="utf-8") == dialog.make_sheet().svg()
 
 
 def test_every_action_has_a_tip_and_no_shortcut_twice(window: MainWindow) -> None:

@@ -19,11 +19,11 @@ from PySide6.QtCore import QTimer
 from pytestqt.qtbot import QtBot
 
 from calibgui.app.calibration import calibrate_views
-from calibgui.app.project import Project, with_result
+from calibgui.app.project import Project, add_result
 from calibgui.app.project_file import write_project
-from calibgui.dataset.corner_set import CornerSet
-from calibgui.gui.main_window import MainWindow
+from calibgui.dataset import CornerSet
 from calibgui.gui.panels.synthetic import SyntheticPanel
+from calibgui.gui.window.main_window import MainWindow
 from tests.app import examples
 from tests.engine import scenes
 
@@ -112,7 +112,7 @@ def many_views(count: int, folder: Path) -> Project:
         views.append(replace(template, image=str(folder / f"{k}.png"), corners=corners))
     project = Project(views=tuple(views), size=scene.size)
     corner_set = CornerSet(scene.size, project.views, project.board)
-    return with_result(project, "Calibration 1", calibrate_views(corner_set))
+    return add_result(project, "Calibration 1", calibrate_views(corner_set))
 
 
 def test_an_empty_window_is_there_at_once(tmp_path: Path) -> None:
@@ -121,8 +121,8 @@ def test_an_empty_window_is_there_at_once(tmp_path: Path) -> None:
         "import time; begun = time.monotonic(), time.process_time()\n"
         "from PySide6.QtWidgets import QApplication\n"
         "app = QApplication([])\n"
-        "from calibgui.gui import theme\n"
-        "from calibgui.gui.main_window import MainWindow\n"
+        "from calibgui.gui.widgets import theme\n"
+        "from calibgui.gui.window.main_window import MainWindow\n"
         "theme.apply(app, theme.Scheme.LIGHT)\n"
         "window = MainWindow(); window.show(); app.processEvents()\n"
         "print(time.monotonic() - begun[0], time.process_time() - begun[1])\n"

@@ -35,14 +35,14 @@ from calibgui.engine.boards.board import Board
 from calibgui.engine.images.reading import Image
 from calibgui.formats import EXPORTERS
 from calibgui.gui import app
-from calibgui.gui.analysis import PANELS
-from calibgui.gui.bug_dialog import BugDialog
-from calibgui.gui.help_dialog import HelpDialog
-from calibgui.gui.main_window import MainWindow
+from calibgui.gui.dialogs.bug_dialog import BugDialog
+from calibgui.gui.dialogs.export_dialog import ExportDialog
+from calibgui.gui.dialogs.help_dialog import HelpDialog
+from calibgui.gui.dialogs.print_dialog import PrintDialog
 from calibgui.gui.panels import residuals
-from calibgui.gui.panels.export import ExportDialog
-from calibgui.gui.plots import Plot
-from calibgui.gui.print_dialog import PrintDialog
+from calibgui.gui.panels.analysis import PANELS
+from calibgui.gui.widgets.plots import Plot
+from calibgui.gui.window.main_window import MainWindow
 from tests.app import examples
 
 OPEN, CLOSE = "⟦", "⟧"
@@ -136,7 +136,7 @@ def test_no_text_of_the_window_is_left_in_english(
 ) -> None:
     grey = Image(np.zeros((150, 200), np.uint8), tmp_path)
     monkeypatch.setattr(window.session.images, "read", lambda _: grey)
-    monkeypatch.setattr(residuals, "examine", lambda *_: NoiseReport((), np.zeros(1)))
+    monkeypatch.setattr(residuals, "check_residuals", lambda *_: NoiseReport((), np.zeros(1)))
     window.session.begin(Document(examples.calibrated(tmp_path)))
     analysis = window.need_analysis()
     for kind in PANELS:
@@ -168,7 +168,7 @@ def test_the_users_language_is_loaded(
     qapp: QApplication, catalogue: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     shutil.copy(catalogue, tmp_path / "calibgui_it.qm")
-    monkeypatch.setattr(app, "resource", lambda _: tmp_path)
+    monkeypatch.setattr(app, "find_resource", lambda _: tmp_path)
     before = QLocale()
     QLocale.setDefault(QLocale("it_IT"))
     app._translate(qapp)

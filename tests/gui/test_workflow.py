@@ -17,17 +17,17 @@ from pytestqt.qtbot import QtBot
 
 from calibgui.app import redetection
 from calibgui.app.project import Project
-from calibgui.app.project_file import project_record
-from calibgui.app.resources import resource
+from calibgui.app.project_file import encode_project
+from calibgui.app.resources import find_resource
 from calibgui.engine.calibration.result import Status
 from calibgui.formats.json_document import dumps
 from calibgui.formats.result_json import read_result
-from calibgui.gui import calibrating
-from calibgui.gui.image_model import Role
-from calibgui.gui.layers import Layer
-from calibgui.gui.main_window import MainWindow
+from calibgui.gui.canvas.layers import Layer
+from calibgui.gui.images.image_model import Role
 from calibgui.gui.panels.convergence import ConvergencePanel
 from calibgui.gui.panels.residuals import ResidualsPanel
+from calibgui.gui.session import calibrator
+from calibgui.gui.window.main_window import MainWindow
 from tests.gui.hand import Hand, outermost
 
 pytestmark = pytest.mark.slow
@@ -40,14 +40,14 @@ def folder(tmp_path: Path) -> Path:
     """Some of the sample's images, and one that shows nothing."""
     images = tmp_path / "photographs"
     images.mkdir()
-    for source in sorted(resource("sample").glob("*.png"))[:COUNT]:
+    for source in sorted(find_resource("sample").glob("*.png"))[:COUNT]:
         shutil.copy(source, images)
     (images / "view99.png").write_bytes(b"not an image")
     return images
 
 
 def content(project: Project) -> str:
-    return dumps(project_record(project, Path("/")))
+    return dumps(encode_project(project, Path("/")))
 
 
 def test_from_photographs_to_an_exported_camera(
@@ -76,7 +76,7 @@ def test_from_photographs_to_an_exported_camera(
     assert window.page.reason.isVisible()
     assert window.page.reason.text() == unreadable.reason
     assert not any(tool.isEnabled() for tool in window.page.tools)
-    truth = json.loads((resource("sample") / "truth.json").read_text())["camera"]["params"]
+    truth = json.loads((find_resource("sample") / "truth.json").read_text())["camera"]["params"]
     assert abs(first.camera.params[0] - truth["fx"]) < 5 * first.sigma[0]
 
     # Four clicks, somewhat beside the corners; one is taken back in between.
@@ -168,7 +168,7 @@ def test_from_photographs_to_an_exported_camera(
         return calibrate_twice(corner_set, settings, slow, stop)
 
     calibrate_twice = redetection.calibrate_twice
-    monkeypatch.setattr(calibrating, "calibrate_twice", slowly)
+    monkeypatch.setattr(calibrator, "calibrate_twice", slowly)
     hand.click_button(window.calibrate)
     assert window.calibrate.text() == "&Stop"
     convergence = window.analysis.panel(ConvergencePanel)
@@ -178,7 +178,7 @@ def test_from_photographs_to_an_exported_camera(
     hand.wait(lambda: len(session.project.results) == 3)
     assert session.result.calibration.status is Status.STOPPED
     assert "best so far" in window.banner.text.text()
-    monkeypatch.setattr(calibrating, "calibrate_twice", calibrate_twice)
+    monkeypatch.setattr(calibrator, "calibrate_twice", calibrate_twice)
     hand.wait(lambda: not session.jobs.running)
 
     # Undo all, redo all.

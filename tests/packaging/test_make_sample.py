@@ -12,7 +12,7 @@ import numpy as np
 import pytest
 
 from calibgui.engine.camera.distortion import project_points
-from calibgui.engine.geometry.rotations import rotation
+from calibgui.engine.geometry.rotations import rotation_from_vector
 from calibgui.engine.images.reading import read_image
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -40,7 +40,7 @@ def truth() -> dict[str, Any]:
 
 
 def test_truth_is_what_the_generator_says(truth: dict[str, Any]) -> None:
-    made = json.loads(json.dumps(make_sample.truth()))
+    made = json.loads(json.dumps(make_sample.describe_truth()))
     for theirs, ours in zip(truth["views"], made["views"], strict=True):
         np.testing.assert_allclose(theirs["corners"], ours["corners"], atol=2e-9)
         ours["corners"] = theirs["corners"]
@@ -48,7 +48,7 @@ def test_truth_is_what_the_generator_says(truth: dict[str, Any]) -> None:
 
 
 def test_images_are_what_the_generator_renders() -> None:
-    made = make_sample.photograph(6).astype(int)
+    made = make_sample.draw_photograph(6).astype(int)
     stored = read_image(FOLDER / "view06.png").pixels
     # The last bit of a sine may differ between processors and turn a rounding here and there.
     assert np.abs(made - stored).max() <= 1
@@ -67,7 +67,9 @@ def test_boards_are_whole_and_reach_the_edges(truth: dict[str, Any]) -> None:
     corners = np.array([view["corners"] for view in truth["views"]])
     assert corners.shape == (14, 70, 2)
     for view in make_sample.VIEWS:
-        sheet = project_points(make_sample.outline(), make_sample.CAMERA, make_sample.pose(view))
+        sheet = project_points(
+            make_sample.draw_outline(), make_sample.CAMERA, make_sample.place_board(view)
+        )
         assert sheet.min() >= make_sample.CLEARANCE - 0.1
         assert np.all(sheet <= np.array([639, 479]) - make_sample.CLEARANCE + 0.1)
     # Corners come close to all four sides, and boards into all four corners of the image.
@@ -78,7 +80,7 @@ def test_boards_are_whole_and_reach_the_edges(truth: dict[str, Any]) -> None:
 
 
 def test_boards_are_tilted_both_ways(truth: dict[str, Any]) -> None:
-    R = rotation(np.array([view["rvec"] for view in truth["views"]]))
+    R = rotation_from_vector(np.array([view["rvec"] for view in truth["views"]]))
     normals = np.rad2deg(np.arctan2(R[:, :2, 2], R[:, 2:, 2]))
     assert np.all(normals.min(axis=0) < -35)
     assert np.all(normals.max(axis=0) > 35)

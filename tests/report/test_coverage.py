@@ -7,13 +7,13 @@ import pytest
 
 from calibgui import engine
 from calibgui.engine.geometry import rotations
-from calibgui.report.coverage import attitudes, density
+from calibgui.report.coverage import count_corners_per_cell, measure_attitudes
 from tests.engine import scenes
 
 
 def test_density_counts_every_corner_once() -> None:
     uv = np.array([[-0.5, -0.5], [0.0, 0.0], [639.4, 479.4], [319.4, 0.0], [319.6, 0.0]])
-    counts = density(uv, (640, 480), (2, 3))
+    counts = count_corners_per_cell(uv, (640, 480), (2, 3))
     assert counts.tolist() == [[3, 1], [0, 0], [0, 1]]
 
 
@@ -28,7 +28,7 @@ def test_tilt_and_the_side_that_recedes(towards: float) -> None:
     ] + [scenes.looking(camera, rng) for _ in range(5)]
     scene = scenes.seen(camera, poses)
     calibration = engine.calibrate(scene.views, scene.size)
-    attitude = attitudes(calibration, scene.views)
+    attitude = measure_attitudes(calibration, scene.views)
     np.testing.assert_allclose(np.rad2deg(attitude.tilt[:3]), [20, 30, 40], atol=1e-4)
 
     # Rotation about (cos a, sin a, 0) lowers depth along (-sin a, cos a) of the board: v down.
@@ -42,8 +42,8 @@ def test_tilt_and_the_side_that_recedes(towards: float) -> None:
 def test_distance_is_to_the_middle_of_the_board() -> None:
     scene = scenes.scene(scenes.barrel(), 6, 2)
     calibration = engine.calibrate(scene.views, scene.size)
-    distance = attitudes(calibration, scene.views).distance
+    distance = measure_attitudes(calibration, scene.views).distance
     for pose, view, d in zip(scene.poses, scene.views, distance, strict=True):
         centre = (view.xy.min(axis=0) + view.xy.max(axis=0)) / 2
-        R = rotations.rotation(pose.rvec)
+        R = rotations.rotation_from_vector(pose.rvec)
         assert d == pytest.approx(float(np.linalg.norm(R[:, :2] @ centre + pose.tvec)), rel=1e-6)

@@ -6,7 +6,7 @@ import math
 
 import pytest
 
-from calibgui.report.numbers import counted, with_sigma
+from calibgui.report.numbers import format_count, format_with_sigma
 
 
 @pytest.mark.parametrize(
@@ -25,8 +25,8 @@ from calibgui.report.numbers import counted, with_sigma
     ],
 )
 def test_digits_follow_sigma(value: float, sigma: float, text: str) -> None:
-    assert with_sigma(value, sigma) == text
+    assert format_with_sigma(value, sigma) == text
 
 
 def test_counts_agree_with_their_noun() -> None:
-    assert [counted(n, "view") for n in (0, 1, 3900)] == ["0 views", "1 view", "3,900 views"]
+    assert [format_count(n, "view") for n in (0, 1, 3900)] == ["0 views", "1 view", "3,900 views"]

@@ -8,15 +8,15 @@ import pytest
 from calibgui.engine.assessment.comparison import compare_cameras
 from calibgui.engine.assessment.cross_validation import (
     Bootstrap,
-    bootstrap,
+    bootstrap_views,
     choose_board_shape,
     cross_validate,
 )
-from calibgui.engine.assessment.noise_test import examine
+from calibgui.engine.assessment.noise_test import check_residuals
 from calibgui.engine.calibration.calibrate import calibrate
 from calibgui.engine.calibration.observations import Observation
 from calibgui.engine.calibration.result import Calibration
-from calibgui.engine.uncertainty.number_of_views import ViewCount, study
+from calibgui.engine.uncertainty.number_of_views import ViewCountStudy, study_number_of_views
 from calibgui.engine.uncertainty.projection_uncertainty import estimate_projection_uncertainty
 from calibgui.report import quality, quality_figures
 from tests.engine.scenes import barrel, scene
@@ -34,13 +34,15 @@ def test_tables_fit_a_terminal(calibrated: Calibrated) -> None:
     result, views = calibrated
     size = barrel().size
     texts = [
-        quality.projection(estimate_projection_uncertainty(result, views, 500.0), 0.1),
-        quality.noise(examine(result, views)),
-        quality.validation(cross_validate(views, size, 4)),
-        quality.board_shapes(choose_board_shape(views, size, 3)),
-        quality.resampled(bootstrap(views, size, 12), result),
-        quality.difference(compare_cameras(barrel(), result.camera, 500.0), 0.1),
-        quality.view_count(study(result, views, solved=4), 0.5),
+        quality.tabulate_projection_uncertainty(
+            estimate_projection_uncertainty(result, views, 500.0), 0.1
+        ),
+        quality.tabulate_noise_report(check_residuals(result, views)),
+        quality.tabulate_cross_validation(cross_validate(views, size, 4)),
+        quality.tabulate_board_shape_choice(choose_board_shape(views, size, 3)),
+        quality.tabulate_bootstrap(bootstrap_views(views, size, 12), result),
+        quality.tabulate_camera_difference(compare_cameras(barrel(), result.camera, 500.0), 0.1),
+        quality.tabulate_number_of_views(study_number_of_views(result, views, solved=4), 0.5),
     ]
     for text in texts:
         assert max(map(len, text.splitlines())) <= 80, text
@@ -50,30 +52,32 @@ def test_tables_fit_a_terminal(calibrated: Calibrated) -> None:
 def test_a_held_parameter_is_not_resampled(calibrated: Calibrated) -> None:
     _, views = calibrated
     result = calibrate(views, barrel().size, fix=["cx", "cy"])
-    text = quality.resampled(bootstrap(views, barrel().size, 12, fix=["cx", "cy"]), result)
+    text = quality.tabulate_bootstrap(
+        bootstrap_views(views, barrel().size, 12, fix=["cx", "cy"]), result
+    )
     assert "fx" in text
     assert "cx" not in text
 
 
-def test_views_that_scatter_too_much_are_told(calibrated: Calibrated) -> None:
+def test_views_that_scatter_too_much_are_named(calibrated: Calibrated) -> None:
     result, _ = calibrated
     params = np.array([result.camera.params])
     for factor, said in ((1.0, "no more than is reported"), (3.0, "scatter 3.0 times as much")):
         ratio = np.where(result.sigma > 0, factor, np.nan)
         found = Bootstrap(params, factor * result.sigma, ratio, 0)
-        assert said in quality.resampled(found, result)
+        assert said in quality.tabulate_bootstrap(found, result)
 
 
 def test_differences_are_judged_by_what_is_expected(calibrated: Calibrated) -> None:
     found = compare_cameras(barrel(), calibrated[0].camera)
-    assert "agree" in quality.difference(found, found.median)
-    assert "4.0 times" in quality.difference(found, found.median / 4)
+    assert "agree" in quality.tabulate_camera_difference(found, found.median)
+    assert "4.0 times" in quality.tabulate_camera_difference(found, found.median / 4)
 
 
-def _count(scatter: float) -> ViewCount:
+def _count(scatter: float) -> ViewCountStudy:
     counts = np.arange(2, 17)
     sigma = np.repeat((2 / np.sqrt(counts))[:, None], 3, axis=1)
-    return ViewCount(
+    return ViewCountStudy(
         counts=counts,
         random=np.stack([sigma, sigma, sigma], axis=1),
         chosen=0.5 * sigma,
@@ -83,23 +87,23 @@ def _count(scatter: float) -> ViewCount:
 
 
 def test_sentences_about_the_number_of_views() -> None:
-    said = quality.sentences(_count(-0.5), 0.8)
+    said = quality.describe_number_of_views(_count(-0.5), 0.8)
     assert "known to 0.8 px from 7 random views, or 2 well-chosen ones" in said[0]
     assert "to 0.5 px from all 16" in said[0]
     assert "1.6 px between sets of 6 and 1 px between sets of 16" in said[3]
     assert "no number is special" in said[3]
-    assert "no number is special" not in quality.sentences(_count(-1.5), 0.8)[3]
+    assert "no number is special" not in quality.describe_number_of_views(_count(-1.5), 0.8)[3]
     assert (
         "is not known to 0.1 px: 0.5 px from all 16 views"
-        in quality.sentences(_count(-1.0), 0.1)[0]
+        in quality.describe_number_of_views(_count(-1.0), 0.1)[0]
     )
 
 
 def test_figures_can_be_drawn(calibrated: Calibrated) -> None:
     result, views = calibrated
     found = estimate_projection_uncertainty(result, views)
-    assert quality_figures.uncertainty(found, views, found.median).axes
+    assert quality_figures.draw_projection_uncertainty(found, views, found.median).axes
     region = compare_cameras(barrel(), result.camera, views=views)
-    assert quality_figures.difference(region).axes
-    assert quality_figures.difference(compare_cameras(barrel(), barrel())).axes
-    assert len(quality_figures.view_count(_count(-0.5), 0.5).axes) == 3
+    assert quality_figures.draw_camera_difference(region).axes
+    assert quality_figures.draw_camera_difference(compare_cameras(barrel(), barrel())).axes
+    assert len(quality_figures.draw_number_of_views(_count(-0.5), 0.5).axes) == 3

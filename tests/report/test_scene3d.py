@@ -9,10 +9,18 @@ from hypothesis import strategies as st
 from scipy.spatial.transform import Rotation
 
 from calibgui import engine
-from calibgui.dataset.result import Result
-from calibgui.dataset.view import View, ViewStatus
+from calibgui.dataset import Result, View, ViewStatus
 from calibgui.engine.detection.corners import Corners
-from calibgui.report.scene3d import Centre, Kind, Observer, draw, fitted, project, scene, view_at
+from calibgui.report.scene3d import (
+    Observer,
+    PolygonKind,
+    SceneCentre,
+    build_scene,
+    draw_scene,
+    find_view_at,
+    fit_zoom,
+    project_to_plane,
+)
 from tests.engine import scenes
 
 observers = st.builds(Observer, st.floats(-3, 3), st.floats(-1.5, 1.5), st.floats(0.5, 2.0))
@@ -32,7 +40,7 @@ def result() -> Result:
 
 
 def test_boards_stand_where_their_poses_say(result: Result) -> None:
-    boards = [p for p in scene(result, Centre.CAMERA) if p.kind is Kind.BOARD]
+    boards = [p for p in build_scene(result, SceneCentre.CAMERA) if p.kind is PolygonKind.BOARD]
     assert [p.view for p in boards] == list(range(6))
     pose, side = result.calibration.poses[4], 30.0
     R = Rotation.from_rotvec(np.array(pose.rvec)).as_matrix()
@@ -42,7 +50,7 @@ def test_boards_stand_where_their_poses_say(result: Result) -> None:
 
 
 def test_cameras_stand_at_their_centres(result: Result) -> None:
-    sides = [p for p in scene(result, Centre.BOARD) if p.kind is Kind.CAMERA]
+    sides = [p for p in build_scene(result, SceneCentre.BOARD) if p.kind is PolygonKind.CAMERA]
     assert {p.view for p in sides} == set(range(6))
     pose = result.calibration.poses[3]
     R = Rotation.from_rotvec(np.array(pose.rvec)).as_matrix()
@@ -54,15 +62,15 @@ def test_unknown_target_is_outlined_by_its_corners(result: Result) -> None:
     points = tuple(
         View(v.image, v.status, points=v.observation(scenes.BOARD)) for v in result.views
     )
-    grid_size = scene(Result(result.calibration, points), Centre.BOARD)[0]
+    grid_size = build_scene(Result(result.calibration, points), SceneCentre.BOARD)[0]
     assert grid_size.points.max(axis=0).tolist() == [330.0, 240.0, 0.0]
     assert grid_size.points.min(axis=0).tolist() == [0.0, 0.0, 0.0]
 
 
 @given(observer=observers)
 def test_everything_fits_and_is_painted_back_to_front(result: Result, observer: Observer) -> None:
-    polygons = scene(result, Centre.CAMERA)
-    drawn = draw(polygons, observer)
+    polygons = build_scene(result, SceneCentre.CAMERA)
+    drawn = draw_scene(polygons, observer)
     assert len(drawn) == len(polygons)
     assert all(np.linalg.norm(d.points, axis=1).max() <= observer.zoom * (1 + 1e-9) for d in drawn)
     depths = [d.depth for d in drawn]
@@ -71,32 +79,34 @@ def test_everything_fits_and_is_painted_back_to_front(result: Result, observer: 
 
 @given(observer=observers)
 def test_a_fitted_scene_fills_the_square(result: Result, observer: Observer) -> None:
-    polygons = scene(result, Centre.BOARD)
-    there = fitted(polygons, observer)
+    polygons = build_scene(result, SceneCentre.BOARD)
+    there = fit_zoom(polygons, observer)
     assert (there.azimuth, there.elevation) == (observer.azimuth, observer.elevation)
-    reach = max(np.abs(d.points).max() for d in draw(polygons, there))
+    reach = max(np.abs(d.points).max() for d in draw_scene(polygons, there))
     assert reach == pytest.approx(1.0)
 
 
 def test_straight_ahead_is_the_cameras_own_view() -> None:
     """From behind, unturned: x to the right, y down, the nearer the larger."""
-    points, depth = project(np.array([[0.5, 0, -0.5], [0.5, 0, 0.5], [0, 0.5, 0]]), Observer(0, 0))
+    points, depth = project_to_plane(
+        np.array([[0.5, 0, -0.5], [0.5, 0, 0.5], [0, 0.5, 0]]), Observer(0, 0)
+    )
     assert points[0, 0] > points[1, 0] > 0 and depth[0] < depth[1]
     assert points[2, 0] == 0 and points[2, 1] > 0
 
 
 def test_dragging_to_the_right_turns_the_near_side_to_the_right() -> None:
     near = np.array([[0.0, 0.0, -1.0]])
-    before, _ = project(near, Observer(0, 0))
-    after, _ = project(near, Observer(0, 0).turned(0.3, 0.0))
+    before, _ = project_to_plane(near, Observer(0, 0))
+    after, _ = project_to_plane(near, Observer(0, 0).turned(0.3, 0.0))
     assert after[0, 0] > before[0, 0]
-    lowered, _ = project(near, Observer(0, 0).turned(0.0, 0.3))
+    lowered, _ = project_to_plane(near, Observer(0, 0).turned(0.0, 0.3))
     assert lowered[0, 1] > before[0, 1]
 
 
 def test_from_above_what_is_up_is_near() -> None:
     """Positive elevation looks down on the scene: -Y is up in the camera's frame."""
-    _, depth = project(np.array([[0.0, -1.0, 0.0], [0.0, 1.0, 0.0]]), Observer(0, 0.5))
+    _, depth = project_to_plane(np.array([[0.0, -1.0, 0.0], [0.0, 1.0, 0.0]]), Observer(0, 0.5))
     assert depth[0] < depth[1]
 
 
@@ -106,7 +116,7 @@ def test_zoom_and_elevation_are_bounded() -> None:
 
 
 def test_the_nearest_board_under_a_point_is_found(result: Result) -> None:
-    drawn = draw(scene(result, Centre.CAMERA), Observer())
+    drawn = draw_scene(build_scene(result, SceneCentre.CAMERA), Observer())
     nearest = [d for d in drawn if d.polygon.view >= 0][-1]
-    assert view_at(drawn, nearest.points.mean(axis=0)) == nearest.polygon.view
-    assert view_at(drawn, np.array([5.0, 5.0])) == -1
+    assert find_view_at(drawn, nearest.points.mean(axis=0)) == nearest.polygon.view
+    assert find_view_at(drawn, np.array([5.0, 5.0])) == -1

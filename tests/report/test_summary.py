@@ -9,13 +9,17 @@ import numpy as np
 import pytest
 
 from calibgui import engine
-from calibgui.dataset.result import Result
-from calibgui.dataset.view import View, ViewStatus
+from calibgui.dataset import Result, View, ViewStatus
 from calibgui.engine.boards.shape import BoardShape, BoardShapeModel
 from calibgui.engine.calibration.observations import Observation
 from calibgui.engine.calibration.result import Status
 from calibgui.engine.geometry.pose import Pose
-from calibgui.report.summary import Tone, about_board_shape, outlying_views, summary
+from calibgui.report.summary import (
+    Tone,
+    describe_board_shape,
+    describe_calibration,
+    find_outlying_views,
+)
 from tests.engine import scenes
 from tests.engine.degenerate_scenes import LONG, in_one_spot
 
@@ -31,7 +35,7 @@ def solved(views: Sequence[Observation], seed: int = 0, left_out: int = 0) -> Re
 
 
 def texts(result: Result, tone: Tone) -> str:
-    return "\n".join(s.text for s in summary(result) if s.tone is tone)
+    return "\n".join(s.text for s in describe_calibration(result) if s.tone is tone)
 
 
 def everywhere(count: int = 20, seed: int = 5) -> list[Observation]:
@@ -50,17 +54,17 @@ def good() -> Result:
     return solved(everywhere())
 
 
-def test_a_plate_that_noise_feigns_is_told_from_one_that_is_bent() -> None:
+def test_a_board_that_noise_bends_is_distinguished_from_a_bent_one() -> None:
     nominal = np.array(scenes.BOARD.points())
     for size, feigned in ((0.02, True), (0.2, False)):
         deviation = np.full((len(nominal), 3), size)
         board_shape = BoardShape(
             BoardShapeModel.FREE, nominal, deviation, np.full_like(deviation, 0.02)
         )
-        assert ("it may well be as drawn" in about_board_shape(board_shape)) is feigned
+        assert ("it may well be as drawn" in describe_board_shape(board_shape)) is feigned
 
 
-def test_corners_in_one_spot_are_said_to_be() -> None:
+def test_corners_in_one_spot_are_named() -> None:
     made = in_one_spot(LONG)
     noisy = made.noisy(0.02, np.random.default_rng(0))
     views = tuple(View(f"{k}.png", ViewStatus.FOUND, points=v) for k, v in enumerate(noisy))
@@ -81,7 +85,7 @@ def test_focal_length_is_given_with_its_sigma(good: Result) -> None:
 
 
 def test_scatter_is_given_along_both_axes(good: Result) -> None:
-    fit = engine.summarise(good.calibration.residuals)
+    fit = engine.summarise_residuals(good.calibration.residuals)
     assert f"σ = {fit.sigma_x:.3f} px across and {fit.sigma_y:.3f} px down" in texts(
         good, Tone.FACT
     )
@@ -130,18 +134,18 @@ def test_one_bad_view_is_named() -> None:
     rng = np.random.default_rng(8)
     views[7] = Observation(views[7].uv + rng.normal(scale=1.0, size=views[7].uv.shape), views[7].xy)
     result = solved(views)
-    assert outlying_views(result.calibration) == (7,)
+    assert find_outlying_views(result.calibration) == (7,)
     assert texts(result, Tone.CAUTION).count("7.png fits much worse") == 1
     assert "/7.png" not in texts(result, Tone.CAUTION)  # its name is enough
 
 
-def test_an_unfinished_solve_is_said_to_be(good: Result) -> None:
+def test_an_unfinished_solve_is_named(good: Result) -> None:
     for status, words in ((Status.STOPPED, "was stopped"), (Status.MAX_ITERATIONS, "used up")):
         unfinished = replace(good, calibration=replace(good.calibration, status=status))
         assert words in texts(unfinished, Tone.CAUTION)
 
 
-def test_a_coefficient_near_zero_is_said_to_be(good: Result) -> None:
+def test_a_coefficient_near_zero_is_named(good: Result) -> None:
     calibration = good.calibration
     params = calibration.camera.params.copy()
     params[6] = 0.5 * calibration.sigma[6]
@@ -150,8 +154,8 @@ def test_a_coefficient_near_zero_is_said_to_be(good: Result) -> None:
 
 
 @pytest.mark.parametrize(("scatter", "tone"), [(1.2, Tone.FACT), (3.0, Tone.CAUTION)])
-def test_views_that_disagree_are_told_and_stand_out_if_they_do_so_by_much(
+def test_views_that_disagree_are_named_and_stand_out_if_they_do_so_by_much(
     good: Result, scatter: float, tone: Tone
 ) -> None:
-    result = replace(good, calibration=replace(good.calibration, view_scatter=scatter))
+    result = replace(good, calibration=replace(good.calibration, overdispersion=scatter))
     assert f"disagree about the camera {scatter} times" in texts(result, tone)

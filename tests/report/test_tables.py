@@ -10,11 +10,9 @@ import pytest
 from calibgui import engine
 from calibgui.app.calibration import calibrate_views
 from calibgui.app.settings import Settings
-from calibgui.dataset.corner_set import CornerSet
-from calibgui.dataset.result import Result
-from calibgui.dataset.view import View, ViewStatus
+from calibgui.dataset import CornerSet, Result, View, ViewStatus
 from calibgui.engine.boards.board import Board
-from calibgui.engine.boards.pattern import Ambiguity
+from calibgui.engine.boards.pattern import Symmetry
 from calibgui.engine.calibration.result import Cost, Undetermined
 from calibgui.engine.detection.corners import Corners, OtherBoard
 from calibgui.report import tables
@@ -23,7 +21,7 @@ from tests.engine import scenes
 BOARD = Board(rows=8, cols=11, square=30.0)
 
 
-def calibrated(ambiguity: Ambiguity = Ambiguity.NONE, cost: Cost = Cost.IMAGE) -> Result:
+def calibrated(ambiguity: Symmetry = Symmetry.NONE, cost: Cost = Cost.IMAGE) -> Result:
     """Eight views with noise, one image switched off and one without a board."""
     rng = np.random.default_rng(2)
     camera = scenes.barrel()
@@ -45,20 +43,20 @@ def result() -> Result:
 
 def lines(table: str) -> list[str]:
     found = table.splitlines()
-    assert max(map(len, found)) <= tables.WIDTH
+    assert max(map(len, found)) <= tables.WIDTH_CHARACTERS
     assert not any(line != line.rstrip() for line in found)
     return found
 
 
 @pytest.mark.parametrize("cost", list(Cost))
 def test_everything_fits_the_terminal(cost: Cost) -> None:
-    report = tables.report(calibrated(cost=cost))
-    assert max(map(len, report.splitlines())) <= tables.WIDTH
+    report = tables.format_report(calibrated(cost=cost))
+    assert max(map(len, report.splitlines())) <= tables.WIDTH_CHARACTERS
     assert ("its own SD" in report) == (cost is Cost.PAPER)
 
 
 def test_table_1_counts_views_as_they_are_listed(result: Result) -> None:
-    title, head, units, *rows = lines(tables.stage_one(result))
+    title, head, units, *rows = lines(tables.tabulate_stage_one(result))
     assert "Table 1" in title
     assert head.split()[:4] == ["view", "xp", "yp", "k1"]
     assert "px^-2" in units
@@ -73,13 +71,13 @@ def test_what_a_view_does_not_determine_is_not_printed_as_a_number(result: Resul
     rows = list(result.calibration.stage_one)
     rows[0] = replace(rows[0], aspect=np.nan, fx=np.nan, fy=np.nan)
     calibration = replace(result.calibration, stage_one=tuple(rows))
-    table = tables.stage_one(replace(result, calibration=calibration))
+    table = tables.tabulate_stage_one(replace(result, calibration=calibration))
     assert table.splitlines()[3].split()[4:7] == ["-", "-", "-"]
     assert "nan" not in table
 
 
 def test_views_show_fit_and_attitude(result: Result) -> None:
-    _, _, units, *rows = lines(tables.views(result))
+    _, _, units, *rows = lines(tables.tabulate_views(result))
     assert units.split() == ["px", "mm", "deg"]
     number, image, corners, rms, *_ = rows[2].split()
     assert (number, image, corners) == ("4", "view3.png", "88")
@@ -89,26 +87,26 @@ def test_views_show_fit_and_attitude(result: Result) -> None:
 def test_a_long_name_is_shortened_in_its_middle(result: Result) -> None:
     views = list(result.views)
     views[0] = replace(views[0], image="a" * 40 + "b" * 40 + ".png")
-    row = lines(tables.views(replace(result, views=tuple(views))))[3]
+    row = lines(tables.tabulate_views(replace(result, views=tuple(views))))[3]
     assert "aa..bb" in row and ".png" in row
 
 
 def test_every_image_left_out_has_its_reason(result: Result) -> None:
-    text = " ".join(" ".join(lines(tables.unused(result.views))).split())
+    text = " ".join(" ".join(lines(tables.list_unused_views(result.views))).split())
     assert "view2.png: Left out by choice." in text
     assert "blank.png: No checkerboard was found. No checkerboard" in text
-    assert tables.unused([view for view in result.views if view.usable]) == ""
+    assert tables.list_unused_views([view for view in result.views if view.usable]) == ""
 
 
 def test_a_long_path_can_be_copied() -> None:
     path = "/a" + 50 * "/b" + "/view.png"
     view = View(path, ViewStatus.UNREADABLE, f"{path} is not an image.")
-    assert f"{path} is not" in " ".join(tables.unused([view]).split())
+    assert f"{path} is not" in " ".join(tables.list_unused_views([view]).split())
 
 
 def test_intrinsics_have_their_uncertainty_in_both_frames(result: Result) -> None:
     calibration = result.calibration
-    _, head, *rows = lines(tables.intrinsics(calibration))
+    _, head, *rows = lines(tables.tabulate_intrinsics(calibration))
     assert "array frame" in head and "paper's frame" in head
     fx = rows[0].split()
     assert float(fx[1]) == pytest.approx(calibration.camera.params[0], abs=0.01)
@@ -125,7 +123,7 @@ def test_an_undetermined_parameter_shows_no_number(result: Result) -> None:
     sigma = np.array(calibration.sigma)
     sigma[6] = np.nan
     lost = (Undetermined("k3", "it can be traded for the boards' poses"),)
-    table = tables.intrinsics(replace(calibration, sigma=sigma, undetermined=lost))
+    table = tables.tabulate_intrinsics(replace(calibration, sigma=sigma, undetermined=lost))
     assert table.splitlines()[8].split() == ["k3", "not", "determined", "k3", "not", "determined",
                                              "px^-6"]  # fmt: skip
 
@@ -137,23 +135,26 @@ def test_another_lens_model_has_no_paper_column() -> None:
         View(f"{k}.png", ViewStatus.FOUND, points=seen)
         for k, seen in enumerate(scene.noisy(0.1, rng))
     )
-    calibration = engine.calibrate(scene.noisy(0.1, rng), scene.size, model="opencv")
-    assert "paper" not in tables.intrinsics(calibration)
-    assert max(map(len, tables.report(Result(calibration, views)).splitlines())) <= tables.WIDTH
+    calibration = engine.calibrate(scene.noisy(0.1, rng), scene.size, model="brown-conrady")
+    assert "paper" not in tables.tabulate_intrinsics(calibration)
+    assert (
+        max(map(len, tables.format_report(Result(calibration, views)).splitlines()))
+        <= tables.WIDTH_CHARACTERS
+    )
 
 
 def test_rms_comes_with_sigma_and_count(result: Result) -> None:
-    text = "\n".join(lines(tables.residuals(result.calibration)))
+    text = "\n".join(lines(tables.describe_residuals(result.calibration)))
     for words in ("616 corners in 7 views", "rms 0.1", "sigma_x 0.", "sigma_y 0.", "mean e' 0."):
         assert words in text
     assert "converged after" in text
 
 
 def test_a_symmetric_board_is_explained() -> None:
-    assert tables.symmetry(calibrated().used) == []
-    (text,) = tables.symmetry(calibrated(Ambiguity.HALF_TURN).used)
+    assert tables.describe_symmetry(calibrated().used) == []
+    (text,) = tables.describe_symmetry(calibrated(Symmetry.HALF_TURN).used)
     assert "half turn" in text
-    (text,) = tables.symmetry(calibrated(Ambiguity.QUARTER_TURN).used)
+    (text,) = tables.describe_symmetry(calibrated(Symmetry.QUARTER_TURN).used)
     assert "quarter turn" in text
 
 
@@ -161,23 +162,23 @@ def test_the_truth_stands_beside_what_was_found(result: Result) -> None:
     calibration = result.calibration
     names = ("fx", "fy", "cx", "cy", "k1", "k2", "k3", "p1", "p2", "p3")
     truth = dict(zip(names, map(float, scenes.barrel().params), strict=True))
-    _, _, *rows = lines(tables.comparison(calibration, truth))
+    _, _, *rows = lines(tables.tabulate_errors(calibration, truth))
     error = (calibration.camera.params[0] - truth["fx"]) / calibration.sigma[0]
     assert float(rows[0].split()[-1]) == pytest.approx(error, abs=0.06)
 
 
 def test_detection_lists_every_image(result: Result) -> None:
-    table = tables.detection(result.views)
+    table = tables.tabulate_detection(result.views)
     assert "no-board" in table and "8 x 11" in table
     assert "The board was found in 8 of 9 images." in table
-    assert max(map(len, table.splitlines())) <= tables.WIDTH
+    assert max(map(len, table.splitlines())) <= tables.WIDTH_CHARACTERS
 
 
 def test_detection_tells_further_boards() -> None:
     outline = np.array([[100.0, 50], [180, 50], [180, 110], [100, 110]])
     uv = np.zeros((2, 2))
     corners = Corners((6, 9), [[0, 0], [0, 1]], uv, uv, others=(OtherBoard((4, 5), outline),))
-    table = tables.detection([View("a.png", ViewStatus.FOUND, corners=corners)])
+    table = tables.tabulate_detection([View("a.png", ViewStatus.FOUND, corners=corners)])
     assert "a.png shows further boards: 4 x 5 inner corners around (140, 80)." in " ".join(
         table.split()
     )

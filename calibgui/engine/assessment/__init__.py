@@ -1,45 +1,57 @@
-"""How far a calibration is to be trusted: residuals, outliers, unseen views, comparison."""
+"""Assessment of a calibration: residuals, outliers, errors on unseen views, comparison.
+
+`summarise_residuals` states how well the model fits, `check_residuals` whether what is left is
+noise or has a cause; `screen_outliers` leaves wrong corners out, `calibrate_weighted` weighs views
+by their noise; `cross_validate` and `bootstrap_views` measure errors without trusting the model,
+`choose_board_shape` recommends a model of the board by them; `compare_cameras` maps the difference
+of two calibrations over the image.
+"""
 
 from __future__ import annotations
 
-from calibgui.engine.assessment.comparison import Difference, compare_cameras
+from calibgui.engine.assessment.comparison import CameraDifference, compare_cameras
 from calibgui.engine.assessment.cross_validation import (
     BoardShapeChoice,
     Bootstrap,
     CrossValidation,
-    bootstrap,
+    Fold,
+    bootstrap_views,
     choose_board_shape,
     cross_validate,
 )
-from calibgui.engine.assessment.noise_test import NoiseReport, examine
-from calibgui.engine.assessment.outliers import screen
+from calibgui.engine.assessment.noise_test import NoiseCheck, NoiseReport, check_residuals
+from calibgui.engine.assessment.outliers import Rejection, Screening, screen_outliers
 from calibgui.engine.assessment.residual_statistics import (
     Histogram,
-    Summary,
-    component_histogram,
-    length_histogram,
-    stacked,
-    summarise,
+    ResidualSummary,
+    make_component_histogram,
+    make_length_histogram,
+    stack_residuals,
+    summarise_residuals,
 )
 from calibgui.engine.assessment.view_weights import calibrate_weighted
 
 __all__ = [
     "BoardShapeChoice",
     "Bootstrap",
+    "CameraDifference",
     "CrossValidation",
-    "Difference",
+    "Fold",
     "Histogram",
+    "NoiseCheck",
     "NoiseReport",
-    "Summary",
-    "bootstrap",
+    "Rejection",
+    "ResidualSummary",
+    "Screening",
+    "bootstrap_views",
     "calibrate_weighted",
+    "check_residuals",
     "choose_board_shape",
     "compare_cameras",
-    "component_histogram",
     "cross_validate",
-    "examine",
-    "length_histogram",
-    "screen",
-    "stacked",
-    "summarise",
+    "make_component_histogram",
+    "make_length_histogram",
+    "screen_outliers",
+    "stack_residuals",
+    "summarise_residuals",
 ]

@@ -1,19 +1,20 @@
-"""Is the calibration as good as it says? Its error on views that it has not seen.
+"""Cross-validation and bootstrap: a calibration's error on views that it has not seen.
 
-k-fold cross-validation: the views are dealt into k folds, like cards (view i into fold i mod k,
-because neighbouring photographs resemble each other). The camera, and the plate where it is
-estimated, are calibrated from all but one fold; of the views in that fold only the poses are
-fitted. The root mean square of those residuals is the held-out error. A camera or plate with
-more parameters than the views can carry lowers the training error but raises the held-out one.
-Between plate models the comparison is paired: view by view, by the logarithm of the ratio of
-the held-out errors, and a richer plate is taken only if the mean exceeds twice its standard
-error and 1 %.
+The residuals of a calibration flatter it, because it was fitted to them. In k-fold
+cross-validation (Stone 1974) the views are dealt into k folds, like cards: view i into fold
+i mod k, because neighbouring photographs resemble each other. The camera, and the board's shape
+where it is estimated, are calibrated from all but one fold; of the views in that fold only the
+poses are fitted. The root mean square of those residuals is the held-out error. A camera or board
+shape with more parameters than the views can carry lowers the training error but raises the
+held-out one. Between models of the board's shape the comparison is paired: view by view, by the
+logarithm of the ratio of the held-out errors, and a richer model is taken only if the mean exceeds
+twice its standard error and 1 %.
 
-Bootstrap: K views drawn from the K with replacement, calibrated, many times. The scatter of
-the estimates is a standard deviation that does not assume the corners' errors to be
-independent within a view; where it exceeds the reported one, they are not. An error that all
-views share, as the plate's, does not scatter. The variance of K draws from K is (K - 1) / K of
-the true one.
+The bootstrap (Efron 1979) draws K views from the K with replacement and calibrates, many times.
+The scatter of the estimates is a standard deviation that does not assume the corners' errors to
+be independent within a view; where it exceeds the reported one, they are not. It does not show an
+error that all views share, as that of the board's shape. The variance of K draws from K is
+(K - 1) / K of the true one.
 """
 
 from __future__ import annotations
@@ -28,17 +29,20 @@ import numpy as np
 from calibgui.engine.arrays import Array, IntArray, Size, freeze
 from calibgui.engine.boards.shape import BoardShape, BoardShapeModel
 from calibgui.engine.calibration.calibrate import calibrate
-from calibgui.engine.calibration.observations import Observation, pack
-from calibgui.engine.calibration.problem import as_drawn, measured
-from calibgui.engine.calibration.refinement.resection import posed, solved
+from calibgui.engine.calibration.observations import Observation, pack_observations
+from calibgui.engine.calibration.problem import make_nominal_board_shape, prepare_observations
+from calibgui.engine.calibration.resection import estimate_poses, refine_poses
 from calibgui.engine.calibration.result import Calibration, Cost, ViewResiduals
-from calibgui.engine.calibration.result_assembly import residuals
+from calibgui.engine.calibration.result_assembly import compute_view_residuals
 from calibgui.engine.camera.camera import Camera
 from calibgui.engine.errors import CalibrationError
 
-FOLDS = 5
-_SIGNIFICANT = 2.0
-_WORTHWHILE = 0.01
+DEFAULT_FOLDS = 5
+"""Number of folds where none is given."""
+_MIN_GAIN_IN_STANDARD_ERRORS = 2.0
+"""Mean gain over its standard error above which a richer model is taken."""
+_MIN_RELATIVE_GAIN = 0.01
+"""Mean relative gain above which a richer model is taken."""
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -52,22 +56,23 @@ class Fold:
     held_out: float
     """RMS length of the residuals of the held-out views, px."""
     camera: Camera
-    """Calibrated without them."""
+    """Camera calibrated without them."""
     board_shape: BoardShape | None
-    """Estimated without them, or given."""
+    """Board shape estimated without them, or given."""
 
 
 @dataclass(frozen=True, eq=False, slots=True)
 class CrossValidation:
-    """The folds and what they say together."""
+    """All folds, with the errors over them together."""
 
     folds: tuple[Fold, ...]
+    """One calibration a fold."""
     by_view: Array
     """(K,) RMS length of every view's residuals when it was held out, px."""
     training: float
-    """RMS length over all folds, px."""
+    """RMS length of the residuals of the other views over all folds, px."""
     held_out: float
-    """RMS length over all folds, px."""
+    """RMS length of the residuals of held-out views over all folds, px."""
 
     def __post_init__(self) -> None:
         freeze(self, "by_view")
@@ -76,21 +81,38 @@ class CrossValidation:
 def cross_validate(
     views: Sequence[Observation | tuple[Array, Array]],
     size: Size,
-    folds: int = FOLDS,
+    folds: int = DEFAULT_FOLDS,
     **settings: Any,
 ) -> CrossValidation:
-    """Calibrate `folds` times without some of the views, and try the camera on these.
+    """Calibrate `folds` times without some of the views, and measure the error on these.
 
     Args:
-        views: as for ``calibrate``.
-        size: of the images, px.
-        folds: into which the views are dealt; as many as views leaves one out each time.
-        settings: of ``calibrate``; `names` are not used, and `report` is told of the iterations
-            of every fold: it may raise ``Cancelled``, but has to return True.
+        views: corners and board points of each view, as for ``calibrate``.
+        size: width and height of the images, px.
+        folds: number of folds into which the views are dealt; as many as views leaves one out
+            each time.
+        settings: further arguments of ``calibrate``; `names` are not used, and `report` gets the
+            iterations of every fold: it may raise ``Cancelled``, but has to return True.
 
     Raises:
         CalibrationError: if there are fewer folds than 2 or more than views, or a calibration
             fails without the views of its fold.
+
+    Example:
+        >>> import numpy as np
+        >>> from calibgui.engine.assessment import cross_validate
+        >>> from calibgui.engine.boards import Board
+        >>> from calibgui.engine.camera import Camera, project_points
+        >>> from calibgui.engine.geometry import Pose
+        >>> board = Board(6, 8, 25.0)
+        >>> camera = Camera((640, 480), [600.0, 600.0, 320.0, 240.0, 0, 0, 0, 0, 0, 0])
+        >>> tilts = np.random.default_rng(1).uniform(-0.5, 0.5, (6, 3))
+        >>> poses = [Pose(tilt, [-90, -60, 400]) for tilt in tilts]
+        >>> xy = board.points()
+        >>> views = [(project_points(xy, camera, pose), xy) for pose in poses]
+        >>> validation = cross_validate(views, camera.size, folds=2)
+        >>> bool(validation.held_out < 1e-3)
+        True
     """
     if not 2 <= folds <= len(views):
         raise CalibrationError(
@@ -106,71 +128,81 @@ def cross_validate(
         out = np.arange(fold, len(seen), folds)
         kept = [view for k, view in enumerate(seen) if k % folds != fold]
         result = calibrate(kept, size, **settings)
-        held_out = resected(result, [seen[k] for k in out])
+        held_out = resect_views(result, [seen[k] for k in out])
         for k, residual in zip(out, held_out, strict=True):
             by_view[k] = residual
         trained += result.residuals
         done.append(
-            Fold(out, _rms(result.residuals), _rms(held_out), result.camera, result.board_shape)
+            Fold(
+                out,
+                _compute_rms(result.residuals),
+                _compute_rms(held_out),
+                result.camera,
+                result.board_shape,
+            )
         )
     complete = [residual for residual in by_view if residual is not None]
     return CrossValidation(
         folds=tuple(done),
         by_view=np.array([residual.rms for residual in complete]),
-        training=_rms(trained),
-        held_out=_rms(complete),
+        training=_compute_rms(trained),
+        held_out=_compute_rms(complete),
     )
 
 
-def resected(calibration: Calibration, views: Sequence[Observation]) -> tuple[ViewResiduals, ...]:
-    """Residuals of views that a calibration has not seen, with only their poses fitted.
+def resect_views(
+    calibration: Calibration, views: Sequence[Observation]
+) -> tuple[ViewResiduals, ...]:
+    """Compute the residuals of views that a calibration has not seen, with only their poses fitted.
 
     Args:
-        calibration: whose camera and plate are held.
-        views: of the same plate.
+        calibration: calibration whose camera and board shape are held.
+        views: views of the same board.
 
     Raises:
-        CalibrationError: for views that cannot be used, or do not fit the camera or the plate.
+        CalibrationError: if views cannot be used, or do not fit the camera or the board.
     """
-    observations = measured(calibration, views)
-    start = posed(calibration.camera, pack(views))
+    observations = prepare_observations(calibration, views)
+    start = estimate_poses(calibration.camera, pack_observations(views))
     how = calibration.camera.model, calibration.cost, calibration.reference_scale
-    return residuals(solved(start, observations, *how), observations, *how)
+    return compute_view_residuals(refine_poses(start, observations, *how), observations, *how)
 
 
-def _rms(residuals: Sequence[ViewResiduals]) -> float:
-    """Root mean square length of the residuals of views together, px."""
+def _compute_rms(residuals: Sequence[ViewResiduals]) -> float:
+    """Return the root mean square length of the residuals of views together, px."""
     image = np.concatenate([view.image for view in residuals])
     return float(np.sqrt(np.mean(np.sum(image**2, axis=1))))
 
 
 @dataclass(frozen=True, eq=False, slots=True)
 class BoardShapeChoice:
-    """The plate model that predicts unseen views best."""
+    """The model of the board's shape that predicts unseen views best."""
 
     model: BoardShapeModel
+    """The recommended model."""
     validations: dict[BoardShapeModel, CrossValidation]
-    """Of every model that the views can carry."""
+    """Cross-validation of every model that the views can carry."""
     refused: dict[BoardShapeModel, str]
-    """Why the others could not be tried."""
+    """Reasons why the other models could not be tried."""
     nominal: Calibration
+    """Calibration from all views with the board as drawn."""
     chosen: Calibration
-    """From all views."""
+    """Calibration from all views with the recommended model."""
 
     @property
-    def words(self) -> str:
-        """The recommendation with its figures."""
+    def recommendation(self) -> str:
+        """Sentence that recommends a model, with its figures."""
         before = self.validations[BoardShapeModel.NOMINAL].held_out
         if self.chosen.board_shape is None:
             return (
-                "Keep the nominal plate: no estimated one predicts unseen views better than "
+                "Keep the board as drawn: no estimated shape predicts unseen views better than "
                 f"its {before:.3f} px."
             )
         after = self.validations[self.model].held_out
         move = self.chosen.camera.params - self.nominal.camera.params
         return (
-            f"Your plate deviates by {self.chosen.board_shape.rms:.2f} mm rms; using the estimated "
-            f"plate ({self.model}) moves fx by {move[0]:+.2g} px and the centre by "
+            f"Your board deviates by {self.chosen.board_shape.rms:.2f} mm rms; using the estimated "
+            f"shape ({self.model}) moves fx by {move[0]:+.2g} px and the centre by "
             f"({move[2]:+.2g}, {move[3]:+.2g}) px. It lowers the error on unseen views from "
             f"{before:.3f} to {after:.3f} px, {100 * (1 - after / before):.0f} %."
         )
@@ -179,16 +211,16 @@ class BoardShapeChoice:
 def choose_board_shape(
     views: Sequence[Observation | tuple[Array, Array]],
     size: Size,
-    folds: int = FOLDS,
+    folds: int = DEFAULT_FOLDS,
     **settings: Any,
 ) -> BoardShapeChoice:
-    """Try all plate models on unseen views and recommend one.
+    """Try all models of the board's shape on unseen views and recommend one.
 
     Args:
-        views, size, folds, settings: as for `cross_validate`, without `plate`.
+        views, size, folds, settings: as for `cross_validate`, without `board_shape`.
 
     Raises:
-        CalibrationError: as `cross_validate` with the nominal plate.
+        CalibrationError: as `cross_validate` with the board as drawn.
     """
     validations: dict[BoardShapeModel, CrossValidation] = {}
     refused: dict[BoardShapeModel, str] = {}
@@ -201,7 +233,7 @@ def choose_board_shape(
                 raise
             refused[model] = error.message
             continue
-        if model is not best and _better(validations[model].by_view, validations[best].by_view):
+        if model is not best and _is_better(validations[model].by_view, validations[best].by_view):
             best = model
     nominal = calibrate(views, size, **settings)
     chosen = (
@@ -212,11 +244,11 @@ def choose_board_shape(
     return BoardShapeChoice(best, validations, refused, nominal, chosen)
 
 
-def _better(candidate: Array, incumbent: Array) -> bool:
-    """Whether errors (K,) are lower than others of the same views, beyond chance."""
+def _is_better(candidate: Array, incumbent: Array) -> bool:
+    """Return whether errors (K,) are lower than others of the same views, beyond chance."""
     gain = np.log(incumbent / candidate)
     error = gain.std(ddof=1) / np.sqrt(len(gain))
-    return bool(gain.mean() > max(_SIGNIFICANT * error, _WORTHWHILE))
+    return bool(gain.mean() > max(_MIN_GAIN_IN_STANDARD_ERRORS * error, _MIN_RELATIVE_GAIN))
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -228,27 +260,27 @@ class Bootstrap:
     sigma: Array
     """(P,) their standard deviation, corrected for the number of views."""
     ratio: Array
-    """(P,) to the reported one; NaN where held."""
+    """(P,) ratio to the reported standard deviation; NaN where the parameter is held."""
     failed: int
-    """Draws that did not determine the camera."""
+    """Number of draws that did not determine the camera."""
 
     def __post_init__(self) -> None:
         freeze(self, "params", "sigma", "ratio")
 
 
-def bootstrap(
+def bootstrap_views(
     views: Sequence[Observation | tuple[Array, Array]],
     size: Size,
     draws: int = 100,
     seed: int = 0,
     **settings: Any,
 ) -> Bootstrap:
-    """Standard deviations from the scatter of calibrations from resampled views.
+    """Estimate standard deviations from the scatter of calibrations from resampled views.
 
     Args:
         views, size, settings: as for `cross_validate`.
         draws: number of resampled sets.
-        seed: of the draws; the same seed gives the same answer.
+        seed: seed of the draws; the same seed gives the same result.
 
     Raises:
         CalibrationError: if the views themselves, or nine draws in ten, cannot be calibrated.
@@ -258,7 +290,7 @@ def bootstrap(
     rng = np.random.default_rng(seed)
     settings = {name: settings[name] for name in settings.keys() - {"names", "report"}}
     if whole.board_shape is None and whole.cost is Cost.IMAGE:
-        settings["board_shape"] = as_drawn(seen)
+        settings["board_shape"] = make_nominal_board_shape(seen)
     params = []
     for _ in range(draws):
         drawn = [seen[k] for k in rng.integers(len(seen), size=len(seen)).tolist()]

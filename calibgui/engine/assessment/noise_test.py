@@ -1,9 +1,9 @@
-"""Do the residuals look like noise? If not, what is wrong, and with what.
+"""Tests whether the residuals look like noise, and which cause explains them if they do not.
 
 Standard deviations hold if the corners' errors are independent, equal in all directions and
 views, and Gaussian. Each of these is tested, and so is each usual cause of the contrary by what
-it would explain (``patterns.py``); what views share before what each has of its own, and last
-what can look like almost anything,
+it would explain (``systematic_errors.py``): first the causes that all views share, then those
+that each view has of its own, and last the one that can look like almost anything,
 
 squares     the board's squares are not as wide as high, or askew
 bow         the board is bowed
@@ -16,19 +16,20 @@ board       corners of the board that are not where they should be
 
 and then
 
-shape       kurtosis of the residuals over their view's sigma
-views       Bartlett's test of the views' variances, chi^2(K - 1)
+shape       kurtosis of the residuals over their view's sigma (Anscombe and Glynn 1983)
+views       test of the views' variances (Bartlett 1937), chi^2(K - 1)
 neighbours  correlation of the residuals of neighbouring corners, SD 1 / sqrt(2 pairs)
 directions  covariance C of the residuals is isotropic: -n ln(4 det C / tr^2 C) ~ chi^2(2)
 
-By chance each fails at most once in a thousand sound calibrations, and any of them once in
+By chance each test fails at most once in a thousand sound calibrations, and any of them once in
 ninety. Several fail together, because a bent board also moves neighbours alike and looks a little
 like a lens. The cause is the first that explains nearly as much as any does.
 
-Many corners show what does no harm, too. A displacement that corners share moves the camera however
-small it is; but least squares stays unbiased, and its standard deviations right on average, where
-views are not equally noisy or tails are heavier than a Gaussian's. Those two fail only where there
-is something to gain: by weighing the views, or by leaving out corners that are far off.
+Many corners reveal harmless deviations, too. A displacement that corners share moves the camera
+however small it is; but least squares stays unbiased, and its standard deviations right on
+average, where views are not equally noisy or tails are heavier than a Gaussian's. These two tests
+fail only where there is something to gain: by weighing the views, or by leaving out corners that
+are far off.
 """
 
 from __future__ import annotations
@@ -42,110 +43,119 @@ import scipy
 
 from calibgui.engine.arrays import Array, BoolArray, freeze
 from calibgui.engine.assessment import systematic_errors
-from calibgui.engine.assessment.residual_statistics import summarise
-from calibgui.engine.assessment.systematic_errors import Fitted
+from calibgui.engine.assessment.residual_statistics import summarise_residuals
+from calibgui.engine.assessment.systematic_errors import LinearisedFit
 from calibgui.engine.boards.shape import BoardShapeModel
-from calibgui.engine.calibration.observations import Observation, Observations, pitch, view_names
+from calibgui.engine.calibration.observations import (
+    Observation,
+    Observations,
+    measure_pitch,
+    name_views,
+)
 from calibgui.engine.calibration.result import Calibration
 from calibgui.engine.errors import Progress
 
-_CHANCE = 1e-3
-_NEARLY = 0.7
-"""Of what the best pattern explains, from which a simpler one is the cause."""
-_GAIN = 1.1
-"""By which standard deviations must shrink for weighing the views to be worth it."""
-_OUTLIER = 4.5
-"""Length, in sigma, that one good corner in 25,000 has."""
+_MAX_FALSE_ALARM_RATE = 1e-3
+"""Probability under noise below which a test fails."""
+_MIN_SHARE_OF_BEST = 0.7
+"""Share of what the best cause explains, from which an earlier one is taken for the cause."""
+_MIN_GAIN_OF_WEIGHING = 1.1
+"""Ratio by which standard deviations must shrink for weighing the views to be worth it."""
+_MAX_LENGTH_IN_SIGMA = 4.5
+"""Length of a residual, in sigma, that one good corner in 25,000 exceeds."""
+_MAX_RMS_OVER_MEDIAN = 1.5
+"""A view's rms over that from its median, above which few corners are taken to raise it."""
 
-_INFLATED = 1.5
-"""Of a view's rms over what its median says, from which a few corners are taken to cause it."""
-
-_PATTERNS: tuple[tuple[str, Callable[[Fitted], systematic_errors.Explained], str], ...] = (
+_CAUSES: tuple[tuple[str, Callable[[LinearisedFit], systematic_errors.Explanation], str], ...] = (
     (
         "squares",
-        partial(systematic_errors.by_board_shape, model=BoardShapeModel.AFFINE),
+        partial(systematic_errors.explain_by_board_shape, model=BoardShapeModel.AFFINE),
         "The board's squares are not as wide as high, or askew: measure its sides over many "
-        "squares, or estimate the plate (affine).",
+        "squares, or estimate the board's shape (affine).",
     ),
     (
         "bow",
-        partial(systematic_errors.by_board_shape, model=BoardShapeModel.BOW),
-        "The board is bowed: mount it on something stiff, or estimate the plate (bow).",
+        partial(systematic_errors.explain_by_board_shape, model=BoardShapeModel.BOW),
+        "The board is bowed: mount it on something stiff, or estimate its shape (bow).",
     ),
     (
         "lens",
-        systematic_errors.by_lens,
+        systematic_errors.explain_by_lens,
         "The lens model does not follow this lens: free the coefficients that are held, or use "
         "another model.",
     ),
     (
         "focus",
-        systematic_errors.by_focus,
+        systematic_errors.explain_by_focus,
         "The focal length differs between the views: switch autofocus and stabilisation off, and "
         "do not touch zoom and focus.",
     ),
     (
         "bending",
-        systematic_errors.by_bending,
+        systematic_errors.explain_by_bending,
         "The board bends from view to view, as paper in the hand does: mount it on something "
         "stiff.",
     ),
     (
         "rows",
-        systematic_errors.by_rows,
+        systematic_errors.explain_by_rows,
         "Camera or board moved while a rolling shutter read the rows: put both on a stand, or "
         "expose all rows at once.",
     ),
     (
         "lines",
-        systematic_errors.by_lines,
+        systematic_errors.explain_by_lines,
         "The image's rows are shifted sideways against each other: an analogue camera's lines do "
         "not start evenly, or the camera trembled while a rolling shutter read them. Many views "
         "average it; a digital or steady camera avoids it.",
     ),
     (
         "board",
-        partial(systematic_errors.by_board_shape, model=BoardShapeModel.FREE),
-        "The board is not flat or not printed true: mount it on glass, or estimate the plate "
+        partial(systematic_errors.explain_by_board_shape, model=BoardShapeModel.FREE),
+        "The board is not flat or not printed true: mount it on glass, or estimate its shape "
         "(free).",
     ),
 )
-_OUTLIERS = (
+_ADVICE_ON_OUTLIERS = (
     "A few corners are much farther off than the others: look for misplaced ones, or leave "
     "outliers out."
 )
-_ROUNDED = "The errors have sharp limits, as if corners had been rounded: use subpixel corners."
-_BLUR = (
+_ADVICE_ON_ROUNDING = (
+    "The errors have sharp limits, as if corners had been rounded: use subpixel corners."
+)
+_ADVICE_ON_BLUR = (
     "Some views are less sharp than others: motion blur, defocus or bad light. Weight the views "
     "by their noise, or take these again."
 )
-_SMOOTH = "Something smooth is left in the views that no pattern above names."
-_DIRECTION = (
+_ADVICE_ON_NEIGHBOURS = "Something smooth is left in the views that no cause above explains."
+_ADVICE_ON_DIRECTION = (
     "The corners scatter more along one direction: motion blur along it, or an interlaced or "
     "resampled image."
 )
 
 
 @dataclass(frozen=True, slots=True)
-class Check:
-    """One property of noise."""
+class NoiseCheck:
+    """Result of one test of the residuals."""
 
     name: str
+    """Name of the test, as in the module's description."""
     passed: bool
+    """True if the residuals have this property of noise."""
     finding: str
-    """What was found, in figures."""
+    """The figures that were found."""
     advice: str
-    """What failing it means, and what to do about it."""
+    """Meaning of a failure, and its remedy."""
     share: float = 0.0
-    """Of the squared residuals that its cause explains, where it tests one."""
+    """Share of the squared residuals that the cause explains, where the test is of one."""
 
 
 @dataclass(frozen=True, eq=False, slots=True)
 class NoiseReport:
-    """Whether the residuals look like noise, and what they look like instead."""
+    """Results of all tests of the residuals."""
 
-    checks: tuple[Check, ...]
-    """In the order of the module's description."""
+    checks: tuple[NoiseCheck, ...]
+    """Results in the order of the module's description."""
     view_sigma: Array
     """(K,) standard deviation of a residual coordinate in each view, px; of a median corner
     where corners are weighted."""
@@ -155,138 +165,152 @@ class NoiseReport:
 
     @property
     def passed(self) -> bool:
-        """Whether all checks are passed."""
+        """True if all tests are passed."""
         return all(check.passed for check in self.checks)
 
     @property
-    def cause(self) -> Check | None:
-        """What to see to first; None if all checks are passed."""
+    def cause(self) -> NoiseCheck | None:
+        """Failed test to attend to first; None if all are passed."""
         failed = [check for check in self.checks if not check.passed]
         most = max((check.share for check in failed), default=0.0)
-        return next((check for check in failed if check.share >= _NEARLY * most), None)
+        return next((check for check in failed if check.share >= _MIN_SHARE_OF_BEST * most), None)
 
 
-def examine(
+def check_residuals(
     calibration: Calibration,
     views: Sequence[Observation],
     names: Sequence[str] | None = None,
     progress: Progress | None = None,
 ) -> NoiseReport:
-    """Examine the residuals of a calibration, in the image.
+    """Test the residuals of a calibration, in the image, for the properties of noise.
 
     Args:
-        calibration: with any cost.
-        views: that it was made from.
-        names: of the views, for messages; numbers by default.
-        progress: told of each pattern that is looked for.
+        calibration: calibration with any cost.
+        views: the views that it was made from.
+        names: names of the views, for messages; numbers by default.
+        progress: function that is called for each cause that is tested.
 
     Raises:
-        Cancelled: from `progress`.
+        Cancelled: if `progress` raises it.
     """
-    names = names or view_names(len(views))
-    fit = systematic_errors.fitted(calibration, views)
-    r = fit.linear(slice(0, len(views))).residual
-    sigma = view_sigma(r, fit)
+    names = names or name_views(len(views))
+    fit = systematic_errors.prepare_fit(calibration, views)
+    r = fit.linearise(slice(0, len(views))).residual
+    sigma = estimate_view_sigma(r, fit)
     relative = r / sigma[:, None, None]
     seen = fit.observations.mask > 0
-    even, rms = fit.weighted(sigma), summarise(calibration.residuals).rms
+    even, rms = fit.weigh_views(sigma), summarise_residuals(calibration.residuals).rms
     checks = []
-    for done, (name, test, advice) in enumerate(_PATTERNS):
+    for done, (name, test, advice) in enumerate(_CAUSES):
         if progress is not None:
-            progress(done, len(_PATTERNS))
-        checks.append(_pattern(name, test(even), rms, advice))
+            progress(done, len(_CAUSES))
+        checks.append(_check_cause(name, test(even), rms, advice))
     return NoiseReport(
         (
             *checks,
-            _shape(r, sigma, seen),
-            _views(sigma, _freedom(fit), names),
-            _neighbours(relative, fit.observations),
-            _directions(r[seen]),
+            _check_shape(r, sigma, seen),
+            _check_views(sigma, _count_degrees_of_freedom(fit), names),
+            _check_neighbours(relative, fit.observations),
+            _check_directions(r[seen]),
         ),
         sigma,
     )
 
 
-def _freedom(fit: Fitted) -> Array:
-    """(K,) degrees of freedom: 2 n of each view, less its pose and its share of the camera."""
+def _count_degrees_of_freedom(fit: LinearisedFit) -> Array:
+    """Count degrees of freedom (K,): 2 n a view, less its pose and its share of the camera."""
     n = fit.observations.mask.sum(axis=1)
     return np.asarray(np.maximum(2 * n - 6 - len(fit.free) * n / n.sum(), 1.0))
 
 
-def view_sigma(residual: Array, fit: Fitted) -> Array:
-    """(K,) standard deviation of a residual coordinate (K, N, 2) of each view."""
-    return np.asarray(np.sqrt(np.sum(residual**2, axis=(1, 2)) / _freedom(fit)))
+def estimate_view_sigma(residual: Array, fit: LinearisedFit) -> Array:
+    """Estimate the standard deviation (K,) of a coordinate of each view's residuals (K, N, 2)."""
+    return np.asarray(np.sqrt(np.sum(residual**2, axis=(1, 2)) / _count_degrees_of_freedom(fit)))
 
 
-def _pattern(name: str, found: systematic_errors.Explained, rms: float, advice: str) -> Check:
-    passed = found.probability >= _CHANCE
+def _check_cause(
+    name: str, found: systematic_errors.Explanation, rms: float, advice: str
+) -> NoiseCheck:
+    """Test what a cause explains of residuals of `rms` px against noise."""
+    passed = found.probability >= _MAX_FALSE_ALARM_RATE
     finding = "nothing" if passed else f"{np.sqrt(found.share) * rms:.2g} px rms"
-    return Check(name, passed, finding, advice, 0.0 if passed else found.share)
+    return NoiseCheck(name, passed, finding, advice, 0.0 if passed else found.share)
 
 
-def _shape(residual: Array, sigma: Array, seen: BoolArray) -> Check:
-    """Gaussian or not, from residuals (K, N, 2) where seen (K, N) over those of their view (K,)."""
+def _check_shape(residual: Array, sigma: Array, seen: BoolArray) -> NoiseCheck:
+    """Test whether residuals (K, N, 2), where `seen`, over their view's `sigma` are Gaussian."""
     relative = (residual / sigma[:, None, None])[seen]
     excess = float(np.mean(relative**4) / np.mean(relative**2) ** 2 - 3)
     square = np.sum(residual**2, axis=-1)
     # The median's square is 2 ln 2 sigma^2, which outliers do not move as they do a view's rms.
     median = np.nanmedian(np.where(seen, square, np.nan), axis=1) / (2 * np.log(2))
-    over = square / np.minimum(sigma**2, _INFLATED**2 * median)[:, None]
-    far = seen & (over > _OUTLIER**2 * np.median(over[seen]) / (2 * np.log(2)))
+    over = square / np.minimum(sigma**2, _MAX_RMS_OVER_MEDIAN**2 * median)[:, None]
+    far = seen & (over > _MAX_LENGTH_IN_SIGMA**2 * np.median(over[seen]) / (2 * np.log(2)))
     harmless = excess > 0 and not far.any()
-    passed = harmless or bool(scipy.stats.kurtosistest(relative.ravel()).pvalue >= _CHANCE)
-    return Check(
+    passed = harmless or bool(
+        scipy.stats.kurtosistest(relative.ravel()).pvalue >= _MAX_FALSE_ALARM_RATE
+    )
+    return NoiseCheck(
         "shape",
         passed,
         f"excess kurtosis {excess:+.2f}",
-        _OUTLIERS if excess > 0 else _ROUNDED,
+        _ADVICE_ON_OUTLIERS if excess > 0 else _ADVICE_ON_ROUNDING,
         0.0 if passed else float(square[far].sum() / square[seen].sum()),
     )
 
 
-def _views(sigma: Array, freedom: Array, names: Sequence[str]) -> Check:
-    """Whether standard deviations (K,) with so many degrees of freedom (K,) differ to any use."""
+def _check_views(sigma: Array, freedom: Array, names: Sequence[str]) -> NoiseCheck:
+    """Test whether the views' `sigma` (K,) with degrees of freedom (K,) differ to any use."""
     total, K = freedom.sum(), len(sigma)
     if K == 1:
-        return Check("views", True, "only one", _BLUR, 0.0)
+        return NoiseCheck("views", True, "only one", _ADVICE_ON_BLUR, 0.0)
     bartlett = total * np.log(np.sum(freedom * sigma**2) / total)
     bartlett -= np.sum(freedom * np.log(sigma**2))
     bartlett /= 1 + (np.sum(1 / freedom) - 1 / total) / (3 * (K - 1))
     share = freedom / total
     gain = np.sqrt(np.sum(share * sigma**2) * np.sum(share / sigma**2))
-    passed = bool(gain < _GAIN or bartlett < scipy.special.chdtri(K - 1, _CHANCE))
+    passed = bool(
+        gain < _MIN_GAIN_OF_WEIGHING
+        or bartlett < scipy.special.chdtri(K - 1, _MAX_FALSE_ALARM_RATE)
+    )
     finding = f"sigma {sigma.min():.2g} to {sigma.max():.2g} px"
     if not passed:
         order = np.argsort(sigma)[::-1][:5].tolist()
         loud = [k for k in order if sigma[k] > 1.5 * np.median(sigma)] or order[:1]
         finding += ", most in " + ", ".join(names[k] for k in loud)
     excess = 1 - np.median(sigma) ** 2 * total / np.sum(freedom * sigma**2)
-    return Check("views", passed, finding, _BLUR, 0.0 if passed else max(float(excess), 0.0))
+    return NoiseCheck(
+        "views", passed, finding, _ADVICE_ON_BLUR, 0.0 if passed else max(float(excess), 0.0)
+    )
 
 
-def _neighbours(relative: Array, observations: Observations) -> Check:
-    reach = 1.1 * pitch(observations)
+def _check_neighbours(relative: Array, observations: Observations) -> NoiseCheck:
+    """Test the correlation of residuals `relative` (K, N, 2) of neighbouring corners."""
+    reach = 1.1 * measure_pitch(observations)
     products, pairs = 0.0, 0
     for k in range(len(relative)):
-        places = observations.view(k)
+        places = observations.corners_of(k)
         tree = scipy.spatial.cKDTree(observations.xy[k, places, :2])
         near = tree.query_pairs(reach, output_type="ndarray")
         r = relative[k, places]
         products += float(np.sum(r[near[:, 0]] * r[near[:, 1]]))
         pairs += len(near)
     correlation = products / max(2 * pairs, 1)
-    passed = bool(correlation * np.sqrt(2 * pairs) < -scipy.special.ndtri(_CHANCE))
-    return Check("neighbours", passed, f"correlation {correlation:+.2f}", _SMOOTH)
+    passed = bool(correlation * np.sqrt(2 * pairs) < -scipy.special.ndtri(_MAX_FALSE_ALARM_RATE))
+    return NoiseCheck(
+        "neighbours", passed, f"correlation {correlation:+.2f}", _ADVICE_ON_NEIGHBOURS
+    )
 
 
-def _directions(residual: Array) -> Check:
+def _check_directions(residual: Array) -> NoiseCheck:
+    """Test whether residuals (n, 2) scatter alike in all directions (Mauchly 1940)."""
     C = residual.T @ residual / len(residual)
     values, vectors = np.linalg.eigh(C)
     sphericity = -len(residual) * np.log(4 * np.linalg.det(C) / np.trace(C) ** 2)
-    passed = bool(sphericity < scipy.special.chdtri(2, _CHANCE))
+    passed = bool(sphericity < scipy.special.chdtri(2, _MAX_FALSE_ALARM_RATE))
     low, high = np.sqrt(values)
     finding = f"sigma {low:.2g} to {high:.2g} px"
     if not passed:
         angle = np.degrees(np.arctan2(vectors[1, 1], vectors[0, 1])) % 180
         finding += f", largest {angle:.0f} deg from the rows"
-    return Check("directions", passed, finding, _DIRECTION)
+    return NoiseCheck("directions", passed, finding, _ADVICE_ON_DIRECTION)

@@ -1,10 +1,10 @@
-"""Residual statistics and the distributions fitted to their histograms (figures 10 to 12, 16).
+"""Residual statistics, and histograms with fitted densities (figures 10 to 12 and 16).
 
 A residual with independent Gaussian components of equal standard deviation s has a Rayleigh
 distributed length e, with density (e / s^2) exp(-e^2 / 2 s^2), mean s sqrt(pi / 2) and
 maximum-likelihood estimate s^2 = mean(e^2) / 2.
 
-A corner beyond the fold of a forward lens model has an image, but no place on the plate: its
+A corner beyond the fold of a forward lens model has an image, but no place on the board: its
 residual there is NaN, and left out.
 """
 
@@ -20,36 +20,52 @@ from calibgui.engine.calibration.result import Calibration, ViewResiduals
 
 
 @dataclass(frozen=True, slots=True)
-class Summary:
-    """The residuals of a calibration in figures; never quote one of them alone."""
+class ResidualSummary:
+    """Statistics of the residuals of a calibration.
+
+    None of them measures the error of the camera: more parameters lower them all.
+    """
 
     rms: float
     """Root mean square length in the image, px."""
     sigma_x: float
+    """Standard deviation of the image residual along u, px, over all corners."""
     sigma_y: float
-    """Standard deviations of the image residual's components, px, of all corners alike."""
-    typical_x: float
-    typical_y: float
-    """The same in the median view, which single poor views do not raise."""
+    """Standard deviation of the image residual along v, px, over all corners."""
+    median_sigma_x: float
+    """Median over the views of their standard deviation along u, px."""
+    median_sigma_y: float
+    """Median over the views of their standard deviation along v, px."""
     reference_mean: float
+    """Mean of the length e' on the reference plane, reference px."""
     reference_sd: float
-    """Mean and standard deviation of the length e' on the reference plane, reference px."""
+    """Standard deviation of the length e' on the reference plane, reference px."""
     count: int
     """Number of corners."""
 
 
-def summarise(residuals: Sequence[ViewResiduals]) -> Summary:
-    """Statistics of all views' residuals together."""
+def summarise_residuals(residuals: Sequence[ViewResiduals]) -> ResidualSummary:
+    """Compute the statistics of all views' residuals together.
+
+    Example:
+        >>> import numpy as np
+        >>> from calibgui.engine.assessment import summarise_residuals
+        >>> from calibgui.engine.calibration import ViewResiduals
+        >>> off = np.array([[0.3, 0.0], [-0.3, 0.0], [0.0, 0.4], [0.0, -0.4]])
+        >>> summary = summarise_residuals([ViewResiduals(image=off, reference=2 * off)])
+        >>> print(f"{summary.rms:.3f} px rms, {summary.sigma_x:.3f} px along u")
+        0.354 px rms, 0.212 px along u
+    """
     image = np.concatenate([view.image for view in residuals])
     length = np.linalg.norm(np.concatenate([view.reference for view in residuals]), axis=1)
     sigma = image.std(axis=0)
     typical = np.median([view.image.std(axis=0) for view in residuals], axis=0)
-    return Summary(
+    return ResidualSummary(
         rms=float(np.sqrt(np.mean(np.sum(image**2, axis=1)))),
         sigma_x=float(sigma[0]),
         sigma_y=float(sigma[1]),
-        typical_x=float(typical[0]),
-        typical_y=float(typical[1]),
+        median_sigma_x=float(typical[0]),
+        median_sigma_y=float(typical[1]),
         reference_mean=float(np.nanmean(length)),
         reference_sd=float(np.nanstd(length)),
         count=len(image),
@@ -61,50 +77,54 @@ class Histogram:
     """A normalised histogram with the density fitted to the same values."""
 
     edges: Array
-    """(B + 1,)."""
+    """(B + 1,) edges of the bins."""
     density: Array
-    """(B,) with unit area."""
+    """(B,) frequency density, of unit area."""
     mean: float
+    """Mean of the values."""
     sd: float
-    """Of the values."""
+    """Standard deviation of the values."""
     scale: float
-    """Parameter s of the fitted density; for a Gaussian its standard deviation."""
-    rayleigh: bool
-    """Whether the fitted density is Rayleigh's (of lengths) or Gaussian (of components)."""
+    """Parameter s of the fitted density, for a Gaussian its standard deviation."""
+    is_rayleigh: bool
+    """True if the fitted density is Rayleigh's (of lengths), false if Gaussian (of components)."""
 
     def __post_init__(self) -> None:
         freeze(self, "edges", "density")
 
-    def fitted(self, x: Array) -> Array:
-        """(n,) the fitted density at x."""
+    def evaluate_density(self, x: Array) -> Array:
+        """Return the fitted density (n,) at `x`."""
         s = self.scale
-        if self.rayleigh:
+        if self.is_rayleigh:
             return np.where(x > 0, x / s**2 * np.exp(-0.5 * (x / s) ** 2), 0.0)
         return np.exp(-0.5 * ((x - self.mean) / s) ** 2) / (s * np.sqrt(2 * np.pi))
 
 
-def component_histogram(values: Array, bins: int = 50) -> Histogram:
-    """Histogram of one residual component with a Gaussian (figures 11a, 11b), symmetric about 0."""
+def make_component_histogram(values: Array, bins: int = 50) -> Histogram:
+    """Make the histogram of one residual component with a Gaussian (figures 11a and 11b).
+
+    Its range is symmetric about 0.
+    """
     values = values[np.isfinite(values)]
     limit = float(np.abs(values).max(initial=1e-12))
     density, edges = np.histogram(values, bins=bins, range=(-limit, limit), density=True)
     sd = float(values.std())
-    return Histogram(edges, density, float(values.mean()), sd, sd, rayleigh=False)
+    return Histogram(edges, density, float(values.mean()), sd, sd, is_rayleigh=False)
 
 
-def length_histogram(values: Array, bins: int = 50) -> Histogram:
-    """Histogram of residual lengths with a Rayleigh density (figure 11c)."""
+def make_length_histogram(values: Array, bins: int = 50) -> Histogram:
+    """Make the histogram of residual lengths with a Rayleigh density (figure 11c)."""
     values = values[np.isfinite(values)]
     limit = float(values.max(initial=1e-12))
     density, edges = np.histogram(values, bins=bins, range=(0.0, limit), density=True)
     scale = float(np.sqrt(np.mean(values**2) / 2))
     return Histogram(
-        edges, density, float(values.mean()), float(values.std()), scale, rayleigh=True
+        edges, density, float(values.mean()), float(values.std()), scale, is_rayleigh=True
     )
 
 
-def stacked(calibration: Calibration, on_reference: bool) -> Array:
-    """(n, 2) residuals of all views, reference px or image px."""
+def stack_residuals(calibration: Calibration, on_reference: bool) -> Array:
+    """Return the residuals (n, 2) of all views, in reference px or image px."""
     return np.concatenate(
         [view.reference if on_reference else view.image for view in calibration.residuals]
     )

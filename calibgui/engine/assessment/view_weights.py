@@ -1,7 +1,8 @@
 """Calibration with every view weighed by the noise that is found in it.
 
-The noise of a view is what the last calibration leaves of it (``noise.view_sigma``), over the
-covariances that its corners came with; a few rounds settle it.
+The noise of a view is estimated from the residuals of the last calibration
+(``noise_test.estimate_view_sigma``), relative to the covariances that its corners came with:
+iteratively reweighted least squares with one weight a view. A few repetitions suffice.
 """
 
 from __future__ import annotations
@@ -12,14 +13,14 @@ from typing import Any
 import numpy as np
 
 from calibgui.engine.arrays import Array, Size
-from calibgui.engine.assessment.noise_test import view_sigma
-from calibgui.engine.assessment.systematic_errors import Fitted, fitted
+from calibgui.engine.assessment.noise_test import estimate_view_sigma
+from calibgui.engine.assessment.systematic_errors import LinearisedFit, prepare_fit
 from calibgui.engine.calibration.calibrate import calibrate
 from calibgui.engine.calibration.observations import Observation
 from calibgui.engine.calibration.result import Calibration
 
-_ROUNDS = 3
-"""Of weighing the views by what the last weights left."""
+_REWEIGHTINGS = 3
+"""Number of calibrations with weights from the one before."""
 
 
 def calibrate_weighted(
@@ -38,19 +39,21 @@ def calibrate_weighted(
     """
     used = [Observation(*view) for view in views]
     result = calibrate(used, size, **settings)
-    for _ in range(_ROUNDS):
-        fit = fitted(result, used)
-        sigma = view_sigma(fit.linear(slice(0, len(used))).residual, fit)
-        used = _weighted(used, fit, sigma)
+    for _ in range(_REWEIGHTINGS):
+        fit = prepare_fit(result, used)
+        sigma = estimate_view_sigma(fit.linearise(slice(0, len(used))).residual, fit)
+        used = _weight_views(used, fit, sigma)
         result = calibrate(used, size, **settings)
     return result, used
 
 
-def _weighted(views: Sequence[Observation], fit: Fitted, sigma: Array) -> list[Observation]:
-    """The views with covariances that make up for their standard deviations (K,)."""
-    weight = fit.weight(slice(0, len(views)))
+def _weight_views(
+    views: Sequence[Observation], fit: LinearisedFit, sigma: Array
+) -> list[Observation]:
+    """Return the views with their covariances scaled by their standard deviations (K,)."""
+    weight = fit.get_weight(slice(0, len(views)))
     weighed = []
     for k, view in enumerate(views):
-        W = weight[k, fit.observations.view(k)]
+        W = weight[k, fit.observations.corners_of(k)]
         weighed.append(view._replace(cov=sigma[k] ** 2 * np.linalg.inv(np.swapaxes(W, 1, 2) @ W)))
     return weighed

@@ -1,20 +1,25 @@
-"""What is photographed: boards, what is printed on them, and the shape that they really have."""
+"""Boards: what is photographed, what is printed on it, and the shape that it really has.
+
+A `Board` is a pattern with its numbers of rows and columns and its pitch. A `Pattern` says where
+its points lie, which turns leave it unchanged, and what is printed: `Checkerboard`, `Charuco` and
+`Circles`, listed by name in `KINDS`. `BoardShape` holds how far a real board departs from its
+drawing. Nothing here looks at images: finding boards is the task of ``detection``.
+"""
 
 from __future__ import annotations
 
 from calibgui.engine.boards.board import Board
 from calibgui.engine.boards.charuco import Charuco
-from calibgui.engine.boards.checkerboard import CHECKERBOARD, Checkerboard, checkerboard_ambiguity
+from calibgui.engine.boards.checkerboard import CHECKERBOARD, Checkerboard, checkerboard_symmetry
 from calibgui.engine.boards.circle_grid import Circles
 from calibgui.engine.boards.kinds import KINDS
-from calibgui.engine.boards.pattern import Ambiguity, Pattern
-from calibgui.engine.boards.printed_pattern import Discs, Raster
+from calibgui.engine.boards.pattern import Pattern, Symmetry
+from calibgui.engine.boards.printed_pattern import PrintedDiscs, PrintedPattern, PrintedRectangles
 from calibgui.engine.boards.shape import BoardShape, BoardShapeModel, BoardShapePrior
 
 __all__ = [
     "CHECKERBOARD",
     "KINDS",
-    "Ambiguity",
     "Board",
     "BoardShape",
     "BoardShapeModel",
@@ -22,8 +27,10 @@ __all__ = [
     "Charuco",
     "Checkerboard",
     "Circles",
-    "Discs",
     "Pattern",
-    "Raster",
-    "checkerboard_ambiguity",
+    "PrintedDiscs",
+    "PrintedPattern",
+    "PrintedRectangles",
+    "Symmetry",
+    "checkerboard_symmetry",
 ]

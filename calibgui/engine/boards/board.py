@@ -1,4 +1,4 @@
-"""Targets, and what images show of them."""
+"""A flat calibration board: its pattern, its size and its pitch."""
 
 from __future__ import annotations
 
@@ -16,23 +16,33 @@ from calibgui.engine.errors import CalibrationError
 
 @dataclass(frozen=True, slots=True)
 class Board:
-    """A flat target: by default a checkerboard with rows x cols inner corners (the paper's M x N).
+    """A flat board: by default a checkerboard with rows x cols inner corners (the paper's M x N).
 
-    Plate frame: origin at point (0, 0), X along a row (increasing column), Y down the
-    rows, both in mm, so that an upright board seen from its front has R close to identity.
+    The board's frame has its origin at point (0, 0), X along a row (increasing column) and Y down
+    the rows, both in mm, so that an upright board seen from its front has R close to identity.
+
+    >>> board = Board(rows=2, cols=3, square=25.0)
+    >>> board.grid_size
+    (2, 3)
+    >>> board.points().tolist()
+    [[0.0, 0.0], [25.0, 0.0], [50.0, 0.0], [0.0, 25.0], [25.0, 25.0], [50.0, 25.0]]
+    >>> board.points([(1, 2)]).tolist()
+    [[50.0, 25.0]]
     """
 
     rows: int
+    """Number of rows of points; inner corners on a checkerboard."""
     cols: int
+    """Number of columns of points."""
     square: float
-    """The pattern's pitch, mm: the side of a square (the paper's D_o)."""
+    """The pattern's pitch, mm: the side of a square (the paper's D_o) or the distance of rows."""
     pattern: Pattern = CHECKERBOARD
-    """What is printed, and how it is found."""
+    """What is printed."""
 
     def __post_init__(self) -> None:
         if not (self.rows >= 1 and self.cols >= 1 and 0 < self.square < math.inf):
             raise CalibrationError(
-                f"There is no target of {self.rows} x {self.cols} points {self.square} mm apart.",
+                f"There is no board of {self.rows} x {self.cols} points {self.square} mm apart.",
                 "Count its rows and columns of inner corners, and measure a square in mm.",
             )
 
@@ -42,7 +52,10 @@ class Board:
         return self.rows, self.cols
 
     def points(self, grid: npt.ArrayLike | None = None) -> Array:
-        """(n, 2) plate coordinates, mm, of points (n, 2) = (row, column); all by default."""
+        """Compute board coordinates (n, 2), mm, of points (n, 2) = (row, column).
+
+        Without `grid` those of all points are returned, row by row.
+        """
         if grid is None:
             grid = np.indices(self.grid_size).reshape(2, -1).T
-        return self.pattern.places(np.asarray(grid, dtype=np.float64)) * self.square
+        return self.pattern.locate_points(np.asarray(grid, dtype=np.float64)) * self.square

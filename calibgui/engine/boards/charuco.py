@@ -1,7 +1,8 @@
 """ChArUco boards: a checkerboard with a numbered marker in every white square.
 
-OpenCV reads the markers; `markers` says which of them are the board's, and thereby, where it is
-not stated, the dictionary, the size and the colours. `between_markers` finds the inner corners.
+The points are the inner corners of the checkerboard, as on a plain one; the markers tell which is
+which. They come from a dictionary of OpenCV's and are numbered from 0, row by row. With C squares
+in a row and known colours of the squares, the number of a marker tells its square.
 
 Two layouts are in use. Since OpenCV 4.6 the first square is dark on every board. Before, boards
 with an even number of rows of squares began with a white one (``legacy``).
@@ -17,46 +18,46 @@ import numpy as np
 
 from calibgui.engine import opencv
 from calibgui.engine.arrays import Array, GridSize, IntArray
-from calibgui.engine.boards.checkerboard import squares
-from calibgui.engine.boards.pattern import Ambiguity, Pattern
-from calibgui.engine.boards.printed_pattern import Ink, Raster
+from calibgui.engine.boards.checkerboard import draw_squares
+from calibgui.engine.boards.pattern import Pattern, Symmetry
+from calibgui.engine.boards.printed_pattern import PrintedPattern, PrintedRectangles
 from calibgui.engine.errors import CalibrationError
 
 
 @dataclass(frozen=True, slots=True)
-class Layout:
-    """How a board lays its markers."""
+class MarkerLayout:
+    """The order of the markers on a board."""
 
     cols: int
-    """Squares in a row."""
+    """Number of squares in a row."""
     first_dark: bool
-    """Whether the first square is dark and the second has marker 0."""
+    """True if the first square is dark and the second holds marker 0."""
 
-    def squares(self, numbers: IntArray) -> IntArray:
-        """(n, 2) row and column of the squares of markers (n,)."""
+    def locate_squares(self, numbers: IntArray) -> IntArray:
+        """Return row and column (n, 2) of the squares that hold the markers `numbers` (n,)."""
         rows = 2 * (int(numbers.max(initial=0)) // max(self.cols - 1, 1)) + 3
         parity = np.indices((rows, self.cols)).sum(axis=0) % 2
         return np.argwhere(parity == (1 if self.first_dark else 0))[numbers]
 
 
-LAYOUTS = tuple(Layout(cols, dark) for cols in range(2, 65) for dark in (True, False))
-"""Those that are told apart."""
+MARKER_LAYOUTS = tuple(MarkerLayout(cols, dark) for cols in range(2, 65) for dark in (True, False))
+"""The layouts that are considered where none is stated: 2 to 64 squares in a row, both colours."""
 
 
 @dataclass(frozen=True, slots=True)
 class Charuco:
-    """The markers of a board; what is None is inferred from the images."""
+    """The pattern of a ChArUco board; a field that is None is to be inferred from the images."""
 
     dictionary: str | None = None
-    """Name of one of OpenCV's predefined dictionaries, as DICT_4X4_50."""
+    """Name of one of OpenCV's predefined dictionaries, such as DICT_4X4_50."""
     marker: float | None = None
-    """rho, side of a marker over that of a square."""
+    """rho, ratio of the side of a marker to the side of a square (the pitch), no length."""
     legacy: bool | None = None
-    """Whether a board with an even number of rows of squares begins with a white one."""
+    """True if a board with an even number of rows of squares begins with a white one."""
 
     def __post_init__(self) -> None:
-        if self.dictionary is not None and self.dictionary not in opencv.dictionaries():
-            known = ", ".join(opencv.dictionaries())
+        if self.dictionary is not None and self.dictionary not in opencv.list_dictionaries():
+            known = ", ".join(opencv.list_dictionaries())
             raise CalibrationError(f"There is no dictionary {self.dictionary}.", f"Known: {known}.")
         if self.marker is not None and not 0 < self.marker < 1:
             raise CalibrationError(
@@ -68,78 +69,92 @@ class Charuco:
         return "charuco"
 
     @property
-    def identified(self) -> bool:
+    def identifies_points(self) -> bool:
         return True
 
     @property
-    def squared(self) -> bool:
+    def has_squares(self) -> bool:
         return True
 
-    def places(self, grid: Array) -> Array:
+    def locate_points(self, grid: Array) -> Array:
         """See ``Pattern``."""
         return grid[:, ::-1]
 
-    def ambiguity(self, grid_size: GridSize) -> Ambiguity:  # noqa: ARG002 - whatever the board
+    def symmetry(self, grid_size: GridSize) -> Symmetry:  # noqa: ARG002 - at any size
         """See ``Pattern``."""
-        return Ambiguity.NONE
+        return Symmetry.NONE
 
-    def completed(self, seen: Sequence[Pattern]) -> Charuco:
-        """See ``Pattern``."""
+    def complete_from(self, seen: Sequence[Pattern]) -> Charuco:
+        """See ``Pattern``.
+
+        The dictionary is the largest that was seen of the family seen most often, the marker's
+        side the median, and the layout the one seen most often.
+        """
         boards = [pattern for pattern in seen if isinstance(pattern, Charuco)]
         if not boards:
             return self
-        names = Counter(dictionary_family(one.dictionary) for one in boards if one.dictionary)
-        most = max(names, key=lambda name: names[name])
+        names = [board.dictionary for board in boards if board.dictionary]
+        families = Counter(dictionary_family(name) for name in names)
+        most_frequent = max(families, key=lambda family: families[family])
         largest = max(
-            (
-                one.dictionary
-                for one in boards
-                if one.dictionary and dictionary_family(one.dictionary) == most
-            ),
-            key=lambda name: opencv.dictionaries()[name],
+            (name for name in names if dictionary_family(name) == most_frequent),
+            key=lambda name: opencv.list_dictionaries()[name],
         )
-        legacy = Counter(one.legacy for one in boards).most_common(1)[0][0]
-        side = float(np.median([one.marker for one in boards]))
+        legacy = Counter(board.legacy for board in boards).most_common(1)[0][0]
+        side = float(np.median([board.marker for board in boards]))
         return Charuco(
             self.dictionary or largest,
             self.marker or round(side, 3),
             legacy if self.legacy is None else self.legacy,
         )
 
-    def first_dark(self, grid_size: GridSize) -> bool:
-        """Whether the first square is dark. (The rows of squares are one more than `board`'s.)"""
+    def is_first_square_dark(self, grid_size: GridSize) -> bool:
+        """Return whether the first square of a board of rows x columns inner corners is dark.
+
+        (It has one more row of squares than of inner corners.)
+        """
         return not (self.legacy and (grid_size[0] + 1) % 2 == 0)
 
-    def ink(self, grid_size: GridSize) -> Ink:
-        """See ``Pattern``."""
+    def draw(self, grid_size: GridSize) -> PrintedPattern:
+        """See ``Pattern``.
+
+        Raises:
+            CalibrationError: if dictionary or size of the markers are unknown, or the dictionary
+                holds too few markers for the board.
+        """
         if self.dictionary is None or self.marker is None:
             raise CalibrationError(
                 "The markers of the board are not known.", "State dictionary and size of a marker."
             )
         rows, cols = grid_size[0] + 1, grid_size[1] + 1
         white = rows * cols // 2
-        if white > opencv.dictionaries()[self.dictionary]:
+        if white > opencv.list_dictionaries()[self.dictionary]:
             raise CalibrationError(
                 f"{self.dictionary} has too few markers for {rows} x {cols} squares.",
                 f"Choose a dictionary of at least {white} markers.",
             )
+        first_dark = self.is_first_square_dark(grid_size)
         numbers = np.arange(white)
-        cells = np.array([opencv.marker_cells(self.dictionary, k) for k in numbers.tolist()])
+        cells = np.array([opencv.draw_marker_cells(self.dictionary, k) for k in numbers.tolist()])
         k = cells.shape[1] + 2  # a margin at either end
-        dark = np.repeat(
-            np.repeat(squares(grid_size, first_dark=self.first_dark(grid_size)).dark, k, 0), k, 1
-        )
-        for (row, col), marker in zip(
-            Layout(cols, self.first_dark(grid_size)).squares(numbers).tolist(), cells, strict=True
-        ):
+        dark = np.repeat(np.repeat(draw_squares(grid_size, first_dark=first_dark).dark, k, 0), k, 1)
+        squares = MarkerLayout(cols, first_dark).locate_squares(numbers)
+        for (row, col), marker in zip(squares.tolist(), cells, strict=True):
             dark[row * k + 1 : (row + 1) * k - 1, col * k + 1 : (col + 1) * k - 1] = marker
         margin = (1 - self.marker) / 2
         within = np.append(0.0, np.linspace(margin, 1 - margin, k - 1))
         x, y = ((np.arange(n)[:, None] + within).ravel() - 1 for n in (cols, rows))
-        return Raster(np.append(x, cols - 1.0), np.append(y, rows - 1.0), dark)
+        return PrintedRectangles(np.append(x, cols - 1.0), np.append(y, rows - 1.0), dark)
 
 
 def dictionary_family(dictionary: str) -> str:
-    """The dictionary without its size: dictionaries of one family begin alike."""
+    """The name of a dictionary without its size.
+
+    The dictionaries of one family differ in size only: the markers of the smaller are the first of
+    the larger.
+
+    >>> dictionary_family("DICT_4X4_50"), dictionary_family("DICT_ARUCO_ORIGINAL")
+    ('DICT_4X4', 'DICT_ARUCO_ORIGINAL')
+    """
     stem, _, size = dictionary.rpartition("_")
     return stem if size.isdigit() else dictionary

@@ -1,8 +1,9 @@
-"""What the engine asks of a pattern, and the checkerboard, the first of them.
+"""Checkerboards: dark and white squares that alternate, without any marks.
 
-A pattern's points are counted by row and column, whatever is printed there, so that corners of
-a ChArUco board and circles of a grid are kept, drawn, marked and exported like a checkerboard's.
-A pattern does not know its size: rows and columns (a ``Board``) come from the user or the images.
+The points are the inner corners, where four squares meet. The square at (row, column) = (-1, -1),
+above and left of corner (0, 0), is dark. A turn of the board must bring dark squares onto dark
+ones. If the numbers of inner rows and columns are one even and one odd, no turn does; otherwise
+half a turn does, and if they are equal and even a quarter of a turn does as well.
 """
 
 from __future__ import annotations
@@ -13,58 +14,68 @@ from dataclasses import dataclass
 import numpy as np
 
 from calibgui.engine.arrays import Array, GridSize
-from calibgui.engine.boards.pattern import Ambiguity, Pattern
-from calibgui.engine.boards.printed_pattern import Ink, Raster
+from calibgui.engine.boards.pattern import Pattern, Symmetry
+from calibgui.engine.boards.printed_pattern import PrintedPattern, PrintedRectangles
 
 
 @dataclass(frozen=True, slots=True)
 class Checkerboard:
-    """Squares; its points are the corners where four meet. Square (-1, -1) is dark."""
+    """The pattern of a checkerboard; its pitch is the side of a square."""
 
     @property
     def kind(self) -> str:
         return "checkerboard"
 
     @property
-    def identified(self) -> bool:
+    def identifies_points(self) -> bool:
         return False
 
     @property
-    def squared(self) -> bool:
+    def has_squares(self) -> bool:
         return True
 
-    def places(self, grid: Array) -> Array:
+    def locate_points(self, grid: Array) -> Array:
         """See ``Pattern``."""
         return grid[:, ::-1]
 
-    def ambiguity(self, grid_size: GridSize) -> Ambiguity:
+    def symmetry(self, grid_size: GridSize) -> Symmetry:
         """See ``Pattern``."""
-        return checkerboard_ambiguity(grid_size)
+        return checkerboard_symmetry(grid_size)
 
-    def completed(self, seen: Sequence[Pattern]) -> Pattern:  # noqa: ARG002 - nothing is open
+    def complete_from(self, seen: Sequence[Pattern]) -> Pattern:  # noqa: ARG002 - nothing is unknown
         """See ``Pattern``."""
         return self
 
-    def ink(self, grid_size: GridSize) -> Ink:
+    def draw(self, grid_size: GridSize) -> PrintedPattern:
         """See ``Pattern``."""
-        return squares(grid_size, first_dark=True)
+        return draw_squares(grid_size, first_dark=True)
 
 
-def checkerboard_ambiguity(grid_size: GridSize) -> Ambiguity:
-    """Turns of the board that leave its pattern unchanged."""
+def checkerboard_symmetry(grid_size: GridSize) -> Symmetry:
+    """The turns that leave a checkerboard of rows x columns inner corners unchanged.
+
+    >>> checkerboard_symmetry((6, 9)).name, checkerboard_symmetry((5, 5)).name
+    ('NONE', 'HALF_TURN')
+    """
     rows, cols = grid_size
     if (rows + cols) % 2:
-        return Ambiguity.NONE
+        return Symmetry.NONE
     if rows == cols and rows % 2 == 0:
-        return Ambiguity.QUARTER_TURN
-    return Ambiguity.HALF_TURN
+        return Symmetry.QUARTER_TURN
+    return Symmetry.HALF_TURN
 
 
-def squares(grid_size: GridSize, *, first_dark: bool) -> Raster:
-    """The squares around rows x cols inner corners."""
+def draw_squares(grid_size: GridSize, *, first_dark: bool) -> PrintedRectangles:
+    """Return the squares around rows x columns inner corners.
+
+    Args:
+        grid_size: rows and columns of inner corners.
+        first_dark: True if the square above and left of corner (0, 0) is dark.
+    """
     rows, cols = grid_size
     dark = np.indices((rows + 1, cols + 1)).sum(axis=0) % 2 == (0 if first_dark else 1)
-    return Raster(np.arange(-1.0, cols + 1), np.arange(-1.0, rows + 1), dark)
+    return PrintedRectangles(np.arange(-1.0, cols + 1), np.arange(-1.0, rows + 1), dark)
 
 
 CHECKERBOARD = Checkerboard()
+"""The one checkerboard pattern: it has no fields."""

@@ -1,19 +1,13 @@
 """Grids of circles, symmetric and asymmetric.
 
-The grid is found among all parts that may be discs (``blobs.py``, ``dots.py``), coarsely and whole
-or not at all. Every circle's ellipse is then fitted to the pixels of its edge (``ellipses.py``),
-and the image of the circle's centre follows from the ellipse's (``plate_map.py``), for the diameter
-that the ellipses show.
-
 In a symmetric grid of M x N circles the one in row m, column n is at X = n, Y = m. In an asymmetric
-one every second row is shifted by half: X = 2 n + m mod 2, Y = m; its pitch is the distance of the
-rows, which is half the distance of neighbours in a row.
+one every second row is shifted by half the distance of its circles: X = 2 n + m mod 2, Y = m. Its
+pitch is the distance of the rows, which is half the distance of neighbours in a row.
 
-Circles have no colours to tell their corners apart. A symmetric grid is the same after half a turn,
-and after a quarter if M = N. Half a turn of an asymmetric one takes row m to M - 1 - m and X to
-2 N - 1 - X, which is the same grid if M is even; if M is odd its origin is unique. Reflections
-are excluded: numbering is right-handed in the image. Among origins that cannot be told apart
-the one that makes the grid upright is taken, or that nearest to the first of the marked points.
+Circles have no colours that tell the corners of the grid apart. A symmetric grid is the same after
+half a turn, and after a quarter of a turn if M = N. Half a turn of an asymmetric one takes row m to
+M - 1 - m and X to 2 N - 1 - X, which is the same grid if M is even; if M is odd its origin is
+unique. Reflections are excluded: a printed board is seen from its front only.
 """
 
 from __future__ import annotations
@@ -23,25 +17,28 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from calibgui.engine.arrays import Array, GridSize
-from calibgui.engine.boards.pattern import Ambiguity, Pattern
-from calibgui.engine.boards.printed_pattern import Discs, Ink
+from calibgui.engine.arrays import Array, GridSize, IntArray
+from calibgui.engine.boards.pattern import Pattern, Symmetry
+from calibgui.engine.boards.printed_pattern import PrintedDiscs, PrintedPattern
 from calibgui.engine.errors import CalibrationError
 
 
 @dataclass(frozen=True, slots=True)
 class Circles:
-    """A grid of circles; their diameter is measured in the images if it is None."""
+    """The pattern of a grid of circles."""
 
     asymmetric: bool = False
+    """True if every second row is shifted by half the distance of its circles."""
     diameter: float | None = None
-    """Over the pitch."""
+    """Ratio of the circles' diameter to the pitch, no length; None if it is to be measured in the
+    images."""
 
     def __post_init__(self) -> None:
-        if self.diameter is not None and not 0 < self.diameter < 2 * self.reach:
+        if self.diameter is not None and not 0 < self.diameter < 2 * self.half_distance:
             raise CalibrationError(
                 f"Circles of {self.diameter:.2f} of their distance would touch.",
-                f"It must be below {2 * self.reach:.2f}: state diameter and distance in mm.",
+                f"It must be below {2 * self.half_distance:.2f}:"
+                " state diameter and distance in mm.",
             )
 
     @property
@@ -49,45 +46,50 @@ class Circles:
         return "asymmetric-circles" if self.asymmetric else "circles"
 
     @property
-    def identified(self) -> bool:
+    def identifies_points(self) -> bool:
         return False
 
     @property
-    def squared(self) -> bool:
+    def has_squares(self) -> bool:
         return False
 
     @property
-    def reach(self) -> float:
-        """Half the distance of neighbours, pitches."""
+    def half_distance(self) -> float:
+        """Half the distance of the nearest neighbours, pitches: the radius at which they touch."""
         return 0.5**0.5 if self.asymmetric else 0.5
 
-    def places(self, grid: Array) -> Array:
+    def locate_points(self, grid: Array) -> Array:
         """See ``Pattern``."""
         row, col = grid[:, 0], grid[:, 1]
         return np.column_stack([2 * col + row % 2 if self.asymmetric else col, row])
 
-    def ambiguity(self, grid_size: GridSize) -> Ambiguity:
+    def symmetry(self, grid_size: GridSize) -> Symmetry:
         """See ``Pattern``."""
         rows, cols = grid_size
         if self.asymmetric:
-            return Ambiguity.NONE if rows % 2 else Ambiguity.HALF_TURN
-        return Ambiguity.QUARTER_TURN if rows == cols else Ambiguity.HALF_TURN
+            return Symmetry.NONE if rows % 2 else Symmetry.HALF_TURN
+        return Symmetry.QUARTER_TURN if rows == cols else Symmetry.HALF_TURN
 
-    def completed(self, seen: Sequence[Pattern]) -> Circles:
-        """See ``Pattern``."""
-        diameters = [one.diameter for one in seen if isinstance(one, Circles) and one.diameter]
+    def complete_from(self, seen: Sequence[Pattern]) -> Circles:
+        """See ``Pattern``: the diameter is the median of those seen."""
+        diameters = [
+            pattern.diameter
+            for pattern in seen
+            if isinstance(pattern, Circles) and pattern.diameter
+        ]
         if self.diameter is not None or not diameters:
             return self
         return Circles(self.asymmetric, round(float(np.median(diameters)), 4))
 
-    def ink(self, grid_size: GridSize) -> Ink:
+    def draw(self, grid_size: GridSize) -> PrintedPattern:
         """See ``Pattern``."""
         if self.diameter is None:
             raise CalibrationError("The circles' diameter is not known.", "State it.")
-        centres = self.places(grid_indices(grid_size).astype(np.float64))
+        centres = self.locate_points(list_grid_indices(grid_size).astype(np.float64))
         right, bottom = (centres.max(axis=0) + 1).tolist()
-        return Discs(centres, self.diameter / 2, (-1.0, -1.0, right, bottom))
+        return PrintedDiscs(centres, self.diameter / 2, (-1.0, -1.0, right, bottom))
 
 
-def grid_indices(grid_size: GridSize) -> np.ndarray:
+def list_grid_indices(grid_size: GridSize) -> IntArray:
+    """List (row, column) of all points of a grid, (rows x columns, 2), row by row."""
     return np.indices(grid_size).reshape(2, -1).T

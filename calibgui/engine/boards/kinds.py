@@ -1,4 +1,4 @@
-"""The patterns that there are, by name."""
+"""The patterns that exist, by kind. A new pattern is a file of its own and one entry here."""
 
 from __future__ import annotations
 
@@ -16,4 +16,5 @@ KINDS: Mapping[str, Pattern] = MappingProxyType(
         for pattern in (CHECKERBOARD, Charuco(), Circles(), Circles(asymmetric=True))
     }
 )
-"""One of each kind, with everything left open that can be found out from images."""
+"""One pattern of each kind, by its name in files and on the command line; every field that can be
+inferred from images is None."""

@@ -1,10 +1,9 @@
-"""What the engine asks of a pattern, and the checkerboard, the first of them.
+"""The contract of a pattern: what the engine needs to know of anything printed on a board.
 
-A pattern's points are counted by row and column, whatever is printed there, so that corners of
-a ChArUco board and circles of a grid are kept, drawn, marked and exported like a checkerboard's.
-A pattern does not know its size: rows and columns (a ``Board``) come from the user or the images.
-
-Targets, and what images show of them.
+A pattern's points are numbered by row and column, whatever is printed there, so that the corners of
+a ChArUco board and the circles of a grid are kept, drawn, marked and exported like those of a
+checkerboard. Lengths are pitches: the side of a square or the distance of neighbouring rows. A
+pattern does not know its size: rows and columns (a ``Board``) come from the user or the images.
 """
 
 from __future__ import annotations
@@ -14,42 +13,56 @@ from enum import StrEnum
 from typing import Protocol
 
 from calibgui.engine.arrays import Array, GridSize
-from calibgui.engine.boards.printed_pattern import Ink
+from calibgui.engine.boards.printed_pattern import PrintedPattern
+
+
+class Symmetry(StrEnum):
+    """The turns of a board about its normal that leave its pattern unchanged.
+
+    A photograph of a symmetric board does not tell its possible origins apart.
+    """
+
+    NONE = "none"
+    """No turn: the origin is unique."""
+    HALF_TURN = "180"
+    """Half a turn: two origins are possible."""
+    QUARTER_TURN = "90"
+    """Every quarter of a turn: four origins are possible."""
 
 
 class Pattern(Protocol):
-    """What is printed on a target. An implementation is a frozen dataclass; a field that is None
-    is to be found out from the images."""
+    """What is printed on a board.
+
+    An implementation is a frozen dataclass. A field that is None is unknown and is to be inferred
+    from the images.
+    """
 
     @property
     def kind(self) -> str:
-        """Its name in files and on the command line."""
+        """The pattern's name in files and on the command line."""
 
     @property
-    def identified(self) -> bool:
-        """Whether a point says which one it is: then a part of the board shows at least how many
-        rows and columns the whole has."""
+    def identifies_points(self) -> bool:
+        """True if the print tells which point is which. A partial view of such a board then shows
+        the least number of rows and columns that the whole may have."""
 
     @property
-    def squared(self) -> bool:
-        """Whether it is printed in squares, the points being their corners."""
+    def has_squares(self) -> bool:
+        """True if the pattern consists of squares and its points are their corners."""
 
-    def places(self, grid: Array) -> Array:
-        """(n, 2) plate coordinates of points (n, 2) = (row, column), pitches."""
+    def locate_points(self, grid: Array) -> Array:
+        """Compute board coordinates (n, 2), pitches, of points (n, 2) = (row, column)."""
 
-    def ambiguity(self, grid_size: GridSize) -> Ambiguity:
-        """Turns that leave the pattern of a board unchanged."""
+    def symmetry(self, grid_size: GridSize) -> Symmetry:
+        """The turns that leave a board of rows x columns points unchanged."""
 
-    def completed(self, seen: Sequence[Pattern]) -> Pattern:
-        """The pattern with what it leaves open as the images show it, each by itself."""
+    def complete_from(self, seen: Sequence[Pattern]) -> Pattern:
+        """Return the pattern with its unknown fields filled in from `seen`, what each image shows
+        by itself; fields that are stated are kept."""
 
-    def ink(self, grid_size: GridSize) -> Ink:
-        """What is printed. Raises CalibrationError if something of it is still open."""
+    def draw(self, grid_size: GridSize) -> PrintedPattern:
+        """Return the print of a board of rows x columns points.
 
-
-class Ambiguity(StrEnum):
-    """Turns of the board that its pattern does not tell apart."""
-
-    NONE = "none"
-    HALF_TURN = "180"
-    QUARTER_TURN = "90"
+        Raises:
+            CalibrationError: if a field that the print depends on is unknown.
+        """

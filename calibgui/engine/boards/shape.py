@@ -1,4 +1,9 @@
-"""The shape of a target."""
+"""The physical shape of a board: how its points deviate from where the drawing places them.
+
+Printed boards stretch, and flat boards bow. A calibration may take the board as drawn, or estimate
+its deviations together with the camera (``calibration/board_shape``) and keep them as a
+`BoardShape`.
+"""
 
 from __future__ import annotations
 
@@ -13,22 +18,26 @@ from calibgui.engine.errors import CalibrationError
 
 
 class BoardShapeModel(StrEnum):
-    """How the target may deviate from its nominal shape."""
+    """The deviations from the drawing that a calibration estimates."""
 
     NOMINAL = "nominal"
+    """None: the board is as drawn."""
     AFFINE = "affine"
+    """An affine distortion of the plane: ratio of the scales, and shear."""
     BOW = "bow"
+    """The affine distortion and a bow out of the plane."""
     FREE = "free"
+    """Any displacement of every point, in three dimensions."""
 
 
 @dataclass(frozen=True, slots=True)
 class BoardShapePrior:
-    """What is known of a plate beforehand: standard deviations of its corners' places, mm."""
+    """What is known of a board beforehand: standard deviations of its points' positions, mm."""
 
     in_plane: float
-    """Accuracy of the print."""
+    """Accuracy of the print, mm."""
     out_of_plane: float
-    """Flatness."""
+    """Flatness of the board, mm."""
 
     def __post_init__(self) -> None:
         if not (0 < self.in_plane < math.inf and 0 < self.out_of_plane < math.inf):
@@ -40,13 +49,14 @@ class BoardShapePrior:
 
 @dataclass(frozen=True, eq=False, slots=True)
 class BoardShape:
-    """A target with its corners where they were found to be."""
+    """A board's points where they were found to be."""
 
     model: BoardShapeModel
+    """The deviations that were estimated."""
     nominal: Array
-    """(n, 2) places by the drawing, mm."""
+    """(n, 2) positions by the drawing, mm."""
     deviation: Array
-    """(n, 3) from there, mm, without net motion, turn or scale."""
+    """(n, 3) displacements from there, mm, without net motion, turn or scale."""
     sigma: Array
     """(n, 3) one standard deviation, mm; 0 where not estimated."""
 

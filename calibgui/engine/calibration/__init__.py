@@ -1,16 +1,43 @@
-"""From corners to a calibrated camera, with poses and standard deviations."""
+"""Calibration: from corners to a camera, with poses, standard deviations and a diagnosis.
+
+`calibrate` takes `Observation` records and returns a `Calibration`; `METHODS` lists the methods
+that it can use. `refit` expresses a calibration in another lens model, `recover_arguments` gives
+the arguments that repeat one on other views. The remaining functions analyse views and results for
+reports: copies among the views, the paper's tables, correlations.
+
+    >>> import numpy as np
+    >>> from calibgui.engine.boards import Board
+    >>> from calibgui.engine.calibration import calibrate, compute_correlations
+    >>> from calibgui.engine.camera import Camera, project_points
+    >>> from calibgui.engine.geometry import Pose
+    >>> camera, xy = Camera((640, 480), [650, 650, 320, 240] + 6 * [0]), Board(6, 7, 30.0).points()
+    >>> rng = np.random.default_rng(0)
+    >>> views = []
+    >>> for tilt in [(0.5, 0, 0), (-0.5, 0, 0), (0, 0.5, 0), (0, -0.5, 0), (0.3, 0.4, 0)]:
+    ...     uv = project_points(xy, camera, Pose(tilt, (-90, -75, 500)))
+    ...     views.append((uv + rng.normal(scale=0.1, size=uv.shape), xy))
+    >>> found = calibrate(views, camera.size, fix=["k2", "k3", "p1", "p2"])
+    >>> bool(abs(found.camera.params[0] - 650) < 3 * found.sigma[0])
+    True
+    >>> bool(compute_correlations(found.covariance)[0, 1] > 0.5)  # fx and fy
+    True
+"""
 
 from __future__ import annotations
 
 from calibgui.engine.calibration.calibrate import calibrate
-from calibgui.engine.calibration.covariances import correlations, paper_table
-from calibgui.engine.calibration.initialisation.single_view_pose import cosines_equation
+from calibgui.engine.calibration.initialisation.single_view_pose import evaluate_cosines_equation
+from calibgui.engine.calibration.methods import METHODS, Method
 from calibgui.engine.calibration.observations import Observation
-from calibgui.engine.calibration.partial.degeneracy import copies, in_one_spot
-from calibgui.engine.calibration.problem import settings_of
+from calibgui.engine.calibration.partial.degeneracy import find_copies, is_in_one_spot
+from calibgui.engine.calibration.problem import recover_arguments
+from calibgui.engine.calibration.refinement.covariances import (
+    compute_correlations,
+    make_paper_table,
+)
 from calibgui.engine.calibration.refit import Refit, refit
 from calibgui.engine.calibration.result import (
-    Assumed,
+    Assumption,
     Calibration,
     Cost,
     Degeneracy,
@@ -25,13 +52,15 @@ from calibgui.engine.calibration.result import (
 )
 
 __all__ = [
-    "Assumed",
+    "METHODS",
+    "Assumption",
     "Calibration",
     "Cost",
     "Degeneracy",
     "DegenerateError",
     "Diagnosis",
     "Iteration",
+    "Method",
     "Observation",
     "Refit",
     "Report",
@@ -40,11 +69,11 @@ __all__ = [
     "Undetermined",
     "ViewResiduals",
     "calibrate",
-    "copies",
-    "correlations",
-    "cosines_equation",
-    "in_one_spot",
-    "paper_table",
+    "compute_correlations",
+    "evaluate_cosines_equation",
+    "find_copies",
+    "is_in_one_spot",
+    "make_paper_table",
+    "recover_arguments",
     "refit",
-    "settings_of",
 ]

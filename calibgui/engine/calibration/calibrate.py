@@ -1,56 +1,71 @@
-"""The whole calibration: Stage I, closed-form start, Stage II, uncertainty, diagnosis."""
+"""The whole calibration: checks, initialisation, refinement, uncertainty and diagnosis.
+
+`calibrate` follows one order whatever the method (``methods.py``):
+
+1. The views are checked and brought into arrays (``observations.py``).
+2. The method guesses the camera and the poses, and refines the guess to the minimum of the cost.
+3. Views that do not determine the camera are named, with what they do determine (``partial``).
+4. The board's shape is estimated if that is wanted (``board_shape``); otherwise the residuals tell
+   how much an imperfect board adds to the uncertainties.
+5. The views' disagreement beyond their noise widens the uncertainties (``overdispersion.py``).
+"""
 
 from __future__ import annotations
 
 import hashlib
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace
-from functools import partial
 from typing import Any
 
 import numpy as np
 
 from calibgui.engine.arrays import Array, BoolArray, IntArray, Size
 from calibgui.engine.boards.shape import BoardShape, BoardShapeModel, BoardShapePrior
-from calibgui.engine.calibration import covariances
-from calibgui.engine.calibration.board_shape.estimate import fit_board_shape, on_board_shape
-from calibgui.engine.calibration.board_shape.uncertainty import with_board_shape_error
-from calibgui.engine.calibration.initialisation.stage_one import prealign
-from calibgui.engine.calibration.initialisation.start import in_paper_frame, start_of_stage_two
+from calibgui.engine.calibration.board_shape.estimate import fit_board_shape
+from calibgui.engine.calibration.board_shape.parametrisation import place_on_board_shape
+from calibgui.engine.calibration.board_shape.uncertainty import add_board_shape_error
+from calibgui.engine.calibration.methods import DEFAULT_METHOD, find_method
 from calibgui.engine.calibration.observations import (
     REFERENCE_PITCH,
     Observation,
     Observations,
-    pack,
-    pitch,
-    view_names,
+    measure_pitch,
+    name_views,
+    pack_observations,
 )
-from calibgui.engine.calibration.options import Options, held_parameters
-from calibgui.engine.calibration.overdispersion import with_view_scatter
+from calibgui.engine.calibration.options import Options, resolve_held_parameters
+from calibgui.engine.calibration.overdispersion import add_overdispersion
 from calibgui.engine.calibration.partial.degeneracy import (
-    copies,
-    diagnosed,
-    in_one_spot,
-    misfits,
-    undetermined,
+    diagnose_degeneracy,
+    find_copies,
+    find_misfits,
+    find_undetermined,
+    is_in_one_spot,
 )
-from calibgui.engine.calibration.partial.partial_calibration import estimate_partly, vague
-from calibgui.engine.calibration.refinement.bundle_adjustment import reweighted, solved
+from calibgui.engine.calibration.partial.partial_calibration import (
+    estimate_partially,
+    find_poorly_known,
+)
+from calibgui.engine.calibration.refinement import covariances
 from calibgui.engine.calibration.refinement.levenberg_marquardt import Solution
 from calibgui.engine.calibration.refinement.residuals import State
-from calibgui.engine.calibration.refinement.whitening import weighted
+from calibgui.engine.calibration.refinement.whitening import whiten_observations
 from calibgui.engine.calibration.result import Calibration, Cost, DegenerateError, Report
-from calibgui.engine.calibration.result_assembly import Estimate, estimated, reported
+from calibgui.engine.calibration.result_assembly import (
+    Estimate,
+    assemble_calibration,
+    make_estimate,
+)
 from calibgui.engine.camera.camera import Camera, check_image_size
-from calibgui.engine.camera.models import MODELS, PINHOLE, parameter_names
-from calibgui.engine.errors import CalibrationError, one_of
-from calibgui.engine.threads import on_one_blas_thread
+from calibgui.engine.camera.models import MODELS, PINHOLE, parameter_names, resolve_model_id
+from calibgui.engine.errors import CalibrationError, parse_choice
+from calibgui.engine.threads import with_one_blas_thread
 
-_FAR = 0.5
-"""How far outside the image corners may be, in its longer side."""
+_MAX_OUTSIDE = 0.5
+"""Distance outside the image beyond which corners are refused, in the image's longer side."""
 
 
-@on_one_blas_thread
+@with_one_blas_thread
 def calibrate(
     views: Sequence[Observation | tuple[Array, Array]],
     size: Size,
@@ -64,185 +79,208 @@ def calibrate(
     prior: BoardShapePrior | None = None,
     max_iterations: int = 100,
     names: Sequence[str] | None = None,
+    method: str = DEFAULT_METHOD,
 ) -> Calibration:
-    """Calibrate a camera from views of a flat target.
+    """Calibrate a camera from views of a flat board.
 
     Args:
         views: per view the measured corners uv (n, 2) px in the array frame, the same
-            corners on the plate xy (n, 2) mm, and optionally the covariances of uv
-            (n, 2, 2) px^2, for all views or for none.
-            Views may show different parts of the target.
+            corners on the board xy (n, 2) mm, and optionally the covariances of uv
+            (n, 2, 2) px^2, for all views or for none. Views may show different parts of the
+            board.
         size: width and height of the images, px.
-        cost: what Stage II minimises, see `Cost`. `Cost.PAPER` is the printed method: the
+        cost: the cost to minimise, see `Cost`. `Cost.PAPER` is the printed method: the
             literal reference grid, radius in pixels and p3 free.
-        fix: names of intrinsics to hold, with their values; without a value (or None)
+        fix: names of intrinsics to hold, with their values; without a value (or with None)
             coefficients are held at 0, the centre at the array's and focal lengths at the
             closed form.
-        free: names of intrinsics to estimate that are held by default (p3).
-        model: the lens, a key of ``lens.MODELS``.
-        plate: how the target may deviate from its nominal shape, estimated with the camera; or
-            a plate estimated before, which is held. With the image cost only.
-        prior: what is known of a free plate's corners beforehand; other plates need none.
-        report: told of each iteration of Stage II; returning False stops it.
-        max_iterations: of each solve of Stage II; corners with covariances take a few solves.
-        names: of the views, for messages; numbers by default.
+        free: names of intrinsics to estimate although they are held by default (p3).
+        model: the lens model, a key of ``camera.models.MODELS``.
+        report: a function that is called with each iteration; it stops the solve by returning
+            False.
+        board_shape: the model of the board's deviations from its drawing, which are estimated
+            with the camera; or a shape that was estimated before, which is held. Both need the
+            image cost.
+        prior: what is known beforehand of the corners of a `free` board shape; the other models
+            need none.
+        max_iterations: the largest number of iterations of a solve; corners with covariances take
+            a few solves.
+        names: names of the views for messages; numbers by default.
+        method: the method of calibration, a key of ``methods.METHODS``.
 
     Raises:
-        CalibrationError: for views that cannot be used, naming them, and for arguments that
-            there are not or that do not go together.
-        DegenerateError: if the views do not determine the camera, with what to photograph and,
-            in `partial`, what they do determine.
-        Cancelled: from `report`.
+        CalibrationError: if a view cannot be used (the message names it), or if an argument does
+            not exist or contradicts another one.
+        DegenerateError: if the views do not determine the camera. It says what to photograph and
+            holds, in `partial`, what the views do determine.
+        Cancelled: if `report` raises it.
+
+    Examples:
+        A camera photographs a board of 7 x 6 corners five times, tilted in different directions.
+
+        >>> import numpy as np
+        >>> from calibgui.engine import Board, Camera, Pose, calibrate, project_points
+        >>> board = Board(rows=6, cols=7, square=30.0)
+        >>> truth = Camera((640, 480), [650, 650, 320, 240, 0.2, 0, 0, 0, 0, 0])
+        >>> xy = board.points()
+        >>> tilts = [(0.5, 0, 0), (-0.5, 0, 0), (0, 0.5, 0), (0, -0.5, 0), (0.3, 0.4, 0)]
+        >>> views = [(project_points(xy, truth, Pose(r, (-90, -75, 500))), xy) for r in tilts]
+        >>> calibration = calibrate(views, truth.size)
+        >>> calibration.status.value
+        'converged'
+        >>> bool(np.allclose(calibration.camera.params, truth.params, atol=1e-5))
+        True
     """
-    cost = one_of(Cost, cost, "cost")
-    if cost is Cost.PAPER:
-        model = "lucchese-pixels"
-    board_shape = (
-        board_shape
-        if isinstance(board_shape, BoardShape)
-        else one_of(BoardShapeModel, board_shape, "plate model")
-    )
-    if board_shape is not BoardShapeModel.NOMINAL and cost is not Cost.IMAGE:
+    cost = parse_choice(Cost, cost, "cost")
+    model = "lucchese-pixels" if cost is Cost.PAPER else resolve_model_id(model)
+    if isinstance(board_shape, BoardShape):
+        held_shape, shape_model = board_shape, board_shape.model
+    else:
+        held_shape, shape_model = None, parse_choice(BoardShapeModel, board_shape, "board shape")
+    as_drawn = held_shape is None and shape_model is BoardShapeModel.NOMINAL
+    if not as_drawn and cost is not Cost.IMAGE:
         raise CalibrationError(
-            f"The cost {cost.value!r} registers the views on a flat, nominal plate.",
-            "Use the cost 'image' with another plate.",
+            f"The cost {cost.value!r} registers the views on a flat board as it is drawn.",
+            "Use the cost 'image' with another board shape.",
         )
     size, parameters = check_image_size(size), parameter_names(model)
-    held = held_parameters(fix, free, model, size)
-    names = names or view_names(len(views))
-    observations = pack(views, names)
+    steps = find_method(method, model, cost)
+    held = resolve_held_parameters(fix, free, model, size)
+    names = names or name_views(len(views))
+    observations = pack_observations(views, names)
     _check_size(observations, size, names)
-    scale = REFERENCE_PITCH / pitch(observations)
-    first = prealign(*in_paper_frame(observations, scale, size, names))
-    start, values = start_of_stage_two(observations, first, size, MODELS[model], parameters, held)
+    scale = REFERENCE_PITCH / measure_pitch(observations)
+    registration, start, values = steps.initialise(observations, size, model, scale, held, names)
     settings = {
         "cost": cost.value,
         "model": model,
         "fixed": values,
         "max_iterations": max_iterations,
-        "plate": board_shape.model.value
-        if isinstance(board_shape, BoardShape)
-        else board_shape.value,
-        "plate_held": isinstance(board_shape, BoardShape),
+        "plate": shape_model.value,
+        "plate_held": held_shape is not None,
         "prior_mm": None if prior is None else [prior.in_plane, prior.out_of_plane],
     }
-    held_board_shape = board_shape if isinstance(board_shape, BoardShape) else None
-    asked = Options(size, model, cost, scale, parameters, values, first, held_board_shape, settings)
-    if held_board_shape is not None:
-        observations = on_board_shape(observations, held_board_shape)
+    if method != DEFAULT_METHOD:  # results of the default are as they were before there were others
+        settings["method"] = method
+    options = Options(
+        size, model, cost, scale, parameters, values, registration, held_shape, settings
+    )
+    if held_shape is not None:
+        observations = place_on_board_shape(observations, held_shape)
     if cost is Cost.IMAGE:  # the covariances are of corners in the image
-        observations = weighted(observations)
-    like = copies(zip(observations.uv, observations.xy, strict=True))
-    if not like.any():
+        observations = whiten_observations(observations)
+    originals = find_copies(zip(observations.uv, observations.xy, strict=True))
+    if not originals.any():
         # One plane gives two equations on these.
         unheld = [name for name in PINHOLE if name not in held]
-        _refuse(observations, like, asked, start, unheld if len(unheld) > 2 else ())
-    solve = partial(
-        solved,
-        model=model,
-        cost=cost,
-        scale=scale,
-        free=asked.free,
-        report=report,
-        max_iterations=max_iterations,
-    )
-    solution = solve(observations, start)
-    if observations.whitening is not None:
-        observations, solution = reweighted(observations, solution, model, solve)
-    suspects = [names[k] for k in misfits(first.rms).tolist()]
-    precision = _determined(solution, observations, like, asked, suspects)
-    estimate = estimated(solution, observations, precision)
+        lost = unheld if len(unheld) > 2 else ()
+        _raise_if_undetermined(observations, originals, options, start, lost)
+    observations, solution = steps.refine(observations, start, options, report, max_iterations)
+    misfits = [names[k] for k in find_misfits(registration.rms).tolist()]
+    precision = _measure_precision(solution, observations, originals, options, misfits)
+    estimate = make_estimate(solution, observations, precision)
     if cost is Cost.IMAGE:
-        estimate = _examined(estimate, observations, asked, prior, report)
-    return reported(estimate, asked, precision.undetermined, _digest(observations, settings))
+        estimate = _add_model_errors(estimate, observations, options, prior, report)
+    return assemble_calibration(
+        estimate, options, precision.undetermined, _compute_digest(observations, settings)
+    )
 
 
-def _determined(
+def _measure_precision(
     solution: Solution,
     observations: Observations,
-    like: IntArray,
-    asked: Options,
-    suspects: Sequence[str],
+    originals: IntArray,
+    options: Options,
+    misfits: Sequence[str],
 ) -> covariances.Precision:
-    """How precise the solution is; raises as `calibrate` if the views do not determine it.
+    """Measure how precise the solution is, and raise if the views do not determine it.
 
     Args:
-        solution: of Stage II.
+        solution: the minimum.
         observations: the views.
-        like: (K,) as from `copies`.
-        asked: of them.
-        suspects: names of the views that are `misfits`.
+        originals: (K,) the view that each one copies, from `find_copies`.
+        options: the options of the calibration.
+        misfits: names of the views that `find_misfits` found.
+
+    Raises:
+        CalibrationError, DegenerateError: as `calibrate`.
     """
-    names = tuple(asked.names[i] for i in asked.free)
-    camera = Camera(asked.size, solution.state.params, asked.model)
-    tolerated = _tolerated(camera, observations)[asked.free]
-    precision = covariances.precision(solution.normal, names, observations.count, tolerated)
-    lost = undetermined(solution, names, precision, suspects)
-    if lost or in_one_spot(observations.uv, asked.size):  # padding repeats a corner
-        _refuse(observations, like, asked, solution.state, lost)
+    names = tuple(options.names[i] for i in options.free)
+    camera = Camera(options.size, solution.state.params, options.model)
+    tolerated = _compute_tolerated_deviations(camera, observations)[options.free]
+    precision = covariances.measure_precision(solution.normal, names, observations.count, tolerated)
+    lost = find_undetermined(solution, names, precision, misfits)
+    if lost or is_in_one_spot(observations.uv, options.size):  # padding repeats a corner
+        _raise_if_undetermined(observations, originals, options, solution.state, lost)
     return precision
 
 
-def _examined(
+def _add_model_errors(
     estimate: Estimate,
     observations: Observations,
-    asked: Options,
+    options: Options,
     prior: BoardShapePrior | None,
     report: Report | None,
 ) -> Estimate:
-    """The estimate with the plate that was asked for, and what plate and views leave in doubt."""
-    shape = BoardShapeModel(asked.settings["plate"])
-    if asked.board_shape is None and shape is BoardShapeModel.NOMINAL:
-        estimate = with_board_shape_error(estimate, observations, asked.model, asked.free)
-    elif asked.board_shape is None:
+    """Estimate the board's shape if wanted, and widen the uncertainties by what models miss."""
+    shape = BoardShapeModel(options.settings["plate"])
+    if options.board_shape is None and shape is BoardShapeModel.NOMINAL:
+        estimate = add_board_shape_error(estimate, observations, options.model, options.free)
+    elif options.board_shape is None:
         solution = estimate.solution
         estimate = fit_board_shape(
-            solution, observations, asked.model, asked.free, shape, prior, report
+            solution, observations, options.model, options.free, shape, prior, report
         )
-        _check_carried(estimate, asked, shape)
-    return with_view_scatter(estimate, asked.model, asked.free)
+        _check_camera_known(estimate, options, shape)
+    return add_overdispersion(estimate, options.model, options.free)
 
 
-def _check_carried(estimate: Estimate, asked: Options, board_shape: BoardShapeModel) -> None:
-    """Refuse an estimated plate that stands in for the camera."""
-    if names := vague(estimate.state.params, estimate.camera, asked):
+def _check_camera_known(estimate: Estimate, options: Options, board_shape: BoardShapeModel) -> None:
+    """Refuse an estimated board shape that stands in for the camera."""
+    if names := find_poorly_known(estimate.state.params, estimate.camera_covariance, options):
         raise CalibrationError(
-            f"With the plate model {board_shape.value!r} these views leave {', '.join(names)} "
-            "undetermined: what the plate does and what the camera does look alike in them.",
+            f"With the board shape {board_shape.value!r} these views leave {', '.join(names)} "
+            "undetermined: what the board does and what the camera does look alike in them.",
             "Add views with the board tilted by 20 to 45 degrees in different directions and all "
-            "over the image, or keep the nominal plate.",
+            "over the image, or keep the board as it is drawn.",
         )
 
 
-def _refuse(
-    observations: Observations, like: IntArray, asked: Options, state: State, lost: Sequence[str]
+def _raise_if_undetermined(
+    observations: Observations,
+    originals: IntArray,
+    options: Options,
+    state: State,
+    lost: Sequence[str],
 ) -> None:
     """Raise DegenerateError with what the views do determine; return if that is everything.
 
     Args:
         observations: the views.
-        like: (K,) as from `copies`.
-        asked: of them.
+        originals: (K,) the view that each one copies, from `find_copies`.
+        options: the options of the calibration.
         state: camera and poses, as far as they are known.
         lost: focal lengths and coordinates of the centre that the views do not determine.
     """
-    partly = estimate_partly(observations, like, asked, state.params)
-    if partly is None:
-        diagnosis = diagnosed(observations, asked.size, like, state, lost)
+    partial = estimate_partially(observations, originals, options, state.params)
+    if partial is None:
+        diagnosis = diagnose_degeneracy(observations, options.size, originals, state, lost)
         raise DegenerateError(diagnosis.message, diagnosis.hint)
-    estimate, assumed = partly
-    if not (lost or assumed):
+    estimate, assumptions = partial
+    if not (lost or assumptions):
         return
-    lost = [quantity.name for quantity in assumed] or lost
-    diagnosis = diagnosed(observations, asked.size, like, estimate.state, lost)
-    if asked.board_shape is None and asked.settings["plate"] != BoardShapeModel.NOMINAL:
-        said = f"{diagnosis.message} The board's shape is not estimated."
-        diagnosis = replace(diagnosis, message=said)
-    calibration = reported(estimate, asked, (), _digest(observations, asked.settings))
+    lost = [assumption.name for assumption in assumptions] or lost
+    diagnosis = diagnose_degeneracy(observations, options.size, originals, estimate.state, lost)
+    if options.board_shape is None and options.settings["plate"] != BoardShapeModel.NOMINAL:
+        message = f"{diagnosis.message} The board's shape is not estimated."
+        diagnosis = replace(diagnosis, message=message)
+    calibration = assemble_calibration(
+        estimate, options, (), _compute_digest(observations, options.settings)
+    )
     raise DegenerateError(
         diagnosis.message,
         diagnosis.hint,
-        replace(calibration, diagnosis=replace(diagnosis, assumed=assumed)),
+        replace(calibration, diagnosis=replace(diagnosis, assumptions=assumptions)),
     )
 
 
@@ -253,7 +291,7 @@ def _check_size(observations: Observations, size: Size, names: Sequence[str]) ->
         beyond = (observations.uv < -margin) | (observations.uv > np.array(size) + margin)
         return np.asarray(beyond.any(axis=(1, 2)))
 
-    far, swapped = outside(size, _FAR * max(size)), outside(size, 0.0)
+    far, swapped = outside(size, _MAX_OUTSIDE * max(size)), outside(size, 0.0)
     swapped &= not outside(size[::-1], 0.0).any()
     if (wrong := far | swapped).any():
         raise CalibrationError(
@@ -263,11 +301,11 @@ def _check_size(observations: Observations, size: Size, names: Sequence[str]) ->
         )
 
 
-def _tolerated(camera: Camera, observations: Observations) -> Array:
-    """Standard deviations of `camera.params` beyond which they count as undetermined.
+def _compute_tolerated_deviations(camera: Camera, observations: Observations) -> Array:
+    """Compute the standard deviations (P,) beyond which parameters count as undetermined.
 
-    A tenth of the focal length for focal lengths and centre, and for a coefficient the value
-    that moves the outermost corner by its whole distance from the centre.
+    They are a tenth of the focal length for focal lengths and centre, and for a coefficient the
+    value that moves the outermost corner by its whole distance from the centre.
     """
     f, lens = camera.focal, MODELS[camera.model]
     d = (observations.uv - camera.centre) / f
@@ -275,8 +313,8 @@ def _tolerated(camera: Camera, observations: Observations) -> Array:
     return np.concatenate([0.1 * f, 0.1 * f, outermost ** -np.array(lens.powers, float)])
 
 
-def _digest(observations: Observations, settings: Mapping[str, Any]) -> str:
-    """SHA-256 of what a calibration answers."""
+def _compute_digest(observations: Observations, settings: Mapping[str, Any]) -> str:
+    """Return the SHA-256 of the views and settings of a calibration."""
     digest = hashlib.sha256(repr(sorted(settings.items())).encode())
     for array in (observations.uv, observations.xy, observations.mask, observations.cov):
         if array is not None:

@@ -1,9 +1,7 @@
-"""Targets, and what images show of them.
+"""The views' corners as arrays that all solvers share, and the checks that they must pass.
 
-The views' corners as arrays that all the solvers share.
-
-Views may be partial, so their corner counts differ. They are padded to the longest with
-copies of their own first corner and a mask of 0, which costs some arithmetic on zeros and
+Views may be partial, so their numbers of corners differ. They are padded to the longest
+with copies of their first corner and a mask of 0, which costs some arithmetic on zeros and
 buys dense linear algebra over all views at once.
 """
 
@@ -21,30 +19,30 @@ from calibgui.engine.errors import CalibrationError
 
 
 class Observation(NamedTuple):
-    """What one view contributes to a calibration. A plain tuple (uv, xy) serves as well."""
+    """The corners of one view. A plain tuple (uv, xy) serves as well."""
 
     uv: Array
     """(n, 2) measured corners, px."""
     xy: Array
-    """(n, 2) the same corners on the plate, mm."""
+    """(n, 2) the same corners on the board, mm."""
     cov: Array | None = None
-    """(n, 2, 2) covariance of uv, px^2; equal and isotropic if None. What the residuals have
-    beyond it is put down to the model, alike for all corners (``estimation/weighting.py``)."""
+    """(n, 2, 2) covariance of uv, px^2; equal and isotropic if None. Residuals larger than it
+    are put down to the model, alike for all corners (``refinement/whitening.py``)."""
 
 
 REFERENCE_PITCH = 30.0
 """Side dx' of a square on the virtual reference image, reference px (the paper's choice)."""
 
-_SAMPLED = 25
-"""Views that the target's pitch is taken from."""
-CHUNK = 64
-"""Views worked on together: their arrays still fit the processor's cache."""
-_FARTHEST_UV, _FARTHEST_XY = 1e7, 1e9
-"""From the origin, px and mm: no image and no board is larger."""
-_SMALLEST = 1e-9
-"""Extent of a board, mm, below which there is none."""
-_LEAST_VARIANCE = 1e-100
-"""Of a corner, px^2: what is less cannot be inverted."""
+_MAX_PITCH_VIEWS = 25
+"""Number of views that the board's pitch is measured in."""
+VIEWS_PER_CHUNK = 64
+"""Number of views worked on together: their arrays still fit the processor's cache."""
+_MAX_UV, _MAX_XY = 1e7, 1e9
+"""Largest coordinates, px and mm: no image and no board is larger."""
+_MIN_EXTENT = 1e-9
+"""Extent of a board below which all its corners count as one place, mm."""
+_MIN_VARIANCE = 1e-100
+"""Variance of a corner below which its covariance cannot be inverted, px^2."""
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -54,15 +52,15 @@ class Observations:
     uv: Array
     """(K, N, 2) measured corners, px."""
     xy: Array
-    """(K, N, 2) corners on the plate, mm; (K, N, 3) where the plate is not flat."""
+    """(K, N, 2) corners on the board, mm; (K, N, 3) where the board is not flat."""
     mask: Array
     """(K, N) 1 for a corner, 0 for padding."""
     cov: Array | None = None
     """(K, N, 2, 2) covariances of uv, px^2, where they are given."""
     whitening: Array | None = None
-    """(K, N, 2, 2) what residuals are multiplied with (``weighting.py``); nothing if None."""
+    """(K, N, 2, 2) factors that whiten the residuals (``refinement/whitening.py``); None for 1."""
     tau2: float = 0.0
-    """What the whitening takes the model's own variance to be, px^2."""
+    """Variance of the models' own errors that the whitening allows for, px^2."""
 
     @property
     def count(self) -> int:
@@ -70,45 +68,47 @@ class Observations:
         return int(self.mask.sum())
 
     @property
-    def unweighted(self) -> bool:
-        """Whether all places hold corners, and all of these weigh 1."""
+    def is_unweighted(self) -> bool:
+        """True if there is no padding and all corners weigh 1."""
         return self.whitening is None and bool(self.mask.all())
 
-    def part(self, views: slice | IntArray | BoolArray) -> Observations:
-        """Some of the views."""
+    def select_views(self, views: slice | IntArray | BoolArray) -> Observations:
+        """Return the observations of some of the views."""
         cov, whitening = (a if a is None else a[views] for a in (self.cov, self.whitening))
         return Observations(
             self.uv[views], self.xy[views], self.mask[views], cov, whitening, self.tau2
         )
 
-    def view(self, k: int) -> slice:
-        """The places of view k's corners along the second axis."""
+    def corners_of(self, k: int) -> slice:
+        """Return the slice of the second axis that holds the corners of view k, without padding."""
         return slice(0, int(self.mask[k].sum()))
 
 
-def pack(
+def pack_observations(
     views: Sequence[Observation | tuple[Array, Array]], names: Sequence[str] | None = None
 ) -> Observations:
     """Check the views and bring them into arrays.
 
     Args:
         views: (uv, xy) or (uv, xy, cov) of each view.
-        names: of the views, for messages; numbers by default.
+        names: names of the views for messages; numbers by default.
 
     Raises:
-        CalibrationError: naming the view, if shapes disagree, a number is not finite or too
-            large, corners repeat, are fewer than four or lie on one line, or a covariance is not
-            positive.
+        CalibrationError: if there are no views, or if one cannot be used; the message names it.
+            Shapes may disagree, a number not be finite or be too large, corners repeat, be fewer
+            than four or lie on one line, or a covariance not be positive.
     """
     if len(views) == 0:
         raise CalibrationError(
             "There are no views to calibrate from.",
             "Photograph the board at least 3 times from different directions.",
         )
-    names = names or view_names(len(views))
+    names = names or name_views(len(views))
     if len(names) != len(views):
         raise ValueError(f"{len(names)} names do not name {len(views)} views")
-    shaped = [_shaped(Observation(*view), name) for view, name in zip(views, names, strict=True)]
+    shaped = [
+        _check_shapes(Observation(*view), name) for view, name in zip(views, names, strict=True)
+    ]
     # All or nothing: a mixture of weighted and unweighted views has no common noise level.
     cov = [view.cov for view in shaped if view.cov is not None]
     if cov and len(cov) < len(shaped):
@@ -119,64 +119,71 @@ def pack(
         )
     counts = np.array([len(view.uv) for view in shaped])
     packed = Observations(
-        uv=_padded([view.uv for view in shaped], counts),
-        xy=_padded([view.xy for view in shaped], counts),
+        uv=_pad([view.uv for view in shaped], counts),
+        xy=_pad([view.xy for view in shaped], counts),
         mask=(np.arange(counts.max()) < counts[:, None]).astype(np.float64),
-        cov=_padded(cov, counts) if cov else None,
+        cov=_pad(cov, counts) if cov else None,
     )
-    for part in chunks(len(shaped)):
-        _check_images(packed.part(part), names[part])
-    for k in boards(packed)[0].tolist():
-        _check_board(packed.xy[k, packed.view(k)], names[k])
+    for part in slice_views(len(shaped)):
+        _check_images(packed.select_views(part), names[part])
+    for k in group_equal_boards(packed)[0].tolist():
+        _check_board(packed.xy[k, packed.corners_of(k)], names[k])
     return packed
 
 
-def chunks(count: int) -> list[slice]:
-    """Consecutive slices of `count` views, `CHUNK` at a time."""
-    return [slice(begin, min(begin + CHUNK, count)) for begin in range(0, count, CHUNK)]
+def slice_views(count: int) -> list[slice]:
+    """Divide `count` views into consecutive slices of `VIEWS_PER_CHUNK`."""
+    return [
+        slice(begin, min(begin + VIEWS_PER_CHUNK, count))
+        for begin in range(0, count, VIEWS_PER_CHUNK)
+    ]
 
 
-def boards(observations: Observations) -> tuple[IntArray, IntArray]:
-    """The first views of all that show the same corners, and which of these each view is like.
+def group_equal_boards(observations: Observations) -> tuple[IntArray, IntArray]:
+    """Group the views that show the same corners of the board.
 
-    Mostly all views show the whole board, and what is asked of one need not be asked of all.
+    Mostly all views show the whole board, so that work on the board's points is done once.
+
+    Returns:
+        Indices of the first view of each group, ascending, and (K,) the group of each view.
     """
     K = len(observations.xy)
     if (observations.mask == observations.mask[0]).all() and (
         observations.xy == observations.xy[0]
     ).all():
         return np.zeros(1, dtype=np.int64), np.zeros(K, dtype=np.int64)
-    first: dict[bytes, int] = {}
+    first_views: dict[bytes, int] = {}
     counts = observations.mask.sum(axis=1).astype(int).tolist()
     views = enumerate(zip(observations.xy, counts, strict=True))
-    like = [first.setdefault(xy[:n].tobytes(), k) for k, (xy, n) in views]
-    firsts, which = np.unique(like, return_inverse=True)
-    return firsts, which
+    originals = [first_views.setdefault(xy[:n].tobytes(), k) for k, (xy, n) in views]
+    first, group = np.unique(originals, return_inverse=True)
+    return first, group
 
 
-def view_names(count: int) -> list[str]:
-    """What views are called that have no names."""
+def name_views(count: int) -> list[str]:
+    """Number views that have no names."""
     return [f"View {k + 1}" for k in range(count)]
 
 
-def pitch(observations: Observations) -> float:
-    """Side of the target's squares, mm: the median distance between neighbouring corners.
+def measure_pitch(observations: Observations) -> float:
+    """Measure the side of the board's squares, mm: the median distance of neighbouring corners.
 
-    View by view, because views may name the same corner's place with different precision, and
-    the least of them, because a partly seen board can lack neighbours.
+    It is measured view by view, because views may give the same corner's place with different
+    precision, and the least is taken, because a partly seen board can lack neighbours.
     """
-    chosen = np.unique(np.linspace(0, len(observations.xy) - 1, _SAMPLED).astype(int))
-    places = [observations.xy[k, observations.view(k), :2] for k in chosen.tolist()]
+    chosen = np.unique(np.linspace(0, len(observations.xy) - 1, _MAX_PITCH_VIEWS).astype(int))
+    places = [observations.xy[k, observations.corners_of(k), :2] for k in chosen.tolist()]
     unlike = {xy.tobytes(): xy for xy in places}.values()
     nearest = [np.asarray(scipy.spatial.cKDTree(xy).query(xy, k=2)[0])[:, 1] for xy in unlike]
     return float(min(np.median(distance) for distance in nearest))
 
 
-def _shaped(view: Observation, name: str) -> Observation:
+def _check_shapes(view: Observation, name: str) -> Observation:
+    """Return the view as float64 arrays; refuse shapes that do not match and too few corners."""
     uv, xy = (np.asarray(points, np.float64) for points in (view.uv, view.xy))
     if uv.ndim != 2 or uv.shape[1:] != (2,) or xy.shape != uv.shape:
         raise CalibrationError(
-            f"{name}: corners of shape {uv.shape} do not match plate points of shape {xy.shape}.",
+            f"{name}: corners of shape {uv.shape} do not match board points of shape {xy.shape}.",
             "Both must be (n, 2), one row a corner.",
         )
     cov = None if view.cov is None else np.asarray(view.cov, np.float64)
@@ -192,8 +199,8 @@ def _shaped(view: Observation, name: str) -> Observation:
     return Observation(uv, xy, cov)
 
 
-def _padded(rows: Sequence[Array], counts: IntArray) -> Array:
-    """(K, N, ...) rows (n, ...) of each view, continued with copies of the first."""
+def _pad(rows: Sequence[Array], counts: IntArray) -> Array:
+    """Pad rows (n, ...) of each view to (K, N, ...) with copies of the first row."""
     padded = np.empty((len(rows), counts.max(), *rows[0].shape[1:]))
     for k, given in enumerate(rows):
         padded[k, : len(given)] = given
@@ -204,60 +211,61 @@ def _padded(rows: Sequence[Array], counts: IntArray) -> Array:
 def _check_images(part: Observations, names: Sequence[str]) -> None:
     """Refuse views with corners that cannot be calibrated from, naming the first."""
 
-    def insist(good: BoolArray, what: str, hint: str) -> None:
+    def require(good: BoolArray, what: str, hint: str) -> None:
         if not good.all():
             raise CalibrationError(f"{names[int(np.argmin(good))]}{what}", hint)
 
     arrays = [part.uv, part.xy] if part.cov is None else [part.uv, part.xy, part.cov]
     finite = [np.isfinite(array).reshape(len(array), -1).all(axis=1) for array in arrays]
-    insist(
+    require(
         np.logical_and.reduce(finite),
         " holds a corner that is not a finite number.",
         "Remove that corner or the view.",
     )
-    insist(
-        np.abs(part.uv).max(axis=(1, 2)) < _FARTHEST_UV,
-        f" has a corner farther than {_FARTHEST_UV:.0e} px from the image's origin.",
+    require(
+        np.abs(part.uv).max(axis=(1, 2)) < _MAX_UV,
+        f" has a corner farther than {_MAX_UV:.0e} px from the image's origin.",
         "Remove that corner or the view.",
     )
-    insist(
-        np.abs(part.xy).max(axis=(1, 2)) < _FARTHEST_XY,
-        f" names a plate point farther than {_FARTHEST_XY:.0e} mm from the plate's origin.",
+    require(
+        np.abs(part.xy).max(axis=(1, 2)) < _MAX_XY,
+        f" names a board point farther than {_MAX_XY:.0e} mm from the board's origin.",
         "Give places on the board in mm.",
     )
-    insist(_in_general_position(part.uv, part.mask), *_on_one_line("corners"))
+    require(_are_in_general_position(part.uv, part.mask), *_describe_one_line("corners"))
     if part.cov is not None:
-        insist(
-            np.all(np.linalg.eigvalsh(part.cov)[..., 0] > _LEAST_VARIANCE, axis=1),
+        require(
+            np.all(np.linalg.eigvalsh(part.cov)[..., 0] > _MIN_VARIANCE, axis=1),
             " has a corner covariance that is not positive definite.",
             "Leave the covariances out or correct them.",
         )
 
 
 def _check_board(xy: Array, name: str) -> None:
-    """Refuse a view with plate points (n, 2) that cannot be calibrated from."""
-    if np.ptp(xy, axis=0).max() < _SMALLEST:
+    """Refuse a view with board points (n, 2) that cannot be calibrated from."""
+    if np.ptp(xy, axis=0).max() < _MIN_EXTENT:
         raise CalibrationError(
-            f"{name}: all plate points are at one place.", "Give places on the board in mm."
+            f"{name}: all board points are at one place.", "Give places on the board in mm."
         )
     if not np.diff(np.sort(np.ascontiguousarray(xy).view(np.complex128)[:, 0])).all():
         raise CalibrationError(
-            f"{name} names the same plate point twice.", "Give each corner of the board once."
+            f"{name} names the same board point twice.", "Give each corner of the board once."
         )
-    if not _in_general_position(xy[None], np.ones((1, len(xy)))).all():
-        what, hint = _on_one_line("plate points")
+    if not _are_in_general_position(xy[None], np.ones((1, len(xy)))).all():
+        what, hint = _describe_one_line("board points")
         raise CalibrationError(f"{name}{what}", hint)
 
 
-def _on_one_line(points: str) -> tuple[str, str]:
+def _describe_one_line(points: str) -> tuple[str, str]:
+    """Return message and hint for points on one line."""
     return (
         f": all {points}, or all but one, lie on one line.",
         "Use at least two corners from each of two rows.",
     )
 
 
-def _in_general_position(points: Array, mask: Array) -> BoolArray:
-    """(K,) whether at least two of the points (K, n, 2) lie off every line.
+def _are_in_general_position(points: Array, mask: Array) -> BoolArray:
+    """Return (K,) whether at least two of the points (K, n, 2) lie off every line.
 
     Without them there is no homography.
     """

@@ -1,4 +1,4 @@
-"""What is asked of some views, and the checks of how it is asked."""
+"""The options of a calibration, and the checks of the parameters that a user holds or frees."""
 
 from __future__ import annotations
 
@@ -9,83 +9,85 @@ import numpy as np
 
 from calibgui.engine.arrays import IntArray, Size
 from calibgui.engine.boards.shape import BoardShape
-from calibgui.engine.calibration.initialisation.stage_one import Prealignment
+from calibgui.engine.calibration.initialisation.stage_one import StageOneRegistration
 from calibgui.engine.calibration.result import Cost
 from calibgui.engine.camera.models import MODELS, parameter_names
 from calibgui.engine.errors import CalibrationError
 
-_FARTHEST = 100.0
-"""Of focal lengths and coordinates of the centre that can be held, in image widths."""
+_MAX_HELD = 100.0
+"""Largest focal length or coordinate of the centre that can be held, in the image's longer side."""
 
 
 class Options(NamedTuple):
-    """What is asked of some views, whatever they answer."""
+    """Everything that a calibration is to do with its views, whatever they turn out to say."""
 
     size: Size
-    """Of the images, px."""
+    """Width and height of the images, px."""
     model: str
-    """The lens, a key of ``lens.MODELS``."""
+    """The lens model, a key of ``camera.models.MODELS``."""
     cost: Cost
+    """The cost to minimise."""
     scale: float
-    """Reference px per mm."""
+    """Scale of the virtual reference image, reference px per mm."""
     names: tuple[str, ...]
-    """(P,) of the camera's parameters."""
+    """(P,) names of the camera's parameters."""
     held: Mapping[str, float]
-    """Those that the user holds, with their values."""
-    first: Prealignment
-    """Stage I of the views."""
+    """Parameters that are held, with their values."""
+    registration: StageOneRegistration
+    """Stage I of the views, which the start was made from."""
     board_shape: BoardShape | None
-    """To be held."""
+    """A board shape to hold; None for the drawing, or if the shape is estimated."""
     settings: Mapping[str, Any]
+    """The arguments of the calibration as its result records them."""
 
     @property
     def free(self) -> IntArray:
-        """Places of the parameters to estimate."""
+        """Indices of the parameters to estimate, ascending."""
         return np.flatnonzero([name not in self.held for name in self.names])
 
 
-def held_parameters(
+def resolve_held_parameters(
     fix: Mapping[str, float | None] | Iterable[str] | str,
     free: Iterable[str] | str,
     model: str,
     size: Size,
 ) -> dict[str, float | None]:
-    """Names of the parameters to hold, with the values asked for, None for the default.
+    """Find the parameters to hold, with the values wanted, None for the default value.
 
     Args:
-        fix: those to hold.
-        free: those to estimate although the lens model holds them by default.
-        model: the lens, a key of ``lens.MODELS``.
-        size: of the images, px.
+        fix: names of parameters to hold, with or without values.
+        free: names of parameters to estimate although the lens model holds them by default.
+        model: the lens model, a key of ``camera.models.MODELS``.
+        size: width and height of the images, px.
 
     Raises:
-        CalibrationError: for a parameter that there is not, a value that no camera has, or a
-            parameter that is both held and freed.
+        CalibrationError: if a parameter does not exist, is both held and freed, or is held at a
+            value that no camera has.
     """
     names = parameter_names(model)
     fix, freed = ([given] if isinstance(given, str) else given for given in (fix, free))
-    asked = dict(fix) if isinstance(fix, Mapping) else dict.fromkeys(fix)
+    wanted = dict(fix) if isinstance(fix, Mapping) else dict.fromkeys(fix)
     freed = set(freed)
-    for name in [*asked, *freed]:
+    for name in [*wanted, *freed]:
         if name not in names:
             raise CalibrationError(
                 f"The lens model {model!r} has no parameter {name!r}.",
                 f"Choose from {', '.join(names)}.",
             )
-    for name, value in asked.items():
+    for name, value in wanted.items():
         if value is not None:
             _check_value(name, value, size)
-    if both := freed & asked.keys():
+    if both := freed & wanted.keys():
         raise CalibrationError(
             f"{', '.join(sorted(both))} cannot be both held and freed.", "Name it once."
         )
     default = dict.fromkeys(name for name in MODELS[model].held if name not in freed)
-    return default | asked
+    return default | wanted
 
 
 def _check_value(name: str, value: float, size: Size) -> None:
     """Refuse to hold a parameter at a value that no camera has."""
-    most = _FARTHEST * max(size)
+    most = _MAX_HELD * max(size)
     low, high = {"f": (0.0, most), "c": (-most, most)}.get(name[0], (-np.inf, np.inf))
     if not low < value < high:
         raise CalibrationError(

@@ -1,17 +1,18 @@
-"""Do the views agree about the camera as well as their corners' noise lets them?
+"""Overdispersion: views that disagree about the camera by more than their corners' noise explains.
 
-The covariance sigma^2 (J^T J)^-1 holds if the errors of a view's corners are independent. Those
-of a board that bends in the hand, of rows that are read one after the other, of a lens that the
-model does not follow, are not: they pull at the camera together, and averaging over corners does
-not reduce them. Averaging over views does, if one view's pull says nothing of the next one's.
+The covariance sigma^2 (J^T J)^-1 holds if the errors of a view's corners are independent. The
+errors of a board that bends in the hand, of rows that are read one after the other, of a lens that
+the model does not follow, are not independent: they pull at the camera together, and averaging over
+corners does not reduce them. Averaging over views does, if one view's pull tells nothing about the
+next one's.
 
-Let each view speak for itself. With the poses eliminated (``information.py``), view k pulls the
-camera's P parameters with the gradient and the information
+The test takes every view by itself. With the poses eliminated (``refinement/schur.py``), view k
+pulls the camera's P parameters with the gradient and the information
 
     h_k = Jc_k^T r_k - Wk Vk^-1 Jp_k^T r_k,      Rk = Uk - Wk Vk^-1 Wk^T,
 
 sum h_k = 0 at the solution and sum Rk = T, where T^-1 is their covariance over sigma^2. An
-estimated plate is eliminated as well: its corners follow the camera by dX_i = N_i dc, so that
+estimated board shape is eliminated as well: its corners follow the camera by dX_i = N_i dc, so that
 the rows of Jc are Jc_i + (d(u, v)/dX_i) N_i. The estimate itself follows view k's pull, so that
 noise alone gives h_k the covariance sigma^2 (Rk - Rk T^-1 Rk). In units in which T = 1,
 
@@ -25,25 +26,26 @@ variance 2 / n with
 it is distributed about as chi^2(n) / n. It says what the views' disagreement makes of the
 variances, averaged over the parameters.
 
-If X is too large for noise, the covariance clustered by view takes the place of the model's
-where it is larger. Without view k the camera would be at dc_k = (1 - Rk)^-1 h_k from where it
-is; the jackknife
+If X is too large for noise (Fisher's F test), the covariance clustered by view takes the place of
+the model's where it is larger. Without view k the camera would be at dc_k = (1 - Rk)^-1 h_k from
+where it is; the jackknife
 
     cov = (K - 1) / K sum_k dc_k dc_k^T
 
 allows for each view's leverage in full (Bell and McCaffrey 2002: CR3), and is on the safe side
 by the little that a sum of few squares asks for. Where one view alone determines a parameter it
 would be without bounds; so nine tenths of the view are left out, (1 - 0.9 Rk)^-1 h_k, which is
-the same to first order and for noise at most three times the variance. An estimated plate has a
-leverage of its own, l = Q / (2N - 6K), about alike in all views: of noise's variance it leaves
+the same to first order and for noise at most three times the variance. An estimated board shape has
+a leverage of its own, l = Q / (2N - 6K), about alike in all views: of noise's variance it leaves
 1 - l in X, and the jackknife's residuals are 1 / (1 - l) of those that are left.
 
 Of the two covariances the larger is reported in each direction of the parameters: with C = L L^T
 the model's and L^-1 cov L^-T = sum_i v_i u_i u_i^T, C becomes
-L (1 + sum_i max(v_i - 1, 0) u_i u_i^T) L^T. Poses and plate follow the camera as they do in the
-model. The cost is one more pass over the views.
+L (1 + sum_i max(v_i - 1, 0) u_i u_i^T) L^T. Poses and board shape follow the camera as they do in
+the model. The cost is one more pass over the views.
 
-An error that all views share, as the plate's, does not make them disagree (``plate/doubt.py``).
+An error that all views share, such as the board's, does not make them disagree: the board's is
+found by ``board_shape/uncertainty.py``, that of the lens model by no comparison of views.
 """
 
 from __future__ import annotations
@@ -55,36 +57,38 @@ import scipy
 
 from calibgui.engine.arrays import Array, IntArray
 from calibgui.engine.boards.shape import BoardShape
-from calibgui.engine.calibration import covariances
-from calibgui.engine.calibration.refinement.normal_equations import Following, view_products
+from calibgui.engine.calibration.refinement import covariances
+from calibgui.engine.calibration.refinement.residuals import BoardMotion, compute_view_products
 from calibgui.engine.calibration.result_assembly import Estimate
 from calibgui.engine.geometry import rotations
 
-_CHANCE = 0.05
-"""Of noise alone widening the uncertainties."""
-_LEFT_OUT = 0.9
-"""Part of a view that the jackknife leaves out."""
-_LEAST_VIEWS = 6
-"""Views from which their disagreement can be judged."""
+_SIGNIFICANCE = 0.05
+"""Probability with which noise alone widens the uncertainties."""
+_JACKKNIFE_SHARE = 0.9
+"""Share of a view that the jackknife leaves out."""
+_MIN_VIEWS = 6
+"""Number of views below which their disagreement is not tested."""
 
 
-def with_view_scatter(estimate: Estimate, model: str, free: IntArray) -> Estimate:
-    """The estimate with the uncertainty that the views' disagreement shows, if it is no chance.
+def add_overdispersion(estimate: Estimate, model: str, free: IntArray) -> Estimate:
+    """Widen an estimate by the uncertainty that a significant disagreement of the views shows.
 
     Args:
-        estimate: with the image cost, on any plate.
-        model: the lens, a key of ``lens.MODELS``.
+        estimate: the estimate with the image cost, on a board of any shape.
+        model: the lens model, a key of ``camera.models.MODELS``.
         free: (P,) indices of the camera's parameters that may move.
     """
-    K, P, sigma2 = len(estimate.poses), len(free), estimate.sigma2
-    if K < _LEAST_VIEWS or P == 0 or not sigma2 > 0:
+    K, P, sigma2 = len(estimate.pose_covariances), len(free), estimate.sigma2
+    if K < _MIN_VIEWS or P == 0 or not sigma2 > 0:
         return estimate
     try:
-        unit = np.linalg.cholesky(estimate.by_noise / sigma2)  # T^-1 = unit unit^T
+        unit = np.linalg.cholesky(estimate.noise_covariance / sigma2)  # T^-1 = unit unit^T
     except np.linalg.LinAlgError:
         return estimate  # a combination of parameters is undetermined, and says so
-    A = view_products(estimate.state, estimate.observations, model, free, estimate.following)
-    R, h, G = _eliminated(A, P)
+    A = compute_view_products(
+        estimate.state, estimate.observations, model, free, estimate.board_motion
+    )
+    R, h, G = _eliminate_poses(A, P)
     R, h = unit.T @ R @ unit, (h - h.mean(axis=0)) @ unit
     corners = estimate.observations.count
     leverage = estimate.shape_unknowns / (2 * corners - 6 * K)
@@ -92,40 +96,40 @@ def with_view_scatter(estimate: Estimate, model: str, free: IntArray) -> Estimat
     X = float(np.einsum("kp,kpq,kq->", h, alone, h)) / (P * sigma2 * (1 - leverage))
     D = R @ alone @ R
     n = P**2 / float(np.sum(R**2) + np.sum(D.sum(axis=0) ** 2) - np.sum(D**2))
-    if scipy.special.fdtrc(n, 2 * corners - 6 * K - P - estimate.shape_unknowns, X) > _CHANCE:
+    if scipy.special.fdtrc(n, 2 * corners - 6 * K - P - estimate.shape_unknowns, X) > _SIGNIFICANCE:
         return estimate
-    moved = np.linalg.solve(np.eye(P) - _LEFT_OUT * R, h[..., None])[..., 0] @ unit.T
+    moved = np.linalg.solve(np.eye(P) - _JACKKNIFE_SHARE * R, h[..., None])[..., 0] @ unit.T
     clustered = moved.T @ moved * (K - 1) / K / (1 - leverage) ** 2
-    added = _excess(clustered, estimate.camera)
-    turn = covariances.pose_by_local(rotations.rotation_vector(estimate.state.R)) @ G
+    added = _compute_excess(clustered, estimate.camera_covariance)
+    turn = covariances.differentiate_poses(rotations.vector_from_rotation(estimate.state.R)) @ G
     return estimate._replace(
-        camera=estimate.camera + added,
-        poses=estimate.poses + turn @ added @ np.swapaxes(turn, 1, 2),
-        board_shape=_followed(estimate.board_shape, estimate.following, added),
-        view_scatter=float(np.sqrt(X)),
+        camera_covariance=estimate.camera_covariance + added,
+        pose_covariances=estimate.pose_covariances + turn @ added @ np.swapaxes(turn, 1, 2),
+        board_shape=_widen_board_shape(estimate.board_shape, estimate.board_motion, added),
+        overdispersion=float(np.sqrt(X)),
     )
 
 
-def _eliminated(A: Array, P: int) -> tuple[Array, Array, Array]:
-    """Rk (K, P, P), h_k (K, P) and Vk^-1 Wk^T (K, 6, P) from `view_products`."""
+def _eliminate_poses(A: Array, P: int) -> tuple[Array, Array, Array]:
+    """Compute Rk (K, P, P), h_k (K, P) and Vk^-1 Wk^T (K, 6, P) from products of the views."""
     W = A[:, :P, P:-1]
     G = np.linalg.solve(A[:, P:-1, P:-1], A[:, P:-1, [*range(P), -1]])
     left = A[:, :P, [*range(P), -1]] - W @ G
     return left[..., :-1], left[..., -1], np.asarray(G[..., :-1])
 
 
-def _followed(
-    board_shape: BoardShape | None, following: Following | None, added: Array
+def _widen_board_shape(
+    board_shape: BoardShape | None, board_motion: BoardMotion | None, added: Array
 ) -> BoardShape | None:
-    """An estimated plate with the uncertainty that it takes over from the camera."""
-    if board_shape is None or following is None:
+    """Widen an estimated board shape by the uncertainty that it takes over from the camera."""
+    if board_shape is None or board_motion is None:
         return board_shape
-    more = np.einsum("iap,pq,iaq->ia", following.motion, added, following.motion)
+    more = np.einsum("iap,pq,iaq->ia", board_motion.motion, added, board_motion.motion)
     return replace(board_shape, sigma=np.sqrt(board_shape.sigma**2 + more))
 
 
-def _excess(covariance: Array, reported: Array) -> Array:
-    """(P, P) to add to a reported covariance so that it is nowhere below the other one."""
+def _compute_excess(covariance: Array, reported: Array) -> Array:
+    """Compute the (P, P) to add to a reported covariance so that it is nowhere below the other."""
     root = np.linalg.cholesky(reported)
     half = np.linalg.solve(root, covariance)
     values, vectors = np.linalg.eigh(np.linalg.solve(root, half.T))

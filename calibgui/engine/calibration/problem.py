@@ -1,20 +1,10 @@
-"""The arguments with which a calibration can be repeated on other views of the same camera.
+"""The problem that a calibration solved, stated again.
 
-What each view says of the camera, and how its pose answers to the camera's changes.
-
-In the blocks of ``arrow.py``, view k alone contributes Uk = Jc_k^T Jc_k, Wk and
-Vk. Eliminating its own pose leaves
-
-    Sk = Uk - Wk Vk^-1 Wk^T,
-
-what the view says of the camera. These add up: S = sum_k Sk, so the covariance from any
-subset of the views is a sum and an inverse away. Given the camera's error dc, the pose is
-
-    (w, tau)_k = -Vk^-1 Wk^T dc + e_k,      cov(e_k) = sigma^2 Vk^-1,
-
-e_k independent of dc and of each other. The local rotation w turns about the plate's origin,
-at T_k from the camera; as a motion of camera space, x -> x + w x X + t, it reads
-t = tau + T_k x w, so that the motions of all views are in one frame and can be averaged.
+A `Calibration` holds results only: parameters, poses, residuals. Whoever analyses one (how far each
+view determines the camera, what a further view would add, what leaving one out changes) needs the
+problem as the solver saw it: the arguments of `calibrate`, the views with their weights and on the
+board that was found, and the state at the minimum. These are recovered here from the result and its
+views, so that a result read from a file can be analysed like a fresh one.
 """
 
 from __future__ import annotations
@@ -26,19 +16,23 @@ import numpy as np
 
 from calibgui.engine.arrays import IntArray
 from calibgui.engine.boards.shape import BoardShape, BoardShapeModel, BoardShapePrior
-from calibgui.engine.calibration.board_shape.estimate import on_board_shape
-from calibgui.engine.calibration.observations import Observation, Observations, pack
+from calibgui.engine.calibration.board_shape.parametrisation import place_on_board_shape
+from calibgui.engine.calibration.methods import DEFAULT_METHOD
+from calibgui.engine.calibration.observations import Observation, Observations, pack_observations
 from calibgui.engine.calibration.refinement.residuals import State
-from calibgui.engine.calibration.refinement.whitening import weighted
+from calibgui.engine.calibration.refinement.whitening import whiten_observations
 from calibgui.engine.calibration.result import Calibration, Cost
 from calibgui.engine.camera.camera import Camera
 from calibgui.engine.geometry import rotations
 from calibgui.engine.geometry.pose import Pose
 
 
-def settings_of(calibration: Calibration) -> dict[str, Any]:
-    """Keyword arguments of ``calibrate``: cost, lens, held parameters with their values, plate,
-    and what was known of it."""
+def recover_arguments(calibration: Calibration) -> dict[str, Any]:
+    """Recover the keyword arguments of `calibrate` that repeat a calibration on other views.
+
+    They are the cost, the lens model, the held parameters with their values, the board shape, what
+    was known of it beforehand, and the method.
+    """
     camera = calibration.camera
     values = dict(zip(camera.names, camera.params.tolist(), strict=True))
     held = {name: values[name] for name in calibration.fixed}
@@ -54,35 +48,40 @@ def settings_of(calibration: Calibration) -> dict[str, Any]:
         "free": [name for name in values if name not in held],
         "board_shape": board_shape,
         "prior": None if prior is None else BoardShapePrior(*prior),
+        "method": calibration.settings.get("method", DEFAULT_METHOD),
     }
 
 
-def as_drawn(views: Sequence[Observation]) -> BoardShape:
-    """The nominal plate of views, to be held: many calibrations on it need not doubt it anew."""
+def make_nominal_board_shape(views: Sequence[Observation]) -> BoardShape:
+    """Make the board shape without deviations that all corners of some views lie on.
+
+    Calibrations that hold it do not test anew whether the board deviates from its drawing, which
+    saves time where many are made.
+    """
     places = np.unique(np.round(np.concatenate([view.xy for view in views]), 9), axis=0)
     none = np.zeros((len(places), 3))
     return BoardShape(BoardShapeModel.NOMINAL, places, none, none)
 
 
-def free_parameters(calibration: Calibration) -> IntArray:
-    """Indices of the camera's parameters that were estimated."""
+def find_free_parameters(calibration: Calibration) -> IntArray:
+    """Return the indices of the camera's parameters that were estimated, ascending."""
     names = calibration.camera.names
     return np.flatnonzero([name not in calibration.fixed for name in names])
 
 
-def measured(calibration: Calibration, views: Sequence[Observation]) -> Observations:
-    """Views as a calibration takes them: weighed, on the plate that it found or was given."""
-    observations = pack(views)
+def prepare_observations(calibration: Calibration, views: Sequence[Observation]) -> Observations:
+    """Prepare views as a calibration takes them: whitened, on the board shape found or held."""
+    observations = pack_observations(views)
     if calibration.cost is Cost.IMAGE:
-        observations = weighted(observations, calibration.model_error**2)
+        observations = whiten_observations(observations, calibration.model_error**2)
     return (
         observations
         if calibration.board_shape is None
-        else on_board_shape(observations, calibration.board_shape)
+        else place_on_board_shape(observations, calibration.board_shape)
     )
 
 
-def state_of(camera: Camera, poses: Sequence[Pose]) -> State:
-    """Camera and poses as the solver takes them."""
-    R = rotations.rotation(np.array([pose.rvec for pose in poses]))
+def make_state(camera: Camera, poses: Sequence[Pose]) -> State:
+    """Pack camera and poses as the solver takes them."""
+    R = rotations.rotation_from_vector(np.array([pose.rvec for pose in poses]))
     return State(camera.params, R, np.array([pose.tvec for pose in poses]))

@@ -1,6 +1,8 @@
-"""What a solve reports on its way, and what it results in.
+"""The results of a calibration, what it reports on its way, and its failure.
 
-The failures that the engine names.
+All are frozen records of read-only arrays. `Calibration` is the whole result; `Iteration` is what a
+`Report` is called with during a solve; `DegenerateError` says that the views do not determine the
+camera, and carries what they do determine.
 """
 
 from __future__ import annotations
@@ -21,9 +23,9 @@ from calibgui.engine.geometry.pose import Pose
 
 @dataclass(frozen=True, eq=False, slots=True)
 class StageOne:
-    """One view's result of Stage I (paper 4.2, a row of Table 1) and of the cosines' equation.
+    """The result of Stage I (paper 4.2, a row of Table 1) and of the cosines' equation for a view.
 
-    Centre and k1 are the paper's: pixels, centred frame, y up. Quantities that the view
+    Centre and k1 are in the paper's units: pixels, centred frame, y up. Quantities that the view
     does not determine (aspect and focal lengths near fronto-parallel) are NaN.
     """
 
@@ -36,7 +38,7 @@ class StageOne:
     fy: float
     iterations: int
     rms: float
-    """Residual on the reference plane, reference px."""
+    """Root mean square length of the residual on the reference plane, reference px."""
     backward: Array
     """(3, 3) backward homography, reference plane to corrected image (eq. 17), paper's frame."""
     converged: bool
@@ -60,11 +62,12 @@ class Iteration:
     """Length of the step, unknowns scaled to a unit diagonal of J^T J, in the residual's unit."""
     damping: float
     seconds: float
-    """Since the start of the solve."""
+    """Time since the start of the solve, s."""
 
 
 Report = Callable[[Iteration], bool]
-"""Told of each iteration: False stops and keeps the best so far; raising Cancelled discards."""
+"""A function that is called with each iteration. It returns False to stop the solve and keep the
+best state so far, and raises `Cancelled` to discard it."""
 
 
 class Status(StrEnum):
@@ -72,71 +75,72 @@ class Status(StrEnum):
 
     CONVERGED = "converged"
     PARTIAL = "partial"
-    """Converged, with quantities assumed that the views do not determine (`Diagnosis`)."""
+    """The solve converged, with assumptions for what the views leave open (`Diagnosis`)."""
     MAX_ITERATIONS = "max-iterations"
     STOPPED = "stopped"
 
 
 class Cost(StrEnum):
-    """What Stage II minimises."""
+    """The cost that the refinement minimises."""
 
     IMAGE = "image"
     """Reprojection error in the image (the default)."""
     REFERENCE = "reference"
-    """Registration error on the virtual reference image (eq. 41), isotropic plate."""
+    """Registration error on the virtual reference image (eq. 41), with squares of equal sides."""
     PAPER = "paper"
-    """Eq. 41 to the letter: the same reference grid in px along x and y, radius in pixels."""
+    """Registration error by eq. 41 to the letter: a reference grid equal in px along x and y, and
+    the radius of the lens model in pixels."""
 
 
 @dataclass(frozen=True, slots=True)
 class Undetermined:
-    """A parameter that the data do not determine, and why."""
+    """A parameter that the data do not determine, and the reason."""
 
     name: str
     reason: str
 
 
 class Degeneracy(StrEnum):
-    """Kinds of sets of views that do not determine a camera."""
+    """The kinds of views that do not determine a camera."""
 
     ONE_VIEW = "one-view"
     COPIES = "copies"
-    """The same corners in every view."""
+    """All views hold the same corners."""
     PARALLEL_TO_SENSOR = "parallel-to-sensor"
     ONE_PLACE = "one-place"
-    """The board at one place in one orientation, at most turned about its normal."""
+    """All views show the board at one place in one orientation, at most turned about its normal."""
     ONE_ORIENTATION = "one-orientation"
     ONE_SPOT = "one-spot"
-    """All corners in a small part of the image."""
+    """All corners lie in a small part of the image."""
     TOO_LITTLE = "too-little"
-    """Views that differ, but too few or by too little."""
+    """The views differ, but are too few or differ by too little."""
 
 
 @dataclass(frozen=True, slots=True)
-class Assumed:
-    """A quantity that the views do not determine, and what is taken for it."""
+class Assumption:
+    """A quantity that the views do not determine, and the value that is taken for it."""
 
     name: str
-    """Of a parameter, or "fy/fx". With fx assumed, fy follows it, and so do the coefficients."""
+    """Name of a parameter, or "fy/fx". If fx is assumed, fy and the coefficients follow it."""
     value: float
-    doubt: float
-    """One standard deviation of what the value may be off by."""
+    sigma: float
+    """Standard deviation of the error that the value may have."""
 
 
 @dataclass(frozen=True, slots=True)
 class Diagnosis:
-    """Why views do not determine the camera, and what was made of them."""
+    """The reason why views do not determine the camera, and the assumptions made instead."""
 
     kind: Degeneracy
     message: str
     hint: str
-    """What to photograph."""
-    assumed: tuple[Assumed, ...] = ()
+    """Advice on what to photograph."""
+    assumptions: tuple[Assumption, ...] = ()
 
 
 @dataclass(frozen=True, eq=False, slots=True)
 class ViewResiduals:
-    """What the calibration leaves unexplained in one view."""
+    """The residuals of one view."""
 
     image: Array
     """(n, 2) measured minus predicted corner, px, array frame."""
@@ -162,8 +166,8 @@ class Calibration:
     covariance: Array
     """Covariance of `camera.params`."""
     sigma_by_noise: Array
-    """`sigma` as the corners' noise alone would make it, if it were independent from corner to
-    corner and board and lens were as modelled."""
+    """`sigma` from the corners' noise alone, as if it were independent from corner to corner and
+    board and lens were as modelled."""
     poses: tuple[Pose, ...]
     pose_covariances: Array
     """(K, 6, 6) covariance of (rvec, tvec) of each view, rad and mm."""
@@ -172,10 +176,10 @@ class Calibration:
     """Estimated standard deviation of one residual coordinate, in the cost's px; of the median
     corner where corners are weighted."""
     model_error: float
-    """What the models of plate and lens add to the corners' covariances, px along each axis
-    (``weighting.py``); 0 where corners have none."""
+    """Standard deviation that the models of board and lens add to the corners' covariances, px
+    along each axis (``refinement/whitening.py``); 0 where corners have no covariances."""
     reference_scale: float
-    """Reference px per mm on the plate."""
+    """Scale of the virtual reference image, reference px per mm on the board."""
     stage_one: tuple[StageOne, ...]
     history: tuple[Iteration, ...]
     status: Status
@@ -184,34 +188,35 @@ class Calibration:
     """Names of the intrinsics that were held."""
     undetermined: tuple[Undetermined, ...] = ()
     diagnosis: Diagnosis | None = None
-    """Of views that do not determine the camera (`Status.PARTIAL`); every uncertainty then includes
-    what the assumptions may be off by."""
+    """The diagnosis of views that do not determine the camera (`Status.PARTIAL`); all uncertainties
+    then include the errors of the assumptions."""
     board_shape: BoardShape | None = None
-    """The target's shape, where it was estimated or held."""
+    """The board's shape, where it was estimated or held."""
     board_shape_error: float = 0.0
-    """By how much, mm rms, the corners of a nominal plate seem to be off, if the residuals say
-    so; the uncertainties then include what this does to the camera."""
-    view_scatter: float = 0.0
-    """How many times as much the views disagree about the camera as the corners' noise explains
-    (``view_scatter.py``), if that is beyond chance; the uncertainties then include it. 0
+    """Deviation of the board's corners from the drawing, mm rms, if the residuals show one that was
+    not estimated; the uncertainties then include its effect. 0 otherwise. It measures what the
+    residuals show, not what the camera has absorbed."""
+    overdispersion: float = 0.0
+    """Ratio of the views' disagreement about the camera to what the corners' noise explains
+    (``overdispersion.py``), if it is significant; the uncertainties then include it. 0
     otherwise."""
     warnings: tuple[str, ...] = ()
     settings: Mapping[str, Any] = field(default_factory=dict)
     digest: str = ""
-    """SHA-256 of the observations and settings that this answers."""
+    """SHA-256 of the observations and settings of the calibration."""
 
     def __post_init__(self) -> None:
         freeze(self, "sigma", "covariance", "sigma_by_noise", "pose_covariances")
 
 
 class DegenerateError(CalibrationError):
-    """The views do not determine the camera, whatever their accuracy.
+    """The failure of views that do not determine the camera, whatever their accuracy.
 
     Args:
         message: the cause.
-        hint: what to photograph.
-        partial: what they do determine, with the rest assumed (``Calibration.diagnosis``); None
-            if that is nothing.
+        hint: advice on what to photograph.
+        partial: the calibration of what the views do determine, with assumptions for the rest
+            (``Calibration.diagnosis``); None if they determine nothing.
     """
 
     def __init__(self, message: str, hint: str, partial: Calibration | None = None) -> None:

@@ -1,4 +1,9 @@
-"""From a solution to what is reported: covariances, poses, residuals, the Stage I table."""
+"""The last step of a calibration: a solution becomes the `Calibration` that is handed over.
+
+The solver works with free parameters, rotation matrices and padded arrays. A `Calibration` lists
+all parameters, those that were held included, one pose and one array of residuals a view, and the
+paper's Table 1.
+"""
 
 from __future__ import annotations
 
@@ -8,12 +13,11 @@ import numpy as np
 
 from calibgui.engine.arrays import Array
 from calibgui.engine.boards.shape import BoardShape
-from calibgui.engine.calibration import covariances
 from calibgui.engine.calibration.initialisation import single_view_pose
-from calibgui.engine.calibration.initialisation.stage_one import Prealignment
+from calibgui.engine.calibration.initialisation.stage_one import StageOneRegistration
 from calibgui.engine.calibration.observations import Observations
 from calibgui.engine.calibration.options import Options
-from calibgui.engine.calibration.refinement import normal_equations
+from calibgui.engine.calibration.refinement import covariances, residuals
 from calibgui.engine.calibration.refinement.levenberg_marquardt import Solution
 from calibgui.engine.calibration.refinement.residuals import State
 from calibgui.engine.calibration.result import (
@@ -33,53 +37,54 @@ class Estimate(NamedTuple):
 
     solution: Solution
     state: State
-    """Camera and poses, without the plate's unknowns."""
+    """Camera and poses, without the unknowns of a board shape."""
     observations: Observations
-    """With the corners where the plate has them."""
+    """The views, with the corners where the estimated board has them."""
     sigma2: float
-    """Variance of one residual coordinate."""
-    camera: Array
+    """Variance of one residual coordinate, in the cost's px^2."""
+    camera_covariance: Array
     """(P, P) covariance of the camera's free parameters."""
-    poses: Array
+    pose_covariances: Array
     """(K, 6, 6) covariances of (rvec, tvec)."""
-    by_noise: Array
+    noise_covariance: Array
     """(P, P) covariance of the camera's free parameters from the corners' noise alone."""
     board_shape: BoardShape | None = None
     shape_unknowns: int = 0
-    """Of an estimated plate, without its gauge."""
-    following: normal_equations.Following | None = None
-    """How an estimated plate moves with the camera."""
+    """Number of unknowns of an estimated board shape, less those of its gauge."""
+    board_motion: residuals.BoardMotion | None = None
+    """Motion of the corners of an estimated board with the camera's parameters."""
     board_shape_error: float = 0.0
-    """As ``Calibration.plate_doubt``."""
-    view_scatter: float = 0.0
-    """As ``Calibration.view_scatter``."""
+    """See ``Calibration.board_shape_error``."""
+    overdispersion: float = 0.0
+    """See ``Calibration.overdispersion``."""
 
 
-def estimated(
+def make_estimate(
     solution: Solution, observations: Observations, precision: covariances.Precision
 ) -> Estimate:
-    """The estimate of a solution without a plate of its own."""
-    rvecs = rotations.rotation_vector(solution.state.R)
+    """Make the estimate of a solution whose board has the shape that it was given."""
+    rvecs = rotations.vector_from_rotation(solution.state.R)
     sigma2, camera, _ = precision
-    spread = covariances.pose_covariances(solution.normal, camera, rvecs, sigma2)
-    return Estimate(solution, solution.state, observations, sigma2, camera, spread, camera)
+    poses = covariances.compute_pose_covariances(solution.normal, camera, rvecs, sigma2)
+    return Estimate(solution, solution.state, observations, sigma2, camera, poses, camera)
 
 
-def reported(
-    estimate: Estimate, asked: Options, undetermined: tuple[Undetermined, ...], digest: str
+def assemble_calibration(
+    estimate: Estimate, options: Options, undetermined: tuple[Undetermined, ...], digest: str
 ) -> Calibration:
-    """The calibration as it is handed over: all parameters, held ones included.
+    """Assemble the calibration that is handed over: all parameters, held ones included.
 
     Args:
-        estimate: of what is asked.
-        asked: by the user.
-        undetermined: parameters whose standard deviations are not to be believed.
-        digest: of the observations and settings.
+        estimate: the solution with its covariances.
+        options: the options of the calibration.
+        undetermined: parameters whose standard deviations are not to be believed; they become NaN.
+        digest: SHA-256 of the observations and settings.
     """
-    P, free, cost = len(asked.names), asked.free, asked.cost
-    lost = [asked.names.index(u.name) for u in undetermined]
+    P, free, cost = len(options.names), options.free, options.cost
+    lost = [options.names.index(u.name) for u in undetermined]
 
-    def deviations(covariance: Array) -> tuple[Array, Array]:
+    def with_held_parameters(covariance: Array) -> tuple[Array, Array]:
+        """Return the covariance (P, P) of all parameters, and their standard deviations (P,)."""
         whole = np.zeros((P, P))
         whole[np.ix_(free, free)] = covariance
         sigma = np.sqrt(np.diag(whole))
@@ -87,73 +92,75 @@ def reported(
         return whole, sigma
 
     state, observations = estimate.state, estimate.observations
-    covariance, sigma = deviations(estimate.camera)
+    covariance, sigma = with_held_parameters(estimate.camera_covariance)
     return Calibration(
-        camera=Camera(asked.size, state.params, asked.model),
+        camera=Camera(options.size, state.params, options.model),
         sigma=sigma,
         covariance=covariance,
-        sigma_by_noise=deviations(estimate.by_noise)[1],
-        poses=poses(state),
-        pose_covariances=estimate.poses,
-        residuals=residuals(state, observations, asked.model, cost, asked.scale),
+        sigma_by_noise=with_held_parameters(estimate.noise_covariance)[1],
+        poses=make_poses(state),
+        pose_covariances=estimate.pose_covariances,
+        residuals=compute_view_residuals(state, observations, options.model, cost, options.scale),
         noise=float(np.sqrt(estimate.sigma2)),
         model_error=float(np.sqrt(observations.tau2)),
-        reference_scale=asked.scale,
-        stage_one=stage_one_table(asked.first, literal=cost is Cost.PAPER),
+        reference_scale=options.scale,
+        stage_one=tabulate_stage_one(options.registration, literal=cost is Cost.PAPER),
         history=estimate.solution.history,
         status=estimate.solution.status,
         cost=cost,
-        fixed=tuple(name for name in asked.names if name in asked.held),
+        fixed=tuple(name for name in options.names if name in options.held),
         undetermined=undetermined,
-        board_shape=asked.board_shape or estimate.board_shape,
+        board_shape=options.board_shape or estimate.board_shape,
         board_shape_error=estimate.board_shape_error,
-        view_scatter=estimate.view_scatter,
-        settings=asked.settings,
+        overdispersion=estimate.overdispersion,
+        settings=options.settings,
         digest=digest,
     )
 
 
-def poses(state: State) -> tuple[Pose, ...]:
-    """The views' poses."""
-    rvecs = rotations.rotation_vector(state.R)
+def make_poses(state: State) -> tuple[Pose, ...]:
+    """Return the poses of all views."""
+    rvecs = rotations.vector_from_rotation(state.R)
     return tuple(Pose(rvec, T) for rvec, T in zip(rvecs, state.T, strict=True))
 
 
-def residuals(
+def compute_view_residuals(
     state: State, observations: Observations, model: str, cost: Cost, scale: float
 ) -> tuple[ViewResiduals, ...]:
-    """Residuals of every view in the image and on the reference plane.
+    """Compute the residuals of every view in the image and on the reference plane.
 
     Args:
         state: camera and poses.
-        observations: the views, with the corners where the plate has them.
-        model: the lens, a key of ``lens.MODELS``.
-        cost: what was minimised.
+        observations: the views, with the corners where the board has them.
+        model: the lens model, a key of ``camera.models.MODELS``.
+        cost: the cost that was minimised.
         scale: reference px per mm.
     """
-    image, registered = normal_equations.residuals(state, observations, model, cost)
+    image, registered = residuals.compute_residuals(state, observations, model, cost)
     counts = observations.mask.sum(axis=1).astype(int).tolist()
     return tuple(
         ViewResiduals(image[k, :n], scale * registered[k, :n]) for k, n in enumerate(counts)
     )
 
 
-def stage_one_table(first: Prealignment, literal: bool) -> tuple[StageOne, ...]:
-    """Table 1, with what the cosines' equation says of each view.
+def tabulate_stage_one(registration: StageOneRegistration, literal: bool) -> tuple[StageOne, ...]:
+    """Tabulate Stage I (the paper's Table 1), with the roots of each view's cosines' equation.
 
-    `literal`: on the paper's grid, equal in pixels along both axes.
+    Args:
+        registration: Stage I of the views.
+        literal: whether the reference grid is the paper's, equal in pixels along both axes.
     """
-    backward = homography.inverted(first.forward)
-    geometry = single_view_pose.view_geometry(backward, literal)
+    backward = homography.invert_homography(registration.forward)
+    geometry = single_view_pose.estimate_view_geometry(backward, literal)
     columns = (
-        *first.centre.T.tolist(),
-        first.k1.tolist(),
+        *registration.centre.T.tolist(),
+        registration.k1.tolist(),
         geometry.aspect.tolist(),
         geometry.fx.tolist(),
         geometry.fy.tolist(),
-        first.iterations.tolist(),
-        first.rms.tolist(),
+        registration.iterations.tolist(),
+        registration.rms.tolist(),
         backward,
-        first.converged.tolist(),
+        registration.converged.tolist(),
     )
     return tuple(StageOne(*row) for row in zip(*columns, strict=True))

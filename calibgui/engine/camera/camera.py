@@ -1,7 +1,4 @@
-"""Arrays and sizes.
-
-A camera, and where it is.
-"""
+"""A camera: the size of its images, a lens model and the values of its parameters."""
 
 from __future__ import annotations
 
@@ -10,15 +7,15 @@ from dataclasses import dataclass
 import numpy as np
 
 from calibgui.engine.arrays import Array, Size, freeze
-from calibgui.engine.camera.models import parameter_names
+from calibgui.engine.camera.models import parameter_names, resolve_model_id
 from calibgui.engine.errors import CalibrationError
 
 
 def check_image_size(size: Size) -> Size:
-    """Width and height of an image as whole numbers.
+    """Return the width and height of an image as whole numbers.
 
     Raises:
-        CalibrationError: if they are no size.
+        CalibrationError: if one of them is below 1.
     """
     width, height = (int(length) for length in size)
     if min(width, height) < 1:
@@ -30,11 +27,22 @@ def check_image_size(size: Size) -> Size:
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Camera:
-    """Intrinsics in the array frame: a lens model's name and its parameters.
+    """Intrinsics in the array frame: a lens model's id and its parameters.
 
     Raises:
         CalibrationError: if there is no such model, it has another number of parameters, a number
-            is not finite, a focal length not positive, or the size none.
+            is not finite, a focal length is not positive, or the size is below 1 px.
+
+    Examples:
+        >>> from calibgui.engine.camera import Camera
+        >>> params = [600, 600, 320, 240, -0.25, 0.1, 0, 0, 0]
+        >>> camera = Camera((640, 480), params, "brown-conrady")
+        >>> dict(zip(camera.names, camera.params.tolist(), strict=True))["k1"]
+        -0.25
+        >>> camera.matrix
+        array([[600.,   0., 320.],
+               [  0., 600., 240.],
+               [  0.,   0.,   1.]])
     """
 
     size: Size
@@ -43,11 +51,12 @@ class Camera:
     """(P,) fx, fy, cx, cy (px) and the model's dimensionless coefficients, in the order of
     `names`."""
     model: str = "lucchese"
-    """A key of ``lens.MODELS``."""
+    """The lens model, a key of ``camera.models.MODELS``; ids of earlier versions are replaced."""
 
     def __post_init__(self) -> None:
         freeze(self, "params")
         object.__setattr__(self, "size", check_image_size(self.size))
+        object.__setattr__(self, "model", resolve_model_id(self.model))
         if self.params.shape != (len(self.names),):
             raise CalibrationError(
                 f"{self.params.size} numbers do not make a camera of the lens model "

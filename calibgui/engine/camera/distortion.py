@@ -1,4 +1,4 @@
-"""Points between measured and ideal images, and the displacement between them (figure 8).
+"""Distorting and undistorting points, and the displacement between the two (figure 8).
 
 The ideal image is a pinhole's: a ray n = (X/Z, Y/Z) falls on c + f n, with the camera's own
 f and c or those of another camera matrix. With psi of eq. 9 in pixels, the corrective
@@ -22,54 +22,83 @@ import numpy.typing as npt
 from calibgui.engine.arrays import Array
 from calibgui.engine.camera.camera import Camera
 from calibgui.engine.camera.models import MODELS
-from calibgui.engine.camera.projection import pixels, rays, rays_with_slope
+from calibgui.engine.camera.projection import pixels_from_rays, rays_and_slopes, rays_from_pixels
 from calibgui.engine.geometry.pose import Pose
-from calibgui.engine.geometry.rotations import rotation
+from calibgui.engine.geometry.rotations import rotation_from_vector
 
-_SAME = 1e-6
-"""Distance, px, within which a pixel must come back from its ray."""
+_MAX_RETURN_ERROR = 1e-6
+"""Distance, px, within which a pixel must come back from its ray; beyond it the lens has folded
+and the pixel has no ideal point of its own."""
 
 
 def undistort_points(points: npt.ArrayLike, camera: Camera, matrix: Array | None = None) -> Array:
-    """Ideal pixels (..., 2) of measured ones, in the array frame.
+    """Map measured to ideal pixels, in the array frame.
 
     Args:
         points: (..., 2) measured pixels.
-        camera: that measured them.
+        camera: the camera that measured them.
         matrix: (3, 3) camera matrix of the ideal image; the camera's own if None.
 
     Returns:
-        NaN where the lens has no ideal point, or the same one for two measured points.
+        (..., 2) NaN where the lens has no ideal point, or the same one for two measured points.
+
+    Examples:
+        >>> from calibgui.engine.camera import Camera, distort_points, undistort_points
+        >>> params = [600, 600, 320, 240, -0.25, 0.1, 0, 0, 0]
+        >>> camera = Camera((640, 480), params, "brown-conrady")
+        >>> ideal = undistort_points([[320, 240], [600, 400]], camera)
+        >>> ideal.round(2)
+        array([[320.  , 240.  ],
+               [621.95, 412.54]])
+        >>> distort_points(ideal, camera).round(6)
+        array([[320., 240.],
+               [600., 400.]])
     """
     uv = np.asarray(points, dtype=np.float64)
     with np.errstate(over="ignore", invalid="ignore"):  # a pixel far from any image has no ray
-        n = rays(uv, camera)
-    back = pixels(n, camera)
-    n[~(np.abs(back - uv).max(axis=-1, initial=0.0) < _SAME)] = np.nan
+        n = rays_from_pixels(uv, camera)
+    back = pixels_from_rays(n, camera)
+    n[~(np.abs(back - uv).max(axis=-1, initial=0.0) < _MAX_RETURN_ERROR)] = np.nan
     K = camera.matrix if matrix is None else matrix
     return np.asarray(n @ K[:2, :2].T + K[:2, 2])
 
 
 def distort_points(points: npt.ArrayLike, camera: Camera, matrix: Array | None = None) -> Array:
-    """Measured pixels (..., 2) of ideal ones: the inverse of `undistort_points`.
+    """Map ideal to measured pixels (..., 2): the inverse of `undistort_points`.
 
-    Converged to 1e-9 px; NaN where no measured pixel sees the point.
+    The result is converged to 1e-9 px, and NaN where no measured pixel sees the point.
+
+    Args:
+        points: (..., 2) ideal pixels.
+        camera: the camera that measures them.
+        matrix: (3, 3) camera matrix of the ideal image; the camera's own if None.
     """
     K = camera.matrix if matrix is None else matrix
     ideal = np.asarray(points, dtype=np.float64) - K[:2, 2]
-    return pixels(ideal @ np.linalg.inv(K[:2, :2]).T, camera)
+    return pixels_from_rays(ideal @ np.linalg.inv(K[:2, :2]).T, camera)
 
 
 def project_points(xy: npt.ArrayLike, camera: Camera, pose: Pose) -> Array:
-    """Measured pixels (..., 2) of plate points (..., 2) mm; NaN behind the camera."""
+    """Return measured pixels (..., 2) of board points (..., 2) mm; NaN behind the camera.
+
+    Examples:
+        >>> from calibgui.engine.camera import Camera, project_points
+        >>> from calibgui.engine.geometry import Pose
+        >>> camera = Camera((640, 480), [600, 600, 320, 240, 0, 0, 0, 0, 0], "brown-conrady")
+        >>> board = [[0, 0], [25, 0], [0, 25]]  # mm
+        >>> project_points(board, camera, Pose([0, 0, 0], [0, 0, 500]))
+        array([[320., 240.],
+               [350., 240.],
+               [320., 270.]])
+    """
     points = np.asarray(xy, dtype=np.float64)
-    point = points @ rotation(pose.rvec)[:, :2].T + pose.tvec
+    point = points @ rotation_from_vector(pose.rvec)[:, :2].T + pose.tvec
     depth = np.where(point[..., 2:] > 0, point[..., 2:], np.nan)
-    return pixels(point[..., :2] / depth, camera)
+    return pixels_from_rays(point[..., :2] / depth, camera)
 
 
-class Part(StrEnum):
-    """Of the corrective displacement (figure 8, a to c)."""
+class DisplacementPart(StrEnum):
+    """A part of the corrective displacement (figure 8, a to c)."""
 
     COMPLETE = "complete"
     RADIAL = "radial"
@@ -81,7 +110,7 @@ class Displacement:
     """The corrective displacement at measured pixels."""
 
     vector: Array
-    """(..., 2) d1, d2, px: added to a measured pixel it gives the ideal one."""
+    """(..., 2) d1, d2, px; added to a measured pixel it gives the ideal one."""
     by_pixel: Array
     """(..., 2, 2) its derivative J by the measured pixel."""
 
@@ -98,25 +127,28 @@ class Displacement:
         return np.asarray((direction[..., None, :] @ self.by_pixel)[..., 0, :])
 
 
-def displacement(uv: npt.ArrayLike, camera: Camera, part: Part = Part.COMPLETE) -> Displacement:
-    """The corrective displacement at measured pixels `uv` (..., 2), or a part of it."""
+def compute_displacement(
+    uv: npt.ArrayLike, camera: Camera, part: DisplacementPart = DisplacementPart.COMPLETE
+) -> Displacement:
+    """Compute the corrective displacement at measured pixels `uv` (..., 2), or a part of it."""
     points = np.asarray(uv, dtype=np.float64)
-    complete = _correction(points, camera)
-    if part is Part.COMPLETE:
+    complete = _compute_correction(points, camera)
+    if part is DisplacementPart.COMPLETE:
         return complete
-    radial = _correction(points, _only_radial(camera))
-    if part is Part.RADIAL:
+    radial = _compute_correction(points, _keep_radial_part(camera))
+    if part is DisplacementPart.RADIAL:
         return radial
     return Displacement(complete.vector - radial.vector, complete.by_pixel - radial.by_pixel)
 
 
-def _correction(uv: Array, camera: Camera) -> Displacement:
-    n, by_uv = rays_with_slope(uv, camera)
+def _compute_correction(uv: Array, camera: Camera) -> Displacement:
+    n, by_uv = rays_and_slopes(uv, camera)
     f, c = camera.focal, camera.centre
     return Displacement(c + f * n - uv, f[:, None] * by_uv - np.eye(2))
 
 
-def _only_radial(camera: Camera) -> Camera:
+def _keep_radial_part(camera: Camera) -> Camera:
+    """Return the camera with all but the radial coefficients at 0."""
     radial = [name.startswith("k") for name in MODELS[camera.model].names]
     params = np.concatenate([camera.params[:4], np.where(radial, camera.coefficients, 0.0)])
     return Camera(camera.size, params, camera.model)

@@ -1,7 +1,7 @@
 """The inverse of a lens map, by Newton's method, with derivatives from the implicit function.
 
-To solve F(a, k) = b for a, Newton iterates a <- a - J^-1 (F(a, k) - b), J = dF/da. At the
-solution da/db = J^-1 and da/dk = -J^-1 dF/dk.
+A polynomial lens has no closed-form inverse. To solve F(a, k) = b for a, Newton iterates
+a <- a - J^-1 (F(a, k) - b), J = dF/da. At the solution da/db = J^-1 and da/dk = -J^-1 dF/dk.
 
 A polynomial lens map is invertible only out to the fold where det J = 0, and may unfold again
 further out. The iteration therefore starts from the inverse of the radial part, which one
@@ -18,33 +18,37 @@ import numpy as np
 from calibgui.engine.arrays import Array
 from calibgui.engine.camera.model import Mapped
 
-_ITERATIONS = 50
-_TOLERANCE = 4e-15
-"""Of the last Newton step, relative to 1 + |a|: a few units in the last place."""
-_ACCEPTED = 1e-13
-"""A residual that is converged to the arithmetic's limit although the step test was not met."""
+_MAX_ITERATIONS = 50
+"""Number of Newton steps, at most."""
+_MAX_STEP = 4e-15
+"""Length of the last Newton step, relative to 1 + |a|: a few units in the last place."""
+_MAX_RESIDUAL = 1e-13
+"""Residual, relative to 1 + |b|, up to which a point has converged although its steps have not."""
 _NODES = 1024
-"""Of the radial table: Newton then starts within 1e-3 of the radius."""
+"""Number of nodes of the radial table: Newton then starts within 1e-3 of the radius."""
 
 
-def invert(forward: Callable[[Array], Mapped], b: Array, radial: Array) -> Mapped:
+def invert_map(forward: Callable[[Array], Mapped], b: Array, radial: Array) -> Mapped:
     """Solve forward(a) = b for a, inside the fold around the origin.
 
     Args:
         forward: the map, with derivatives.
         b: (..., 2) values to reach, dimensionless.
         radial: (3,) k1, k2, k3 of the map's radial part r (1 + k1 r^2 + k2 r^4 + k3 r^6).
+
+    Returns:
+        The points a with their derivatives by b and by the coefficients, NaN without an inverse.
     """
     target = b.reshape(-1, 2)
-    a, reach = _radial_inverse(target, radial)
+    a, reach = _invert_radial_part(target, radial)
     active = np.flatnonzero(np.isfinite(target).all(axis=1))
     with np.errstate(all="ignore"):  # points without an inverse overflow; they end as NaN below
-        for _ in range(_ITERATIONS):
+        for _ in range(_MAX_ITERATIONS):
             mapped = forward(a[active])
-            step = _solve(mapped.by_point, mapped.points - target[active])
+            step = _solve_pairs(mapped.by_point, mapped.points - target[active])
             a[active] -= step
             length = np.hypot(*step.T)
-            moving = ~(length <= _TOLERANCE * (1 + np.hypot(*a[active].T))) & np.isfinite(length)
+            moving = ~(length <= _MAX_STEP * (1 + np.hypot(*a[active].T))) & np.isfinite(length)
             active = active[moving]
             if active.size == 0:
                 break
@@ -54,7 +58,7 @@ def invert(forward: Callable[[Array], Mapped], b: Array, radial: Array) -> Mappe
         det = J[:, 0, 0] * J[:, 1, 1] - J[:, 0, 1] * J[:, 1, 0]
         scale = 1 + np.abs(target).max(axis=1, initial=0.0)
         inside = (det > 0) & (J[:, 0, 0] + J[:, 1, 1] > 0) & (np.hypot(*a.T) < reach)
-        bad = ~(inside & (miss <= _ACCEPTED * scale))
+        bad = ~(inside & (miss <= _MAX_RESIDUAL * scale))
         a[bad] = np.nan
         inverse = np.empty_like(J)
         inverse[:, 0, 0], inverse[:, 1, 1] = J[:, 1, 1] / det, J[:, 0, 0] / det
@@ -65,8 +69,8 @@ def invert(forward: Callable[[Array], Mapped], b: Array, radial: Array) -> Mappe
     return Mapped(a.reshape(b.shape), inverse.reshape(*b.shape, 2), by_k.reshape(*b.shape, count))
 
 
-def _radial_inverse(target: Array, radial: Array) -> tuple[Array, float]:
-    """Where the radial part alone is `target` (n, 2), and how far the answer can be trusted.
+def _invert_radial_part(target: Array, radial: Array) -> tuple[Array, float]:
+    """Return where the radial part alone is `target` (n, 2), and the radius up to which it holds.
 
     The points end at 0.9 of the fold's radius: from inside, Newton's method approaches
     solutions up to the fold steadily, while at the fold it has no slope to follow. The second
@@ -94,8 +98,8 @@ def _radial_inverse(target: Array, radial: Array) -> tuple[Array, float]:
     return start, float(folds[:2].mean()) if len(folds) > 1 else np.inf
 
 
-def _solve(J: Array, miss: Array) -> Array:
-    """J^-1 miss for (n, 2, 2) and (n, 2)."""
+def _solve_pairs(J: Array, miss: Array) -> Array:
+    """Return J^-1 miss (n, 2) for J (n, 2, 2) and miss (n, 2)."""
     det = J[:, 0, 0] * J[:, 1, 1] - J[:, 0, 1] * J[:, 1, 0]
     solved = [
         J[:, 1, 1] * miss[:, 0] - J[:, 0, 1] * miss[:, 1],

@@ -1,4 +1,8 @@
-"""What every lens model provides.
+"""The contract of a lens model: two maps between measured and ideal points, with derivatives.
+
+A real lens images a scene point where an ideal pinhole would not. A model either corrects the
+measured point (the paper's does) or distorts the ideal one (OpenCV's does); every model offers
+both directions, so that the rest of the engine need not know which is which.
 
 Frames: `d` is a measured (distorted) and `n` an ideal (undistorted) image point, both
 (..., 2) dimensionless: d = ((u - cx) / fx, (v - cy) / fy), and n = (X/Z, Y/Z) for a scene
@@ -13,7 +17,7 @@ from calibgui.engine.arrays import Array
 
 
 class Mapped(NamedTuple):
-    """Image of points under a lens map, with its derivatives."""
+    """Points after a lens map, with its derivatives."""
 
     points: Array
     """(..., 2)."""
@@ -25,6 +29,11 @@ class Mapped(NamedTuple):
 
 class Lens(Protocol):
     """A lens model: two maps, inverse to each other wherever the lens is invertible."""
+
+    @property
+    def title(self) -> str:
+        """A short plain name for lists of models to choose from."""
+        ...
 
     @property
     def names(self) -> tuple[str, ...]:
@@ -46,13 +55,13 @@ class Lens(Protocol):
 
     @property
     def radius_in_pixels(self) -> bool:
-        """Whether d is in units of fx along both axes (the paper's radius) instead of fx and fy."""
+        """True if d is in units of fx along both axes (the paper's radius), not of fx and fy."""
         ...
 
     def correct(self, d: Array, k: Array) -> Mapped:
-        """Measured to ideal. NaN where the model has no ideal point."""
+        """Map measured to ideal points. NaN where the model has no ideal point."""
         ...
 
     def distort(self, n: Array, k: Array) -> Mapped:
-        """Ideal to measured. NaN where the model has no measured point."""
+        """Map ideal to measured points. NaN where the model has no measured point."""
         ...

@@ -1,4 +1,4 @@
-"""Targets, and what images show of them."""
+"""The result of a detector: the corners of one image, with their places on the board."""
 
 from __future__ import annotations
 
@@ -7,15 +7,18 @@ from typing import NamedTuple
 
 from calibgui.engine.arrays import Array, GridSize, IntArray, freeze, freeze_ints
 from calibgui.engine.boards.checkerboard import CHECKERBOARD
-from calibgui.engine.boards.pattern import Ambiguity, Pattern
+from calibgui.engine.boards.pattern import Pattern, Symmetry
 
 
 class RejectedCorner(NamedTuple):
     """A corner that was seen but is not trusted."""
 
     u: float
+    """px"""
     v: float
+    """px"""
     reason: str
+    """Why it was rejected, for the user."""
 
 
 class OtherBoard(NamedTuple):
@@ -29,7 +32,7 @@ class OtherBoard(NamedTuple):
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Corners:
-    """The points located in one image (X-junctions or circles), with their places on the board."""
+    """The points located in one image (X-corners or circles), with their places on the board."""
 
     shape: GridSize
     """Rows and columns of the board's points (M, N)."""
@@ -40,13 +43,15 @@ class Corners:
     estimate: Array
     """(n, 2) first estimates (Harris), px: the paper's red marks."""
     cov: Array | None = None
-    """(n, 2, 2) covariance of uv, px^2, where the method delivers one."""
-    ambiguity: Ambiguity = Ambiguity.NONE
+    """(n, 2, 2) covariance of uv, px^2, where the method estimates one."""
+    ambiguity: Symmetry = Symmetry.NONE
+    """Turns of the board that this image alone does not tell apart."""
     roi: Array | None = None
     """(4, 2) region of interest that was searched, px: the board's outline."""
     method: str = "saddle"
+    """How the positions were refined: "edges", "saddle" or "ellipses"."""
     relative: bool = False
-    """Whether a partly seen board's rows or columns could be counted otherwise."""
+    """True if a partly seen board's rows or columns could be counted otherwise."""
     blur: Array | None = None
     """(n,) standard deviation of the edges' blur, pixel included, px."""
     contrast: Array | None = None
@@ -54,10 +59,11 @@ class Corners:
     residual: Array | None = None
     """(n,) root mean square of the grey levels that the fit leaves unexplained."""
     rejected: tuple[RejectedCorner, ...] = ()
+    """Corners that were seen but are not trusted."""
     others: tuple[OtherBoard, ...] = ()
     """Further boards in the image."""
     pattern: Pattern = CHECKERBOARD
-    """What they are of, with all that the image tells of it."""
+    """The pattern that they belong to, with its unknown fields as this image shows them."""
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "grid", freeze_ints(self.grid))
@@ -68,5 +74,5 @@ class Corners:
 
     @property
     def complete(self) -> bool:
-        """Whether every corner of the board was located."""
+        """True if every corner of the board was located."""
         return len(self) == self.shape[0] * self.shape[1]

@@ -1,9 +1,9 @@
-"""The way from an image to corners, whatever board it shows: the registry of detectors.
+"""From an image to corners, whatever board it shows: the registry of detectors.
 
 A detector takes an image and what is known of the board and returns `Corners`, with covariances
-where it can tell them; it raises `NoBoardError` rather than return what it does not trust. It knows
-no camera and no solver. To add one, write it in a folder of its own and name it in `DETECTORS`
-under the kind of its pattern.
+where its method estimates them; it raises `NoBoardError` rather than return a board that fails its
+tests. It knows no camera and no solver. A new detector is a folder of its own and one entry in
+`DETECTORS`, under the kind of its pattern.
 """
 
 from __future__ import annotations
@@ -58,24 +58,36 @@ def find_corners(
 
     Args:
         image: (h, w) grey levels, uint8, uint16 or floating.
-        board: rows and columns of inner corners; inferred if None. A checkerboard of which only a
-            part is seen then counts as what is seen of it.
+        grid_size: rows and columns of inner corners; inferred if None. A checkerboard of which only
+            a part is seen then counts as what is seen of it.
         roi: (4, 2) px, points at or just outside the board's outermost corners, in order around
             it: only corners inside count, and where the pattern leaves the origin open it is the
             corner nearest to the first point.
         method: "edges", the edge model at the Cramer-Rao bound, with covariances; or "saddle",
             the paper's. Circles have but one method.
-        pattern: what is printed on the board; what it leaves open is inferred.
+        pattern: what is printed on the board; its unknown fields are inferred.
 
     Returns:
         The corners, right-handed in the image, from an origin whose outer square is dark. Of a
         board that is only partly seen `complete` is false, and `relative` is true where its
         rows or columns could be counted otherwise. Corners seen but not trusted are `rejected`
         with the reason; further boards are in `others`, but for those of much smaller squares:
-        these are looked for only until the wanted board is found.
+        these are looked for only until the wanted board is found. The covariances are those of
+        the noise alone.
 
     Raises:
         NoBoardError: no acceptable board, why, and what was found instead.
         ValueError: arguments that make no sense.
+
+    A drawn board of 5 x 6 squares of 20 px has 4 x 5 inner corners, between the pixels:
+
+    >>> import numpy as np
+    >>> squares = np.indices((5, 6)).sum(axis=0) % 2
+    >>> image = np.pad(np.kron(40 + 160 * squares, np.ones((20, 20))), 20, constant_values=200)
+    >>> corners = find_corners(image.astype(np.uint8))
+    >>> corners.shape, corners.complete
+    ((4, 5), True)
+    >>> corners.grid[0].tolist(), corners.uv[0].round(2).tolist()
+    ([0, 0], [39.5, 39.5])
     """
     return DETECTORS[pattern.kind](image, pattern, grid_size, roi, method)

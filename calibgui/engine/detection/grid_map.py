@@ -1,8 +1,15 @@
-"""A plane lattice in perspective, through a lens that bends it or not.
+"""The map from the cells of a plane grid to the image: homography, radial lens, smooth residual.
 
-Perspective takes the cell (col, row) to the ideal point e from the lens's centre c, a homography H.
-Where wide-angle lenses bend what is straight by much, polynomials of the cell follow badly; a few
-coefficients of a radial lens do most of it, from the point d = u - c in the image by
+A detector knows the places of some points of a grid in the image and needs to predict the others,
+or the map's derivatives at every point, before any camera is known. The map is the sum of three
+parts, each for what the former leaves:
+
+    uv = u(H (col, row)) + p(col, row).
+
+**Homography and radial lens** (`RadialHomography`). The homography H takes the cell (col, row) to
+the ideal point e, px from the lens's centre c. Wide-angle lenses bend straight lines so much that
+polynomials of the cell follow badly; three coefficients of a radial lens follow most of it, from
+the point d = u - c in the image by
 
     e = k d,   k = 1 / (1 + l1 r + l2 r^2 + l3 r^3),   r = |d|^2.
 
@@ -17,46 +24,21 @@ m0 = l1 a3, m1 = a1 - 2 cu m0, m2 = a2 - 2 cv m0 and
     m3 = (1 / l1 - |c|^2) m0 - cu m1 - cv m2,
 
 three equations that give c and l1. From there Gauss-Newton steps lead to the least squares of the
-distances in the image, all coefficients free.
+distances in the image, all coefficients free. The lens is kept only if it explains most of what the
+homography alone leaves.
 
-Where the board as a whole expects its corners.
+**Smooth residual**. What the lens bends otherwise is small and smooth: a polynomial p of low degree
+in column and row. `GridMap` fits it to a lattice with gaps and reaches over these, where a corner
+has no neighbours left to predict it. `compute_polynomial_terms` also serves those that need its
+derivatives: the polynomials over a checkerboard (``checkerboard/board_priors.py``) and over a grid
+of circles (``circles/circle_map.py``).
 
-The positions of a plane lattice are those of its perspective P (`perspective`) plus what the lens
-has bent otherwise, a polynomial p of low degree in column and row:
-
-    uv = P(col, row) + p(col, row).
-
-It reaches over gaps, where a corner has no neighbours left to predict it.
-
-The way from the plate to the image, and from the images of circles to those of their centres.
-
-The centre of the ellipse that a circle is seen as is not the image of the circle's centre.
-Let f map the plate to the image. A homography H takes the dual conic of the circle of centre x,
-radius r,
-
-    C* = x x^T - r^2 diag(1, 1, 0)    (x homogeneous)    to    H C* H^T,
-
-and with p = H x and h1, h2 the first columns of H the ellipse's centre is
-
-    c = (p p_3 - r^2 (h1 h1_3 + h2 h2_3)) / (p_3^2 - r^2 (h1_3^2 + h2_3^2)),
-
-which is p / p_3 only if h1_3 = h2_3 = 0, for a plate parallel to the image. A lens adds its own
-part. Whatever f, the circle x + r n maps to f(x) + r J n + r^2/2 n^T f'' n + ..., n a unit
-vector, and seen through J^-1, with g = J^-1 f'', the last term moves the curve along its normal
-n by r^2/2 n.g(n, n). The part of this that is like a shift t.n, its first harmonic, gives
-
-    t_i = r^2/8 (sum_j g_i,jj + 2 sum_j g_j,ij),    c - f(x) = J t + O(r^4),
-
-as the mean of n_i n_j n_k n_l is (d_ij d_kl + d_ik d_jl + d_il d_jk) / 8. For a homography this is
-the leading term of the exact expression. Both are used: the homography exactly, and what the lens
-adds to it by the second derivatives of the lens (`corners.perspective`), where it bends much, and
-of a polynomial over the plate for the rest, small and smooth. Everything is fitted to the board's
-own centres, so that no calibration is needed first.
+None of this measures a camera: centre and coefficients of the lens take up whatever fits.
 """
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -64,62 +46,68 @@ from calibgui.engine.arrays import Array, IntArray
 from calibgui.engine.detection.lattice import Lattice
 from calibgui.engine.geometry import homography
 
-_BENT = 0.005
-"""Rms distance of corners from their homography beyond which a lens is looked for, over that from
-their mean."""
-_BETTER = 0.5
-"""Part of that distance that a lens must leave at most."""
-_ENOUGH = 16
-"""Corners from which on a lens may be told."""
-_MOST = 400
-"""Corners, spread over the lattice, that a lens is fitted to."""
+_MIN_RELATIVE_MISFIT = 0.005
+"""Rms distance of points from their homography, over that from their mean, below which no lens is
+fitted."""
+_MAX_MISFIT_RATIO = 0.5
+"""Greatest ratio of the rms distance that a lens leaves to that without one at which it is kept."""
+_MIN_LENS_POINTS = 16
+"""Least number of points that a lens is fitted to."""
+_MAX_LENS_POINTS = 400
+"""Number of points, spread over the grid, that a lens is fitted to."""
 _COEFFICIENTS = 3
-_STEPS = 3
-"""Of Gauss-Newton."""
-_NEWTON = 5
-"""Steps in which the point in the image is found from the ideal one."""
+"""Number of the lens's coefficients l1 to l3."""
+_GAUSS_NEWTON_STEPS = 3
+"""Number of steps from the closed solution to the least squares."""
+_INVERSION_STEPS = 5
+"""Number of Newton's steps from an ideal point to the point in the image."""
 _DAMPING = 1e-13
 """What is added to the diagonal of equations, over its sum."""
+_MIN_POINTS_OF_DEGREE = np.array([(1, 16), (2, 20), (3, 26), (4, 45)])
+"""Degrees of a lattice's smooth residual, and the least number of corners for each; with fewer than
+16 it is constant."""
 
 
 @dataclass(frozen=True, eq=False, slots=True)
-class Perspective:
-    """Of a lattice's cells."""
+class RadialHomography:
+    """A homography seen through a radial lens."""
 
     H: Array
-    """(3, 3) ideal points from (col, row), px from the centre."""
+    """(3, 3) from cells (col, row) to ideal points, px from the centre."""
     centre: Array
-    """(2,) of the lens, px."""
-    bend: Array
-    """(3,) l1 to l3 of the lens, by powers of px^2; 0 where it bends nothing."""
+    """(2,) centre of the lens, px."""
+    coefficients: Array
+    """(3,) l1 to l3 of the lens, 1/px^2, 1/px^4 and 1/px^6; all 0 if there is no lens."""
 
-    def at(self, cells: Array) -> Array:
-        """(n, 2) px of the cells (n, 2) = (col, row)."""
-        return self.seen(homography.apply(self.H, cells))
+    def locate(self, cells: Array) -> Array:
+        """Compute positions (n, 2) px of the cells (n, 2) = (col, row)."""
+        return self.distort(homography.apply_homography(self.H, cells))
 
-    def seen(self, e: Array) -> Array:
-        """(n, 2) px of ideal points (n, 2)."""
-        return self.centre + (self._bent(e) if self.bend.any() else e)
+    def distort(self, e: Array) -> Array:
+        """Compute positions (n, 2) px of ideal points `e` (n, 2), px from the centre."""
+        return self.centre + (self._invert_lens(e) if self.coefficients.any() else e)
 
-    def derivatives(self, cells: Array) -> tuple[Array, Array]:
-        """First and second derivatives (n, 2, 2) of `at` by column and by row.
+    def differentiate(self, cells: Array) -> tuple[Array, Array]:
+        """Compute first and second derivatives (n, 2, 2) of `locate` by column and by row.
+
+        The first axis after n is that of the cell, the last that of the image.
 
         With e = a / w, a and w linear in the cell, e' = (a' - e w') / w and e'' = -2 e' w' / w.
         Through the lens u' = D' e' and u'' = D' e'' + D''(e', e').
         """
         H = self.H
-        e = homography.apply(H, cells)
+        e = homography.apply_homography(H, cells)
         w = (cells @ H[2, :2] + H[2, 2])[:, None, None]
         e1 = (H[:2, :2].T - e[:, None] * H[2, :2, None]) / w
         e2 = -2 * e1 * H[2, :2, None] / w
-        if not self.bend.any():
+        if not self.coefficients.any():
             return e1, e2
-        D1, D2 = self.bending(e)
+        D1, D2 = self.differentiate_lens(e)
         second = np.einsum("nijk,naj,nak->nai", D2, e1, e1)
         return np.einsum("nij,naj->nai", D1, e1), np.einsum("nij,naj->nai", D1, e2) + second
 
-    def bending(self, e: Array) -> tuple[Array, Array]:
-        """Derivatives D' (n, 2, 2) and D'' (n, 2, 2, 2) of `seen` by the ideal points `e` (n, 2).
+    def differentiate_lens(self, e: Array) -> tuple[Array, Array]:
+        """Compute D' (n, 2, 2) and D'' (n, 2, 2, 2) of `distort` by the ideal points `e` (n, 2).
 
         Those of its inverse e = E(d) = k d are, with k' and k'' by r,
 
@@ -129,8 +117,8 @@ class Perspective:
         1_ij being 1 where i = j and else 0. From E(D(e)) = e follow D' = E'^-1 and
         D'' = -D' E''(D', D').
         """
-        d = self._bent(e) if self.bend.any() else e
-        k, by_r, by_r2 = _scale(np.sum(d * d, axis=1), self.bend)
+        d = self._invert_lens(e) if self.coefficients.any() else e
+        k, by_r, by_r2 = _compute_scale(np.sum(d * d, axis=1), self.coefficients)
         one = np.eye(2)
         first = k[:, None, None] * one + 2 * by_r[:, None, None] * d[:, :, None] * d[:, None]
         mixed = one[:, :, None] * d[:, None, None]
@@ -141,16 +129,16 @@ class Perspective:
         D2 = -np.einsum("nil,nlab,naj,nbk->nijk", D1, second, D1, D1, optimize=True)
         return D1, np.asarray(D2)
 
-    def _bent(self, e: Array) -> Array:
-        """Points (n, 2) px from the centre where the lens shows the ideal points (n, 2).
+    def _invert_lens(self, e: Array) -> Array:
+        """Compute d (n, 2) px from the centre, where the lens shows the ideal points `e` (n, 2).
 
         Newton's steps on |d| = |e| / k lead there from where l1 alone would show them.
         """
         far = np.linalg.norm(e, axis=1)
-        l1, l2, l3 = self.bend
+        l1, l2, l3 = self.coefficients
         x = 2 * far / (1 + np.sqrt(np.maximum(1 - 4 * l1 * far**2, 0.0)))
         with np.errstate(all="ignore"):  # beyond where the lens reaches
-            for _ in range(_NEWTON):
+            for _ in range(_INVERSION_STEPS):
                 r = x * x
                 inverse = 1 + r * (l1 + r * (l2 + r * l3))
                 slope = 2 * x * (l1 + r * (2 * l2 + r * 3 * l3))
@@ -158,47 +146,62 @@ class Perspective:
         return np.asarray(e * (x / np.maximum(far, 1e-300))[:, None])
 
 
-def _scale(r: Array, bend: Array) -> tuple[Array, Array, Array]:
-    """k and its first and second derivatives by r, each (n,)."""
-    l1, l2, l3 = bend
+def _compute_scale(r: Array, coefficients: Array) -> tuple[Array, Array, Array]:
+    """Compute k and its first and second derivatives by r, each (n,)."""
+    l1, l2, l3 = coefficients
     inverse = 1 + r * (l1 + r * (l2 + r * l3))
     by_r, by_r2 = l1 + r * (2 * l2 + r * 3 * l3), 2 * l2 + 6 * l3 * r
     k = 1 / inverse
     return k, -by_r * k**2, (2 * by_r**2 * k - by_r2) * k**2
 
 
-def fit_perspective(cells: Array, uv: Array) -> Perspective:
-    """The perspective of cells (n, 2) = (col, row) seen at `uv` (n, 2) px; with a lens only if that
-    leaves much less."""
+def fit_radial_homography(cells: Array, uv: Array) -> RadialHomography:
+    """Fit a homography, with a radial lens if that leaves much less.
+
+    Args:
+        cells: (n, 2) = (col, row).
+        uv: (n, 2) px, where they are seen.
+    """
     none = np.zeros(_COEFFICIENTS)
-    plain = Perspective(homography.fit_homography(cells, uv, np.ones(len(uv))), np.zeros(2), none)
-    left = _rms(plain.at(cells) - uv)
-    if len(uv) < _ENOUGH or left < _BENT * _rms(uv - uv.mean(axis=0)):
+    plain = RadialHomography(
+        homography.fit_homography(cells, uv, np.ones(len(uv))), np.zeros(2), none
+    )
+    misfit = _rms(plain.locate(cells) - uv)
+    if len(uv) < _MIN_LENS_POINTS or misfit < _MIN_RELATIVE_MISFIT * _rms(uv - uv.mean(axis=0)):
         return plain
-    some = np.linspace(0, len(uv) - 1, min(len(uv), _MOST)).astype(np.int64)
-    (x, mean, scale), (u, origin, unit) = _normalised(cells[some]), _normalised(uv[some])
-    bent = _by_division(x, u)
-    bent = None if bent is None else _nearest(x, u, bent)
+    chosen = np.linspace(0, len(uv) - 1, min(len(uv), _MAX_LENS_POINTS)).astype(np.int64)
+    (x, mean, scale), (u, origin, unit) = _normalise(cells[chosen]), _normalise(uv[chosen])
+    bent = _solve_division_model(x, u)
+    bent = None if bent is None else _refine_lens(x, u, bent)
     # Not finite is not better.
-    if bent is None or not unit * _rms(bent.at(x) - u) < _BETTER * left:
+    if bent is None or not unit * _rms(bent.locate(x) - u) < _MAX_MISFIT_RATIO * misfit:
         return plain
     to_normal = np.diag([1 / scale, 1 / scale, 1.0])
     to_normal[:2, 2] = -mean / scale
-    return Perspective(
+    return RadialHomography(
         np.diag([unit, unit, 1.0]) @ bent.H @ to_normal,
         origin + unit * bent.centre,
-        bent.bend / unit ** np.arange(2.0, 2 * _COEFFICIENTS + 1, 2),
+        bent.coefficients / unit ** np.arange(2.0, 2 * _COEFFICIENTS + 1, 2),
     )
 
 
-def _by_division(x: Array, u: Array) -> Perspective | None:
-    """The closed solution with one coefficient, if there is one, points (n, 2) normalised."""
+def _solve_division_model(x: Array, u: Array) -> RadialHomography | None:
+    """Solve for the lens with one coefficient in closed form (Fitzgibbon 2001).
+
+    Args:
+        x: (n, 2) cells, normalised.
+        u: (n, 2) their positions, normalised.
+
+    Returns:
+        None if the equations have no solution.
+    """
     lifted = np.column_stack([np.sum(u * u, axis=1), u, np.ones(len(u))])
     S, Sx, Sy, Sq = (
         (lifted * factor[:, None]).T @ lifted
         for factor in (np.ones(len(x)), x[:, 0], x[:, 1], np.sum(x * x, axis=1))
     )
-    # For a given third row of M the others follow: it is an eigenvector, as in `homography.dlt`.
+    # For a given third row of M the others follow: it is an eigenvector, as in the equations of a
+    # homography (Hartley 1997).
     inverse = np.linalg.inv(S + _DAMPING * np.trace(S) * np.eye(4))
     third = np.linalg.eigh(Sq - Sx @ inverse @ Sx - Sy @ inverse @ Sy)[1][:, 0]
     M = np.stack([inverse @ Sx @ third, inverse @ Sy @ third, third])
@@ -207,22 +210,25 @@ def _by_division(x: Array, u: Array) -> Perspective | None:
         centre = -np.array(minus_centre)
         l1 = 1 / (a + centre @ centre)
         A = np.column_stack([M[:, 1:3] + 2 * np.outer(M[:, 0], centre), M[:, 0] / l1])
-        return Perspective(np.linalg.inv(A), centre, np.array([l1, 0.0, 0.0]))
+        return RadialHomography(np.linalg.inv(A), centre, np.array([l1, 0.0, 0.0]))
     except np.linalg.LinAlgError:
         return None
 
 
-def _nearest(x: Array, u: Array, start: Perspective) -> Perspective | None:
-    """The perspective nearest to points `u` (n, 2), from one that is near; both normalised; None if
-    the steps lead nowhere.
+def _refine_lens(x: Array, u: Array, start: RadialHomography) -> RadialHomography | None:
+    """Refine a map of cells `x` (n, 2) by least squares of the distances from `u` (n, 2), both
+    normalised.
 
-    The cell q / w, (q, w) = A v, v = (d, 1 / k), is compared with its own; its derivative by u
-    takes the difference to the image.
+    The cell q / w, (q, w) = A v, v = (d, 1 / k), that a point u shows is compared with the given
+    one; its derivative by u takes the difference to the image.
+
+    Returns:
+        None if the equations become singular.
     """
-    A, centre, bend = np.linalg.inv(start.H), start.centre, start.bend
+    A, centre, bend = np.linalg.inv(start.H), start.centre, start.coefficients
     A /= np.linalg.norm(A)
     n, k = len(x), np.arange(1, _COEFFICIENTS + 1)
-    for _ in range(_STEPS):
+    for _ in range(_GAUSS_NEWTON_STEPS):
         d = u - centre
         r = np.sum(d * d, axis=1)
         powers = r[:, None] ** k
@@ -250,136 +256,82 @@ def _nearest(x: Array, u: Array, start: Perspective) -> Perspective | None:
             return None
         A = A - step[:9].reshape(3, 3)
         centre, bend = centre - step[9:11], bend - step[11:]
-    return Perspective(np.linalg.inv(A), centre, bend)
+    return RadialHomography(np.linalg.inv(A), centre, bend)
 
 
-def _normalised(points: Array) -> tuple[Array, Array, float]:
-    """Points (n, 2) of zero mean and unit spread, and both as they were."""
+def _normalise(points: Array) -> tuple[Array, Array, float]:
+    """Shift and scale points (n, 2) to zero mean and unit rms, and return both as they were."""
     mean = points.mean(axis=0)
     spread = _rms(points - mean)
     return (points - mean) / spread, mean, spread
 
 
 def _rms(offset: Array) -> float:
+    """Compute the root mean square of all coordinates."""
     return float(np.sqrt(np.mean(offset**2)))
-
-
-_DEGREES = np.array([(1, 16), (2, 20), (3, 26), (4, 45)])
-"""Degree of the polynomial, and the corners from which on it is used."""
 
 
 @dataclass(frozen=True, eq=False, slots=True)
 class GridMap:
-    """A lattice's smooth positions."""
+    """The positions of a lattice's cells: a radial homography and a smooth residual."""
 
-    flat: Perspective
+    homography: RadialHomography
     centre: Array
+    """(2,) mean (row, col) of the cells, from which the residual's polynomial counts."""
     half: Array
-    """(2,) the cells (row, col) that the polynomial counts from and in."""
+    """(2,) half extent (row, col) of the cells, the unit in which it counts."""
     powers: IntArray
-    """(terms, 2) of row and column."""
+    """(terms, 2) powers of row and column."""
     coefficients: Array
     """(terms, 2) px."""
 
-    def at(self, cells: Array) -> Array:
-        """Positions (n, 2) px of the cells (n, 2) = (row, col), found or not."""
-        bent = _basis(cells, self.centre, self.half, self.powers) @ self.coefficients
-        return self.flat.at(cells[:, ::-1]) + bent
+    def locate(self, cells: Array) -> Array:
+        """Compute positions (n, 2) px of the cells (n, 2) = (row, col), found or not."""
+        residual = _compute_terms(cells, self.centre, self.half, self.powers) @ self.coefficients
+        return self.homography.locate(cells[:, ::-1]) + residual
 
 
 def fit_grid_map(lattice: Lattice) -> GridMap:
-    """The sheet through the corners of `lattice`."""
+    """Fit the map to the corners of `lattice`."""
     cells = np.argwhere(lattice.found).astype(np.float64)
     uv = lattice.uv[lattice.found]
-    flat = fit_perspective(cells[:, ::-1], uv)
-    degree = int(_DEGREES[_DEGREES[:, 1] <= len(cells), 0].max(initial=0))
+    flat = fit_radial_homography(cells[:, ::-1], uv)
+    carried = _MIN_POINTS_OF_DEGREE[_MIN_POINTS_OF_DEGREE[:, 1] <= len(cells), 0]
+    degree = int(carried.max(initial=0))
     powers = np.argwhere(np.ones((degree + 1, degree + 1)))
     powers = powers[powers.sum(axis=1) <= degree]
     centre = cells.mean(axis=0)
     half = np.maximum(np.ptp(cells, axis=0) / 2, 1.0)
-    basis = _basis(cells, centre, half, powers)
+    terms = _compute_terms(cells, centre, half, powers)
     # Of powers that the cells do not tell apart the least-squares solution of least norm.
-    coefficients = np.linalg.lstsq(basis, uv - flat.at(cells[:, ::-1]))[0]
+    coefficients = np.linalg.lstsq(terms, uv - flat.locate(cells[:, ::-1]))[0]
     return GridMap(flat, centre, half, powers, np.asarray(coefficients, dtype=np.float64))
 
 
-def _basis(cells: Array, centre: Array, half: Array, powers: IntArray) -> Array:
-    """(n, terms) the polynomial's terms."""
-    x = np.polynomial.polynomial.polyvander((cells - centre) / half, int(powers.max()))
-    return np.asarray(x[:, 0, powers[:, 0]] * x[:, 1, powers[:, 1]])
+def _compute_terms(cells: Array, centre: Array, half: Array, powers: IntArray) -> Array:
+    """Compute the terms (n, terms) of a lattice's polynomial."""
+    table = np.polynomial.polynomial.polyvander((cells - centre) / half, int(powers.max()))
+    return compute_polynomial_terms(np.asarray(table, dtype=np.float64), powers, half)
 
 
-_HIGHEST = 5
-"""Degree of the polynomial that a grid of many points carries."""
-_POWERS = np.array([(k - j, j) for k in range(_HIGHEST + 1) for j in range(k + 1)])
-"""Of X and Y in the polynomial's terms, by degree."""
+def compute_polynomial_terms(
+    table: Array, powers: IntArray, unit: Array, order: tuple[int, int] = (0, 0)
+) -> Array:
+    """Compute the terms x1^p1 x2^p2 of a polynomial in two coordinates, or their derivatives.
 
+    Args:
+        table: (n, 2, degrees) powers 0, 1, ... of both coordinates, in their units.
+        powers: (terms, 2) p1 and p2.
+        unit: (2,) lengths in which the coordinates count.
+        order: number of derivatives by either coordinate.
 
-@dataclass(frozen=True, eq=False, slots=True)
-class CircleMap:
-    """f, from the plate (pitches) to the image: a perspective and what the lens adds to it."""
-
-    flat: Perspective
-    middle: Array
-    """(2,) of the plate"""
-    unit: float
-    """Length in which the polynomial counts, pitches."""
-    terms: Array
-    """(21, 2) of the polynomial, px; 0 where the points do not carry it."""
-
-    def at(self, xy: Array) -> Array:
-        """(n, 2) px."""
-        return self.flat.at(xy) + self._basis(xy, (0, 0)) @ self.terms
-
-    def jacobian(self, xy: Array) -> Array:
-        """(n, 2, 2) px per pitch, columns by X and by Y."""
-        return self.flat.derivatives(xy)[0].transpose(0, 2, 1) + np.stack(
-            [self._basis(xy, order) @ self.terms for order in ((1, 0), (0, 1))], axis=2
-        )
-
-    def bias(self, xy: Array, radius: float) -> Array:
-        """(n, 2) px from the images of the points (n, 2) to the centres of the ellipses around
-        them, of circles of `radius` pitches."""
-        H = self.flat.H
-        h1, h2 = H[:, 0], H[:, 1]
-        p = np.column_stack([xy, np.ones(len(xy))]) @ H.T
-        r2 = radius**2
-        centre = p[:, :2] * p[:, 2:] - r2 * (h1[:2] * h1[2] + h2[:2] * h2[2])
-        centre /= p[:, 2:] ** 2 - r2 * (h1[2] ** 2 + h2[2] ** 2)
-        e = p[:, :2] / p[:, 2:]
-        of_H = self.flat.seen(centre) - self.flat.seen(e)
-        by_xy = (H[:2, :2] - e[..., None] * H[2, :2]) / p[:, 2:, None]
-        second = np.einsum("nijk,nja,nkb->niab", self.flat.bending(e)[1], by_xy, by_xy)
-        for a, b, order in ((0, 0, (2, 0)), (0, 1, (1, 1)), (1, 0, (1, 1)), (1, 1, (0, 2))):
-            second[:, :, a, b] += self._basis(xy, order) @ self.terms
-        J = self.jacobian(xy)
-        g = np.linalg.solve(J, second.reshape(-1, 2, 4)).reshape(-1, 2, 2, 2)
-        t = r2 / 8 * (np.einsum("nijj->ni", g) + 2 * np.einsum("njij->ni", g))
-        return np.asarray(of_H + (J @ t[..., None])[..., 0])
-
-    def _basis(self, xy: Array, order: tuple[int, int]) -> Array:
-        """(n, 21) terms, differentiated."""
-        columns = np.ones((len(xy), len(_POWERS)))
-        for axis in (0, 1):
-            x, power = (xy[:, axis] - self.middle[axis]) / self.unit, _POWERS[:, axis]
-            factor = np.ones(len(power))
-            for _ in range(order[axis]):
-                factor, power = factor * power / self.unit, np.maximum(power - 1, 0)
-            columns *= factor * x[:, None] ** power
-        return columns
-
-
-def fit_circle_map(xy: Array, uv: Array) -> CircleMap:
-    """f through the points `xy` (n, 2) of the plate, pitches, and their images `uv` (n, 2) px."""
-    middle, unit = (xy.min(axis=0) + xy.max(axis=0)) / 2, float(np.ptp(xy, axis=0).max()) / 2
-    flat = CircleMap(fit_perspective(xy, uv), middle, unit, np.zeros((len(_POWERS), 2)))
-    degrees = _POWERS.sum(axis=1)
-    # The highest degree with half as many points again as terms; below 3, a lens has no effect.
-    carried = [k for k in range(3, _HIGHEST + 1) if 1.5 * np.count_nonzero(degrees <= k) <= len(xy)]
-    if not carried:
-        return flat
-    count = np.count_nonzero(degrees <= carried[-1])
-    terms = np.zeros((len(_POWERS), 2))
-    basis = flat._basis(xy, (0, 0))[:, :count]
-    terms[:count] = np.linalg.lstsq(basis, uv - flat.at(xy), rcond=1e-6)[0]
-    return replace(flat, terms=terms)
+    Returns:
+        (n, terms)
+    """
+    terms = np.ones((len(table), len(powers)))
+    for axis in (0, 1):
+        power, factor = powers[:, axis], np.ones(len(powers))
+        for _ in range(order[axis]):
+            factor, power = factor * power / unit[axis], np.maximum(power - 1, 0)
+        terms *= factor * table[:, axis, power]
+    return terms

@@ -1,4 +1,9 @@
-"""A lattice of corners, and what its neighbours say of each of its places."""
+"""A lattice of corners, and where its neighbours expect each of its places.
+
+Everything between the graph of neighbours and the numbered board works on lattices: arrays of
+positions by row and column with holes. Perspective and lenses bend them, so all that is said of a
+place is taken from the few places around it.
+"""
 
 from __future__ import annotations
 
@@ -10,26 +15,27 @@ import numpy as np
 from calibgui.engine import kernels
 from calibgui.engine.arrays import Array, BoolArray, IntArray
 
-STEPS = np.array([(0, 1), (1, 0), (0, -1), (-1, 0)])
-"""(row, col) steps of the board's directions 0 to 3."""
-DEVIATION = 0.3
-"""Greatest distance from the neighbours' prediction, in steps of the lattice."""
+DIRECTIONS = np.array([(0, 1), (1, 0), (0, -1), (-1, 0)])
+"""(4, 2) steps in row and column of the board's directions 0 to 3."""
+MAX_DEVIATION = 0.3
+"""Greatest distance of a corner from its neighbours' prediction, steps of the lattice; a corner
+farther away is a stray. A plausibility limit."""
 MIN_CORNERS = 12
-"""Of a board."""
+"""Number of corners of the smallest board, whatever its pattern."""
 MIN_LINES = 3
-"""Rows and columns of a board."""
-REACH = 3
-"""Widest gap over which what is known of a lattice is carried, in steps."""
+"""Number of rows, and of columns, of the smallest board."""
+MAX_GAP = 3
+"""Width of the widest gap over which steps and predictions of a lattice are carried, steps."""
 
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Lattice:
-    """Junctions placed on a board whose size and origin are still open."""
+    """Corners in rows and columns of a board whose size and origin are still open."""
 
     uv: Array
     """(rows, cols, 2) px, NaN where nothing was found."""
     dark: bool
-    """Whether the square before cell (0, 0), above its row and left of its column, is dark."""
+    """True if the square before cell (0, 0), above its row and left of its column, is dark."""
 
     @property
     def shape(self) -> tuple[int, int]:
@@ -37,61 +43,62 @@ class Lattice:
 
     @property
     def found(self) -> BoolArray:
-        """(rows, cols) where there is a corner."""
+        """(rows, cols) mask of the corners; a new array each time."""
         return np.isfinite(self.uv[..., 0])
 
     def __len__(self) -> int:
         return int(np.count_nonzero(self.found))
 
-    def under(self, mask: BoolArray) -> Lattice:
-        """The lattice's corners under a mask (rows, cols)."""
+    def select(self, mask: BoolArray) -> Lattice:
+        """Return the lattice with the corners under a mask (rows, cols) only."""
         return Lattice(np.where(mask[..., None], self.uv, np.nan), self.dark)
 
     def spacing(self) -> Array:
-        """(rows, cols) shorter of the steps to the neighbours, px; NaN where nothing was found."""
-        right, down = axes(self.uv)
+        """Return (rows, cols) the shorter of the steps to the neighbours, px; NaN where unknown."""
+        right, down = estimate_steps(self.uv)
         return np.fmin(np.linalg.norm(right, axis=2), np.linalg.norm(down, axis=2))
 
 
-def trim(lattice: Lattice) -> Lattice | None:
-    """The lattice without corners off their neighbours' prediction; None without a full cell."""
-    lattice = lattice.under(~_strays(lattice))
+def trim_lattice(lattice: Lattice) -> Lattice | None:
+    """Drop the corners off their neighbours' prediction, those that are isolated and empty border
+    lines; return None if no full cell is left."""
+    lattice = lattice.select(~_find_strays(lattice))
     found = lattice.found
     cell = found[:-1, :-1] & found[1:, :-1] & found[:-1, 1:] & found[1:, 1:]
-    return supported(lattice) if cell.any() else None
+    return drop_isolated_and_crop(lattice) if cell.any() else None
 
 
-def _strays(lattice: Lattice) -> BoolArray:
-    """(rows, cols) where there is a corner off its neighbours' prediction."""
+def _find_strays(lattice: Lattice) -> BoolArray:
+    """Return a mask (rows, cols) of the corners off their neighbours' prediction."""
     found = lattice.found
-    offset = lattice.uv[found] - predict(lattice.uv)[found]
-    right, down = (step[found] for step in axes(lattice.uv))
-    found[found] = in_steps(offset, right, down) > DEVIATION
+    offset = lattice.uv[found] - predict_places(lattice.uv)[found]
+    right, down = (step[found] for step in estimate_steps(lattice.uv))
+    found[found] = measure_in_steps(offset, right, down) > MAX_DEVIATION
     return found
 
 
-def large_enough(lattice: Lattice) -> bool:
-    """Whether it may be a board."""
+def is_large_enough(lattice: Lattice) -> bool:
+    """Return whether a lattice has corners and lines enough for a board."""
     return len(lattice) >= MIN_CORNERS and min(lattice.shape) >= MIN_LINES
 
 
-def supported(lattice: Lattice) -> Lattice:
-    """The lattice without corners whose steps are not known, and without empty border lines."""
-    return crop(with_steps(lattice))
+def drop_isolated_and_crop(lattice: Lattice) -> Lattice:
+    """Drop the corners that are isolated, see `drop_isolated`, and empty border lines."""
+    return crop_lattice(drop_isolated(lattice))
 
 
-def with_steps(lattice: Lattice) -> Lattice:
-    """The lattice without corners too far from all others for the steps there to be known."""
+def drop_isolated(lattice: Lattice) -> Lattice:
+    """Drop the corners that are too far from all others for the steps there to be known."""
     while True:
-        right, down = axes(lattice.uv)
+        right, down = estimate_steps(lattice.uv)
         known = np.isfinite(right[..., 0] + down[..., 0])
         if known[lattice.found].all():
             return lattice
-        lattice = lattice.under(known)
+        lattice = lattice.select(known)
 
 
-def crop(lattice: Lattice) -> Lattice:
-    """The lattice without empty border lines."""
+def crop_lattice(lattice: Lattice) -> Lattice:
+    """Drop empty border lines."""
     if not lattice.found.any():
         return Lattice(lattice.uv[:0, :0], lattice.dark)
     rows, cols = (np.flatnonzero(lattice.found.any(axis=axis)) for axis in (1, 0))
@@ -100,36 +107,43 @@ def crop(lattice: Lattice) -> Lattice:
     return Lattice(lattice.uv[r : rows[-1] + 1, c : cols[-1] + 1], dark)
 
 
-def predict(uv: Array) -> Array:
-    """Where its neighbours expect each place of a lattice `uv` (rows, cols, 2), found or not.
+@kernels.with_kernel("lattice", "predict_places")
+def predict_places(uv: Array) -> Array:
+    """Predict where its neighbours expect each place of a lattice, found or not.
 
-    The mean of the midpoints of opposite neighbours or, where there are none, of the
-    extrapolations p_1 + (p_1 - p_2) + (p_1 - 2 p_2 + p_3) / 2 of the lines that end there
+    The prediction is the mean of the midpoints of opposite neighbours or, where there are none, of
+    the extrapolations p_1 + (p_1 - p_2) + (p_1 - 2 p_2 + p_3) / 2 of the lines that end there
     (half the quadratic's second difference: all of it would amplify noise sevenfold).
+
+    Args:
+        uv: (rows, cols, 2) px, NaN where nothing was found.
 
     Returns:
         Predictions (rows, cols, 2) px, NaN where there is no basis.
     """
-    if kernels.COMPILED:
-        from calibgui.engine.kernels import lattice
-
-        return lattice.predict(uv)
-    shift = shifted(uv, 3)
+    shift = make_shifter(uv, 3)
     extrapolated = []
-    for step in STEPS:
+    for step in DIRECTIONS:
         p1, p2, p3 = (shift(k * step) for k in (1, 2, 3))
         slope = p1 - p2
         bend = np.where(np.isnan(p3), 0.0, slope - (p2 - p3))
         extrapolated.append(p1 + slope + 0.5 * bend)
-    middle = [(shift(step) + shift(-step)) / 2 for step in STEPS[:2]]
-    inner, outer = _nanmean(middle), _nanmean(extrapolated)
+    middle = [(shift(step) + shift(-step)) / 2 for step in DIRECTIONS[:2]]
+    inner, outer = _average_known(middle), _average_known(extrapolated)
     return np.where(np.isnan(inner), outer, inner)
 
 
-def in_steps(offset: Array, right: Array, down: Array) -> Array:
-    """Largest coordinate (...,) of `offset` (..., 2) px in the local basis of lattice steps.
+def measure_in_steps(offset: Array, right: Array, down: Array) -> Array:
+    """Measure an offset in the local basis of lattice steps.
 
-    NaN where a step is unknown; infinite or NaN where the steps are parallel.
+    Args:
+        offset: (..., 2) px.
+        right: (..., 2) step to the next column, px.
+        down: (..., 2) step to the next row, px.
+
+    Returns:
+        The larger coordinate (...,), steps; NaN where a step is unknown, infinite or NaN where the
+        steps are parallel.
     """
     det = right[..., 0] * down[..., 1] - right[..., 1] * down[..., 0]
     a = offset[..., 0] * down[..., 1] - offset[..., 1] * down[..., 0]
@@ -139,8 +153,8 @@ def in_steps(offset: Array, right: Array, down: Array) -> Array:
         return np.asarray(largest / abs(det))
 
 
-def _nanmean(values: list[Array]) -> Array:
-    """Mean over the list where finite, NaN where nothing is."""
+def _average_known(values: list[Array]) -> Array:
+    """Return the mean over the list of what is finite, NaN where nothing is."""
     stack = np.stack(values)
     finite = np.isfinite(stack)
     count = finite.sum(axis=0)
@@ -148,42 +162,58 @@ def _nanmean(values: list[Array]) -> Array:
     return np.divide(total, count, out=np.full_like(total, np.nan), where=count > 0)
 
 
-def axes(uv: Array) -> tuple[Array, Array]:
-    """Steps (rows, cols, 2) to the next column and to the next row of a lattice, px.
+def estimate_steps(uv: Array) -> tuple[Array, Array]:
+    """Estimate the steps to the next column and to the next row at each place of a lattice.
 
-    From the nearest neighbours on the line, else from those two places away, else the mean of
-    the steps of the four places around, from up to `REACH` places away; NaN beyond.
+    They are taken from the nearest neighbours on the line, else from those two places away, else
+    from the mean of the steps of the four places around, from up to `MAX_GAP` places away.
+
+    Args:
+        uv: (rows, cols, 2) px, NaN where nothing was found.
+
+    Returns:
+        Steps (rows, cols, 2) and (rows, cols, 2) px, NaN where they are not known.
     """
-    if kernels.COMPILED:
-        from calibgui.engine.kernels import lattice
+    return _estimate_steps(uv, MAX_GAP)
 
-        return lattice.axes(uv, REACH)
+
+@kernels.with_kernel("lattice", "estimate_steps")
+def _estimate_steps(uv: Array, reach: int) -> tuple[Array, Array]:
+    """Estimate steps from up to `reach` places away: see `estimate_steps`."""
     steps = []
-    shift = shifted(uv, 2)
-    for step in (STEPS[0], STEPS[1]):
-        near = _nanmean([shift(step) - uv, uv - shift(-step)])
-        far = _nanmean([(shift(2 * step) - uv) / 2, (uv - shift(-2 * step)) / 2])
+    shift = make_shifter(uv, 2)
+    for step in (DIRECTIONS[0], DIRECTIONS[1]):
+        near = _average_known([shift(step) - uv, uv - shift(-step)])
+        far = _average_known([(shift(2 * step) - uv) / 2, (uv - shift(-2 * step)) / 2])
         around = (shift(step) - shift(-step)) / 2
-        own = np.where(np.isnan(near), np.where(np.isnan(around), far, around), near)
-        for _ in range(REACH):
-            own = _spread(own)
-        steps.append(own)
+        known = np.where(np.isnan(near), np.where(np.isnan(around), far, around), near)
+        for _ in range(reach):
+            known = _spread_steps(known)
+        steps.append(known)
     return steps[0], steps[1]
 
 
-def _spread(values: Array) -> Array:
-    """`values` (rows, cols, 2), the unknown ones from the four places around."""
+def _spread_steps(values: Array) -> Array:
+    """Fill the unknown of `values` (rows, cols, 2) from the four places around."""
     unknown = np.isnan(values)
     if not unknown.any():
         return values
-    beside = shifted(values, 1)
-    return np.where(unknown, _nanmean([beside(step) for step in STEPS]), values)
+    beside = make_shifter(values, 1)
+    return np.where(unknown, _average_known([beside(step) for step in DIRECTIONS]), values)
 
 
-def shifted(uv: Array, reach: int) -> Callable[[IntArray], Array]:
-    """What stands (drow, dcol) places away from each place of `uv` (rows, cols, 2), NaN outside;
-    for steps of up to `reach`."""
-    around = bordered(uv, reach)
+def make_shifter(uv: Array, reach: int) -> Callable[[IntArray], Array]:
+    """Return a function that shifts a lattice by rows and columns.
+
+    Args:
+        uv: (rows, cols, 2) px.
+        reach: greatest number of places that it will be shifted by.
+
+    Returns:
+        A function that takes (drow, dcol) and returns (rows, cols, 2) what stands so many places
+        away from each place, NaN outside.
+    """
+    around = add_border(uv, reach)
     rows, cols = uv.shape[:2]
 
     def at(step: IntArray) -> Array:
@@ -193,8 +223,8 @@ def shifted(uv: Array, reach: int) -> Callable[[IntArray], Array]:
     return at
 
 
-def bordered(uv: Array, width: int) -> Array:
-    """`uv` (rows, cols, 2) with a border of NaN."""
+def add_border(uv: Array, width: int) -> Array:
+    """Return `uv` (rows, cols, 2) with a border of NaN of the given width."""
     rows, cols = uv.shape[:2]
     result = np.full((rows + 2 * width, cols + 2 * width, 2), np.nan)
     result[width : width + rows, width : width + cols] = uv

@@ -14,15 +14,15 @@ from __future__ import annotations
 import numpy as np
 import numpy.typing as npt
 
-from calibgui.engine.arrays import Array, GridSize
+from calibgui.engine.arrays import Array, BoolArray, GridSize
 from calibgui.engine.detection.lattice import Lattice
 
 _MARGIN = 0.08
-"""How much farther than the marked points corners may lie, over the region's size."""
+"""Distance that corners may lie outside the marked points, over the size of the region."""
 
 
-def outline(points: npt.ArrayLike) -> Array:
-    """The four marked points (4, 2) px, in the sense from u to v, the first one first.
+def check_outline(points: npt.ArrayLike) -> Array:
+    """Check four marked points (4, 2) px and order them in the sense from u to v, the first first.
 
     Raises:
         ValueError: they do not bound a convex quadrilateral.
@@ -40,19 +40,29 @@ def outline(points: npt.ArrayLike) -> Array:
     raise ValueError("the four points must go once around a convex region, none on a side")
 
 
-def enlarged(quad: Array) -> Array:
-    """`quad` (4, 2) grown about its centre, so that corners at the marked points are inside."""
+def enlarge_outline(quad: Array) -> Array:
+    """Enlarge `quad` (4, 2) px about its centre, so that corners at the marks are inside."""
     centre = quad.mean(axis=0)
     return centre + (1 + 2 * _MARGIN) * (quad - centre)
 
 
-def guesses(quad: Array, grid_size: GridSize) -> list[Lattice]:
-    """The board's corners as the homography of its four outermost ones places them.
+def are_inside(outline: Array, uv: Array) -> BoolArray:
+    """Return a mask (n,) of the points `uv` (n, 2) that lie inside the convex `outline` (m, 2)."""
+    edge = np.roll(outline, -1, axis=0) - outline
+    to = uv[:, None] - outline
+    side = edge[:, 0] * to[..., 1] - edge[:, 1] * to[..., 0]
+    return np.asarray((side >= 0).all(axis=1) | (side <= 0).all(axis=1))
 
-    Both ways to lay rows and columns; the colours are left to be tried.
+
+def guess_lattices(quad: Array, grid_size: GridSize) -> list[Lattice]:
+    """Place a board's corners by the homography of its four outermost ones, `quad` (4, 2) px.
+
+    Returns:
+        Both ways to lay rows and columns, one if there are as many. Their first squares are
+        called dark; which of them are is left to be tried.
     """
     sizes = [grid_size] if grid_size[0] == grid_size[1] else [grid_size, grid_size[::-1]]
-    H = _square_to(quad)
+    H = _solve_square_homography(quad)
     lattices = []
     for rows, cols in sizes:
         t, s = np.meshgrid(np.linspace(0, 1, rows), np.linspace(0, 1, cols), indexing="ij")
@@ -61,9 +71,9 @@ def guesses(quad: Array, grid_size: GridSize) -> list[Lattice]:
     return lattices
 
 
-def _square_to(quad: Array) -> Array:
-    """(3, 3) homography that takes (0,0), (1,0), (1,1), (0,1) to the points of `quad`, in closed
-    form (Heckbert 1989)."""
+def _solve_square_homography(quad: Array) -> Array:
+    """Return the (3, 3) homography that takes (0,0), (1,0), (1,1), (0,1) to the points of `quad`
+    (4, 2), in closed form (Heckbert 1989)."""
     p0, p1, p2, p3 = quad
     d1, d2, d3 = p1 - p2, p3 - p2, p0 - p1 + p2 - p3
     g, h = np.linalg.solve(np.column_stack([d1, d2]), d3)
@@ -72,8 +82,9 @@ def _square_to(quad: Array) -> Array:
     )
 
 
-def around(lattice: Lattice) -> Array:
-    """(4, 2) outline of the lattice: its corners, or what there is nearest to them."""
+def find_outline(lattice: Lattice) -> Array:
+    """Return the (4, 2) px outline of a lattice: its four corners, or what there is nearest to
+    them by rows and columns."""
     cells = np.argwhere(lattice.found)
     uv = lattice.uv[cells[:, 0], cells[:, 1]]
     rows, cols = np.array(lattice.shape) - 1
@@ -83,5 +94,5 @@ def around(lattice: Lattice) -> Array:
 
 
 def starts_at(lattice: Lattice, point: Array) -> bool:
-    """Whether the first of the lattice's four corners is the one nearest to `point`."""
-    return int(np.argmin(np.linalg.norm(around(lattice) - point, axis=1))) == 0
+    """Return whether the first of a lattice's four corners is that nearest to `point` (2,) px."""
+    return int(np.argmin(np.linalg.norm(find_outline(lattice) - point, axis=1))) == 0

@@ -1,5 +1,8 @@
 """Coordinate frames, and the only conversions between them.
 
+Programs disagree about where a pixel's coordinates begin and which way y points. All frames
+that this one knows are listed here, and every conversion is below.
+
 array frame (u, v)   pixels, 0-based, integer coordinates at pixel centres, u right, v down.
                      OpenCV's, and the frame of every interface of the engine. Its camera
                      frame is right-handed: X right, Y down, Z forward.
@@ -7,13 +10,13 @@ paper's frame (x, y) pixels, origin at the centre of the pixel array, x right, y
                      x = u - (W - 1) / 2, y = (H - 1) / 2 - v. Its camera frame is
                      left-handed: X right, Y up, Z forward. Used by Stage I and for display.
 corner frame         pixels, 0-based, integer coordinates at pixel corners: photogrammetry's.
-plate frame          millimetres in the plane of the target, as the caller numbers it.
+board frame          millimetres in the plane of the board, as the caller numbers it.
 
 `b_from_a` names a transform of coordinates in a to coordinates in b.
 
 The paper measures a pose from the virtual centred fronto-parallel (CFP) camera, which
-looks at the plate's centre from the distance L + f: X_cam = R X' + T with
-X' = (X', Y', L + f) and t = T / (L + f) (eq. 6, 21). A plate point (X, Y) from the centre is
+looks at the board's centre from the distance L + f: X_cam = R X' + T with
+X' = (X', Y', L + f) and t = T / (L + f) (eq. 6, 21). A board point (X, Y) from the centre is
 thus at R[:, :2] (X, Y) + (L + f) (r3 + t): the planar pose's translation is (L + f) (r3 + t).
 """
 
@@ -26,42 +29,42 @@ import numpy as np
 from calibgui.engine.arrays import Array, Size
 from calibgui.engine.geometry.pose import Pose
 from calibgui.engine.geometry.rotations import (
-    paper_angles,
-    paper_rotation,
-    rotation,
-    rotation_vector,
+    paper_angles_from_rotation,
+    rotation_from_paper_angles,
+    rotation_from_vector,
+    vector_from_rotation,
 )
 
 _FLIP = np.array([1.0, -1.0, 1.0])
-"""The paper's camera axes in the array frame's: y changes sign."""
+"""Signs that turn the array frame's camera axes into the paper's: y changes its sign."""
 
 
 def centre_of_array(size: Size) -> Array:
-    """(2,) the centre of the pixel array in the array frame, px."""
+    """Return (2,) the centre of the pixel array in the array frame, px."""
     return np.array([(size[0] - 1) / 2, (size[1] - 1) / 2])
 
 
 def paper_from_array(uv: Array, size: Size) -> Array:
-    """(..., 2) image points in the paper's frame."""
+    """Convert image points (..., 2) from the array frame to the paper's."""
     return (uv - centre_of_array(size)) * _FLIP[:2]
 
 
 def array_from_paper(xy: Array, size: Size) -> Array:
-    """(..., 2) image points in the array frame."""
+    """Convert image points (..., 2) from the paper's frame to the array frame."""
     return xy * _FLIP[:2] + centre_of_array(size)
 
 
 def corner_from_array(uv: Array) -> Array:
-    """(..., 2) image points in the corner frame."""
+    """Convert image points (..., 2) from the array frame to the corner frame."""
     return uv + 0.5
 
 
 PAPER_NAMES = ("xp", "yp", "k1", "k2", "k3", "p1", "p2", "p3", "fx", "fy")
-"""The paper's ten intrinsics in the order of Table 2."""
+"""Names of the paper's ten intrinsics in the order of Table 2."""
 
 
 def paper_intrinsics(params: Array, size: Size) -> tuple[Array, Array]:
-    """The paper's ten intrinsics, in its pixel units, from the array frame's.
+    """Convert intrinsics from the array frame to the paper's ten, in its pixel units.
 
     k_j carries px^-2j, p1 and p2 px^-1, p3 px^-2, all by powers of fx; p2 changes sign with y.
 
@@ -71,7 +74,7 @@ def paper_intrinsics(params: Array, size: Size) -> tuple[Array, Array]:
 
     Returns:
         Values (10,) in the order of `PAPER_NAMES` and their Jacobian (10, 10) with respect
-        to `params`, to carry a covariance over.
+        to `params`, which carries a covariance over.
     """
     fx, fy, cx, cy = params[:4]
     powers = np.array([2.0, 4.0, 6.0, 1.0, 1.0, 2.0])
@@ -88,7 +91,7 @@ def paper_intrinsics(params: Array, size: Size) -> tuple[Array, Array]:
 
 
 def array_intrinsics(values: Array, size: Size) -> Array:
-    """Inverse of `paper_intrinsics`: (10,) array-frame parameters from the paper's ten."""
+    """Convert the paper's ten intrinsics to the array frame: the inverse of `paper_intrinsics`."""
     xp, yp, *coefficients, fx, fy = values
     powers = np.array([2.0, 4.0, 6.0, 1.0, 1.0, 2.0])
     signs = np.array([1.0, 1.0, 1.0, 1.0, -1.0, 1.0])
@@ -108,7 +111,7 @@ class PaperPose:
     tz: float
     """t = T / (L + f), dimensionless."""
     distance: float
-    """L + f, from the CFP camera to the plate, mm."""
+    """L + f, from the CFP camera to the board, mm."""
 
     @property
     def vector(self) -> Array:
@@ -116,40 +119,48 @@ class PaperPose:
         return np.array([self.omega, self.phi, self.theta, self.tx, self.ty, self.tz])
 
     @property
-    def absolute(self) -> Array:
+    def translation(self) -> Array:
         """(3,) T = (L + f) t, mm (after eq. 30)."""
         return self.distance * self.vector[3:]
 
 
 def _board_axes(R: Array) -> Array:
-    """(3,) signs that turn plate axes into the paper's left-handed ones.
+    """Return (3,) signs that turn board axes into the paper's left-handed ones.
 
-    Where the plate's Z points away from the camera its Y points down and is flipped; where
-    Z points at the camera Y is up already, and Z is flipped.
+    If the board's Z points away from the camera its Y points down and is flipped; if Z points
+    at the camera, Y is up already, and Z is flipped.
     """
     return _FLIP if R[2, 2] >= 0 else np.array([1.0, 1.0, -1.0])
 
 
 def paper_from_pose(pose: Pose, centre: Array, distance: float) -> PaperPose:
-    """The paper's external parameters of a pose.
+    """Convert a pose to the paper's external parameters.
 
     Args:
-        pose: cam_from_plate in the array frame, mm.
-        centre: (2,) the plate's centre in plate coordinates, mm.
+        pose: cam_from_board in the array frame, mm.
+        centre: (2,) the board's centre in board coordinates, mm.
         distance: L + f, mm (eq. 30).
     """
-    R = rotation(pose.rvec)
+    R = rotation_from_vector(pose.rvec)
     axes = _board_axes(R)
     paper_R = _FLIP[:, None] * R * axes
     planar = _FLIP * (R[:, :2] @ centre + pose.tvec)
     t = planar / distance - paper_R[:, 2]
-    return PaperPose(*paper_angles(paper_R), float(t[0]), float(t[1]), float(t[2]), distance)
+    return PaperPose(
+        *paper_angles_from_rotation(paper_R), float(t[0]), float(t[1]), float(t[2]), distance
+    )
 
 
 def pose_from_paper(paper: PaperPose, centre: Array, y_up: bool = False) -> Pose:
-    """Inverse of `paper_from_pose`; `y_up` says that plate coordinates have Y up."""
+    """Convert the paper's external parameters to a pose: the inverse of `paper_from_pose`.
+
+    Args:
+        paper: the external parameters.
+        centre: (2,) the board's centre in board coordinates, mm.
+        y_up: true if board coordinates have Y up.
+    """
     axes = np.array([1.0, 1.0, -1.0]) if y_up else _FLIP
-    paper_R = paper_rotation(paper.omega, paper.phi, paper.theta)
+    paper_R = rotation_from_paper_angles(paper.omega, paper.phi, paper.theta)
     R = _FLIP[:, None] * paper_R * axes
     planar = _FLIP * paper.distance * (paper_R[:, 2] + paper.vector[3:])
-    return Pose(rotation_vector(R), planar - R[:, :2] @ centre)
+    return Pose(vector_from_rotation(R), planar - R[:, :2] @ centre)

@@ -1,4 +1,4 @@
-"""A camera, and where it is."""
+"""The pose of a board in front of a camera."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from calibgui.engine.arrays import Array, freeze
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Pose:
-    """cam_from_plate: X_cam = R X_plate + tvec, with R = exp(rvec)."""
+    """A rigid motion cam_from_board: X_cam = R X_board + tvec, with R = exp(rvec)."""
 
     rvec: Array
     """(3,) rotation vector, rad."""

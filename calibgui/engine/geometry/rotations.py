@@ -1,20 +1,10 @@
-"""Coordinate frames, and the only conversions between them.
+"""Rotations: matrices, rotation vectors and the paper's three angles.
 
-array frame (u, v)   pixels, 0-based, integer coordinates at pixel centres, u right, v down.
-                     OpenCV's, and the frame of every interface of the engine. Its camera
-                     frame is right-handed: X right, Y down, Z forward.
-paper's frame (x, y) pixels, origin at the centre of the pixel array, x right, y up:
-                     x = u - (W - 1) / 2, y = (H - 1) / 2 - v. Its camera frame is
-                     left-handed: X right, Y up, Z forward. Used by Stage I and for display.
-corner frame         pixels, 0-based, integer coordinates at pixel corners: photogrammetry's.
-plate frame          millimetres in the plane of the target, as the caller numbers it.
-
-`b_from_a` names a transform of coordinates in a to coordinates in b.
-
-The paper measures a pose from the virtual centred fronto-parallel (CFP) camera, which
-looks at the plate's centre from the distance L + f: X_cam = R X' + T with
-X' = (X', Y', L + f) and t = T / (L + f) (eq. 6, 21). A plate point (X, Y) from the centre is
-thus at R[:, :2] (X, Y) + (L + f) (r3 + t): the planar pose's translation is (L + f) (r3 + t).
+A rotation vector points along the axis, and its length is the angle in radians. It is how poses
+are stored. The solver varies a rotation by a small local one, R <- exp(w) R, which has no
+singularity anywhere; `inverse_left_jacobian` carries its uncertainty over to the vector. The
+paper's angles omega, phi, theta (eq. 7) are for display alone, in its left-handed frame
+(``frames.py``).
 """
 
 from __future__ import annotations
@@ -25,8 +15,8 @@ import numpy.typing as npt
 from calibgui.engine.arrays import Array
 
 
-def rotation(rvec: Array) -> Array:
-    """(..., 3, 3) rotations exp(rvec) of rotation vectors (..., 3), by Rodrigues' formula."""
+def rotation_from_vector(rvec: Array) -> Array:
+    """Return the rotations exp(rvec) (..., 3, 3) of vectors (..., 3), by Rodrigues' formula."""
     angle = np.linalg.norm(rvec, axis=-1)[..., None, None]
     W = cross_matrix(rvec)
     # np.sinc is sin(pi x) / (pi x), finite at 0.
@@ -35,8 +25,8 @@ def rotation(rvec: Array) -> Array:
     return np.eye(3) + a * W + b * (W @ W)
 
 
-def rotation_vector(R: Array) -> Array:
-    """(..., 3) rotation vectors of rotation matrices (..., 3, 3), of length at most pi."""
+def vector_from_rotation(R: Array) -> Array:
+    """Return the rotation vectors (..., 3) of matrices (..., 3, 3), of length at most pi."""
     turned = np.swapaxes(R, -1, -2)
     skew = (turned - R)[..., [1, 2, 0], [2, 0, 1]]
     sine = np.linalg.norm(skew, axis=-1) / 2
@@ -55,15 +45,15 @@ def rotation_vector(R: Array) -> Array:
 
 
 def cross_matrix(w: Array) -> Array:
-    """(..., 3, 3) matrices [w]x with [w]x a = w x a."""
+    """Return the matrices [w]x (..., 3, 3) with [w]x a = w x a, for w (..., 3)."""
     zero = np.zeros(w.shape[:-1])
     x, y, z = w[..., 0], w[..., 1], w[..., 2]
     rows = [[zero, -z, y], [z, zero, -x], [-y, x, zero]]
     return np.stack([np.stack(row, axis=-1) for row in rows], axis=-2)
 
 
-def rvec_by_local(rvec: Array) -> Array:
-    """(..., 3, 3) derivative of log(exp(w) exp(rvec)) with respect to w at w = 0.
+def inverse_left_jacobian(rvec: Array) -> Array:
+    """Return (..., 3, 3) the derivative of log(exp(w) exp(rvec)) with respect to w at w = 0.
 
     The inverse of the left Jacobian of SO(3); carries the covariance of the solver's local
     rotation over to the rotation vector.
@@ -76,8 +66,10 @@ def rvec_by_local(rvec: Array) -> Array:
     return np.eye(3) - 0.5 * W + c * (W @ W)
 
 
-def paper_rotation(omega: npt.ArrayLike, phi: npt.ArrayLike, theta: npt.ArrayLike) -> Array:
-    """(..., 3, 3) R = R(omega) R(phi) R(theta), eq. 7-8, in the paper's left-handed frame."""
+def rotation_from_paper_angles(
+    omega: npt.ArrayLike, phi: npt.ArrayLike, theta: npt.ArrayLike
+) -> Array:
+    """Return R = R(omega) R(phi) R(theta) (..., 3, 3) of eq. 7-8, in the left-handed frame."""
     angles = np.broadcast_arrays(*(np.asarray(a, dtype=np.float64) for a in (omega, phi, theta)))
     (so, sp, st), (co, cp, ct) = np.sin(angles), np.cos(angles)
     rows = [
@@ -88,8 +80,8 @@ def paper_rotation(omega: npt.ArrayLike, phi: npt.ArrayLike, theta: npt.ArrayLik
     return np.stack([np.stack(row, axis=-1) for row in rows], axis=-2)
 
 
-def paper_angles(R: Array) -> tuple[float, float, float]:
-    """omega, phi, theta of eq. 7 with phi in [-pi/2, pi/2], rad."""
+def paper_angles_from_rotation(R: Array) -> tuple[float, float, float]:
+    """Return omega, phi, theta of eq. 7 with phi in [-pi/2, pi/2], rad."""
     omega = np.arctan2(R[1, 2], R[2, 2])
     phi = np.arctan2(-R[0, 2], np.hypot(R[1, 2], R[2, 2]))
     theta = np.arctan2(R[0, 1], R[0, 0])

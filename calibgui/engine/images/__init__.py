@@ -1,44 +1,45 @@
-"""Photographs: reading, sampling, undistorting, rectifying and rendering them."""
+"""Photographs: reading and writing, undistortion, rectification, rendering of synthetic views."""
 
 from __future__ import annotations
 
+from calibgui.engine.images.exif import Exif
+from calibgui.engine.images.headers import Header
 from calibgui.engine.images.reading import (
     FORMATS,
     Image,
     Pixels,
-    image_size,
     read_colour,
     read_image,
-    stretched,
+    read_image_header,
+    read_image_size,
+    stretch_levels,
     write_image,
 )
-from calibgui.engine.images.rendering import Appearance, render
-from calibgui.engine.images.sampling import mesh
-from calibgui.engine.images.undistortion import (
-    Extent,
-    FieldOfView,
-    Resampled,
-    board_extent,
-    rectify_image,
-    undistort_image,
-)
+from calibgui.engine.images.rectification import Extent, compute_board_extent, rectify_image
+from calibgui.engine.images.rendering import Appearance, render_view
+from calibgui.engine.images.resampling import ResampledImage
+from calibgui.engine.images.sampling import make_mesh
+from calibgui.engine.images.undistortion import FieldOfView, undistort_image
 
 __all__ = [
     "FORMATS",
     "Appearance",
+    "Exif",
     "Extent",
     "FieldOfView",
+    "Header",
     "Image",
     "Pixels",
-    "Resampled",
-    "board_extent",
-    "image_size",
-    "mesh",
+    "ResampledImage",
+    "compute_board_extent",
+    "make_mesh",
     "read_colour",
     "read_image",
+    "read_image_header",
+    "read_image_size",
     "rectify_image",
-    "render",
-    "stretched",
+    "render_view",
+    "stretch_levels",
     "undistort_image",
     "write_image",
 ]

@@ -1,11 +1,14 @@
-"""What an image file says about itself in its first bytes, without decoding it.
+"""The header of an image file: what it says of itself before its pixels are decoded.
 
 Size and orientation are needed before the pixels are: to list a folder quickly, to refuse
 what would not fit in memory, and to tell a damaged image from a file that is none.
 
-Orientation is the TIFF/EXIF tag 0x0112: 1 upright, 2 to 4 mirrored or upside down, 5 to 8
-with rows and columns exchanged. EXIF is itself a small TIFF, held in a JPEG's APP1 segment, a
-PNG's eXIf or a WebP's EXIF chunk.
+The containers are walked here, their EXIF is read by Pillow (``exif.py``). Pillow opens
+containers too, but does not serve here: it notices a truncated file only when it decodes it,
+and so with an eXIf chunk behind a PNG's pixels; it creates a WebP's decoder, with its canvas, to
+learn the size; it refuses TIFF samples that OpenCV reads; and its limit of 179 million pixels
+is raised only for the whole process. Camera raw formats and HEIC, which Pillow reads by
+plug-ins, are not read.
 """
 
 from __future__ import annotations
@@ -16,34 +19,37 @@ from dataclasses import dataclass
 from mmap import mmap
 
 from calibgui.engine.arrays import Size
+from calibgui.engine.images.exif import Exif, read_exif, read_tiff
 
 Data = bytes | mmap
 
-_ORIENTATION = 0x0112
-_INTEGERS = {3: "H", 4: "I", 16: "Q"}
-"""TIFF's types of unsigned integers."""
+_NO_EXIF = Exif()
 
 
 @dataclass(frozen=True, slots=True)
 class Header:
-    """Format, stored size and orientation of an image file."""
+    """Format, stored size and EXIF of an image file."""
 
     format: str
+    """Name of the format: JPEG, PNG, WebP, TIFF, BMP or PNM."""
     stored: Size
     """Width and height as stored, px."""
-    orientation: int = 1
-    """EXIF orientation, 1 to 8, as found."""
-    complete: bool = True
+    exif: Exif = _NO_EXIF
+    """Orientation, camera, lens and date as the file states them."""
+    is_complete: bool = True
     """False if the file is known to end before its image does."""
 
     @property
     def size(self) -> Size:
         """Width and height upright, px."""
-        return self.stored if self.orientation < 5 else self.stored[::-1]
+        return self.stored if self.exif.orientation < 5 else self.stored[::-1]
 
 
 def read_header(data: Data) -> Header | None:
-    """Header of the image file whose content is `data`; None if it is of no known format."""
+    """Return the header of the image file whose content is `data`; None if its format is unknown.
+
+    The result is None for a file that ends within its header, too.
+    """
     for magic, parse in _PARSERS:
         if re.match(magic, data[:16], re.DOTALL):
             try:
@@ -53,15 +59,15 @@ def read_header(data: Data) -> Header | None:
     return None
 
 
-def _jpeg(data: Data) -> Header:
-    orientation, stored, at = 1, None, 2
+def _parse_jpeg(data: Data) -> Header:
+    exif, stored, at = _NO_EXIF, None, 2
     while True:
         marker, length = struct.unpack_from(">HH", data, at)
         if marker < 0xFF00:
             raise ValueError("no marker where one must be")
         body = data[at + 4 : at + 2 + length]
         if marker == 0xFFE1 and body.startswith(b"Exif\0\0"):
-            orientation = _exif(body[6:])
+            exif = read_exif(body[6:])
         elif 0xFFC0 <= marker <= 0xFFCF and marker not in (0xFFC4, 0xFFC8, 0xFFCC):
             height, width = struct.unpack_from(">HH", body, 1)
             stored = (width, height)
@@ -71,22 +77,22 @@ def _jpeg(data: Data) -> Header:
     if stored is None:
         raise ValueError("no frame before the scan")
     # Compressed data cannot contain FFD9, the end of the image.
-    return Header("JPEG", stored, orientation, data.find(b"\xff\xd9", at) >= 0)
+    return Header("JPEG", stored, exif, data.find(b"\xff\xd9", at) >= 0)
 
 
-def _png(data: Data) -> Header:
+def _parse_png(data: Data) -> Header:
     width, height = struct.unpack_from(">II", data, 16)
-    orientation, at, name = 1, 8, b""
+    exif, at, name = _NO_EXIF, 8, b""
     while name != b"IEND" and at + 12 <= len(data):
         length, name = struct.unpack_from(">I4s", data, at)
         if name == b"eXIf":
-            orientation = _exif(data[at + 8 : at + 8 + length])
+            exif = read_exif(data[at + 8 : at + 8 + length])
         at += 12 + length
-    return Header("PNG", (width, height), orientation, name == b"IEND" and at <= len(data))
+    return Header("PNG", (width, height), exif, name == b"IEND" and at <= len(data))
 
 
-def _webp(data: Data) -> Header:
-    stored, orientation, at = None, 1, 12
+def _parse_webp(data: Data) -> Header:
+    stored, exif, at = None, _NO_EXIF, 12
     while at + 8 <= len(data):
         name, length = struct.unpack_from("<4sI", data, at)
         at += 8
@@ -98,20 +104,20 @@ def _webp(data: Data) -> Header:
         elif name == b"VP8 " and stored is None:
             stored = tuple(n & 0x3FFF for n in struct.unpack_from("<HH", data, at + 6))
         elif name == b"EXIF":
-            orientation = _exif(data[at : at + length].removeprefix(b"Exif\0\0"))
+            exif = read_exif(data[at : at + length].removeprefix(b"Exif\0\0"))
         at += length + length % 2  # RIFF pads to even lengths
     if stored is None:
         raise ValueError("no picture")
     declared = struct.unpack_from("<I", data, 4)[0] + 8
-    return Header("WebP", (stored[0], stored[1]), orientation, len(data) >= declared)
+    return Header("WebP", (stored[0], stored[1]), exif, len(data) >= declared)
 
 
-def _bmp(data: Data) -> Header:
+def _parse_bmp(data: Data) -> Header:
     width, height = struct.unpack_from("<ii", data, 18)
     return Header("BMP", (width, abs(height)))
 
 
-def _pnm(data: Data) -> Header:
+def _parse_pnm(data: Data) -> Header:
     # Magic, width and height, apart by blanks and comments.
     blank = rb"(?:\s|#[^\n]*\n)+"
     match = re.match(rb"P[1-6]" + blank + rb"(\d+)" + blank + rb"(\d+)", data[:4096])
@@ -120,46 +126,17 @@ def _pnm(data: Data) -> Header:
     return Header("PNM", (int(match[1]), int(match[2])))
 
 
-def _tiff(data: Data) -> Header:
-    tags = _tags(data)
-    return Header("TIFF", (tags[256], tags[257]), _orientation(tags))
-
-
-def _exif(data: bytes) -> int:
-    """Orientation in an EXIF block; 1 if it is damaged, as decoders take it."""
-    try:
-        return _orientation(_tags(data))
-    except (struct.error, KeyError):
-        return 1
-
-
-def _orientation(tags: dict[int, int]) -> int:
-    value = tags.get(_ORIENTATION, 1)
-    return value if 1 <= value <= 8 else 1
-
-
-def _tags(data: Data) -> dict[int, int]:
-    """First value of each 16-, 32- or 64-bit tag in the first directory of a TIFF or BigTIFF."""
-    order = {b"II": "<", b"MM": ">"}.get(data[:2], "<")
-    big = struct.unpack_from(order + "H", data, 2)[0] == 43
-    # Width of offsets, of the number of tags, of a tag, and where a tag holds its value.
-    offset, number, width, value = ("Q", "Q", 20, 12) if big else ("I", "H", 12, 8)
-    start = struct.unpack_from(order + offset, data, 8 if big else 4)[0]
-    count = struct.unpack_from(order + number, data, start)[0]
-    first = start + struct.calcsize(number)
-    tags = {}
-    for at in range(first, first + width * count, width):
-        tag, kind = struct.unpack_from(order + "HH", data, at)
-        if kind in _INTEGERS:
-            tags[tag] = struct.unpack_from(order + _INTEGERS[kind], data, at + value)[0]
-    return tags
+def _parse_tiff(data: Data) -> Header:
+    stored, exif = read_tiff(data)
+    return Header("TIFF", stored, exif)
 
 
 _PARSERS = (
-    (rb"\xff\xd8\xff", _jpeg),
-    (rb"\x89PNG\r\n\x1a\n", _png),
-    (rb"RIFF....WEBP", _webp),
-    (rb"II[*+]\0|MM\0[*+]", _tiff),
-    (rb"BM", _bmp),
-    (rb"P[1-6]\s", _pnm),
+    (rb"\xff\xd8\xff", _parse_jpeg),
+    (rb"\x89PNG\r\n\x1a\n", _parse_png),
+    (rb"RIFF....WEBP", _parse_webp),
+    (rb"II[*+]\0|MM\0[*+]", _parse_tiff),
+    (rb"BM", _parse_bmp),
+    (rb"P[1-6]\s", _parse_pnm),
 )
+"""Regular expression of the first bytes of each format, and the function that parses it."""

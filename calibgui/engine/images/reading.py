@@ -1,13 +1,13 @@
-"""Photographs as grey arrays, read and written through any path.
+"""Photographs are read as grey or colour arrays, and written, through any path.
 
-What OpenCV's imdecode does, the same in 4.14 and 5.0, and what this module makes of it:
+OpenCV's imdecode, the same in 4.14 and 5.0, decodes the pixels. Three of its habits matter here:
 
-* It returns nothing for most truncated files, where imread returns half an image. Only
-  memory is decoded here, and a JPEG, PNG or WebP without its end is refused beforehand.
+* It returns nothing for most truncated files, where imread returns half an image. So only
+  memory is decoded, and a JPEG, PNG or WebP without its end is refused beforehand.
 * It honours the EXIF orientation of JPEG and PNG and that of most, not all, WebP files, and
   ignores it with a flag; that of TIFF it honours always. So the flag is given and the image
   turned here, except a TIFF.
-* 16-bit samples stay as they are, in grey too. Transparency is dropped: a photograph has none.
+* It leaves 16-bit samples as they are, in grey too, and drops transparency.
 """
 
 from __future__ import annotations
@@ -31,13 +31,13 @@ PathLike = str | os.PathLike[str]
 
 FORMATS = (".png", ".jpg", ".jpeg", ".tif", ".tiff", ".bmp", ".webp", ".pgm", ".ppm")
 """Suffixes of the image files that can be read and written."""
-_DEEP = (".png", ".tif", ".tiff", ".pgm", ".ppm")
-"""Those of them that hold 16 bits a sample."""
+_DEEP_FORMATS = (".png", ".tif", ".tiff", ".pgm", ".ppm")
+"""Suffixes of the formats that hold 16 bits a sample."""
 MAX_PIXELS = 400_000_000
-"""Images above this are refused: larger than any camera's, or a damaged header."""
-_STRETCH = (0.5, 99.5)
-"""Percentiles of a 16-bit image that become black and white for display and detection."""
-_KNOWN = "Use PNG, JPEG, TIFF, BMP, WebP or PGM with 8 or 16 bits."
+"""Number of pixels above which an image is refused: no camera has more, a damaged header may."""
+_STRETCH_PERCENTILES = (0.5, 99.5)
+"""Percentiles of 16-bit levels that become black and white for display and detection."""
+_FORMAT_HINT = "Use PNG, JPEG, TIFF, BMP, WebP or PGM with 8 or 16 bits."
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -47,8 +47,9 @@ class Image:
     pixels: Pixels
     """(h, w) uint8 or uint16 as stored, read-only: full precision, for corner work."""
     path: Path
+    """File that was read."""
     orientation: int = 1
-    """EXIF orientation as found in the file, 1 to 8; `pixels` are upright already."""
+    """EXIF orientation that the file states, 1 to 8; `pixels` are upright already."""
 
     @property
     def size(self) -> Size:
@@ -63,38 +64,61 @@ class Image:
     @property
     def grey(self) -> npt.NDArray[np.uint8]:
         """(h, w) uint8, for display and detection; 16 bits are stretched to the image's range."""
-        return stretched(self.pixels)
+        return stretch_levels(self.pixels)
 
 
-def stretched(pixels: Pixels) -> npt.NDArray[np.uint8]:
-    """`pixels` in 8 bits: 16-bit levels between two percentiles become 0 to 255."""
+def stretch_levels(pixels: Pixels) -> npt.NDArray[np.uint8]:
+    """Return `pixels` in 8 bits: 16-bit levels between two percentiles become 0 to 255."""
     if pixels.dtype == np.uint8:
         return np.asarray(pixels, dtype=np.uint8)
     thin = max(1, int(np.sqrt(pixels.size / 1e6)))
-    low, high = np.percentile(pixels[::thin, ::thin], _STRETCH)
+    low, high = np.percentile(pixels[::thin, ::thin], _STRETCH_PERCENTILES)
     levels = (np.arange(1 << 16) - low) * (255 / max(high - low, 1.0))
     return np.clip(np.rint(levels), 0, 255).astype(np.uint8)[pixels]
 
 
 def read_image(path: PathLike) -> Image:
-    """Read a photograph in grey.
+    """Read a photograph in grey, turned upright.
 
     Raises:
         CalibrationError: if `path` is missing, empty, no image, cut short, damaged or too
             large, or has neither 8 nor 16 bits a sample.
+
+    Example:
+        >>> import tempfile
+        >>> import numpy as np
+        >>> from calibgui.engine.images import read_image, write_image
+        >>> with tempfile.TemporaryDirectory() as folder:
+        ...     write_image(f"{folder}/view.png", np.full((3, 4), 7, np.uint8))
+        ...     image = read_image(f"{folder}/view.png")
+        >>> image.size, image.depth, int(image.pixels[2, 3])
+        ((4, 3), 8, 7)
     """
-    pixels, header = _decode(Path(path), colour=False)
+    pixels, header = _read_upright(Path(path), colour=False)
     pixels.flags.writeable = False
-    return Image(pixels, Path(path), header.orientation)
+    return Image(pixels, Path(path), header.exif.orientation)
 
 
 def read_colour(path: PathLike) -> Pixels:
-    """(h, w, 3) RGB, or (h, w) if the file is grey: upright. Raises as `read_image`."""
-    return _decode(Path(path), colour=True)[0]
+    """Read a photograph as (h, w, 3) RGB, or as (h, w) if the file is grey, turned upright.
+
+    Raises:
+        CalibrationError: as `read_image`.
+    """
+    return _read_upright(Path(path), colour=True)[0]
 
 
-def image_size(path: PathLike) -> Size:
-    """Width and height that `read_image` will deliver, from the file's header alone.
+def read_image_size(path: PathLike) -> Size:
+    """Read the width and height that `read_image` will deliver, px, without decoding the image.
+
+    Raises:
+        CalibrationError: if `path` is missing, empty, no image or too large.
+    """
+    return read_image_header(path).size
+
+
+def read_image_header(path: PathLike) -> Header:
+    """Read the header of a photograph: format, size, orientation, camera, lens and date.
 
     Raises:
         CalibrationError: if `path` is missing, empty, no image or too large.
@@ -103,11 +127,11 @@ def image_size(path: PathLike) -> Size:
     try:
         with path.open("rb") as file:
             if os.fstat(file.fileno()).st_size == 0:
-                raise _empty(path)
+                raise _make_empty_error(path)
             with mmap.mmap(file.fileno(), 0, access=mmap.ACCESS_READ) as data:
-                return _header(path, data).size
+                return _read_checked_header(path, data)
     except OSError as error:
-        raise _unreadable(path, error) from error
+        raise _make_unreadable_error(path, error) from error
 
 
 def write_image(path: PathLike, pixels: Pixels) -> None:
@@ -120,8 +144,8 @@ def write_image(path: PathLike, pixels: Pixels) -> None:
     path = Path(path)
     suffix = path.suffix.lower()
     # OpenCV would clip deeper samples to 8 bits without a word.
-    holds = suffix in {np.uint8: FORMATS, np.uint16: _DEEP}.get(pixels.dtype.type, ())
-    content = opencv.encode(suffix, pixels) if holds else None
+    holds = suffix in {np.uint8: FORMATS, np.uint16: _DEEP_FORMATS}.get(pixels.dtype.type, ())
+    content = opencv.encode_image(suffix, pixels) if holds else None
     if content is None:
         raise CalibrationError(
             f"{path} cannot be written: {suffix or 'a name without suffix'} does not hold "
@@ -131,16 +155,16 @@ def write_image(path: PathLike, pixels: Pixels) -> None:
     write_atomically(path, content)
 
 
-def _decode(path: Path, colour: bool) -> tuple[Pixels, Header]:
-    """Pixels, upright, of the image file `path`, and its header."""
+def _read_upright(path: Path, colour: bool) -> tuple[Pixels, Header]:
+    """Read the pixels of the image file `path`, upright, and its header."""
     try:
         data = path.read_bytes()
     except OSError as error:
-        raise _unreadable(path, error) from error
+        raise _make_unreadable_error(path, error) from error
     if not data:
-        raise _empty(path)
-    header = _header(path, data)
-    pixels = opencv.decode(data, colour) if header.complete else None
+        raise _make_empty_error(path)
+    header = _read_checked_header(path, data)
+    pixels = opencv.decode_image(data, colour) if header.is_complete else None
     if pixels is None:
         raise CalibrationError(
             f"{path} cannot be decoded: the {header.format} image is cut short, damaged, or packed "
@@ -148,14 +172,14 @@ def _decode(path: Path, colour: bool) -> tuple[Pixels, Header]:
             "Copy it from the camera again, or save it as PNG.",
         )
     if pixels.dtype not in (np.uint8, np.uint16):
-        raise CalibrationError(f"{path} holds {pixels.dtype} samples.", _KNOWN)
+        raise CalibrationError(f"{path} holds {pixels.dtype} samples.", _FORMAT_HINT)
     if header.format != "TIFF":
-        pixels = _upright(pixels, header.orientation)
+        pixels = _turn_upright(pixels, header.exif.orientation)
     return np.ascontiguousarray(pixels), header
 
 
-def _upright(pixels: Pixels, orientation: int) -> Pixels:
-    """`pixels` turned as EXIF says: transposed from 5 on, then mirrored along u or v."""
+def _turn_upright(pixels: Pixels, orientation: int) -> Pixels:
+    """Return `pixels` turned as EXIF says: transposed from 5 on, then mirrored along u or v."""
     if orientation >= 5:
         pixels = pixels.swapaxes(0, 1)
     if orientation in (2, 3, 6, 7):
@@ -165,10 +189,13 @@ def _upright(pixels: Pixels, orientation: int) -> Pixels:
     return pixels
 
 
-def _header(path: Path, data: bytes | mmap.mmap) -> Header:
+def _read_checked_header(path: Path, data: bytes | mmap.mmap) -> Header:
+    """Read the header of `data`; refuse an unknown format and an impossible size."""
     header = read_header(data)
     if header is None:
-        raise CalibrationError(f"{path} is not an image of a known format, or cut short.", _KNOWN)
+        raise CalibrationError(
+            f"{path} is not an image of a known format, or cut short.", _FORMAT_HINT
+        )
     width, height = header.size
     if not 0 < width * height <= MAX_PIXELS:
         raise CalibrationError(
@@ -178,11 +205,11 @@ def _header(path: Path, data: bytes | mmap.mmap) -> Header:
     return header
 
 
-def _empty(path: Path) -> CalibrationError:
+def _make_empty_error(path: Path) -> CalibrationError:
     return CalibrationError(f"{path} is empty.", "Copy it from the camera again.")
 
 
-def _unreadable(path: Path, error: OSError) -> CalibrationError:
+def _make_unreadable_error(path: Path, error: OSError) -> CalibrationError:
     return CalibrationError(
         f"{path} cannot be read: {error.strerror or error}.",
         "Check the name and that you may read it.",

@@ -1,4 +1,4 @@
-"""Points over an image, and grey levels between the pixels."""
+"""Meshes of points over an image, and grey levels between its pixels."""
 
 from __future__ import annotations
 
@@ -7,15 +7,16 @@ import numpy as np
 from calibgui.engine.arrays import Array, GreyImage
 
 
-def mesh(u: Array, v: Array) -> Array:
-    """(len(v), len(u), 2) the points (u, v) of columns and rows."""
+def make_mesh(u: Array, v: Array) -> Array:
+    """Return the points (len(v), len(u), 2) of all columns `u` and rows `v`."""
     return np.stack(np.meshgrid(u, v), axis=-1)
 
 
-def sample(image: GreyImage, uv: Array) -> Array:
-    """Bilinear values of `image` (h, w) at `uv` (..., 2) px, the border replicated.
+def sample_image(image: GreyImage, uv: Array) -> Array:
+    """Return bilinear values of `image` (h, w) at `uv` (..., 2) px, the border replicated.
 
-    (OpenCV rounds positions to 1/32 px in some versions, and 8-bit values to whole grey levels.)
+    OpenCV's remap would round positions to 1/32 px in some versions, and 8-bit values to whole
+    grey levels.
     """
     last = np.array(image.shape[::-1]) - 1
     at = np.clip(uv, 0, last)

@@ -1,7 +1,10 @@
-"""A smooth map of an image's pixels, solved at knots and interpolated between them.
+"""Interpolation of a smooth map of pixels, which is exact at knots, by cubics between them.
+
+To trace every pixel of an image through a lens takes an iteration each. The map is smooth, so
+it is solved on a grid of knots only.
 
 Along each axis a pixel at (i + t) step, 0 <= t < 1, takes the cubic through the knots i - 1 to
-i + 2, of weights
+i + 2, with Lagrange's weights
 
     -t(t-1)(t-2)/6,   (t+1)(t-1)(t-2)/2,   -(t+1)t(t-2)/2,   (t+1)t(t-1)/6.
 
@@ -18,74 +21,81 @@ import numpy as np
 import scipy
 
 from calibgui.engine.arrays import Array, BoolArray, Size
-from calibgui.engine.images.sampling import mesh
+from calibgui.engine.images.sampling import make_mesh
 
-TOLERANCE = 0.005
-"""Largest error, px: a third of the 1/64 px to which OpenCV 4 rounds when it resamples."""
-_STEPS = (32, 16, 8, 4, 2)
-"""Distances between knots that are tried, px."""
+MAP_TOLERANCE_PX = 0.005
+"""Largest error of interpolation, px: a third of the 1/64 px to which OpenCV 4 rounds."""
+_KNOT_SPACINGS_PX = (32, 16, 8, 4, 2)
+"""Distances between knots that are tried in turn, px."""
 
 Source = Callable[[Array], Array]
-"""Takes points (..., 2) to points (..., 2); NaN outside its domain."""
+"""Function from points (..., 2) to points (..., 2), NaN outside its domain."""
 
 
-def smooth_map(size: Size, source: Source, low: Array, high: Array) -> Callable[[slice], Array]:
-    """`source` of whole rows of pixels.
+def interpolate_map(
+    size: Size, source: Source, low: Array, high: Array
+) -> Callable[[slice], Array]:
+    """Prepare the evaluation of `source` at whole rows of pixels.
 
     Args:
         size: width and height of the image whose pixels are mapped.
-        source: the map.
+        source: the map, exact but slow.
         low, high: (2,) corners of the rectangle where mapped points are wanted.
 
     Returns:
         A function from a slice of rows to their mapped pixels (rows, width, 2), each within
         about `TOLERANCE` of the map, or NaN if outside its domain or well outside the rectangle.
     """
-    for step in _STEPS:
-        knots = _Knots(size, step, source, low, high)
+    for step in _KNOT_SPACINGS_PX:
+        knots = _KnotMap(size, step, source, low, high)
         # To halve the step costs 8 / step^2 solutions a pixel, knots and middles.
         if knots.unfit.mean() <= 8 / step**2:
             break
     u, v = (np.arange(n, dtype=np.float64) for n in size)
-    return lambda band: knots.at(u, v[band])
+    return lambda band: knots.evaluate(u, v[band])
 
 
-class _Knots:
-    """Values of a map at knots `step` px apart, from one step before the first pixel."""
+class _KnotMap:
+    """Values of a map at knots `step` px apart, from one step before the first pixel.
+
+    `unfit` marks the cells where interpolation errs too much, `unwanted` those that are mapped
+    outside the rectangle of interest.
+    """
 
     def __init__(self, size: Size, step: int, source: Source, low: Array, high: Array) -> None:
         self.step, self.source = step, source
         u, v = (np.arange(-1.0, (n - 1) // step + 3) * step for n in size)
-        self.values = source(mesh(u, v))
+        self.values = source(make_mesh(u, v))
         middle = u[1:-2] + step / 2, v[1:-2] + step / 2
-        exact = source(mesh(*middle))
+        exact = source(make_mesh(*middle))
         with np.errstate(invalid="ignore"):  # NaN knots make the cells around them unfit
-            error = np.abs(exact - self._interpolated(*middle)).max(axis=-1)
+            error = np.abs(exact - self._interpolate(*middle)).max(axis=-1)
         ends = slice(1, -2), slice(2, -1)
         corners = [self.values[i, j] for i in ends for j in ends]
         least = np.fmin.reduce([exact, *corners])
         greatest = np.fmax.reduce([exact, *corners])
         wanted = ((least <= high) & (greatest >= low)).all(axis=-1)
         self.unwanted: BoolArray = ~wanted
-        self.unfit: BoolArray = wanted & ~(error < TOLERANCE)
+        self.unfit: BoolArray = wanted & ~(error < MAP_TOLERANCE_PX)
 
-    def at(self, u: Array, v: Array) -> Array:
-        """(len(v), len(u), 2) the map at pixels (u, v)."""
-        mapped = self._interpolated(u, v)
+    def evaluate(self, u: Array, v: Array) -> Array:
+        """Return the map (len(v), len(u), 2) at columns `u` and rows `v`."""
+        mapped = self._interpolate(u, v)
         cells = np.ix_(*(np.floor(x / self.step).astype(int) for x in (v, u)))
         mapped[self.unwanted[cells]] = np.nan
         unfit = self.unfit[cells]
         if unfit.any():
-            mapped[unfit] = self.source(mesh(u, v)[unfit])
+            mapped[unfit] = self.source(make_mesh(u, v)[unfit])
         return mapped
 
-    def _interpolated(self, u: Array, v: Array) -> Array:
-        by_v, by_u = self._weights(v, axis=0), self._weights(u, axis=1)
+    def _interpolate(self, u: Array, v: Array) -> Array:
+        """Return the interpolated map (len(v), len(u), 2), fit or not."""
+        by_v, by_u = self._compute_weights(v, axis=0), self._compute_weights(u, axis=1)
         parts = [(by_u @ (by_v @ self.values[..., i]).T).T for i in (0, 1)]
         return np.stack(parts, axis=-1)
 
-    def _weights(self, x: Array, axis: int) -> scipy.sparse.csr_array:
-        """(len(x), knots) weights of the knots along one axis."""
+    def _compute_weights(self, x: Array, axis: int) -> scipy.sparse.csr_array:
+        """Return the weights (len(x), knots) of the knots along one axis."""
         i = np.floor(x / self.step).astype(int)
         t = x / self.step - i
         a, b, c = t + 1, t - 1, t - 2

@@ -4,6 +4,7 @@ A readable function that has a kernel says so with the decorator `with_kernel`, 
 the engine chooses between the two: each call goes to the kernel where numba is installed, otherwise
 to the readable reference, which stays within reach as ``function.reference``. A kernel takes the
 same arguments, positional or by name, and returns the same to rounding (``tests/engine/kernels``).
+A kernel that serves some arguments only, such as polynomial lenses, says so with a predicate.
 
 ``COMPILED`` says whether numba is there. Importing this package does not import it, because that
 takes a third of a second; the module of a kernel is loaded at its first call.
@@ -19,71 +20,100 @@ from importlib.util import find_spec
 from typing import Any, Generic, ParamSpec, TypeVar
 
 COMPILED = find_spec("numba") is not None
+"""True if numba is installed."""
 FINDER_SECONDS, SOLVER_SECONDS = 20, 8
-"""About what compiling the kernels of either takes, once after an installation, s."""
+"""Rough times, s, that compiling the kernels of the detection and of the calibration takes, once
+after an installation."""
 
+POLYNOMIAL_LENSES = {
+    "lucchese": (0, 1, 2, 3, 4, 5, 6, 7, 8, 9),
+    "brown-conrady": (0, 1, 2, 3, 4, 5, 8, 7, 6),  # k1 k2 p1 p2 k3; its p1 is eq. 10's p2
+}
+"""Lens models that the calibration's kernels know, and the place of each camera parameter among
+fx, fy, cx, cy and eq. 10's k1, k2, k3, p1, p2, p3 (``kernels.polynomial_lens``)."""
 
 _P = ParamSpec("_P")
 _T = TypeVar("_T")
 
 
 class Kernelled(Generic[_P, _T]):
-    """A readable function with a compiled counterpart; a call goes to whichever there is."""
+    """A readable function with a compiled counterpart; a call goes to the one that serves it."""
 
-    def __init__(self, reference: Callable[_P, _T], module: str, name: str) -> None:
-        """
+    def __init__(
+        self,
+        reference: Callable[_P, _T],
+        module: str,
+        name: str,
+        serves: Callable[..., bool] | None = None,
+    ) -> None:
+        """Pair a readable function with its kernel.
+
         Args:
             reference: the readable function.
             module: the module in this package that holds its kernel.
             name: the kernel's name there.
+            serves: a predicate on the same arguments, true if the kernel serves them; it serves
+                all arguments if this is None.
         """
         update_wrapper(self, reference)
         self.reference = reference
-        self._module, self._name = module, name
+        self._module, self._name, self._serves = module, name, serves
         self._kernel: Callable[_P, _T] | None = None
 
     @property
     def kernel(self) -> Callable[_P, _T]:
-        """The compiled counterpart, loaded when first asked for; needs numba."""
+        """The compiled counterpart, loaded at its first use; it needs numba."""
         if self._kernel is None:
             self._kernel = getattr(import_module(f"{__name__}.{self._module}"), self._name)
         return self._kernel
 
     def __call__(self, *args: _P.args, **kwargs: _P.kwargs) -> _T:
-        """Call the kernel where numba is installed, otherwise the reference."""
-        return (self.kernel if COMPILED else self.reference)(*args, **kwargs)
+        """Call the kernel if numba is installed and it serves the arguments, else the reference."""
+        if COMPILED and (self._serves is None or self._serves(*args, **kwargs)):
+            return self.kernel(*args, **kwargs)
+        return self.reference(*args, **kwargs)
 
 
-def with_kernel(module: str, name: str) -> Callable[[Callable[_P, _T]], Kernelled[_P, _T]]:
-    """Decorate a readable function that has a kernel `name` in ``kernels.<module>``."""
+def with_kernel(
+    module: str, name: str, serves: Callable[..., bool] | None = None
+) -> Callable[[Callable[_P, _T]], Kernelled[_P, _T]]:
+    """Decorate a readable function that has a kernel `name` in ``kernels.<module>``.
+
+    Args:
+        module: the module in this package.
+        name: the kernel's name there.
+        serves: a predicate on the function's arguments, true if the kernel serves them; it serves
+            all arguments if this is None.
+    """
 
     def decorate(reference: Callable[_P, _T]) -> Kernelled[_P, _T]:
-        return Kernelled(reference, module, name)
+        return Kernelled(reference, module, name, serves)
 
     return decorate
 
 
 @contextmanager
-def when_compiling(tell: Callable[[], None]) -> Iterator[None]:
-    """Call `tell` once if a kernel has to be compiled within, because none is kept from before.
+def when_compiling(notify: Callable[[], None]) -> Iterator[None]:
+    """Call `notify` once if a kernel has to be compiled in the `with` block.
 
-    It imports numba, where that is there.
+    Kernels are compiled once and then kept on disk. Entering the block imports numba, if it is
+    installed.
     """
     if not COMPILED:
         yield
         return
     from numba.core import event
 
-    class Teller(event.Listener):  # type: ignore[misc]  # numba is not typed
-        told = False
+    class Notifier(event.Listener):  # type: ignore[misc]  # numba is not typed
+        has_notified = False
 
         def on_start(self, event: Any) -> None:  # noqa: ARG002 - numba's signature
-            if not self.told:
-                self.told = True
-                tell()
+            if not self.has_notified:
+                self.has_notified = True
+                notify()
 
         def on_end(self, event: Any) -> None:
-            """What was told stands."""
+            """Do nothing: one notification is enough."""
 
-    with event.install_listener("numba:compile", Teller()):
+    with event.install_listener("numba:compile", Notifier()):
         yield

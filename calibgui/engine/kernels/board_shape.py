@@ -1,22 +1,52 @@
-"""The plate's part of the normal equations, compiled.
+"""The board shape's part of the normal equations, compiled.
 
-``plate.deviations.corner_products``, and ``problem.view_products`` of a plate that follows the
-camera.
+The readable references are ``calibration.board_shape.parametrisation.iterate_corner_products`` and
+``calibration.refinement.residuals.compute_view_products``.
 """
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+from typing import Protocol
+
 import numpy as np
 
 from calibgui.engine.arrays import Array, IntArray
-from calibgui.engine.kernels.common import BLOCK, compiled, gram, in_blocks, plain
-from calibgui.engine.kernels.normal_equations import Views, image, jacobian, workspace
-from calibgui.engine.kernels.polynomial_lens import Eq10Camera
+from calibgui.engine.kernels.common import (
+    VIEWS_PER_BLOCK,
+    compiled,
+    gram,
+    make_contiguous,
+    run_in_blocks,
+)
+from calibgui.engine.kernels.normal_equations import (
+    CameraAndPoses,
+    MeasuredViews,
+    Views,
+    fill_jacobian,
+    make_workspace,
+    pack_views,
+    project_view,
+    sum_products,
+)
+from calibgui.engine.kernels.polynomial_lens import CameraTuple, Eq10Camera, find_rows, pack_camera
+
+_VIEWS_TOGETHER = 512
+"""Number of views whose products with the corners are held at once; 11 MB for 156 corners."""
+
+
+class BoardMotion(Protocol):
+    """The fields of ``calibration.refinement.residuals.BoardMotion``."""
+
+    @property
+    def motion(self) -> Array: ...
+    @property
+    def corner(self) -> IntArray: ...
 
 
 @compiled
-def _by_corner(R, by_pose, C):  # type: ignore[no-untyped-def]
-    """Rows of C (3, 2N): derivatives by the corner's place on the plate, from those by the pose."""
+def _differentiate_by_corner(R: Array, by_pose: Array, C: Array) -> None:
+    """Fill C (3, 2N) with derivatives by the corner's place on the board, from by_pose (6, 2N)."""
     for a in range(3):
         r0, r1, r2 = R[0, a], R[1, a], R[2, a]
         for i in range(C.shape[1]):
@@ -24,18 +54,32 @@ def _by_corner(R, by_pose, C):  # type: ignore[no-untyped-def]
 
 
 @compiled
-def _products(camera, backward, R, T, uv, xyz, weight, whitened, rows, index, A, D, total):  # type: ignore[no-untyped-def]
+def _sum_corner_views(
+    camera: CameraTuple,
+    backward: bool,
+    R: Array,
+    T: Array,
+    uv: Array,
+    xyz: Array,
+    weight: Array,
+    whitened: bool,
+    rows: IntArray,
+    index: IntArray,
+    A: Array,
+    D: Array,
+    total: Array,
+) -> None:
     """Fill A (K, P + 7, P + 7) as in Stage II; add up D (K, n, 3, 6) and total (n, 3, P + 4)."""
     K, _, N = uv.shape
     P = rows.shape[0]
-    work, J, C = workspace(N), np.empty((P + 7, 2 * N)), np.empty((3, 2 * N))
+    work, J, C = make_workspace(N), np.empty((P + 7, 2 * N)), np.empty((3, 2 * N))
     for view in range(K):
-        good = image(camera, backward, R[view], T[view], uv[view], xyz[view], work)
-        jacobian(camera, backward, uv[view], weight[view], whitened, rows, work, J)
+        good = project_view(camera, backward, R[view], T[view], uv[view], xyz[view], work)
+        fill_jacobian(camera, backward, uv[view], weight[view], whitened, rows, work, J)
         gram(J, A[view])
         if not good:
             A[view, -1, -1] = np.inf
-        _by_corner(R[view], J[P : P + 6], C)
+        _differentiate_by_corner(R[view], J[P : P + 6], C)
         for i in range(N):
             corner = index[view, i]
             for a in range(3):
@@ -49,7 +93,7 @@ def _products(camera, backward, R, T, uv, xyz, weight, whitened, rows, index, A,
                     D[view, corner, a, m] += cu * J[P + m, i] + cv * J[P + m, N + i]
 
 
-def products(
+def _sum_corner_products(
     lens: Eq10Camera,
     R: Array,
     T: Array,
@@ -59,17 +103,17 @@ def products(
     count: int,
     with_poses: bool,
 ) -> tuple[Array, Array, Array]:
-    """Products of the columns [camera, pose, r] of some views and of those of the plate's corners.
+    """Return products of the columns [camera, pose, r] of some views and of the board's corners.
 
     Args:
         lens: the camera.
         R: (K, 3, 3) rotations.
         T: (K, 3) translations, mm.
-        views: what was measured.
+        views: the measured corners.
         rows: (P,) places of the free parameters in ``lens.camera``.
-        index: (K, N) which of the plate's corners each observation is.
-        count: n, their number.
-        with_poses: whether to return the second of the results; nothing otherwise.
+        index: (K, N) number of the board's corner that each observation shows.
+        count: n, the number of the board's corners.
+        with_poses: true to return the second of the results, which is empty otherwise.
 
     Returns:
         (K, P + 7, P + 7) of the first columns with each other; (K, n, 3, 6) of the three columns
@@ -78,31 +122,45 @@ def products(
     """
     K, P = len(R), len(rows)
     A, D = np.empty((K, P + 7, P + 7)), np.zeros((K if with_poses else 0, count, 3, 6))
-    totals = np.zeros((-(-K // BLOCK), count, 3, P + 4))
-    R, T = plain(R), plain(T)
+    totals = np.zeros((-(-K // VIEWS_PER_BLOCK), count, 3, P + 4))
+    R, T = make_contiguous(R), make_contiguous(T)
     uv, xyz, weight = views
     whitened = weight.shape[2] > 0
 
     def run(part: slice) -> None:
-        _products(
+        _sum_corner_views(
             *lens, R[part], T[part], uv[part], xyz[part], weight[part], whitened, rows,
-            index[part], A[part], D[part if with_poses else slice(0)], totals[part.start // BLOCK],
+            index[part], A[part], D[part if with_poses else slice(0)],
+            totals[part.start // VIEWS_PER_BLOCK],
         )  # fmt: skip
 
-    in_blocks(K, run)
+    run_in_blocks(K, run)
     return A, D, totals.sum(axis=0)
 
 
 @compiled
-def _followed(camera, backward, R, T, uv, xyz, weight, whitened, rows, index, motion, A):  # type: ignore[no-untyped-def]
+def _sum_moving_views(
+    camera: CameraTuple,
+    backward: bool,
+    R: Array,
+    T: Array,
+    uv: Array,
+    xyz: Array,
+    weight: Array,
+    whitened: bool,
+    rows: IntArray,
+    index: IntArray,
+    motion: Array,
+    A: Array,
+) -> None:
     """Fill A (K, P + 7, P + 7) as in Stage II, where corners move by motion (n, 3, P)."""
     K, _, N = uv.shape
     P = rows.shape[0]
-    work, J, C = workspace(N), np.empty((P + 7, 2 * N)), np.empty((3, 2 * N))
+    work, J, C = make_workspace(N), np.empty((P + 7, 2 * N)), np.empty((3, 2 * N))
     for view in range(K):
-        good = image(camera, backward, R[view], T[view], uv[view], xyz[view], work)
-        jacobian(camera, backward, uv[view], weight[view], whitened, rows, work, J)
-        _by_corner(R[view], J[P : P + 6], C)
+        good = project_view(camera, backward, R[view], T[view], uv[view], xyz[view], work)
+        fill_jacobian(camera, backward, uv[view], weight[view], whitened, rows, work, J)
+        _differentiate_by_corner(R[view], J[P : P + 6], C)
         for i in range(2 * N):
             moved = motion[index[view, i % N]]
             for m in range(P):
@@ -112,7 +170,7 @@ def _followed(camera, backward, R, T, uv, xyz, weight, whitened, rows, index, mo
             A[view, -1, -1] = np.inf
 
 
-def followed(
+def _sum_moving_products(
     lens: Eq10Camera,
     R: Array,
     T: Array,
@@ -121,27 +179,67 @@ def followed(
     index: IntArray,
     motion: Array,
 ) -> Array:
-    """(K, P + 7, P + 7) products of the columns [camera, pose, r] where the plate follows.
+    """Return (K, P + 7, P + 7) products of the columns [camera, pose, r] of a board that moves.
 
     Args:
         lens: the camera.
         R: (K, 3, 3) rotations.
         T: (K, 3) translations, mm.
-        views: what was measured.
+        views: the measured corners.
         rows: (P,) places of the free parameters in ``lens.camera``.
-        index: (K, N) which of the plate's corners each observation is.
-        motion: (n, 3, P) of the corners with the free parameters, mm.
+        index: (K, N) number of the board's corner that each observation shows.
+        motion: (n, 3, P) motion of the corners per unit of each free parameter, mm.
     """
     A = np.empty((len(R), len(rows) + 7, len(rows) + 7))
-    R, T, motion = plain(R), plain(T), plain(motion)
+    R, T, motion = make_contiguous(R), make_contiguous(T), make_contiguous(motion)
     uv, xyz, weight = views
     whitened = weight.shape[2] > 0
 
     def run(part: slice) -> None:
-        _followed(
+        _sum_moving_views(
             *lens, R[part], T[part], uv[part], xyz[part], weight[part], whitened, rows,
             index[part], motion, A[part],
         )  # fmt: skip
 
-    in_blocks(len(R), run)
+    run_in_blocks(len(R), run)
     return A
+
+
+def compute_view_products(
+    state: CameraAndPoses,
+    observations: MeasuredViews,
+    model: str,
+    free: IntArray,
+    following: BoardMotion | None = None,
+) -> Array:
+    """Compute ``calibration.refinement.residuals.compute_view_products``."""
+    lens, rows = pack_camera(model, state.params), find_rows(model, free)
+    views = pack_views(observations)
+    if following is None:
+        return sum_products(lens, state.R, state.T, views, rows)
+    return _sum_moving_products(
+        lens, state.R, state.T, views, rows, following.corner, following.motion
+    )
+
+
+def iterate_corner_products(
+    state: CameraAndPoses,
+    observations: MeasuredViews,
+    model: str,
+    free: IntArray,
+    index: IntArray,
+    count: int,
+    with_poses: bool = True,
+) -> Iterator[tuple[slice, Array, Array, Array]]:
+    """Compute ``calibration.board_shape.parametrisation.iterate_corner_products``."""
+    lens, rows = pack_camera(model, state.params), find_rows(model, free)
+    K = len(index)
+    for begin in range(0, K, _VIEWS_TOGETHER):
+        part = slice(begin, min(begin + _VIEWS_TOGETHER, K))
+        views = pack_views(observations.select_views(part))
+        yield (
+            part,
+            *_sum_corner_products(
+                lens, state.R[part], state.T[part], views, rows, index[part], count, with_poses
+            ),
+        )

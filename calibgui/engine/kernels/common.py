@@ -1,8 +1,8 @@
-"""What the compiled kernels share.
+"""The parts that the compiled kernels share: compilation, threads, and small linear algebra.
 
-Their layout makes them fast: the Jacobian of one view is kept transposed, one parameter a row,
-so that every loop runs over the corners without a branch and the compiler turns it into vector
-instructions, and the products of the rows are formed nine at a time while they are in the
+The kernels' layout makes them fast: the Jacobian of one view is kept transposed, one parameter a
+row, so that every loop runs over the corners without a branch and the compiler turns it into
+vector instructions, and the products of the rows are formed nine at a time while they are in the
 processor's first cache. Each view's result is independent of every other's, and callers add
 them in a fixed order: nothing depends on the number of threads.
 """
@@ -15,48 +15,60 @@ from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
 from functools import cache
 from pathlib import Path
-from typing import Any
+from typing import Any, ParamSpec, TypeVar
 
 import numpy as np
 from numba import config, njit
 
-from calibgui.engine.arrays import Array
+from calibgui.engine.arrays import Array, GreyImage
 
-_MATHS = {"contract", "nsz", "arcp", "reassoc"}
+_P = ParamSpec("_P")
+_T = TypeVar("_T")
+
+_FAST_MATHS = {"contract", "nsz", "arcp", "reassoc"}
 """Freedoms that the compiler needs to vectorise sums; infinities and NaN stay as they are."""
 THREADS = min(os.cpu_count() or 1, 8)
-BLOCK = 64
-"""Views that one thread takes at a time."""
-_WORTH = 4
-"""Blocks below which starting threads costs more than they save."""
+"""Number of threads that kernels share their views among."""
+VIEWS_PER_BLOCK = 64
+"""Number of views that one thread takes at a time."""
+_MIN_BLOCKS_FOR_THREADS = 4
+"""Number of blocks below which starting threads costs more than they save."""
 
 
-def compiled(function: Callable[..., Any]) -> Any:
-    """The function compiled, and kept for the next start where there is a place to keep it."""
-    options: dict[str, Any] = {"fastmath": _MATHS, "error_model": "numpy", "nogil": True}
-    usual, config.CACHE_DIR = config.CACHE_DIR, _kept_in()
+def compiled(function: Callable[_P, _T]) -> Callable[_P, _T]:
+    """Compile a function, and keep the result for the next start if there is a place to keep it."""
+    options: dict[str, Any] = {"fastmath": _FAST_MATHS, "error_model": "numpy", "nogil": True}
+    usual, config.CACHE_DIR = config.CACHE_DIR, _find_cache_folder()
+    compiled_function: Callable[_P, _T]
     try:
-        return njit(cache=True, **options)(function)
+        compiled_function = njit(cache=True, **options)(function)
     except RuntimeError:  # neither the package's folder nor the user's cache can be written
-        return njit(**options)(function)
+        compiled_function = njit(**options)(function)
     finally:
         config.CACHE_DIR = usual
+    return compiled_function
 
 
 @cache
-def _kept_in() -> str:
-    """A folder for these sources only: numba compiles a kernel anew if its own file has changed,
-    not if another has from which it calls something."""
+def _find_cache_folder() -> str:
+    """Return a folder that serves these sources only.
+
+    Numba compiles a kernel anew if its own file has changed, but not if another file has changed
+    from which the kernel calls a function.
+    """
     here = Path(__file__).parent
     sources = b"".join(file.read_bytes() for file in sorted(here.glob("*.py")))
     state = hashlib.sha256(sources).hexdigest()[:16]
     return str(Path(config.CACHE_DIR or here / "__pycache__") / f"calibgui-{state}")
 
 
-def in_blocks(count: int, run: Callable[[slice], None]) -> None:
+def run_in_blocks(count: int, run: Callable[[slice], None]) -> None:
     """Call `run` for consecutive slices of `count` views, on all threads."""
-    blocks = [slice(begin, min(begin + BLOCK, count)) for begin in range(0, count, BLOCK)]
-    if len(blocks) < _WORTH or THREADS == 1:
+    blocks = [
+        slice(begin, min(begin + VIEWS_PER_BLOCK, count))
+        for begin in range(0, count, VIEWS_PER_BLOCK)
+    ]
+    if len(blocks) < _MIN_BLOCKS_FOR_THREADS or THREADS == 1:
         for block in blocks:
             run(block)
         return
@@ -64,14 +76,17 @@ def in_blocks(count: int, run: Callable[[slice], None]) -> None:
         list(pool.map(run, blocks))
 
 
-def plain(array: Array) -> Array:
-    """A contiguous array that may be written, copied if need be: each other kind compiles anew."""
+def make_contiguous(array: Array) -> Array:
+    """Return a contiguous writable float64 array, a copy of `array` if need be.
+
+    Numba would compile a kernel anew for each other kind of array.
+    """
     return np.require(array, np.float64, ["C", "W"])
 
 
 @compiled
-def gram(J, out):  # type: ignore[no-untyped-def]
-    """out = J J^T for J (M, n), three rows by three; the last row repeats to fill up."""
+def gram(J: Array, out: Array) -> None:
+    """Fill out (M, M) with J J^T for J (M, n), three rows by three; the last row fills up."""
     M, n = J.shape
     for a in range(0, M, 3):
         a1, a2 = min(a + 1, M - 1), min(a + 2, M - 1)
@@ -100,20 +115,21 @@ def gram(J, out):  # type: ignore[no-untyped-def]
 
 
 @compiled
-def bilinear(g, u, v):  # type: ignore[no-untyped-def]
-    """Bilinear value of g at (u, v), the border replicated; NaN where that is no place."""
+def bilinear(g: GreyImage, u: float, v: float) -> float:
+    """Interpolate g bilinearly at (u, v), the border replicated; NaN where u or v is NaN."""
     height, width = g.shape
     u, v = min(max(u, 0.0), width - 1.0), min(max(v, 0.0), height - 1.0)
     i = min(int(u), width - 2) if u > 0 else 0
     j = min(int(v), height - 2) if v > 0 else 0
     a, b = u - i, v - j
-    return (1 - b) * ((1 - a) * g[j, i] + a * g[j, i + 1]) + b * (
+    value: float = (1 - b) * ((1 - a) * g[j, i] + a * g[j, i + 1]) + b * (
         (1 - a) * g[j + 1, i] + a * g[j + 1, i + 1]
     )
+    return value
 
 
 @compiled
-def factor(N):  # type: ignore[no-untyped-def]
+def factor(N: Array) -> None:
     """Turn N into L below and D on the diagonal, N = L D L^T."""
     for j in range(N.shape[0]):
         for k in range(j):
@@ -125,7 +141,7 @@ def factor(N):  # type: ignore[no-untyped-def]
 
 
 @compiled
-def substitute(L, b):  # type: ignore[no-untyped-def]
+def substitute(L: Array, b: Array) -> None:
     """Turn b into the solution of N x = b, given the factors of N."""
     n = b.shape[0]
     for i in range(n):

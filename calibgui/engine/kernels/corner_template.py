@@ -1,4 +1,4 @@
-"""What corners look like, compiled: ``corners.appearance``'s samples and what it takes of them."""
+"""Samples around corners, compiled; see ``detection.checkerboard.corner_template``."""
 
 from __future__ import annotations
 
@@ -9,7 +9,9 @@ from calibgui.engine.kernels.common import bilinear, compiled
 
 
 @compiled
-def _row(image, u, v, right, down, places, out):  # type: ignore[no-untyped-def]
+def _sample_row(
+    image: GreyImage, u: float, v: float, right: Array, down: Array, places: Array, out: Array
+) -> None:
     """Fill out with the grey levels at places around (u, v); opposite where that is outside."""
     height, width = image.shape
     for k in range(places.shape[0]):
@@ -21,31 +23,46 @@ def _row(image, u, v, right, down, places, out):  # type: ignore[no-untyped-def]
 
 
 @compiled
-def _around(image, uv, right, down, places, out):  # type: ignore[no-untyped-def]
+def _fill_samples(
+    image: GreyImage, uv: Array, right: Array, down: Array, places: Array, out: Array
+) -> None:
     for i in range(uv.shape[0]):
-        _row(image, uv[i, 0], uv[i, 1], right[i], down[i], places, out[i])
+        _sample_row(image, uv[i, 0], uv[i, 1], right[i], down[i], places, out[i])
 
 
-def around(image: GreyImage, uv: Array, right: Array, down: Array, places: Array) -> Array:
-    """(n, k) grey levels of `image` at `places` (k, 2), in steps `right` and `down` (n, 2) px from
-    points `uv` (n, 2); opposite where that is outside."""
-    out = np.empty((len(uv), len(places)))
-    _around(image, uv, right, down, places, out)
+def sample_around(
+    image: GreyImage, uv: Array, right: Array, down: Array, positions: Array
+) -> Array:
+    """Compute ``sample_around`` of the reference."""
+    out = np.empty((len(uv), len(positions)))
+    _fill_samples(image, uv, right, down, positions, out)
     return out
 
 
 @compiled
-def _surroundings(image, uv, right, down, dark, places, even, out):  # type: ignore[no-untyped-def]
+def _fill_patches(
+    image: GreyImage,
+    uv: Array,
+    right: Array,
+    down: Array,
+    dark: BoolArray,
+    places: Array,
+    light: Array,
+    out: Array,
+) -> None:
+    """Fill out (n, k) with patches; light (m, k)."""
     k = places.shape[0]
     for i in range(uv.shape[0]):
         row = out[i]
-        _row(image, uv[i, 0], uv[i, 1], right[i] if dark[i] else -right[i], down[i], places, row)
-        for term in range(even.shape[0]):
+        _sample_row(
+            image, uv[i, 0], uv[i, 1], right[i] if dark[i] else -right[i], down[i], places, row
+        )
+        for term in range(light.shape[0]):
             share = 0.0
             for j in range(k):
-                share += row[j] * even[term, j]
+                share += row[j] * light[term, j]
             for j in range(k):
-                row[j] -= share * even[term, j]
+                row[j] -= share * light[term, j]
         square = 0.0
         for j in range(k):
             square += row[j] * row[j]
@@ -54,27 +71,37 @@ def _surroundings(image, uv, right, down, dark, places, even, out):  # type: ign
             row[j] *= over
 
 
-def surroundings(
+def compute_patches(
+    image: GreyImage,
+    uv: Array,
+    right: Array,
+    down: Array,
+    dark: BoolArray,
+    positions: Array,
+    light: Array,
+) -> Array:
+    """Compute ``_compute_patches`` of the reference.
+
+    The first column of `light` is constant, so that what is left has no mean.
+    """
+    out = np.empty((len(uv), len(positions)))
+    _fill_patches(image, uv, right, down, dark, positions, np.ascontiguousarray(light.T), out)
+    return out
+
+
+@compiled
+def _fill_differences(
     image: GreyImage,
     uv: Array,
     right: Array,
     down: Array,
     dark: BoolArray,
     places: Array,
-    even: Array,
-) -> Array:
-    """``appearance._surroundings``: (n, k) `around`, mirrored where not `dark` (n,), less what
-    the orthonormal columns of `even` (k, m) explain, over the rest's standard deviation.
-
-    The first of these is constant, so that the rest has no mean.
-    """
-    out = np.empty((len(uv), len(places)))
-    _surroundings(image, uv, right, down, dark, places, np.ascontiguousarray(even.T), out)
-    return out
-
-
-@compiled
-def _sectors(image, uv, right, down, dark, places, reach, gap, difference):  # type: ignore[no-untyped-def]
+    reach: float,
+    gap: Array,
+    difference: Array,
+) -> None:
+    """Fill gap and difference (n,)."""
     height, width = image.shape
     grey, level = np.empty(places.shape[0]), np.empty(4)
     count = places.shape[0] // 4
@@ -83,7 +110,7 @@ def _sectors(image, uv, right, down, dark, places, reach, gap, difference):  # t
         nearer = min(u, width - 1 - u) / (reach * (abs(right[i, 0]) + abs(down[i, 0])))
         across = min(v, height - 1 - v) / (reach * (abs(right[i, 1]) + abs(down[i, 1])))
         nearer = min(max(min(nearer, across), 0.1), 1.0)
-        _row(image, u, v, nearer * right[i], nearer * down[i], places, grey)
+        _sample_row(image, u, v, nearer * right[i], nearer * down[i], places, grey)
         for sector in range(4):
             total = 0.0
             for k in range(count):
@@ -93,22 +120,16 @@ def _sectors(image, uv, right, down, dark, places, reach, gap, difference):  # t
         difference[i] = (level[2] + level[3] - level[0] - level[1]) / 2
 
 
-def sectors(
+def compare_sectors(
     image: GreyImage,
     uv: Array,
     right: Array,
     down: Array,
     dark: BoolArray,
-    places: Array,
+    positions: Array,
     reach: float,
 ) -> tuple[Array, Array]:
-    """``appearance.sectors``: gap and difference (n,) of bright and dark sectors.
-
-    Args:
-        image, uv, right, down, dark: as there.
-        places: (4 k, 2) where the sectors are sampled, one after the other, in steps.
-        reach: the farthest of them.
-    """
+    """Compute ``_compare_sectors`` of the reference."""
     gap, difference = np.empty((2, len(uv)))
-    _sectors(image, uv, right, down, dark, places, reach, gap, difference)
+    _fill_differences(image, uv, right, down, dark, positions, reach, gap, difference)
     return gap, difference

@@ -1,4 +1,4 @@
-"""Profiles across edges, compiled: what ``corners.profiles`` takes from their samples."""
+"""Profiles across edges, compiled: see ``detection.checkerboard.edge_profiles``."""
 
 from __future__ import annotations
 
@@ -9,7 +9,16 @@ from calibgui.engine.kernels.common import bilinear, compiled
 
 
 @compiled
-def _profile(image, uv, along, across, s, middle, half, grey):  # type: ignore[no-untyped-def]
+def _sample_profile(
+    image: GreyImage,
+    uv: Array,
+    along: Array,
+    across: Array,
+    s: float,
+    middle: float,
+    half: float,
+    grey: Array,
+) -> None:
     """Fill grey with the levels s steps along an edge, from middle - half to middle + half steps
     across it."""
     height, width = image.shape
@@ -33,11 +42,24 @@ def _profile(image, uv, along, across, s, middle, half, grey):  # type: ignore[n
 
 
 @compiled
-def _levels(image, uv, along, across, s, reach, samples, ends, first, last, total):  # type: ignore[no-untyped-def]
+def _fill_ends(
+    image: GreyImage,
+    uv: Array,
+    along: Array,
+    across: Array,
+    s: Array,
+    reach: float,
+    samples: int,
+    ends: int,
+    first: Array,
+    last: Array,
+    total: Array,
+) -> None:
+    """Add to first, last and total (n, k)."""
     grey = np.empty(samples)
     for i in range(uv.shape[0]):
         for k in range(s.shape[0]):
-            _profile(image, uv[i], along[i], across[i], s[k], 0.0, reach, grey)
+            _sample_profile(image, uv[i], along[i], across[i], s[k], 0.0, reach, grey)
             total[i, k] = -(grey[0] + grey[samples - 1]) / 2
             for j in range(samples):
                 total[i, k] += grey[j]
@@ -47,16 +69,29 @@ def _levels(image, uv, along, across, s, reach, samples, ends, first, last, tota
 
 
 @compiled
-def _between(image, uv, along, across, s, middle, half, samples, first, rise, out):  # type: ignore[no-untyped-def]
+def _count(
+    image: GreyImage,
+    uv: Array,
+    along: Array,
+    across: Array,
+    s: Array,
+    middle: Array,
+    half: Array,
+    samples: int,
+    first: Array,
+    rise: Array,
+    out: Array,
+) -> None:
+    """Add to out (n, k)."""
     grey = np.empty(samples)
     for i in range(uv.shape[0]):
         for k in range(s.shape[0]):
-            _profile(image, uv[i], along[i], across[i], s[k], middle[i, k], half[i], grey)
+            _sample_profile(image, uv[i], along[i], across[i], s[k], middle[i, k], half[i], grey)
             for j in range(samples):
                 out[i, k] += 0.25 < (grey[j] - first[i, k]) / rise[i, k] < 0.75
 
 
-def levels(
+def measure_ends(
     image: GreyImage,
     uv: Array,
     along: Array,
@@ -66,14 +101,13 @@ def levels(
     samples: int,
     ends: int,
 ) -> tuple[Array, Array, Array]:
-    """``profiles._levels``: (n, k) mean of the first and last `ends` of `samples` grey levels up
-    to `reach` steps to both sides, and the sum of all by the trapezoidal rule."""
+    """Compute ``_measure_ends`` of the reference."""
     first, last, total = np.zeros((3, len(uv), len(s)))
-    _levels(image, uv, along, across, s, reach, samples, ends, first, last, total)
+    _fill_ends(image, uv, along, across, s, reach, samples, ends, first, last, total)
     return first, last, total
 
 
-def between(
+def count_between_quartiles(
     image: GreyImage,
     uv: Array,
     along: Array,
@@ -85,8 +119,7 @@ def between(
     first: Array,
     rise: Array,
 ) -> Array:
-    """``profiles._between``: (n, k) how many of the `samples` from `middle` (n, k) up to `half`
-    (n,) steps to both sides lie between 25 and 75 % of the `rise` (n, k) from `first` (n, k)."""
+    """Compute ``_count_between_quartiles`` of the reference."""
     out = np.zeros((len(uv), len(s)))
-    _between(image, uv, along, across, s, middle, half, samples, first, rise, out)
+    _count(image, uv, along, across, s, middle, half, samples, first, rise, out)
     return out

@@ -1,15 +1,15 @@
-"""Harris' score around corners, compiled: ``detection.checkerboard.harris``, without its arrays of tiles."""
+"""Harris' score around corners, compiled: see ``detection.checkerboard.harris``."""
 
 from __future__ import annotations
 
 import numpy as np
 
-from calibgui.engine.arrays import Array, GreyImage
+from calibgui.engine.arrays import Array, GreyImage, IntArray
 from calibgui.engine.kernels.common import compiled
 
 
 @compiled
-def _tile(image, left, top, grey):  # type: ignore[no-untyped-def]
+def _cut_tile(image: GreyImage, left: int, top: int, grey: Array) -> None:
     """Fill grey with the pixels from (left, top) on, the border replicated."""
     height, width = image.shape
     for j in range(grey.shape[0]):
@@ -19,7 +19,7 @@ def _tile(image, left, top, grey):  # type: ignore[no-untyped-def]
 
 
 @compiled
-def _add_row(grey, j, weights, sums, products):  # type: ignore[no-untyped-def]
+def _add_row(grey: Array, j: int, weights: Array, sums: Array, products: Array) -> None:
     """Add the products of the slopes in row j of a tile, under each weight, to the sums."""
     side = grey.shape[0]
     before, after = max(j - 1, 0), min(j + 1, side - 1)
@@ -38,12 +38,15 @@ def _add_row(grey, j, weights, sums, products):  # type: ignore[no-untyped-def]
 
 
 @compiled
-def _scores(image, origin, weights, sensitivity, out):  # type: ignore[no-untyped-def]
+def _fill_scores(
+    image: GreyImage, origin: IntArray, weights: Array, sensitivity: float, out: Array
+) -> None:
+    """Fill out (n, k, k) with scores."""
     tried, side = weights.shape[1:]
     grey, products = np.empty((side, side)), np.empty((3, side))
     sums = np.empty((tried, 3, side))
     for n in range(origin.shape[0]):
-        _tile(image, origin[n, 0], origin[n, 1], grey)
+        _cut_tile(image, origin[n, 0], origin[n, 1], grey)
         sums[:] = 0
         for j in range(side):
             _add_row(grey, j, weights[n], sums, products)
@@ -59,15 +62,8 @@ def _scores(image, origin, weights, sensitivity, out):  # type: ignore[no-untype
 
 
 def score_positions(image: GreyImage, uv: Array, weights: Array, sensitivity: float) -> Array:
-    """Compute ``detection.checkerboard.harris._score_positions``.
-
-    Args:
-        image: (h, w) grey levels.
-        uv: (n, 2) px.
-        weights: (n, k, side) along either axis of each of the k positions tried along it.
-        sensitivity: of the score.
-    """
+    """Compute ``_score_positions`` of the reference."""
     out = np.empty((len(uv), weights.shape[1], weights.shape[1]))
     origin = np.rint(uv).astype(np.int64) - weights.shape[2] // 2
-    _scores(image, origin, weights, sensitivity, out)
+    _fill_scores(image, origin, weights, sensitivity, out)
     return out

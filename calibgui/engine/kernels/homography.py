@@ -1,16 +1,17 @@
-"""The sums that the DLT needs, compiled: ``homography.moments``."""
+"""The sums of the direct linear transformation, compiled: ``geometry.homography.sum_moments``."""
 
 from __future__ import annotations
 
 import numpy as np
 
 from calibgui.engine.arrays import Array
-from calibgui.engine.kernels.common import compiled, in_blocks, plain
+from calibgui.engine.kernels.common import compiled, make_contiguous, run_in_blocks
 
 
 @compiled
-def _normalise(points, weight, out, T):  # type: ignore[no-untyped-def]
-    """out (2, N): points (N, 2) of zero mean and RMS length sqrt(2); T (3, 3) brings them there."""
+def _normalise(points: Array, weight: Array, out: Array, T: Array) -> None:
+    """Fill out (2, N) with points (N, 2) moved to zero mean and RMS length sqrt(2), and T (3, 3)
+    with the similarity that moves them."""
     N = weight.shape[0]
     total = x = y = 0.0
     for i in range(N):
@@ -30,8 +31,15 @@ def _normalise(points, weight, out, T):  # type: ignore[no-untyped-def]
 
 
 @compiled
-def _views(source, destination, weight, out, to_source, to_destination):  # type: ignore[no-untyped-def]
-    """Fill out (K, 4, 6) and the similarities (K, 3, 3)."""
+def _sum_views(
+    source: Array,
+    destination: Array,
+    weight: Array,
+    out: Array,
+    to_source: Array,
+    to_destination: Array,
+) -> None:
+    """Fill out (K, 4, 6) with the sums, and the similarities (K, 3, 3)."""
     K, N = weight.shape
     s, d, by = np.empty((2, N)), np.empty((2, N)), np.empty((4, N))
     for view in range(K):
@@ -57,17 +65,18 @@ def _views(source, destination, weight, out, to_source, to_destination):  # type
                 out[view, row, j] = sums[j]
 
 
-def moments(source: Array, destination: Array, mask: Array) -> tuple[Array, Array, Array]:
-    """As ``homography.moments``, of points (K, n, 2) and their weights (K, n)."""
+def sum_moments(source: Array, destination: Array, mask: Array) -> tuple[Array, Array, Array]:
+    """Compute ``geometry.homography.sum_moments``."""
     K = len(mask)
-    source, destination, mask = plain(source), plain(destination), plain(mask)
+    source, destination = make_contiguous(source), make_contiguous(destination)
+    mask = make_contiguous(mask)
     out, to_source, to_destination = np.empty((K, 4, 6)), np.zeros((K, 3, 3)), np.zeros((K, 3, 3))
 
     def run(part: slice) -> None:
-        _views(
+        _sum_views(
             source[part], destination[part], mask[part],
             out[part], to_source[part], to_destination[part],
         )  # fmt: skip
 
-    in_blocks(K, run)
+    run_in_blocks(K, run)
     return out, to_source, to_destination

@@ -1,4 +1,4 @@
-"""Steps and predictions on a lattice, compiled: ``corners.lattice.axes`` and ``predict``."""
+"""Steps and predictions on a lattice, compiled: the loops of ``detection.lattice``."""
 
 from __future__ import annotations
 
@@ -9,15 +9,15 @@ from calibgui.engine.kernels.common import compiled
 
 
 @compiled
-def _at(uv, row, col, k):  # type: ignore[no-untyped-def]
-    """Coordinate k at a place, NaN outside the lattice."""
+def _get_at(uv: Array, row: int, col: int, k: int) -> float:
+    """Return coordinate k at a place, NaN outside the lattice."""
     inside = 0 <= row < uv.shape[0] and 0 <= col < uv.shape[1]
     return uv[row, col, k] if inside else np.nan
 
 
 @compiled
-def _mean(values):  # type: ignore[no-untyped-def]
-    """Mean of those that are not NaN, NaN where there are none."""
+def _average_known(values: tuple[float, ...]) -> float:
+    """Return the mean of the values that are not NaN, NaN where there are none."""
     total, count = 0.0, 0
     for value in values:
         if not np.isnan(value):
@@ -27,30 +27,31 @@ def _mean(values):  # type: ignore[no-untyped-def]
 
 
 @compiled
-def _steps(uv, dr, dc, reach, out):  # type: ignore[no-untyped-def]
+def _estimate_steps_along(uv: Array, dr: int, dc: int, reach: int, out: Array) -> None:
+    """Fill `out` with the steps in the direction (dr, dc)."""
     rows, cols, _ = uv.shape
     unknown = False
     for r in range(rows):
         for c in range(cols):
             for k in range(2):
                 here = uv[r, c, k]
-                after, before = _at(uv, r + dr, c + dc, k), _at(uv, r - dr, c - dc, k)
-                step = _mean((after - here, here - before))
+                after, before = _get_at(uv, r + dr, c + dc, k), _get_at(uv, r - dr, c - dc, k)
+                step = _average_known((after - here, here - before))
                 if np.isnan(step):
                     step = (after - before) / 2
                 if np.isnan(step):
-                    after = _at(uv, r + 2 * dr, c + 2 * dc, k)
-                    before = _at(uv, r - 2 * dr, c - 2 * dc, k)
-                    step = _mean(((after - here) / 2, (here - before) / 2))
+                    after = _get_at(uv, r + 2 * dr, c + 2 * dc, k)
+                    before = _get_at(uv, r - 2 * dr, c - 2 * dc, k)
+                    step = _average_known(((after - here) / 2, (here - before) / 2))
                 out[r, c, k] = step
                 unknown |= np.isnan(step)
     if unknown:
         for _ in range(reach):
-            _spread(out)
+            _spread_steps(out)
 
 
 @compiled
-def _spread(steps):  # type: ignore[no-untyped-def]
+def _spread_steps(steps: Array) -> None:
     """Fill unknown steps from those that were known around them."""
     rows, cols, _ = steps.shape
     # Two rows as they were, with a border on either side: the one above and the one being filled.
@@ -60,55 +61,57 @@ def _spread(steps):  # type: ignore[no-untyped-def]
         for c in range(cols):
             for k in range(2):
                 if np.isnan(here[c + 1, k]):
-                    below = _at(steps, r + 1, c, k)
-                    steps[r, c, k] = _mean((here[c + 2, k], below, here[c, k], above[c + 1, k]))
+                    below = _get_at(steps, r + 1, c, k)
+                    steps[r, c, k] = _average_known(
+                        (here[c + 2, k], below, here[c, k], above[c + 1, k])
+                    )
         above, here = here, above
 
 
 @compiled
-def _beyond(uv, r, c, dr, dc, k):  # type: ignore[no-untyped-def]
-    """Extrapolation of the line that ends one place away in the direction (dr, dc)."""
-    p1, p2 = _at(uv, r + dr, c + dc, k), _at(uv, r + 2 * dr, c + 2 * dc, k)
-    p3 = _at(uv, r + 3 * dr, c + 3 * dc, k)
+def _extrapolate(uv: Array, r: int, c: int, dr: int, dc: int, k: int) -> float:
+    """Extrapolate the line that ends one place away in the direction (dr, dc)."""
+    p1, p2 = _get_at(uv, r + dr, c + dc, k), _get_at(uv, r + 2 * dr, c + 2 * dc, k)
+    p3 = _get_at(uv, r + 3 * dr, c + 3 * dc, k)
     slope = p1 - p2
     return p1 + slope + (0.0 if np.isnan(p3) else 0.5 * (slope - (p2 - p3)))
 
 
 @compiled
-def _predict(uv, out):  # type: ignore[no-untyped-def]
+def _predict_places(uv: Array, out: Array) -> None:
+    """Fill `out` with the predictions of `predict_places`."""
     for r in range(uv.shape[0]):
         for c in range(uv.shape[1]):
             for k in range(2):
-                expected = _mean(
+                expected = _average_known(
                     (
-                        (_at(uv, r, c + 1, k) + _at(uv, r, c - 1, k)) / 2,
-                        (_at(uv, r + 1, c, k) + _at(uv, r - 1, c, k)) / 2,
+                        (_get_at(uv, r, c + 1, k) + _get_at(uv, r, c - 1, k)) / 2,
+                        (_get_at(uv, r + 1, c, k) + _get_at(uv, r - 1, c, k)) / 2,
                     )
                 )
                 if np.isnan(expected):
-                    expected = _mean(
+                    expected = _average_known(
                         (
-                            _beyond(uv, r, c, 0, 1, k),
-                            _beyond(uv, r, c, 1, 0, k),
-                            _beyond(uv, r, c, 0, -1, k),
-                            _beyond(uv, r, c, -1, 0, k),
+                            _extrapolate(uv, r, c, 0, 1, k),
+                            _extrapolate(uv, r, c, 1, 0, k),
+                            _extrapolate(uv, r, c, 0, -1, k),
+                            _extrapolate(uv, r, c, -1, 0, k),
                         )
                     )
                 out[r, c, k] = expected
 
 
-def axes(uv: Array, reach: int) -> tuple[Array, Array]:
-    """Steps (rows, cols, 2) to the next column and to the next row of a lattice, px, where they
-    are unknown from up to `reach` places away."""
+def estimate_steps(uv: Array, reach: int) -> tuple[Array, Array]:
+    """Compute ``detection.lattice._estimate_steps``."""
     uv = np.ascontiguousarray(uv)
     right, down = np.empty_like(uv), np.empty_like(uv)
-    _steps(uv, 0, 1, reach, right)
-    _steps(uv, 1, 0, reach, down)
+    _estimate_steps_along(uv, 0, 1, reach, right)
+    _estimate_steps_along(uv, 1, 0, reach, down)
     return right, down
 
 
-def predict(uv: Array) -> Array:
-    """Where its neighbours expect each place of a lattice `uv` (rows, cols, 2), px."""
+def predict_places(uv: Array) -> Array:
+    """Compute ``detection.lattice.predict_places``."""
     expected = np.empty_like(uv)
-    _predict(np.ascontiguousarray(uv), expected)
+    _predict_places(np.ascontiguousarray(uv), expected)
     return expected

@@ -1,4 +1,4 @@
-"""Links between junctions and the walk along them, compiled: the loops of ``corners.links``.
+"""The graph of neighbours, compiled: the loops of ``detection.checkerboard.neighbour_graph``.
 
 The junctions nearest to one are looked up in a grid of square cells: cell by cell in rings around
 its own, until no cell beyond can hold a nearer one.
@@ -11,14 +11,18 @@ import numpy as np
 from calibgui.engine.arrays import Array, BoolArray, GreyImage, Int32Array, IntArray
 from calibgui.engine.kernels.common import bilinear, compiled
 
-_IN_CELL = 2.0
-"""Junctions in a cell, on average."""
+_JUNCTIONS_PER_CELL = 2.0
+"""Number of junctions in a cell, on average."""
+_SIDE_OFFSET, _MIN_SIDE_OFFSET = 0.15, 1.0
+"""Distance of the samples on either side of an edge, as in the reference, and the least, px."""
 
 
 @compiled
-def _sort(uv, lowest, side, start, member):  # type: ignore[no-untyped-def]
-    """Fill member with the points by their cell (r, c), each from start[r, c] to start[r, c + 1],
-    which leaves the last of each row of start without a cell."""
+def _sort_into_cells(
+    uv: Array, lowest: Array, side: float, start: Int32Array, member: Int32Array
+) -> None:
+    """Fill `member` with the points by their cell (r, c), each from start[r, c] to start[r, c + 1],
+    which leaves the last entry of each row of start without a cell."""
     n, cols = uv.shape[0], start.shape[1]
     flat = start.reshape(-1)
     for i in range(n):
@@ -34,8 +38,8 @@ def _sort(uv, lowest, side, start, member):  # type: ignore[no-untyped-def]
         member[flat[r * cols + c]] = i
 
 
-def cells(uv: Array) -> tuple[Array, float, Int32Array, Int32Array]:
-    """Points (n, 2) sorted into square cells.
+def sort_points(uv: Array) -> tuple[Array, float, Int32Array, Int32Array]:
+    """Sort points (n, 2) into square cells.
 
     Returns:
         The cells' origin (2,) and side, px; (rows, cols + 1) where the points of each begin, and
@@ -43,16 +47,16 @@ def cells(uv: Array) -> tuple[Array, float, Int32Array, Int32Array]:
     """
     lowest, highest = uv.min(axis=0), uv.max(axis=0)
     extent = np.maximum(highest - lowest, 1.0)
-    side = float(np.sqrt(_IN_CELL * extent.prod() / len(uv)))
+    side = float(np.sqrt(_JUNCTIONS_PER_CELL * extent.prod() / len(uv)))
     cols, rows = (extent / side).astype(np.int64) + 1
     start, member = np.zeros((rows, cols + 1), np.int32), np.empty(len(uv), np.int32)
-    _sort(uv, lowest, side, start, member)
+    _sort_into_cells(uv, lowest, side, start, member)
     return lowest, side, start, member
 
 
 @compiled
-def _add(j, squared, near, distance, count):  # type: ignore[no-untyped-def]
-    """Insert j into the count nearest so far, in order; how many there are then."""
+def _insert(j: int, squared: float, near: IntArray, distance: Array, count: int) -> int:
+    """Insert j into the `count` nearest so far, in order, and return how many there are then."""
     most = near.shape[0]
     if count == most:
         if squared >= distance[most - 1]:
@@ -67,8 +71,18 @@ def _add(j, squared, near, distance, count):  # type: ignore[no-untyped-def]
 
 
 @compiled
-def _around(uv, i, lowest, side, start, member, near, distance):  # type: ignore[no-untyped-def]
-    """Fill near with the points nearest to point i, nearest first; their number."""
+def _find_nearest(
+    uv: Array,
+    i: int,
+    lowest: Array,
+    side: float,
+    start: Int32Array,
+    member: Int32Array,
+    near: IntArray,
+    distance: Array,
+) -> int:
+    """Fill `near` with the points nearest to point i, nearest first, and `distance` with their
+    squared distances; return their number."""
     rows, cols = start.shape[0], start.shape[1] - 1
     u, v = uv[i, 0] - lowest[0], uv[i, 1] - lowest[1]
     row, col = int(v / side), int(u / side)
@@ -82,7 +96,7 @@ def _around(uv, i, lowest, side, start, member, near, distance):  # type: ignore
                         j = member[m]
                         if j != i:
                             du, dv = uv[j, 0] - uv[i, 0], uv[j, 1] - uv[i, 1]
-                            count = _add(j, du * du + dv * dv, near, distance, count)
+                            count = _insert(j, du * du + dv * dv, near, distance, count)
         inside = min(
             min(u - col * side, (col + 1) * side - u), min(v - row * side, (row + 1) * side - v)
         )
@@ -92,8 +106,8 @@ def _around(uv, i, lowest, side, start, member, near, distance):  # type: ignore
 
 
 @compiled
-def _towards(along, du, dv):  # type: ignore[no-untyped-def]
-    """The slot that points most along (du, dv), and the cosine between them."""
+def _choose_slot(along: Array, du: float, dv: float) -> tuple[int, float]:
+    """Choose the slot that points most along (du, dv); return it and the cosine between them."""
     a = along[0, 0] * du + along[0, 1] * dv
     b = along[1, 0] * du + along[1, 1] * dv
     if abs(a) >= abs(b):
@@ -102,17 +116,19 @@ def _towards(along, du, dv):  # type: ignore[no-untyped-def]
 
 
 @compiled
-def _cosine(along, k, other, k_other):  # type: ignore[no-untyped-def]
-    """Cosine between slot k of one junction and slot k_other of another."""
-    one, two = along[k % 2], other[k_other % 2]
-    cosine = one[0] * two[0] + one[1] * two[1]
+def _compute_cosine(along: Array, k: int, other: Array, k_other: int) -> float:
+    """Compute the cosine between slot k of one junction and slot k_other of another."""
+    a, b = along[k % 2], other[k_other % 2]
+    cosine = a[0] * b[0] + a[1] * b[1]
     return cosine if k // 2 == k_other // 2 else -cosine
 
 
 @compiled
-def _least_step(g, here, du, dv, distance, places, sign):  # type: ignore[no-untyped-def]
-    """Least step of the sign across the line from here along (du, dv)."""
-    aside = max(0.15 * distance, 1.0)
+def _measure_edge_step(
+    g: GreyImage, here: Array, du: float, dv: float, distance: float, places: Array, sign: float
+) -> float:
+    """Return the least step of the given sign across the line from `here` along (du, dv)."""
+    aside = max(_SIDE_OFFSET * distance, _MIN_SIDE_OFFSET)
     least = np.inf
     for s in places:
         u, v = here[0] + s * distance * du, here[1] + s * distance * dv
@@ -123,59 +139,70 @@ def _least_step(g, here, du, dv, distance, places, sign):  # type: ignore[no-unt
 
 
 @compiled
-def _nearest(g, uv, along, contrast, lowest, side, start, member, most, places, limits, ends):  # type: ignore[no-untyped-def]
-    straight, parallel, weakest = limits
-    near, away = np.empty(most, dtype=np.int64), np.empty(most)
+def _choose_neighbours(
+    g: GreyImage,
+    uv: Array,
+    along: Array,
+    contrast: Array,
+    lowest: Array,
+    side: float,
+    start: Int32Array,
+    member: Int32Array,
+    max_neighbours: int,
+    places: Array,
+    limits: tuple[float, float, float],
+    ends: Int32Array,
+) -> None:
+    """Fill `ends` with the result of `choose_neighbours`, the points being sorted into cells."""
+    min_along, min_parallel, min_edge_step = limits
+    near, away = np.empty(max_neighbours, dtype=np.int64), np.empty(max_neighbours)
     for i in range(uv.shape[0]):
-        count = _around(uv, i, lowest, side, start, member, near, away)
+        count = _find_nearest(uv, i, lowest, side, start, member, near, away)
         for m in range(count):
             j, distance = near[m], np.sqrt(away[m])
             if distance == 0:
                 continue
             du, dv = (uv[j, 0] - uv[i, 0]) / distance, (uv[j, 1] - uv[i, 1]) / distance
-            k, cosine = _towards(along[i], du, dv)
-            if ends[i, k] >= 0 or cosine <= straight:
+            k, cosine = _choose_slot(along[i], du, dv)
+            if ends[i, k] >= 0 or cosine <= min_along:
                 continue
-            k_back, cosine = _towards(along[j], -du, -dv)
-            if cosine <= straight or (k + k_back) % 2 == 0:
+            k_back, cosine = _choose_slot(along[j], -du, -dv)
+            if cosine <= min_along or (k + k_back) % 2 == 0:
                 continue
-            if _cosine(along[i], (k + 1) % 4, along[j], (k_back + 3) % 4) <= parallel:
+            if _compute_cosine(along[i], (k + 1) % 4, along[j], (k_back + 3) % 4) <= min_parallel:
                 continue
             sign = 1.0 if k % 2 == 1 else -1.0
-            step = _least_step(g, uv[i], du, dv, distance, places, sign)
-            if step > weakest * min(contrast[i], contrast[j]):
+            step = _measure_edge_step(g, uv[i], du, dv, distance, places, sign)
+            if step > min_edge_step * min(contrast[i], contrast[j]):
                 ends[i, k] = 4 * j + k_back
 
 
-def nearest(
-    g: GreyImage,
+def choose_neighbours(
+    smooth: GreyImage,
     uv: Array,
     along: Array,
     contrast: Array,
-    most: int,
+    max_neighbours: int,
     places: Array,
     limits: tuple[float, float, float],
 ) -> Int32Array:
-    """``links._nearest``: at each slot (n, 4) the slot of the nearest neighbour that an edge leads
-    to, -1 where there is none.
-
-    Args:
-        g: (h, w) grey levels.
-        uv: (n, 2) junctions, px.
-        along: (n, 2, 2) unit vectors along the edges that leave them at slots 0 and 1.
-        contrast: (n,) grey levels.
-        most: how many of the others, the nearest, an edge may lead to.
-        places: where on the way to a neighbour an edge must lie, over the distance.
-        limits: least cosine between an edge and the way to the neighbour, and between their
-            crossing edges; least step across the way, over the weaker one's contrast.
-    """
+    """Compute ``detection.checkerboard.neighbour_graph._choose_neighbours``."""
     ends = np.full((len(uv), 4), -1, dtype=np.int32)
-    _nearest(g, uv, along, contrast, *cells(uv), min(most, len(uv) - 1), places, limits, ends)
+    count = min(max_neighbours, len(uv) - 1)
+    _choose_neighbours(smooth, uv, along, contrast, *sort_points(uv), count, places, limits, ends)
     return ends
 
 
 @compiled
-def _walk(ends, seeds, steps, nodes, origin, placed):  # type: ignore[no-untyped-def]
+def _walk_graph(
+    ends: Int32Array,
+    seeds: IntArray,
+    directions: IntArray,
+    nodes: Int32Array,
+    origin: Int32Array,
+    placed: Int32Array,
+) -> int:
+    """Fill nodes, origin and placed with the results of `walk_graph`; return their number."""
     seen = np.zeros(ends.shape[0], dtype=np.bool_)
     count = 0
     for seed in seeds:
@@ -194,27 +221,29 @@ def _walk(ends, seeds, steps, nodes, origin, placed):  # type: ignore[no-untyped
                 seen[j] = True
                 direction = (k + turn) % 4
                 nodes[count], origin[count] = j, seed
-                placed[count, 0] = placed[head, 0] + steps[direction, 0]
-                placed[count, 1] = placed[head, 1] + steps[direction, 1]
+                placed[count, 0] = placed[head, 0] + directions[direction, 0]
+                placed[count, 1] = placed[head, 1] + directions[direction, 1]
                 placed[count, 2] = (direction + 2 - back) % 4
                 count += 1
             head += 1
     return count
 
 
-def walk(
-    ends: Int32Array, seeds: IntArray, steps: IntArray
+def walk_graph(
+    ends: Int32Array, seeds: IntArray, directions: IntArray
 ) -> tuple[Int32Array, Int32Array, Int32Array]:
-    """``links._walk``: junctions (m,) in the order of a walk from each of the `seeds` not reached
-    before, the seed (m,) of each, and their rows, columns and turns (m, 3)."""
+    """Compute ``detection.checkerboard.neighbour_graph._walk_graph``."""
     n = len(ends)
     nodes, origin, placed = np.empty(n, np.int32), np.empty(n, np.int32), np.empty((n, 3), np.int32)
-    count = _walk(ends, seeds, steps, nodes, origin, placed)
+    count = _walk_graph(ends, seeds, directions, nodes, origin, placed)
     return nodes[:count], origin[:count], placed[:count]
 
 
 @compiled
-def _agreeing(ends, nodes, placed, steps, agree):  # type: ignore[no-untyped-def]
+def _check_agreement(
+    ends: Int32Array, nodes: Int32Array, placed: Int32Array, directions: IntArray, agree: BoolArray
+) -> None:
+    """Fill `agree` with the result of `check_agreement`."""
     where = np.empty(ends.shape[0], dtype=np.int32)
     for m in range(nodes.shape[0]):
         where[nodes[m]] = m
@@ -227,15 +256,17 @@ def _agreeing(ends, nodes, placed, steps, agree):  # type: ignore[no-untyped-def
                 continue
             there = placed[where[end // 4]]
             direction = (k + turn) % 4
-            right = there[0] == row + steps[direction, 0] and there[1] == col + steps[direction, 1]
-            right &= there[2] == (direction + 2 - end) % 4
-            votes += 1 if right else -1
+            agrees = there[0] == row + directions[direction, 0]
+            agrees &= there[1] == col + directions[direction, 1]
+            agrees &= there[2] == (direction + 2 - end) % 4
+            votes += 1 if agrees else -1
         agree[m] = votes > 0
 
 
-def agreeing(ends: Int32Array, nodes: Int32Array, placed: Int32Array, steps: IntArray) -> BoolArray:
-    """``links._agreeing``: (m,) which of the junctions `nodes` (m,) most of their links place where
-    they are, `placed` (m, 3)."""
+def check_agreement(
+    ends: Int32Array, nodes: Int32Array, placed: Int32Array, directions: IntArray
+) -> BoolArray:
+    """Compute ``detection.checkerboard.neighbour_graph._check_agreement``."""
     agree = np.empty(len(nodes), dtype=np.bool_)
-    _agreeing(ends, nodes, placed, steps, agree)
+    _check_agreement(ends, nodes, placed, directions, agree)
     return agree

@@ -1,28 +1,41 @@
-"""Stage II's normal equations with the image cost, compiled.
+"""Stage II's residuals and normal equations with the image cost, compiled.
 
-The same sums as ``arrow.normal_equations`` over ``stage_two.image_residual``, which stay as the
-readable reference that this file is tested against.
+The readable reference, which this file is tested against, is ``calibration.refinement.residuals``.
 
-Both polynomial lens models are eq. 10's (``eq10.py``): the paper's corrects, and is inverted from
-the measured corner; the other distorts. With M = d(measured) / d(ideal) the derivatives by the
-coefficients are -M basis(measured) for the first and basis(ideal) for the second.
-Padded corners carry zero weight.
+Both polynomial lens models are eq. 10's (``polynomial_lens.py``): the paper's corrects, and is
+inverted from the measured corner; the other distorts. With M = d(measured) / d(ideal) the
+derivatives by the coefficients are -M basis(measured) for the first and basis(ideal) for the
+second. Padded corners carry zero weight.
 """
 
 from __future__ import annotations
 
-from typing import NamedTuple
+from collections.abc import Callable
+from typing import NamedTuple, Protocol
 
 import numpy as np
 
 from calibgui.engine.arrays import Array, IntArray
-from calibgui.engine.kernels.common import compiled, gram, in_blocks, plain
-from calibgui.engine.kernels.polynomial_lens import Eq10Camera, distort, invert
+from calibgui.engine.kernels.common import compiled, gram, make_contiguous, run_in_blocks
+from calibgui.engine.kernels.polynomial_lens import (
+    CameraTuple,
+    Eq10Camera,
+    distort,
+    find_rows,
+    invert,
+    pack_camera,
+)
+
+Workspace = tuple[Array, Array, Array, Array, Array, Array, Array]
+Blocks = tuple[Array, Array, Array, Array, Array, Array]
+"""U, W, V, the shared gradient, the poses' gradients and the views' costs."""
 
 
 @compiled
-def _by_params(fc, base, lead, d, F):  # type: ignore[no-untyped-def]
-    """Rows of F (10, 2N): derivatives of u (first N) and v by fx, fy, cx, cy and eq. 10's k.
+def _differentiate_by_params(
+    fc: tuple[float, float, float, float, float], base: Array, lead: Array, d: Array, F: Array
+) -> None:
+    """Fill the rows of F (10, 2N) with derivatives of u (first N), v by fx, fy, cx, cy and k.
 
     `base` (2, N) is where the basis is evaluated, `lead` (4, N) what multiplies it.
     """
@@ -49,8 +62,11 @@ def _by_params(fc, base, lead, d, F):  # type: ignore[no-untyped-def]
 
 
 @compiled
-def _by_pose(fx, fy, rotated, n, M, inverse_depth, J):  # type: ignore[no-untyped-def]
-    """Rows of J (6, 2N): derivatives by (w, tau), the cross product of R X and d(u, v)/dX_cam."""
+def _differentiate_by_pose(
+    fx: float, fy: float, rotated: Array, n: Array, M: Array, inverse_depth: Array, J: Array
+) -> None:
+    """Fill the rows of J (6, 2N) with derivatives by (w, tau): by w they are the cross product of
+    R X and d(u, v)/dX_cam."""
     N = n.shape[1]
     for i in range(N):
         a0, a1, a2 = rotated[0, i], rotated[1, i], rotated[2, i]
@@ -64,8 +80,8 @@ def _by_pose(fx, fy, rotated, n, M, inverse_depth, J):  # type: ignore[no-untype
 
 
 @compiled
-def _whiten(weight, J):  # type: ignore[no-untyped-def]
-    """J (M, 2N) times the corners' whitening (4, N): w00, w01, w10, w11."""
+def _whiten(weight: Array, J: Array) -> None:
+    """Multiply J (M, 2N) with the corners' whitening (4, N): w00, w01, w10, w11."""
     N = weight.shape[1]
     for m in range(J.shape[0]):
         for i in range(N):
@@ -75,8 +91,8 @@ def _whiten(weight, J):  # type: ignore[no-untyped-def]
 
 
 @compiled
-def workspace(N):  # type: ignore[no-untyped-def]
-    """What `image` and `jacobian` need for a view: R X, 1 / depth, n, d, M, lead and F."""
+def make_workspace(N: int) -> Workspace:
+    """Return the arrays of one view that later calls fill: R X, 1 / depth, n, d, M, lead and F."""
     rotated, inverse_depth, n, d = np.empty((3, N)), np.empty(N), np.empty((2, N)), np.empty((2, N))
     M, lead, F = np.empty((4, N)), np.zeros((4, N)), np.zeros((10, 2 * N))
     lead[0, :] = 1.0
@@ -87,8 +103,17 @@ def workspace(N):  # type: ignore[no-untyped-def]
 
 
 @compiled
-def image(camera, backward, R, T, uv, xyz, work):  # type: ignore[no-untyped-def]
-    """Rays n of one view's corners, their images d and M = dd/dn; whether all have one."""
+def project_view(
+    camera: CameraTuple,
+    backward: bool,
+    R: Array,
+    T: Array,
+    uv: Array,
+    xyz: Array,
+    work: Workspace,
+) -> bool:
+    """Fill in the rays n of one view's corners, their images d and M = dd/dn; return whether all
+    corners have an image."""
     rotated, inverse_depth, n, d, M, _, _ = work
     fx, fy, cx, cy = camera[:4]
     X, Y, Z = xyz[0], xyz[1], xyz[2]
@@ -114,8 +139,17 @@ def image(camera, backward, R, T, uv, xyz, work):  # type: ignore[no-untyped-def
 
 
 @compiled
-def jacobian(camera, backward, uv, weight, whitened, rows, work, J):  # type: ignore[no-untyped-def]
-    """Rows of J (P + 7, 2N): whitened [J_free J_pose r] of the view that `image` has seen."""
+def fill_jacobian(
+    camera: CameraTuple,
+    backward: bool,
+    uv: Array,
+    weight: Array,
+    whitened: bool,
+    rows: IntArray,
+    work: Workspace,
+    J: Array,
+) -> None:
+    """Fill J (P + 7, 2N) with the whitened [J_free J_pose r] of the view last projected."""
     rotated, inverse_depth, n, d, M, lead, F = work
     fx, fy, cx, cy, _, _, _, p1, p2, p3 = camera
     P, N = rows.shape[0], uv.shape[1]
@@ -123,12 +157,12 @@ def jacobian(camera, backward, uv, weight, whitened, rows, work, J):  # type: ig
         for j in range(4):
             for i in range(N):
                 lead[j, i] = -M[j, i]
-    _by_params((fx, fy, p1, p2, p3), d if backward else n, lead, d, F)
+    _differentiate_by_params((fx, fy, p1, p2, p3), d if backward else n, lead, d, F)
     for j in range(P):
         row = rows[j]
         for i in range(2 * N):
             J[j, i] = F[row, i]
-    _by_pose(fx, fy, rotated, n, M, inverse_depth, J[P : P + 6])
+    _differentiate_by_pose(fx, fy, rotated, n, M, inverse_depth, J[P : P + 6])
     for i in range(N):
         J[P + 6, i] = cx + fx * d[0, i] - uv[0, i]
         J[P + 6, N + i] = cy + fy * d[1, i] - uv[1, i]
@@ -137,28 +171,48 @@ def jacobian(camera, backward, uv, weight, whitened, rows, work, J):  # type: ig
 
 
 @compiled
-def _products(camera, backward, R, T, uv, xyz, weight, whitened, rows, out):  # type: ignore[no-untyped-def]
+def _sum_views(
+    camera: CameraTuple,
+    backward: bool,
+    R: Array,
+    T: Array,
+    uv: Array,
+    xyz: Array,
+    weight: Array,
+    whitened: bool,
+    rows: IntArray,
+    out: Array,
+) -> None:
     """Fill out (K, P + 7, P + 7) with the products of the rows of each view's J."""
     K, _, N = uv.shape
-    work, J = workspace(N), np.empty((rows.shape[0] + 7, 2 * N))
+    work, J = make_workspace(N), np.empty((rows.shape[0] + 7, 2 * N))
     for view in range(K):
-        good = image(camera, backward, R[view], T[view], uv[view], xyz[view], work)
-        jacobian(camera, backward, uv[view], weight[view], whitened, rows, work, J)
+        good = project_view(camera, backward, R[view], T[view], uv[view], xyz[view], work)
+        fill_jacobian(camera, backward, uv[view], weight[view], whitened, rows, work, J)
         gram(J, out[view])
         if not good:
             out[view, -1, -1] = np.inf
 
 
 @compiled
-def _residuals(camera, backward, R, T, uv, xyz, seen, registered):  # type: ignore[no-untyped-def]
+def _compute_residuals(
+    camera: CameraTuple,
+    backward: bool,
+    R: Array,
+    T: Array,
+    uv: Array,
+    xyz: Array,
+    seen: Array,
+    registered: Array,
+) -> None:
     """Fill seen and registered (K, 2, N); NaN for a view with corners that have no image."""
     K, _, N = uv.shape
     fx, fy, cx, cy = camera[:4]
-    work = workspace(N)
+    work = make_workspace(N)
     _, _, n, d, M, _, _ = work
     goal, ideal = np.empty((2, N)), np.empty((2, N))
     for view in range(K):
-        good = image(camera, backward, R[view], T[view], uv[view], xyz[view], work)
+        good = project_view(camera, backward, R[view], T[view], uv[view], xyz[view], work)
         for i in range(N):
             seen[view, 0, i] = uv[view, 0, i] - cx - fx * d[0, i]
             seen[view, 1, i] = uv[view, 1, i] - cy - fy * d[1, i]
@@ -191,50 +245,120 @@ class Views(NamedTuple):
     uv: Array
     """(K, 2, N) measured corners, px."""
     xyz: Array
-    """(K, 3, N) plate points, mm."""
+    """(K, 3, N) board points, mm."""
     weight: Array
     """(K, 4, N) whitening of the corners, 0 for padding; (K, 4, 0) if all weigh 1."""
 
 
-def products(lens: Eq10Camera, R: Array, T: Array, views: Views, rows: IntArray) -> Array:
-    """(K, P + 7, P + 7) products of the columns [J_free J_pose r] of each view.
+class CameraAndPoses(Protocol):
+    """The fields of ``calibration.refinement.residuals.State`` that kernels read."""
+
+    @property
+    def params(self) -> Array: ...
+    @property
+    def R(self) -> Array: ...  # noqa: N802 - the paper's symbol
+    @property
+    def T(self) -> Array: ...  # noqa: N802 - the paper's symbol
+
+
+class MeasuredViews(Protocol):
+    """The fields of ``calibration.observations.Observations`` that kernels read."""
+
+    @property
+    def uv(self) -> Array: ...
+    @property
+    def xy(self) -> Array: ...
+    @property
+    def mask(self) -> Array: ...
+    @property
+    def whitening(self) -> Array | None: ...
+    @property
+    def is_unweighted(self) -> bool: ...
+    def select_views(self, views: slice) -> MeasuredViews: ...
+
+
+def pack_views(observations: MeasuredViews) -> Views:
+    """Return the views in the kernels' layout, one coordinate a row."""
+    K, N = observations.mask.shape
+    xyz = np.zeros((K, 3, N))
+    xyz[:, : observations.xy.shape[-1]] = np.swapaxes(observations.xy, 1, 2)
+    weight = np.zeros((K, 4, 0 if observations.is_unweighted else N))
+    if observations.whitening is not None:
+        weight[:] = np.swapaxes(observations.whitening.reshape(K, N, 4), 1, 2)
+    elif weight.size:
+        weight[:, 0] = weight[:, 3] = observations.mask
+    return Views(np.array(np.swapaxes(observations.uv, 1, 2), order="C"), xyz, weight)
+
+
+def sum_products(lens: Eq10Camera, R: Array, T: Array, views: Views, rows: IntArray) -> Array:
+    """Return (K, P + 7, P + 7) products of the columns [J_free J_pose r] of each view.
+
+    The squared residual, the last entry, is infinite for views with no prediction.
 
     Args:
         lens: the camera.
         R: (K, 3, 3) rotations.
         T: (K, 3) translations, mm.
-        views: what was measured.
+        views: the measured corners.
         rows: (P,) places of the free parameters in ``lens.camera``.
-
-    Returns:
-        The squared residual, the last entry, is infinite for views with no prediction.
     """
     out = np.empty((len(R), len(rows) + 7, len(rows) + 7))
-    R, T = plain(R), plain(T)
+    R, T = make_contiguous(R), make_contiguous(T)
     uv, xyz, weight = views
     whitened = weight.shape[2] > 0
 
     def run(part: slice) -> None:
-        _products(
+        _sum_views(
             *lens, R[part], T[part], uv[part], xyz[part], weight[part], whitened, rows, out[part]
         )
 
-    in_blocks(len(R), run)
+    run_in_blocks(len(R), run)
     return out
 
 
-def residuals(lens: Eq10Camera, R: Array, T: Array, views: Views) -> tuple[Array, Array]:
-    """(K, 2, N) measured minus predicted corners, px, and the same on the plate, mm.
+def prepare_blocks(
+    observations: MeasuredViews,
+    model: str,
+    cost: object,  # noqa: ARG001 - the reference's arguments
+    scale: float,  # noqa: ARG001
+    free: IntArray,
+) -> Callable[[CameraAndPoses], Blocks]:
+    """Compute ``calibration.refinement.residuals.prepare_blocks`` for the image cost."""
+    views, rows, P = pack_views(observations), find_rows(model, free), len(free)
 
-    The second are where the measured corners' rays meet the plate, minus where the corners
-    are, on the plane through each corner that is parallel to the plate's. Not whitened.
+    def blocks_at(state: CameraAndPoses) -> Blocks:
+        A = sum_products(pack_camera(model, state.params), state.R, state.T, views, rows)
+        # Summed over views in a fixed order, whichever thread made them.
+        return (
+            A[:, :P, :P].sum(axis=0),
+            A[:, :P, P:-1],
+            A[:, P:-1, P:-1],
+            A[:, :P, -1].sum(axis=0),
+            A[:, P:-1, -1],
+            A[:, -1, -1],
+        )
+
+    return blocks_at
+
+
+def compute_residuals(
+    state: CameraAndPoses,
+    observations: MeasuredViews,
+    model: str,
+    cost: object,  # noqa: ARG001 - the reference's arguments
+) -> tuple[Array, Array]:
+    """Compute ``calibration.refinement.residuals.compute_residuals`` for the image cost.
+
+    Where Newton's method does not reach one corner the whole view is NaN.
     """
-    R, T = plain(R), plain(T)
-    uv, xyz, _ = views
+    lens, (uv, xyz, _) = pack_camera(model, state.params), pack_views(observations)
+    R, T = make_contiguous(state.R), make_contiguous(state.T)
     seen, registered = np.empty_like(uv), np.empty_like(uv)
 
     def run(part: slice) -> None:
-        _residuals(*lens, R[part], T[part], uv[part], xyz[part], seen[part], registered[part])
+        _compute_residuals(
+            *lens, R[part], T[part], uv[part], xyz[part], seen[part], registered[part]
+        )
 
-    in_blocks(len(R), run)
-    return seen, registered
+    run_in_blocks(len(R), run)
+    return np.swapaxes(seen, 1, 2).copy(), np.swapaxes(registered, 1, 2).copy()

@@ -1,28 +1,59 @@
-"""The polynomial of eq. 10 and its inverse, compiled: ``lens.lucchese`` and ``lens.inverse``.
+"""The polynomial of eq. 10 and its inverse, compiled.
 
-The coefficients are ordered as k1, k2, k3, p1, p2, p3. It is both lens models that are polynomials:
-the paper's takes measured to ideal points, OpenCV's ideal to measured ones.
+The readable counterparts are ``camera.models.lucchese`` and ``camera.inverse``. The coefficients
+are ordered as k1, k2, k3, p1, p2, p3. Two lens models are this polynomial: the paper's takes
+measured to ideal points, Brown and Conrady's takes ideal to measured ones.
 """
 
 from __future__ import annotations
 
-from typing import NamedTuple
+from typing import NamedTuple, cast
 
+import numpy as np
+
+from calibgui.engine.arrays import Array, IntArray
+from calibgui.engine.kernels import POLYNOMIAL_LENSES
 from calibgui.engine.kernels.common import compiled
+
+Coefficients = tuple[float, float, float, float, float, float]
+"""k1, k2, k3, p1, p2, p3 of eq. 10."""
+CameraTuple = tuple[float, float, float, float, float, float, float, float, float, float]
+"""fx, fy, cx, cy, k1, k2, k3, p1, p2, p3."""
 
 
 class Eq10Camera(NamedTuple):
     """A camera in the terms of eq. 10."""
 
-    camera: tuple[float, ...]
+    camera: CameraTuple
     """fx, fy, cx, cy, k1, k2, k3, p1, p2, p3."""
     backward: bool
-    """Whether eq. 10 corrects (the paper) rather than distorts."""
+    """True if eq. 10 corrects (the paper), false if it distorts."""
+
+
+def pack_camera(model: str, params: Array) -> Eq10Camera:
+    """Return a camera's parameters in the terms of eq. 10."""
+    camera = np.zeros(10)
+    camera[list(POLYNOMIAL_LENSES[model])] = params
+    return Eq10Camera(cast(CameraTuple, tuple(camera.tolist())), model == "lucchese")
+
+
+def find_rows(model: str, free: IntArray) -> IntArray:
+    """Return (P,) places of the free parameters of a lens model in ``Eq10Camera.camera``."""
+    return np.array(POLYNOMIAL_LENSES[model])[free]
 
 
 @compiled
-def eq10(x, y, k1, k2, k3, p1, p2, p3):  # type: ignore[no-untyped-def]
-    """psi1, psi2 and their derivatives by x and y, as ``lens.lucchese``."""
+def eq10(
+    x: float,
+    y: float,
+    k1: float,
+    k2: float,
+    k3: float,
+    p1: float,
+    p2: float,
+    p3: float,
+) -> tuple[float, float, float, float, float, float]:
+    """Evaluate psi1, psi2 and their derivatives by x and y, as ``camera.models.lucchese``."""
     xx, yy, xy = x * x, y * y, x * y
     r2 = xx + yy
     rho = r2 * (k1 + r2 * (k2 + r2 * k3))
@@ -42,8 +73,8 @@ def eq10(x, y, k1, k2, k3, p1, p2, p3):  # type: ignore[no-untyped-def]
 
 
 @compiled
-def distort(n, k, d, M):  # type: ignore[no-untyped-def]
-    """d = eq10(n) and M = dd/dn, all (2 or 4, N)."""
+def distort(n: Array, k: Coefficients, d: Array, M: Array) -> None:
+    """Fill d (2, N) with eq10(n) and M (4, N) with dd/dn, for n (2, N)."""
     k1, k2, k3, p1, p2, p3 = k
     for i in range(n.shape[1]):
         d[0, i], d[1, i], M[0, i], M[1, i], M[2, i], M[3, i] = eq10(
@@ -52,8 +83,8 @@ def distort(n, k, d, M):  # type: ignore[no-untyped-def]
 
 
 @compiled
-def invert(n, k, d, M):  # type: ignore[no-untyped-def]
-    """Solve eq10(d) = n from the given d; M = dd/dn. Returns whether all points converged.
+def invert(n: Array, k: Coefficients, d: Array, M: Array) -> bool:
+    """Solve eq10(d) = n from the given d, fill M with dd/dn; return whether all points converged.
 
     After a step of Newton's method of at most 1e-7, all points together, the error is its square;
     one more step with the same M takes it below rounding. A point that ends beyond the fold of

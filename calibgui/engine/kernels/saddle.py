@@ -1,4 +1,4 @@
-"""Saddle points of the weighted quadratic fit, compiled: ``corners.saddle``'s iteration."""
+"""Saddle points of the weighted quadratic fit, compiled: see ``detection.checkerboard.saddle``."""
 
 from __future__ import annotations
 
@@ -11,8 +11,10 @@ _POWERS = np.array([(0, 0), (1, 0), (0, 1), (2, 0), (1, 1), (0, 2)])
 
 
 @compiled
-def _moments(centre, origin, extent, sigma, weighted, moments):  # type: ignore[no-untyped-def]
-    """Along one axis: weights times powers 0 to 2 of each pixel, and their moments 0 to 4."""
+def _sum_moments(
+    centre: float, origin: int, extent: int, sigma: float, weighted: Array, moments: Array
+) -> None:
+    """Fill in weights times powers 0 to 2 of each pixel along an axis, and their moments 0 to 4."""
     moments[:] = 0
     for k in range(weighted.shape[1]):
         at = origin + k
@@ -26,8 +28,11 @@ def _moments(centre, origin, extent, sigma, weighted, moments):  # type: ignore[
 
 
 @compiled
-def _newton(image, u, v, sigma, work):  # type: ignore[no-untyped-def]
-    """Step to the fitted stationary point, at most sigma long, and whether it is a saddle."""
+def _compute_step(
+    image: GreyImage, u: float, v: float, sigma: float, work: tuple[Array, ...]
+) -> tuple[float, float, bool]:
+    """Compute the step to the fitted stationary point, at most sigma long, and whether that is a
+    saddle."""
     weights_u, weights_v, moments_u, moments_v, N, fit = work
     height, width = image.shape
     if not (0 <= u <= width - 1 and 0 <= v <= height - 1):
@@ -35,8 +40,8 @@ def _newton(image, u, v, sigma, work):  # type: ignore[no-untyped-def]
     half = int(np.ceil(3 * sigma + 0.5))
     side, left, top = 2 * half + 1, int(np.rint(u)) - half, int(np.rint(v)) - half
     wu, wv = weights_u[:, :side], weights_v[:, :side]
-    _moments(u, left, width, sigma, wu, moments_u)
-    _moments(v, top, height, sigma, wv, moments_v)
+    _sum_moments(u, left, width, sigma, wu, moments_u)
+    _sum_moments(v, top, height, sigma, wv, moments_v)
     fit[:] = 0
     for k in range(max(-top, 0), min(side, height - top)):
         r0 = r1 = r2 = 0.0
@@ -68,7 +73,17 @@ def _newton(image, u, v, sigma, work):  # type: ignore[no-untyped-def]
 
 
 @compiled
-def _iterate(image, start, sigma, limit, tolerance, most, uv, good):  # type: ignore[no-untyped-def]
+def _iterate(
+    image: GreyImage,
+    start: Array,
+    sigma: Array,
+    limit: Array,
+    tolerance: float,
+    most: int,
+    uv: Array,
+    good: BoolArray,
+) -> None:
+    """Fill in positions (n, 2), and True where one was found."""
     side = 2 * int(np.ceil(3 * sigma.max() + 0.5)) + 1
     work = (
         np.empty((3, side)),
@@ -81,7 +96,7 @@ def _iterate(image, start, sigma, limit, tolerance, most, uv, good):  # type: ig
     for i in range(start.shape[0]):
         u, v = start[i]
         for _ in range(most):
-            du, dv, is_saddle = _newton(image, u, v, sigma[i], work)
+            du, dv, is_saddle = _compute_step(image, u, v, sigma[i], work)
             u, v = u + du, v + dv
             away = np.sqrt((u - start[i, 0]) ** 2 + (v - start[i, 1]) ** 2)
             if not is_saddle or not away <= limit[i]:
@@ -95,16 +110,7 @@ def _iterate(image, start, sigma, limit, tolerance, most, uv, good):  # type: ig
 def iterate(
     image: GreyImage, start: Array, sigma: Array, limit: Array, tolerance: float, most: int
 ) -> tuple[Array, BoolArray]:
-    """Saddle points of `image` near the estimates `start` (n, 2), and whether (n,) found.
-
-    Args:
-        image: (h, w) grey levels.
-        start: px.
-        sigma: (n,) standard deviation of the weights, px.
-        limit: (n,) farthest distance from the estimate, px.
-        tolerance: step at which an estimate stands still, px.
-        most: steps.
-    """
+    """Compute ``_iterate`` of the reference."""
     uv, good = start.copy(), np.zeros(len(start), dtype=np.bool_)
     _iterate(image, start, sigma, limit, tolerance, most, uv, good)
     return uv, good

@@ -1,6 +1,6 @@
-"""Stage I, compiled: ``stage_one.iterated`` over ``stage_one.registration``.
+"""Stage I, compiled: ``calibration.initialisation.stage_one.minimise_registration``.
 
-With A = 1/P, the registered point xi and the derivatives of ``stage_one.py``.
+The derivation and the symbols are that module's; A = 1/P.
 """
 
 from __future__ import annotations
@@ -8,12 +8,12 @@ from __future__ import annotations
 import numpy as np
 
 from calibgui.engine.arrays import Array, BoolArray, IntArray
-from calibgui.engine.kernels.common import compiled, gram, in_blocks, plain
+from calibgui.engine.kernels.common import compiled, gram, make_contiguous, run_in_blocks
 
 
 @compiled
-def _registration(z, x, goal, weight, J):  # type: ignore[no-untyped-def]
-    """Rows of J (12, 2N): weighted derivatives of xi1 (first N) and xi2 by z_r, and residuals."""
+def _linearise(z: Array, x: Array, goal: Array, weight: Array, J: Array) -> None:
+    """Fill J (12, 2N) with weighted derivatives of xi1 (first N) and xi2 by z_r, and residuals."""
     xp, yp, k1, a11, a21, a12, a22, d1, d2, c1, c2 = z
     N = weight.shape[0]
     for i in range(N):
@@ -40,8 +40,8 @@ def _registration(z, x, goal, weight, J):  # type: ignore[no-untyped-def]
 
 
 @compiled
-def _step(products, damping, L, step):  # type: ignore[no-untyped-def]
-    """Fill step (11,) by Cholesky's factorisation L; the decrease that it promises."""
+def _solve_step(products: Array, damping: float, L: Array, step: Array) -> float:
+    """Fill step (11,) by Cholesky's factorisation L; return the decrease that it predicts."""
     n = step.shape[0]
     for i in range(n):
         for j in range(i + 1):
@@ -68,8 +68,19 @@ def _step(products, damping, L, step):  # type: ignore[no-untyped-def]
 
 
 @compiled
-def _views(x, goal, weight, most, small, stiffest, z, products, iterations, converged):  # type: ignore[no-untyped-def]
-    """``stage_one.iterated`` for one view after another, from z (K, 11)."""
+def _minimise_views(
+    x: Array,
+    goal: Array,
+    weight: Array,
+    max_iterations: int,
+    tolerance: float,
+    max_damping: float,
+    z: Array,
+    products: Array,
+    iterations: IntArray,
+    converged: BoolArray,
+) -> None:
+    """Minimise the cost of one view after another, from z (K, 11)."""
     K, N = weight.shape
     J, new, L = np.zeros((12, 2 * N)), np.empty((12, 12)), np.empty((11, 11))
     step, trial = np.empty(11), np.empty(11)
@@ -77,8 +88,8 @@ def _views(x, goal, weight, most, small, stiffest, z, products, iterations, conv
         damping, cost = 1e-3, np.inf
         for i in range(11):
             trial[i] = z[view, i]
-        for count in range(most + 1):
-            _registration(trial, x[view], goal[view], weight[view], J)
+        for count in range(max_iterations + 1):
+            _linearise(trial, x[view], goal[view], weight[view], J)
             gram(J, new)
             iterations[view] = count
             if new[11, 11] < cost:
@@ -91,43 +102,37 @@ def _views(x, goal, weight, most, small, stiffest, z, products, iterations, conv
                 damping = max(damping / 10, 1e-12) if count else damping
             else:
                 damping *= 10
-            if not damping <= stiffest:
+            if not damping <= max_damping:
                 break
-            decrease = _step(products[view], damping, L, step)
-            if decrease <= small * cost + 1e-28:
+            decrease = _solve_step(products[view], damping, L, step)
+            if decrease <= tolerance * cost + 1e-28:
                 converged[view] = True
                 break
             for i in range(11):
                 trial[i] = z[view, i] + step[i]
 
 
-def iterated(
-    z: Array, x: Array, goal: Array, weight: Array, most: int, small: float, stiffest: float
+def minimise_registration(
+    z: Array,
+    x: Array,
+    goal: Array,
+    mask: Array,
+    max_iterations: int,
+    tolerance: float,
+    max_damping: float,
 ) -> tuple[Array, Array, IntArray, BoolArray]:
-    """Levenberg-Marquardt from z (K, 11): ``stage_one.iterated``.
-
-    Args:
-        z: unknowns z_r to start from.
-        x: (K, 2, N) measured corners.
-        goal: (K, 2, N) corners on the reference plane.
-        weight: (K, N) what residuals are multiplied with.
-        most: iterations.
-        small: decrease that counts as none, relative to the cost.
-        stiffest: damping at which to give up.
-
-    Returns:
-        z, (K, 12, 12) products of the columns [J r] there, iterations, whether it converged.
-    """
+    """Compute ``calibration.initialisation.stage_one.minimise_registration``."""
     K = len(z)
-    x, goal, weight = plain(x), plain(goal), plain(weight)
+    x, goal = make_contiguous(np.swapaxes(x, 1, 2)), make_contiguous(np.swapaxes(goal, 1, 2))
+    weight = make_contiguous(mask)
     z, products = z.copy(), np.full((K, 12, 12), np.nan)
     iterations, converged = np.zeros(K, dtype=np.int64), np.zeros(K, dtype=np.bool_)
 
     def run(part: slice) -> None:
-        _views(
-            x[part], goal[part], weight[part], most, small, stiffest,
+        _minimise_views(
+            x[part], goal[part], weight[part], max_iterations, tolerance, max_damping,
             z[part], products[part], iterations[part], converged[part],
         )  # fmt: skip
 
-    in_blocks(K, run)
+    run_in_blocks(K, run)
     return z, products, iterations, converged

@@ -1,4 +1,4 @@
-"""X-junctions, compiled: the peaks and the ring test of ``corners.junctions``.
+"""X-junctions, compiled: the loops of ``detection.checkerboard.x_junctions``.
 
 The peaks are searched row by row in a window of five rows of R, so that nothing of the image's
 size is allocated, and only the strongest are kept on the way.
@@ -8,7 +8,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from calibgui.engine.arrays import Array, BoolArray, GreyImage, IntArray
+from calibgui.engine.arrays import Array, BoolArray, FloatImage, GreyImage, IntArray
 from calibgui.engine.kernels.common import bilinear, compiled
 
 _F = np.float32
@@ -16,8 +16,8 @@ _QUARTER, _TWO = _F(0.25), _F(2)
 
 
 @compiled
-def _determinant(g, v, row):  # type: ignore[no-untyped-def]
-    """Fill row with R of row v of the image g, but for its ends."""
+def _compute_determinants(g: GreyImage, v: int, row: FloatImage) -> None:
+    """Fill `row` with R of row v of the image g, but for its ends."""
     above, here, below = g[v - 1], g[v], g[v + 1]
     for u in range(1, row.shape[0] - 1):
         twice = _TWO * _F(here[u])
@@ -29,8 +29,8 @@ def _determinant(g, v, row):  # type: ignore[no-untyped-def]
 
 
 @compiled
-def _first(R, v, u):  # type: ignore[no-untyped-def]
-    """Whether a peak equals none before it around."""
+def _is_first(R: FloatImage, v: int, u: int) -> bool:
+    """Return whether a peak equals none of the values before it in its surroundings."""
     here = R[v % 5, u]
     for du in range(-2, 3):
         if R[(v - 2) % 5, u + du] == here or R[(v - 1) % 5, u + du] == here:
@@ -39,8 +39,14 @@ def _first(R, v, u):  # type: ignore[no-untyped-def]
 
 
 @compiled
-def _peaks(g, least, v, where, value):  # type: ignore[no-untyped-def]
-    """Fill where and value with peaks from row v on; their number and the next row to search."""
+def _scan_rows(
+    g: GreyImage, least: np.float32, v: int, where: IntArray, value: FloatImage
+) -> tuple[int, int]:
+    """Fill `where` and `value` with the peaks from row v on, until they are full.
+
+    Returns:
+        The number of peaks and the next row to search.
+    """
     height, width = g.shape
     R = np.empty((5, width), dtype=_F)
     R[:] = -np.inf
@@ -48,10 +54,10 @@ def _peaks(g, least, v, where, value):  # type: ignore[no-untyped-def]
     is_peak = np.empty(width, dtype=np.bool_)
     count = 0
     for row in range(max(v - 2, 1), v + 2):
-        _determinant(g, row, R[row % 5])
+        _compute_determinants(g, row, R[row % 5])
     while v < height - 2 and count + width <= where.shape[0]:
         if v + 2 < height - 1:
-            _determinant(g, v + 2, R[(v + 2) % 5])
+            _compute_determinants(g, v + 2, R[(v + 2) % 5])
         else:
             R[(v + 2) % 5] = -np.inf
         r0, r1, r2, r3, r4 = R[0], R[1], R[2], R[3], R[4]
@@ -64,33 +70,33 @@ def _peaks(g, least, v, where, value):  # type: ignore[no-untyped-def]
             any_peak |= is_peak[u]
         if any_peak:
             for u in range(2, width - 2):
-                if is_peak[u] and _first(R, v, u):
+                if is_peak[u] and _is_first(R, v, u):
                     where[count], value[count] = v * width + u, here[u]
                     count += 1
         v += 1
     return count, v
 
 
-def peaks(g: GreyImage, least: float, most: int) -> IntArray:
-    """(n,) flat indices of the at most `most` strongest peaks of R, strongest first."""
+def find_peaks(smooth: GreyImage, min_determinant: float, max_count: int) -> IntArray:
+    """Compute ``detection.checkerboard.x_junctions._find_peaks``."""
     where, value = np.empty(0, dtype=np.int64), np.empty(0, dtype=_F)
-    more = np.empty(most + g.shape[1], dtype=np.int64)
-    its_value = np.empty(len(more), dtype=_F)
-    v = 2
-    while v < g.shape[0] - 2:
-        count, v = _peaks(g, _F(least), v, more, its_value)
+    more = np.empty(max_count + smooth.shape[1], dtype=np.int64)
+    more_values = np.empty(len(more), dtype=_F)
+    v, least = 2, min_determinant
+    while v < smooth.shape[0] - 2:
+        count, v = _scan_rows(smooth, np.float32(least), v, more, more_values)
         where = np.concatenate([where, more[:count]])
-        value = np.concatenate([value, its_value[:count]])
-        strongest = np.argsort(-value, kind="stable")[:most]
+        value = np.concatenate([value, more_values[:count]])
+        strongest = np.argsort(-value, kind="stable")[:max_count]
         where, value = where[strongest], value[strongest]
-        if len(value) == most:
+        if len(value) == max_count:
             least = max(least, float(value[-1]))
     return where
 
 
 @compiled
-def _newton(g, u, v):  # type: ignore[no-untyped-def]
-    """The step from (u, v) towards the point of zero gradient."""
+def _compute_newton_step(g: GreyImage, u: float, v: float) -> tuple[float, float]:
+    """Compute the step from (u, v) towards the point of zero gradient."""
     left, here, right = bilinear(g, u - 1, v), bilinear(g, u, v), bilinear(g, u + 1, v)
     above, below = bilinear(g, u, v - 1), bilinear(g, u, v + 1)
     gu, gv = (right - left) / 2, (below - above) / 2
@@ -102,33 +108,43 @@ def _newton(g, u, v):  # type: ignore[no-untyped-def]
 
 
 @compiled
-def _stationary(g, where, steps, farthest, uv, near):  # type: ignore[no-untyped-def]
+def _refine_stationary(
+    g: GreyImage, where: IntArray, steps: int, max_shift: float, uv: Array, near: BoolArray
+) -> None:
+    """Fill uv and near with the results of `refine_stationary`."""
     for n in range(where.shape[0]):
         row, col = where[n] // g.shape[1], where[n] % g.shape[1]
         uv[n, 0], uv[n, 1], near[n] = col, row, True
         for _ in range(steps):
-            du, dv = _newton(g, uv[n, 0], uv[n, 1])
+            du, dv = _compute_newton_step(g, uv[n, 0], uv[n, 1])
             u, v = uv[n, 0] + du, uv[n, 1] + dv
-            near[n] = max(abs(u - col), abs(v - row)) < farthest
+            near[n] = max(abs(u - col), abs(v - row)) < max_shift
             if not near[n]:
                 break
             uv[n, 0], uv[n, 1] = u, v
 
 
-def stationary(
-    g: GreyImage, where: IntArray, steps: int, farthest: float
+def refine_stationary(
+    smooth: GreyImage, pixels: IntArray, steps: int, max_shift: float
 ) -> tuple[Array, BoolArray]:
-    """``junctions._stationary``: points of zero gradient (n, 2) after so many Newton steps, and
-    which stayed within `farthest` px of their pixels along both axes."""
-    uv, near = np.empty((len(where), 2)), np.empty(len(where), dtype=np.bool_)
-    _stationary(g, where, steps, farthest, uv, near)
-    return uv, near
+    """Compute ``detection.checkerboard.x_junctions._refine_stationary``."""
+    uv, is_near = np.empty((len(pixels), 2)), np.empty(len(pixels), dtype=np.bool_)
+    _refine_stationary(smooth, pixels, steps, max_shift, uv, is_near)
+    return uv, is_near
 
 
 @compiled
-def _ring(g, u, v, circle, floor, limits, found):  # type: ignore[no-untyped-def]
-    """One circle around one point; fills found with the angles A, B and the contrast."""
-    asymmetry, off_middle, narrowest = limits
+def _check_circle(
+    g: GreyImage,
+    u: float,
+    v: float,
+    circle: Array,
+    min_contrast: float,
+    limits: tuple[float, float, float],
+    found: Array,
+) -> bool:
+    """Test one point on one circle; fill `found` with the angles A, B and the contrast."""
+    max_asymmetry, max_off_middle, min_angle = limits
     half = circle.shape[0] // 2
     level = np.empty(half + 1)
     low, high, uneven = np.inf, -np.inf, 0.0
@@ -139,9 +155,9 @@ def _ring(g, u, v, circle, floor, limits, found):  # type: ignore[no-untyped-def
         uneven += (near - far) ** 2
         low, high = min(low, level[k]), max(high, level[k])
     contrast, middle = high - low, (low + high) / 2
-    if not contrast > floor or np.sqrt(uneven / half) >= asymmetry * contrast:
+    if not contrast > min_contrast or np.sqrt(uneven / half) >= max_asymmetry * contrast:
         return False
-    if abs(bilinear(g, u, v) - middle) >= off_middle * contrast:
+    if abs(bilinear(g, u, v) - middle) >= max_off_middle * contrast:
         return False
     level[half] = level[0]
     falls = 0
@@ -155,34 +171,36 @@ def _ring(g, u, v, circle, floor, limits, found):  # type: ignore[no-untyped-def
     if found[1] < found[0]:
         found[1] += np.pi
     found[2] = contrast
-    return falls == 1 and narrowest < found[1] - found[0] < np.pi - narrowest
+    return falls == 1 and min_angle < found[1] - found[0] < np.pi - min_angle
 
 
 @compiled
-def _rings(g, uv, circles, floor, limits, passed, found):  # type: ignore[no-untyped-def]
+def _check_circles(
+    g: GreyImage,
+    uv: Array,
+    circles: Array,
+    min_contrast: float,
+    limits: tuple[float, float, float],
+    passed: BoolArray,
+    rings: Array,
+) -> None:
+    """Fill passed and rings with the results of `check_circles`."""
     for i in range(uv.shape[0]):
         for k in range(circles.shape[0]):
-            passed[i] = _ring(g, uv[i, 0], uv[i, 1], circles[k], floor, limits, found[i])
+            u, v = uv[i, 0], uv[i, 1]
+            passed[i] = _check_circle(g, u, v, circles[k], min_contrast, limits, rings[i])
             if passed[i]:
                 break
 
 
-def rings(
-    g: GreyImage, uv: Array, circles: Array, floor: float, limits: tuple[float, float, float]
+def check_circles(
+    smooth: GreyImage,
+    uv: Array,
+    circles: Array,
+    min_contrast: float,
+    limits: tuple[float, float, float],
 ) -> tuple[BoolArray, Array]:
-    """The ring test of points uv (n, 2) on `circles` (k, samples, 2) in turn until one passes.
-
-    Args:
-        g: (h, w) grey levels.
-        uv: (n, 2) px.
-        circles: offsets of the samples, px.
-        floor: least contrast, grey levels.
-        limits: greatest asymmetry and distance of the centre from the mid level, over the
-            contrast, and least angle between the edges, rad.
-
-    Returns:
-        Which passed (n,), and (n, 3) the angles A, B and the contrast, for those that did.
-    """
-    passed, found = np.zeros(len(uv), dtype=np.bool_), np.zeros((len(uv), 3))
-    _rings(g, uv, circles, floor, limits, passed, found)
-    return passed, found
+    """Compute ``detection.checkerboard.x_junctions._check_circles``."""
+    passed, rings = np.zeros(len(uv), dtype=np.bool_), np.zeros((len(uv), 3))
+    _check_circles(smooth, uv, circles, min_contrast, limits, passed, rings)
+    return passed, rings

@@ -1,1 +1,1 @@
-"""Views of a result: one file, one widget, one setter each."""
+"""The right of the window: one panel for each aspect of a result."""

@@ -7,7 +7,7 @@ import numpy as np
 from calibgui.engine.arrays import Array
 
 
-def arrows(at: Array, vector: Array) -> Array:
+def trace_arrows(at: Array, vector: Array) -> Array:
     """Arrows centred at (n, 2) along (n, 2) as one polyline, broken by NaN."""
     start, tip = at - vector / 2, at + vector / 2
     side = np.stack([-vector[:, 1], vector[:, 0]], axis=1)

@@ -17,7 +17,7 @@ from PySide6.QtGui import (
 )
 from PySide6.QtWidgets import QWidget
 
-from calibgui.gui import theme
+from calibgui.gui.widgets import theme
 
 Grey = npt.NDArray[np.uint8]
 
@@ -44,7 +44,7 @@ class BeforeAfter(QWidget):
         """Its place in the visible part of the images, 0 to 1."""
         self._zoom = 1.0
         self._middle = QPointF(0.5, 0.5)
-        """What the widget's centre shows, in widths and heights of the image."""
+        """Point of the image at the widget's centre, in widths and heights of the image."""
         self._pan_from: QPointF | None = None
         self.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
         self.setMinimumSize(160, 120)
@@ -83,7 +83,7 @@ class BeforeAfter(QWidget):
 
     @property
     def frame(self) -> QRectF:
-        """Where the images are, in part outside the widget if they are magnified."""
+        """Rectangle of the images, in part outside the widget if they are magnified."""
         if not self._images:
             return QRectF()
         size = self._images[-1].size().scaled(self.size(), Qt.AspectRatioMode.KeepAspectRatio)
@@ -98,7 +98,7 @@ class BeforeAfter(QWidget):
 
     @property
     def _line(self) -> float:
-        """Where the divider is."""
+        """Place of the divider."""
         return self._visible.left() + self.divider * self._visible.width()
 
     def _move_centre(self, to: QPointF) -> None:

@@ -1,4 +1,4 @@
-"""Where the corners of an estimated plate are: arrows in its plane, colour out of it."""
+"""The estimated board shape: arrows for deviations in the plane, colours for those out of it."""
 
 from __future__ import annotations
 
@@ -7,19 +7,20 @@ from pathlib import Path
 import numpy as np
 import pyqtgraph as pg
 import scipy
-from PySide6.QtCore import QT_TRANSLATE_NOOP, QPointF, QRectF, Signal
+from PySide6.QtCore import QT_TRANSLATE_NOOP, QPointF, QRectF
 from PySide6.QtWidgets import QFileDialog, QHBoxLayout, QLabel, QPushButton, QVBoxLayout
 
-from calibgui.dataset.result import Result
+from calibgui.dataset import Result
 from calibgui.engine.arrays import Array
 from calibgui.engine.boards import BoardShape
 from calibgui.engine.errors import CalibrationError
 from calibgui.formats.board_shape_json import write_board_shape
-from calibgui.gui import theme
-from calibgui.gui.panels.arrows import arrows
+from calibgui.gui.panels.arrows import trace_arrows
 from calibgui.gui.panels.panel import Panel
-from calibgui.gui.plots import ColourBar, Plot
-from calibgui.report.summary import about_board_shape, about_board_shape_error
+from calibgui.gui.panels.services import Services
+from calibgui.gui.widgets import theme
+from calibgui.gui.widgets.plots import ColourBar, Plot
+from calibgui.report.summary import describe_board_shape, describe_board_shape_error
 
 _LONGEST = 0.8
 """Length of the longest arrow, in distances between corners."""
@@ -29,27 +30,24 @@ _COLOURS = "CET-D1"
 class BoardShapePanel(Panel):
     """The board's deviations from its drawing."""
 
-    title = str(QT_TRANSLATE_NOOP("PlatePanel", "Plate"))
-    icon = "plate"
+    title = str(QT_TRANSLATE_NOOP("BoardShapePanel", "Board shape"))
+    icon = "board-shape"
 
-    failed = Signal(Exception)
-    """The plate could not be saved."""
-
-    def __init__(self) -> None:
-        super().__init__()
+    def __init__(self, services: Services) -> None:
+        super().__init__(services)
         self.words = QLabel()
         self.words.setWordWrap(True)
-        self.save = QPushButton(self.tr("&Save plate…"))
+        self.save = QPushButton(self.tr("&Save shape…"))
         self.save.setToolTip(
             self.tr(
-                "Write the board as it is, for later calibrations with it: "
+                "Write the board's shape to a file, for later calibrations with the same board: "
                 "Settings, Board is: as in a file."
             )
         )
         self.save.clicked.connect(self._ask_and_save)
         self.plot = Plot(
-            self.tr("X on the plate"),
-            self.tr("Y on the plate"),
+            self.tr("X on the board"),
+            self.tr("Y on the board"),
             self.tr("mm"),
             self.tr("mm"),
             square=True,
@@ -81,7 +79,7 @@ class BoardShapePanel(Panel):
 
     @property
     def board_shape(self) -> BoardShape:
-        """The plate that is shown."""
+        """The board shape that is shown."""
         assert self._result is not None
         assert self._result.calibration.board_shape is not None
         return self._result.calibration.board_shape
@@ -95,9 +93,9 @@ class BoardShapePanel(Panel):
             "model at “Board is” in the Settings and calibrate again."
         )
         doubt = calibration.board_shape_error
-        return f"{about_board_shape_error(doubt)}\n\n{how}" if doubt > 0 else how
+        return f"{describe_board_shape_error(doubt)}\n\n{how}" if doubt > 0 else how
 
-    def _refresh(self, result: Result) -> None:  # noqa: ARG002 - `plate` is the result's
+    def _refresh(self, result: Result) -> None:  # noqa: ARG002 - `board_shape` is the result's
         board_shape = self.board_shape
         at, d = board_shape.nominal, board_shape.deviation
         reach = float(np.abs(d[:, 2]).max()) or 1e-3
@@ -108,17 +106,17 @@ class BoardShapePanel(Panel):
         pitch = self._pitch = float(np.asarray(nearest)[:, 1].min())
         longest = float(np.linalg.norm(d[:, :2], axis=1).max()) or 1e-3
         scale = _LONGEST * pitch / longest
-        corner, unit = at.min(axis=0) - [0.0, 1.4 * pitch], _round(longest)
+        corner, unit = at.min(axis=0) - [0.0, 1.4 * pitch], _round_down(longest)
         key = np.array([[unit * scale, 0.0]])
         tails = np.vstack([at + scale * d[:, :2] / 2, corner + key / 2])
-        self.arrows.setData(*arrows(tails, np.vstack([scale * d[:, :2], key])).T)
+        self.arrows.setData(*trace_arrows(tails, np.vstack([scale * d[:, :2], key])).T)
         colours = theme.current()
         self.arrows.setPen(pg.mkPen(colours.text, width=1.5))
         self.key.setText(self.tr("{0:g} mm in the plane").format(unit), color=colours.text)
         self.key.setPos(corner[0] + unit * scale + 0.2 * pitch, corner[1])
         low, high = at.min(axis=0) - pitch * np.array([1.0, 2.0]), at.max(axis=0) + pitch
         self.plot.enclose(QRectF(*low, *(high - low)))
-        words = about_board_shape(board_shape)
+        words = describe_board_shape(board_shape)
         if board_shape.sigma.any():
             known = float(np.median(board_shape.sigma[board_shape.sigma > 0]))
             words += self.tr(" Each is known to ± {0:.2g} mm (1σ, median).").format(known)
@@ -151,7 +149,7 @@ class BoardShapePanel(Panel):
 
     def _ask_and_save(self) -> None:
         name, _ = QFileDialog.getSaveFileName(
-            self, self.tr("Save plate"), "plate.json", self.tr("Plates (*.json)")
+            self, self.tr("Save the board's shape"), "board-shape.json", self.tr("Shapes (*.json)")
         )
         if not name:
             return
@@ -162,7 +160,7 @@ class BoardShapePanel(Panel):
             self.failed.emit(error)
 
 
-def _round(length: float) -> float:
+def _round_down(length: float) -> float:
     """The largest of 1, 2 and 5 times a power of ten that is at most `length`."""
     power = 10.0 ** np.floor(np.log10(length))
     return float(power * max(m for m in (1, 2, 5) if m * power <= length * (1 + 1e-9)))

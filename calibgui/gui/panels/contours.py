@@ -10,7 +10,7 @@ from contourpy import contour_generator
 from PySide6.QtGui import QColor, QPen
 
 from calibgui.engine.arrays import Array
-from calibgui.gui.plots import Plot
+from calibgui.gui.widgets.plots import Plot
 
 _EDGE = 3.0
 """How many times as far from a label as from the map's edge another label may be."""
@@ -60,7 +60,7 @@ class Contours:
 
 
 def _roomiest(points: Array, taken: list[Array], u: Array, v: Array) -> Array | None:
-    """Of points (n, 2), the one farthest from those taken and the map's edge; None if too near."""
+    """Return the point of (n, 2) farthest from those taken and the map's edge; None if too near."""
     low, high = np.array([u[0], v[0]]), np.array([u[-1], v[-1]])
     room = _EDGE * np.minimum(points - low, high - points).min(axis=1)
     for other in taken:

@@ -7,11 +7,12 @@ import pyqtgraph as pg
 from PySide6.QtCore import QT_TRANSLATE_NOOP
 from PySide6.QtWidgets import QLabel, QVBoxLayout
 
-from calibgui.dataset.result import Result
+from calibgui.dataset import Result
 from calibgui.engine.calibration import Cost, Iteration, Status
-from calibgui.gui import theme
 from calibgui.gui.panels.panel import Panel
-from calibgui.gui.plots import Plot
+from calibgui.gui.panels.services import Services
+from calibgui.gui.widgets import theme
+from calibgui.gui.widgets.plots import Plot
 
 
 class ConvergencePanel(Panel):
@@ -20,8 +21,8 @@ class ConvergencePanel(Panel):
     title = str(QT_TRANSLATE_NOOP("ConvergencePanel", "Convergence"))
     icon = "convergence"
 
-    def __init__(self) -> None:
-        super().__init__()
+    def __init__(self, services: Services) -> None:
+        super().__init__(services)
         self.words = QLabel()
         self.words.setWordWrap(True)
         self.plot = Plot(self.tr("iteration"), self.tr("cost c"))

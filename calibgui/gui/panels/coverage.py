@@ -1,4 +1,4 @@
-"""What the views cover: the sensor, the board's tilts and distances."""
+"""The coverage of the sensor, and of tilts and distances of the board, by the views."""
 
 from __future__ import annotations
 
@@ -9,16 +9,16 @@ from PySide6.QtCore import QT_TRANSLATE_NOOP, Qt
 from PySide6.QtGui import QColor
 from PySide6.QtWidgets import QLabel, QVBoxLayout
 
-from calibgui.dataset.result import Result
-from calibgui.engine.uncertainty import NextView, next_views
-from calibgui.gui import theme
-from calibgui.gui.jobs import Jobs
-from calibgui.gui.panels.heat import HeatMap, whole
+from calibgui.dataset import Result
+from calibgui.engine.uncertainty import NextView, propose_views
+from calibgui.gui.panels.heat import HeatMap, image_rectangle
 from calibgui.gui.panels.latest import Latest
 from calibgui.gui.panels.panel import Panel
+from calibgui.gui.panels.services import Services
 from calibgui.gui.panels.split import Split
-from calibgui.gui.plots import Plot
-from calibgui.report.coverage import attitudes, density
+from calibgui.gui.widgets import theme
+from calibgui.gui.widgets.plots import Plot
+from calibgui.report.coverage import count_corners_per_cell, measure_attitudes
 
 _CELLS = (24, 18)
 """Columns and rows of the density that is drawn."""
@@ -27,7 +27,7 @@ _RINGS = (15, 30, 45, 60)
 
 
 class CoveragePanel(Panel):
-    """Whether the views see all of the sensor, from all sides and distances, and what to add.
+    """Shows which parts of the sensor, tilts and distances the views cover, and which view to add.
 
     Args:
         jobs: that look for the view that would help most.
@@ -36,9 +36,9 @@ class CoveragePanel(Panel):
     title = str(QT_TRANSLATE_NOOP("CoveragePanel", "Coverage"))
     icon = "coverage"
 
-    def __init__(self, jobs: Jobs) -> None:
-        super().__init__()
-        self._work = Latest(jobs, self)
+    def __init__(self, services: Services) -> None:
+        super().__init__(services)
+        self._work = Latest(services.jobs, self)
         self.density = HeatMap(self.tr("corners in a cell"))
         self.density.setToolTip(
             self.tr("Where corners were seen. The lens correction is extrapolated beyond them.")
@@ -79,9 +79,11 @@ class CoveragePanel(Panel):
         size = result.calibration.camera.size
         observations = result.observations()
         uv = np.concatenate([view.uv for view in observations])
-        self.density.show_values(density(uv, size, _CELLS).astype(np.float64), whole(size))
+        self.density.show_values(
+            count_corners_per_cell(uv, size, _CELLS).astype(np.float64), image_rectangle(size)
+        )
         self.density.fit(size)
-        attitude = attitudes(result.calibration, observations)
+        attitude = measure_attitudes(result.calibration, observations)
         tilt = np.rad2deg(attitude.tilt)
         self._at = (
             np.stack(
@@ -110,7 +112,7 @@ class CoveragePanel(Panel):
         self.advice.setText(self.tr("Which view would help most? Working…"))
         self._work.start(
             self.tr("Looking for the next view"),
-            lambda job: next_views(result.calibration, result.observations(), 1, job.advance)[0],
+            lambda job: propose_views(result.calibration, result.observations(), 1, job.advance)[0],
             self._draw_next,
             lambda error: self.advice.setText(str(error)),
             self._forgo,
@@ -134,7 +136,7 @@ class CoveragePanel(Panel):
             self.tr(
                 "The next view (red): {0} It lowers the uncertainty over the image from "
                 "{1:.3f} to {2:.3f} px."
-            ).format(view.words, view.before, view.after)
+            ).format(view.instruction, view.before, view.after)
         )
 
     def _select(self, k: int, corner: int) -> None:  # noqa: ARG002 - a view has one tilt

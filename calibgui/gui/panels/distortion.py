@@ -10,15 +10,16 @@ import scipy
 from PySide6.QtCore import QT_TRANSLATE_NOOP, QPointF
 from PySide6.QtWidgets import QCheckBox, QComboBox, QHBoxLayout, QLabel, QVBoxLayout
 
-from calibgui.dataset.result import Result
+from calibgui.dataset import Result
 from calibgui.engine.arrays import Array, BoolArray, Size
-from calibgui.engine.camera import Displacement, Part, displacement
+from calibgui.engine.camera import Displacement, DisplacementPart, compute_displacement
 from calibgui.engine.geometry import centre_of_array
-from calibgui.engine.images import mesh
-from calibgui.gui.panels.arrows import arrows
+from calibgui.engine.images import make_mesh
+from calibgui.gui.panels.arrows import trace_arrows
 from calibgui.gui.panels.contours import Contours
-from calibgui.gui.panels.heat import HeatMap, whole
+from calibgui.gui.panels.heat import HeatMap, image_rectangle
 from calibgui.gui.panels.panel import Panel
+from calibgui.gui.panels.services import Services
 
 _CELLS = 240
 """Values along the image's longer side."""
@@ -33,13 +34,13 @@ class DistortionPanel(Panel):
     title = str(QT_TRANSLATE_NOOP("DistortionPanel", "Distortion"))
     icon = "distortion"
 
-    def __init__(self) -> None:
-        super().__init__()
+    def __init__(self, services: Services) -> None:
+        super().__init__(services)
         self.part = QComboBox()
         for part, name in (
-            (Part.COMPLETE, self.tr("Complete")),
-            (Part.RADIAL, self.tr("Radial part")),
-            (Part.DECENTERING, self.tr("Decentering part")),
+            (DisplacementPart.COMPLETE, self.tr("Complete")),
+            (DisplacementPart.RADIAL, self.tr("Radial part")),
+            (DisplacementPart.DECENTERING, self.tr("Decentering part")),
         ):
             self.part.addItem(name, part)
         self.part.setAccessibleName(self.tr("Part of the distortion"))
@@ -73,22 +74,24 @@ class DistortionPanel(Panel):
     def displacement(self, uv: Array) -> Displacement:
         """The chosen part of the displacement at pixels (..., 2)."""
         assert self._result is not None
-        return displacement(uv, self._result.calibration.camera, Part(self.part.currentData()))
+        return compute_displacement(
+            uv, self._result.calibration.camera, DisplacementPart(self.part.currentData())
+        )
 
     def _refresh(self, result: Result) -> None:
         camera = result.calibration.camera
         u, v = _cells(camera.size, _CELLS)
-        d = self.displacement(mesh(u, v)).length
-        d = np.where(self._shown(mesh(u, v), result), d, np.nan)
-        self.plot.show_values(d, whole(camera.size))
+        d = self.displacement(make_mesh(u, v)).length
+        d = np.where(self._shown(make_mesh(u, v), result), d, np.nan)
+        self.plot.show_values(d, image_rectangle(camera.size))
         self.plot.fit(camera.size)
         self.contours.show(u, v, d, _levels(float(np.nanmax(d, initial=0.0))))
-        at = mesh(*_cells(camera.size, _ARROWS)).reshape(-1, 2)
+        at = make_mesh(*_cells(camera.size, _ARROWS)).reshape(-1, 2)
         at = at[self._shown(at, result)]
         gradient = self.displacement(at).gradient
         pitch = max(camera.size) / _ARROWS
         longest = np.linalg.norm(gradient, axis=1).max(initial=1e-12)
-        self._arrows.setData(*arrows(at, 0.8 * pitch / longest * gradient).T)
+        self._arrows.setData(*trace_arrows(at, 0.8 * pitch / longest * gradient).T)
         self.centre.setData(*centre_of_array(camera.size)[:, None])
         self.principal.setData(*camera.centre[:, None])
         self._hover(None)

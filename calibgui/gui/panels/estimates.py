@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 
-from calibgui.gui.tables import Column, number
-from calibgui.report.numbers import with_sigma
+from calibgui.gui.widgets.tables import Column, with_digits
+from calibgui.report.numbers import format_with_sigma
 
 
 def estimate_columns(
@@ -13,8 +13,8 @@ def estimate_columns(
 ) -> tuple[Column, Column]:
     """A column of values ± 1σ, and a hidden one of σ alone for CSV."""
     values, sigma = [float(v) for v in values], [float(s) for s in sigma]
-    texts = dict(zip(values, map(with_sigma, values, sigma), strict=True))
+    texts = dict(zip(values, map(format_with_sigma, values, sigma), strict=True))
     return (
         Column(f"{title} ± 1σ", values, texts.__getitem__),
-        Column("1σ", sigma, number(2), hidden=True),
+        Column("1σ", sigma, with_digits(2), hidden=True),
     )

@@ -7,10 +7,10 @@ import pyqtgraph as pg
 from PySide6.QtCore import QPointF, QRectF
 
 from calibgui.engine.arrays import Array, Size
-from calibgui.gui.plots import ColourBar, Plot
+from calibgui.gui.widgets.plots import ColourBar, Plot
 
 
-def whole(size: Size) -> QRectF:
+def image_rectangle(size: Size) -> QRectF:
     """The pixel array, from edge to edge."""
     return QRectF(-0.5, -0.5, *size)
 
@@ -45,11 +45,11 @@ class HeatMap(Plot):
 
     def fit(self, size: Size) -> None:
         """Bring the whole pixel array into view."""
-        self.enclose(whole(size))
+        self.enclose(image_rectangle(size))
 
     def pixel_at(self, position: QPointF | None, size: Size) -> Array | None:
         """(2,) the pixel at a place of the scene; None beside the image."""
         if position is None:
             return None
         place = self.getPlotItem().getViewBox().mapSceneToView(position)
-        return np.array([place.x(), place.y()]) if whole(size).contains(place) else None
+        return np.array([place.x(), place.y()]) if image_rectangle(size).contains(place) else None

@@ -7,17 +7,14 @@ import pyqtgraph as pg
 from PySide6.QtCore import QT_TRANSLATE_NOOP, Qt
 from PySide6.QtWidgets import QVBoxLayout
 
-from calibgui.dataset.result import Result
-from calibgui.engine.assessment import (
-    Histogram,
-    component_histogram,
-    length_histogram,
-)
-from calibgui.gui import theme
+from calibgui.dataset import Result
+from calibgui.engine.assessment import Histogram, make_component_histogram, make_length_histogram
 from calibgui.gui.panels.panel import Panel
 from calibgui.gui.panels.plane import PlaneChoice
+from calibgui.gui.panels.services import Services
 from calibgui.gui.panels.split import Split
-from calibgui.gui.plots import Plot
+from calibgui.gui.widgets import theme
+from calibgui.gui.widgets.plots import Plot
 
 
 class HistogramPlot(Plot):
@@ -36,9 +33,9 @@ class HistogramPlot(Plot):
         self.bars.setPen(pg.mkPen(colours.line))
         self.bars.setBrush(pg.mkBrush(colours.line))
         x = np.linspace(histogram.edges[0], histogram.edges[-1], 300)
-        self.fit.setData(x, histogram.fitted(x))
+        self.fit.setData(x, histogram.evaluate_density(x))
         self.fit.setPen(pg.mkPen(colours.bad, width=2))
-        law = self.tr("Rayleigh s") if histogram.rayleigh else self.tr("Gaussian σ")
+        law = self.tr("Rayleigh s") if histogram.is_rayleigh else self.tr("Gaussian σ")
         self.set_title(
             self.tr("mean {0:.4f}, SD {1:.4f}<br>{2} = {3:.4f}").format(
                 round(histogram.mean, 4) + 0.0, histogram.sd, law, histogram.scale
@@ -47,13 +44,13 @@ class HistogramPlot(Plot):
 
 
 class HistogramsPanel(Panel):
-    """Whether the residuals look like noise: Gaussian components, Rayleigh lengths."""
+    """Shows components against a Gaussian and lengths against a Rayleigh distribution."""
 
     title = str(QT_TRANSLATE_NOOP("HistogramsPanel", "Histograms"))
     icon = "histograms"
 
-    def __init__(self) -> None:
-        super().__init__()
+    def __init__(self, services: Services) -> None:
+        super().__init__(services)
         self.plane = PlaneChoice()
         self.plane.currentIndexChanged.connect(self._refresh_now)
         self.plots = tuple(HistogramPlot() for _ in range(3))
@@ -72,9 +69,9 @@ class HistogramsPanel(Panel):
     def _refresh(self, result: Result) -> None:
         residuals = np.concatenate(self.plane.residuals(result.calibration))
         histograms = (
-            component_histogram(residuals[:, 0]),
-            component_histogram(residuals[:, 1]),
-            length_histogram(np.linalg.norm(residuals, axis=1)),
+            make_component_histogram(residuals[:, 0]),
+            make_component_histogram(residuals[:, 1]),
+            make_length_histogram(np.linalg.norm(residuals, axis=1)),
         )
         for plot, histogram, name in zip(self.plots, histograms, self.plane.names, strict=True):
             plot.show_histogram(histogram, name, self.plane.unit)

@@ -7,8 +7,8 @@ from typing import TypeVar
 
 from PySide6.QtCore import QObject
 
-from calibgui.gui.job import Job, nothing
-from calibgui.gui.jobs import Jobs
+from calibgui.gui.jobs.job import Job, nothing
+from calibgui.gui.jobs.jobs import Jobs
 
 T = TypeVar("T")
 

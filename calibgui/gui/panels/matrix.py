@@ -10,7 +10,7 @@ from PySide6.QtGui import QColor, QHelpEvent, QPainter, QPaintEvent
 from PySide6.QtWidgets import QToolTip, QWidget
 
 from calibgui.engine.arrays import Array
-from calibgui.gui import theme
+from calibgui.gui.widgets import theme
 
 _NEGATIVE, _POSITIVE = QColor("#0072B2"), QColor("#D55E00")
 
@@ -32,12 +32,12 @@ class Matrix(QWidget):
         return QSize(420, 420)
 
     def text(self, row: int, column: int) -> str:
-        """What a cell shows."""
+        """Return the text of a cell."""
         value = self._values[row, column]
         return "" if np.isnan(value) else f"{value:.2f}"
 
     def cell(self, row: int, column: int) -> QRectF:
-        """Where a cell is; row or column -1 are those of the names."""
+        """Return the rectangle of a cell; row or column -1 are those of the names."""
         count = len(self._names) + 1
         width, height = self.width() / count, min(self.height() / count, self.width() / count)
         return QRectF((column + 1) * width, (row + 1) * height, width, height)

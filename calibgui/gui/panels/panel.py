@@ -8,8 +8,9 @@ from PySide6.QtCore import QT_TRANSLATE_NOOP, QEvent, Qt, Signal
 from PySide6.QtGui import QShowEvent
 from PySide6.QtWidgets import QLabel, QStackedLayout, QWidget
 
-from calibgui.dataset.result import Result
-from calibgui.gui import theme
+from calibgui.dataset import Result
+from calibgui.gui.panels.services import Services
+from calibgui.gui.widgets import theme
 
 
 class Panel(QWidget):
@@ -21,7 +22,14 @@ class Panel(QWidget):
     """
 
     picked = Signal(int, int)
-    """Index of the view in `Result.views` and of its corner, or -1: "show me that"."""
+    """The user points at a view (index in `Result.views`) and its corner, or -1 for none."""
+    exclude_wanted = Signal(tuple)
+    """Views (indices in `Result.views`) that the user wants out of the calibration."""
+    save_wanted = Signal(tuple, str)
+    """Views (indices in `Result.views`) whose images are to be written, undistorted to a
+    `FieldOfView` or rectified (`UndistortPanel.RECTIFIED`)."""
+    failed = Signal(Exception)
+    """Something that the user asked for could not be done."""
 
     title: ClassVar[str] = ""
     icon: ClassVar[str] = ""
@@ -32,8 +40,8 @@ class Panel(QWidget):
     )
     """Shown while there is no result."""
 
-    def __init__(self, parent: QWidget | None = None) -> None:
-        super().__init__(parent)
+    def __init__(self, services: Services) -> None:  # noqa: ARG002 - subclasses take from it
+        super().__init__()
         self.setWindowTitle(self.tr(self.title))
         self.body = QWidget()
         self._result: Result | None = None

@@ -1,4 +1,4 @@
-"""Where residuals are looked at: in the image, or on the paper's reference plane."""
+"""The choice where residuals are shown: in the image, or on the paper's reference plane."""
 
 from __future__ import annotations
 
@@ -26,17 +26,17 @@ class PlaneChoice(QComboBox):
 
     @property
     def on_reference(self) -> bool:
-        """Whether the reference plane is chosen."""
+        """Return whether the reference plane is chosen."""
         return self.currentIndex() == 1
 
     @property
     def names(self) -> tuple[str, str, str]:
-        """Of the residual's components and its length."""
+        """Names of the components of a residual and of its length."""
         return ("Δx′", "Δy′", "e′") if self.on_reference else ("Δu", "Δv", "e")
 
     @property
     def unit(self) -> str:
-        """Of residuals on the chosen plane."""
+        """Unit of residuals on the chosen plane."""
         return self.tr("reference px") if self.on_reference else self.tr("px")
 
     def residuals(self, calibration: Calibration) -> list[Array]:

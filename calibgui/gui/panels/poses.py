@@ -16,22 +16,23 @@ from PySide6.QtGui import (
 )
 from PySide6.QtWidgets import QComboBox, QHBoxLayout, QLabel, QPushButton, QVBoxLayout, QWidget
 
-from calibgui.app.calibration import short_names
-from calibgui.dataset.result import Result
+from calibgui.app.calibration import shorten_names
+from calibgui.dataset import Result
 from calibgui.engine.arrays import Array
-from calibgui.gui import theme
 from calibgui.gui.panels.panel import Panel
-from calibgui.report.coverage import attitudes
+from calibgui.gui.panels.services import Services
+from calibgui.gui.widgets import theme
+from calibgui.report.coverage import measure_attitudes
 from calibgui.report.scene3d import (
-    Centre,
-    Drawn,
-    Kind,
+    DrawnPolygon,
     Observer,
     Polygon,
-    draw,
-    fitted,
-    scene,
-    view_at,
+    PolygonKind,
+    SceneCentre,
+    build_scene,
+    draw_scene,
+    find_view_at,
+    fit_zoom,
 )
 
 _FILLED = 150
@@ -58,7 +59,7 @@ class SceneView(QWidget):
         self.setMinimumSize(160, 120)
         self.observer = Observer()
         self._polygons: tuple[Polygon, ...] = ()
-        self._drawn: tuple[Drawn, ...] = ()
+        self._drawn: tuple[DrawnPolygon, ...] = ()
         self._selected = -1
         self._pressed: QPointF | None = None
         self._last = QPointF()
@@ -66,11 +67,11 @@ class SceneView(QWidget):
     def show_scene(self, polygons: tuple[Polygon, ...]) -> None:
         """Show all of these, from the side where the observer stands."""
         self._polygons = polygons
-        self.look_from(fitted(polygons, self.observer))
+        self.look_from(fit_zoom(polygons, self.observer))
 
     def go_home(self) -> None:
         """Show all from where the observer stood first."""
-        self.look_from(fitted(self._polygons, Observer()))
+        self.look_from(fit_zoom(self._polygons, Observer()))
 
     def look_from(self, observer: Observer) -> None:
         """Move the observer."""
@@ -89,14 +90,14 @@ class SceneView(QWidget):
         return [QPointF(*p) for p in points * scale + middle]
 
     def _redraw(self) -> None:
-        self._drawn = draw(self._polygons, self.observer)
+        self._drawn = draw_scene(self._polygons, self.observer)
         self.update()
 
     def view_under(self, position: QPointF) -> int:
         """The view at a place of the widget; -1 if none."""
         scale = 0.48 * min(self.width(), self.height())
         middle = np.array([self.width(), self.height()]) / 2
-        return view_at(self._drawn, (np.array([position.x(), position.y()]) - middle) / scale)
+        return find_view_at(self._drawn, (np.array([position.x(), position.y()]) - middle) / scale)
 
     def paintEvent(self, event: QPaintEvent) -> None:  # noqa: N802, ARG002 - Qt's name
         painter = QPainter(self)
@@ -106,7 +107,7 @@ class SceneView(QWidget):
         for item in sorted(self._drawn, key=lambda item: item.polygon.view == self._selected >= 0):
             self._paint(painter, item)
 
-    def _paint(self, painter: QPainter, item: Drawn) -> None:
+    def _paint(self, painter: QPainter, item: DrawnPolygon) -> None:
         colours, view = theme.current(), item.polygon.view
         chosen = view >= 0 and view == self._selected
         colour = QColor(colours.muted) if view < 0 else theme.view_colour(view)
@@ -117,7 +118,7 @@ class SceneView(QWidget):
         painter.setBrush(colour if colour.alpha() else Qt.BrushStyle.NoBrush)
         points = self.to_widget(item.points)
         painter.drawPolygon(QPolygonF(points))
-        if item.polygon.kind is Kind.BOARD:
+        if item.polygon.kind is PolygonKind.BOARD:
             self._paint_axes(painter, points)
 
     def _paint_axes(self, painter: QPainter, points: list[QPointF]) -> None:
@@ -157,16 +158,16 @@ class SceneView(QWidget):
 
 
 class PosesPanel(Panel):
-    """Where the board was held, seen from any side."""
+    """Shows where the board was held, seen from any side."""
 
     title = str(QT_TRANSLATE_NOOP("PosesPanel", "Poses"))
     icon = "poses"
 
-    def __init__(self) -> None:
-        super().__init__()
+    def __init__(self, services: Services) -> None:
+        super().__init__(services)
         self.centre = QComboBox()
-        self.centre.addItem(self.tr("Boards around the camera"), Centre.CAMERA)
-        self.centre.addItem(self.tr("Cameras around the board"), Centre.BOARD)
+        self.centre.addItem(self.tr("Boards around the camera"), SceneCentre.CAMERA)
+        self.centre.addItem(self.tr("Cameras around the board"), SceneCentre.BOARD)
         self.centre.currentIndexChanged.connect(self._refresh_now)
         self.home = QPushButton(self.tr("&Reset view"))
         self.space = SceneView()
@@ -187,9 +188,9 @@ class PosesPanel(Panel):
         layout.addWidget(self.words)
 
     def _refresh(self, result: Result) -> None:
-        self.space.show_scene(scene(result, Centre(self.centre.currentData())))
-        self._attitudes = attitudes(result.calibration, result.observations())
-        self._names = short_names(result.used)
+        self.space.show_scene(build_scene(result, SceneCentre(self.centre.currentData())))
+        self._attitudes = measure_attitudes(result.calibration, result.observations())
+        self._names = shorten_names(result.used)
 
     def _select(self, k: int, corner: int) -> None:  # noqa: ARG002 - a board is drawn whole
         self.space.select(k)

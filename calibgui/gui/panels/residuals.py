@@ -5,17 +5,17 @@ from __future__ import annotations
 from html import escape
 
 import numpy as np
-from PySide6.QtCore import QT_TRANSLATE_NOOP, Qt, Signal
+from PySide6.QtCore import QT_TRANSLATE_NOOP, Qt
 from PySide6.QtWidgets import QLabel, QVBoxLayout, QWidget
 
-from calibgui.app.calibration import short_names
-from calibgui.dataset.result import Result
-from calibgui.engine.assessment import NoiseReport, examine, summarise
-from calibgui.gui.jobs import Jobs
+from calibgui.app.calibration import shorten_names
+from calibgui.dataset import Result
+from calibgui.engine.assessment import NoiseReport, check_residuals, summarise_residuals
 from calibgui.gui.panels.latest import Latest
 from calibgui.gui.panels.panel import Panel
 from calibgui.gui.panels.plane import PlaneChoice
 from calibgui.gui.panels.scatter import ResidualScatter
+from calibgui.gui.panels.services import Services
 from calibgui.gui.panels.split import Split
 from calibgui.gui.panels.view_errors import ViewErrors
 
@@ -23,7 +23,7 @@ _MARKS = {True: "✓", False: "✗"}
 
 
 class ResidualsPanel(Panel):
-    """What the calibration leaves unexplained; a click on it shows where in the images it is.
+    """Shows what the calibration leaves unexplained; a click shows the corner in its image.
 
     Args:
         jobs: that examine whether it looks like noise.
@@ -32,12 +32,9 @@ class ResidualsPanel(Panel):
     title = str(QT_TRANSLATE_NOOP("ResidualsPanel", "Residuals"))
     icon = "residuals"
 
-    excluded = Signal(tuple)
-    """Indices in `Result.views` of views that the user wants out of the calibration."""
-
-    def __init__(self, jobs: Jobs) -> None:
-        super().__init__()
-        self._work = Latest(jobs, self)
+    def __init__(self, services: Services) -> None:
+        super().__init__(services)
+        self._work = Latest(services.jobs, self)
         self._examined: Result | None = None
         self.plane = PlaneChoice()
         self.plane.currentIndexChanged.connect(self._refresh_now)
@@ -46,8 +43,8 @@ class ResidualsPanel(Panel):
         self.scatter.picked.connect(self._pick)
         self.views = ViewErrors()
         self.views.picked.connect(self._pick)
-        self.views.excluded.connect(
-            lambda views: self.excluded.emit(tuple(self._indices[k] for k in views))
+        self.views.exclude_wanted.connect(
+            lambda views: self.exclude_wanted.emit(tuple(self._indices[k] for k in views))
         )
         left = QWidget()
         column = QVBoxLayout(left)
@@ -63,7 +60,7 @@ class ResidualsPanel(Panel):
     def _refresh(self, result: Result) -> None:
         self._examine(result)
         calibration = result.calibration
-        summary = summarise(calibration.residuals)
+        summary = summarise_residuals(calibration.residuals)
         self.views.show_views(np.array([v.rms for v in calibration.residuals]), summary.rms)
         x, y, e = self.plane.names
         self.scatter.show_residuals(self.plane.residuals(calibration), x, y, self.plane.unit)
@@ -85,8 +82,8 @@ class ResidualsPanel(Panel):
         self.verdict.setToolTip("")
         self._work.start(
             self.tr("Examining the residuals"),
-            lambda job: examine(
-                result.calibration, result.observations(), short_names(result.used), job.advance
+            lambda job: check_residuals(
+                result.calibration, result.observations(), shorten_names(result.used), job.advance
             ),
             self._judge,
             lambda error: self.verdict.setText(str(error)),

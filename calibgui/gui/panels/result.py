@@ -9,19 +9,19 @@ import numpy as np
 from PySide6.QtCore import QT_TRANSLATE_NOOP
 from PySide6.QtWidgets import QTabWidget, QTextBrowser, QVBoxLayout
 
-from calibgui.dataset.result import Result
-from calibgui.engine.calibration import correlations, paper_table
+from calibgui.dataset import Result
+from calibgui.engine.calibration import compute_correlations, make_paper_table
 from calibgui.engine.geometry import PAPER_NAMES
-from calibgui.gui import theme
-from calibgui.gui.jobs import Jobs
 from calibgui.gui.panels.estimates import estimate_columns
 from calibgui.gui.panels.latest import Latest
 from calibgui.gui.panels.matrix import Matrix
 from calibgui.gui.panels.panel import Panel
+from calibgui.gui.panels.services import Services
 from calibgui.gui.panels.split import Split
-from calibgui.gui.tables import Column, Table, fixed, number
-from calibgui.report.comparison import compare
-from calibgui.report.summary import Sentence, Tone, summary
+from calibgui.gui.widgets import theme
+from calibgui.gui.widgets.tables import Column, Table, with_decimals, with_digits
+from calibgui.report.comparison import compare_parameters
+from calibgui.report.summary import Sentence, Tone, describe_calibration
 
 _PAPER_UNITS = ("px", "px", "px⁻²", "px⁻⁴", "px⁻⁶", "px⁻¹", "px⁻¹", "px⁻²", "px", "px")
 _MARKS = {Tone.FACT: "•", Tone.GOOD: "✓", Tone.CAUTION: "!", Tone.ADVICE: "→"}
@@ -37,9 +37,9 @@ class ResultPanel(Panel):
     title = str(QT_TRANSLATE_NOOP("ResultPanel", "Result"))
     icon = "result"
 
-    def __init__(self, jobs: Jobs) -> None:
-        super().__init__()
-        self._jobs, self._work = jobs, Latest(jobs, self)
+    def __init__(self, services: Services) -> None:
+        super().__init__(services)
+        self._work = Latest(services.jobs, self)
         self.words = QTextBrowser()
         self.array_frame, self.paper_units, self.differences = Table(), Table(), Table()
         self.correlations = Matrix()
@@ -65,7 +65,7 @@ class ResultPanel(Panel):
 
     def show_comparison(self, a: Result, b: Result, names: tuple[str, str] = ("A", "B")) -> None:
         """Set two results side by side, with their differences in units of sigma."""
-        rows = compare(a.calibration, b.calibration)
+        rows = compare_parameters(a.calibration, b.calibration)
         self.differences.show_columns(
             [
                 Column(self.tr("Parameter"), [row.name for row in rows]),
@@ -74,14 +74,14 @@ class ResultPanel(Panel):
                 Column(
                     self.tr("Difference"),
                     [row.change for row in rows],
-                    number(3),
+                    with_digits(3),
                     self.tr("{1} less {0}").format(*names),
                     optional=True,
                 ),
                 Column(
                     self.tr("in σ"),
                     [row.sigmas for row in rows],
-                    fixed(2),
+                    with_decimals(2),
                     self.tr(
                         "Over the standard deviation of a difference of independent estimates.\n"
                         "Results from the same images share their errors: even 1 is much then."
@@ -102,9 +102,9 @@ class ResultPanel(Panel):
         names = calibration.camera.names
         self._work.start(
             "",
-            lambda _: summary(result),
-            lambda sentences: self.words.setHtml(_html(sentences)),
-            self._jobs.failed.emit,
+            lambda _: describe_calibration(result),
+            lambda sentences: self.words.setHtml(_format_html(sentences)),
+            self.failed.emit,
         )
         self.array_frame.show_columns(
             [
@@ -118,7 +118,7 @@ class ResultPanel(Panel):
         has_paper = calibration.camera.model.startswith("lucchese")
         self.tabs.setTabVisible(1, has_paper)
         if has_paper:
-            values, sigma, sd = paper_table(calibration)
+            values, sigma, sd = make_paper_table(calibration)
             self.paper_units.show_columns(
                 [
                     Column(self.tr("Parameter"), PAPER_NAMES),
@@ -127,7 +127,7 @@ class ResultPanel(Panel):
                     Column(
                         self.tr("SD of Table 2"),
                         sd.tolist(),
-                        number(3),
+                        with_digits(3),
                         self.tr(
                             "The paper's sqrt(diag((2 JᵀJ)⁻¹)), which leaves the residuals out.\n"
                             "1σ is what the residuals support."
@@ -136,15 +136,15 @@ class ResultPanel(Panel):
                 ]
             )
         free = [i for i, name in enumerate(names) if name not in calibration.fixed]
-        matrix = correlations(calibration.covariance)[np.ix_(free, free)]
+        matrix = compute_correlations(calibration.covariance)[np.ix_(free, free)]
         self.correlations.show_matrix([names[i] for i in free], matrix)
 
     def _remarks(self, result: Result, names: Sequence[str]) -> list[str]:
-        """What there is to say of each parameter beside its value."""
+        """Return a remark on each parameter; empty for most."""
         calibration = result.calibration
         missing = {u.name for u in calibration.undetermined}
         diagnosis = calibration.diagnosis
-        assumed = set() if diagnosis is None else {a.name for a in diagnosis.assumed}
+        assumed = set() if diagnosis is None else {a.name for a in diagnosis.assumptions}
         remarks = []
         for name, value, sigma in zip(
             names, calibration.camera.params, calibration.sigma, strict=True
@@ -162,7 +162,7 @@ class ResultPanel(Panel):
         return remarks
 
 
-def _html(sentences: Sequence[Sentence]) -> str:
+def _format_html(sentences: Sequence[Sentence]) -> str:
     """The sentences as a list whose marks and colours tell what each is for."""
     colours = theme.current()
     colour = {
@@ -173,13 +173,13 @@ def _html(sentences: Sequence[Sentence]) -> str:
     }
     rows = "".join(
         f'<tr><td style="color:{colour[s.tone]}; padding:3px 8px"><b>{_MARKS[s.tone]}</b></td>'
-        f'<td style="padding:3px 0">{_unbroken(escape(s.text))}</td></tr>'
+        f'<td style="padding:3px 0">{_keep_values_on_line(escape(s.text))}</td></tr>'
         for s in sentences
     )
     return f"<table>{rows}</table>"
 
 
-def _unbroken(text: str) -> str:
+def _keep_values_on_line(text: str) -> str:
     """The text with its values kept on one line each."""
     for sign in (" = ", " ± "):
         text = text.replace(sign, sign.replace(" ", "&nbsp;"))

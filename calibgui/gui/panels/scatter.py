@@ -10,8 +10,8 @@ import pyqtgraph as pg
 from PySide6.QtCore import Qt, Signal
 
 from calibgui.engine.arrays import Array
-from calibgui.gui import theme
-from calibgui.gui.plots import Plot
+from calibgui.gui.widgets import theme
+from calibgui.gui.widgets.plots import Plot
 
 _REACH = 8.0
 """Distance from a point within which a click means it, px of the screen."""

@@ -11,15 +11,16 @@ import pyqtgraph as pg
 from PySide6.QtCore import QT_TRANSLATE_NOOP
 from PySide6.QtWidgets import QVBoxLayout
 
-from calibgui.app.calibration import short_names
-from calibgui.dataset.result import Result
+from calibgui.app.calibration import shorten_names
+from calibgui.dataset import Result
 from calibgui.engine.arrays import Array, BoolArray
-from calibgui.engine.calibration import Cost, StageOne, cosines_equation
-from calibgui.gui import theme
+from calibgui.engine.calibration import Cost, StageOne, evaluate_cosines_equation
 from calibgui.gui.panels.panel import Panel
+from calibgui.gui.panels.services import Services
 from calibgui.gui.panels.split import Split
-from calibgui.gui.plots import Plot
-from calibgui.gui.tables import Column, Table, fixed
+from calibgui.gui.widgets import theme
+from calibgui.gui.widgets.plots import Plot
+from calibgui.gui.widgets.tables import Column, Table, with_decimals
 
 _OUTLYING = 3.0
 """Distances between the quartiles beyond them that mark a view (Tukey's "far out")."""
@@ -29,13 +30,13 @@ _RAISED = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 
 
 class StageOnePanel(Panel):
-    """What each view says of the camera by itself."""
+    """Shows what each view says of the camera by itself."""
 
     title = str(QT_TRANSLATE_NOOP("StageOnePanel", "Stage I"))
     icon = "stage-one"
 
-    def __init__(self) -> None:
-        super().__init__()
+    def __init__(self, services: Services) -> None:
+        super().__init__(services)
         self.table = Table()
         self.table.picked.connect(self._pick)
         self.equation = Plot(self.tr("aspect ratio r"), self.tr("g(r)"))
@@ -80,12 +81,12 @@ class StageOnePanel(Panel):
         calibration = self._result.calibration
         self.table.select(k)
         row = calibration.stage_one[max(k, 0)]
-        g = cosines_equation(row.backward, _SEARCHED, calibration.cost is Cost.PAPER)
+        g = evaluate_cosines_equation(row.backward, _SEARCHED, calibration.cost is Cost.PAPER)
         self._curve.setData(_SEARCHED, g, connect="finite")
         known = np.isfinite(row.aspect)
         self._root.setData([row.aspect] if known else [], [0.0] if known else [])
         self._current.setData([max(k, 0) + 1] if known else [], [row.aspect] if known else [])
-        name = short_names(self._result.used)[max(k, 0)]
+        name = shorten_names(self._result.used)[max(k, 0)]
         self.equation.set_title(
             self.tr("{0}: r = {1:.4f}").format(name, row.aspect)
             if known
@@ -93,23 +94,38 @@ class StageOnePanel(Panel):
         )
 
     def _columns(self, result: Result) -> list[Column]:
-        rows, names = result.calibration.stage_one, short_names(result.used)
+        rows, names = result.calibration.stage_one, shorten_names(result.used)
         steps = self.tr("Steps")
         power = _power([row.k1 for row in rows])
         shown: tuple[tuple[str, str, Callable[[Any], str], str], ...] = (
-            ("xp", "xp", fixed(1), self.tr("Principal point right of the array's centre, px")),
-            ("yp", "yp", fixed(1), self.tr("Principal point above the array's centre, px")),
+            (
+                "xp",
+                "xp",
+                with_decimals(1),
+                self.tr("Principal point right of the array's centre, px"),
+            ),
+            ("yp", "yp", with_decimals(1), self.tr("Principal point above the array's centre, px")),
             (
                 "k1",
                 "k1",
                 lambda k1: f"{k1 / 10.0**power:.2f}",
                 self.tr("First radial coefficient, 1/px²"),
             ),
-            ("fy/fx", "aspect", fixed(4), self.tr("Aspect ratio: root of the cosines' equation")),
-            ("fx", "fx", fixed(0), self.tr("Focal length, px")),
-            ("fy", "fy", fixed(0), self.tr("Focal length, px")),
+            (
+                "fy/fx",
+                "aspect",
+                with_decimals(4),
+                self.tr("Aspect ratio: root of the cosines' equation"),
+            ),
+            ("fx", "fx", with_decimals(0), self.tr("Focal length, px")),
+            ("fy", "fy", with_decimals(0), self.tr("Focal length, px")),
             (steps, "iterations", str, self.tr("Iterations of Levenberg-Marquardt")),
-            ("RMS", "rms", fixed(3), self.tr("Residual on the reference plane, reference px")),
+            (
+                "RMS",
+                "rms",
+                with_decimals(3),
+                self.tr("Residual on the reference plane, reference px"),
+            ),
         )
         headings = {"k1": f"k1·10{str(-power).translate(_RAISED)}", steps: "n"}
         alike = len({PurePath(name).suffix for name in names}) == 1

@@ -14,16 +14,16 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
-from calibgui.app.calibration import short_names
-from calibgui.app.synthetic import BLUR, SyntheticCheck, synthetic_check
-from calibgui.dataset.result import Result
-from calibgui.engine.assessment import summarise
-from calibgui.engine.images import Image, render
-from calibgui.gui.job import Job
-from calibgui.gui.jobs import Jobs
+from calibgui.app.calibration import shorten_names
+from calibgui.app.synthetic import BLUR_PX, SyntheticCheck, run_synthetic_check
+from calibgui.dataset import Result
+from calibgui.engine.assessment import summarise_residuals
+from calibgui.engine.images import Image, render_view
+from calibgui.gui.jobs.job import Job
 from calibgui.gui.panels.before_after import BeforeAfter, Grey
 from calibgui.gui.panels.latest import Latest
 from calibgui.gui.panels.panel import Panel
+from calibgui.gui.panels.services import Services
 from calibgui.gui.panels.synthetic_figures import Histograms, ParameterTable, PoseErrors, Scatters
 
 
@@ -38,11 +38,11 @@ class SyntheticPanel(Panel):
     title = str(QT_TRANSLATE_NOOP("SyntheticPanel", "Synthetic check"))
     icon = "synthetic"
 
-    def __init__(self, jobs: Jobs, read: Callable[[str], Image]) -> None:
-        super().__init__()
-        self._jobs, self._read = jobs, read
+    def __init__(self, services: Services) -> None:
+        super().__init__(services)
+        self._jobs, self._read_image = services.jobs, services.read_image
         self._job: Job | None = None
-        self._pictures = Latest(jobs, self)
+        self._pictures = Latest(services.jobs, self)
         self._drawn: set[QWidget] = set()
         """Tabs that show the check already."""
         self.check: SyntheticCheck | None = None
@@ -101,7 +101,7 @@ class SyntheticPanel(Panel):
         self.words.setText(self.tr("Rendering the views and searching them…"))
         self._job = self._jobs.start(
             self.tr("Synthetic check"),
-            lambda job: synthetic_check(result, progress=job.advance),
+            lambda job: run_synthetic_check(result, progress=job.advance),
             self._done,
             failed=lambda error: self.words.setText(str(error)),
             ended=self._ended,
@@ -128,7 +128,9 @@ class SyntheticPanel(Panel):
             return
         self._drawn.clear()
         self._draw_tab()
-        real, made = (summarise(r.calibration.residuals) for r in (check.real, check.synthetic))
+        real, made = (
+            summarise_residuals(r.calibration.residuals) for r in (check.real, check.synthetic)
+        )
         self.words.setText(
             self.tr(
                 "{0} of {1} views found again. e′ = {2:.4f} ± {3:.4f} reference px, "
@@ -145,7 +147,7 @@ class SyntheticPanel(Panel):
 
     def _invitation(self, result: Result) -> str:
         if result.board is None:
-            return self.tr("The target's pattern is not known, so its views cannot be rendered.")
+            return self.tr("The board's pattern is not known, so its views cannot be rendered.")
         return self.tr("Would the method find this camera again, if it were just so?")
 
     def _draw_tab(self) -> None:
@@ -172,14 +174,14 @@ class SyntheticPanel(Panel):
         """Show the selected view beside its synthetic version."""
         result, view = check.real, max(self._selected[0], 0)
         self._pictures.start(
-            self.tr("Rendering {0}").format(short_names(result.used)[view]),
-            lambda _: pictures(result, view, self._read),
+            self.tr("Rendering {0}").format(shorten_names(result.used)[view]),
+            lambda _: render_pair(result, view, self._read_image),
             lambda images: self.images.show_images(*images),
             lambda error: self.words.setText(str(error)),
         )
 
 
-def pictures(result: Result, k: int, read: Callable[[str], Image]) -> tuple[Grey, Grey]:
+def render_pair(result: Result, k: int, read: Callable[[str], Image]) -> tuple[Grey, Grey]:
     """Figure 13: the image of calibrated view k, and its synthetic version.
 
     Raises:
@@ -188,4 +190,4 @@ def pictures(result: Result, k: int, read: Callable[[str], Image]) -> tuple[Grey
     assert result.board is not None
     real = read(result.used[k].image).grey
     pose = result.calibration.poses[k]
-    return real, render(result.calibration.camera, pose, result.board, blur=BLUR)
+    return real, render_view(result.calibration.camera, pose, result.board, blur=BLUR_PX)

@@ -1,4 +1,4 @@
-"""What the synthetic check shows: Table 3, and figures 13 to 16 beside the real ones."""
+"""The figures of the synthetic check: Table 3, and figures 13 to 16 beside the real ones."""
 
 from __future__ import annotations
 
@@ -8,15 +8,19 @@ from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QComboBox, QVBoxLayout, QWidget
 
 from calibgui.app.synthetic import SyntheticCheck
-from calibgui.engine.assessment import component_histogram, length_histogram, stacked
-from calibgui.gui import theme
+from calibgui.engine.assessment import (
+    make_component_histogram,
+    make_length_histogram,
+    stack_residuals,
+)
 from calibgui.gui.panels.estimates import estimate_columns
 from calibgui.gui.panels.histograms import HistogramPlot
 from calibgui.gui.panels.scatter import ResidualScatter
 from calibgui.gui.panels.split import Split
-from calibgui.gui.plots import Plot
-from calibgui.gui.tables import Column, Table, fixed, number
-from calibgui.report.comparison import compare
+from calibgui.gui.widgets import theme
+from calibgui.gui.widgets.plots import Plot
+from calibgui.gui.widgets.tables import Column, Table, with_decimals, with_digits
+from calibgui.report.comparison import compare_parameters
 
 _BINS = 50
 _COMPONENTS = ("Δx′", "Δy′", "e′")
@@ -27,7 +31,7 @@ class ParameterTable(Table):
 
     def show_check(self, check: SyntheticCheck) -> None:
         """Show both results' intrinsics and how they differ."""
-        rows = compare(check.real.calibration, check.synthetic.calibration)
+        rows = compare_parameters(check.real.calibration, check.synthetic.calibration)
         self.show_columns(
             [
                 Column(self.tr("Parameter"), [row.name for row in rows]),
@@ -36,12 +40,15 @@ class ParameterTable(Table):
                     self.tr("Synthetic"), [r.b for r in rows], [r.sigma_b for r in rows]
                 ),
                 Column(
-                    self.tr("Difference"), [row.change for row in rows], number(3), optional=True
+                    self.tr("Difference"),
+                    [row.change for row in rows],
+                    with_digits(3),
+                    optional=True,
                 ),
                 Column(
                     self.tr("in σ"),
                     [r.change / r.sigma_a if r.sigma_a > 0 else np.nan for r in rows],
-                    fixed(2),
+                    with_decimals(2),
                     self.tr("The difference over the real result's standard deviation."),
                 ),
             ]
@@ -125,10 +132,10 @@ class Histograms(QWidget):
         names = self.tr("{0}, real"), self.tr("{0}, synthetic")
         results = self._check.real, self._check.synthetic
         for result, plot, name in zip(results, self.plots, names, strict=True):
-            residuals = stacked(result.calibration, on_reference=True)
+            residuals = stack_residuals(result.calibration, on_reference=True)
             histogram = (
-                component_histogram(residuals[:, which])
+                make_component_histogram(residuals[:, which])
                 if which < 2
-                else length_histogram(np.linalg.norm(residuals, axis=1))
+                else make_length_histogram(np.linalg.norm(residuals, axis=1))
             )
             plot.show_histogram(histogram, name.format(_COMPONENTS[which]), unit)

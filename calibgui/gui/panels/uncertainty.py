@@ -1,4 +1,4 @@
-"""How far it is uncertain where the camera images a point, over the image."""
+"""The uncertainty of projection over the image."""
 
 from __future__ import annotations
 
@@ -9,23 +9,23 @@ import pyqtgraph as pg
 from PySide6.QtCore import QT_TRANSLATE_NOOP, QPointF, QRectF
 from PySide6.QtWidgets import QDoubleSpinBox, QHBoxLayout, QLabel, QVBoxLayout
 
-from calibgui.dataset.result import Result
+from calibgui.dataset import Result
 from calibgui.engine.uncertainty import ProjectionUncertainty, estimate_projection_uncertainty
-from calibgui.gui.jobs import Jobs
 from calibgui.gui.panels.contours import Contours
 from calibgui.gui.panels.heat import HeatMap
 from calibgui.gui.panels.latest import Latest
 from calibgui.gui.panels.panel import Panel
-from calibgui.report.quality import where
+from calibgui.gui.panels.services import Services
+from calibgui.report.quality import describe_distance
 
 _LIMIT = 0.1
-"""Of the uncertainty that a user can live with, until one is stated, px."""
+"""Uncertainty that a user can live with, until another is stated, px."""
 _TOP = 4.0
-"""Median uncertainties at which colours end: corners without data would hide the rest."""
+"""Multiple of the median at which colours end: places without data would hide the rest."""
 
 
 class UncertaintyPanel(Panel):
-    """One standard deviation of projection, with what a moved camera would do compensated.
+    """Shows one standard deviation of projection, without what moving the camera would undo.
 
     Args:
         jobs: that do the work.
@@ -34,11 +34,11 @@ class UncertaintyPanel(Panel):
     title = str(QT_TRANSLATE_NOOP("UncertaintyPanel", "Uncertainty"))
     icon = "uncertainty"
 
-    def __init__(self, jobs: Jobs) -> None:
-        super().__init__()
-        self._work = Latest(jobs, self)
+    def __init__(self, services: Services) -> None:
+        super().__init__(services)
+        self._work = Latest(services.jobs, self)
         self.found: ProjectionUncertainty | None = None
-        """What is drawn; None while it is being computed."""
+        """The uncertainty that is drawn; None while it is being computed."""
         self.distance = QDoubleSpinBox(
             decimals=0, maximum=1e7, singleStep=100, suffix=self.tr(" mm")
         )
@@ -119,7 +119,7 @@ class UncertaintyPanel(Panel):
                 "{3:.3f} px at worst (1σ). {4:.0f} % of the image is known to {5:g} px or "
                 "better{6}."
             ).format(
-                where(found.distance),
+                describe_distance(found.distance),
                 found.centre,
                 found.median,
                 found.worst,

@@ -5,24 +5,24 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import cast
 
-from PySide6.QtCore import QT_TRANSLATE_NOOP, Qt, Signal
+from PySide6.QtCore import QT_TRANSLATE_NOOP, Qt
 from PySide6.QtWidgets import QComboBox, QHBoxLayout, QLabel, QPushButton, QVBoxLayout
 
-from calibgui.app.calibration import short_names
-from calibgui.dataset.result import Result
+from calibgui.app.calibration import shorten_names
+from calibgui.dataset import Result
 from calibgui.engine.images import FieldOfView, Image, rectify_image, undistort_image
-from calibgui.gui.jobs import Jobs
 from calibgui.gui.panels.before_after import BeforeAfter, Grey
 from calibgui.gui.panels.latest import Latest
 from calibgui.gui.panels.panel import Panel
-from calibgui.report.coverage import board_extent_px, natural_scale
+from calibgui.gui.panels.services import Services
+from calibgui.report.coverage import find_shown_extent, measure_natural_scale
 
 RECTIFIED = "rectified"
 """Stands beside the fields of view for an image rectified to the board."""
 
 
 class UndistortPanel(Panel):
-    """What the calibration makes of an image.
+    """Shows an image as taken, undistorted or rectified.
 
     Args:
         jobs: that do the work.
@@ -32,12 +32,10 @@ class UndistortPanel(Panel):
     title = str(QT_TRANSLATE_NOOP("UndistortPanel", "Undistort"))
     icon = "undistort"
 
-    saving = Signal(tuple, str)
-    """Views (indices in `Result.views`) to write, and a `FieldOfView` or `RECTIFIED`."""
-
-    def __init__(self, jobs: Jobs, read: Callable[[str], Image]) -> None:
-        super().__init__()
-        self._read, self._work = read, Latest(jobs, self)
+    def __init__(self, services: Services) -> None:
+        super().__init__(services)
+        self._read_image = services.read_image
+        self._work = Latest(services.jobs, self)
         self._shown = 0
         self.way = QComboBox()
         for way, name in (
@@ -79,12 +77,12 @@ class UndistortPanel(Panel):
         assert self._result is not None
         result, way = self._result, str(self.way.currentData())
         self._shown = max(k, 0)
-        name = short_names(result.used)[self._shown]
+        name = shorten_names(result.used)[self._shown]
         self.words.setText(self.tr("{0}: working…").format(name))
         shown = self._shown
         self._work.start(
             self.tr("Undistorting {0}").format(name),
-            lambda _: changed(result, shown, way, self._read),
+            lambda _: transform_image(result, shown, way, self._read_image),
             lambda images: self._show(name, *images),
             self._fail,
         )
@@ -99,10 +97,10 @@ class UndistortPanel(Panel):
         self.words.setText(str(error))
 
     def _save(self, views: tuple[int, ...]) -> None:
-        self.saving.emit(views, str(self.way.currentData()))
+        self.save_wanted.emit(views, str(self.way.currentData()))
 
 
-def changed(
+def transform_image(
     result: Result, k: int, way: str, read: Callable[[str], Image]
 ) -> tuple[Grey | None, Grey]:
     """The image of calibrated view k and what becomes of it; a rectified one stands alone.
@@ -114,6 +112,6 @@ def changed(
     camera = result.calibration.camera
     if way != RECTIFIED:
         return grey, cast(Grey, undistort_image(grey, camera, way).image)
-    pose, extent = result.calibration.poses[k], board_extent_px(result)
-    rectified = rectify_image(grey, camera, pose, extent, natural_scale(result))
+    pose, extent = result.calibration.poses[k], find_shown_extent(result)
+    rectified = rectify_image(grey, camera, pose, extent, measure_natural_scale(result))
     return None, cast(Grey, rectified.image)

@@ -16,8 +16,8 @@ from PySide6.QtWidgets import (
 )
 
 from calibgui.engine.arrays import Array
-from calibgui.gui import theme
-from calibgui.gui.plots import Plot
+from calibgui.gui.widgets import theme
+from calibgui.gui.widgets.plots import Plot
 
 
 class ViewErrors(QWidget):
@@ -25,7 +25,7 @@ class ViewErrors(QWidget):
 
     picked = Signal(int)
     """The view whose bar was clicked."""
-    excluded = Signal(tuple)
+    exclude_wanted = Signal(tuple)
     """The views above the threshold: the user wants them out."""
 
     def __init__(self) -> None:
@@ -63,7 +63,7 @@ class ViewErrors(QWidget):
         layout.addLayout(bar)
         self.line.sigPositionChanged.connect(lambda: self.threshold.setValue(self.line.value()))
         self.threshold.valueChanged.connect(self._threshold_changed)
-        self.exclude.clicked.connect(lambda: self.excluded.emit(self.above))
+        self.exclude.clicked.connect(lambda: self.exclude_wanted.emit(self.above))
 
     @property
     def above(self) -> tuple[int, ...]:

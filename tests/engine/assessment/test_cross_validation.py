@@ -1,4 +1,4 @@
-"""Cross-validation, the choice of a plate and the bootstrap, on scenes whose truth is known."""
+"""Cross-validation, the choice of a board shape and the bootstrap, on scenes of known truth."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from calibgui.engine.assessment.cross_validation import (
-    bootstrap,
+    bootstrap_views,
     choose_board_shape,
     cross_validate,
 )
@@ -63,15 +63,15 @@ def test_folds_must_hold_views(folds: int) -> None:
         cross_validate(_views(4), SIZE, folds)
 
 
-def test_a_true_plate_is_kept() -> None:
+def test_a_true_board_is_kept() -> None:
     choice = choose_board_shape(_views(10), SIZE)
     assert choice.model is BoardShapeModel.NOMINAL
     assert choice.chosen is choice.nominal
-    assert "Keep the nominal plate" in choice.words
+    assert "Keep the board as drawn" in choice.recommendation
     assert set(choice.validations) == set(BoardShapeModel)
 
 
-def test_a_wrong_plate_is_told_with_figures() -> None:
+def test_a_wrong_board_is_described_with_figures() -> None:
     choice = choose_board_shape(_on_wide_squares(10), SIZE)
     assert choice.model is BoardShapeModel.AFFINE
     error, nominal_error = (
@@ -79,18 +79,18 @@ def test_a_wrong_plate_is_told_with_figures() -> None:
         for result in (choice.chosen, choice.nominal)
     )
     assert error < 0.5 * nominal_error
-    assert "deviates by" in choice.words
-    assert "moves fx by" in choice.words
+    assert "deviates by" in choice.recommendation
+    assert "moves fx by" in choice.recommendation
 
 
-def test_plates_that_the_views_cannot_carry_are_named() -> None:
+def test_board_shapes_that_the_views_cannot_carry_are_named() -> None:
     choice = choose_board_shape(_views(5), SIZE)
     assert "needs 6" in choice.refused[BoardShapeModel.FREE]
 
 
 @pytest.mark.slow
 def test_bootstrap_confirms_the_sigma_of_good_data() -> None:
-    found = bootstrap(_views(25), SIZE, draws=150)
+    found = bootstrap_views(_views(25), SIZE, draws=150)
     assert found.failed == 0
     assert np.isnan(found.ratio[9])  # p3 is held
     assert 0.8 < np.median(found.ratio[:9]) < 1.2
@@ -104,12 +104,12 @@ def test_bootstrap_confirms_what_the_views_disagreement_says() -> None:
         Observation(view.uv + 0.4 * rng.normal(size=2) * np.sin(view.xy / 60), view.xy)
         for view in _views(25)
     ]
-    found, reported = bootstrap(views, SIZE, draws=60), calibrate(views, SIZE)
+    found, reported = bootstrap_views(views, SIZE, draws=60), calibrate(views, SIZE)
     assert 0.7 < np.median(found.ratio[:9]) < 1.3
     assert np.median(found.sigma[:9] / reported.sigma_by_noise[:9]) > 1.3
 
 
 def test_bootstrap_counts_draws_that_fail() -> None:
-    found = bootstrap(_views(2), SIZE, draws=30)
+    found = bootstrap_views(_views(2), SIZE, draws=30)
     assert 0 < found.failed < 30  # the same view twice determines nothing
     assert len(found.params) == 30 - found.failed

@@ -10,11 +10,11 @@ import numpy as np
 import pytest
 
 from calibgui.engine.arrays import Array
-from calibgui.engine.assessment.noise_test import examine
+from calibgui.engine.assessment.noise_test import check_residuals
 from calibgui.engine.assessment.view_weights import calibrate_weighted
 from calibgui.engine.calibration.calibrate import calibrate
 from calibgui.engine.calibration.observations import Observation
-from calibgui.engine.camera.projection import pixels
+from calibgui.engine.camera.projection import pixels_from_rays
 from calibgui.engine.errors import Cancelled
 from calibgui.engine.geometry import rotations
 from calibgui.engine.geometry.pose import Pose
@@ -29,19 +29,19 @@ BOW = 1 - ((XY[:, :1] - XY[:, 0].mean()) / (np.ptp(XY[:, 0]) / 2)) ** 2
 
 def _solid(pose: Pose, grid_size: Array) -> Array:
     """(n, 2) the image of a board's corners (n, 3)."""
-    p = grid_size @ rotations.rotation(pose.rvec).T + pose.tvec
-    return pixels(p[:, :2] / p[:, 2:], SCENE.camera)
+    p = grid_size @ rotations.rotation_from_vector(pose.rvec).T + pose.tvec
+    return pixels_from_rays(p[:, :2] / p[:, 2:], SCENE.camera)
 
 
 def _rolling(pose: Pose, velocity: Array, spin: Array) -> Array:
     """(n, 2) the image while the board moves by `velocity`, mm from the first row to the last, and
     turns about its middle by `spin`."""
     uv = _solid(pose, np.hstack([XY, Z]))
-    p = np.hstack([XY, Z]) @ rotations.rotation(pose.rvec).T + pose.tvec
+    p = np.hstack([XY, Z]) @ rotations.rotation_from_vector(pose.rvec).T + pose.tvec
     motion = velocity + np.cross(spin, p - p.mean(axis=0))
     for _ in range(5):
         q = p + (uv[:, 1:] / SIZE[1] - 0.5) * motion
-        uv = pixels(q[:, :2] / q[:, 2:], SCENE.camera)
+        uv = pixels_from_rays(q[:, :2] / q[:, 2:], SCENE.camera)
     return uv
 
 
@@ -83,7 +83,7 @@ def test_a_fault_is_named(fault: str, seed: int) -> None:
         Observation(uv + rng.normal(scale=0.1, size=uv.shape), XY) for uv in _images(fault, rng)
     ]
     held = ["k2", "k3"] if fault == "lens" else []
-    report = examine(calibrate(views, SIZE, fix=held), views)
+    report = check_residuals(calibrate(views, SIZE, fix=held), views)
     assert not report.passed
     assert report.cause is not None
     assert report.cause.name == fault
@@ -93,7 +93,7 @@ def test_a_decentred_lens_is_no_moving_board() -> None:
     """Its displacement is quadratic in every view, as is a rolling shutter's."""
     lens = replace(barrel(), params=[*barrel().params[:7], 4e-3, -3e-3, 0.0])
     views = scene(lens, 12, seed=1).noisy(0.1, np.random.default_rng(0))
-    report = examine(calibrate(views, SIZE, fix=["p1", "p2"]), views)
+    report = check_residuals(calibrate(views, SIZE, fix=["p1", "p2"]), views)
     assert report.cause is not None
     assert report.cause.name == "lens"
 
@@ -101,7 +101,7 @@ def test_a_decentred_lens_is_no_moving_board() -> None:
 def test_outliers_and_rounding_are_told_apart() -> None:
     rng = np.random.default_rng(0)
     rounded = [Observation(np.round(2 * view.uv) / 2, view.xy) for view in SCENE.views]
-    report = examine(calibrate(rounded, SIZE), rounded)
+    report = check_residuals(calibrate(rounded, SIZE), rounded)
     assert report.cause is not None
     assert "rounded" in report.cause.advice
     for spoilt in (12, 3):  # views: a few with misplaced corners are not blurred
@@ -110,7 +110,7 @@ def test_outliers_and_rounding_are_told_apart() -> None:
             uv = np.array(view.uv)
             uv[rng.integers(len(uv))] += 3.0
             displaced[k] = view._replace(uv=uv)
-        report = examine(calibrate(displaced, SIZE), displaced)
+        report = check_residuals(calibrate(displaced, SIZE), displaced)
         assert report.cause is not None
         assert report.cause.name == "shape"
         assert "misplaced" in report.cause.advice
@@ -125,14 +125,14 @@ def test_blurred_views_are_listed_and_weigh_less() -> None:
         for view, s in zip(exact.views, noise, strict=True)
     ]
     plain = calibrate(views, SIZE)
-    report = examine(plain, views)
+    report = check_residuals(plain, views)
     found = next(check for check in report.checks if check.name == "views")
     assert not found.passed
     listed = found.finding.split("most in ")[1].split(", ")
     assert sorted(listed) == ["View 1", "View 2", "View 3", "View 4"]
     result, used = calibrate_weighted(views, SIZE)
     assert result.noise == pytest.approx(0.1, rel=0.05)  # of the median corner, px
-    assert examine(result, used).passed
+    assert check_residuals(result, used).passed
     assert (result.sigma[:4] < 0.5 * plain.sigma[:4]).all()
     assert report.view_sigma == pytest.approx(noise, rel=0.35)
 
@@ -152,13 +152,13 @@ def test_what_does_no_harm_is_no_fault() -> None:
         tailed.append(Observation(view.uv + error * np.minimum(0.4 / length, 1), view.xy))
     for views, name in ((differing, "views"), (tailed, "shape")):
         result = calibrate(views, SIZE)
-        report = examine(result, views)
+        report = check_residuals(result, views)
         assert report.passed
         with pytest.MonkeyPatch.context() as patch:
-            # It is seen all the same, and told where it does harm.
-            patch.setattr("calibgui.engine.assessment.noise_test._GAIN", 1.0)
-            patch.setattr("calibgui.engine.assessment.noise_test._OUTLIER", 2.0)
-            report = examine(result, views)
+            # It is seen all the same, and fails where it does harm.
+            patch.setattr("calibgui.engine.assessment.noise_test._MIN_GAIN_OF_WEIGHING", 1.0)
+            patch.setattr("calibgui.engine.assessment.noise_test._MAX_LENGTH_IN_SIGMA", 2.0)
+            report = check_residuals(result, views)
             assert name in [check.name for check in report.checks if not check.passed]
 
 
@@ -173,7 +173,7 @@ def test_covariances_count_in_the_weights() -> None:
         for view in SCENE.views
     ]
     result = calibrate(views, SIZE)
-    assert examine(result, views).passed
+    assert check_residuals(result, views).passed
     _, used = calibrate_weighted(views, SIZE)
     assert used[0].cov is not None
     assert used[0].cov[0, 0, 0] / used[0].cov[1, 0, 0] == pytest.approx(100, rel=0.1)
@@ -182,25 +182,25 @@ def test_covariances_count_in_the_weights() -> None:
 @pytest.mark.slow
 def test_the_level_is_the_one_stated(monkeypatch: pytest.MonkeyPatch) -> None:
     """At one in twenty, where it can be counted: no check alarms more often than that."""
-    monkeypatch.setattr("calibgui.engine.assessment.noise_test._CHANCE", 0.05)
+    monkeypatch.setattr("calibgui.engine.assessment.noise_test._MAX_FALSE_ALARM_RATE", 0.05)
     alarms: Counter[str] = Counter()
     for seed in range(90):
         true = scene(barrel(), (4, 8, 16)[seed % 3], seed)
         views = true.noisy(0.2, np.random.default_rng(seed))
-        report = examine(calibrate(views, SIZE), views)
+        report = check_residuals(calibrate(views, SIZE), views)
         alarms.update(check.name for check in report.checks if not check.passed)
     # 4.5 are expected; more than 13 have a chance of 2e-3 in any of eleven checks.
     assert max(alarms.values()) <= 13
 
 
 def test_it_can_be_abandoned() -> None:
-    told = []
+    calls = []
 
     def twice(done: int, total: int) -> None:
-        told.append((done, total))
+        calls.append((done, total))
         if done == 1:
             raise Cancelled
 
     with pytest.raises(Cancelled):
-        examine(calibrate(SCENE.views, SIZE), SCENE.views, progress=twice)
-    assert told == [(0, 8), (1, 8)]
+        check_residuals(calibrate(SCENE.views, SIZE), SCENE.views, progress=twice)
+    assert calls == [(0, 8), (1, 8)]

@@ -16,7 +16,7 @@ from calibgui.engine.calibration.calibrate import calibrate
 from calibgui.engine.calibration.observations import Observation
 from calibgui.engine.calibration.result import Calibration, Cost, Iteration, Status
 from calibgui.engine.errors import CalibrationError, Cancelled
-from calibgui.engine.geometry.rotations import rotation
+from calibgui.engine.geometry.rotations import rotation_from_vector
 from tests.engine.scenes import VGA, Scene, barrel, brown, looking, scene, seen
 
 Views = Sequence[Observation]
@@ -25,7 +25,9 @@ NOISY = scene(barrel(0.9), 8, seed=2).noisy(0.2, np.random.default_rng(0))
 
 def poses_agree(found: Calibration, made: Scene, rtol: float) -> None:
     for pose, truth in zip(found.poses, made.poses, strict=True):
-        np.testing.assert_allclose(rotation(pose.rvec), rotation(truth.rvec), atol=rtol)
+        np.testing.assert_allclose(
+            rotation_from_vector(pose.rvec), rotation_from_vector(truth.rvec), atol=rtol
+        )
         np.testing.assert_allclose(pose.tvec, truth.tvec, atol=rtol * truth.tvec[2])
 
 
@@ -47,7 +49,7 @@ def test_perfect_data_give_the_truth(aspect: float, cost: Cost) -> None:
 
 def test_perfect_data_of_the_forward_model() -> None:
     made = scene(brown(0.9), 8, seed=3)
-    found = calibrate(made.views, made.size, model="opencv")
+    found = calibrate(made.views, made.size, model="brown-conrady")
     np.testing.assert_allclose(found.camera.params, made.camera.params, rtol=1e-8, atol=1e-9)
     poses_agree(found, made, 1e-9)
 
@@ -104,18 +106,18 @@ def test_order_of_corners_and_views_does_not_matter(expected: Calibration, seed:
 
 @given(st.floats(-2000, 2000), st.floats(-2000, 2000))
 @settings(max_examples=8)
-def test_the_plates_origin_is_free(expected: Calibration, x: float, y: float) -> None:
+def test_the_boards_origin_is_free(expected: Calibration, x: float, y: float) -> None:
     moved = calibrate([(v.uv, v.xy + np.array([x, y])) for v in NOISY], VGA)
     same(moved, expected)
     for pose, was in zip(moved.poses, expected.poses, strict=True):
         np.testing.assert_allclose(pose.rvec, was.rvec, atol=1e-6)
-        shift = rotation(was.rvec)[:, :2] @ [x, y]
+        shift = rotation_from_vector(was.rvec)[:, :2] @ [x, y]
         np.testing.assert_allclose(pose.tvec, was.tvec - shift, atol=3e-3)
 
 
 @given(st.floats(1e-3, 1e3))
 @settings(max_examples=8)
-def test_the_unit_of_the_plate_scales_the_translations(expected: Calibration, unit: float) -> None:
+def test_the_unit_of_the_board_scales_the_translations(expected: Calibration, unit: float) -> None:
     scaled = calibrate([(v.uv, v.xy * unit) for v in NOISY], VGA)
     same(scaled, expected)
     for pose, was in zip(scaled.poses, expected.poses, strict=True):
@@ -125,12 +127,14 @@ def test_the_unit_of_the_plate_scales_the_translations(expected: Calibration, un
     np.testing.assert_allclose(reference, was_there, atol=1e-4)
 
 
-def test_a_plate_numbered_with_y_up_is_the_same_plate(expected: Calibration) -> None:
+def test_a_board_numbered_with_y_up_is_the_same_board(expected: Calibration) -> None:
     up = calibrate([(v.uv, v.xy * [1, -1]) for v in NOISY], VGA)
     same(up, expected)
     half_turn = np.diag([1.0, -1.0, -1.0])
     np.testing.assert_allclose(
-        rotation(up.poses[0].rvec), rotation(expected.poses[0].rvec) @ half_turn, atol=1e-6
+        rotation_from_vector(up.poses[0].rvec),
+        rotation_from_vector(expected.poses[0].rvec) @ half_turn,
+        atol=1e-6,
     )
 
 
@@ -202,8 +206,8 @@ def test_p3_is_held_unless_freed() -> None:
         ({"fix": {"cx": 1e9}}, "cx cannot be held"),
         ({"model": "fisheye"}, "no lens model"),
         ({"cost": "reprojection"}, "no cost 'reprojection'"),
-        ({"board_shape": "bent"}, "no plate model 'bent'"),
-        ({"board_shape": "bow", "cost": "reference"}, "flat, nominal plate"),
+        ({"board_shape": "bent"}, "no board shape 'bent'"),
+        ({"board_shape": "bow", "cost": "reference"}, "flat board as it is drawn"),
     ],
 )
 def test_impossible_settings_are_named(options: dict[str, object], says: str) -> None:
@@ -250,12 +254,12 @@ def test_a_view_of_large_covariance_hardly_counts() -> None:
     views = [bad, *NOISY[1:]]
     without = calibrate(NOISY[1:], VGA)
     blind = calibrate(views, VGA)
-    told = calibrate(weighted(views, [25.0] + [0.04] * 7), VGA)
+    known = calibrate(weighted(views, [25.0] + [0.04] * 7), VGA)
     sd = without.sigma[:4]
-    assert (np.abs(told.camera.params - without.camera.params)[:4] < 0.3 * sd).all()
+    assert (np.abs(known.camera.params - without.camera.params)[:4] < 0.3 * sd).all()
     assert (np.abs(blind.camera.params - without.camera.params)[:4] > 1.0 * sd).any()
     # The noise is that of the median corner, px.
-    assert told.noise == pytest.approx(0.2, rel=0.1)
+    assert known.noise == pytest.approx(0.2, rel=0.1)
 
 
 def test_report_stops_and_cancels() -> None:
@@ -313,7 +317,7 @@ def test_arrays_of_results_are_frozen(expected: Calibration) -> None:
 def test_the_forward_model_agrees_with_opencv(aspect: float) -> None:
     made = scene(brown(aspect), 6, seed=11)
     views = made.noisy(0.2, np.random.default_rng(4))
-    found = calibrate(views, VGA, model="opencv")
+    found = calibrate(views, VGA, model="brown-conrady")
     boards = [np.column_stack([v.xy, np.zeros(len(v.xy))]).astype(np.float32) for v in views]
     corners = [v.uv.astype(np.float32).reshape(-1, 1, 2) for v in views]
     criteria = (cv2.TERM_CRITERIA_COUNT + cv2.TERM_CRITERIA_EPS, 200, 1e-15)

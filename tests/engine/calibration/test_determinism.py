@@ -16,7 +16,7 @@ from calibgui.engine.calibration.observations import Observation
 from calibgui.engine.calibration.result import Calibration
 from tests.engine.scenes import VGA, Scene, barrel, scene
 
-ROOT = Path(__file__).parents[2]
+ROOT = Path(__file__).parents[3]
 LIMITS = ("NUMBA_NUM_THREADS", "OPENBLAS_NUM_THREADS", "OMP_NUM_THREADS", "MKL_NUM_THREADS")
 
 
@@ -37,20 +37,20 @@ def weighted(made: Scene) -> list[Observation]:
 
 
 def digest() -> str:
-    """Of many views, of a free plate, and of weighted corners with the other lens model."""
+    """Digest results of many views, of a free board shape and of weighted corners."""
     many, few = (scene(barrel(), count, seed=7) for count in (400, 12))
     noise = np.random.default_rng(0)
     results = [
         calibrate(many.noisy(0.1, noise), VGA),
         calibrate(few.noisy(0.1, noise), VGA, board_shape="free"),
-        calibrate(weighted(few), VGA, model="opencv"),
+        calibrate(weighted(few), VGA, model="brown-conrady"),
     ]
     return hashlib.sha256(b"".join(map(bits, results))).hexdigest()
 
 
 @pytest.mark.slow
 def test_threads_do_not_change_a_bit() -> None:
-    code = "from tests.engine.test_determinism import digest; print(digest())"
+    code = "from tests.engine.calibration.test_determinism import digest; print(digest())"
     found = set()
     for threads in ("1", "2"):
         environment = os.environ | dict.fromkeys(LIMITS, threads)

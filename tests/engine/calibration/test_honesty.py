@@ -2,7 +2,7 @@
 
 ``test_monte_carlo.py`` repeats whole calibrations; here only Stage II is repeated, from the truth,
 so that 500 draws are affordable, which know a standard deviation to 3 %. Noise alone is widened
-for the views' disagreement in about one draw of twenty (``view_scatter.py``).
+for the views' disagreement in about one draw of twenty (``overdispersion.py``).
 """
 
 from __future__ import annotations
@@ -10,14 +10,14 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from calibgui.engine.calibration import covariances
-from calibgui.engine.calibration.observations import pack
-from calibgui.engine.calibration.overdispersion import with_view_scatter
-from calibgui.engine.calibration.problem import state_of
+from calibgui.engine.calibration.observations import pack_observations
+from calibgui.engine.calibration.overdispersion import add_overdispersion
+from calibgui.engine.calibration.problem import make_state
+from calibgui.engine.calibration.refinement import covariances
 from calibgui.engine.calibration.refinement.levenberg_marquardt import minimise
-from calibgui.engine.calibration.refinement.normal_equations import stage_two
+from calibgui.engine.calibration.refinement.residuals import build_stage_two
 from calibgui.engine.calibration.result import Cost
-from calibgui.engine.calibration.result_assembly import estimated
+from calibgui.engine.calibration.result_assembly import make_estimate
 from calibgui.engine.camera.models import MODELS, parameter_names
 from tests.engine.scenes import example, scene
 
@@ -35,16 +35,16 @@ def test_repeated_solves_scatter_as_reported(model: str, count: int) -> None:
     true = scene(camera, count, seed=4)
     names = tuple(np.array(parameter_names(model))[free])
     anything = np.full(len(free), np.inf)
-    start, rng = state_of(camera, true.poses), np.random.default_rng(count)
+    start, rng = make_state(camera, true.poses), np.random.default_rng(count)
     estimates, reported = [], []
     for _ in range(DRAWS):
-        seen = pack(true.noisy(NOISE, rng))
-        problem = stage_two(seen, model, Cost.IMAGE, 1.0, free)
+        seen = pack_observations(true.noisy(NOISE, rng))
+        problem = build_stage_two(seen, model, Cost.IMAGE, 1.0, free)
         found = minimise(problem, start, free, seen.count, float(np.sum(seen.uv**2)))
-        precision = covariances.precision(found.normal, names, seen.count, anything)
-        told = with_view_scatter(estimated(found, seen, precision), model, free)
+        precision = covariances.measure_precision(found.normal, names, seen.count, anything)
+        widened = add_overdispersion(make_estimate(found, seen, precision), model, free)
         estimates.append(found.state.params[free])
-        reported.append(np.diag(told.camera))
+        reported.append(np.diag(widened.camera_covariance))
     scatter = np.std(estimates, axis=0, ddof=1)
     ratio = scatter / np.sqrt(np.mean(reported, axis=0))
     assert ((ratio > 0.9) & (ratio < 1.1)).all()

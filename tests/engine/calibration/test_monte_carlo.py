@@ -7,7 +7,7 @@ import pytest
 
 from calibgui.engine.arrays import Array
 from calibgui.engine.calibration.calibrate import calibrate
-from calibgui.engine.geometry.rotations import rotation, rotation_vector
+from calibgui.engine.geometry.rotations import rotation_from_vector, vector_from_rotation
 from tests.engine.scenes import barrel, brown, scene
 
 pytestmark = pytest.mark.slow
@@ -18,7 +18,7 @@ NOISE = 0.1
 
 def drawn(model: str) -> tuple[Array, Array, Array, Array, Array]:
     """Errors and reported sigmas of the intrinsics (D, P) and the poses (D, K, 6); sigma (D,)."""
-    made = scene(brown(0.9) if model == "opencv" else barrel(0.9), 10, seed=6)
+    made = scene(brown(0.9) if model == "brown-conrady" else barrel(0.9), 10, seed=6)
     errors, sigmas, pose_errors, pose_sigmas, noises = [], [], [], [], []
     for seed in range(DRAWS):
         views = made.noisy(NOISE, np.random.default_rng(seed))
@@ -44,7 +44,7 @@ def drawn(model: str) -> tuple[Array, Array, Array, Array, Array]:
 
 # A standard deviation of 200 draws is itself known to 1 / sqrt(400) = 5 %: 15 % is three times
 # that. A mean of 200 draws is known to 0.07 standard deviations: 0.25 is three and a half times.
-@pytest.mark.parametrize("model", ["lucchese", "opencv"])
+@pytest.mark.parametrize("model", ["lucchese", "brown-conrady"])
 def test_reported_deviations_are_the_scatter(model: str) -> None:
     errors, sigmas, pose_errors, pose_sigmas, noises = drawn(model)
     free = sigmas[0] > 0
@@ -76,10 +76,10 @@ def test_correlated_parameters_move_together() -> None:
 
 
 def test_rotation_vectors_scatter_as_reported_beyond_small_angles() -> None:
-    """A plate numbered with Y up is seen at nearly a half turn, where rvec is not the local w."""
+    """A board numbered with Y up is seen at nearly a half turn, where rvec is not the local w."""
     made = scene(barrel(), 10, seed=6)
     up = np.diag([1.0, -1.0, -1.0])
-    truth = np.array([rotation_vector(rotation(p.rvec) @ up) for p in made.poses])
+    truth = np.array([vector_from_rotation(rotation_from_vector(p.rvec) @ up) for p in made.poses])
     errors, sigmas = [], []
     for seed in range(DRAWS // 2):
         views = made.noisy(NOISE, np.random.default_rng(seed))

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from calibgui.engine.arrays import Array
-from calibgui.engine.calibration.observations import Observation, pack, pitch
+from calibgui.engine.calibration.observations import Observation, measure_pitch, pack_observations
 from calibgui.engine.errors import CalibrationError
 from tests.engine.scenes import barrel, scene
 
@@ -21,13 +21,13 @@ def changed(array: Array, index: object, value: float) -> Array:
 
 
 def test_views_are_padded_with_weightless_corners() -> None:
-    packed = pack([(UV, XY), (UV[:40], XY[:40])])
+    packed = pack_observations([(UV, XY), (UV[:40], XY[:40])])
     assert packed.uv.shape == (2, 108, 2)
     assert packed.count == 148
     np.testing.assert_array_equal(packed.mask.sum(axis=1), [108, 40])
-    np.testing.assert_array_equal(packed.uv[1, packed.view(1)], UV[:40])
+    np.testing.assert_array_equal(packed.uv[1, packed.corners_of(1)], UV[:40])
     assert packed.cov is None
-    assert packed.part(slice(1, 2)).count == 40
+    assert packed.select_views(slice(1, 2)).count == 40
 
 
 BAD = {
@@ -35,7 +35,7 @@ BAD = {
     "three columns": (np.ones((9, 3)), np.ones((9, 3)), "do not match"),
     "NaN in the image": (changed(UV, (3, 0), np.nan), XY, "not a finite number"),
     "infinite in the image": (changed(UV, (3, 1), np.inf), XY, "not a finite number"),
-    "NaN on the plate": (UV, changed(XY, (3, 0), np.nan), "not a finite number"),
+    "NaN on the board": (UV, changed(XY, (3, 0), np.nan), "not a finite number"),
     "far from any image": (changed(UV, (3, 0), 1e200), XY, "corner farther than 1e.07 px"),
     "far from any board": (UV, changed(XY, (3, 0), -1e200), "point farther than 1e.09 mm"),
     "a board without extent": (UV, 1e-160 * XY, "at one place"),
@@ -55,7 +55,7 @@ BAD = {
 @pytest.mark.parametrize(("uv", "xy", "says"), BAD.values(), ids=BAD)
 def test_a_view_that_cannot_be_used_is_named(uv: Array, xy: Array, says: str) -> None:
     with pytest.raises(CalibrationError, match=says) as caught:
-        pack([(UV, XY), (uv, xy)], names=("first.png", "second.png"))
+        pack_observations([(UV, XY), (uv, xy)], names=("first.png", "second.png"))
     assert "second.png" in caught.value.message
     assert caught.value.hint
 
@@ -72,29 +72,33 @@ def test_a_view_that_cannot_be_used_is_named(uv: Array, xy: Array, says: str) ->
 )
 def test_covariances_must_be_covariances(cov: Array, says: str) -> None:
     with pytest.raises(CalibrationError, match=says):
-        pack([(UV, XY, cov)])
+        pack_observations([(UV, XY, cov)])
 
 
 def test_covariances_are_given_for_all_views_or_for_none() -> None:
     cov = np.tile(np.eye(2), (108, 1, 1))
     with pytest.raises(CalibrationError, match="2 has no corner covariances"):
-        pack([Observation(UV, XY, cov), Observation(UV, XY)])
+        pack_observations([Observation(UV, XY, cov), Observation(UV, XY)])
 
 
 def test_every_view_has_a_name() -> None:
     with pytest.raises(ValueError, match="1 names do not name 2 views"):
-        pack([VIEW, VIEW], names=["first.png"])
+        pack_observations([VIEW, VIEW], names=["first.png"])
 
 
 def test_no_views() -> None:
     with pytest.raises(CalibrationError, match="no views"):
-        pack([])
+        pack_observations([])
 
 
 def test_pitch_is_the_distance_of_neighbours() -> None:
-    assert pitch(pack([VIEW])) == pytest.approx(30.0)
+    assert measure_pitch(pack_observations([VIEW])) == pytest.approx(30.0)
     # Of parts of the board, in several views.
-    assert pitch(pack([(UV[:40], XY[:40]), (UV[60:], XY[60:])])) == pytest.approx(30.0)
+    assert measure_pitch(
+        pack_observations([(UV[:40], XY[:40]), (UV[60:], XY[60:])])
+    ) == pytest.approx(30.0)
     # Zhang's squares stand apart: the nearest corner belongs to the same square.
     squares = np.array([[0, 0], [0.5, 0], [0, 0.5], [0.5, 0.5], [0.9, 0], [1.4, 0], [1.4, 0.5]])
-    assert pitch(pack([(UV[:7] + squares, squares)])) == pytest.approx(0.5, rel=0.2)
+    assert measure_pitch(pack_observations([(UV[:7] + squares, squares)])) == pytest.approx(
+        0.5, rel=0.2
+    )

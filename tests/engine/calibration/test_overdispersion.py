@@ -8,8 +8,8 @@ import pytest
 from calibgui.engine.arrays import Array
 from calibgui.engine.calibration.calibrate import calibrate
 from calibgui.engine.calibration.observations import Observation
-from calibgui.engine.camera.projection import pixels
-from calibgui.engine.geometry.rotations import rotation
+from calibgui.engine.camera.projection import pixels_from_rays
+from calibgui.engine.geometry.rotations import rotation_from_vector
 from tests.engine.calibration.board_shape.test_parametrisation import CAMERA, CENTRE, NOMINAL, SIZE
 
 FLAT = np.column_stack([NOMINAL, np.zeros(len(NOMINAL))])
@@ -30,18 +30,18 @@ def _displaced(fault: str, uv: Array, rng: np.random.Generator) -> Array:
 
 
 def _photographed(fault: str, rng: np.random.Generator) -> Array:
-    """(n, 2) one noisy view of the plate, with an error of its own."""
-    board_shape, R = FLAT.copy(), rotation(rng.uniform(-0.6, 0.6, 3))
+    """(n, 2) one noisy view of the board, with an error of its own."""
+    board_shape, R = FLAT.copy(), rotation_from_vector(rng.uniform(-0.6, 0.6, 3))
     T = rng.uniform([-60, -40, 500], [60, 40, 700])
     if fault == "bending":
         board_shape[:, 2] = (1 - ACROSS**2) @ rng.normal(0, 0.3, 2)
     p = board_shape @ R.T + T - R[:, :2] @ CENTRE
-    uv = pixels(p[:, :2] / p[:, 2:], CAMERA)
+    uv = pixels_from_rays(p[:, :2] / p[:, 2:], CAMERA)
     if fault == "rolling":
         velocity = rng.normal(0, 0.5, 3)  # mm while the rows are read
         for _ in range(5):
             q = p + (uv[:, 1:] / SIZE[1] - 0.5) * velocity
-            uv = pixels(q[:, :2] / q[:, 2:], CAMERA)
+            uv = pixels_from_rays(q[:, :2] / q[:, 2:], CAMERA)
     return _displaced(fault, uv, rng) + rng.normal(0, NOISE, uv.shape)
 
 
@@ -60,7 +60,7 @@ def photographed(fault: str, count: int, seed: int) -> list[Observation]:
 def test_widened_deviations_are_those_of_leaving_views_out(board_shape: str) -> None:
     views = photographed("bending", 16, 3)
     whole = calibrate(views, SIZE, board_shape=board_shape)
-    assert whole.view_scatter > 1.5
+    assert whole.overdispersion > 1.5
     assert (whole.sigma[:9] > whole.sigma_by_noise[:9]).all()
     without = np.array(
         [
@@ -76,11 +76,11 @@ def test_widened_deviations_are_those_of_leaving_views_out(board_shape: str) -> 
     assert np.linalg.eigvalsh(whole.covariance[:9, :9]).min() > 0
 
 
-def test_poses_and_plate_follow_the_camera() -> None:
+def test_poses_and_board_shape_follow_the_camera() -> None:
     views = photographed("bending", 16, 3)
     found = calibrate(views, SIZE, board_shape="free")
     sound = calibrate(photographed("none", 16, 3), SIZE, board_shape="free")
-    assert sound.view_scatter == 0
+    assert sound.overdispersion == 0
     np.testing.assert_array_equal(sound.sigma, sound.sigma_by_noise)
     # T_z goes with the focal length: its relative deviation cannot be much smaller.
     deviation = np.sqrt(found.pose_covariances[:, 5, 5]) / [pose.tvec[2] for pose in found.poses]
@@ -92,7 +92,7 @@ def test_poses_and_plate_follow_the_camera() -> None:
 
 
 def test_few_views_are_not_judged() -> None:
-    assert calibrate(photographed("bending", 5, 3), SIZE).view_scatter == 0
+    assert calibrate(photographed("bending", 5, 3), SIZE).overdispersion == 0
 
 
 @pytest.mark.slow
@@ -114,11 +114,11 @@ def test_errors_that_hang_together_are_covered(board_shape: str, count: int) -> 
 @pytest.mark.slow
 @pytest.mark.parametrize("count", [10, 25])
 def test_noise_alone_is_rarely_widened(count: int) -> None:
-    """With a free plate; ``test_honesty.py`` has the nominal one for every lens model."""
+    """The board shape is free; ``test_honesty.py`` tests the nominal one for every lens model."""
     z, widened = [], 0
     for seed in range(150):
         found = calibrate(photographed("none", count, seed), SIZE, board_shape="free")
         z.append((found.camera.params - CAMERA.params)[:9] / found.sigma[:9])
-        widened += found.view_scatter > 0
+        widened += found.overdispersion > 0
     assert widened <= 18  # 5 % expected; 12 % is four deviations of the binomial away
     assert np.sqrt(np.mean(np.square(z))) == pytest.approx(1.0, abs=0.1)

@@ -1,4 +1,4 @@
-"""A calibration says how it can be repeated."""
+"""The arguments that repeat a calibration are recovered from it."""
 
 from __future__ import annotations
 
@@ -6,11 +6,10 @@ from pathlib import Path
 
 import numpy as np
 
-from calibgui.dataset.result import Result
-from calibgui.dataset.view import View, ViewStatus
+from calibgui.dataset import Result, View, ViewStatus
 from calibgui.engine.boards.shape import BoardShapePrior
 from calibgui.engine.calibration.calibrate import calibrate
-from calibgui.engine.calibration.problem import settings_of
+from calibgui.engine.calibration.problem import recover_arguments
 from calibgui.formats.result_json import read_result, write_result
 from tests.engine.scenes import VGA, barrel, scene
 
@@ -22,8 +21,8 @@ def test_the_same_again_from_its_file(tmp_path: Path) -> None:
     seen = tuple(View(f"{k}", ViewStatus.FOUND, points=view) for k, view in enumerate(views))
     write_result(Result(first, seen), tmp_path / "result.json")
     read = read_result(tmp_path / "result.json").calibration
-    for told in (first, read):
-        assert settings_of(told)["prior"] == prior
-        again = calibrate(views, VGA, **settings_of(told))
+    for calibration in (first, read):
+        assert recover_arguments(calibration)["prior"] == prior
+        again = calibrate(views, VGA, **recover_arguments(calibration))
         np.testing.assert_array_equal(again.camera.params, first.camera.params)
         assert again.digest == first.digest

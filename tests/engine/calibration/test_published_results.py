@@ -9,10 +9,10 @@ import pytest
 from scipy.io import loadmat
 
 from calibgui.engine.arrays import Array, Size
-from calibgui.engine.assessment.residual_statistics import summarise
+from calibgui.engine.assessment.residual_statistics import summarise_residuals
 from calibgui.engine.calibration.calibrate import calibrate
-from calibgui.engine.calibration.covariances import paper_table
 from calibgui.engine.calibration.observations import Observation
+from calibgui.engine.calibration.refinement.covariances import make_paper_table
 from calibgui.engine.calibration.result import Calibration, Status
 from tests.engine.scenes import stored
 
@@ -51,7 +51,7 @@ def err_std(mat: dict[str, Array], views: list[Observation]) -> Array:
 
 
 def sigmas(found: Calibration) -> tuple[float, float]:
-    summary = summarise(found.residuals)
+    summary = summarise_residuals(found.residuals)
     return summary.sigma_x, summary.sigma_y
 
 
@@ -59,11 +59,11 @@ def test_bouguets_own_model(bouguet_corners: Set, data_dir: Path) -> None:
     folder = data_dir / "bouguet_calib_example" / "corners_and_results"
     mat = loadmat(folder / "Calib_Results_25img__benJephunneh.mat")
     views, size = bouguet_corners
-    found = calibrate(views, size, model="opencv", fix=["k3"])
+    found = calibrate(views, size, model="brown-conrady", fix=["k3"])
     # His k3 is held at 0; his corners and result are stored to the digits printed there.
     np.testing.assert_allclose(found.camera.params[:4], params_of(mat)[:4], atol=2e-4)
     np.testing.assert_allclose(found.camera.params[4:], params_of(mat)[4:], atol=2e-6)
-    # His three standard deviations are of noise alone; ours know that the plate is not perfect.
+    # His three standard deviations are of noise alone; ours know that the board is not perfect.
     assert (found.sigma[:2] > mat["fc_error"].ravel() / 3).all()
     assert found.board_shape_error > 0.05
     np.testing.assert_allclose(sigmas(found), err_std(mat, views), atol=2e-6)
@@ -88,7 +88,7 @@ def test_the_papers_preset_on_bouguets_corners(bouguet_corners: Set) -> None:
     """Its Table 2 was made from other corners: within three of its printed deviations."""
     views, size = bouguet_corners
     found = calibrate(views, size, cost="paper")
-    values, _, printed = paper_table(found)
+    values, _, printed = make_paper_table(found)
     table = [-16.48, -2.90, 5.71e-7, 6.05e-13, -2.06e-18, -6.34e-7, -1.06e-6, 1.37e-6]
     sd = np.array([0.94, 0.97, 2.85e-8, 6.76e-13, 4.58e-18, 5.2e-7, 7.1e-7, 1.0e-5, 0.71, 0.57])
     assert (np.abs(values - [*table, 656.66, 657.83]) < 3 * sd).all()
@@ -100,7 +100,7 @@ def test_the_papers_preset_on_bouguets_corners(bouguet_corners: Set) -> None:
 def test_pixels_that_are_not_square(merging: tuple[Set, dict[str, Array]]) -> None:
     """All five coefficients of the forward model, to the digits of the .mat files."""
     (views, size), mat = merging
-    found = calibrate(views, size, model="opencv")
+    found = calibrate(views, size, model="brown-conrady")
     np.testing.assert_allclose(found.camera.params, params_of(mat), atol=5e-5)
     np.testing.assert_allclose(sigmas(found), err_std(mat, views), atol=2e-6)
 
@@ -125,12 +125,12 @@ def test_zhangs_points(zhang: Set) -> None:
     views, size = zhang
     radial = calibrate(views, size, fix=["k3", "p1", "p2"])
     np.testing.assert_allclose(radial.camera.focal, [832.2, 832.2], atol=0.5)
-    forward = calibrate(views, size, model="opencv", fix=["k3", "p1", "p2"])
+    forward = calibrate(views, size, model="brown-conrady", fix=["k3", "p1", "p2"])
     np.testing.assert_allclose(
         forward.camera.params[:4], [832.207, 832.243, 304.068, 206.372], atol=1e-3
     )
     # With decentering, OpenCV has 832.957, 832.895; so far the five views leave the focal length.
-    free = calibrate(views, size, fix=["k3"], model="opencv")
+    free = calibrate(views, size, fix=["k3"], model="brown-conrady")
     np.testing.assert_allclose(
         free.camera.params[:4], [832.957, 832.895, 304.146, 208.605], atol=2e-3
     )

@@ -11,8 +11,8 @@ from hypothesis import strategies as st
 from calibgui.engine.arrays import Array
 from calibgui.engine.camera.camera import Camera
 from calibgui.engine.camera.distortion import (
-    Part,
-    displacement,
+    DisplacementPart,
+    compute_displacement,
     distort_points,
     project_points,
     undistort_points,
@@ -30,7 +30,7 @@ CAMERAS = {
     "barrel": barrel(),
     "tall pixels": barrel(aspect=1.3),
     "pixel radius": Camera((640, 480), barrel(aspect=0.9).params, "lucchese-pixels"),
-    "opencv": brown(aspect=1.1),
+    "brown-conrady": brown(aspect=1.1),
 }
 
 
@@ -101,8 +101,8 @@ def test_empty_and_single_points() -> None:
     assert distort_points([3.0, 4.0], barrel()).shape == (2,)
 
 
-@pytest.mark.parametrize("part", Part)
-def test_displacement_is_equation_10(part: Part) -> None:
+@pytest.mark.parametrize("part", DisplacementPart)
+def test_displacement_is_equation_10(part: DisplacementPart) -> None:
     """In the paper's frame and pixel units, with its Table 2 and square pixels."""
     table = PAPER.copy()
     table[9] = table[8]
@@ -122,7 +122,7 @@ def test_displacement_is_equation_10(part: Part) -> None:
         axis=-1,
     )
     expected = {"complete": radial + decentering, "radial": radial, "decentering": decentering}
-    moved = grid() + displacement(grid(), camera, part).vector
+    moved = grid() + compute_displacement(grid(), camera, part).vector
     np.testing.assert_allclose(
         moved, array_from_paper(np.stack([x, y], axis=-1) + expected[part], size), atol=1e-9
     )
@@ -131,20 +131,20 @@ def test_displacement_is_equation_10(part: Part) -> None:
 def test_the_papers_displacement_in_the_image_corners() -> None:
     # "In the four corners, the corrective displacement is of the order of 40 pixels."
     camera = Camera((640, 480), array_intrinsics(PAPER, (640, 480)))
-    corners = displacement([[0, 0], [639, 0], [0, 479], [639, 479]], camera).length
+    corners = compute_displacement([[0, 0], [639, 0], [0, 479], [639, 479]], camera).length
     assert np.all((corners > 30) & (corners < 50))
 
 
 @pytest.mark.parametrize("camera", CAMERAS.values(), ids=CAMERAS)
-@pytest.mark.parametrize("part", Part)
-def test_gradients(camera: Camera, part: Part) -> None:
+@pytest.mark.parametrize("part", DisplacementPart)
+def test_gradients(camera: Camera, part: DisplacementPart) -> None:
     for uv in grid(160).reshape(-1, 2):
-        at = displacement(uv, camera, part)
+        at = compute_displacement(uv, camera, part)
         by_pixel = central_differences(
-            lambda x: displacement(x, camera, part).vector, uv, step=1e-2
+            lambda x: compute_displacement(x, camera, part).vector, uv, step=1e-2
         )
         gradient = central_differences(
-            lambda x: displacement(x, camera, part).length, uv, step=1e-2
+            lambda x: compute_displacement(x, camera, part).length, uv, step=1e-2
         )
         # Truncation: step^2 / 6 times third derivatives of order 1e-6 / px^2, and
         # rounding: 1e-13 px over the step.
@@ -154,4 +154,4 @@ def test_gradients(camera: Camera, part: Part) -> None:
 
 def test_the_gradient_where_there_is_no_displacement() -> None:
     camera = barrel()
-    np.testing.assert_array_equal(displacement(camera.centre, camera).gradient, [0.0, 0.0])
+    np.testing.assert_array_equal(compute_displacement(camera.centre, camera).gradient, [0.0, 0.0])

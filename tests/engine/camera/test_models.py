@@ -22,7 +22,7 @@ CASES = [
     pytest.param(Lucchese(), STRONG, id="lucchese"),
     pytest.param(Lucchese(), -0.5 * STRONG, id="lucchese, pincushion"),
     pytest.param(Lucchese(), np.zeros(6), id="lucchese, none"),
-    pytest.param(BrownConrady(), BARREL, id="opencv"),
+    pytest.param(BrownConrady(), BARREL, id="brown-conrady"),
     pytest.param(BrownConrady(), np.zeros(5), id="opencv, none"),
     *(pytest.param(MODELS[model], np.array(k), id=f"{model}, all") for model, k in LENSES.items()),
 ]

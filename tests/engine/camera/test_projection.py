@@ -17,11 +17,11 @@ from calibgui.engine.camera.models.brown_conrady import BrownConrady
 from calibgui.engine.camera.projection import (
     Projected,
     lens_scale,
-    normalise,
-    pixels,
+    pixels_from_rays,
     project,
-    rays,
-    rays_with_slope,
+    rays_and_slopes,
+    rays_from_pixels,
+    unproject,
 )
 from tests.engine.scenes import brown, central_differences, example, relative
 
@@ -33,11 +33,11 @@ GRID = np.stack(np.meshgrid(np.linspace(0, 639, 9), np.linspace(0, 479, 7)), axi
 @pytest.mark.parametrize("model", list(MODELS))
 def test_derivatives_against_differences(model: str, aspect: float) -> None:
     lens, p = MODELS[model], np.array(example(model, aspect).params)
-    n = normalise(GRID, p, lens).points
+    n = unproject(GRID, p, lens).points
     # h is 3e-4 of the scales, short because the inverse bends sharply where it nears its fold;
     # that leaves 1e-10 of truncation, and 2e-9 of rounding in pixels.
     step = np.concatenate([np.full(4, 0.2), np.full(len(p) - 4, 3e-4)])
-    for mapping, points, h in ((normalise, GRID, 0.2), (project, n, 3e-4)):
+    for mapping, points, h in ((unproject, GRID, 0.2), (project, n, 3e-4)):
         mapped = mapping(points, p, lens)
 
         def at(e: Array, mapping: Mapping = mapping, points: Array = points) -> Array:
@@ -55,14 +55,16 @@ def test_derivatives_against_differences(model: str, aspect: float) -> None:
 @given(st.sampled_from(list(MODELS)), st.floats(0.7, 1.4))
 def test_pixels_and_rays_are_inverse(model: str, aspect: float) -> None:
     camera = example(model, aspect)
-    np.testing.assert_allclose(pixels(rays(GRID, camera), camera), GRID, atol=1e-9)
+    np.testing.assert_allclose(
+        pixels_from_rays(rays_from_pixels(GRID, camera), camera), GRID, atol=1e-9
+    )
 
 
 @pytest.mark.parametrize("model", list(MODELS))
 def test_rays_with_their_slope_are_those_of_normalise(model: str) -> None:
     camera = example(model, 0.9)
-    expected = normalise(GRID, camera.params, MODELS[model])
-    n, by_uv = rays_with_slope(GRID, camera)
+    expected = unproject(GRID, camera.params, MODELS[model])
+    n, by_uv = rays_and_slopes(GRID, camera)
     np.testing.assert_allclose(n, expected.points, rtol=1e-15)
     np.testing.assert_allclose(by_uv, expected.by_point, rtol=1e-14)
 
@@ -77,13 +79,13 @@ def test_opencv_projects_alike() -> None:
         camera.matrix,
         np.array(camera.coefficients),
     )[0].reshape(-1, 2)
-    np.testing.assert_allclose(pixels(n, camera), expected, atol=1e-10)
+    np.testing.assert_allclose(pixels_from_rays(n, camera), expected, atol=1e-10)
 
 
 def test_square_pixels_make_the_printed_radius_the_same() -> None:
     p = example("lucchese").params
-    a = normalise(GRID, p, MODELS["lucchese"]).points
-    b = normalise(GRID, p, MODELS["lucchese-pixels"]).points
+    a = unproject(GRID, p, MODELS["lucchese"]).points
+    b = unproject(GRID, p, MODELS["lucchese-pixels"]).points
     np.testing.assert_allclose(a, b, atol=1e-15)
 
 
@@ -94,7 +96,7 @@ def test_the_printed_radius_is_in_pixels() -> None:
     dx, dy = uv - p[2:4]
     r2 = dx**2 + dy**2
     psi = np.array([dx, dy]) * (1 + 0.2 / 650.0**2 * r2)
-    got = normalise(uv, p, MODELS["lucchese-pixels"]).points
+    got = unproject(uv, p, MODELS["lucchese-pixels"]).points
     np.testing.assert_allclose(got, psi / p[:2], atol=1e-15)
 
 

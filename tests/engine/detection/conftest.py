@@ -14,8 +14,8 @@ from calibgui.engine.camera.camera import Camera
 from calibgui.engine.camera.distortion import project_points
 from calibgui.engine.detection.corners import Corners
 from calibgui.engine.geometry.pose import Pose
-from calibgui.engine.geometry.rotations import rotation
-from calibgui.engine.images.rendering import render
+from calibgui.engine.geometry.rotations import rotation_from_vector
+from calibgui.engine.images.rendering import render_view
 
 CAMERA = Camera((1000, 750), [860.0, 863.0, 500.0, 370.0, 0.1, 0.02, 0.0, 1e-4, 0.0, 0.0])
 
@@ -33,7 +33,7 @@ class Scene:
 
     @property
     def pose(self) -> Pose:
-        R = rotation(np.array(self.rvec))
+        R = rotation_from_vector(np.array(self.rvec))
         middle = R[:, :2] @ self.board.points().mean(axis=0)
         return Pose(self.rvec, np.array([*self.aside, self.distance]) - middle)
 
@@ -49,7 +49,7 @@ class Scene:
 @cache
 def _rendered(scene: Scene, blur: float, noise: float, seed: int) -> GreyImage:
     """Takes seconds, and several tests look at the same."""
-    return render(scene.camera, scene.pose, scene.board, blur=blur, noise=noise, seed=seed)
+    return render_view(scene.camera, scene.pose, scene.board, blur=blur, noise=noise, seed=seed)
 
 
 @pytest.fixture

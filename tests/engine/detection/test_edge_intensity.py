@@ -9,7 +9,13 @@ import pytest
 from scipy.ndimage import gaussian_filter
 from scipy.special import erf
 
-from calibgui.engine.detection.edge_intensity import Floats, Pattern, edge, meeting, spread
+from calibgui.engine.detection.edge_intensity import (
+    CrossingIntensity,
+    Floats,
+    compute_crossing,
+    compute_edge,
+    compute_spread_crossing,
+)
 
 D = np.linspace(-3, 3, 25)
 D1, D2 = (grid.reshape(1, -1) for grid in np.meshgrid(D, D))
@@ -21,25 +27,27 @@ def column(value: float) -> Floats:
 
 def test_edge_is_the_error_function() -> None:
     np.testing.assert_allclose(
-        edge(D[None], column(0.8)).value[0], erf(D / 0.8 / 2**0.5), atol=2e-7
+        compute_edge(D[None], column(0.8)).value[0], erf(D / 0.8 / 2**0.5), atol=2e-7
     )
 
 
 def test_edge_of_a_sharp_pixel_is_a_ramp() -> None:
     ramp = np.clip(2 * D, -1, 1)
-    value = edge(D[None], column(0.31), column(0.5)).value[0]
+    value = compute_edge(D[None], column(0.31), column(0.5)).value[0]
     np.testing.assert_allclose(value, ramp, atol=0.17)
     np.testing.assert_allclose(value[abs(D) > 0.8], ramp[abs(D) > 0.8], atol=1e-6)
 
 
-def pattern(kind: str, d1: Floats, d2: Floats, s1: float, s2: float, rho: float) -> Pattern:
+def pattern(
+    kind: str, d1: Floats, d2: Floats, s1: float, s2: float, rho: float
+) -> CrossingIntensity:
     s, r, box = (column(s1), column(s2)), column(rho), (column(0.4), column(0.5))
     if kind == "meeting":
-        return meeting((d1, d2), s, r, None)
+        return compute_crossing((d1, d2), s, r, None)
     if kind == "sharp":
-        return meeting((d1, d2), s, r, box)
+        return compute_crossing((d1, d2), s, r, box)
     w = 0.7 if kind == "shrunk" else -0.7
-    return spread((d1, d2), s, r, None, (column(w), column(1.2 * w)))
+    return compute_spread_crossing((d1, d2), s, r, None, (column(w), column(1.2 * w)))
 
 
 @pytest.mark.parametrize("kind", ["meeting", "sharp", "shrunk", "grown"])
@@ -88,8 +96,8 @@ def test_pattern_is_the_blurred_drawing(skew: float, w: float) -> None:
     at = (d1[::8, ::8].reshape(1, -1), d2[::8, ::8].reshape(1, -1))
     s, rho = (column(sigma), column(sigma)), column(skew)
     if w == 0:
-        model = meeting(at, s, rho, None).value
+        model = compute_crossing(at, s, rho, None).value
     else:
-        model = spread(at, s, rho, None, (column(w), column(w))).value
+        model = compute_spread_crossing(at, s, rho, None, (column(w), column(w))).value
     inner = (np.hypot(u, v) < 5)[::8, ::8].ravel()
     np.testing.assert_allclose(model[0][inner], blurred.ravel()[inner], atol=0.06)

@@ -1,4 +1,4 @@
-"""Perspectives through lenses are recovered, with their derivatives, and not seen where none is."""
+"""A homography through a lens is recovered, with its derivatives; without one none is seen."""
 
 from __future__ import annotations
 
@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from calibgui.engine.arrays import Array
-from calibgui.engine.detection.grid_map import Perspective, fit_perspective
+from calibgui.engine.detection.grid_map import RadialHomography, fit_radial_homography
 
 CELLS = np.argwhere(np.ones((6, 9)))[:, ::-1].astype(np.float64)
 H = np.array([[60.0, 5.0, -260.0], [-8.0, 70.0, -190.0], [1e-2, 4e-2, 1.0]])
@@ -14,30 +14,30 @@ CENTRE = np.array([330.0, 250.0])
 
 
 @pytest.mark.parametrize(
-    "bend", [(-4e-6, 0.0, 0.0), (2e-6, 1e-12, 0.0), (-3e-6, -2e-12, -1e-18)], ids=str
+    "coefficients", [(-4e-6, 0.0, 0.0), (2e-6, 1e-12, 0.0), (-3e-6, -2e-12, -1e-18)], ids=str
 )
-def test_a_lens_is_recovered(bend: tuple[float, float, float]) -> None:
-    true = Perspective(H, CENTRE, np.array(bend))
-    got = fit_perspective(CELLS, true.at(CELLS))
+def test_a_lens_is_recovered(coefficients: tuple[float, float, float]) -> None:
+    true = RadialHomography(H, CENTRE, np.array(coefficients))
+    got = fit_radial_homography(CELLS, true.locate(CELLS))
     np.testing.assert_allclose(got.centre, CENTRE, atol=1e-3)
     between = CELLS + 0.5
-    np.testing.assert_allclose(got.at(between), true.at(between), atol=1e-3)
+    np.testing.assert_allclose(got.locate(between), true.locate(between), atol=1e-3)
 
 
-@pytest.mark.parametrize("bend", [(0.0, 0.0, 0.0), (-3e-6, -2e-12, -1e-18)], ids=str)
-def test_derivatives_are_those_of_the_positions(bend: tuple[float, float, float]) -> None:
-    seen = Perspective(H, CENTRE, np.array(bend))
-    first, second = seen.derivatives(CELLS)
+@pytest.mark.parametrize("coefficients", [(0.0, 0.0, 0.0), (-3e-6, -2e-12, -1e-18)], ids=str)
+def test_derivatives_are_those_of_the_positions(coefficients: tuple[float, float, float]) -> None:
+    seen = RadialHomography(H, CENTRE, np.array(coefficients))
+    first, second = seen.differentiate(CELLS)
     for axis in (0, 1):
         step = 1e-3 * np.eye(2)[axis]
-        after, before = seen.at(CELLS + step), seen.at(CELLS - step)
+        after, before = seen.locate(CELLS + step), seen.locate(CELLS - step)
         np.testing.assert_allclose(first[:, axis], (after - before) / 2e-3, rtol=1e-5, atol=1e-4)
-        curved = (after + before - 2 * seen.at(CELLS)) / 1e-6
+        curved = (after + before - 2 * seen.locate(CELLS)) / 1e-6
         np.testing.assert_allclose(second[:, axis], curved, rtol=1e-4, atol=1e-3)
 
 
 def test_a_fisheye_is_followed_where_a_polynomial_is_not() -> None:
-    def at(cells: Array) -> Array:
+    def locate(cells: Array) -> Array:
         """Equidistant, 70 degrees off its axis at the board's corners."""
         ideal = (cells - [4.0, 2.5]) * 0.5 + [0.1, 0.05]
         far = np.linalg.norm(ideal, axis=1, keepdims=True)
@@ -45,12 +45,12 @@ def test_a_fisheye_is_followed_where_a_polynomial_is_not() -> None:
 
     between = CELLS[CELLS[:, 0] < 8] + [0.5, 0.0]
     np.testing.assert_allclose(
-        fit_perspective(CELLS, at(CELLS)).at(between), at(between), atol=0.02
+        fit_radial_homography(CELLS, locate(CELLS)).locate(between), locate(between), atol=0.02
     )
 
 
 def test_no_lens_is_seen_in_noise() -> None:
-    plain = Perspective(H, np.zeros(2), np.zeros(3)).at(CELLS)
+    plain = RadialHomography(H, np.zeros(2), np.zeros(3)).locate(CELLS)
     noise = np.random.default_rng(0).standard_normal(plain.shape)
     for sigma in (0.0, 0.1, 3.0):
-        assert not fit_perspective(CELLS, plain + sigma * noise).bend.any()
+        assert not fit_radial_homography(CELLS, plain + sigma * noise).coefficients.any()

@@ -37,16 +37,18 @@ def test_image_frames_round_trip(points: list[tuple[float, float]]) -> None:
 
 @given(rvec)
 def test_rotation_agrees_with_scipy_and_comes_back(w: Array) -> None:
-    R = rotations.rotation(w)
+    R = rotations.rotation_from_vector(w)
     np.testing.assert_allclose(R, Rotation.from_rotvec(w).as_matrix(), atol=1e-14)
     # A half turn has two vectors, so compare the matrices.
-    np.testing.assert_allclose(rotations.rotation(rotations.rotation_vector(R)), R, atol=1e-14)
+    np.testing.assert_allclose(
+        rotations.rotation_from_vector(rotations.vector_from_rotation(R)), R, atol=1e-14
+    )
 
 
 @pytest.mark.parametrize("size", [0.0, 1e-9, 1e-5, 1e-3, 3.0, np.pi - 1e-5, np.pi - 1e-9, np.pi])
 def test_rotation_vector_keeps_its_digits_at_the_ends(size: float) -> None:
     w = size * np.array([0.6, -0.48, 0.64])
-    back = rotations.rotation_vector(rotations.rotation(w))
+    back = rotations.vector_from_rotation(rotations.rotation_from_vector(w))
     if size == np.pi:  # then w and -w are the same rotation
         back = np.copysign(back, w)
     np.testing.assert_allclose(back, w, atol=1e-14)
@@ -54,7 +56,9 @@ def test_rotation_vector_keeps_its_digits_at_the_ends(size: float) -> None:
 
 def test_rotation_takes_stacks() -> None:
     w = np.random.default_rng(1).normal(size=(4, 3))
-    np.testing.assert_array_equal(rotations.rotation(w)[2], rotations.rotation(w[2]))
+    np.testing.assert_array_equal(
+        rotations.rotation_from_vector(w)[2], rotations.rotation_from_vector(w[2])
+    )
 
 
 @given(rvec, st.tuples(component, component, component))
@@ -67,21 +71,25 @@ def test_rvec_by_local_against_differences(size: float) -> None:
     r = size * np.array([0.6, -0.48, 0.64])
 
     def moved(w: Array) -> Array:
-        return rotations.rotation_vector(rotations.rotation(w) @ rotations.rotation(r))
+        return rotations.vector_from_rotation(
+            rotations.rotation_from_vector(w) @ rotations.rotation_from_vector(r)
+        )
 
     numeric = central_differences(moved, np.zeros(3), 1e-3)
     # Derivatives grow towards the half turn, and the differences' truncation with them.
     np.testing.assert_allclose(
-        rotations.rvec_by_local(r), numeric, atol=1e-9 if size > 2 else 1e-11
+        rotations.inverse_left_jacobian(r), numeric, atol=1e-9 if size > 2 else 1e-11
     )
 
 
 @given(st.floats(-1.5, 1.5), st.floats(-1.5, 1.5), angle)
 def test_the_papers_angles_round_trip(omega: float, phi: float, theta: float) -> None:
-    R = rotations.paper_rotation(omega, phi, theta)
+    R = rotations.rotation_from_paper_angles(omega, phi, theta)
     np.testing.assert_allclose(R @ R.T, np.eye(3), atol=1e-14)
     assert np.linalg.det(R) == pytest.approx(1.0)
-    np.testing.assert_allclose(rotations.paper_angles(R), (omega, phi, theta), atol=1e-9)
+    np.testing.assert_allclose(
+        rotations.paper_angles_from_rotation(R), (omega, phi, theta), atol=1e-9
+    )
 
 
 def test_the_papers_rotation_is_eq_8() -> None:
@@ -91,14 +99,17 @@ def test_the_papers_rotation_is_eq_8() -> None:
     about_y = np.array([[c(phi), 0, -s(phi)], [0, 1, 0], [s(phi), 0, c(phi)]])
     about_z = np.array([[c(theta), s(theta), 0], [-s(theta), c(theta), 0], [0, 0, 1]])
     np.testing.assert_allclose(
-        rotations.paper_rotation(omega, phi, theta), about_x @ about_y @ about_z, atol=1e-15
+        rotations.rotation_from_paper_angles(omega, phi, theta),
+        about_x @ about_y @ about_z,
+        atol=1e-15,
     )
 
 
 poses = st.builds(
     lambda w, x, y, z, y_up: Pose(
-        rotations.rotation_vector(
-            rotations.rotation(w) @ np.diag([1.0, -1.0, -1.0] if y_up else [1.0, 1.0, 1.0])
+        rotations.vector_from_rotation(
+            rotations.rotation_from_vector(w)
+            @ np.diag([1.0, -1.0, -1.0] if y_up else [1.0, 1.0, 1.0])
         ),
         np.array([x, y, z]),
     ),
@@ -115,28 +126,30 @@ def test_the_papers_pose_round_trips(
     pose: Pose, distance: float, centre: tuple[float, float]
 ) -> None:
     c = np.array(centre)
-    y_up = bool(rotations.rotation(pose.rvec)[2, 2] < 0)
+    y_up = bool(rotations.rotation_from_vector(pose.rvec)[2, 2] < 0)
     paper = frames.paper_from_pose(pose, c, distance)
     assert abs(paper.omega) < np.pi / 2
     back = frames.pose_from_paper(paper, c, y_up)
-    # Near the half turn that a plate with Y up is about, the vector has two values.
+    # Near the half turn that a board with Y up is about, the vector has two values.
     np.testing.assert_allclose(
-        rotations.rotation(back.rvec), rotations.rotation(pose.rvec), atol=1e-12
+        rotations.rotation_from_vector(back.rvec),
+        rotations.rotation_from_vector(pose.rvec),
+        atol=1e-12,
     )
     np.testing.assert_allclose(back.tvec, pose.tvec, atol=1e-9)
-    np.testing.assert_allclose(paper.absolute, distance * paper.vector[3:], rtol=1e-15)
+    np.testing.assert_allclose(paper.translation, distance * paper.vector[3:], rtol=1e-15)
 
 
-def test_the_papers_pose_places_the_plate_as_eq_6_says() -> None:
+def test_the_papers_pose_places_the_board_as_in_eq_6() -> None:
     """X_cam = R X' + T with X' = (X', Y', L + f), all in the left-handed frame with y up."""
     pose = Pose([0.3, -0.4, 0.1], [-100.0, -80.0, 700.0])
     centre, distance = np.array([165.0, 120.0]), 850.0
     paper = frames.paper_from_pose(pose, centre, distance)
-    R = rotations.paper_rotation(paper.omega, paper.phi, paper.theta)
+    R = rotations.rotation_from_paper_angles(paper.omega, paper.phi, paper.theta)
     for point in np.array([[0.0, 0.0], [30.0, 240.0], [330.0, 90.0]]):
         X, Y = point - centre
-        by_paper = R @ [X, -Y, distance] + paper.absolute  # the plate's Y down, the paper's up
-        by_pose = rotations.rotation(pose.rvec) @ [*point, 0.0] + pose.tvec
+        by_paper = R @ [X, -Y, distance] + paper.translation  # the board's Y down, the paper's up
+        by_pose = rotations.rotation_from_vector(pose.rvec) @ [*point, 0.0] + pose.tvec
         np.testing.assert_allclose(by_paper * [1, -1, 1], by_pose, atol=1e-10)
 
 

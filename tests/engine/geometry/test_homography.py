@@ -32,18 +32,25 @@ homographies = st.builds(
 @given(homographies)
 def test_inverse_returns_every_point(H: Array) -> None:
     xy = BOARD.points()
-    back = homography.apply(homography.inverted(H), homography.apply(H, xy))
+    back = homography.apply_homography(
+        homography.invert_homography(H), homography.apply_homography(H, xy)
+    )
     np.testing.assert_allclose(back, xy, atol=1e-8)
-    np.testing.assert_allclose(homography.inverted(homography.inverted(H)), H, rtol=1e-8, atol=1e-8)
+    np.testing.assert_allclose(
+        homography.invert_homography(homography.invert_homography(H)), H, rtol=1e-8, atol=1e-8
+    )
 
 
 @given(homographies)
 def test_dlt_recovers_a_homography(H: Array) -> None:
     xy = BOARD.points()
-    found = homography.fit_homography(xy, homography.apply(H, xy), np.ones(len(xy)))
+    found = homography.fit_homography(xy, homography.apply_homography(H, xy), np.ones(len(xy)))
     # Squaring the equations halves the digits that a homography this oblique leaves.
     np.testing.assert_allclose(
-        homography.apply(found, xy), homography.apply(H, xy), rtol=1e-7, atol=1e-6
+        homography.apply_homography(found, xy),
+        homography.apply_homography(H, xy),
+        rtol=1e-7,
+        atol=1e-6,
     )
 
 
@@ -51,7 +58,7 @@ def test_dlt_of_four_points_is_exact() -> None:
     square = np.array([[0.0, 0.0], [1.0, 0.0], [1.0, 1.0], [0.0, 1.0]])
     image = np.array([[10.0, 20.0], [110.0, 25.0], [105.0, 140.0], [5.0, 120.0]])
     H = homography.fit_homography(square, image, np.ones(4))
-    np.testing.assert_allclose(homography.apply(H, square), image, atol=1e-6)
+    np.testing.assert_allclose(homography.apply_homography(H, square), image, atol=1e-6)
 
 
 def test_dlt_of_a_stack_ignores_padding() -> None:
@@ -70,5 +77,5 @@ def test_dlt_of_a_stack_ignores_padding() -> None:
 
 def test_normalised_to_a_unit_last_entry() -> None:
     H = np.array([[2.0, 0.0, 1.0], [0.0, 4.0, 2.0], [0.0, 0.0, 2.0]])
-    assert homography.unit_last(H)[2, 2] == pytest.approx(1.0)
-    assert homography.unit_last(H)[1, 1] == pytest.approx(2.0)
+    assert homography.scale_to_unit_last(H)[2, 2] == pytest.approx(1.0)
+    assert homography.scale_to_unit_last(H)[1, 1] == pytest.approx(2.0)

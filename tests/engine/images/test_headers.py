@@ -1,4 +1,4 @@
-"""Headers against Pillow, an independent reader and writer."""
+"""Headers of files that Pillow writes."""
 
 from __future__ import annotations
 
@@ -40,7 +40,7 @@ def test_format_and_size(name: str) -> None:
     header = read_header(content(name, (17, 9)))
     assert header is not None
     assert (header.format, header.stored, header.size) == (name, (17, 9), (17, 9))
-    assert (header.orientation, header.complete) == (1, True)
+    assert (header.exif.orientation, header.is_complete) == (1, True)
 
 
 @pytest.mark.parametrize("name", ["JPEG", "PNG", "TIFF", "WebP"])
@@ -48,7 +48,7 @@ def test_format_and_size(name: str) -> None:
 def test_orientation(name: str, orientation: int) -> None:
     header = read_header(content(name, (17, 9), orientation))
     assert header is not None
-    assert (header.orientation, header.stored) == (orientation, (17, 9))
+    assert (header.exif.orientation, header.stored) == (orientation, (17, 9))
     assert header.size == ((17, 9) if orientation < 5 else (9, 17))
 
 
@@ -64,7 +64,7 @@ def test_orientation(name: str, orientation: int) -> None:
 def test_other_encodings(name: str, options: dict[str, object]) -> None:
     header = read_header(content(name, (33, 20), **options))
     assert header is not None
-    assert (header.size, header.complete) == ((33, 20), True)
+    assert (header.size, header.is_complete) == ((33, 20), True)
 
 
 def test_a_comment_in_a_pgm() -> None:
@@ -80,7 +80,7 @@ def test_webp_exif_with_the_jpeg_prefix() -> None:
     exif = b"Exif\0\0" + plain[at + 4 : at + 4 + length]
     header = read_header(plain[:at] + struct.pack("<I", len(exif)) + exif)
     assert header is not None
-    assert header.orientation == 6
+    assert header.exif.orientation == 6
 
 
 @pytest.mark.parametrize("name", ["JPEG", "PNG", "WebP"])
@@ -89,7 +89,7 @@ def test_a_truncated_file_is_known_incomplete(name: str, kept: float) -> None:
     data = content(name, (200, 90))
     header = read_header(data[: int(kept * len(data))])
     assert header is not None
-    assert not header.complete
+    assert not header.is_complete
 
 
 def test_a_thumbnail_does_not_complete_a_jpeg() -> None:
@@ -99,7 +99,7 @@ def test_a_thumbnail_does_not_complete_a_jpeg() -> None:
     assert b"\xff\xd9" in whole[:-2]
     header = read_header(whole[:-100])
     assert header is not None
-    assert not header.complete
+    assert not header.is_complete
 
 
 @given(st.sampled_from(sorted(WRITTEN)), st.data())
@@ -110,7 +110,7 @@ def test_damage_never_raises(name: str, data: st.DataObject) -> None:
         if at < len(damaged):
             damaged[at] = value
     header = read_header(bytes(damaged))
-    assert header is None or 1 <= header.orientation <= 8
+    assert header is None or 1 <= header.exif.orientation <= 8
 
 
 @given(st.binary(max_size=200))

@@ -12,7 +12,13 @@ from PIL import Image as Pillow
 
 from calibgui.engine import files
 from calibgui.engine.errors import CalibrationError
-from calibgui.engine.images.reading import FORMATS, image_size, read_colour, read_image, write_image
+from calibgui.engine.images.reading import (
+    FORMATS,
+    read_colour,
+    read_image,
+    read_image_size,
+    write_image,
+)
 
 Pixels = np.ndarray
 
@@ -31,7 +37,7 @@ def test_grey_round_trip(tmp_path: Path, suffix: str) -> None:
     tolerance = 2 if suffix.startswith(".j") else 1 if suffix == ".webp" else 0
     np.testing.assert_allclose(image.pixels.astype(int), ramp(), atol=tolerance)
     assert (image.size, image.depth, image.orientation, image.path) == ((40, 24), 8, 1, path)
-    assert image_size(path) == (40, 24)
+    assert read_image_size(path) == (40, 24)
     assert not image.pixels.flags.writeable
 
 
@@ -120,7 +126,7 @@ def test_orientation_is_honoured_once(tmp_path: Path, suffix: str, orientation: 
         read_colour(path).reshape(24, 40, -1)[..., 0].astype(int), ramp(), atol=3
     )
     assert image.orientation == orientation
-    assert image.size == image_size(path) == (40, 24)
+    assert image.size == read_image_size(path) == (40, 24)
 
 
 @pytest.mark.parametrize("suffix", [".png", ".jpg", ".tif", ".bmp", ".webp", ".pgm"])
@@ -164,7 +170,7 @@ def test_a_preallocated_download_is_refused(tmp_path: Path) -> None:
 def test_what_is_no_photograph_is_named(tmp_path: Path, content: bytes, message: str) -> None:
     path = tmp_path / "view 3.png"
     path.write_bytes(content)
-    for read in (read_image, image_size, read_colour):
+    for read in (read_image, read_image_size, read_colour):
         with pytest.raises(CalibrationError, match=message) as caught:
             read(path)
         assert str(path) in caught.value.message
@@ -173,7 +179,7 @@ def test_what_is_no_photograph_is_named(tmp_path: Path, content: bytes, message:
 
 def test_missing_files_and_folders_are_named(tmp_path: Path) -> None:
     for path in (tmp_path / "absent.png", tmp_path):
-        for read in (read_image, image_size):
+        for read in (read_image, read_image_size):
             with pytest.raises(CalibrationError, match="cannot be read"):
                 read(path)
 

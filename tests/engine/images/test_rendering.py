@@ -11,17 +11,17 @@ from scipy.special import erf
 
 from calibgui.engine.arrays import Array
 from calibgui.engine.boards.board import Board
-from calibgui.engine.boards.printed_pattern import step
+from calibgui.engine.boards.printed_pattern import average_unit_step
 from calibgui.engine.camera.camera import Camera
-from calibgui.engine.camera.projection import pixels
+from calibgui.engine.camera.projection import pixels_from_rays
 from calibgui.engine.errors import CalibrationError
 from calibgui.engine.geometry.pose import Pose
-from calibgui.engine.images.rendering import Appearance, irradiance, render
+from calibgui.engine.images.rendering import Appearance, compute_irradiance, render_view
 
 Lattice = tuple[int, int]
 """Two Fibonacci numbers in succession but one, the number of points first."""
 
-TARGET = Board(4, 5, 25.0)
+BOARD = Board(4, 5, 25.0)
 STRONG = Camera((160, 120), [160.0, 166.0, 84.0, 57.0, 0.27, 0.2, -0.1, 2e-3, -3e-3, 0.5])
 PLAIN = Appearance(black=0.0, white=200.0, background=100.0)
 TILTED = Pose([0.5, -0.35, 0.2], [-45.0, -40.0, 190.0])
@@ -62,8 +62,8 @@ def point_sampled(uv: Array, camera: Camera, pose: Pose, board: Board, lattice: 
 
 def test_agrees_with_point_sampling() -> None:
     uv = np.stack(np.meshgrid(*map(np.arange, STRONG.size)), axis=-1)
-    brute = point_sampled(uv, STRONG, TILTED, TARGET, (987, 610))
-    error = irradiance(STRONG, TILTED, TARGET, appearance=PLAIN) - brute
+    brute = point_sampled(uv, STRONG, TILTED, BOARD, (987, 610))
+    error = compute_irradiance(STRONG, TILTED, BOARD, appearance=PLAIN) - brute
     # What remains is the lattice's: four times the points halve it.
     assert np.abs(error).max() < 2.0
     assert np.sqrt(np.mean(error**2)) < 0.1
@@ -81,13 +81,13 @@ def test_corners_are_where_the_geometry_says(rvec: list[float]) -> None:
     """
     R = Rotation.from_rotvec(rvec).as_matrix()
     pose = Pose(rvec, np.array([3.3, -2.1, 230.0]) - R[:, :2] @ [50.0, 37.5])
-    corners = np.rint(_corners(STRONG, pose, TARGET)).astype(int)
+    corners = np.rint(_corners(STRONG, pose, BOARD)).astype(int)
     windows = corners[:, None] + np.indices((9, 9)).reshape(2, -1).T - 4
-    sampled = point_sampled(windows, STRONG, pose, TARGET, (4181, 2584))
+    sampled = point_sampled(windows, STRONG, pose, BOARD, (4181, 2584))
 
     def levels(du: float = 0.0, dv: float = 0.0) -> Array:
         camera = Camera(STRONG.size, STRONG.params + np.array([0, 0, du, dv, 0, 0, 0, 0, 0, 0]))
-        image = irradiance(camera, pose, TARGET, appearance=PLAIN)
+        image = compute_irradiance(camera, pose, BOARD, appearance=PLAIN)
         return image[windows[..., 1], windows[..., 0]]
 
     error = levels() - sampled
@@ -100,32 +100,32 @@ def test_corners_are_where_the_geometry_says(rvec: list[float]) -> None:
 def _corners(camera: Camera, pose: Pose, board: Board) -> Array:
     grid_size = np.c_[board.points(), np.zeros(board.rows * board.cols)]
     points = Rotation.from_rotvec(np.array(pose.rvec)).apply(grid_size) + pose.tvec
-    return pixels(points[:, :2] / points[:, 2:], camera)
+    return pixels_from_rays(points[:, :2] / points[:, 2:], camera)
 
 
 def test_a_frontal_view_is_point_symmetric_about_a_corner() -> None:
     # An ideal camera looks square at the board along corner (1, 2), at the pixel array's centre.
     camera = Camera((121, 91), [500.0, 500.0, 60.0, 45.0, 0, 0, 0, 0, 0, 0])
     turn = Pose([0.0, 0.0, 0.3], Rotation.from_rotvec([0, 0, 0.3]).apply([-50.0, -25.0, 1000.0]))
-    window = irradiance(camera, turn, TARGET)[30:61, 45:76]
+    window = compute_irradiance(camera, turn, BOARD)[30:61, 45:76]
     np.testing.assert_allclose(window, window[::-1, ::-1], atol=1e-9)
 
 
 def test_levels_sum_to_areas() -> None:
-    # 4 px a mm: the sheet of 8 x 7 squares covers (8 * 7) 10^2 px, half of its 6 x 5 squares black.
+    # 4 px a mm: the paper of 8 x 7 squares covers (8 * 7) 10^2 px, half of its 6 x 5 squares black.
     camera = Camera((120, 110), [400.0, 400.0, 59.5, 54.5, 0, 0, 0, 0, 0, 0])
     board = Board(4, 5, 2.5)
     for angle in (0.0, 0.4):
         R = Rotation.from_rotvec([0, 0, angle]).as_matrix()
         pose = Pose([0.0, 0.0, angle], np.array([0.03, 0.01, 100.0]) - R[:, :2] @ [5.0, 3.75])
-        levels = irradiance(camera, pose, board, appearance=PLAIN)
+        levels = compute_irradiance(camera, pose, board, appearance=PLAIN)
         expected = 100.0 * (levels.size + 56 * 100) - 200.0 * 15 * 100
         assert levels.sum() == pytest.approx(expected, rel=1e-6)
 
 
 def test_the_square_outside_the_first_corner_is_black() -> None:
-    corners = _corners(STRONG, TILTED, TARGET).reshape(4, 5, 2)
-    image = render(STRONG, TILTED, TARGET)
+    corners = _corners(STRONG, TILTED, BOARD).reshape(4, 5, 2)
+    image = render_view(STRONG, TILTED, BOARD)
     outside = 1.5 * corners[0, 0] - 0.5 * corners[1, 1]
     beside = (corners[0, 0] + corners[1, 1]) / 2 + [corners[0, 1, 0] - corners[0, 0, 0], 0.0]
     assert image[*np.rint(outside[::-1]).astype(int)] == 30
@@ -133,9 +133,9 @@ def test_the_square_outside_the_first_corner_is_black() -> None:
 
 
 def test_blur_has_no_edge_effect_and_keeps_the_mean() -> None:
-    blurred = irradiance(STRONG, TILTED, TARGET, blur=1.5)
+    blurred = compute_irradiance(STRONG, TILTED, BOARD, blur=1.5)
     bigger = Camera((180, 140), STRONG.params + np.array([0, 0, 10, 10, 0, 0, 0, 0, 0, 0]))
-    around = irradiance(bigger, TILTED, TARGET, blur=1.5)[10:130, 10:170]
+    around = compute_irradiance(bigger, TILTED, BOARD, blur=1.5)[10:130, 10:170]
     np.testing.assert_allclose(blurred, around, atol=1e-9)
 
 
@@ -148,7 +148,7 @@ def test_blur_is_gaussian_before_the_pixel_integrates_it(
     # The edge of the column of corners that the axis meets, 40 px from any other.
     middle = Rotation.from_rotvec([0, 0, turn]).apply([-25.0, -37.5, 0.0])
     pose = Pose([0.0, 0.0, turn], middle + np.array([0.0, 0.0, 125.0]))
-    levels = irradiance(camera, pose, TARGET, blur=blur, appearance=PLAIN)
+    levels = compute_irradiance(camera, pose, BOARD, blur=blur, appearance=PLAIN)
     nodes, weights = np.polynomial.legendre.leggauss(8)
     part = np.stack(np.meshgrid(nodes / 2, nodes / 2), axis=-1).reshape(-1, 2)
     uv = np.stack(np.meshgrid(np.arange(30, 51), np.arange(27, 34)), axis=-1)
@@ -159,18 +159,18 @@ def test_blur_is_gaussian_before_the_pixel_integrates_it(
 
 
 def test_noise_is_repeatable_and_of_the_given_size() -> None:
-    first, again = (render(STRONG, TILTED, TARGET, noise=2.0, seed=5) for _ in range(2))
+    first, again = (render_view(STRONG, TILTED, BOARD, noise=2.0, seed=5) for _ in range(2))
     np.testing.assert_array_equal(first, again)
-    assert np.any(first != render(STRONG, TILTED, TARGET, noise=2.0, seed=6))
-    deviation = np.std(first - irradiance(STRONG, TILTED, TARGET))
+    assert np.any(first != render_view(STRONG, TILTED, BOARD, noise=2.0, seed=6))
+    deviation = np.std(first - compute_irradiance(STRONG, TILTED, BOARD))
     assert deviation == pytest.approx(np.hypot(2.0, 12**-0.5), rel=0.02)
 
 
 def test_light_and_gamma() -> None:
     look = Appearance(quiet_zone=100.0, shading=(0.2, -0.1), gamma=2.0)
     away = Pose(np.zeros(3), [60.0, 0.0, 100.0])  # only the white margin fills the view
-    levels = irradiance(
-        Camera((101, 51), [300.0, 300, 50, 25, 0, 0, 0, 0, 0, 0]), away, TARGET, appearance=look
+    levels = compute_irradiance(
+        Camera((101, 51), [300.0, 300, 50, 25, 0, 0, 0, 0, 0, 0]), away, BOARD, appearance=look
     )
     assert levels[25, 50] == pytest.approx(255 * (220 / 255) ** 0.5)
     assert levels[25, 100] == pytest.approx(255 * (220 * (1 + 0.2 * 50 / 101) / 255) ** 0.5)
@@ -179,13 +179,13 @@ def test_light_and_gamma() -> None:
 
 def test_nothing_is_seen_behind_the_camera() -> None:
     behind = Pose(np.zeros(3), [-50.0, -40.0, -190.0])
-    assert np.all(render(STRONG, behind, TARGET) == 120)
+    assert np.all(render_view(STRONG, behind, BOARD) == 120)
 
 
 @pytest.mark.parametrize("tvec", [[0.0, 0.0, 0.0], [10.0, 20.0, 0.0], [0.0, 0.0, np.nan]])
-def test_a_plate_through_the_camera_is_refused(tvec: list[float]) -> None:
+def test_a_board_through_the_camera_is_refused(tvec: list[float]) -> None:
     with pytest.raises(CalibrationError, match="edge-on"):
-        render(STRONG, Pose(np.zeros(3), tvec), TARGET)
+        render_view(STRONG, Pose(np.zeros(3), tvec), BOARD)
 
 
 @given(st.floats(-3, 3), st.floats(0, 2), st.floats(0, 2))
@@ -196,5 +196,5 @@ def test_step_is_the_mean_over_the_pixel(X: float, A: float, B: float) -> None:
     # Mean along the longer width in closed form, along the other by the midpoint rule.
     inner = X + min(A, B) * e
     mean = np.mean(np.clip(inner / max(A, B) + 0.5, 0, 1))
-    value = step(np.array(X), np.array(A), np.array(B))
+    value = average_unit_step(np.array(X), np.array(A), np.array(B))
     assert float(value) == pytest.approx(float(mean), abs=1e-5)

@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 
 from calibgui.engine.arrays import Array, Size
 from calibgui.engine.camera.distortion import distort_points
-from calibgui.engine.images.smooth_map import TOLERANCE, smooth_map
+from calibgui.engine.images.smooth_map import MAP_TOLERANCE_PX, interpolate_map
 from tests.engine.scenes import barrel
 
 EVERYWHERE = np.full(2, -np.inf), np.full(2, np.inf)
@@ -24,7 +24,7 @@ def test_cubics_are_exact() -> None:
         u, v = p[..., 0] / 100, p[..., 1] / 100
         return np.stack([u**3 - 2 * v**3 + u * v, 5 + u**2 * v], axis=-1)
 
-    rows = smooth_map((130, 77), source, *EVERYWHERE)
+    rows = interpolate_map((130, 77), source, *EVERYWHERE)
     np.testing.assert_allclose(rows(slice(0, 77)), source(pixels((130, 77))), atol=1e-12)
 
 
@@ -33,9 +33,9 @@ def test_error_is_within_the_tolerance(width: int, height: int, wavelength: floa
     def source(p: Array) -> Array:
         return p + 2 * np.sin(p[..., ::-1] / wavelength)
 
-    rows = smooth_map((width, height), source, *EVERYWHERE)(slice(0, height))
+    rows = interpolate_map((width, height), source, *EVERYWHERE)(slice(0, height))
     assert rows.shape == (height, width, 2)
-    assert np.abs(rows - source(pixels((width, height)))).max() < 1.5 * TOLERANCE
+    assert np.abs(rows - source(pixels((width, height)))).max() < 1.5 * MAP_TOLERANCE_PX
 
 
 def test_a_lens_needs_few_knots() -> None:
@@ -47,14 +47,14 @@ def test_a_lens_needs_few_knots() -> None:
         evaluated += p.size // 2
         return distort_points(p, camera)
 
-    rows = smooth_map(camera.size, source, *EVERYWHERE)
+    rows = interpolate_map(camera.size, source, *EVERYWHERE)
     error = np.abs(rows(slice(100, 110)) - distort_points(pixels(camera.size)[100:110], camera))
-    assert error.max() < TOLERANCE
+    assert error.max() < MAP_TOLERANCE_PX
     assert evaluated < 640 * 480 / 20
 
 
 def test_rows_do_not_depend_on_the_band() -> None:
-    rows = smooth_map((64, 50), lambda p: p + np.sin(p / 9), *EVERYWHERE)
+    rows = interpolate_map((64, 50), lambda p: p + np.sin(p / 9), *EVERYWHERE)
     np.testing.assert_array_equal(rows(slice(0, 50))[7:31], rows(slice(7, 31)))
 
 
@@ -64,21 +64,25 @@ def test_the_edge_of_the_domain_is_kept(radius: float) -> None:
         inside = np.hypot(p[..., 0] - 60, p[..., 1] - 50) < radius
         return np.where(inside[..., None], p * (1 + 1e-4 * p), np.nan)
 
-    rows = smooth_map((120, 100), source, *EVERYWHERE)(slice(0, 100))
-    np.testing.assert_allclose(rows, source(pixels((120, 100))), atol=TOLERANCE, equal_nan=True)
+    rows = interpolate_map((120, 100), source, *EVERYWHERE)(slice(0, 100))
+    np.testing.assert_allclose(
+        rows, source(pixels((120, 100))), atol=MAP_TOLERANCE_PX, equal_nan=True
+    )
 
 
 def test_only_what_is_wanted_is_solved() -> None:
     def source(p: Array) -> Array:
         return np.where(p > 80, p + np.sin(p), p)
 
-    rows = smooth_map((128, 128), source, np.zeros(2), np.full(2, 60.0))(slice(0, 128))
+    rows = interpolate_map((128, 128), source, np.zeros(2), np.full(2, 60.0))(slice(0, 128))
     np.testing.assert_allclose(rows[:61, :61], pixels((61, 61)), atol=1e-12)
     assert np.isnan(rows[100:, 100:]).all()
 
 
 def test_a_cell_that_spans_the_rectangle_is_solved() -> None:
-    rows = smooth_map((9, 9), lambda p: 1000 * (p - 4.25), np.full(2, -300.0), np.full(2, 300.0))
+    rows = interpolate_map(
+        (9, 9), lambda p: 1000 * (p - 4.25), np.full(2, -300.0), np.full(2, 300.0)
+    )
     np.testing.assert_allclose(rows(slice(0, 9))[4, 4], [-250, -250], atol=1e-9)
 
 
@@ -90,6 +94,6 @@ def test_a_kink_costs_only_its_cells() -> None:
         evaluated += p.size // 2
         return np.abs(p - 250.3)
 
-    rows = smooth_map((640, 480), source, *EVERYWHERE)(slice(0, 480))
+    rows = interpolate_map((640, 480), source, *EVERYWHERE)(slice(0, 480))
     np.testing.assert_allclose(rows, np.abs(pixels((640, 480)) - 250.3), atol=1e-9)
     assert evaluated < 640 * 480 / 4

@@ -1,4 +1,4 @@
-"""The compiled products of the plate's corners against the readable ones."""
+"""The compiled products of the board's corners against the readable ones."""
 
 from __future__ import annotations
 
@@ -9,11 +9,17 @@ import pytest
 
 from calibgui.engine import kernels
 from calibgui.engine.arrays import Array
-from calibgui.engine.calibration.board_shape.estimate import corner_products, corners_of
-from calibgui.engine.calibration.observations import Observations, pack
-from calibgui.engine.calibration.refinement.normal_equations import Following, view_products
-from calibgui.engine.calibration.refinement.residuals import State
-from calibgui.engine.calibration.refinement.whitening import weighted
+from calibgui.engine.calibration.board_shape.parametrisation import (
+    index_board_points,
+    iterate_corner_products,
+)
+from calibgui.engine.calibration.observations import Observations, pack_observations
+from calibgui.engine.calibration.refinement.residuals import (
+    BoardMotion,
+    State,
+    compute_view_products,
+)
+from calibgui.engine.calibration.refinement.whitening import whiten_observations
 from tests.engine.kernels.test_normal_equations import CAMERAS, scene
 
 FREE = np.array([0, 1, 2, 4, 6])
@@ -26,8 +32,8 @@ def together(parts: Iterator[tuple[slice, Array, Array, Array]]) -> tuple[Array,
 
 
 def products(state: State, observations: Observations, model: str) -> tuple[Array, ...]:
-    points, index = corners_of(observations)
-    parts = corner_products(state, observations, model, FREE, index, len(points))
+    points, index = index_board_points(observations)
+    parts = iterate_corner_products(state, observations, model, FREE, index, len(points))
     return together(parts)
 
 
@@ -37,7 +43,7 @@ def test_the_compiled_products_are_the_readable_ones(
     model: str, cov: bool, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     state, views = scene(model, cov)
-    observations = weighted(pack(views))
+    observations = whiten_observations(pack_observations(views))
     compiled = products(state, observations, model)
     monkeypatch.setattr(kernels, "COMPILED", False)
     readable = products(state, observations, model)
@@ -48,30 +54,30 @@ def test_the_compiled_products_are_the_readable_ones(
 
 @pytest.mark.parametrize("model", CAMERAS)
 @pytest.mark.parametrize("cov", [False, True])
-def test_a_plate_that_follows_gives_the_readable_products(
+def test_a_board_that_moves_gives_the_readable_products(
     model: str, cov: bool, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     state, views = scene(model, cov)
-    observations = weighted(pack(views))
-    points, index = corners_of(observations)
+    observations = whiten_observations(pack_observations(views))
+    points, index = index_board_points(observations)
     motion = np.random.default_rng(0).normal(size=(len(points), 3, len(FREE)))
-    given = state, observations, model, FREE, Following(motion, index)
-    compiled = view_products(*given)
+    given = state, observations, model, FREE, BoardMotion(motion, index)
+    compiled = compute_view_products(*given)
     monkeypatch.setattr(kernels, "COMPILED", False)
-    readable = view_products(*given)
+    readable = compute_view_products(*given)
     np.testing.assert_allclose(compiled, readable, rtol=1e-7, atol=1e-9 * np.abs(readable).max())
 
 
 def test_the_sums_do_not_depend_on_the_number_of_threads(monkeypatch: pytest.MonkeyPatch) -> None:
     from calibgui.engine.kernels import common
 
-    state, views = scene("opencv", weighted=False)
-    many = pack(60 * views)
+    state, views = scene("brown-conrady", weighted=False)
+    many = pack_observations(60 * views)
     wide = State(state.params, np.tile(state.R, (60, 1, 1)), np.tile(state.T, (60, 1)))
     results = []
     for threads in (1, 2, 5):
         monkeypatch.setattr(common, "THREADS", threads)
-        results.append(products(wide, many, "opencv"))
+        results.append(products(wide, many, "brown-conrady"))
     for other in results[1:]:
         for ours, theirs in zip(results[0], other, strict=True):
             np.testing.assert_array_equal(ours, theirs)

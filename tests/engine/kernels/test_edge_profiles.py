@@ -7,7 +7,8 @@ import pytest
 
 from calibgui.engine import kernels
 from calibgui.engine.detection.checkerboard import edge_profiles
-from tests.benchmarks.corner_scenes import Conditions, draw
+from tests.scenes.checkerboards import draw
+from tests.scenes.conditions import Conditions
 
 
 @pytest.mark.parametrize("deep", [False, True])
@@ -19,9 +20,9 @@ def test_the_same_profiles(deep: bool, monkeypatch: pytest.MonkeyPatch) -> None:
     sign = np.where(scene.clean[v, u] > 127, 1.0, -1.0)
     height = abs(np.linalg.det(np.stack([right, down], axis=1))) / np.linalg.norm(right, axis=1)
     arguments = scene.photograph(0), uv, right, down, height, sign
-    compiled = edge_profiles.across_edge(*arguments)
+    compiled = edge_profiles.measure_edge_profiles(*arguments)
     monkeypatch.setattr(kernels, "COMPILED", False)
-    readable = edge_profiles.across_edge(*arguments)
+    readable = edge_profiles.measure_edge_profiles(*arguments)
     for one, other in zip(compiled, readable, strict=True):
         np.testing.assert_allclose(one, other, rtol=1e-9)
     np.testing.assert_allclose(np.median(compiled.spread), 0.05, atol=0.005)

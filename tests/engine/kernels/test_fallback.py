@@ -28,8 +28,8 @@ def demo(folder: Path, *paths: Path) -> dict[str, Any]:
 
 
 @pytest.mark.slow
-def test_without_numba_the_answer_is_the_same(tmp_path: Path) -> None:
-    """In all processes: their interpreters are told at their start that there is no numba."""
+def test_without_numba_the_result_is_the_same(tmp_path: Path) -> None:
+    """In all processes: their interpreters start with numba hidden."""
     for name in ("with", "without", "hiding"):
         (tmp_path / name).mkdir()
     text = "import sys; sys.modules['numba'] = None"

@@ -20,6 +20,6 @@ def test_the_same_scores_also_at_the_border(dtype: type, monkeypatch: pytest.Mon
     readable = harris._score_positions.reference(*arguments)
     np.testing.assert_allclose(compiled, readable, rtol=1e-9)
     spacing = rng.uniform(2, 40, 100)
-    estimates = harris.first_estimates(image, uv, spacing)
+    estimates = harris.estimate_corners(image, uv, spacing)
     monkeypatch.setattr(kernels, "COMPILED", False)
-    np.testing.assert_array_equal(estimates, harris.first_estimates(image, uv, spacing))
+    np.testing.assert_array_equal(estimates, harris.estimate_corners(image, uv, spacing))

@@ -9,18 +9,20 @@ import pytest
 
 from calibgui.engine import kernels
 from calibgui.engine.boards.board import Board
-from calibgui.engine.calibration.observations import Observation, pack
-from calibgui.engine.calibration.refinement import normal_equations
+from calibgui.engine.calibration.observations import Observation, pack_observations
+from calibgui.engine.calibration.refinement import residuals
 from calibgui.engine.calibration.refinement.residuals import State
 from calibgui.engine.calibration.result import Cost
 from calibgui.engine.camera.camera import Camera
 from calibgui.engine.camera.models import parameter_names
-from calibgui.engine.camera.projection import pixels
-from calibgui.engine.geometry.rotations import rotation
+from calibgui.engine.camera.projection import pixels_from_rays
+from calibgui.engine.geometry.rotations import rotation_from_vector
 
 CAMERAS = {
     "lucchese": Camera((640, 480), [650, 600, 310, 250, 0.25, 0.06, -0.05, 1e-3, -2e-3, 0.4]),
-    "opencv": Camera((640, 480), [650, 600, 310, 250, -0.25, 0.1, 1e-3, -2e-3, -0.05], "opencv"),
+    "brown-conrady": Camera(
+        (640, 480), [650, 600, 310, 250, -0.25, 0.1, 1e-3, -2e-3, -0.05], "brown-conrady"
+    ),
 }
 
 
@@ -28,7 +30,7 @@ def scene(model: str, weighted: bool) -> tuple[State, list[Observation]]:
     """Five partial views with 0.5 px of noise, and the state they were made with."""
     rng = np.random.default_rng(3)
     camera, board_shape = CAMERAS[model], Board(6, 7, 30.0).points()
-    R = rotation(rng.uniform(-0.5, 0.5, (5, 3)))
+    R = rotation_from_vector(rng.uniform(-0.5, 0.5, (5, 3)))
     T = (
         np.array([0.0, 0.0, 700.0])
         + rng.uniform(-20, 20, (5, 3))
@@ -38,7 +40,7 @@ def scene(model: str, weighted: bool) -> tuple[State, list[Observation]]:
     for k in range(5):
         xy = board_shape[rng.permutation(len(board_shape))[: 20 + 4 * k]]
         point = xy @ R[k, :, :2].T + T[k]
-        uv = pixels(point[:, :2] / point[:, 2:], camera) + rng.normal(0, 0.5, xy.shape)
+        uv = pixels_from_rays(point[:, :2] / point[:, 2:], camera) + rng.normal(0, 0.5, xy.shape)
         root = rng.normal(size=(len(xy), 2, 2))
         cov = root @ np.swapaxes(root, 1, 2) + 0.1 * np.eye(2) if weighted else None
         views.append(Observation(uv, xy, cov))
@@ -52,10 +54,10 @@ def test_the_compiled_sums_are_the_readable_ones(
 ) -> None:
     state, views = scene(model, weighted)
     free = np.array([i for i in range(len(parameter_names(model))) if i not in (3, 5)])
-    arguments = (pack(views), model, Cost.IMAGE, 1.0, free)
-    compiled = normal_equations.stage_two(*arguments)(state)
+    arguments = (pack_observations(views), model, Cost.IMAGE, 1.0, free)
+    compiled = residuals.build_stage_two(*arguments)(state)
     monkeypatch.setattr(kernels, "COMPILED", False)
-    readable = normal_equations.stage_two(*arguments)(state)
+    readable = residuals.build_stage_two(*arguments)(state)
     for name in ("U", "W", "V", "shared", "pose", "cost", "costs"):
         ours, truth = getattr(compiled, name), getattr(readable, name)
         # Newton's last step leaves the derivatives 1e-8 from the solution, the sums less.
@@ -68,14 +70,14 @@ def test_the_compiled_residuals_are_the_readable_ones(
     model: str, flat: bool, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     state, views = scene(model, weighted=False)
-    observations = pack(views)
+    observations = pack_observations(views)
     if not flat:
         height = np.random.default_rng(1).normal(0, 2, (*observations.mask.shape, 1))
         bent = np.concatenate([observations.xy, height], axis=-1)
         observations = replace(observations, xy=bent)
-    compiled = normal_equations.residuals(state, observations, model, Cost.IMAGE)
+    compiled = residuals.compute_residuals(state, observations, model, Cost.IMAGE)
     monkeypatch.setattr(kernels, "COMPILED", False)
-    readable = normal_equations.residuals(state, observations, model, Cost.IMAGE)
+    readable = residuals.compute_residuals(state, observations, model, Cost.IMAGE)
     for ours, truth in zip(compiled, readable, strict=True):
         np.testing.assert_allclose(ours, truth, atol=1e-10)
 
@@ -84,8 +86,8 @@ def test_the_compiled_residuals_are_the_readable_ones(
 def test_views_behind_the_camera_have_no_residuals(model: str) -> None:
     state, views = scene(model, weighted=False)
     turned = np.array([1.0, 1.0, -1.0]) ** (np.arange(5) == 2)[:, None]
-    seen, registered = normal_equations.residuals(
-        state._replace(T=state.T * turned), pack(views), model, Cost.IMAGE
+    seen, registered = residuals.compute_residuals(
+        state._replace(T=state.T * turned), pack_observations(views), model, Cost.IMAGE
     )
     for found in (seen, registered):
         np.testing.assert_array_equal(np.isnan(found).any(axis=(1, 2)), np.arange(5) == 2)
@@ -95,7 +97,9 @@ def test_views_behind_the_camera_have_no_residuals(model: str) -> None:
 def test_a_board_behind_the_camera_costs_infinitely_much(model: str) -> None:
     state, views = scene(model, weighted=False)
     behind = state._replace(T=state.T * np.array([1.0, 1.0, -1.0]))
-    normal = normal_equations.stage_two(pack(views), model, Cost.IMAGE, 1.0, np.arange(4))(behind)
+    normal = residuals.build_stage_two(
+        pack_observations(views), model, Cost.IMAGE, 1.0, np.arange(4)
+    )(behind)
     assert normal.cost == np.inf
 
 
@@ -105,7 +109,9 @@ def test_the_sums_do_not_depend_on_the_number_of_threads(monkeypatch: pytest.Mon
     state, views = scene("lucchese", weighted=False)
     many = 60 * views
     wide = State(state.params, np.tile(state.R, (60, 1, 1)), np.tile(state.T, (60, 1)))
-    normal_at = normal_equations.stage_two(pack(many), "lucchese", Cost.IMAGE, 1.0, np.arange(9))
+    normal_at = residuals.build_stage_two(
+        pack_observations(many), "lucchese", Cost.IMAGE, 1.0, np.arange(9)
+    )
     results = []
     for threads in (1, 2, 5):
         monkeypatch.setattr(common, "THREADS", threads)

@@ -7,7 +7,8 @@ import pytest
 
 from calibgui.engine import kernels
 from calibgui.engine.detection.checkerboard import saddle
-from tests.benchmarks.corner_scenes import Conditions, draw
+from tests.scenes.checkerboards import draw
+from tests.scenes.conditions import Conditions
 
 
 @pytest.mark.parametrize("kind", [np.uint8, np.uint16, np.float32])

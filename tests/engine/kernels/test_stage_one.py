@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from calibgui.engine import kernels
-from calibgui.engine.calibration.initialisation.stage_one import prealign
+from calibgui.engine.calibration.initialisation.stage_one import register_views
 
 
 def test_compiled_and_readable_find_the_same(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -17,9 +17,9 @@ def test_compiled_and_readable_find_the_same(monkeypatch: pytest.MonkeyPatch) ->
     perspective = 1 + grid @ rng.uniform(-1e-3, 1e-3, (K, 2, 1))
     reference = 1.3 * grid * (1 + 5e-7 * bend) / perspective + rng.normal(0, 0.2, grid.shape)
     mask = (rng.random((K, N)) < 0.9).astype(float)
-    compiled = prealign(grid, reference, mask)
+    compiled = register_views(grid, reference, mask)
     monkeypatch.setattr(kernels, "COMPILED", False)
-    readable = prealign(grid, reference, mask)
+    readable = register_views(grid, reference, mask)
     np.testing.assert_array_equal(compiled.converged, readable.converged)
     assert compiled.converged.all()
     # Both stop within 1e-5 standard deviations of the minimum.

@@ -10,23 +10,24 @@ import pytest
 from calibgui.engine import kernels, opencv
 from calibgui.engine.arrays import GreyImage
 from calibgui.engine.detection.checkerboard import x_junctions
-from tests.benchmarks.corner_scenes import Conditions, draw
+from tests.scenes.checkerboards import draw
+from tests.scenes.conditions import Conditions
 
 
-def grid_size() -> GreyImage:
+def draw_board() -> GreyImage:
     scene = Conditions(size=(320, 240), square=22.0, noise=6.0, clutter=True)
     return draw(scene, 1).photograph(0)
 
 
-def noise() -> GreyImage:
+def draw_noise() -> GreyImage:
     return np.random.default_rng(2).integers(0, 256, (480, 640), np.uint8)
 
 
 IMAGES = {
-    "grid_size": grid_size(),
-    "noise": noise(),
-    "9x8": noise()[:9, :8],
-    "16 bits": grid_size().astype(np.uint16),
+    "board": draw_board(),
+    "noise": draw_noise(),
+    "9x8": draw_noise()[:9, :8],
+    "16 bits": draw_board().astype(np.uint16),
 }
 
 
@@ -35,12 +36,12 @@ def image(request: pytest.FixtureRequest) -> GreyImage:
     return IMAGES[request.param]
 
 
-@pytest.mark.parametrize("most", [3000, 50])
-def test_the_same_peaks(image: GreyImage, most: int, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(x_junctions, "MAX_CANDIDATES", most)
-    smooth, levels = opencv.smooth(image, 1.0)
+@pytest.mark.parametrize("max_count", [3000, 50])
+def test_the_same_peaks(image: GreyImage, max_count: int) -> None:
+    smooth, levels = opencv.blur_image(image, 1.0)
+    find = x_junctions._find_peaks
     compiled, readable = (
-        find(smooth, 4.0 * levels**2) for find in (x_junctions._compiled_peaks, x_junctions._peaks)
+        f(smooth, 4.0 * levels**2, max_count) for f in (find.kernel, find.reference)
     )
     # Equally strong ones may come in another order, as float32 rounds.
     assert len(set(compiled) ^ set(readable)) <= 2
@@ -48,11 +49,10 @@ def test_the_same_peaks(image: GreyImage, most: int, monkeypatch: pytest.MonkeyP
 
 
 def test_the_same_saddle_points(image: GreyImage) -> None:
-    smooth, levels = opencv.smooth(image, 1.0)
-    where = x_junctions._peaks(smooth, 4.0 * levels**2)
-    (uv, near), expected = (
-        find(smooth, where) for find in (x_junctions._compiled_stationary, x_junctions._stationary)
-    )
+    smooth, levels = opencv.blur_image(image, 1.0)
+    where = x_junctions._find_peaks.reference(smooth, 4.0 * levels**2, 3000)
+    refine = x_junctions._refine_stationary
+    (uv, near), expected = (f(smooth, where, 3, 1.5) for f in (refine.kernel, refine.reference))
     np.testing.assert_array_equal(near, expected[1])
     assert near.any() or image.size < 100
     np.testing.assert_allclose(uv[near], expected[0][near], atol=1e-4)  # differences in float32
@@ -62,9 +62,9 @@ def test_the_same_rings(image: GreyImage, monkeypatch: pytest.MonkeyPatch) -> No
     saddles = x_junctions.find_saddles(image, 20.0)
     uv = np.concatenate([saddles.uv, [[0.0, 0.0], [-3.0, 5.0], [319.0, 239.0]]])
     saddles = dataclasses.replace(saddles, uv=uv)
-    compiled, seen = x_junctions.classify(saddles)
+    compiled, seen = x_junctions.classify_saddles(saddles)
     monkeypatch.setattr(kernels, "COMPILED", False)
-    readable, expected = x_junctions.classify(saddles)
+    readable, expected = x_junctions.classify_saddles(saddles)
     assert readable.sum() >= 20 or image.size < 100
     np.testing.assert_array_equal(compiled, readable)
     np.testing.assert_allclose(seen.uv, expected.uv)

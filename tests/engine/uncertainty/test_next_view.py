@@ -9,8 +9,8 @@ from calibgui.engine.calibration.calibrate import calibrate
 from calibgui.engine.calibration.observations import Observation
 from calibgui.engine.calibration.result import Calibration
 from calibgui.engine.errors import Cancelled
-from calibgui.engine.uncertainty.next_view import next_views
-from calibgui.engine.uncertainty.view_design import design
+from calibgui.engine.uncertainty.next_view import propose_views
+from calibgui.engine.uncertainty.view_design import build_design
 from tests.engine.scenes import barrel, brown, scene, seen
 
 SIZE = barrel().size
@@ -23,38 +23,42 @@ def _calibrated(count: int, noise: float = 0.2) -> tuple[Calibration, list[Obser
 
 def test_the_next_view_is_worth_what_it_promises() -> None:
     whole, views = _calibrated(4)
-    proposed = next_views(whole, views)
+    proposed = propose_views(whole, views)
     promised = [one.after for one in proposed]
     assert [one.before for one in proposed[1:]] == pytest.approx(promised[:-1], rel=1e-12)
     assert all(one.after < one.before for one in proposed)
     true = seen(barrel(), [one.pose for one in proposed])
     taken = views + true.noisy(0.2, np.random.default_rng(7))
     better = calibrate(taken, SIZE)
-    after = np.sqrt(design(better, taken).loss(np.ones(len(taken)))) * whole.noise / better.noise
+    after = (
+        np.sqrt(build_design(better, taken).compute_loss(np.ones(len(taken))))
+        * whole.noise
+        / better.noise
+    )
     assert after == pytest.approx(proposed[-1].after, rel=0.15)
 
 
 def test_the_next_view_beats_another_of_the_same_kind() -> None:
     whole, views = _calibrated(6)
-    proposed = next_views(whole, views, count=1)[0]
+    proposed = propose_views(whole, views, count=1)[0]
     for seed in range(10):
         view = scene(barrel(), 1, seed=50 + seed).views[0]
         if ((view.uv < 0) | (view.uv > np.array(SIZE) - 1)).any():
             continue
         other = [*views, view]
         result = calibrate(other, SIZE)
-        loss = design(result, other).loss(np.ones(7))
+        loss = build_design(result, other).compute_loss(np.ones(7))
         assert proposed.after < np.sqrt(loss) * whole.noise / result.noise
 
 
 @pytest.mark.parametrize("up", [1.0, -1.0])
 def test_the_words_describe_the_pose(up: float) -> None:
-    views = [  # `up` -1: the plate's Y runs up in the image
+    views = [  # `up` -1: the board's Y runs up in the image
         Observation(view.uv, view.xy * np.array([1.0, up]))
         for view in scene(barrel(), 5, seed=1).noisy(0.2, np.random.default_rng(2))
     ]
     whole = calibrate(views, SIZE)
-    for one in next_views(whole, views, count=8):
+    for one in propose_views(whole, views, count=8):
         u, v = one.corners.mean(axis=0) / SIZE
         assert abs(u - one.place[0]) < 0.1
         assert abs(v - one.place[1]) < 0.1
@@ -68,24 +72,24 @@ def test_the_words_describe_the_pose(up: float) -> None:
         gaps = np.array([np.sort(np.linalg.norm(one.corners - c, axis=1))[1] for c in one.corners])
         far, near = across > np.quantile(across, 0.8), across < np.quantile(across, 0.2)
         assert gaps[far].mean() < gaps[near].mean()
-        assert f"{one.tilt:.0f} degrees away" in one.words
+        assert f"{one.tilt:.0f} degrees away" in one.instruction
 
 
 def test_another_lens_model() -> None:
     views = scene(brown(), 5, seed=1).noisy(0.2, np.random.default_rng(2))
-    result = calibrate(views, SIZE, model="opencv")
-    assert next_views(result, views, count=1)[0].words.startswith("Hold the board")
+    result = calibrate(views, SIZE, model="brown-conrady")
+    assert propose_views(result, views, count=1)[0].instruction.startswith("Hold the board")
 
 
 def test_it_can_be_abandoned() -> None:
-    told = []
+    calls = []
 
     def tenth(done: int, total: int) -> None:
-        told.append(total)
+        calls.append(total)
         if done == 10:
             raise Cancelled
 
     with pytest.raises(Cancelled):
-        next_views(*_calibrated(4), progress=tenth)
-    assert len(told) == 11
-    assert len(set(told)) == 1
+        propose_views(*_calibrated(4), progress=tenth)
+    assert len(calls) == 11
+    assert len(set(calls)) == 1

@@ -13,14 +13,14 @@ from calibgui.engine.calibration.calibrate import calibrate
 from calibgui.engine.calibration.observations import Observation
 from calibgui.engine.calibration.result import Calibration
 from calibgui.engine.camera.camera import Camera
-from calibgui.engine.camera.projection import pixels, rays
+from calibgui.engine.camera.projection import pixels_from_rays, rays_from_pixels
 from calibgui.engine.errors import CalibrationError
 from calibgui.engine.geometry import rotations
 from calibgui.engine.uncertainty.projection_uncertainty import (
+    compute_sensitivity,
+    compute_worst_sigma,
     estimate_projection_uncertainty,
-    grid,
-    sensitivity,
-    worst_direction,
+    make_map_grid,
 )
 from tests.engine.scenes import BOARD, barrel, brown, central_differences, relative, scene
 
@@ -29,7 +29,7 @@ DISTANCES = (np.inf, 600.0)
 
 def _point(camera: Camera, uv: Array, distance: float) -> Array:
     """(..., 3) the point behind a pixel."""
-    n = rays(uv, camera)
+    n = rays_from_pixels(uv, camera)
     p = np.concatenate([n, np.ones((*n.shape[:-1], 1))], axis=-1)
     return (
         p / np.linalg.norm(p, axis=-1, keepdims=True) * (distance if np.isfinite(distance) else 1)
@@ -41,11 +41,11 @@ def _reprojected(truth: Calibration, again: Calibration, uv: Array, distance: fl
     p = _point(truth.camera, uv, distance)
     moved = []
     for old, new in zip(truth.poses, again.poses, strict=True):
-        turn = rotations.rotation(new.rvec) @ rotations.rotation(old.rvec).T
+        turn = rotations.rotation_from_vector(new.rvec) @ rotations.rotation_from_vector(old.rvec).T
         far = not np.isfinite(distance)
         moved.append(p @ turn.T if far else (p - old.tvec) @ turn.T + new.tvec)
     mean = np.mean(moved, axis=0)
-    return pixels(mean[..., :2] / mean[..., 2:], again.camera)
+    return pixels_from_rays(mean[..., :2] / mean[..., 2:], again.camera)
 
 
 @pytest.mark.parametrize("distance", DISTANCES)
@@ -53,14 +53,16 @@ def test_sensitivity_is_the_derivative(distance: float) -> None:
     camera = barrel(aspect=1.1)
     uv = np.array([[20.0, 30.0], [300.0, 200.0], [600.0, 470.0]])
     p = _point(camera, uv, distance)
-    by_params, by_motion = sensitivity(camera, uv, distance)
+    by_params, by_motion = compute_sensitivity(camera, uv, distance)
 
     def turned(motion: Array) -> Array:
-        q = p @ rotations.rotation(motion[:3]).T + (motion[3:] if np.isfinite(distance) else 0.0)
-        return pixels(q[:, :2] / q[:, 2:], camera)
+        q = p @ rotations.rotation_from_vector(motion[:3]).T + (
+            motion[3:] if np.isfinite(distance) else 0.0
+        )
+        return pixels_from_rays(q[:, :2] / q[:, 2:], camera)
 
     def changed(params: Array) -> Array:
-        return pixels(p[:, :2] / p[:, 2:], Camera(camera.size, params, camera.model))
+        return pixels_from_rays(p[:, :2] / p[:, 2:], Camera(camera.size, params, camera.model))
 
     step = np.array([1e-4] * 3 + [0.1] * 3)
     assert relative(by_motion, central_differences(turned, np.zeros(6), step)) < 1e-8
@@ -84,7 +86,7 @@ def test_predicts_the_scatter_of_recalibrations(distance: float) -> None:
         if len(predicted) < 5:
             predicted.append(_at(again, views, uv, distance))
     empirical = np.einsum("nija,nijb->ijab", draws, draws) / len(draws)
-    ratio = worst_direction(empirical) / worst_direction(np.mean(predicted, axis=0))
+    ratio = compute_worst_sigma(empirical) / compute_worst_sigma(np.mean(predicted, axis=0))
     assert 0.93 < np.median(ratio) < 1.07
     assert ratio.min() > 0.85
     assert ratio.max() < 1.18
@@ -131,7 +133,7 @@ def test_a_distance_behind_the_camera_is_refused(distance: float) -> None:
 
 
 def test_a_grid_of_a_tall_image() -> None:
-    u, v = grid((480, 640))
+    u, v = make_map_grid((480, 640))
     assert len(v) == 41
     assert len(u) == 31
 
@@ -147,10 +149,10 @@ def test_agrees_with_mrcal(tmp_path: Path, distance: float) -> None:
     ):
         pytest.skip("mrcal is not installed (Debian: apt-get install python3-mrcal)")
     views = scene(brown(), 10, seed=2).noisy(0.2, np.random.default_rng(4))
-    result = calibrate(views, brown().size, model="opencv")
+    result = calibrate(views, brown().size, model="brown-conrady")
     ours = estimate_projection_uncertainty(result, views, distance)
     uv = np.stack(np.meshgrid(ours.u, ours.v), axis=-1)
-    given, answer = tmp_path / "given.npz", tmp_path / "answer.npz"
+    given, reference = tmp_path / "given.npz", tmp_path / "reference.npz"
     np.savez(
         given,
         boards=[view.uv.reshape(BOARD.rows, BOARD.cols, 2) for view in views],
@@ -163,9 +165,9 @@ def test_agrees_with_mrcal(tmp_path: Path, distance: float) -> None:
         distance=600.0,
     )
     script = Path(__file__).with_name("mrcal_reference.py")
-    subprocess.run([python, script, given, answer], check=True, capture_output=True)
-    theirs = np.load(answer)
+    subprocess.run([python, script, given, reference], check=True, capture_output=True)
+    theirs = np.load(reference)
     assert np.abs(theirs["params"][:4] - result.camera.params[:4]).max() < 0.01
     covariance = theirs["infinite" if np.isinf(distance) else "finite"].reshape(*uv.shape, 2)
-    ratio = ours.worst_direction / worst_direction(covariance)
+    ratio = ours.worst_direction / compute_worst_sigma(covariance)
     assert np.abs(ratio - 1).max() < 1e-4

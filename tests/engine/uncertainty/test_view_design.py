@@ -9,7 +9,7 @@ from calibgui.engine.boards.shape import BoardShapeModel
 from calibgui.engine.calibration.calibrate import calibrate
 from calibgui.engine.calibration.observations import Observation
 from calibgui.engine.calibration.result import Calibration
-from calibgui.engine.uncertainty.view_design import design
+from calibgui.engine.uncertainty.view_design import build_design
 from tests.engine.scenes import barrel, relative, scene
 
 SIZE = barrel().size
@@ -24,24 +24,24 @@ def test_a_set_is_known_as_well_as_its_calibration_says() -> None:
     whole, views = _calibrated(12)
     chosen = np.zeros(12)
     chosen[[0, 2, 3, 7, 8, 11]] = 1
-    found = design(whole, views)
+    found = build_design(whole, views)
     part = calibrate([views[k] for k in np.flatnonzero(chosen)], SIZE)
-    predicted = np.sqrt(np.diag(found.covariance(chosen))) / whole.noise
+    predicted = np.sqrt(np.diag(found.compute_covariance(chosen))) / whole.noise
     assert predicted == pytest.approx(part.sigma[found.free] / part.noise, rel=0.05)
-    assert found.numbers(chosen)[0] == pytest.approx(
+    assert found.compute_sigmas(chosen)[0] == pytest.approx(
         np.sqrt(np.mean(part.sigma[2:4] ** 2)) * whole.noise / part.noise, rel=0.05
     )
 
 
 def test_all_views_have_the_reported_covariance() -> None:
     whole, views = _calibrated(12)
-    found = design(whole, views)
+    found = build_design(whole, views)
     reported = whole.covariance[np.ix_(found.free, found.free)]
     unit = np.sqrt(np.outer(np.diag(reported), np.diag(reported)))
-    assert relative(found.covariance(np.ones(12)) / unit, reported / unit) < 2e-3
+    assert relative(found.compute_covariance(np.ones(12)) / unit, reported / unit) < 2e-3
 
 
-def test_the_doubt_of_a_plate_stays() -> None:
+def test_the_uncertainty_of_a_board_shape_stays() -> None:
     views = [
         Observation(view.uv, view.xy * np.array([0.99, 1.0]))
         for view in scene(barrel(), 12, 1).noisy(0.1, np.random.default_rng(2))
@@ -51,13 +51,13 @@ def test_the_doubt_of_a_plate_stays() -> None:
         for board_shape in (BoardShapeModel.NOMINAL, BoardShapeModel.AFFINE)
     )
     twice = np.full(12, 2.0)
-    doubted, estimated = (design(result, views) for result in (nominal, affine))
-    assert doubted.numbers(twice)[1] > 0.9 * doubted.numbers(twice / 2)[1]
-    falls = estimated.numbers(twice)[1] / estimated.numbers(twice / 2)[1]
+    doubted, estimated = (build_design(result, views) for result in (nominal, affine))
+    assert doubted.compute_sigmas(twice)[1] > 0.9 * doubted.compute_sigmas(twice / 2)[1]
+    falls = estimated.compute_sigmas(twice)[1] / estimated.compute_sigmas(twice / 2)[1]
     assert falls == pytest.approx(np.sqrt(0.5), abs=0.02)
 
 
 def test_held_parameters_count_as_known() -> None:
     views = scene(barrel(), 6, 1).noisy(0.2, np.random.default_rng(2))
     result = calibrate(views, SIZE, fix=["cx", "cy"])
-    assert design(result, views).numbers(np.ones(6))[0] == 0.0
+    assert build_design(result, views).compute_sigmas(np.ones(6))[0] == 0.0

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from typing import TypeVar
 
 import numpy as np
@@ -13,17 +13,18 @@ from PySide6.QtWidgets import QApplication, QWidget
 from pytestqt.qtbot import QtBot
 
 from calibgui import engine
-from calibgui.dataset.result import Result
-from calibgui.dataset.view import View, ViewStatus
+from calibgui.dataset import Result, View, ViewStatus
 from calibgui.engine.arrays import Array
 from calibgui.engine.camera.camera import Camera
-from calibgui.engine.camera.projection import pixels
+from calibgui.engine.camera.projection import pixels_from_rays
 from calibgui.engine.detection.corners import Corners
 from calibgui.engine.geometry.pose import Pose
-from calibgui.engine.geometry.rotations import rotation
-from calibgui.gui.jobs import Jobs
+from calibgui.engine.geometry.rotations import rotation_from_vector
+from calibgui.engine.images.reading import Image
+from calibgui.gui.jobs.jobs import Jobs
 from calibgui.gui.panels.panel import Panel
-from calibgui.gui.plots import Plot
+from calibgui.gui.panels.services import Services
+from calibgui.gui.widgets.plots import Plot
 from tests.engine import scenes
 
 P = TypeVar("P", bound=Panel)
@@ -56,8 +57,8 @@ def bowed(camera: Camera, pose: Pose, bow: float) -> Array:
     xy = scenes.BOARD.points()
     across = 2 * (xy - (xy.min(axis=0) + xy.max(axis=0)) / 2) / np.ptp(xy, axis=0)
     solid = np.column_stack([xy, -bow * (1 - across**2).sum(axis=1) / 2])
-    point = solid @ rotation(pose.rvec).T + pose.tvec
-    return pixels(point[:, :2] / point[:, 2:], camera)
+    point = solid @ rotation_from_vector(pose.rvec).T + pose.tvec
+    return pixels_from_rays(point[:, :2] / point[:, 2:], camera)
 
 
 @pytest.fixture(scope="session")
@@ -71,23 +72,26 @@ def other() -> Result:
     return made(seed=7)
 
 
-@pytest.fixture
-def jobs() -> Iterator[Jobs]:
-    """Work beside the window, ended with the test."""
-    running = Jobs()
-    yield running
-    running.close()
-
-
-Shown = Callable[[Callable[[], P], Result | None], P]
+def read_nothing(path: str) -> Image:
+    """Stand in for reading an image, for panels that read none."""
+    raise AssertionError(f"{path} is read")
 
 
 @pytest.fixture
-def shown(qtbot: QtBot) -> Shown[P]:
+def services(jobs: Jobs) -> Services:
+    """What the window lends to its panels, without images."""
+    return Services(jobs, read_nothing)
+
+
+Shown = Callable[[type[P], Result | None], P]
+
+
+@pytest.fixture
+def shown(qtbot: QtBot, services: Services) -> Shown[P]:
     """Makes a panel, gives it a result and brings it on screen."""
 
-    def show(kind: Callable[[], P], result: Result | None) -> P:
-        panel = kind()
+    def show(kind: type[P], result: Result | None) -> P:
+        panel = kind(services)
         qtbot.addWidget(panel)
         panel.resize(900, 650)
         panel.show_result(result)

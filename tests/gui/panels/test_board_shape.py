@@ -1,4 +1,4 @@
-"""The plate's deviations as drawn are the calibration's; the file is that of the formats."""
+"""The deviations as drawn are those of the calibration; the file is that of the formats."""
 
 from __future__ import annotations
 
@@ -11,16 +11,16 @@ from PySide6.QtCore import QPointF, Qt
 from PySide6.QtWidgets import QFileDialog
 from pytestqt.qtbot import QtBot
 
-from calibgui.dataset.result import Result
+from calibgui.dataset import Result
 from calibgui.engine.boards.shape import BoardShape
 from calibgui.formats.board_shape_json import read_board_shape
-from calibgui.gui.panels.board_shape import BoardShapePanel, _round
+from calibgui.gui.panels.board_shape import BoardShapePanel, _round_down
 from tests.gui.panels.conftest import Shown, made
 
 
 @pytest.fixture(scope="module")
 def bent() -> Result:
-    """A free plate estimated from views of a bowed one."""
+    """A free board shape estimated from views of a bowed board."""
     return made(bow=0.6, board_shape="free")
 
 
@@ -72,7 +72,7 @@ def test_words_and_the_value_under_the_cursor(
     assert panel.under_cursor.text().startswith("Point at")
 
 
-def test_without_a_plate_it_says_how_to_get_one(
+def test_without_a_board_shape_it_says_how_to_get_one(
     shown: Shown[BoardShapePanel], result: Result
 ) -> None:
     panel = shown(BoardShapePanel, result)
@@ -83,12 +83,12 @@ def test_without_a_plate_it_says_how_to_get_one(
     doubted = made(bow=0.6)
     assert doubted.calibration.board_shape_error > 0
     panel.show_result(doubted)
-    assert f"off by {doubted.calibration.plate_doubt:.2g} mm" in panel._empty.text()
+    assert f"off by {doubted.calibration.board_shape_error:.2g} mm" in panel._empty.text()
     panel.show_result(None)
     assert "Nothing is calibrated" in panel._empty.text()
 
 
-def test_the_plate_is_saved(
+def test_the_board_shape_is_saved(
     shown: Shown[BoardShapePanel],
     bent: Result,
     board_shape: BoardShape,
@@ -115,4 +115,4 @@ def test_the_plate_is_saved(
     ("length", "key"), [(0.19, 0.1), (0.2, 0.2), (0.49, 0.2), (0.5, 0.5), (7.0, 5.0)]
 )
 def test_the_key_is_a_round_length(length: float, key: float) -> None:
-    assert _round(length) == pytest.approx(key)
+    assert _round_down(length) == pytest.approx(key)

@@ -7,7 +7,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from calibgui.dataset.result import Result
+from calibgui.dataset import Result
 from calibgui.engine.calibration.result import Status
 from calibgui.gui.panels.convergence import ConvergencePanel
 from tests.gui.panels.conftest import Shown

@@ -3,38 +3,36 @@
 from __future__ import annotations
 
 import time
-from functools import partial
 from typing import Any, NoReturn
 
 import numpy as np
 import pytest
 from pytestqt.qtbot import QtBot
 
-from calibgui.dataset.result import Result
-from calibgui.engine.uncertainty.next_view import NextView, next_views
-from calibgui.gui.jobs import Jobs
+from calibgui.dataset import Result
+from calibgui.engine.uncertainty.next_view import NextView, propose_views
+from calibgui.gui.jobs.jobs import Jobs
 from calibgui.gui.panels import coverage
 from calibgui.gui.panels.coverage import CoveragePanel
-from calibgui.report.coverage import attitudes
+from calibgui.report.coverage import measure_attitudes
 from tests.gui.panels.conftest import Shown, click
 
 
 @pytest.fixture(scope="module")
 def best(result: Result) -> NextView:
-    return next_views(result.calibration, result.observations(), 1)[0]
+    return propose_views(result.calibration, result.observations(), 1)[0]
 
 
 @pytest.fixture
 def panel(
     shown: Shown[CoveragePanel],
-    jobs: Jobs,
     result: Result,
     best: NextView,
     monkeypatch: pytest.MonkeyPatch,
 ) -> CoveragePanel:
     """Of the result; the next view, which takes long, is found once."""
-    monkeypatch.setattr(coverage, "next_views", lambda *_: (best,))
-    return shown(partial(CoveragePanel, jobs), result)
+    monkeypatch.setattr(coverage, "propose_views", lambda *_: (best,))
+    return shown(CoveragePanel, result)
 
 
 def test_density_counts_the_corners(panel: CoveragePanel, result: Result) -> None:
@@ -48,7 +46,7 @@ def test_density_counts_the_corners(panel: CoveragePanel, result: Result) -> Non
 
 
 def test_tilts_and_distances(panel: CoveragePanel, result: Result) -> None:
-    attitude = attitudes(result.calibration, result.observations())
+    attitude = measure_attitudes(result.calibration, result.observations())
     x, y = panel._points[0].getData()
     np.testing.assert_allclose(np.hypot(x, y), np.rad2deg(attitude.tilt))
     np.testing.assert_allclose(np.arctan2(y, x), attitude.direction)
@@ -81,7 +79,7 @@ def test_the_next_view_is_drawn_and_told(
     line = np.transpose(panel.next_board.getData())
     assert (line[0] == line[-1]).all()
     assert (line.min(axis=0) == best.corners.min(axis=0)).all()
-    assert best.words in panel.advice.text()
+    assert best.instruction in panel.advice.text()
     assert f"{best.after:.3f} px" in panel.advice.text()
 
 
@@ -107,8 +105,8 @@ def test_the_user_need_not_wait_for_the_next_view(
             _[-1](0, 100)
             time.sleep(0.001)
 
-    monkeypatch.setattr(coverage, "next_views", endless)
-    panel = shown(partial(CoveragePanel, jobs), result)
+    monkeypatch.setattr(coverage, "propose_views", endless)
+    panel = shown(CoveragePanel, result)
     for job in jobs.running:
         job.cancel()
     qtbot.waitUntil(lambda: not jobs.running)

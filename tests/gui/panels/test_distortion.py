@@ -7,7 +7,7 @@ import pytest
 from PySide6.QtCore import QPointF, Qt
 from pytestqt.qtbot import QtBot
 
-from calibgui.dataset.result import Result
+from calibgui.dataset import Result
 from calibgui.engine.arrays import Array
 from calibgui.engine.geometry.frames import paper_intrinsics
 from calibgui.gui.panels.distortion import DistortionPanel

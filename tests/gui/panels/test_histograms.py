@@ -7,11 +7,11 @@ import pytest
 from PySide6.QtCore import Qt
 from pytestqt.qtbot import QtBot
 
-from calibgui.dataset.result import Result
+from calibgui.dataset import Result
 from calibgui.engine.assessment.residual_statistics import (
-    component_histogram,
-    length_histogram,
-    stacked,
+    make_component_histogram,
+    make_length_histogram,
+    stack_residuals,
 )
 from calibgui.gui.panels.histograms import HistogramsPanel
 from tests.gui.panels.conftest import Shown
@@ -24,18 +24,18 @@ def test_bars_curves_and_numbers(
     panel = shown(HistogramsPanel, result)
     if on_reference:
         qtbot.keyClick(panel.plane, Qt.Key.Key_Down)
-    residuals = stacked(result.calibration, on_reference)
+    residuals = stack_residuals(result.calibration, on_reference)
     expected = (
-        component_histogram(residuals[:, 0]),
-        component_histogram(residuals[:, 1]),
-        length_histogram(np.linalg.norm(residuals, axis=1)),
+        make_component_histogram(residuals[:, 0]),
+        make_component_histogram(residuals[:, 1]),
+        make_length_histogram(np.linalg.norm(residuals, axis=1)),
     )
     for plot, histogram in zip(panel.plots, expected, strict=True):
         edges, density = plot.bars.getData()
         np.testing.assert_array_equal(edges, histogram.edges)
         np.testing.assert_array_equal(density, histogram.density)
         x, y = plot.fit.getData()
-        np.testing.assert_array_equal(y, histogram.fitted(x))
+        np.testing.assert_array_equal(y, histogram.evaluate_density(x))
         title = plot.getPlotItem().titleLabel.text
         assert f"SD {histogram.sd:.4f}" in title and f"= {histogram.scale:.4f}" in title
     unit = "reference px" if on_reference else "px"

@@ -8,17 +8,24 @@ from PySide6.QtGui import QWheelEvent
 from PySide6.QtWidgets import QApplication
 from pytestqt.qtbot import QtBot
 
-from calibgui.dataset.result import Result
+from calibgui.dataset import Result
 from calibgui.engine.geometry import rotations
 from calibgui.gui.panels.poses import PosesPanel
-from calibgui.report.scene3d import Centre, Kind, Observer, draw, fitted, scene
+from calibgui.report.scene3d import (
+    Observer,
+    PolygonKind,
+    SceneCentre,
+    build_scene,
+    draw_scene,
+    fit_zoom,
+)
 from tests.gui.panels.conftest import Shown, drag
 
 
 def test_a_board_picks_its_view(shown: Shown[PosesPanel], result: Result, qtbot: QtBot) -> None:
     panel = shown(PosesPanel, result)
-    polygons = scene(result, Centre.CAMERA)
-    drawn = draw(polygons, fitted(polygons, Observer()))
+    polygons = build_scene(result, SceneCentre.CAMERA)
+    drawn = draw_scene(polygons, fit_zoom(polygons, Observer()))
     front = [d for d in drawn if d.polygon.view >= 0][-1]
     at = panel.space.to_widget(front.points.mean(axis=0, keepdims=True))[0].toPoint()
     with qtbot.waitSignal(panel.picked) as signal:
@@ -45,7 +52,11 @@ def test_dragging_turns_and_does_not_pick(
     after = panel.space.observer
     assert after.azimuth < before.azimuth and after.elevation > before.elevation
     qtbot.mouseClick(panel.home, Qt.MouseButton.LeftButton)
-    assert panel.space.observer == before == fitted(scene(result, Centre.CAMERA), Observer())
+    assert (
+        panel.space.observer
+        == before
+        == fit_zoom(build_scene(result, SceneCentre.CAMERA), Observer())
+    )
 
 
 def test_keys_turn_and_zoom(shown: Shown[PosesPanel], result: Result, qtbot: QtBot) -> None:
@@ -78,9 +89,9 @@ def test_what_is_drawn_is_the_scene(shown: Shown[PosesPanel], result: Result, qt
     panel.centre.setFocus()
     qtbot.keyClick(panel.centre, Qt.Key.Key_Down)
     drawn = panel.space._drawn
-    assert {d.polygon.view for d in drawn if d.polygon.kind is Kind.CAMERA} == set(range(9))
-    polygons = scene(result, Centre.BOARD)
-    expected = draw(polygons, fitted(polygons, Observer()))
+    assert {d.polygon.view for d in drawn if d.polygon.kind is PolygonKind.CAMERA} == set(range(9))
+    polygons = build_scene(result, SceneCentre.BOARD)
+    expected = draw_scene(polygons, fit_zoom(polygons, Observer()))
     for one, other in zip(drawn, expected, strict=True):
         np.testing.assert_array_equal(one.points, other.points)
 
@@ -92,6 +103,6 @@ def test_words_and_highlight_follow_the_selection(shown: Shown[PosesPanel], resu
     panel.select(4)
     assert panel.space.grab().toImage() != before
     pose = result.calibration.poses[3]
-    tilt = np.rad2deg(np.arccos(abs(rotations.rotation(pose.rvec)[2, 2])))
+    tilt = np.rad2deg(np.arccos(abs(rotations.rotation_from_vector(pose.rvec)[2, 2])))
     assert panel.words.text().startswith("view4.png: ")
     assert f"tilted by {tilt:.0f}°" in panel.words.text()

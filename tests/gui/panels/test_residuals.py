@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable
-from functools import partial
 from typing import cast
 
 import numpy as np
@@ -12,25 +11,25 @@ import pytest
 from PySide6.QtCore import Qt
 from pytestqt.qtbot import QtBot
 
-from calibgui.app.calibration import short_names
-from calibgui.dataset.result import Result
+from calibgui.app.calibration import shorten_names
+from calibgui.dataset import Result
 from calibgui.engine.arrays import Array
-from calibgui.engine.assessment.noise_test import NoiseReport, examine
-from calibgui.engine.assessment.residual_statistics import stacked, summarise
-from calibgui.gui.jobs import Jobs
+from calibgui.engine.assessment.noise_test import NoiseReport, check_residuals
+from calibgui.engine.assessment.residual_statistics import stack_residuals, summarise_residuals
+from calibgui.gui.jobs.jobs import Jobs
 from calibgui.gui.panels import residuals
 from calibgui.gui.panels.residuals import ResidualsPanel
-from calibgui.gui.progress import Progress
+from calibgui.gui.window.progress import Progress
 from tests.gui.panels.conftest import Shown, click, drag, made, place
 
 Show = Callable[[Result], ResidualsPanel]
 
 
 @pytest.fixture
-def show(shown: Shown[ResidualsPanel], jobs: Jobs, monkeypatch: pytest.MonkeyPatch) -> Show:
+def show(shown: Shown[ResidualsPanel], monkeypatch: pytest.MonkeyPatch) -> Show:
     """Shows a result; what the residuals look like takes long, and is left to one test."""
-    monkeypatch.setattr(residuals, "examine", lambda *_: NoiseReport((), np.zeros(1)))
-    return lambda result: shown(partial(ResidualsPanel, jobs), result)
+    monkeypatch.setattr(residuals, "check_residuals", lambda *_: NoiseReport((), np.zeros(1)))
+    return lambda result: shown(ResidualsPanel, result)
 
 
 def drawn(panel: ResidualsPanel) -> Array:
@@ -47,9 +46,9 @@ def test_scatter_holds_every_residual(
     if on_reference:
         panel.plane.setFocus()
         qtbot.keyClick(panel.plane, Qt.Key.Key_Down)
-    expected = stacked(result.calibration, on_reference)
+    expected = stack_residuals(result.calibration, on_reference)
     np.testing.assert_array_equal(drawn(panel), expected[np.lexsort(expected.T)])
-    summary = summarise(result.calibration.residuals)
+    summary = summarise_residuals(result.calibration.residuals)
     title = panel.scatter.getPlotItem().titleLabel.text
     value = summary.reference_mean if on_reference else summary.sigma_x
     assert f"{value:.3f}" in title
@@ -80,7 +79,7 @@ def test_bars_are_the_views_rms(show: Show, result: Result, qtbot: QtBot) -> Non
     panel = show(result)
     rms = [view.rms for view in result.calibration.residuals]
     np.testing.assert_array_equal(panel.views._bars.opts["height"], rms)
-    assert panel.views._overall.value() == summarise(result.calibration.residuals).rms
+    assert panel.views._overall.value() == summarise_residuals(result.calibration.residuals).rms
     with qtbot.waitSignal(panel.picked) as signal:
         click(qtbot, panel.views.plot, 3, rms[2] / 2)
     assert signal.args == [3, -1]  # the second image has no board
@@ -100,7 +99,7 @@ def test_dragging_the_threshold_excludes_the_views_above(
     worst = sorted(np.argsort(rms)[-2:].tolist())
     assert views.above == tuple(worst)
     assert views.threshold.value() == pytest.approx(board, abs=2e-3)
-    with qtbot.waitSignal(panel.excluded) as signal:
+    with qtbot.waitSignal(panel.exclude_wanted) as signal:
         qtbot.mouseClick(views.exclude, Qt.MouseButton.LeftButton)
     assert [result.views[i] for i in signal.args[0]] == [result.used[k] for k in worst]
 
@@ -137,10 +136,10 @@ def test_what_the_residuals_look_like_is_said_with_its_cause(
     shown: Shown[ResidualsPanel], jobs: Jobs, qtbot: QtBot
 ) -> None:
     bent = made(bow=0.6)
-    panel = shown(partial(ResidualsPanel, jobs), bent)
+    panel = shown(ResidualsPanel, bent)
     assert "Working" in panel.verdict.text()
     qtbot.waitUntil(lambda: not jobs.running, timeout=60_000)
-    report = examine(bent.calibration, bent.observations(), short_names(bent.used))
+    report = check_residuals(bent.calibration, bent.observations(), shorten_names(bent.used))
     assert report.cause is not None
     assert report.cause.advice in panel.verdict.text()
     assert report.cause.finding in panel.verdict.text()
@@ -168,14 +167,14 @@ def test_the_user_need_not_wait_for_the_verdict(
             progress(0, 6)
             time.sleep(0.001)
 
-    monkeypatch.setattr(residuals, "examine", endless)
-    panel = shown(partial(ResidualsPanel, jobs), result)
+    monkeypatch.setattr(residuals, "check_residuals", endless)
+    panel = shown(ResidualsPanel, result)
     bar = Progress(jobs)
     qtbot.addWidget(bar)
     bar.cancel.click()
     qtbot.waitUntil(lambda: not jobs.running)
     assert "not examined" in panel.verdict.text()
-    monkeypatch.setattr(residuals, "examine", examine)
+    monkeypatch.setattr(residuals, "check_residuals", check_residuals)
     panel.plane.setCurrentIndex(1)
     qtbot.waitUntil(lambda: not jobs.running, timeout=60_000)
     assert panel.verdict.text().startswith("The residuals look like noise")

@@ -6,21 +6,22 @@ import csv
 import io
 from collections.abc import Callable
 from dataclasses import replace
-from functools import partial
 
 import numpy as np
 import pytest
 from PySide6.QtCore import QPoint, Qt
 from pytestqt.qtbot import QtBot
 
-from calibgui.dataset.result import Result
-from calibgui.engine.calibration.covariances import correlations, paper_table
+from calibgui.dataset import Result
+from calibgui.engine.calibration.refinement.covariances import (
+    compute_correlations,
+    make_paper_table,
+)
 from calibgui.engine.calibration.result import Undetermined
-from calibgui.gui.jobs import Jobs
 from calibgui.gui.panels.result import ResultPanel
-from calibgui.gui.tables import Table
-from calibgui.report.comparison import compare
-from calibgui.report.summary import summary
+from calibgui.gui.widgets.tables import Table
+from calibgui.report.comparison import compare_parameters
+from calibgui.report.summary import describe_calibration
 from tests.gui.panels.conftest import Shown, made
 
 NAMES = ["fx", "fy", "cx", "cy", "k1", "k2", "k3", "p1", "p2", "p3"]
@@ -29,11 +30,11 @@ Told = Callable[[Result], ResultPanel]
 
 
 @pytest.fixture
-def told(shown: Shown[ResultPanel], jobs: Jobs, qtbot: QtBot) -> Told:
+def told(shown: Shown[ResultPanel], qtbot: QtBot) -> Told:
     """Brings a result on screen and waits for its words."""
 
     def show(result: Result) -> ResultPanel:
-        panel = shown(partial(ResultPanel, jobs), result)
+        panel = shown(ResultPanel, result)
         qtbot.waitUntil(lambda: bool(panel.words.toPlainText()))
         return panel
 
@@ -60,11 +61,11 @@ def test_the_papers_units(told: Told, result: Result) -> None:
     panel = told(result)
     table = rows(panel.paper_units)
     shown_numbers = np.array([[float(row[i]) for i in (1, 2, 4)] for row in table]).T
-    np.testing.assert_array_equal(shown_numbers, paper_table(result.calibration))
+    np.testing.assert_array_equal(shown_numbers, make_paper_table(result.calibration))
 
 
 def test_other_models_have_no_papers_units(told: Told) -> None:
-    panel = told(made(model="opencv"))
+    panel = told(made(model="brown-conrady"))
     assert not panel.tabs.isTabVisible(1)
     assert [row[0] for row in rows(panel.array_frame)][4:] == ["k1", "k2", "p1", "p2", "k3"]
 
@@ -77,7 +78,7 @@ def test_correlations_leave_out_what_is_held(told: Told, result: Result, qtbot: 
     assert matrix.isVisible()
     assert matrix._names == tuple(NAMES[:-1])
     np.testing.assert_array_equal(
-        matrix._values, correlations(result.calibration.covariance)[:9, :9]
+        matrix._values, compute_correlations(result.calibration.covariance)[:9, :9]
     )
     assert matrix.text(4, 5) == f"{matrix._values[4, 5]:.2f}"
     # k1 and k2 are strongly and negatively correlated: their cell is blue.
@@ -89,7 +90,7 @@ def test_correlations_leave_out_what_is_held(told: Told, result: Result, qtbot: 
 def test_words_are_the_summary(told: Told, result: Result) -> None:
     panel = told(result)
     text = panel.words.toPlainText().replace("\xa0", " ")
-    for sentence in summary(result):
+    for sentence in describe_calibration(result):
         assert sentence.text in text
 
 
@@ -112,7 +113,9 @@ def test_comparison_in_units_of_sigma(told: Told, result: Result, other: Result)
     panel.show_comparison(result, other, ("all", "again"))
     assert panel.differences.isVisible()
     table = rows(panel.differences)
-    for row, difference in zip(table, compare(result.calibration, other.calibration), strict=True):
+    for row, difference in zip(
+        table, compare_parameters(result.calibration, other.calibration), strict=True
+    ):
         assert float(row[5]) == difference.change
         assert float(row[6]) == pytest.approx(difference.sigmas, nan_ok=True)
     headers = [panel.differences.model().headerData(c, Qt.Orientation.Horizontal) for c in (1, 3)]

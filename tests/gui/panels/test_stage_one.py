@@ -11,8 +11,8 @@ import pytest
 from PySide6.QtCore import Qt
 from pytestqt.qtbot import QtBot
 
-from calibgui.dataset.result import Result
-from calibgui.engine.calibration.initialisation.single_view_pose import cosines_equation
+from calibgui.dataset import Result
+from calibgui.engine.calibration.initialisation.single_view_pose import evaluate_cosines_equation
 from calibgui.gui.panels.stage_one import StageOnePanel
 from tests.gui.panels.conftest import Shown, click
 
@@ -59,7 +59,7 @@ def test_selection_shows_its_equation(shown: Shown[StageOnePanel], result: Resul
     panel.select(4)
     view = result.calibration.stage_one[3]
     r, g = panel._curve.getData()
-    np.testing.assert_array_equal(g, cosines_equation(view.backward, r))
+    np.testing.assert_array_equal(g, evaluate_cosines_equation(view.backward, r))
     np.testing.assert_array_equal(panel._root.getData(), [[view.aspect], [0.0]])
     _, aspects = panel._line.getData()
     np.testing.assert_array_equal(aspects, [s.aspect for s in result.calibration.stage_one])

@@ -12,17 +12,18 @@ import pytest
 from PySide6.QtCore import Qt
 from pytestqt.qtbot import QtBot
 
-from calibgui.app.synthetic import BLUR, SyntheticCheck, synthetic_check
-from calibgui.dataset.result import Result
+from calibgui.app.synthetic import BLUR_PX, SyntheticCheck, run_synthetic_check
+from calibgui.dataset import Result
 from calibgui.engine.assessment.residual_statistics import (
-    component_histogram,
-    length_histogram,
-    stacked,
+    make_component_histogram,
+    make_length_histogram,
+    stack_residuals,
 )
 from calibgui.engine.images.reading import Image
-from calibgui.engine.images.rendering import render
-from calibgui.gui.jobs import Jobs
-from calibgui.gui.panels.synthetic import SyntheticPanel, pictures
+from calibgui.engine.images.rendering import render_view
+from calibgui.gui.jobs.jobs import Jobs
+from calibgui.gui.panels.services import Services
+from calibgui.gui.panels.synthetic import SyntheticPanel, render_pair
 from tests.app.rendered import small_result
 
 
@@ -37,11 +38,11 @@ def small() -> Result:
 
 @pytest.fixture(scope="module")
 def check(small: Result) -> SyntheticCheck:
-    return synthetic_check(small)
+    return run_synthetic_check(small)
 
 
 def panel_of(result: Result, jobs: Jobs, qtbot: QtBot) -> SyntheticPanel:
-    panel = SyntheticPanel(jobs, black)
+    panel = SyntheticPanel(Services(jobs, black))
     qtbot.addWidget(panel)
     panel.resize(800, 600)
     panel.show_result(result)
@@ -88,14 +89,18 @@ def test_tables_and_plots_hold_its_numbers(
         (check.real, check.synthetic), panel.scatters.plots, panel.histograms.plots, strict=True
     ):
         points = np.concatenate(scatter._points)
-        np.testing.assert_array_equal(points, stacked(result.calibration, on_reference=True))
-        lengths = length_histogram(np.linalg.norm(points, axis=1))
+        np.testing.assert_array_equal(
+            points, stack_residuals(result.calibration, on_reference=True)
+        )
+        lengths = make_length_histogram(np.linalg.norm(points, axis=1))
         np.testing.assert_array_equal(histogram.bars.getData()[1], lengths.density)
     panel.histograms.component.setCurrentIndex(1)
     for result, histogram in zip(
         (check.real, check.synthetic), panel.histograms.plots, strict=True
     ):
-        down = component_histogram(stacked(result.calibration, on_reference=True)[:, 1])
+        down = make_component_histogram(
+            stack_residuals(result.calibration, on_reference=True)[:, 1]
+        )
         np.testing.assert_array_equal(histogram.bars.getData()[1], down.density)
         assert "Δy′" in histogram.getPlotItem().getAxis("bottom").labelText
     qtbot.waitUntil(lambda: not jobs.running)
@@ -123,9 +128,9 @@ def test_the_selected_view_is_rendered(
     qtbot.waitUntil(lambda: not jobs.running)
     assert len(panel.images._images) == 2
     calibration = small.calibration
-    real, made = pictures(small, 3, black)
+    real, made = render_pair(small, 3, black)
     assert not real.any()
-    expected = render(calibration.camera, calibration.poses[3], small.board, blur=BLUR)
+    expected = render_view(calibration.camera, calibration.poses[3], small.board, blur=BLUR_PX)
     np.testing.assert_array_equal(made, expected)
     panel.tabs.setCurrentWidget(panel.scatters)
     ring = np.transpose(panel.scatters.plots[0]._ring.getData())

@@ -2,19 +2,17 @@
 
 from __future__ import annotations
 
-from functools import partial
-
 import numpy as np
 import pytest
 from PySide6.QtCore import QPointF, Qt
 from pytestqt.qtbot import QtBot
 
-from calibgui.dataset.result import Result
+from calibgui.dataset import Result
 from calibgui.engine.uncertainty.projection_uncertainty import (
     ProjectionUncertainty,
     estimate_projection_uncertainty,
 )
-from calibgui.gui.jobs import Jobs
+from calibgui.gui.jobs.jobs import Jobs
 from calibgui.gui.panels.uncertainty import UncertaintyPanel
 from tests.gui.panels.conftest import Shown
 
@@ -23,7 +21,7 @@ from tests.gui.panels.conftest import Shown
 def panel(
     shown: Shown[UncertaintyPanel], jobs: Jobs, result: Result, qtbot: QtBot
 ) -> UncertaintyPanel:
-    made = shown(partial(UncertaintyPanel, jobs), result)
+    made = shown(UncertaintyPanel, result)
     qtbot.waitUntil(lambda: not jobs.running)
     return made
 

@@ -11,14 +11,16 @@ from PySide6.QtCore import QPoint, Qt
 from PySide6.QtGui import QImage
 from pytestqt.qtbot import QtBot
 
-from calibgui.dataset.result import Result
+from calibgui.dataset import Result
 from calibgui.engine.arrays import Array
 from calibgui.engine.errors import CalibrationError
 from calibgui.engine.images.reading import Image
-from calibgui.engine.images.undistortion import rectify_image, undistort_image
-from calibgui.gui.jobs import Jobs
+from calibgui.engine.images.rectification import rectify_image
+from calibgui.engine.images.undistortion import undistort_image
+from calibgui.gui.jobs.jobs import Jobs
+from calibgui.gui.panels.services import Services
 from calibgui.gui.panels.undistort import RECTIFIED, UndistortPanel
-from calibgui.report.coverage import board_extent_px, natural_scale
+from calibgui.report.coverage import find_shown_extent, measure_natural_scale
 from tests.gui.panels.conftest import drag
 
 Read = Callable[[str], Image]
@@ -33,7 +35,7 @@ def photograph(path: str) -> Image:
 
 @pytest.fixture
 def panel(jobs: Jobs, qtbot: QtBot, result: Result) -> UndistortPanel:
-    made = UndistortPanel(jobs, photograph)
+    made = UndistortPanel(Services(jobs, photograph))
     qtbot.addWidget(made)
     made.resize(700, 600)
     made.show_result(result)
@@ -83,8 +85,8 @@ def test_rectified_of_the_selected_view(
         photograph("view5.png").grey,
         result.calibration.camera,
         result.calibration.poses[4],
-        board_extent_px(result),
-        natural_scale(result),
+        find_shown_extent(result),
+        measure_natural_scale(result),
     )
     (only,) = shown(panel)
     np.testing.assert_array_equal(only, expected.image)
@@ -115,11 +117,11 @@ def test_the_divider_slides(panel: UndistortPanel, qtbot: QtBot) -> None:
 
 def test_saving_names_views_and_way(panel: UndistortPanel, qtbot: QtBot) -> None:
     panel.select(3)
-    with qtbot.waitSignal(panel.saving) as signal:
+    with qtbot.waitSignal(panel.save_wanted) as signal:
         qtbot.mouseClick(panel.save_one, Qt.MouseButton.LeftButton)
     assert signal.args == [(3,), "all"]
     panel.way.setCurrentIndex(3)
-    with qtbot.waitSignal(panel.saving) as signal:
+    with qtbot.waitSignal(panel.save_wanted) as signal:
         qtbot.mouseClick(panel.save_all, Qt.MouseButton.LeftButton)
     assert signal.args == [(0, 2, 3, 4, 5, 6, 7, 8, 9), RECTIFIED]
 
@@ -128,7 +130,7 @@ def test_an_image_that_is_gone_says_so(jobs: Jobs, qtbot: QtBot, result: Result)
     def gone(path: str) -> Image:
         raise CalibrationError(f"{path} does not exist.", "Locate it.")
 
-    panel = UndistortPanel(jobs, gone)
+    panel = UndistortPanel(Services(jobs, gone))
     qtbot.addWidget(panel)
     panel.show_result(result)
     panel.show()
@@ -138,7 +140,7 @@ def test_an_image_that_is_gone_says_so(jobs: Jobs, qtbot: QtBot, result: Result)
 
 
 def test_nothing_is_read_while_hidden(jobs: Jobs, qtbot: QtBot, result: Result) -> None:
-    panel = UndistortPanel(jobs, photograph)
+    panel = UndistortPanel(Services(jobs, photograph))
     qtbot.addWidget(panel)
     panel.show_result(result)
     panel.select(4)

@@ -1,262 +1,51 @@
-"""The plate as it is: deviations of the target from its nominal shape, estimated with the camera.
+"""The board's shape, estimated with the camera, and refused where the views cannot carry it.
 
-A corner i of the plate is at X_i = x_i + B_i q, its nominal place and a linear model of the
-deviation (mm) with unknowns q that all views share:
-
-`affine`  unequal sides and shear: (b y, a y, 0) from the plate's centre;
-`bow`     z = zx (1 - xi^2) + zy (1 - eta^2), xi and eta from -1 to 1 across the plate;
-`free`    every corner by itself, in the plane and out of it.
-
-Beside the camera's parameters, q is one more set of shared unknowns in the arrow-shaped normal
-equations of ``arrow.py``. A corner's 3-D place enters its image through X_cam
-alone, so d(u, v)/dX_i = (d(u, v)/dX_cam) R, and d/dq = (d(u, v)/dX_i) B_i.
-
-Gauge. Moving, turning or scaling the free plate is undone by the poses, seven directions
-G (3n, 7) along which the residuals do not change. Adding kappa G G^T to the normal equations
-fixes them without touching anything else: the deviations come out with G^T q = 0, no net
-motion, turn or scale, whatever kappa. A prior, the deviations' standard deviations in and out
-of the plane as the user knows them, adds sigma^2 / s^2 to the diagonal instead, where sigma
-is the noise of the corners; it is what lets few views carry a free plate.
-
-Estimating the plate together with the camera, and refusing where the views cannot carry it.
+The solve starts from the solution for the board as it is drawn and adds the deviations
+(``parametrisation.py``) to the unknowns. It is repeated where a prior or the corners' covariances
+are given, because both are weighed against a noise that the better board lowers. A shape is refused
+if there are too few views for it, or if some combination of its unknowns is left undetermined;
+whether the shape stands in for the camera is checked by the caller.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from dataclasses import replace
 from typing import NamedTuple
 
 import numpy as np
-import scipy
 
 from calibgui.engine.arrays import Array, IntArray
 from calibgui.engine.boards.shape import BoardShape, BoardShapeModel, BoardShapePrior
-from calibgui.engine.calibration import covariances
-from calibgui.engine.calibration.observations import Observations, boards, chunks
-from calibgui.engine.calibration.refinement.levenberg_marquardt import Solution, minimise
-from calibgui.engine.calibration.refinement.normal_equations import (
-    Following,
-    compiled,
-    eq10,
-    eq10_rows,
-    linearised,
-    residuals,
-    transposed,
+from calibgui.engine.calibration.board_shape.parametrisation import (
+    displace_board_points,
+    index_board_points,
+    make_basis,
+    make_board_shape_problem,
+    make_gauge,
 )
-from calibgui.engine.calibration.refinement.residuals import Linearised, State
-from calibgui.engine.calibration.refinement.schur import NormalAt, NormalEquations, schur, summed
-from calibgui.engine.calibration.refinement.whitening import model_variance, weighted
+from calibgui.engine.calibration.observations import Observations
+from calibgui.engine.calibration.refinement import covariances
+from calibgui.engine.calibration.refinement.levenberg_marquardt import Solution, minimise
+from calibgui.engine.calibration.refinement.residuals import BoardMotion, State, compute_residuals
+from calibgui.engine.calibration.refinement.schur import (
+    eliminate_poses,
+)
+from calibgui.engine.calibration.refinement.whitening import (
+    estimate_model_variance,
+    whiten_observations,
+)
 from calibgui.engine.calibration.result import Cost, Report
 from calibgui.engine.calibration.result_assembly import Estimate
-from calibgui.engine.camera.models import MODELS
 from calibgui.engine.errors import CalibrationError
 from calibgui.engine.geometry import rotations
 
-_TOGETHER = 512
-"""Views whose compiled products are held at once; 11 MB for 156 corners."""
-
-
-def corners_of(observations: Observations) -> tuple[Array, IntArray]:
-    """The plate's distinct corners (n, 2) mm, and which of them each observation is (K, N)."""
-    first, like = boards(observations)
-    flat = np.round(observations.xy[first, :, :2].reshape(-1, 2), 9)
-    points, index = np.unique(flat, axis=0, return_inverse=True)
-    return points, index.reshape(len(first), -1)[like].astype(np.int64)
-
-
-def basis(model: BoardShapeModel, points: Array) -> Array:
-    """B (n, 3, Q) of a model, for nominal points (n, 2) mm."""
-    n = len(points)
-    if model is BoardShapeModel.FREE:
-        return np.eye(3 * n).reshape(n, 3, 3 * n)
-    low, high = points.min(axis=0), points.max(axis=0)
-    centred = points - (low + high) / 2
-    B = np.zeros((n, 3, 0 if model is BoardShapeModel.NOMINAL else 2))
-    if model is BoardShapeModel.AFFINE:
-        B[:, 1, 0] = B[:, 0, 1] = centred[:, 1]
-    elif model is BoardShapeModel.BOW:
-        B[:, 2] = 1 - (2 * centred / (high - low)) ** 2
-    return B
-
-
-def gauge(points: Array) -> Array:
-    """G (3n, 7), orthonormal: motions, turns and scaling of the plate (n, 2)."""
-    centred = np.column_stack([points - points.mean(axis=0), np.zeros(len(points))])
-    columns = [np.broadcast_to(axis, centred.shape) for axis in np.eye(3)]
-    columns += [np.cross(axis, centred) for axis in np.eye(3)]
-    columns.append(centred)
-    return np.linalg.qr(np.stack([c.ravel() for c in columns], axis=1))[0]
-
-
-def board_shape_problem(
-    observations: Observations,
-    model: str,
-    free: IntArray,
-    points: Array,
-    index: IntArray,
-    B: Array,
-    stiffness: Array,
-) -> NormalAt:
-    """The normal equations of camera, plate and poses together.
-
-    Args:
-        observations: the views, on the nominal plate.
-        model: the lens, a key of ``lens.MODELS``.
-        free: (P,) indices of the camera's parameters that may move.
-        points: (n, 2) the plate's corners, mm.
-        index: (K, N) which of them each observation is.
-        B: (n, 3, Q) basis of the deviations.
-        stiffness: (Q, Q) added to J^T J for q: prior or gauge.
-
-    Returns:
-        A function of a state whose `params` are the camera's parameters followed by q.
-    """
-    P, Q, K = len(free), B.shape[2], len(index)
-
-    def normal_at(state: State) -> NormalEquations:
-        q = state.params[-Q:]
-        camera = state._replace(params=state.params[:-Q])
-        bent = deviated(observations, points, index, B @ q)
-        U, W, V = np.zeros((P + Q, P + Q)), np.empty((K, P + Q, 6)), np.empty((K, 6, 6))
-        U[P:, P:] = stiffness
-        shared, pose = np.append(np.zeros(P), stiffness @ q), np.empty((K, 6))
-        costs = np.empty(K)
-        products = corner_products(camera, bent, model, free, index, len(B))
-        for views, A, D, total in products:
-            costs[views] = A[:, -1, -1]
-            U[:P, :P] += A[:, :P, :P].sum(axis=0)
-            U[P:, :P] += _contracted(total[None, ..., :P], B)[0]
-            _add_own_blocks(U[P:, P:], total[..., P + 1 :], B)
-            W[views, :P], W[views, P:] = A[:, :P, P:-1], _contracted(D, B)
-            V[views], pose[views] = A[:, P:-1, P:-1], A[:, P:-1, -1]
-            shared[:P] += A[:, :P, -1].sum(axis=0)
-            shared[P:] += _contracted(total[None, ..., P : P + 1], B)[0, :, 0]
-        U[:P, P:] = U[P:, :P].T
-        cost, costs = summed(costs)
-        return NormalEquations(U, W, V, shared, pose, cost + float(q @ stiffness @ q), costs)
-
-    return normal_at
-
-
-def corner_products(
-    state: State,
-    observations: Observations,
-    model: str,
-    free: IntArray,
-    index: IntArray,
-    count: int,
-    with_poses: bool = True,
-) -> Iterator[tuple[slice, Array, Array, Array]]:
-    """Products of the columns [camera, pose, r] and of the plate's corners', some views at a time.
-
-    Args:
-        state: camera and poses.
-        observations: the views, on the plate as it is.
-        model: the lens, a key of ``lens.MODELS``.
-        free: (P,) indices of the camera's parameters that may move.
-        index: (K, N) which of the plate's corners each observation is.
-        count: n, their number.
-        with_poses: whether to form the products with the poses, which take the most room.
-
-    Returns:
-        The views, and as ``kernels.plate.products``: (k, P + 7, P + 7) of the first columns with
-        each other; (k, n, 3, 6) of the three columns of each corner with the pose's; (n, 3, P + 4)
-        of these with the camera's, with r and with themselves, summed over the views.
-    """
-    K = len(index)
-    if compiled(model):
-        from calibgui.engine.kernels import board_shape  # takes a while: only when used
-
-        lens, rows = eq10(model, state.params), eq10_rows(model, free)
-        for begin in range(0, K, _TOGETHER):
-            part = slice(begin, min(begin + _TOGETHER, K))
-            R, T, views = state.R[part], state.T[part], transposed(observations.part(part))
-            yield (
-                part,
-                *board_shape.products(lens, R, T, views, rows, index[part], count, with_poses),
-            )
-        return
-    for part in chunks(K):
-        with np.errstate(all="ignore"):  # a wild trial overflows; its cost says so
-            whole = linearised(state, observations, part, MODELS[model], Cost.IMAGE, 1.0)
-        A, D = _products(whole, state.R[part], free, index[part], observations.mask[part], count)
-        P = len(free)
-        ours, own = [*range(P), P + 6], D[..., P + 7 :]
-        total = np.concatenate([D[..., ours], own], axis=-1).sum(axis=0)
-        yield part, A, D[..., P : P + 6], total
-
-
-def on_board_shape(observations: Observations, board_shape: BoardShape) -> Observations:
-    """The observations with the corners where a known plate has them.
-
-    Raises:
-        CalibrationError: if a corner is not one of the plate's.
-    """
-    found = scipy.spatial.cKDTree(board_shape.nominal).query(observations.xy[..., :2])
-    distance, index = np.asarray(found[0]), np.asarray(found[1], dtype=np.int64)
-    if distance.max() > 1e-3:
-        raise CalibrationError(
-            "The views show corners that the given plate does not have.",
-            "Use the plate file made with this target, squares of the same size and the same "
-            "origin.",
-        )
-    return deviated(observations, board_shape.nominal, index, board_shape.deviation)
-
-
-def deviated(observations: Observations, points: Array, index: IntArray, d: Array) -> Observations:
-    """The observations on a plate with deviations d (n, 3) mm from its points (n, 2 or 3)."""
-    places = np.array(d)
-    places[:, : points.shape[1]] += points
-    return replace(observations, xy=places[index])
-
-
-def _products(
-    whole: Linearised, R: Array, free: IntArray, index: IntArray, mask: Array, count: int
-) -> tuple[Array, Array]:
-    """Products of the columns [camera, pose, r] of some views.
-
-    Returns:
-        (K, P + 7, P + 7) with each other, and (K, n, 3, P + 10) with the three columns of the
-        plate's corners, by the corner's number; the last three are those columns themselves.
-    """
-    r, by_params, by_pose = whole
-    J = np.concatenate([by_params[..., free], by_pose, r[..., None]], axis=-1)
-    rows = J.reshape(len(J), -1, J.shape[-1])
-    by_corner = by_pose[..., 3:] @ R[:, None]
-    each = np.swapaxes(by_corner, -1, -2) @ np.concatenate([J, by_corner], axis=-1)
-    D = np.zeros((len(J), count, 3, J.shape[-1] + 3))
-    views, places = np.nonzero(mask)
-    D[views, index[views, places]] = each[views, places]
-    return np.swapaxes(rows, 1, 2) @ rows, D
-
-
-def _contracted(D: Array, B: Array) -> Array:
-    """(K, Q, m) sum over the corners of B_i^T D_ki, for D (K, n, 3, m)."""
-    count, _, Q = B.shape
-    if 3 * count == Q:  # the free plate's basis is the identity
-        return D.reshape(len(D), Q, -1)
-    return np.swapaxes(B.reshape(3 * count, Q), 0, 1) @ D.reshape(len(D), 3 * count, -1)
-
-
-def _add_own_blocks(U: Array, H: Array, B: Array) -> None:
-    """Add to U (Q, Q) the sum over the corners of B_i^T H_i B_i, for H (n, 3, 3)."""
-    count, _, Q = B.shape
-    if 3 * count == Q:
-        place = np.arange(Q).reshape(count, 3)
-        U[place[:, :, None], place[:, None, :]] += H
-    else:
-        U += np.einsum("iaq,iab,ibr->qr", B, H, B)
-
-
-_LEAST_VIEWS = {BoardShapeModel.AFFINE: 3, BoardShapeModel.BOW: 3, BoardShapeModel.FREE: 6}
-"""Views without which the model follows the noise (a free plate without a prior)."""
-_LEAST_SEEN = 4
-"""Views that must show every corner of a free plate without a prior."""
-_ROUNDS = 3
-"""Solves until prior and weights have settled."""
-_RANK = 1e-9
-"""Information left (``uncertainty.py``) below which a plate is not determined."""
+_MIN_VIEWS = {BoardShapeModel.AFFINE: 3, BoardShapeModel.BOW: 3, BoardShapeModel.FREE: 6}
+"""Number of views below which a model without a prior follows the noise and is refused."""
+_MIN_VIEWS_OF_CORNER = 4
+"""Number of views that must show every corner of a free board without a prior."""
+_SOLVES = 3
+"""Number of solves where a prior or covariances are given; the noise hardly changes after them."""
+_MIN_INFORMATION = 1e-9
+"""Information left (``covariances.invert_information``) below which a shape is undetermined."""
 
 
 def fit_board_shape(
@@ -268,73 +57,79 @@ def fit_board_shape(
     prior: BoardShapePrior | None,
     report: Report | None,
 ) -> Estimate:
-    """Estimate the plate with everything else, from the solution for the nominal one.
+    """Fit the board's shape with camera and poses, from the solution for the board as drawn.
 
     Args:
-        nominal: the converged Stage II with the image cost.
-        observations: the views on the nominal plate.
-        model: the lens, a key of ``lens.MODELS``.
+        nominal: the minimum with the image cost for the board as it is drawn.
+        observations: the views, on the board as it is drawn.
+        model: the lens model, a key of ``camera.models.MODELS``.
         free: (P,) indices of the camera's parameters that may move.
-        shape: affine, bow or free.
-        prior: of a free plate's corners.
-        report: told of each iteration.
+        shape: the model of the deviations: affine, bow or free.
+        prior: what is known beforehand of the corners of a free board.
+        report: a function that is called with each iteration.
 
     Raises:
-        CalibrationError: if the views cannot determine the plate, with the reason.
+        CalibrationError: if the views cannot determine the shape; the message says why.
     """
-    points, index = corners_of(observations)
-    _check(observations, index, len(points), shape, prior)
-    B = basis(shape, points)
+    points, index = index_board_points(observations)
+    _check_views(observations, index, len(points), shape, prior)
+    B = make_basis(shape, points)
     gauged = prior is None and shape is BoardShapeModel.FREE
-    G = gauge(points) if gauged else np.zeros((B.shape[2], 0))
-    bend = _Bend(points, index, B, G, prior)
-    found = _solved(nominal, observations, model, free, bend, report)
-    inverse, left = covariances.shared_inverse(schur(found.solution.normal))
-    if left < _RANK:
+    G = make_gauge(points) if gauged else np.zeros((B.shape[2], 0))
+    deviations = _Deviations(points, index, B, G, prior)
+    joint = _solve_jointly(nominal, observations, model, free, deviations, report)
+    inverse, left = covariances.invert_information(eliminate_poses(joint.solution.normal))
+    if left < _MIN_INFORMATION:
         raise CalibrationError(
-            f"These views do not determine the plate's shape ({shape.value}).",
+            f"These views do not determine the board's shape ({shape.value}).",
             "Add views tilted in different directions that show the whole board, "
-            "state a prior, or keep the nominal plate.",
+            "state a prior, or keep the board as it is drawn.",
         )
     P = len(free)
-    covariance = _without_gauge(found.sigma2 * inverse, G, P)
-    camera, of_board_shape = covariance[:P, :P], covariance[P:, P:]
-    rvecs = rotations.rotation_vector(found.state.R)
+    covariance = _remove_gauge(joint.sigma2 * inverse, G, P)
+    camera, shape_covariance = covariance[:P, :P], covariance[P:, P:]
+    rvecs = rotations.vector_from_rotation(joint.state.R)
     motion = np.linalg.solve(camera, covariance[:P, P:]).T
     return Estimate(
-        solution=found.solution,
-        state=found.state,
-        observations=found.observations,
-        sigma2=found.sigma2,
-        camera=camera,
-        poses=covariances.pose_covariances(found.solution.normal, covariance, rvecs, found.sigma2),
-        by_noise=camera,
-        board_shape=BoardShape(shape, points, found.deviation, _spread(B, of_board_shape)),
-        shape_unknowns=bend.unknowns,
-        following=Following(B @ motion, index),
+        solution=joint.solution,
+        state=joint.state,
+        observations=joint.observations,
+        sigma2=joint.sigma2,
+        camera_covariance=camera,
+        pose_covariances=covariances.compute_pose_covariances(
+            joint.solution.normal, covariance, rvecs, joint.sigma2
+        ),
+        noise_covariance=camera,
+        board_shape=BoardShape(shape, points, joint.deviation, _compute_sigma(B, shape_covariance)),
+        shape_unknowns=deviations.unknowns,
+        board_motion=BoardMotion(B @ motion, index),
     )
 
 
-class _Bend(NamedTuple):
-    """How the corners may deviate (``deviations.py``), and what holds them."""
+class _Deviations(NamedTuple):
+    """The deviations that are allowed (``parametrisation.py``), and the matrix that holds them."""
 
     points: Array
-    """(n, 2) the plate's corners, mm."""
+    """(n, 2) the board's corners, mm."""
     corner: IntArray
-    """(K, N) which of them each observation is."""
+    """(K, N) index among these of each observation."""
     B: Array
     """(n, 3, Q) basis of the deviations."""
     G: Array
-    """(Q, 7) gauge of a free plate without a prior; (Q, 0) otherwise."""
+    """(Q, 7) gauge of a free board without a prior; (Q, 0) otherwise."""
     prior: BoardShapePrior | None
 
     @property
     def unknowns(self) -> int:
-        """Of the plate, without its gauge."""
+        """Number of unknowns, less those of the gauge."""
         return self.B.shape[2] - self.G.shape[1]
 
-    def stiffness(self, sigma2: float) -> Array:
-        """(Q, Q) what is added to J^T J for the plate: the prior, or the gauge."""
+    def make_stiffness(self, sigma2: float) -> Array:
+        """Make the (Q, Q) matrix of the prior or the gauge, which is added to J^T J.
+
+        Args:
+            sigma2: variance of one residual coordinate, px^2.
+        """
         count, _, Q = self.B.shape
         if self.prior is None or 3 * count != Q:
             return self.G @ self.G.T
@@ -342,41 +137,43 @@ class _Bend(NamedTuple):
         return np.diag(np.tile(sigma2 / s**2, count))
 
 
-class _Found(NamedTuple):
-    """A solution with the plate's unknowns, and what it makes of camera and corners."""
+class _JointSolution(NamedTuple):
+    """A solution with the unknowns of the board shape, and the same taken apart."""
 
     solution: Solution
     state: State
-    """Camera and poses alone."""
+    """Camera and poses, without the unknowns of the board shape."""
     observations: Observations
-    """With the corners where the plate has them."""
+    """The views, with the corners where the board has them."""
     deviation: Array
-    """(n, 3) mm."""
+    """(n, 3) deviations of the board's corners, mm."""
     sigma2: float
-    """Variance of one residual coordinate."""
+    """Variance of one residual coordinate, px^2."""
 
 
-def _solved(
+def _solve_jointly(
     nominal: Solution,
     observations: Observations,
     model: str,
     free: IntArray,
-    bend: _Bend,
+    deviations: _Deviations,
     report: Report | None,
-) -> _Found:
-    """Camera, poses and plate together, from the solution for the nominal plate.
+) -> _JointSolution:
+    """Solve for camera, poses and board shape together, from the solution for the drawing.
 
-    Prior and weights are in units of the corners' noise, which the better plate itself lowers.
+    Prior and weights are in units of the corners' noise, which the better board itself lowers.
     """
-    Q, P = bend.B.shape[2], len(nominal.state.params)
+    Q, P = deviations.B.shape[2], len(nominal.state.params)
     known = len(free) + nominal.normal.pose.size
-    sigma2 = covariances.variance(nominal.normal.cost, observations.count, known)
+    sigma2 = covariances.estimate_variance(nominal.normal.cost, observations.count, known)
     start = nominal.state._replace(params=np.append(nominal.state.params, np.zeros(Q)))
     solution = nominal._replace(state=start)
-    once = bend.prior is None and observations.cov is None
-    for _ in range(1 if once else _ROUNDS):
+    is_solved_once = deviations.prior is None and observations.cov is None
+    for _ in range(1 if is_solved_once else _SOLVES):
         solution = minimise(
-            board_shape_problem(observations, model, free, *bend[:3], bend.stiffness(sigma2)),
+            make_board_shape_problem(
+                observations, model, free, *deviations[:3], deviations.make_stiffness(sigma2)
+            ),
             solution.state,
             np.append(free, P + np.arange(Q)),
             observations.count,
@@ -385,51 +182,57 @@ def _solved(
             earlier=solution.history,
         )
         state = solution.state._replace(params=solution.state.params[:P])
-        deviation = bend.B @ solution.state.params[P:]
-        bent = deviated(observations, bend.points, bend.corner, deviation)
-        unknowns = known + bend.unknowns
+        deviation = deviations.B @ solution.state.params[P:]
+        displaced = displace_board_points(
+            observations, deviations.points, deviations.corner, deviation
+        )
+        unknowns = known + deviations.unknowns
         if observations.cov is not None:
-            miss, _ = residuals(state, bent, model, Cost.IMAGE)
-            observations = weighted(observations, model_variance(observations, miss, unknowns))
-        sigma2 = covariances.variance(solution.normal.cost, observations.count, unknowns)
-    return _Found(solution, state, bent, deviation, sigma2)
+            miss, _ = compute_residuals(state, displaced, model, Cost.IMAGE)
+            observations = whiten_observations(
+                observations, estimate_model_variance(observations, miss, unknowns)
+            )
+        sigma2 = covariances.estimate_variance(solution.normal.cost, observations.count, unknowns)
+    return _JointSolution(solution, state, displaced, deviation, sigma2)
 
 
-def _check(
+def _check_views(
     observations: Observations,
     index: IntArray,
     count: int,
     shape: BoardShapeModel,
     prior: BoardShapePrior | None,
 ) -> None:
+    """Refuse views that are too few for a model of the board's shape."""
     K = len(observations.mask)
-    if prior is None and _LEAST_VIEWS[shape] > K:
+    if prior is None and _MIN_VIEWS[shape] > K:
         raise CalibrationError(
-            f"{K} views cannot carry the plate model {shape.value!r}, which needs "
-            f"{_LEAST_VIEWS[shape]}.",
-            "Add views, or keep the nominal plate.",
+            f"{K} views cannot carry the board shape {shape.value!r}, which needs "
+            f"{_MIN_VIEWS[shape]}.",
+            "Add views, or keep the board as it is drawn.",
         )
     if shape is not BoardShapeModel.FREE or prior is not None:
         return
     seen = np.bincount(index[observations.mask > 0], minlength=count)
-    if (rare := int((seen < _LEAST_SEEN).sum())) > 0:
+    if (rare := int((seen < _MIN_VIEWS_OF_CORNER).sum())) > 0:
         raise CalibrationError(
-            f"{rare} of the plate's {count} corners are seen in fewer than {_LEAST_SEEN} views.",
-            "A free plate needs every corner in several views: add views of those parts, "
-            "state a prior, or use the plate models affine or bow.",
+            f"{rare} of the board's {count} corners are seen in fewer than "
+            f"{_MIN_VIEWS_OF_CORNER} views.",
+            "A free board shape needs every corner in several views: add views of those parts, "
+            "state a prior, or use the board shapes affine or bow.",
         )
 
 
-def _spread(B: Array, covariance: Array) -> Array:
-    """(n, 3) one standard deviation, mm, of the corners' places from the covariance of q."""
+def _compute_sigma(B: Array, covariance: Array) -> Array:
+    """Compute the standard deviations (n, 3), mm, of the corners from the covariance of q."""
     flat = B.reshape(-1, B.shape[2])
-    free = len(flat) == len(covariance)  # whose basis is the identity
+    free = len(flat) == len(covariance)  # its basis is the identity
     variance = np.diag(covariance) if free else np.sum(flat @ covariance * flat, axis=1)
     return np.sqrt(np.maximum(variance, 0.0)).reshape(-1, 3)
 
 
-def _without_gauge(covariance: Array, G: Array, P: int) -> Array:
-    """The covariance with the directions of the gauge, fixed by definition, taken out."""
+def _remove_gauge(covariance: Array, G: Array, P: int) -> Array:
+    """Remove the directions of the gauge, which are fixed by definition, from a covariance."""
     left = covariance.copy()
     left[P:] -= G @ (G.T @ left[P:])
     left[:, P:] -= (left[:, P:] @ G) @ G.T

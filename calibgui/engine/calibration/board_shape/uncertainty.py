@@ -1,20 +1,23 @@
-"""What a nominal plate leaves unknown: wider uncertainties where the residuals are not noise.
+"""The uncertainty that an imperfect board adds to a calibration that takes it for the drawing.
 
-If the plate is as drawn, the residual of a corner, carried back to its place on the plate,
+If the board is as drawn, the residual of a corner, carried back to its place on the board,
 averages out over the views. With the derivatives J_ik of corner i's image in view k by its
 place (2 x 3), g_i = sum_k J_ik^T r_ik and H_i = sum_k J_ik^T J_ik, noise alone makes
 
     chi^2 = sum_i g_i^T H_i^-1 g_i / sigma^2
 
 at most about three a corner, because camera and poses have been fitted to the same residuals.
-An excess is the plate's: deviations of variance s^2 add s^2 tr H_i to each term, which
+An excess is the board's: deviations of variance s^2 add s^2 tr H_i to each term, which
 estimates s^2.
 
 Treated as unknowns with that variance (stiffness sigma^2 / s^2), the deviations can be solved
-for by one linear step, which in turn improves s^2 and sigma^2 (expectation-maximisation). It
-moves camera and poses by b, and leaves them with the covariance C of the joint estimate. The
-nominal plate's answer is off by b with uncertainty C, so that its mean square error is
-C + b b^T; this is reported in place of sigma^2 (J^T J)^-1.
+for by one linear step, which in turn improves s^2 and sigma^2 (expectation-maximisation, Dempster,
+Laird and Rubin 1977). It moves camera and poses by b, and leaves them with the covariance C of the
+joint estimate. The camera for the board as drawn is off by b with uncertainty C, so that its mean
+square error is C + b b^T; this is reported in place of sigma^2 (J^T J)^-1.
+
+The camera itself is not moved: the test shows that the board is not as drawn, but a board shape is
+estimated only if the user asks for it.
 """
 
 from __future__ import annotations
@@ -23,58 +26,60 @@ import numpy as np
 
 from calibgui.engine.arrays import Array, IntArray
 from calibgui.engine.boards.shape import BoardShapeModel
-from calibgui.engine.calibration import covariances
-from calibgui.engine.calibration.board_shape.estimate import (
-    basis,
-    board_shape_problem,
-    corner_products,
-    corners_of,
+from calibgui.engine.calibration.board_shape.parametrisation import (
+    index_board_points,
+    iterate_corner_products,
+    make_basis,
+    make_board_shape_problem,
 )
 from calibgui.engine.calibration.observations import Observations
-from calibgui.engine.calibration.refinement.schur import schur, step
+from calibgui.engine.calibration.refinement import covariances
+from calibgui.engine.calibration.refinement.schur import eliminate_poses, solve_reduced
 from calibgui.engine.calibration.result_assembly import Estimate
 from calibgui.engine.geometry import rotations
 
-_SEEN = 3
-"""Views that must show a corner for it to be judged."""
-_ROUNDS = 3
-"""Of expectation-maximisation for s^2 and sigma^2."""
-_ALARM = 5.0
-"""Excess of chi^2, in standard deviations, that counts as evidence."""
+_MIN_VIEWS_OF_CORNER = 3
+"""Number of views that must show a corner for it to enter the test."""
+_ITERATIONS = 3
+"""Number of steps of expectation-maximisation for s^2 and sigma^2."""
+_MIN_EXCESS = 5.0
+"""Excess of chi^2, in its standard deviations, from which the board counts as imperfect."""
 
 
-def with_board_shape_error(
+def add_board_shape_error(
     estimate: Estimate, observations: Observations, model: str, free: IntArray
 ) -> Estimate:
-    """The estimate with the uncertainty that an imperfect plate adds, if the residuals show one.
+    """Widen an estimate by the uncertainty of an imperfect board, if the residuals show one.
 
     Args:
-        estimate: with the image cost on the nominal plate.
+        estimate: the estimate with the image cost for the board as it is drawn.
         observations: the views.
-        model: the lens, a key of ``lens.MODELS``.
+        model: the lens model, a key of ``camera.models.MODELS``.
         free: (P,) indices of the camera's parameters that may move.
     """
-    points, index = corners_of(observations)
-    g, H, seen = _scores(estimate, observations, model, index, len(points))
-    judged = seen >= _SEEN
-    if not judged.any() or not estimate.sigma2 > 0:
+    points, index = index_board_points(observations)
+    g, H, seen = _sum_scores(estimate, observations, model, index, len(points))
+    tested = seen >= _MIN_VIEWS_OF_CORNER
+    if not tested.any() or not estimate.sigma2 > 0:
         return estimate
-    terms = np.einsum("ia,ia->i", g[judged], np.linalg.solve(H[judged], g[judged, :, None])[..., 0])
-    expected = 3 * int(judged.sum())
+    terms = np.einsum("ia,ia->i", g[tested], np.linalg.solve(H[tested], g[tested, :, None])[..., 0])
+    expected = 3 * int(tested.sum())
     excess = float(terms.sum()) / estimate.sigma2 - expected
-    if excess < _ALARM * np.sqrt(2 * expected):
+    if excess < _MIN_EXCESS * np.sqrt(2 * expected):
         return estimate
-    s2 = excess * estimate.sigma2 / float(np.trace(H[judged], axis1=1, axis2=2).sum())
-    return _widened(estimate, observations, model, free, points, index, s2)
+    s2 = excess * estimate.sigma2 / float(np.trace(H[tested], axis1=1, axis2=2).sum())
+    return _widen(estimate, observations, model, free, points, index, s2)
 
 
-def _scores(
+def _sum_scores(
     estimate: Estimate, observations: Observations, model: str, index: IntArray, count: int
 ) -> tuple[Array, Array, IntArray]:
-    """g (n, 3), H (n, 3, 3) and the number of views of every corner of the plate."""
+    """Sum g (n, 3), H (n, 3, 3) and the number of views of every corner of the board."""
     g, H = np.zeros((count, 3)), np.zeros((count, 3, 3))
     none_free = np.zeros(0, dtype=np.int64)
-    products = corner_products(estimate.state, observations, model, none_free, index, count, False)
+    products = iterate_corner_products(
+        estimate.state, observations, model, none_free, index, count, False
+    )
     for _, _, _, total in products:
         g += total[..., 0]
         H += total[..., 1:]
@@ -82,7 +87,7 @@ def _scores(
     return g, H, seen.astype(np.int64)
 
 
-def _widened(
+def _widen(
     estimate: Estimate,
     observations: Observations,
     model: str,
@@ -91,33 +96,33 @@ def _widened(
     index: IntArray,
     s2: float,
 ) -> Estimate:
-    """The estimate with C + b b^T for deviations of variance s2, mm^2."""
-    B = basis(BoardShapeModel.FREE, points)
+    """Replace the covariances by C + b b^T for deviations of variance s2, mm^2."""
+    B = make_basis(BoardShapeModel.FREE, points)
     P, Q = len(free), B.shape[2]
     state = estimate.state._replace(params=np.append(estimate.state.params, np.zeros(Q)))
-    normal = board_shape_problem(observations, model, free, points, index, B, np.zeros((Q, Q)))(
-        state
-    )
+    normal = make_board_shape_problem(
+        observations, model, free, points, index, B, np.zeros((Q, Q))
+    )(state)
     unknowns = P + normal.pose.size + Q
     sigma2 = estimate.sigma2
-    reduced = schur(normal)
+    reduced = eliminate_poses(normal)
     stiffness = np.zeros_like(normal.U)
-    for _ in range(_ROUNDS):
+    for _ in range(_ITERATIONS):
         stiffness[P:, P:] = np.eye(Q) * sigma2 / s2
-        stiffened = reduced.stiffened(stiffness)
-        by_shared, by_pose = step(normal, stiffened)
+        stiffened = reduced.add_stiffness(stiffness)
+        by_shared, by_pose = solve_reduced(normal, stiffened)
         gained = -float(by_shared @ normal.shared + np.sum(by_pose * normal.pose))
-        left = covariances.variance(normal.cost - gained, observations.count, unknowns)
+        left = covariances.estimate_variance(normal.cost - gained, observations.count, unknowns)
         sigma2 = left if left > 0 else sigma2
-        covariance = covariances.shared_covariance(stiffened, sigma2)
+        covariance = covariances.compute_shared_covariance(stiffened, sigma2)
         s2 = float(by_shared[P:] @ by_shared[P:] + np.trace(covariance[P:, P:])) / Q
     b = by_shared[:P]
-    rvecs = rotations.rotation_vector(estimate.state.R)
-    shift = (covariances.pose_by_local(rvecs) @ by_pose[..., None])[..., 0]
+    rvecs = rotations.vector_from_rotation(estimate.state.R)
+    shift = (covariances.differentiate_poses(rvecs) @ by_pose[..., None])[..., 0]
     rms = float(np.sqrt(np.mean(np.sum(by_shared[P:].reshape(-1, 3) ** 2, axis=1))))
     return estimate._replace(
-        camera=covariance[:P, :P] + np.outer(b, b),
-        poses=covariances.pose_covariances(normal, covariance, rvecs, sigma2)
+        camera_covariance=covariance[:P, :P] + np.outer(b, b),
+        pose_covariances=covariances.compute_pose_covariances(normal, covariance, rvecs, sigma2)
         + shift[:, :, None] * shift[:, None, :],
         board_shape_error=rms,
     )

@@ -1,7 +1,11 @@
 """The cosines' equation: one view's pose, aspect ratio and focal lengths (paper 3.5).
 
-With D = r33 + tZ the backward homography of an isotropic metric plate is (eq. 21, both plate
-axes in units of fx)
+A single tilted view of a plane determines more than its pose: the paper's equation in the cosines
+of the tilt gives the pixels' aspect ratio, and with it both focal lengths. It is fragile, and here
+a diagnosis in the table of Stage I.
+
+With D = r33 + tZ the backward homography of an isotropic metric plane is (eq. 21, both of
+its axes in units of fx)
 
     alpha1j = r1j / D      alpha2j = r r2j / D      gammaj = r3j / (fx D),     r = fy / fx,
 
@@ -28,6 +32,7 @@ no result of the engine depends on a single view's value.
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from itertools import product
 from typing import NamedTuple
 
@@ -35,18 +40,18 @@ import numpy as np
 import scipy
 
 from calibgui.engine.arrays import Array, IntArray
-from calibgui.engine.geometry.rotations import paper_rotation
+from calibgui.engine.geometry.rotations import rotation_from_paper_angles
 
-_SEARCH = np.linspace(0.5, 2.0, 1501)
-"""Aspect ratios among which the zero of g(r) closest to 1 is sought."""
-
-
-_LEAST = 1e-6
+_ASPECT_RATIOS = np.linspace(0.5, 2.0, 1501)
+"""Aspect ratios between which the zero of g(r) closest to 1 is searched for on the literal grid."""
+_MIN_TILT = 1e-6
 """Tilt about either axis, rad, below which eq. 25 divides rounding errors by each other."""
+_ROUNDING = 1e-14
+"""Value of g(r), relative to its terms, that is zero but for rounding errors."""
 
 
 class ViewGeometry(NamedTuple):
-    """What backward homographies (..., 3, 3) say of pose and focal lengths (eq. 25, 28)."""
+    """Pose and focal lengths from backward homographies (..., 3, 3) (eq. 25, 28)."""
 
     omega: Array
     phi: Array
@@ -59,14 +64,14 @@ class ViewGeometry(NamedTuple):
 
 
 def _normalised(backward: Array, r: Array, literal: bool) -> tuple[Array, ...]:
-    """alpha11, alpha12, alpha21, alpha22, gamma1, gamma2 with the grid's anisotropy taken out."""
+    """Return alpha11, alpha12, alpha21, alpha22, gamma1, gamma2 without the grid's anisotropy."""
     s = r if literal else np.ones_like(r)
     (a11, a12, _), (a21, a22, _), (g1, g2, _) = np.moveaxis(backward, (-2, -1), (0, 1))
     return a11 + 0 * s, s * a12, a21 / s, a22 + 0 * s, g1 + 0 * s, s * g2
 
 
 def _angles(backward: Array, r: Array, literal: bool) -> tuple[Array, Array, Array]:
-    """|omega|, |phi| and theta (eq. 25), NaN where the view leaves them open."""
+    """Return |omega|, |phi| and theta (eq. 25), NaN where the view does not determine them."""
     a11, a12, a21, a22, g1, g2 = _normalised(backward, r, literal)
     theta = np.arctan2(a12, a11)
     with np.errstate(invalid="ignore", divide="ignore"):
@@ -74,17 +79,18 @@ def _angles(backward: Array, r: Array, literal: bool) -> tuple[Array, Array, Arr
         second = np.tan(theta - np.arctan2(g2, g1))
         omega = np.arctan(np.sqrt(first * second))
         phi = np.arcsin(np.sqrt(first / second))
-    defined = np.minimum(omega, phi) > _LEAST
+    defined = np.minimum(omega, phi) > _MIN_TILT
     return np.where(defined, omega, np.nan), np.where(defined, phi, np.nan), theta
 
 
-def cosines_equation(backward: Array, r: Array, literal: bool = False) -> Array:
-    """g(r) of eq. 27.
+def evaluate_cosines_equation(backward: Array, r: Array, literal: bool = False) -> Array:
+    """Evaluate g(r) of eq. 27.
 
     Args:
         backward: (3, 3) backward homography in the paper's frame, principal point at zero.
         r: (n,) aspect ratios.
-        literal: the paper's grid, equal in pixels along both axes, instead of the metric plate.
+        literal: true for the paper's grid, equal in pixels along both axes, false for the metric
+            plane.
 
     Returns:
         (n,) NaN where the angles are undefined.
@@ -97,68 +103,105 @@ def cosines_equation(backward: Array, r: Array, literal: bool = False) -> Array:
     )
 
 
-def aspect_ratio(backward: Array, literal: bool = False) -> Array:
-    """(...) the root of the cosines' equation; NaN if the angles are undefined.
+def solve_aspect_ratio(backward: Array, literal: bool = False) -> Array:
+    """Return (...) the root of the cosines' equation; NaN if the angles are undefined.
 
-    Closed-form on the metric plate; on the literal grid the zero closest to 1 in [0.5, 2].
+    It has a closed form on the metric plane; on the literal grid it is the zero closest to 1 in
+    [0.5, 2].
+
+    Args:
+        backward: (..., 3, 3) as for `evaluate_cosines_equation`.
+        literal: as for `evaluate_cosines_equation`.
     """
     if literal:
         flat = backward.reshape(-1, 3, 3)
-        return np.array([_searched(H) for H in flat]).reshape(backward.shape[:-2])
+        return np.array([_search_aspect_ratio(H) for H in flat]).reshape(backward.shape[:-2])
     omega, phi, theta = _angles(backward, np.ones(backward.shape[:-2]), literal)
     cosines = np.cos(phi) * np.cos(theta) ** 2 / np.cos(omega)
     return np.asarray(np.linalg.det(backward[..., :2, :2]) * cosines / backward[..., 0, 0] ** 2)
 
 
-def _searched(backward: Array) -> float:
-    """The zero of g(r) on the literal grid that is closest to 1; NaN if there is none."""
+def _search_aspect_ratio(backward: Array) -> float:
+    """Return the zero of g(r) on the literal grid that is closest to 1; NaN if there is none."""
 
     def g(r: float) -> float:
-        return float(cosines_equation(backward, np.array([r]), literal=True)[0])
+        return float(evaluate_cosines_equation(backward, np.array([r]), literal=True)[0])
 
-    values = cosines_equation(backward, _SEARCH, literal=True)
+    values = evaluate_cosines_equation(backward, _ASPECT_RATIOS, literal=True)
     with np.errstate(invalid="ignore"):
         changes = np.flatnonzero(values[:-1] * values[1:] <= 0)
-    roots = [float(scipy.optimize.brentq(g, _SEARCH[i], _SEARCH[i + 1])) for i in changes]
+    roots = [
+        float(scipy.optimize.brentq(g, _ASPECT_RATIOS[i], _ASPECT_RATIOS[i + 1])) for i in changes
+    ]
+    roots += _search_root_pairs(g, values, _ROUNDING * float(backward[0, 0]) ** 2)
     return min(roots, key=lambda r: abs(r - 1), default=float("nan"))
 
 
-def view_geometry(backward: Array, literal: bool = False) -> ViewGeometry:
-    """Angles with their signs, normalised translation and focal lengths of views (eq. 25, 28).
+def _search_root_pairs(g: Callable[[float], float], values: Array, rounding: float) -> list[float]:
+    """Return the zeros of g that lie in pairs between neighbouring nodes of the search.
+
+    Such a pair changes no sign from node to node: it shows as a smallest |g| at a node. If the two
+    coincide, rounding errors can keep g from reaching 0.
+
+    Args:
+        g: the function.
+        values: its values at `_ASPECT_RATIOS`.
+        rounding: the size of |g| that is 0 but for rounding errors.
+    """
+    before, here, after = values[:-2], values[1:-1], values[2:]
+    with np.errstate(invalid="ignore"):
+        is_same_sign = (before * here > 0) & (here * after > 0)
+        is_smallest = (np.abs(here) <= np.abs(before)) & (np.abs(here) <= np.abs(after))
+    roots: list[float] = []
+    for i in np.flatnonzero(is_same_sign & is_smallest):
+        low, high, sign = _ASPECT_RATIOS[i], _ASPECT_RATIOS[i + 2], np.sign(here[i])
+        least = scipy.optimize.minimize_scalar(
+            lambda r, sign=sign: sign * g(r), bounds=(low, high), options={"xatol": 1e-12}
+        )
+        if least.fun < 0:
+            roots += [float(scipy.optimize.brentq(g, end, least.x)) for end in (low, high)]
+        elif least.fun <= rounding:
+            roots.append(float(least.x))
+    return roots
+
+
+def estimate_view_geometry(backward: Array, literal: bool = False) -> ViewGeometry:
+    """Estimate angles with their signs, normalised translation and focal lengths (eq. 25, 28).
 
     Args:
         backward: (..., 3, 3) backward homographies in the paper's frame, principal point at
-            zero, from reference coordinates in units that make the plate's sides alike.
+            zero, from reference coordinates in units that are the same along both of the plane's
+            axes.
         literal: as for `cosines_equation`.
 
     Returns:
         All NaN where a view does not determine its aspect ratio. Of the four combinations
         of signs the one whose homography is closest to the given one is taken.
     """
-    r = aspect_ratio(backward, literal)
+    r = solve_aspect_ratio(backward, literal)
     omega, phi, theta = _angles(backward, r, literal)
     theta = np.where(np.isfinite(omega), theta, np.nan)
     signs = np.array(list(product((1.0, -1.0), repeat=2))).reshape(4, 2, *[1] * r.ndim)
     with np.errstate(invalid="ignore", divide="ignore"):
-        miss, candidates = _with_angles(
+        miss, candidates = _evaluate_angles(
             backward, r, literal, signs[:, 0] * omega, signs[:, 1] * phi, theta
         )
     chosen = np.argmin(np.where(np.isnan(miss), np.inf, miss), axis=0)
-    return ViewGeometry(*(_taken(value, chosen) for value in candidates))
+    return ViewGeometry(*(_take_chosen(value, chosen) for value in candidates))
 
 
-def _taken(values: Array, chosen: IntArray) -> Array:
-    """Of values (4, ..., m) those numbered by `chosen` (...)."""
+def _take_chosen(values: Array, chosen: IntArray) -> Array:
+    """Return those of the values (4, ..., m) that are numbered by `chosen` (...)."""
     index = chosen.reshape(1, *chosen.shape, *[1] * (values.ndim - 1 - chosen.ndim))
     return np.take_along_axis(values, index, axis=0)[0]
 
 
-def _with_angles(
+def _evaluate_angles(
     backward: Array, r: Array, literal: bool, omega: Array, phi: Array, theta: Array
 ) -> tuple[Array, ViewGeometry]:
-    """The views' geometry under given angles (eq. 28), and how badly it explains them."""
+    """Return how badly given angles explain the views, and the geometry under them (eq. 28)."""
     a11, a12, a21, a22, g1, g2 = _normalised(backward, r, literal)
-    R = np.moveaxis(paper_rotation(omega, phi, theta), (-2, -1), (0, 1))
+    R = np.moveaxis(rotation_from_paper_angles(omega, phi, theta), (-2, -1), (0, 1))
     D = R[0, 0] / a11
     # Eq. 28 takes fx from gamma1 alone, which can vanish; its length is the stabler choice.
     fx = np.hypot(R[2, 0], R[2, 1]) / (np.hypot(g1, g2) * D)

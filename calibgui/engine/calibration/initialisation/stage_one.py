@@ -1,5 +1,9 @@
 """Stage I: each view registered on the reference plane by itself (paper 4.2).
 
+One view alone gives a first estimate of the lens: the centre and first coefficient of the
+correction with which a homography maps its corners best to the board's grid. No other view, and no
+focal length, is needed.
+
 Unknowns of a view, z_r = (xp, yp, k1, a11, a21, a12, a22, d1, d2, c1, c2). With
 dx = x - xp, dy = y - yp, r2 = dx^2 + dy^2 the corrected point is (eq. 31)
 
@@ -9,9 +13,9 @@ and the registered one (eq. 33), with P = c1 (psi1 - xp) + c2 (psi2 - yp) + 1,
 
     xi1 = (a11 psi1 + a12 psi2 + d1) / P,    xi2 = (a21 psi1 + a22 psi2 + d2) / P.
 
-Levenberg-Marquardt minimises the sum of |xi - x'|^2 (eq. 34) from the DLT homography and
-xp = yp = k1 = 0. The Jacobian is appendix B's, with a term that its (B1) leaves out because P
-depends on xp and yp as well:
+Levenberg-Marquardt (Marquardt 1963) minimises the sum of |xi - x'|^2 (eq. 34) from the DLT
+homography and xp = yp = k1 = 0. The Jacobian is appendix B's, with a term
+that its (B1) leaves out because P depends on xp and yp as well:
 
     d xi/dxp = [(a.1 - xi c1) dpsi1/dxp + (a.2 - xi c2) dpsi2/dxp + xi c1] / P   (yp: + xi c2).
 
@@ -25,18 +29,21 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from calibgui.engine import kernels
 from calibgui.engine.arrays import Array, BoolArray, IntArray
 from calibgui.engine.geometry import homography
+from calibgui.engine.kernels import with_kernel
 
 _MAX_ITERATIONS = 50
-_CONVERGED = 1e-10
-"""Decrease of the cost that the linear model still predicts, relative to the cost."""
+"""Number of accepted and rejected steps together, at most."""
+_TOLERANCE = 1e-10
+"""Decrease of the cost that the linear model predicts, relative to the cost, below which the
+iteration has converged."""
 _MAX_DAMPING = 1e8
+"""Damping, relative to the diagonal of J^T J, beyond which a view is given up."""
 
 
 @dataclass(frozen=True, eq=False, slots=True)
-class Prealignment:
+class StageOneRegistration:
     """Stage I of K views, in the paper's frame and units."""
 
     centre: Array
@@ -51,17 +58,18 @@ class Prealignment:
     rms: Array
     """(K,) root mean square length of the residual, reference px."""
     iterations: IntArray
+    """(K,) number of iterations."""
     converged: BoolArray
+    """(K,) true if the iteration converged."""
 
 
-def prealign(xy: Array, reference: Array, mask: Array) -> Prealignment:
+def register_views(xy: Array, reference: Array, mask: Array) -> StageOneRegistration:
     """Register every view on the reference plane.
 
     Args:
         xy: (K, N, 2) measured corners in the paper's frame, px.
         reference: (K, N, 2) the same corners x', y' on the reference plane, reference px.
-        mask: (K, N) what each corner's residual is multiplied with: 1 for a corner, 0 for
-            padding, between for one that is doubted.
+        mask: (K, N) factor of each corner's residual: 1 for a corner, 0 for padding.
     """
     count = mask.sum(axis=1)
     s = np.sqrt((xy**2 * mask[..., None]).sum(axis=(1, 2)) / count)
@@ -74,8 +82,8 @@ def prealign(xy: Array, reference: Array, mask: Array) -> Prealignment:
         [H[:, i, j] for i, j in ((0, 0), (1, 0), (0, 1), (1, 1), (0, 2), (1, 2), (2, 0), (2, 1))],
         axis=1,
     )
-    z, products, iterations, converged = (_compiled if kernels.COMPILED else iterated)(
-        z, x, goal, mask
+    z, products, iterations, converged = minimise_registration(
+        z, x, goal, mask, _MAX_ITERATIONS, _TOLERANCE, _MAX_DAMPING
     )
     normal, cost = products[:, :11, :11], products[:, 11, 11]
 
@@ -96,7 +104,7 @@ def prealign(xy: Array, reference: Array, mask: Array) -> Prealignment:
     inverse = np.linalg.pinv(normal, rcond=1e-12, hermitian=True)
     spread = np.sqrt(variance[:, None] * np.diagonal(inverse, axis1=1, axis2=2)[:, :3])
     units = np.stack([s, s, s**-2], axis=1)
-    return Prealignment(
+    return StageOneRegistration(
         centre=z[:, :2] * s[:, None],
         k1=k1 / s**2,
         forward=forward,
@@ -107,21 +115,23 @@ def prealign(xy: Array, reference: Array, mask: Array) -> Prealignment:
     )
 
 
-def registration_error(first: Prealignment, xy: Array, reference: Array) -> Array:
-    """(K, N) distance |xi - x'| that Stage I leaves between corners and grid, reference px.
+def measure_registration_error(first: StageOneRegistration, xy: Array, reference: Array) -> Array:
+    """Return (K, N) the distance |xi - x'| between corners and grid after Stage I, reference px.
 
     Args:
-        first: of these views.
-        xy: (K, N, 2) as for `prealign`.
-        reference: (K, N, 2) as for `prealign`.
+        first: Stage I of these views.
+        xy: (K, N, 2) as for `register_views`.
+        reference: (K, N, 2) as for `register_views`.
     """
     d = xy - first.centre[:, None]
     corrected = d * (1 + first.k1[:, None, None] * np.sum(d**2, axis=-1, keepdims=True))
-    return np.linalg.norm(homography.apply(first.forward, corrected) - reference, axis=-1)
+    return np.linalg.norm(
+        homography.apply_homography(first.forward, corrected) - reference, axis=-1
+    )
 
 
-def registration(z: Array, x: Array) -> tuple[Array, Array]:
-    """xi of eq. 33 and its Jacobian.
+def register_points(z: Array, x: Array) -> tuple[Array, Array]:
+    """Return xi of eq. 33 and its Jacobian.
 
     Args:
         z: (K, 11) unknowns z_r.
@@ -159,8 +169,15 @@ def registration(z: Array, x: Array) -> tuple[Array, Array]:
     return np.stack([xi1, xi2], axis=-1), J / P[..., None, None]
 
 
-def iterated(
-    z: Array, x: Array, goal: Array, mask: Array
+@with_kernel("stage_one", "minimise_registration")
+def minimise_registration(
+    z: Array,
+    x: Array,
+    goal: Array,
+    mask: Array,
+    max_iterations: int,
+    tolerance: float,
+    max_damping: float,
 ) -> tuple[Array, Array, IntArray, BoolArray]:
     """Minimise |xi - x'|^2 by Levenberg-Marquardt, all views as one batch.
 
@@ -168,53 +185,49 @@ def iterated(
         z: (K, 11) unknowns to start from.
         x: (K, N, 2) measured points.
         goal: (K, N, 2) points to register them on.
-        mask: (K, N) what residuals are multiplied with.
+        mask: (K, N) factors of the residuals.
+        max_iterations: number of accepted and rejected steps, at most.
+        tolerance: predicted decrease, relative to the cost, that has converged.
+        max_damping: damping beyond which a view is given up.
 
     Returns:
-        z, (K, 12, 12) products of the columns [J r] there, iterations, whether it converged.
+        (K, 11) unknowns at the minimum, (K, 12, 12) products of the columns [J r] there, (K,)
+        number of iterations, (K,) true if it converged.
     """
     z, K = z.copy(), len(z)
     damping = np.full(K, 1e-3)
     iterations = np.zeros(K, dtype=np.int64)
     converged = np.zeros(K, dtype=bool)
     active = np.arange(K)
-    products = _products(z, x, goal, mask)
-    for _ in range(_MAX_ITERATIONS):
+    products = _sum_products(z, x, goal, mask)
+    for _ in range(max_iterations):
         normal, gradient = products[active, :11, :11], products[active, :11, 11]
         cost = products[active, 11, 11]
         diagonal = np.diagonal(normal, axis1=1, axis2=2)
         damped = normal + (damping[active, None] * diagonal + 1e-14)[:, :, None] * np.eye(11)
         step = np.linalg.solve(damped, -gradient[..., None])[..., 0]
         predicted = -np.einsum("ki,ki->k", step, gradient)
-        done = predicted <= _CONVERGED * cost + 1e-28
+        done = predicted <= tolerance * cost + 1e-28
         converged[active[done]] = True
         active, step = active[~done], step[~done]
         if active.size == 0:
             break
         trial = z[active] + step
-        new = _products(trial, x[active], goal[active], mask[active])
+        new = _sum_products(trial, x[active], goal[active], mask[active])
         iterations[active] += 1
         better = new[:, 11, 11] < products[active, 11, 11]
         won = active[better]
         z[won], products[won] = trial[better], new[better]
         damping[won] = np.maximum(damping[won] / 10, 1e-12)
         damping[active[~better]] *= 10
-        active = active[damping[active] <= _MAX_DAMPING]
+        active = active[damping[active] <= max_damping]
     return z, products, iterations, converged
 
 
-def _products(z: Array, x: Array, goal: Array, mask: Array) -> Array:
+def _sum_products(z: Array, x: Array, goal: Array, mask: Array) -> Array:
+    """Return (K, 12, 12) products of the columns [J r] of each view."""
     with np.errstate(all="ignore"):  # a wild trial step overflows and is rejected by its cost
-        xi, J = registration(z, x)
+        xi, J = register_points(z, x)
         columns = np.concatenate([J, (xi - goal)[..., None]], axis=-1) * mask[..., None, None]
         columns = columns.reshape(len(z), -1, 12)
         return np.swapaxes(columns, 1, 2) @ columns
-
-
-def _compiled(
-    z: Array, x: Array, goal: Array, mask: Array
-) -> tuple[Array, Array, IntArray, BoolArray]:
-    from calibgui.engine.kernels import stage_one  # takes a while: only when used
-
-    xT, goalT = np.swapaxes(x, 1, 2), np.swapaxes(goal, 1, 2)
-    return stage_one.iterated(z, xT, goalT, mask, _MAX_ITERATIONS, _CONVERGED, _MAX_DAMPING)

@@ -1,9 +1,9 @@
-"""Sets of views that do not determine a camera, recognised and named.
+"""Degeneracy: views that do not determine a camera are recognised and named.
 
 A view adds two equations on the focal lengths and the centre, through the vanishing line of
 its plane only: planes parallel to the sensor add none, parallel planes add the same ones.
-What a solution then says of the camera comes from its lens model and from noise, and its
-own standard deviations are not to be believed. The test is therefore whether the planes'
+What a solution then tells of the camera comes from its lens model and from noise, and its
+standard deviations are not to be believed. The test is therefore whether the planes'
 directions differ at all: with C_k the covariance of the normal n_k and m their mean, noise
 alone makes
 
@@ -13,8 +13,9 @@ about 1, whatever the focal length has become, because all parallel planes keep 
 line. Measured over 2 to 40 views at 0.05 to 1 px: at most 5 for parallel planes, 120 for two
 planes 1.4 degrees apart, thousands for tilts of 2 to 5 degrees.
 
-What differing planes still leave open, ``uncertainty.precision`` finds; what the views of a
-degenerate set do determine, ``assumed.py``.
+Parameters that planes of different directions still leave open are found by
+``covariances.measure_precision``; what degenerate views do determine is estimated by
+``partial_calibration.py``.
 """
 
 from __future__ import annotations
@@ -24,153 +25,162 @@ from collections.abc import Iterable, Sequence
 import numpy as np
 
 from calibgui.engine.arrays import Array, IntArray, Size
-from calibgui.engine.calibration.covariances import Precision
 from calibgui.engine.calibration.observations import Observations
+from calibgui.engine.calibration.refinement.covariances import Precision
 from calibgui.engine.calibration.refinement.levenberg_marquardt import Solution
 from calibgui.engine.calibration.refinement.residuals import State
 from calibgui.engine.calibration.result import Degeneracy, Diagnosis
 from calibgui.engine.camera.models import PINHOLE
 from calibgui.engine.errors import CalibrationError
 
-_SIGNIFICANT = 50.0
+_MIN_T = 50.0
 """T below which the planes count as parallel."""
-_DISTINCT = np.deg2rad(0.1)
-"""Largest angle from the mean below which they do however little noise there is."""
-_AXIS = np.array([0.0, 0.0, 1.0])
+_MIN_ANGLE = np.deg2rad(0.1)
+"""Largest angle from the mean normal, rad, below which planes count as parallel without noise."""
+_OPTICAL_AXIS = np.array([0.0, 0.0, 1.0])
 """The camera's optical axis, the normal of planes parallel to the sensor."""
-_CLOSE = np.deg2rad(3.0)
-"""Angle below which a diagnosis calls directions the same."""
-_MISFIT = 10.0
-"""Stage I residual, in those of the median view, beyond which corners are not of the board."""
-_LEAST_MISFIT = 1.0
-"""Least such residual, reference px, of which a square has 30."""
-_SPOT = 1 / 3
-"""Of the image's width and height, below which corners lie in one spot."""
-_THERE = 0.03
-"""Of the distance, by which a board in one place may seem to move."""
+_MAX_SAME_ANGLE = np.deg2rad(3.0)
+"""Angle between directions below which a diagnosis calls them the same, rad."""
+_MAX_RESIDUAL_RATIO = 10.0
+"""Ratio of a Stage I residual to the median view's beyond which no flat board explains the view."""
+_MIN_MISFIT = 1.0
+"""Stage I residual below which a view is never a misfit, reference px (a square has 30)."""
+_MAX_SPOT = 1 / 3
+"""Share of the image's width and height below which corners lie in one spot."""
+_MAX_MOTION = 0.03
+"""Share of its distance by which a board in one place may seem to move."""
 
 
-def normals(R: Array) -> Array:
-    """(K, 3) unit normals of the plates in the camera frame, all pointing away from the camera."""
+def compute_normals(R: Array) -> Array:
+    """Return unit normals (K, 3) of the boards in the camera frame, all away from the camera."""
     n = R[:, :, 2]
     return n * np.where(n[:, 2:] < 0, -1.0, 1.0)
 
 
-def parallel(R: Array, V: Array, variance: float) -> bool:
-    """Whether the planes' normals differ by no more than noise.
+def are_planes_parallel(R: Array, V: Array, variance: float) -> bool:
+    """Return whether the planes' normals differ by no more than noise.
 
     Args:
-        R: (K, 3, 3) rotations cam_from_plate.
-        V: (K, 6, 6) normal matrices of the poses (w, tau), as in ``arrow``.
-        variance: of one residual coordinate.
+        R: (K, 3, 3) rotations cam_from_board.
+        V: (K, 6, 6) normal matrices of the poses (w, tau), as in ``refinement/schur.py``.
+        variance: variance of one residual coordinate.
     """
-    n = normals(R)
-    mean = _mean(n)
-    if _farthest(n, mean) < _DISTINCT:
+    n = compute_normals(R)
+    mean = _average_normals(n)
+    if _measure_max_angle(n, mean) < _MIN_ANGLE:
         return True
-    # By the plate's own axes, across n: turns about n itself leave it where it is.
+    # The turn about the board's two axes across n; turns about n itself leave n where it is.
     across = np.swapaxes(R[:, :, :2], 1, 2)
     turn = (across @ np.cross(n, mean)[..., None])[..., 0]
     covariance = across @ np.linalg.inv(V)[:, :3, :3] @ np.swapaxes(across, 1, 2)
     squares = turn * np.linalg.solve(covariance, turn[..., None])[..., 0]
-    return bool(squares.sum() / (2 * (len(n) - 1)) < _SIGNIFICANT * variance)
+    return bool(squares.sum() / (2 * (len(n) - 1)) < _MIN_T * variance)
 
 
-def misfits(rms: Array) -> IntArray:
-    """The views whose corners fit no flat board, by their Stage I residuals (K,), reference px.
+def find_misfits(rms: Array) -> IntArray:
+    """Find the views whose corners fit no flat board.
 
-    One such view makes all the noise that hides what the others determine.
-    """
-    return np.flatnonzero(rms > np.maximum(_MISFIT * np.median(rms), _LEAST_MISFIT))
-
-
-def undetermined(
-    solution: Solution, names: tuple[str, ...], precision: Precision, suspects: Sequence[str]
-) -> tuple[str, ...]:
-    """The focal lengths and coordinates of the centre that the views do not determine.
+    One such view makes enough noise to hide what the others determine.
 
     Args:
-        solution: of Stage II.
-        names: (P,) of the free parameters.
-        precision: of the solution.
-        suspects: names of the views that are `misfits`.
+        rms: (K,) Stage I residuals, reference px.
+    """
+    return np.flatnonzero(rms > np.maximum(_MAX_RESIDUAL_RATIO * np.median(rms), _MIN_MISFIT))
+
+
+def find_undetermined(
+    solution: Solution, names: tuple[str, ...], precision: Precision, misfits: Sequence[str]
+) -> tuple[str, ...]:
+    """Find the focal lengths and coordinates of the centre that the views do not determine.
+
+    Args:
+        solution: the minimum.
+        names: (P,) names of the free parameters.
+        precision: the precision of the solution.
+        misfits: names of the views that `find_misfits` found.
 
     Raises:
-        CalibrationError: if suspects are the cause.
+        CalibrationError: if there are misfits, which are then the cause.
     """
     pinhole = tuple(name for name in names if name in PINHOLE)
     if not np.isfinite(precision.variance):
         return pinhole
     # One orientation gives two equations: enough if the other two parameters are held.
-    same = len(pinhole) > 2 and parallel(solution.state.R, solution.normal.V, precision.variance)
-    found = pinhole if same else tuple(u.name for u in precision.undetermined if u.name in PINHOLE)
-    if found and suspects:
+    are_parallel = len(pinhole) > 2 and are_planes_parallel(
+        solution.state.R, solution.normal.V, precision.variance
+    )
+    found = (
+        pinhole
+        if are_parallel
+        else tuple(u.name for u in precision.undetermined if u.name in PINHOLE)
+    )
+    if found and misfits:
         raise CalibrationError(
-            f"No camera sees a flat board as in {', '.join(suspects)}, which leaves "
+            f"No camera sees a flat board as in {', '.join(misfits)}, which leaves "
             f"{', '.join(found)} undetermined.",
             "Number their corners as in the other views, or leave them out.",
         )
     return found
 
 
-def copies(views: Iterable[tuple[Array, Array]]) -> IntArray:
-    """(K,) of each view (uv, xy) the first with the same corners: itself, or what it copies."""
+def find_copies(views: Iterable[tuple[Array, Array]]) -> IntArray:
+    """Return (K,) for each view (uv, xy) the index of the first with the same corners."""
     first: dict[bytes, int] = {}
     keys = [uv.tobytes() + xy.tobytes() for uv, xy in views]
     return np.array([first.setdefault(key, k) for k, key in enumerate(keys)], dtype=np.int64)
 
 
-def in_one_spot(uv: Array, size: Size) -> bool:
-    """Whether all corners (..., 2) lie in a small part of the image."""
-    return bool((_extent(uv, size) < _SPOT).all())
+def is_in_one_spot(uv: Array, size: Size) -> bool:
+    """Return whether all corners (..., 2) lie in a small part of the image."""
+    return bool((_measure_extent(uv, size) < _MAX_SPOT).all())
 
 
-def diagnosed(
-    observations: Observations, size: Size, like: IntArray, state: State, lost: Sequence[str]
+def diagnose_degeneracy(
+    observations: Observations, size: Size, originals: IntArray, state: State, lost: Sequence[str]
 ) -> Diagnosis:
-    """The kind of a degenerate set, why it leaves the camera open, and what to photograph.
+    """Diagnose degenerate views: their kind, why they leave the camera open, what to photograph.
 
     Args:
         observations: the views.
-        size: of the images, px.
-        like: (K,) as from `copies`.
+        size: width and height of the images, px.
+        originals: (K,) the view that each one copies, from `find_copies`.
         state: camera and poses, as far as they are known.
-        lost: names of what is undetermined.
+        lost: names of the quantities that are undetermined.
     """
-    K, n = len(like), normals(state.R)
+    K, n = len(originals), compute_normals(state.R)
     tilt = "the board tilted by 20 to 45 degrees"
-    so = f", which leaves {', '.join(lost)} undetermined." if lost else "."
-    if not like.any():
+    consequence = f", which leaves {', '.join(lost)} undetermined." if lost else "."
+    if not originals.any():
         kind = Degeneracy.ONE_VIEW if K == 1 else Degeneracy.COPIES
-        said = (
+        cause = (
             f"All {K} views are copies of one" if K > 1 else "One view does not determine a camera"
         )
         hint = f"Add at least two more views with {tilt} in different directions."
-        return Diagnosis(kind, said + so, hint)
+        return Diagnosis(kind, cause + consequence, hint)
     if 2 * observations.count <= len(lost) + 6 * K:
         return Diagnosis(
             Degeneracy.TOO_LITTLE,
             "There are no more corner coordinates than unknowns.",
             "Add views, or views that show more corners.",
         )
-    if _farthest(n, _mean(n)) < _CLOSE:
+    if _measure_max_angle(n, _average_normals(n)) < _MAX_SAME_ANGLE:
         hint = f"Add views with {tilt} in other directions."
-        if _in_one_place(observations, state):
+        if _is_in_one_place(observations, state):
             kind = Degeneracy.ONE_PLACE
-            said = "All views show the board in one orientation and place, or turned in its plane"
-        elif _farthest(n, _AXIS) < _CLOSE:
+            cause = "All views show the board in one orientation and place, or turned in its plane"
+        elif _measure_max_angle(n, _OPTICAL_AXIS) < _MAX_SAME_ANGLE:
             kind = Degeneracy.PARALLEL_TO_SENSOR
-            said = "All views are parallel to the sensor"
+            cause = "All views are parallel to the sensor"
             hint = f"Add views with {tilt}, to the left, right, top and bottom."
         else:
             kind = Degeneracy.ONE_ORIENTATION
-            said = "All views show the board in one orientation"
-        return Diagnosis(kind, said + so, hint)
-    if in_one_spot(observations.uv, size):
-        w, h = (100 * _extent(observations.uv, size)).tolist()
+            cause = "All views show the board in one orientation"
+        return Diagnosis(kind, cause + consequence, hint)
+    if is_in_one_spot(observations.uv, size):
+        w, h = (100 * _measure_extent(observations.uv, size)).tolist()
         return Diagnosis(
             Degeneracy.ONE_SPOT,
-            f"All corners lie in one spot, {w:.0f} x {h:.0f} % of the image{so}",
+            f"All corners lie in one spot, {w:.0f} x {h:.0f} % of the image{consequence}",
             "Fill the image with the board, or bring it into every part of the image.",
         )
     return Diagnosis(
@@ -180,27 +190,27 @@ def diagnosed(
     )
 
 
-def _extent(uv: Array, size: Size) -> Array:
-    """(2,) width and height over which corners (..., 2) lie, of the image's."""
+def _measure_extent(uv: Array, size: Size) -> Array:
+    """Return (2,) width and height over which corners (..., 2) lie, as shares of the image's."""
     return np.asarray(np.ptp(uv.reshape(-1, 2), axis=0) / np.array(size))
 
 
-def _in_one_place(observations: Observations, state: State) -> bool:
-    """Whether the plate's middle stays where it is, seen from the camera."""
+def _is_in_one_place(observations: Observations, state: State) -> bool:
+    """Return whether the board's middle stays where it is, seen from the camera."""
     xy = observations.xy.reshape(-1, observations.xy.shape[-1])[:, :2]
     middle = (xy.min(axis=0) + xy.max(axis=0)) / 2
     place = state.R[:, :, :2] @ middle + state.T
     distance = np.linalg.norm(place, axis=1)
     away = np.linalg.norm(place - place.mean(axis=0), axis=1)
-    return bool(away.max() < _THERE * distance.mean())
+    return bool(away.max() < _MAX_MOTION * distance.mean())
 
 
-def _mean(n: Array) -> Array:
-    """(3,) unit mean of normals (K, 3)."""
+def _average_normals(n: Array) -> Array:
+    """Return the unit mean (3,) of normals (K, 3)."""
     total = n.sum(axis=0)
     return np.asarray(total / np.linalg.norm(total))
 
 
-def _farthest(n: Array, direction: Array) -> float:
-    """Largest angle between one of the normals (K, 3) and a direction, rad."""
+def _measure_max_angle(n: Array, direction: Array) -> float:
+    """Return the largest angle between one of the normals (K, 3) and a direction, rad."""
     return float(np.arccos(np.clip(n @ direction, -1, 1)).max())

@@ -1,19 +1,22 @@
-"""What views that do not determine a camera still say of it, with as little assumed as possible.
+"""Partial calibration: what degenerate views tell of a camera, with as little assumed as possible.
 
-What to assume. Every quantity q_i of ``quantities.py`` has a nominal value and a doubt d_i about
-it, one standard deviation: what is known of cameras beforehand. Let S be the information of the
-views on q once the poses are eliminated (``arrow.py``), over the variance of the noise. The
-eigenvalues of
+Views that do not determine a camera mostly leave few combinations of its parameters open. Those are
+assumed at ordinary values, and all others are estimated.
+
+Assumptions. Every quantity q_i of ``reparametrisation.py`` has a nominal value and a prior standard
+deviation d_i: what is known of cameras beforehand. Let S be the information of the views on q once
+the poses are eliminated (``refinement/schur.py``), over the variance of the noise. The eigenvalues
+of
 
     D S D,      D = diag(d),
 
-say how many times smaller the data's variance is than the doubt's, direction by direction. As
-long as the least is below `_KNOWN_BETTER`, the quantity with the largest part in its eigenvector is
-assumed at its nominal value, and its row and column are struck out. Solve and choice alternate,
-beginning with everything assumed, until they agree.
+tell how many times smaller the data's variance is than the prior's, direction by direction. As
+long as the least is below `_MIN_VARIANCE_RATIO`, the quantity with the largest part in its
+eigenvector is assumed at its nominal value, and its row and column are struck out. Solve and choice
+alternate, beginning with everything assumed, until they agree.
 
 Uncertainty. With the assumed quantities h off by dh, the others o come out off by
--Soo^-1 Soh dh, so that (Schmidt's consider covariance)
+-Soo^-1 Soh dh, so that (the consider covariance, Schmidt 1966)
 
     cov(o, o) = Soo^-1 + B D^2 B^T,   cov(o, h) = B D^2,   cov(h, h) = D^2,   B = -Soo^-1 Soh.
 
@@ -28,247 +31,274 @@ from typing import NamedTuple
 import numpy as np
 
 from calibgui.engine.arrays import Array, BoolArray, IntArray, Size
-from calibgui.engine.calibration import covariances
 from calibgui.engine.calibration.initialisation import closed_form
 from calibgui.engine.calibration.observations import Observations
 from calibgui.engine.calibration.options import Options
-from calibgui.engine.calibration.partial.reparametrisation import Quantities, in_quantities
-from calibgui.engine.calibration.refinement import normal_equations
+from calibgui.engine.calibration.partial.reparametrisation import Quantities, reparametrise
+from calibgui.engine.calibration.refinement import covariances, residuals
 from calibgui.engine.calibration.refinement.levenberg_marquardt import (
     Solution,
     StartError,
     minimise,
 )
-from calibgui.engine.calibration.refinement.planar_pose_ambiguity import ProblemOf, righted
-from calibgui.engine.calibration.refinement.residuals import State
-from calibgui.engine.calibration.refinement.schur import NormalAt, schur
-from calibgui.engine.calibration.result import Assumed, Cost, Status
+from calibgui.engine.calibration.refinement.planar_pose_ambiguity import (
+    ProblemOf,
+    correct_mirrored_poses,
+)
+from calibgui.engine.calibration.refinement.residuals import NormalAt, State
+from calibgui.engine.calibration.refinement.schur import eliminate_poses
+from calibgui.engine.calibration.result import Assumption, Cost, Status
 from calibgui.engine.calibration.result_assembly import Estimate
 from calibgui.engine.geometry import frames, rotations
+from calibgui.engine.geometry.planar_pose import poses_from_homographies
 
-_KNOWN_BETTER = 9.0
-"""Ratio of variances, doubt over data, below which a nominal value is kept."""
-_FOCAL = 0.5
-"""Doubt about the focal length, of itself."""
-_ASPECT = 0.01
-"""Doubt about the ratio of focal lengths."""
-_CENTRE = 0.05
-"""Doubt about the principal point, in image widths."""
-_RADIAL, _DECENTRED = 0.3, 0.005
-"""Doubt about coefficients: what they move the image's corner by, of its distance."""
-_LEAST, _MOST = 0.2, 10.0
-"""Focal lengths of cameras, in image widths."""
-_NOISE = 1e-4
-"""Least standard deviation of a residual, px: rounding is not information."""
-_ROUNDS = 8
-"""Of solve and choice, at the most."""
-_FREELY = 4
-"""Rounds after which quantities are assumed, but no longer released."""
+_MIN_VARIANCE_RATIO = 9.0
+"""Ratio of variances, prior over data, below which a quantity is assumed at its nominal value."""
+_PRIOR_FOCAL = 0.5
+"""Prior standard deviation of the focal length, as a share of it."""
+_PRIOR_ASPECT = 0.01
+"""Prior standard deviation of the ratio of focal lengths."""
+_PRIOR_CENTRE = 0.05
+"""Prior standard deviation of the principal point, in image widths."""
+_PRIOR_RADIAL, _PRIOR_DECENTRING = 0.3, 0.005
+"""Prior standard deviation of what a coefficient moves the image's corner by, as a share of the
+corner's distance from the centre."""
+_MIN_FOCAL, _MAX_FOCAL = 0.2, 10.0
+"""Focal lengths, in image widths, beyond which a solution is no camera's."""
+_MIN_NOISE = 1e-4
+"""Least standard deviation of a residual that is believed, px: rounding is not information."""
+_MAX_ROUNDS = 8
+"""Number of rounds of solve and choice after which the search ends."""
+_ROUNDS_WITH_RELEASE = 4
+"""Number of rounds after which quantities are still assumed, but no longer released."""
 
 
 class _Fit(NamedTuple):
-    """A solve of which it is agreed what is assumed."""
+    """A solution whose choice of assumptions no further round changes."""
 
     solution: Solution
     estimated: IntArray
-    """Places of the quantities that are not assumed."""
+    """Indices of the quantities that are not assumed."""
     S: Array
-    """Information of the views on all that the user leaves free, over the noise's variance."""
-    doubt: Array
-    """Of the same quantities."""
+    """Information of the views on the quantities that the user leaves free, over the noise's
+    variance."""
+    prior: Array
+    """Prior standard deviations of the same quantities."""
     sigma2: float
+    """Variance of one residual coordinate."""
 
 
-class Partial(NamedTuple):
+class PartialEstimate(NamedTuple):
     """An estimate in which some quantities are assumed."""
 
     estimate: Estimate
-    assumed: tuple[Assumed, ...]
+    assumptions: tuple[Assumption, ...]
 
 
-def estimate_partly(
-    observations: Observations, like: IntArray, asked: Options, known: Array
-) -> Partial | None:
+def estimate_partially(
+    observations: Observations, originals: IntArray, options: Options, known: Array
+) -> PartialEstimate | None:
     """Estimate what the views determine; None if that is not even their poses.
 
     Args:
         observations: the views.
-        like: (K,) of each view itself or the first that it is a copy of: copies count once.
-        asked: of the views.
+        originals: (K,) index of the first view that each one copies, or its own: copies count once.
+        options: the options of the calibration.
         known: (P,) the camera's parameters as far as they are known, for another start.
     """
-    free, names = asked.free, asked.names
-    distinct, copy = np.unique(like, return_inverse=True)
-    part = observations.part(distinct)
-    fits = [fit for q in _starts(asked, known) if (fit := _settled(part, asked, q)) is not None]
+    free, names = options.free, options.names
+    distinct, copy = np.unique(originals, return_inverse=True)
+    part = observations.select_views(distinct)
+    fits = [
+        fit
+        for q in _list_starts(options, known)
+        if (fit := _solve_and_choose(part, options, q)) is not None
+    ]
     if not fits:
         return None
-    fit = min(fits, key=lambda fit: (not _credible(fit, asked), fit.solution.normal.cost))
-    solution, quantities, q = fit.solution, Quantities.of(asked), fit.solution.state.params
-    held = ~np.isin(free, fit.estimated)
-    J = quantities.jacobian(q)[np.ix_(free, free)]
-    camera, by_noise = (J @ c @ J.T for c in considered(fit.S, fit.doubt, held))
-    state = State(quantities.params(q), solution.state.R[copy], solution.state.T[copy])
-    normal = normal_equations.stage_two(observations, asked.model, asked.cost, asked.scale, free)(
-        state
+    fit = min(
+        fits,
+        key=lambda fit: (not _has_ordinary_focal_length(fit, options), fit.solution.normal.cost),
     )
+    solution, quantities, q = (
+        fit.solution,
+        Quantities.for_options(options),
+        fit.solution.state.params,
+    )
+    held = ~np.isin(free, fit.estimated)
+    J = quantities.differentiate(q)[np.ix_(free, free)]
+    camera, by_noise = (J @ c @ J.T for c in compute_consider_covariances(fit.S, fit.prior, held))
+    state = State(quantities.to_params(q), solution.state.R[copy], solution.state.T[copy])
+    normal = residuals.build_stage_two(
+        observations, options.model, options.cost, options.scale, free
+    )(state)
     status = Status.PARTIAL if solution.status is Status.CONVERGED else solution.status
-    rvecs = rotations.rotation_vector(state.R)
-    spread = covariances.pose_covariances(normal, camera, rvecs, fit.sigma2)
+    rvecs = rotations.vector_from_rotation(state.R)
+    spread = covariances.compute_pose_covariances(normal, camera, rvecs, fit.sigma2)
     solution = Solution(state, normal, solution.history, status)
     estimate = Estimate(solution, state, observations, fit.sigma2, camera, spread, by_noise)
-    told = zip(free[held].tolist(), fit.doubt[held].tolist(), strict=True)
-    assumed = (Assumed(quantities.name(i, names), float(q[i]), doubt) for i, doubt in told)
-    return Partial(estimate, tuple(assumed))
+    held_priors = zip(free[held].tolist(), fit.prior[held].tolist(), strict=True)
+    assumptions = (
+        Assumption(quantities.name_of(i, names), float(q[i]), sigma) for i, sigma in held_priors
+    )
+    return PartialEstimate(estimate, tuple(assumptions))
 
 
-def _starts(asked: Options, known: Array) -> list[Array]:
-    """Values (P,) of q to begin with: the nominal ones, and with the ratio of focal lengths that
-    is known, of which a plane tilted far away gives the semblance."""
-    quantities = Quantities.of(asked)
-    nominal = _nominal(asked)
+def _list_starts(options: Options, known: Array) -> list[Array]:
+    """List the values (P,) of q to start from.
+
+    They are the nominal ones, and the same with the ratio of focal lengths that is known: a plane
+    tilted far away looks like one seen with another ratio.
+    """
+    quantities = Quantities.for_options(options)
+    nominal = _make_nominal(options)
     other = nominal.copy()
-    other[1 - quantities.base] = quantities.by_params(known)[1 - quantities.base]
+    other[1 - quantities.base] = quantities.from_params(known)[1 - quantities.base]
     return [nominal, other]
 
 
-def _settled(part: Observations, asked: Options, q: Array) -> _Fit | None:
-    """Solve and choose in turns, with everything assumed at first.
+def _solve_and_choose(part: Observations, options: Options, q: Array) -> _Fit | None:
+    """Solve and choose assumptions in turns, with everything assumed at first.
 
     Args:
         part: the views.
-        asked: of them.
-        q: (P,) where to begin.
+        options: the options of the calibration.
+        q: (P,) the quantities to start from.
     """
-    quantities, free = Quantities.of(asked), asked.free
+    quantities, free = Quantities.for_options(options), options.free
 
-    def problem_of(views: Observations, free: IntArray, cost: Cost = asked.cost) -> NormalAt:
+    def problem_of(views: Observations, free: IntArray, cost: Cost = options.cost) -> NormalAt:
         every = np.arange(len(q))
-        normal_at = normal_equations.stage_two(views, asked.model, cost, asked.scale, every)
-        return in_quantities(normal_at, quantities, free)
+        normal_at = residuals.build_stage_two(views, options.model, cost, options.scale, every)
+        return reparametrise(normal_at, quantities, free)
 
     def registration(views: Observations, free: IntArray) -> NormalAt:
         return problem_of(views, free, Cost.REFERENCE)
 
     flat = replace(part, xy=part.xy[..., :2])
-    M = closed_form.homographies(flat, q[2:4], 0.0)
-    state = State(q, *closed_form.poses(M, quantities.params(q)[:2], flat))
-    nominal, assumed = _nominal(asked), free
-    for turn in range(_ROUNDS):
+    M = closed_form.fit_homographies(flat, q[2:4], 0.0)
+    state = State(q, *poses_from_homographies(M, quantities.to_params(q)[:2], flat.xy[:, 0]))
+    nominal, assumed = _make_nominal(options), free
+    for turn in range(_MAX_ROUNDS):
         estimated = np.setdiff1d(free, assumed)
         try:
-            solution = _solved(problem_of, registration, part, state, estimated)
+            solution = _solve(problem_of, registration, part, state, estimated)
         except StartError:
             return None
         unknowns = len(estimated) + solution.normal.pose.size
-        sigma2 = covariances.variance(solution.normal.cost, part.count, unknowns)
+        sigma2 = covariances.estimate_variance(solution.normal.cost, part.count, unknowns)
         if not np.isfinite(sigma2):
             return None
-        sigma2 = max(sigma2, _NOISE**2)
-        S = schur(problem_of(part, free)(solution.state)).S / sigma2
-        doubt = _doubts(quantities, solution.state.params, asked.size)[free]
-        chosen = free[unknown(S, doubt)]
-        if turn >= _FREELY:
+        sigma2 = max(sigma2, _MIN_NOISE**2)
+        S = eliminate_poses(problem_of(part, free)(solution.state)).S / sigma2
+        prior = _compute_priors(quantities, solution.state.params, options.size)[free]
+        chosen = free[choose_assumed(S, prior)]
+        if turn >= _ROUNDS_WITH_RELEASE:
             chosen = np.union1d(chosen, assumed)
         if np.array_equal(chosen, assumed):
             break
         q, assumed = solution.state.params.copy(), chosen
         q[assumed] = nominal[assumed]
         state = solution.state._replace(params=q)
-    return _Fit(solution, estimated, S, doubt, sigma2)
+    return _Fit(solution, estimated, S, prior, sigma2)
 
 
-def _credible(fit: _Fit, asked: Options) -> bool:
-    """Whether the focal length is that of a camera."""
-    f = fit.solution.state.params[Quantities.of(asked).base] / asked.size[0]
-    return bool(_LEAST < f < _MOST)
+def _has_ordinary_focal_length(fit: _Fit, options: Options) -> bool:
+    """Return whether the focal length is one that cameras have."""
+    f = fit.solution.state.params[Quantities.for_options(options).base] / options.size[0]
+    return bool(_MIN_FOCAL < f < _MAX_FOCAL)
 
 
-def vague(params: Array, covariance: Array, asked: Options) -> list[str]:
-    """Names of focal lengths and coordinates of the centre known hardly better than beforehand.
+def find_poorly_known(params: Array, covariance: Array, options: Options) -> list[str]:
+    """Find the focal lengths and coordinates of the centre known hardly better than beforehand.
 
     Args:
         params: (P,) the camera's parameters.
-        covariance: of the free ones.
-        asked: of the views.
+        covariance: covariance of the free parameters.
+        options: the options of the calibration.
     """
-    doubt = np.append(_FOCAL * params[:2], [_CENTRE * asked.size[0]] * 2)
-    limit = dict(zip(asked.names[:4], doubt / np.sqrt(_KNOWN_BETTER), strict=True))
+    prior = np.append(_PRIOR_FOCAL * params[:2], [_PRIOR_CENTRE * options.size[0]] * 2)
+    limit = dict(zip(options.names[:4], prior / np.sqrt(_MIN_VARIANCE_RATIO), strict=True))
     sigma = np.sqrt(np.diag(covariance))
-    names = [asked.names[i] for i in asked.free]
+    names = [options.names[i] for i in options.free]
     return [n for n, s in zip(names, sigma, strict=True) if n in limit and s > limit[n]]
 
 
-def unknown(S: Array, doubt: Array) -> IntArray:
-    """Which quantities to assume, ascending.
+def choose_assumed(S: Array, prior: Array) -> IntArray:
+    """Choose the quantities to assume; return their indices, ascending.
 
     Args:
-        S: (P, P) information on them over the variance of the noise.
-        doubt: (P,) standard deviations of their nominal values.
+        S: (P, P) information on the quantities over the variance of the noise.
+        prior: (P,) prior standard deviations of their nominal values.
     """
-    left = np.arange(len(doubt))
+    left = np.arange(len(prior))
     while left.size:
-        values, vectors = np.linalg.eigh((S * np.outer(doubt, doubt))[np.ix_(left, left)])
-        if values[0] >= _KNOWN_BETTER:
+        values, vectors = np.linalg.eigh((S * np.outer(prior, prior))[np.ix_(left, left)])
+        if values[0] >= _MIN_VARIANCE_RATIO:
             break
         left = np.delete(left, int(np.argmax(np.abs(vectors[:, 0]))))
-    return np.setdiff1d(np.arange(len(doubt)), left)
+    return np.setdiff1d(np.arange(len(prior)), left)
 
 
-def considered(S: Array, doubt: Array, held: BoolArray) -> tuple[Array, Array]:
-    """Covariances (P, P) with and without the doubts of the quantities that are held.
+def compute_consider_covariances(S: Array, prior: Array, held: BoolArray) -> tuple[Array, Array]:
+    """Compute covariances (P, P) with and without the errors of the quantities that are assumed.
 
     Args:
-        S, doubt: as in `unknown`.
-        held: (P,) whether a quantity is assumed.
+        S, prior: as in `choose_assumed`.
+        held: (P,) true for a quantity that is assumed.
     """
     free = ~held
-    unit = np.diag(doubt[free])
+    unit = np.diag(prior[free])
     inverse = unit @ np.linalg.inv(unit @ S[np.ix_(free, free)] @ unit) @ unit
-    motion = np.zeros((len(doubt), np.count_nonzero(held)))
+    motion = np.zeros((len(prior), np.count_nonzero(held)))
     motion[free] = -inverse @ S[np.ix_(free, held)]
     motion[held] = np.eye(motion.shape[1])
     by_noise = np.zeros_like(S)
     by_noise[np.ix_(free, free)] = inverse
-    by_doubt = motion * doubt[held]
-    return by_noise + by_doubt @ by_doubt.T, by_noise
+    by_prior = motion * prior[held]
+    return by_noise + by_prior @ by_prior.T, by_noise
 
 
-def _solved(
+def _solve(
     problem_of: ProblemOf,
     registration: ProblemOf,
     views: Observations,
     start: State,
     free: IntArray,
 ) -> Solution:
-    """The minimum, with tilts that were mistaken for their mirror images righted once."""
+    """Find the minimum, with poses mistaken for their mirror images corrected once."""
     data = float(np.sum(views.uv**2))
     solution = minimise(problem_of(views, free), start, free, views.count, data)
-    turned = righted(problem_of, registration, views, solution)
+    turned = correct_mirrored_poses(problem_of, registration, views, solution)
     if turned is None:
         return solution
     try:
         return minimise(
             problem_of(views, free), turned, free, views.count, data, earlier=solution.history
         )
-    except StartError:  # the lens folds there: the camera is still too far off to tell
+    except StartError:  # the lens folds there: the camera is still too far off to decide
         return solution
 
 
-def _nominal(asked: Options) -> Array:
-    """(P,) q of an ordinary camera: as long as the image is wide, square pixels, no distortion."""
-    cx, cy = frames.centre_of_array(asked.size).tolist()
-    held, width = asked.held, float(asked.size[0])
-    usual = {"fx": held.get("fy", width), "fy": held.get("fx", width), "cx": cx, "cy": cy, **held}
-    return Quantities.of(asked).by_params(np.array([usual.get(name, 0.0) for name in asked.names]))
+def _make_nominal(options: Options) -> Array:
+    """Make q (P,) of an ordinary camera: f of an image width, square pixels, no distortion."""
+    cx, cy = frames.centre_of_array(options.size).tolist()
+    held, width = options.held, float(options.size[0])
+    nominal = {"fx": held.get("fy", width), "fy": held.get("fx", width), "cx": cx, "cy": cy, **held}
+    return Quantities.for_options(options).from_params(
+        np.array([nominal.get(name, 0.0) for name in options.names])
+    )
 
 
-def _doubts(quantities: Quantities, q: Array, size: Size) -> Array:
-    """(P,) standard deviations of the nominal values."""
+def _compute_priors(quantities: Quantities, q: Array, size: Size) -> Array:
+    """Compute the prior standard deviations (P,) of the nominal values."""
     radius = np.hypot(*size) / 2
-    doubt = np.empty(len(q))
-    doubt[quantities.base], doubt[1 - quantities.base] = _FOCAL * q[quantities.base], _ASPECT
-    doubt[2:4] = _CENTRE * size[0]
-    moved = np.where(quantities.powers == 1, _DECENTRED, _RADIAL)
-    doubt[4:] = moved / radius**quantities.powers
-    return doubt
+    prior = np.empty(len(q))
+    prior[quantities.base], prior[1 - quantities.base] = (
+        _PRIOR_FOCAL * q[quantities.base],
+        _PRIOR_ASPECT,
+    )
+    prior[2:4] = _PRIOR_CENTRE * size[0]
+    moved = np.where(quantities.powers == 1, _PRIOR_DECENTRING, _PRIOR_RADIAL)
+    prior[4:] = moved / radius**quantities.powers
+    return prior

@@ -1,4 +1,4 @@
-"""A camera in quantities that views leave open one by one, not only in combination.
+"""Reparametrisation of a camera by quantities that views leave open one by one.
 
 Seen from straight above, a board tells fy/fx, the lens's centre and its curvature in pixels,
 whatever fx may be: what is open is fx with fy and all coefficients in step. In
@@ -17,59 +17,65 @@ import numpy as np
 
 from calibgui.engine.arrays import Array, IntArray
 from calibgui.engine.calibration.options import Options
-from calibgui.engine.calibration.refinement.residuals import State
-from calibgui.engine.calibration.refinement.schur import NormalAt, NormalEquations
+from calibgui.engine.calibration.refinement.residuals import NormalAt, State
+from calibgui.engine.calibration.refinement.schur import NormalEquations
 from calibgui.engine.camera.models import MODELS
 
 
 class Quantities(NamedTuple):
-    """The coordinates q of a camera, in the places of its parameters."""
+    """The quantities q of a camera, in the order of its parameters."""
 
     base: int
-    """Place of f: 0 for fx, 1 for fy."""
+    """Index of f: 0 for fx, 1 for fy."""
     powers: Array
-    """(P - 4,) of f in each coefficient; 0 for one that is held as it is."""
+    """(P - 4,) power of f in each coefficient; 0 for a coefficient that is held as it is."""
 
     @classmethod
-    def of(cls, asked: Options) -> Quantities:
-        """Those of what is asked: what the user holds is held as it is."""
-        powers = np.array(MODELS[asked.model].powers, dtype=np.float64)
-        powers[~np.isin(np.arange(4, len(asked.names)), asked.free)] = 0.0
-        return cls(int("fy" in asked.held and "fx" not in asked.held), powers)
+    def for_options(cls, options: Options) -> Quantities:
+        """Return the quantities for some options: parameters that are held stay as they are."""
+        powers = np.array(MODELS[options.model].powers, dtype=np.float64)
+        powers[~np.isin(np.arange(4, len(options.names)), options.free)] = 0.0
+        return cls(int("fy" in options.held and "fx" not in options.held), powers)
 
-    def params(self, q: Array) -> Array:
-        """The camera's parameters (P,)."""
+    def to_params(self, q: Array) -> Array:
+        """Convert q (P,) to the camera's parameters (P,)."""
         f, params = q[self.base], q.copy()
         params[1 - self.base] *= f
         params[4:] *= f**self.powers
         return params
 
-    def by_params(self, params: Array) -> Array:
-        """q (P,) of a camera's parameters."""
+    def from_params(self, params: Array) -> Array:
+        """Convert a camera's parameters (P,) to q (P,)."""
         f, q = params[self.base], params.copy()
         q[1 - self.base] /= f
         q[4:] /= f**self.powers
         return q
 
-    def jacobian(self, q: Array) -> Array:
-        """(P, P) derivative of the parameters by q."""
+    def differentiate(self, q: Array) -> Array:
+        """Return the derivatives (P, P) of the parameters by q."""
         f, other = q[self.base], 1 - self.base
         J = np.diag(np.concatenate([np.ones(4), f**self.powers]))
         J[other, other], J[other, self.base] = f, q[other]
         J[4:, self.base] = self.powers * J[4:, 4:].diagonal() * q[4:] / f
         return J
 
-    def name(self, i: int, names: tuple[str, ...]) -> str:
-        """What quantity i is called: a parameter's name, or the ratio of focal lengths."""
+    def name_of(self, i: int, names: tuple[str, ...]) -> str:
+        """Return the name of quantity i: a parameter's name, or "fy/fx" for the ratio."""
         return f"{names[i]}/{names[self.base]}" if i == 1 - self.base else names[i]
 
 
-def in_quantities(normal_at: NormalAt, quantities: Quantities, free: IntArray) -> NormalAt:
-    """The problem in q, of which the `free` may move, from one of all the camera's parameters."""
+def reparametrise(normal_at: NormalAt, quantities: Quantities, free: IntArray) -> NormalAt:
+    """Restate a problem in q.
+
+    Args:
+        normal_at: the normal equations of all the camera's parameters.
+        quantities: the quantities.
+        free: indices of the quantities that may move.
+    """
 
     def at(state: State) -> NormalEquations:
-        normal = normal_at(state._replace(params=quantities.params(state.params)))
-        C = quantities.jacobian(state.params)[:, free]
+        normal = normal_at(state._replace(params=quantities.to_params(state.params)))
+        C = quantities.differentiate(state.params)[:, free]
         return normal._replace(U=C.T @ normal.U @ C, W=C.T @ normal.W, shared=normal.shared @ C)
 
     return at

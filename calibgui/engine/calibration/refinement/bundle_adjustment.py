@@ -1,18 +1,22 @@
-"""Stage II from its start to the minimum, past what can keep it from there.
+"""Bundle adjustment: Stage II from its start to the minimum, by detours where it needs them.
 
-Tilts that the start mistook for their mirror images are righted (``tilts.py``).
+Camera and poses are refined together (Triggs et al. 2000) by Levenberg-Marquardt. Three things can
+keep that from the right minimum, and each has its remedy here.
+
+Poses that the start mistook for their mirror images are corrected
+(``planar_pose_ambiguity.py``).
 
 The correction of a pincushion lens folds over beyond its outermost corners, and the image cost
 has no value where a fold comes before them: neither at a start beyond it nor on a way through
 it. Registration on the reference plane always has one; with the lower terms of the lens only,
-its solution mostly folds outside. For lenses on the brink of it the solution's coefficients are
+its solution mostly folds outside. For lenses that barely do the solution's coefficients are
 weakened until all corners have an image.
 
-The same detour is taken where the solve was slow. It has then crept along a valley that the
-views hardly bar, and in few and noisy views such a valley can have several lows: with e the
-eigenvector of the scaled information of least eigenvalue (``uncertainty.py``), starts a few
-standard deviations to either side of the solution along e, the poses following as
-dk = -Vk^-1 Wk^T e, roll into its neighbours. The lowest counts.
+The same detour is taken where the solve was slow. It has then crept along a valley of the cost,
+and in few and noisy views such a valley can have several minima: with e the eigenvector of the
+scaled information of least eigenvalue (``covariances.py``), starts a few standard deviations to
+either side of the solution along e, with poses that follow as dk = -Vk^-1 Wk^T e, lead to its
+neighbours. The lowest minimum is the solution.
 """
 
 from __future__ import annotations
@@ -24,40 +28,48 @@ from functools import partial
 import numpy as np
 
 from calibgui.engine.arrays import IntArray
-from calibgui.engine.calibration import covariances
 from calibgui.engine.calibration.observations import Observations
-from calibgui.engine.calibration.refinement import normal_equations
+from calibgui.engine.calibration.refinement import covariances, residuals
 from calibgui.engine.calibration.refinement.levenberg_marquardt import (
     Solution,
     StartError,
     minimise,
 )
-from calibgui.engine.calibration.refinement.planar_pose_ambiguity import ProblemOf, righted
-from calibgui.engine.calibration.refinement.residuals import State
-from calibgui.engine.calibration.refinement.schur import NormalAt, schur
-from calibgui.engine.calibration.refinement.whitening import model_variance, weighted
+from calibgui.engine.calibration.refinement.planar_pose_ambiguity import (
+    ProblemOf,
+    correct_mirrored_poses,
+)
+from calibgui.engine.calibration.refinement.residuals import NormalAt, State
+from calibgui.engine.calibration.refinement.schur import eliminate_poses
+from calibgui.engine.calibration.refinement.whitening import (
+    estimate_model_variance,
+    whiten_observations,
+)
 from calibgui.engine.calibration.result import Cost, Iteration, Report, Status
 
-_REWEIGHTINGS = 4
-"""Rounds of estimating the model's own errors; each changes the weights ten times less."""
-_TURNS = 3
-"""Rounds of righting tilts: some righted better the camera that tells the others."""
-_SLOW = 15
-"""Iterations beyond which another way is tried; one in thirty wild problems takes as many."""
-_ASIDE = 4.0
-"""Standard deviations to the side that another low is looked for."""
-_FLAT = 1e-10
-"""Information left that is taken to be the least."""
-_SAME = 1e-9
-"""Difference of costs, relative, that is none."""
+_MAX_REWEIGHTINGS = 4
+"""Number of estimates of the model's own errors; each changes the weights ten times less."""
+_MAX_POSE_CORRECTIONS = 3
+"""Number of corrections of mirrored poses: each improves the camera that the next relies on."""
+_MAX_DIRECT_ITERATIONS = 15
+"""Number of iterations beyond which detours are tried; one in thirty wild problems takes more."""
+_SIDE_STEP = 4.0
+"""Distance from the solution, in standard deviations, of the starts along a valley."""
+_MIN_INFORMATION = 1e-10
+"""Scaled information below which a direction counts as having this much."""
+_COST_TOLERANCE = 1e-9
+"""Difference of costs, relative to them, up to which they are equal."""
 _FIRST_COEFFICIENT = 4
-_WEAKER = 0.99
-_WEAKENINGS = 10
-_LOWER = 6
+"""Index of the first lens coefficient among the camera's parameters."""
+_WEAKENING = 0.99
+"""Factor by which the lens coefficients are weakened at a time."""
+_MAX_WEAKENINGS = 10
+"""Number of weakenings, at most."""
+_LOWER_TERMS = 6
 """Number of the camera's parameters up to k2: focal lengths, centre, k1, k2 in every model."""
 
 
-def solved(
+def solve_stage_two(
     observations: Observations,
     start: State,
     *,
@@ -69,17 +81,17 @@ def solved(
     max_iterations: int,
     earlier: Sequence[Iteration] = (),
 ) -> Solution:
-    """Stage II.
+    """Solve Stage II.
 
     Args:
         observations: the views.
-        start: where to begin.
-        model: the lens, a key of ``lens.MODELS``.
-        cost: what is minimised.
+        start: the state to begin from.
+        model: the lens, a key of ``camera.models.MODELS``.
+        cost: the cost that is minimised.
         scale: reference px per mm, for the costs on the reference plane.
-        free: (P,) indices of the camera's parameters that may move.
-        report: told of each iteration; may stop it.
-        max_iterations: of each solve.
+        free: (P,) indices of the camera's parameters that may change.
+        report: a function that takes each iteration; it returns False to stop.
+        max_iterations: number of iterations of each solve, at most.
         earlier: iterations of the solve that this one continues.
 
     Raises:
@@ -87,25 +99,27 @@ def solved(
         Cancelled: from `report`.
     """
     stage = _StageTwo(observations, model, cost, scale, free, report, max_iterations, earlier)
-    by_way_of_the_plate = partial(stage.registered, stage.with_tilts_righted, start)
-    direct = True
+    solve_by_registration = partial(
+        stage.solve_by_registration, stage.solve_with_corrected_poses, start
+    )
+    is_direct = True
     try:
-        solution = stage.with_tilts_righted(start)
+        solution = stage.solve_with_corrected_poses(start)
     except StartError:
-        direct, solution = False, by_way_of_the_plate()
-    slow = len(solution.history) - len(earlier) > _SLOW
-    if solution.status is Status.STOPPED or not (slow or solution.barred):
+        is_direct, solution = False, solve_by_registration()
+    is_slow = len(solution.history) - len(earlier) > _MAX_DIRECT_ITERATIONS
+    if solution.status is Status.STOPPED or not (is_slow or solution.is_blocked):
         return solution
-    if direct:
-        solution = _lower(solution, by_way_of_the_plate)
-    for beside in _beside(solution, free, observations.count):
-        solution = _lower(solution, partial(stage.with_tilts_righted, beside))
+    if is_direct:
+        solution = _take_lower(solution, solve_by_registration)
+    for beside in _step_aside(solution, free, observations.count):
+        solution = _take_lower(solution, partial(stage.solve_with_corrected_poses, beside))
     return solution
 
 
 @dataclass(frozen=True, eq=False, slots=True)
 class _StageTwo:
-    """The arguments of `solved` but for the start, and the ways from one to a minimum."""
+    """The arguments of `solve_stage_two` except the start, and the routes from one to a minimum."""
 
     observations: Observations
     model: str
@@ -116,53 +130,57 @@ class _StageTwo:
     max_iterations: int
     earlier: Sequence[Iteration]
 
-    def problem_of(self, views: Observations, free: IntArray) -> NormalAt:
-        """What is minimised."""
-        return normal_equations.stage_two(views, self.model, self.cost, self.scale, free)
+    def build_problem(self, views: Observations, free: IntArray) -> NormalAt:
+        """Return the problem that is solved."""
+        return residuals.build_stage_two(views, self.model, self.cost, self.scale, free)
 
-    def registration(self, views: Observations, free: IntArray) -> NormalAt:
-        """The same on the reference plane."""
-        return normal_equations.stage_two(views, self.model, Cost.REFERENCE, self.scale, free)
+    def build_registration(self, views: Observations, free: IntArray) -> NormalAt:
+        """Return the same problem on the reference plane."""
+        return residuals.build_stage_two(views, self.model, Cost.REFERENCE, self.scale, free)
 
-    def direct(self, start: State, earlier: Sequence[Iteration] | None = None) -> Solution:
-        """Straight down, after the iterations that were earlier."""
+    def solve_directly(self, start: State, earlier: Sequence[Iteration] | None = None) -> Solution:
+        """Minimise from a start, after the iterations that were earlier."""
         earlier = self.earlier if earlier is None else earlier
-        return self._minimum(self.problem_of, start, self.free, self.report, earlier)
+        return self._minimise(self.build_problem, start, self.free, self.report, earlier)
 
-    def registered(self, then: Callable[[State], Solution], start: State) -> Solution:
-        """First on the reference plane with the lower terms of the lens, `then` from there."""
-        lower = self.free[self.free < _LOWER]
-        registered = self._minimum(self.registration, start, lower, None, ())
-        return _weakened(then, registered.state, self.free)
+    def solve_by_registration(self, then: Callable[[State], Solution], start: State) -> Solution:
+        """Minimise on the reference plane with the lower terms of the lens, `then` from there."""
+        lower = self.free[self.free < _LOWER_TERMS]
+        registered = self._minimise(self.build_registration, start, lower, None, ())
+        return _solve_with_weakened_lens(then, registered.state, self.free)
 
-    def with_tilts_righted(self, start: State) -> Solution:
-        """Straight down, with tilts righted as long as there are any to be."""
-        solution = self.direct(start)
-        for _ in range(_TURNS):
+    def solve_with_corrected_poses(self, start: State) -> Solution:
+        """Minimise from a start, and again as long as mirrored poses are found and corrected."""
+        solution = self.solve_directly(start)
+        for _ in range(_MAX_POSE_CORRECTIONS):
             if solution.status is Status.STOPPED:
                 break
-            turned = righted(self.problem_of, self.registration, self.observations, solution)
-            if turned is None:
+            corrected = correct_mirrored_poses(
+                self.build_problem, self.build_registration, self.observations, solution
+            )
+            if corrected is None:
                 break
             try:
-                solution = self.direct(turned, solution.history)
+                solution = self.solve_directly(corrected, solution.history)
             except StartError:
-                other = _lower(solution, partial(self.registered, self.direct, turned))
+                other = _take_lower(
+                    solution, partial(self.solve_by_registration, self.solve_directly, corrected)
+                )
                 if other is solution:
                     break
                 solution = other
         return solution
 
-    def _minimum(
+    def _minimise(
         self,
-        problem_of: ProblemOf,
+        build_problem: ProblemOf,
         start: State,
         free: IntArray,
         report: Report | None,
         earlier: Sequence[Iteration],
     ) -> Solution:
         return minimise(
-            problem_of(self.observations, free),
+            build_problem(self.observations, free),
             start,
             free,
             self.observations.count,
@@ -173,56 +191,68 @@ class _StageTwo:
         )
 
 
-def _lower(solution: Solution, other: Callable[[], Solution]) -> Solution:
-    """The lower one of two solutions, of which the second may have no start."""
+def _take_lower(solution: Solution, other: Callable[[], Solution]) -> Solution:
+    """Return the lower of two solutions, of which the second may have no start."""
     try:
         found = other()
     except StartError:
         return solution
-    return found if found.normal.cost <= (1 + _SAME) * solution.normal.cost else solution
+    return found if found.normal.cost <= (1 + _COST_TOLERANCE) * solution.normal.cost else solution
 
 
-def _beside(solution: Solution, free: IntArray, corners: int) -> list[State]:
-    """States along the valley of what the views determine least, to both sides of a solution."""
+def _step_aside(solution: Solution, free: IntArray, corners: int) -> list[State]:
+    """Return states to both sides of a solution along the direction least determined."""
     normal = solution.normal
-    reduced = schur(normal)
-    values, vectors = covariances.information_left(reduced)
-    sigma2 = covariances.variance(normal.cost, corners, len(free) + normal.pose.size)
+    reduced = eliminate_poses(normal)
+    values, vectors = covariances.decompose_information(reduced)
+    sigma2 = covariances.estimate_variance(normal.cost, corners, len(free) + normal.pose.size)
     if not free.size or not np.isfinite(sigma2):
         return []
-    along = reduced.unit * vectors[:, 0] * np.sqrt(sigma2 / max(values[0], _FLAT))
+    along = reduced.unit * vectors[:, 0] * np.sqrt(sigma2 / max(values[0], _MIN_INFORMATION))
     states = []
-    for side in (_ASIDE, -_ASIDE):
+    for side in (_SIDE_STEP, -_SIDE_STEP):
         pull = np.tensordot(normal.W, side * along, axes=([1], [0]))
         by_poses = -np.linalg.solve(normal.V, pull[..., None])[..., 0]
-        states.append(solution.state.moved(side * along, np.asarray(by_poses), free))
+        states.append(solution.state.take_step(side * along, np.asarray(by_poses), free))
     return states
 
 
-def _weakened(run: Callable[[State], Solution], start: State, free: IntArray) -> Solution:
-    """The solution from a start whose lens is weakened, if need be, until all corners are seen."""
-    for _ in range(_WEAKENINGS):
+def _solve_with_weakened_lens(
+    run: Callable[[State], Solution], start: State, free: IntArray
+) -> Solution:
+    """Solve from a start whose lens is weakened, if need be, until all corners have an image."""
+    for _ in range(_MAX_WEAKENINGS):
         try:
             return run(start)
         except StartError:
             params = start.params.copy()
-            params[free[free >= _FIRST_COEFFICIENT]] *= _WEAKER
+            params[free[free >= _FIRST_COEFFICIENT]] *= _WEAKENING
             start = start._replace(params=params)
     return run(start)
 
 
-def reweighted(
+def reweight_and_solve(
     observations: Observations, solution: Solution, model: str, solve: Callable[..., Solution]
 ) -> tuple[Observations, Solution]:
-    """The solution with the floor under the corners' covariances that its residuals call for."""
+    """Solve again with the model's own errors in the weights, as the residuals show them.
+
+    Args:
+        observations: the views, with covariances.
+        solution: the solution under the covariances alone.
+        model: the lens, a key of ``camera.models.MODELS``.
+        solve: a function as `solve_stage_two` of observations, start and earlier iterations.
+
+    Returns:
+        The observations with their new weights, and the new solution.
+    """
     unknowns = len(solution.normal.shared) + solution.normal.pose.size
     tau2 = 0.0
-    for _ in range(_REWEIGHTINGS):
+    for _ in range(_MAX_REWEIGHTINGS):
         before = tau2
-        miss, _ = normal_equations.residuals(solution.state, observations, model, Cost.IMAGE)
-        tau2 = model_variance(observations, miss, unknowns)
+        miss, _ = residuals.compute_residuals(solution.state, observations, model, Cost.IMAGE)
+        tau2 = estimate_model_variance(observations, miss, unknowns)
         if solution.status is Status.STOPPED or abs(tau2 - before) <= 0.01 * before:
             break
-        observations = weighted(observations, tau2)
+        observations = whiten_observations(observations, tau2)
         solution = solve(observations, solution.state, earlier=solution.history)
     return observations, solution

@@ -1,11 +1,15 @@
-"""Levenberg-Marquardt for arrow-shaped normal equations (``arrow.py``).
+"""Levenberg-Marquardt for the normal equations of bundle adjustment.
 
-Marquardt's damping lambda diag(J^T J) makes the steps independent of the parameters' units.
+A Gauss-Newton step solves the linear model of the residuals; far from the minimum it can lead
+uphill. Damping shortens it and turns it downhill until the cost decreases. Marquardt's (1963)
+damping lambda diag(J^T J) makes the steps independent of the parameters' units. A step that
+decreases the cost divides lambda by ten, one that does not multiplies it by ten and is not taken
+(Nielsen 1999 compares such rules). ``schur.py`` solves each step.
 
 The iteration has converged when the decrease that the linear model still predicts is below
 1e-12 of the cost: the unknowns are then within about 1e-6 sqrt(2N) of their standard
-deviations of the minimum. A slight step that does what was foreseen leaves J^T J as it was but
-for a hundredth: its factors serve again.
+deviations of the minimum. A slight step with the predicted effect changes J^T J by a hundredth
+at most: its factors are used again.
 """
 
 from __future__ import annotations
@@ -17,43 +21,48 @@ from typing import NamedTuple
 import numpy as np
 
 from calibgui.engine.arrays import Array, IntArray
-from calibgui.engine.calibration.refinement.residuals import State
+from calibgui.engine.calibration.refinement.residuals import NormalAt, State
 from calibgui.engine.calibration.refinement.schur import (
-    NormalAt,
     NormalEquations,
-    factored,
-    schur,
-    solve,
+    eliminate_poses,
+    factorise,
+    solve_normal_equations,
 )
 from calibgui.engine.calibration.result import Iteration, Report, Status
 from calibgui.engine.errors import CalibrationError
 
-_CONVERGED = 1e-12
-_SLIGHT = 1e-4
-"""Decrease of a step, relative to the cost, that leaves J^T J as it was to a hundredth."""
-_SETTLED = 1e-6
-"""Decrease that a full step still predicts, relative to the cost, where damped ones fail."""
+_MAX_DECREASE = 1e-12
+"""Predicted decrease of the cost, relative to it, below which the iteration has converged."""
+_MAX_DECREASE_TO_REUSE_FACTORS = 1e-4
+"""Decrease of a step, relative to the cost, that changes J^T J by a hundredth at most."""
+_MAX_UNDAMPED_DECREASE = 1e-6
+"""Decrease that a full step predicts, relative to the cost, up to which the iteration has
+converged although only strongly damped steps are small."""
 _ROUNDING = 1e-26
-"""Cost below which the residuals are rounding errors, relative to the squared data."""
-_DAMPING = 1e-6
-"""To start with: less than the information that good views leave (``uncertainty.py``)."""
-_LEAST_DAMPING, _MAX_DAMPING = 1e-12, 1e12
+"""Cost, relative to the sum of the squared data, below which residuals are rounding errors."""
+_MIN_INFORMATION = 1e-12
+"""Least eigenvalue of the scaled J^T J that rounding errors leave meaningful."""
+_START_DAMPING = 1e-6
+"""Damping of the first step: less than the information that good views leave
+(``covariances.py``)."""
+_MIN_DAMPING, _MAX_DAMPING = 1e-12, 1e12
+"""Limits of the damping, relative to the diagonal of J^T J."""
 
 
 class StartError(CalibrationError):
-    """The residuals at the start have no value."""
+    """An error: the residuals at the start have no value."""
 
 
 class Solution(NamedTuple):
-    """Where the iteration ended."""
+    """The state at which the iteration ended."""
 
     state: State
     normal: NormalEquations
-    """At `state`, undamped."""
+    """The normal equations at `state`, undamped."""
     history: tuple[Iteration, ...]
     status: Status
-    barred: bool = False
-    """Whether it did not converge and states without residuals barred its way."""
+    is_blocked: bool = False
+    """True if it did not converge because states without residuals blocked its way."""
 
 
 def minimise(
@@ -69,13 +78,13 @@ def minimise(
     """Minimise the sum of squared residuals.
 
     Args:
-        normal_at: the problem.
-        start: where to begin.
-        free: (P,) indices of the shared parameters that may move.
+        normal_at: the problem: its normal equations at any state.
+        start: the state to begin from.
+        free: (P,) indices of the shared parameters that may change.
         count: number of corners, for the RMS of the iteration records.
         data_square: sum of the squared data, which sets the level of rounding errors.
-        report: told of each iteration; may stop it.
-        max_iterations: accepted and rejected steps together.
+        report: a function that takes each iteration; it returns False to stop.
+        max_iterations: number of accepted and rejected steps together, at most.
         earlier: iterations of the solve that this one continues, with its last damping.
 
     Raises:
@@ -83,59 +92,64 @@ def minimise(
         Cancelled: from `report`.
     """
     log = _Log(list(earlier), count, report)
-    state, damping = start, earlier[-1].damping if earlier else _DAMPING
+    state, damping = start, earlier[-1].damping if earlier else _START_DAMPING
     normal = normal_at(state)
     if not np.isfinite(normal.cost):
         raise StartError(
             "The closed-form start does not reproject the corners.",
             "Check that the views number their corners alike and come from one camera.",
         )
-    if not earlier and not log.added(normal, 0.0, damping):
+    if not earlier and not log.add(normal, 0.0, damping):
         return Solution(state, normal, tuple(log.history), Status.STOPPED)
-    status, barred, factors = Status.MAX_ITERATIONS, False, None
+    status, is_blocked, factors = Status.MAX_ITERATIONS, False, None
     for _ in range(max_iterations):
-        factors = factors.at(normal) if factors else factored(schur(normal, damping))
-        step = factors.step(normal)
-        decrease = _decrease(normal, *step)
-        exact = normal.cost <= _ROUNDING * data_square
-        if exact or decrease <= _CONVERGED * normal.cost or damping > _MAX_DAMPING:
-            if exact or _settled(normal, decrease, damping):
+        factors = (
+            factors.with_gradient_of(normal)
+            if factors
+            else factorise(eliminate_poses(normal, damping))
+        )
+        step = factors.solve_step(normal)
+        decrease = _predict_decrease(normal, *step)
+        is_exact = normal.cost <= _ROUNDING * data_square
+        if is_exact or decrease <= _MAX_DECREASE * normal.cost or damping > _MAX_DAMPING:
+            if is_exact or _is_minimum(normal, decrease, damping):
                 status = Status.CONVERGED
             break
-        trial = state.moved(*step, free)
+        trial = state.take_step(*step, free)
         at_trial = normal_at(trial)
         if at_trial.cost < normal.cost:
-            length = _scaled_length(normal, *step)
-            foreseen = abs(normal.cost - at_trial.cost - decrease) <= 0.1 * decrease
-            if not (foreseen and damping <= _DAMPING and decrease <= _SLIGHT * normal.cost):
+            length = _measure_scaled_step(normal, *step)
+            is_as_predicted = abs(normal.cost - at_trial.cost - decrease) <= 0.1 * decrease
+            is_slight = decrease <= _MAX_DECREASE_TO_REUSE_FACTORS * normal.cost
+            if not (is_as_predicted and damping <= _START_DAMPING and is_slight):
                 factors = None
             state, normal = trial, at_trial
-            damping = max(damping / 10, _LEAST_DAMPING)
-            if not log.added(normal, length, damping):
+            damping = max(damping / 10, _MIN_DAMPING)
+            if not log.add(normal, length, damping):
                 status = Status.STOPPED
                 break
         else:
             damping *= 10
             factors = None
-            barred |= not np.isfinite(at_trial.cost)
-    barred &= status is Status.MAX_ITERATIONS
-    return Solution(state, normal, tuple(log.history), status, barred)
+            is_blocked |= not np.isfinite(at_trial.cost)
+    is_blocked &= status is Status.MAX_ITERATIONS
+    return Solution(state, normal, tuple(log.history), status, is_blocked)
 
 
 class _Log:
-    """The iterations of a solve, told to `report` as they come."""
+    """The iterations of a solve, which `report` takes one by one."""
 
     def __init__(self, earlier: list[Iteration], count: int, report: Report | None) -> None:
         self.history, self._count, self._report = earlier, count, report
         self._began = time.perf_counter() - (earlier[-1].seconds if earlier else 0.0)
 
-    def added(self, normal: NormalEquations, step: float, damping: float) -> bool:
-        """Whether to go on after an accepted step of that length."""
+    def add(self, normal: NormalEquations, step: float, damping: float) -> bool:
+        """Record an accepted step of that scaled length; return whether to go on."""
         iteration = Iteration(
             index=len(self.history),
             cost=normal.cost,
             rms=float(np.sqrt(normal.cost / self._count)),
-            gradient=_scaled_gradient(normal),
+            gradient=_measure_scaled_gradient(normal),
             step=step,
             damping=damping,
             seconds=time.perf_counter() - self._began,
@@ -144,29 +158,34 @@ class _Log:
         return self._report is None or self._report(iteration)
 
 
-def _settled(normal: NormalEquations, decrease: float, damping: float) -> bool:
-    """Whether this is the minimum, where a damped step still gains `decrease`."""
-    # Damping makes steps small as well, against a wall of states that cannot be imaged; not
-    # where it is below the information that rounding leaves (1e-12) over `_SETTLED`.
-    if decrease <= _CONVERGED * normal.cost and damping * 1e12 <= _SETTLED / _CONVERGED:
+def _is_minimum(normal: NormalEquations, decrease: float, damping: float) -> bool:
+    """Return whether this is the minimum, where a damped step predicts `decrease`.
+
+    Damping makes steps small as well, against a wall of states that cannot be imaged, and then the
+    full step decides. Weak damping cannot: if even the direction of least information predicts
+    little, the full step does.
+    """
+    is_small = decrease <= _MAX_DECREASE * normal.cost
+    if is_small and damping / _MIN_INFORMATION <= _MAX_UNDAMPED_DECREASE / _MAX_DECREASE:
         return True
-    return _decrease(normal, *solve(normal, 0.0)) <= _SETTLED * normal.cost
+    full_step = solve_normal_equations(normal, 0.0)
+    return _predict_decrease(normal, *full_step) <= _MAX_UNDAMPED_DECREASE * normal.cost
 
 
-def _decrease(normal: NormalEquations, by_shared: Array, by_pose: Array) -> float:
-    """Decrease of the cost that the linear model predicts of a step, without its curvature."""
+def _predict_decrease(normal: NormalEquations, by_shared: Array, by_pose: Array) -> float:
+    """Return the decrease of the cost that the linear model predicts for a step."""
     return -float(by_shared @ normal.shared + np.sum(by_pose * normal.pose))
 
 
-def _scaled_gradient(normal: NormalEquations) -> float:
-    """Largest gradient entry, unknowns scaled to a unit diagonal of J^T J."""
+def _measure_scaled_gradient(normal: NormalEquations) -> float:
+    """Return the largest gradient entry, unknowns scaled to a unit diagonal of J^T J."""
     shared = np.abs(normal.shared) / np.sqrt(np.maximum(np.diag(normal.U), 1e-300))
     poses = np.abs(normal.pose) / np.sqrt(np.diagonal(normal.V, axis1=1, axis2=2))
     return float(max(shared.max(initial=0.0), poses.max(initial=0.0)))
 
 
-def _scaled_length(normal: NormalEquations, by_shared: Array, by_pose: Array) -> float:
-    """Length of a step, unknowns scaled to a unit diagonal of J^T J."""
+def _measure_scaled_step(normal: NormalEquations, by_shared: Array, by_pose: Array) -> float:
+    """Return the length of a step, unknowns scaled to a unit diagonal of J^T J."""
     square = np.sum(np.diag(normal.U) * by_shared**2)
     square += np.sum(np.diagonal(normal.V, axis1=1, axis2=2) * by_pose**2)
     return float(np.sqrt(square))

@@ -1,18 +1,13 @@
-"""Tilts that were taken for their mirror images, found after a solve.
+"""The two poses of a plane: views that were solved in the mirrored one, found and corrected.
 
-Far away, a plane looks alike from two sides: only perspective tells a tilt from its mirror
-image. With v the direction to the middle of the corners, the plate
+Far away, a plane looks alike from two sides (Schweighofer and Pinz 2006;
+``geometry.planar_pose``). Both poses can be minima of the view's cost, and a start with a wrong
+focal length or principal point can end in the wrong one.
 
-    R' = (I - 2 v v^T) R diag(1, 1, -1),     the middle of the corners where it was,
-
-has the depths of its points along v reversed and everything across v unchanged. Each of the
-two can be a minimum of the view's cost, and a start with a wrong focal length or principal
-point can lie by the wrong one.
-
-A view that is by the wrong one has residuals of the size of the perspective that it denies.
-What the outermost corners miss by under the mirrored pose says what that size is, and only
-views whose own residuals are not far below it are tried the other way round. Where the lens of
-the wrong camera folds before the corners of the right tilt, that is tried on the reference plane.
+A view in the wrong pose has residuals of the size of the perspective that it denies. The misses of
+the outermost corners under the mirrored pose show that size, and only views whose own residuals
+are not far below it are tried in the mirrored pose. If the lens of the wrong camera folds before
+the corners of the right pose, that pose is tried on the reference plane.
 """
 
 from __future__ import annotations
@@ -23,86 +18,88 @@ from dataclasses import replace
 import numpy as np
 
 from calibgui.engine.arrays import IntArray
-from calibgui.engine.calibration.observations import Observations, boards
+from calibgui.engine.calibration.observations import Observations, group_equal_boards
 from calibgui.engine.calibration.refinement.levenberg_marquardt import (
     Solution,
     StartError,
     minimise,
 )
-from calibgui.engine.calibration.refinement.residuals import State
-from calibgui.engine.calibration.refinement.schur import NormalAt
+from calibgui.engine.calibration.refinement.residuals import NormalAt, State
+from calibgui.engine.geometry.planar_pose import mirror_planar_poses
 
-_DOUBTFUL = 30.0
-"""What the outermost corners miss by when mirrored, over the view's own residuals, beyond which
-there is no doubt."""
-_BETTER = 1e-6
-"""Decrease of a view's cost by mirroring, relative, that is one."""
-_ITERATIONS = 30
-_OUTWARDS = np.array([[1.0, 1.0, -1.0, -1.0], [1.0, -1.0, 1.0, -1.0]])
+_MAX_MISS_RATIO = 30.0
+"""Miss of the outermost corners in the mirrored pose, over the view's own residuals, beyond which
+the pose is certain."""
+_MIN_GAIN = 1e-6
+"""Decrease of a view's cost, relative to it, from which the mirrored pose is better."""
+_MAX_ITERATIONS = 30
+"""Number of iterations of the refinement of mirrored poses, at most."""
+_DIAGONALS = np.array([[1.0, 1.0, -1.0, -1.0], [1.0, -1.0, 1.0, -1.0]])
 _NONE_FREE: IntArray = np.zeros(0, dtype=np.int64)
 
 ProblemOf = Callable[[Observations, IntArray], NormalAt]
-"""Stage II's problem of some views and of the camera's parameters that may move."""
+"""A function from views and the indices of free camera parameters to Stage II's problem."""
 
 
-def righted(
+def correct_mirrored_poses(
     problem: ProblemOf, registration: ProblemOf, observations: Observations, solution: Solution
 ) -> State | None:
-    """The solution's state with the tilts mirrored that fit better so; None if there are none.
+    """Return the solution's state with those poses mirrored that fit better so; None if none do.
 
     Args:
-        problem: what the solution minimises.
-        registration: the same on the reference plane.
+        problem: the problem that the solution minimises.
+        registration: the same problem on the reference plane.
         observations: the views.
-        solution: to be checked.
+        solution: the solution to check.
     """
-    turned = mirrored(solution.state, observations)
-    views = _doubtful(problem, observations, solution, turned)
-    some, poses = observations.part(views), turned.part(views)
-    imaged = np.isfinite(problem(some, _NONE_FREE)(poses).costs)
+    mirrored = mirror_poses(solution.state, observations)
+    views = _find_uncertain_views(problem, observations, solution, mirrored)
+    sample, poses = observations.select_views(views), mirrored.select_views(views)
+    imaged = np.isfinite(problem(sample, _NONE_FREE)(poses).costs)
     R, T = solution.state.R.copy(), solution.state.T.copy()
-    turned_any = False
-    # The lens of a wrong camera can fold before the corners of the right tilt.
+    has_changed = False
+    # The lens of a wrong camera can fold before the corners of the right pose.
     for stage, chosen in ((problem, imaged), (registration, ~imaged)):
-        which, part = views[chosen], some.part(chosen)
+        which, part = views[chosen], sample.select_views(chosen)
         if not which.size:
             continue
-        before = stage(part, _NONE_FREE)(solution.state.part(which)).costs
+        before = stage(part, _NONE_FREE)(solution.state.select_views(which)).costs
         try:
-            found = _settled(stage, part, poses.part(chosen))
+            found = _refine_poses(stage, part, poses.select_views(chosen))
         except StartError:
             continue
-        better = found.normal.costs < (1 - _BETTER) * before
+        better = found.normal.costs < (1 - _MIN_GAIN) * before
         R[which[better]], T[which[better]] = found.state.R[better], found.state.T[better]
-        turned_any |= bool(better.any())
-    return State(solution.state.params, R, T) if turned_any else None
+        has_changed |= bool(better.any())
+    return State(solution.state.params, R, T) if has_changed else None
 
 
-def _settled(problem: ProblemOf, views: Observations, poses: State) -> Solution:
-    """The best poses near these, with the camera as it is."""
+def _refine_poses(problem: ProblemOf, views: Observations, poses: State) -> Solution:
+    """Minimise the cost from these poses, with the camera as it is."""
     data = float(np.sum(views.uv**2))
     return minimise(
-        problem(views, _NONE_FREE), poses, _NONE_FREE, views.count, data, max_iterations=_ITERATIONS
+        problem(views, _NONE_FREE),
+        poses,
+        _NONE_FREE,
+        views.count,
+        data,
+        max_iterations=_MAX_ITERATIONS,
     )
 
 
-def mirrored(state: State, observations: Observations) -> State:
-    """The state with every plate's depths reversed along the ray to the middle of its corners."""
+def mirror_poses(state: State, observations: Observations) -> State:
+    """Return the state with every board mirrored about the middle of its corners."""
     weight = observations.mask / observations.mask.sum(axis=1, keepdims=True)
-    middle = (weight[:, None] @ observations.xy).swapaxes(1, 2)
-    axes = middle.shape[1]
-    centre = state.R[..., :axes] @ middle + state.T[..., None]
-    v = centre / np.linalg.norm(centre, axis=1, keepdims=True)
-    R = (state.R - 2 * v @ (v.swapaxes(1, 2) @ state.R)) * np.array([1.0, 1.0, -1.0])
-    return State(state.params, R, (centre - R[..., :axes] @ middle)[..., 0])
+    middle = (weight[:, None] @ observations.xy)[:, 0]
+    return State(state.params, *mirror_planar_poses(state.R, state.T, middle))
 
 
-def _doubtful(
-    problem: ProblemOf, observations: Observations, solution: Solution, turned: State
+def _find_uncertain_views(
+    problem: ProblemOf, observations: Observations, solution: Solution, mirrored: State
 ) -> IntArray:
-    """Numbers of the views whose residuals do not exclude the mirrored pose."""
-    first, like = boards(observations)
-    places = np.argmax(observations.xy[first, :, :2] @ _OUTWARDS, axis=1)[like]
+    """Return the numbers of the views whose residuals do not exclude the mirrored pose."""
+    first, like = group_equal_boards(observations)
+    places = np.argmax(observations.xy[first, :, :2] @ _DIAGONALS, axis=1)[like]
     views = np.arange(len(places))[:, None]
     weight = observations.whitening
     outermost = replace(
@@ -113,6 +110,6 @@ def _doubtful(
         cov=None,
         whitening=None if weight is None else weight[views, places],
     )
-    missed = problem(outermost, _NONE_FREE)(turned).costs / places.shape[1]
+    missed = problem(outermost, _NONE_FREE)(mirrored).costs / places.shape[1]
     own = solution.normal.costs / observations.mask.sum(axis=1)
-    return np.flatnonzero(missed < _DOUBTFUL**2 * own)
+    return np.flatnonzero(missed < _MAX_MISS_RATIO**2 * own)

@@ -1,19 +1,24 @@
-"""Stage II: residuals and derivatives of the joint registration (paper 4.3).
+"""Stage II: residuals, their derivatives and normal equations (paper 4.3).
 
-Unknowns: the camera's parameters (``types.Camera``) and, for each view k, the pose
+The joint registration adjusts one camera and the poses of all views together, so that the
+residuals of all corners become least: bundle adjustment (Triggs et al. 2000) with a known board.
+This module says what a residual is, how it changes with the unknowns, and adds up the normal
+equations that ``levenberg_marquardt.py`` solves by way of ``schur.py``.
+
+Unknowns: the camera's parameters (``camera.Camera``) and, for each view k, the pose
 X_cam = R (X, Y, 0)^T + T. A pose is varied by a local rotation w and a translation tau,
 R <- exp(w) R, T <- T + tau, which has no singularity anywhere; then
 dX_cam = w x (R X) + tau. With n = X_cam[:2] / Z and Q = [1 0 -n1; 0 1 -n2],
 
     dn = Q dX_cam / Z.
 
-Two costs.
+There are two kinds of cost.
 
 `image`: the residual is predicted minus measured corner in the image. ``projection.project``
 maps n to pixels, so r = project(n) - uv and dr follows by the chain rule.
 
 `reference` (eq. 41-43): the residual is on the virtual reference image. The measured corner's
-ray n = normalise(uv) meets the plate at (X, Y), where Q [r1 r2] (dX, dY)^T = Z dn - Q dX_cam|pose,
+ray n = unproject(uv) meets the board at (X, Y), where Q [r1 r2] (dX, dY)^T = Z dn - Q dX_cam|pose,
 so that with G = Q [r1 r2] (2, 2)
 
     d(X, Y) = G^-1 (Z dn - Q (w x R X + tau)).
@@ -23,23 +28,33 @@ x' = H(psi(x) - xp) is that intersection. The reference image has s pixels per m
 residual is s (X, Y) minus the nominal grid.
 
 Printed to the letter (`Cost.PAPER`), the reference grid has dx' = dy' in pixels, while eq. 29
-makes a square of the plate fy/fx times as high as wide in it. The plate (X, Y) seen by the
+makes a square of the board fy/fx times as high as wide in it. The board (X, Y) seen by the
 camera is then stretched along Y by fx/fy against the nominal one, which the residual undoes:
 y' = s Y fy / fx. The printed lens measures its radius in pixels ("lucchese-pixels").
+
+The sums over the views are made in chunks, so that memory does not grow with their number. The
+image cost of the polynomial lenses has compiled kernels (``kernels.normal_equations`` and
+``kernels.board_shape``); all other costs and models, and machines without numba, use the numpy
+code below. Both give the same solution to rounding (``tests/engine/kernels``).
 """
 
 from __future__ import annotations
 
+from collections.abc import Callable
+from functools import partial
 from typing import NamedTuple
 
 import numpy as np
 
 from calibgui.engine.arrays import Array, BoolArray, IntArray
-from calibgui.engine.calibration.observations import Observations
+from calibgui.engine.calibration.observations import Observations, slice_views
+from calibgui.engine.calibration.refinement.schur import NormalEquations, sum_costs
 from calibgui.engine.calibration.result import Cost
 from calibgui.engine.camera.model import Lens
-from calibgui.engine.camera.projection import normalise, project
+from calibgui.engine.camera.models import MODELS
+from calibgui.engine.camera.projection import project, unproject
 from calibgui.engine.geometry import rotations
+from calibgui.engine.kernels import POLYNOMIAL_LENSES, with_kernel
 
 
 class State(NamedTuple):
@@ -48,24 +63,30 @@ class State(NamedTuple):
     params: Array
     """(P,) the camera's parameters."""
     R: Array
-    """(K, 3, 3) rotations cam_from_plate."""
+    """(K, 3, 3) rotations cam_from_board."""
     T: Array
     """(K, 3) translations, mm."""
 
-    def moved(
+    def take_step(
         self, by_params: Array, by_poses: Array, free: IntArray | slice = slice(None)
     ) -> State:
-        """The state after a step of the `free` parameters and of the poses (K, 6) = (w, tau)."""
+        """Return the state after a step of the `free` parameters and of the poses.
+
+        Args:
+            by_params: (P,) change of the free parameters.
+            by_poses: (K, 6) local rotations w, rad, and translations tau, mm.
+            free: indices of the parameters that change.
+        """
         params = self.params.copy()
         params[free] += by_params
         return State(
             params,
-            rotations.rotation(by_poses[:, :3]) @ self.R,
+            rotations.rotation_from_vector(by_poses[:, :3]) @ self.R,
             self.T + by_poses[:, 3:],
         )
 
-    def part(self, views: slice | IntArray | BoolArray) -> State:
-        """The same camera with some of the views."""
+    def select_views(self, views: slice | IntArray | BoolArray) -> State:
+        """Return the same camera with some of the views."""
         return State(self.params, self.R[views], self.T[views])
 
 
@@ -80,35 +101,54 @@ class Linearised(NamedTuple):
     """(K, N, 2, 6) with respect to (w, tau)."""
 
 
-def image_residual(state: State, views: Observations, lens: Lens) -> Linearised:
-    """Predicted minus measured corners in the image, px; NaN where there is no prediction."""
-    rotated, Z, n, Q = _seen(state, views.xy)
+class BoardMotion(NamedTuple):
+    """How the corners of an estimated board move with the camera's parameters."""
+
+    motion: Array
+    """(n, 3, P) mm per unit of each parameter."""
+    corner: IntArray
+    """(K, N) number of the board's corner that each observation shows."""
+
+
+Linearise = Callable[[State, slice], Linearised]
+"""Whitened residuals of a slice of the views, zero (with zero derivatives) for padding."""
+NormalAt = Callable[[State], NormalEquations]
+"""The normal equations of the free parameters; infinite cost where a corner has no prediction."""
+Blocks = tuple[Array, Array, Array, Array, Array, Array]
+"""U, W, V, the shared gradient, the poses' gradients and the views' costs of `NormalEquations`."""
+
+
+def compute_image_residuals(state: State, views: Observations, lens: Lens) -> Linearised:
+    """Compute predicted minus measured corners in the image, px; NaN without a prediction."""
+    rotated, Z, n, Q = _see_points(state, views.xy)
     predicted = project(n, state.params, lens)
     by_point = (predicted.by_point @ Q) / Z[..., None, None]
-    return Linearised(predicted.points - views.uv, predicted.by_params, _by_pose(by_point, rotated))
+    return Linearised(
+        predicted.points - views.uv, predicted.by_params, _differentiate_by_pose(by_point, rotated)
+    )
 
 
-def reference_residual(
+def compute_reference_residuals(
     state: State, views: Observations, lens: Lens, scale: float, literal: bool
 ) -> Linearised:
-    """Registered minus nominal corners on the reference plane (eq. 38), reference px.
+    """Compute registered minus nominal corners on the reference plane (eq. 38), reference px.
 
     Args:
         state: camera and poses.
-        views: what was measured.
+        views: the measured corners.
         lens: the lens model.
         scale: s, reference px per mm.
-        literal: the paper's grid, equal in px along both axes (`Cost.PAPER`).
+        literal: true for the paper's grid, equal in px along both axes (`Cost.PAPER`).
     """
-    measured = normalise(views.uv, state.params, lens)
+    measured = unproject(views.uv, state.params, lens)
     ray = np.concatenate([measured.points, np.ones((*measured.points.shape[:-1], 1))], axis=-1)
     M = np.concatenate([state.R[..., :2], state.T[..., None]], axis=-1)
     h = ray @ np.swapaxes(np.linalg.inv(M), 1, 2)
     points = h[..., :2] / h[..., 2:]
-    rotated, Z, _, Q = _seen(state, points)
+    rotated, Z, _, Q = _see_points(state, points)
     inverse = np.linalg.inv(Q @ state.R[:, None, :, :2])  # G^-1
     by_params = inverse @ (Z[..., None, None] * measured.by_params)
-    by_pose = _by_pose(-inverse @ Q, rotated)
+    by_pose = _differentiate_by_pose(-inverse @ Q, rotated)
 
     to_reference = np.array([scale, scale])
     if literal:
@@ -125,35 +165,32 @@ def reference_residual(
     )
 
 
-def predicted_corners(state: State, views: Observations, lens: Lens, cost: Cost) -> Array:
-    """(K, N, 2) where the calibrated camera images the nominal plate, px."""
-    points = views.xy
-    if cost is Cost.PAPER:
-        points = points * np.array([1.0, state.params[0] / state.params[1]])
-    _, _, n, _ = _seen(state, points)
-    return project(n, state.params, lens).points
+def linearise_residuals(
+    state: State, observations: Observations, views: slice, lens: Lens, cost: Cost, scale: float
+) -> Linearised:
+    """Compute residuals of a slice of the views with derivatives, whitened; zero for padding."""
+    part = observations.select_views(views)
+    if cost is Cost.IMAGE:
+        result = compute_image_residuals(state.select_views(views), part, lens)
+    else:
+        result = compute_reference_residuals(
+            state.select_views(views), part, lens, scale, cost is Cost.PAPER
+        )
+    weight = part.whitening
+    if weight is None:
+        weight = part.mask[..., None, None] * np.eye(2)
+    return Linearised(
+        (weight @ result.residual[..., None])[..., 0],
+        weight @ result.by_params,
+        weight @ result.by_pose,
+    )
 
 
-def registration_error(state: State, views: Observations, lens: Lens, cost: Cost) -> Array:
-    """(K, N, 2) registered minus nominal corners, mm: `reference_residual`, not scaled.
+def _see_points(state: State, points: Array) -> tuple[Array, Array, Array, Array]:
+    """Return R X (K, N, 3), depth Z (K, N), ray n (K, N, 2) and Q (K, N, 2, 3).
 
-    A corner off the plate's plane is registered on the parallel plane through it. With the
-    ray's direction and origin in the plate's frame, R^T (n, 1) and -R^T T, it is a matter of
-    how far along the ray that is.
+    The points are (K, N, 2 or 3) on the board, mm.
     """
-    n = normalise(views.uv, state.params, lens).points
-    along = np.concatenate([n, np.ones((*n.shape[:-1], 1))], axis=-1) @ state.R
-    origin = np.swapaxes(state.R, 1, 2) @ -state.T[..., None]
-    height = views.xy[..., 2:] if views.xy.shape[-1] == 3 else 0.0
-    distance = (height - origin[:, None, 2]) / along[..., 2:]
-    points = origin[:, None, :2, 0] + distance * along[..., :2]
-    if cost is Cost.PAPER:
-        points = points * np.array([1.0, state.params[1] / state.params[0]])
-    return np.asarray(points - views.xy[..., :2])
-
-
-def _seen(state: State, points: Array) -> tuple[Array, Array, Array, Array]:
-    """R X (K, N, 3), depth Z (K, N), ray n (K, N, 2), Q (K, N, 2, 3) of points (K, N, 2 or 3)."""
     rotated = points @ np.swapaxes(state.R[..., : points.shape[-1]], 1, 2)
     point = rotated + state.T[:, None]
     Z = np.where(point[..., 2] > 0, point[..., 2], np.nan)  # behind the camera: no image
@@ -164,7 +201,194 @@ def _seen(state: State, points: Array) -> tuple[Array, Array, Array, Array]:
     return rotated, Z, n, Q
 
 
-def _by_pose(by_point: Array, rotated: Array) -> Array:
-    """(K, N, 2, 6) derivatives by (w, tau) from those by X_cam (K, N, 2, 3): w x RX = -[RX]x w."""
+def _differentiate_by_pose(by_point: Array, rotated: Array) -> Array:
+    """Return (K, N, 2, 6) derivatives by (w, tau) from those by X_cam (K, N, 2, 3).
+
+    They follow from w x RX = -[RX]x w.
+    """
     by_rotation = np.cross(rotated[..., None, :], by_point)
     return np.concatenate([by_rotation, by_point], axis=-1)
+
+
+def build_stage_two(
+    observations: Observations, model: str, cost: Cost, scale: float, free: IntArray
+) -> NormalAt:
+    """Return the problem that Stage II solves: its normal equations at any state.
+
+    Args:
+        observations: the views.
+        model: the lens, a key of ``camera.models.MODELS``.
+        cost: the cost that is minimised.
+        scale: reference px per mm, for the costs on the reference plane.
+        free: (P,) indices of the camera's parameters that may change.
+    """
+    blocks_at = prepare_blocks(observations, model, cost, scale, free)
+
+    def normal_at(state: State) -> NormalEquations:
+        return _assemble_normal_equations(blocks_at(state))
+
+    return normal_at
+
+
+def _is_image_of_polynomial_lens(
+    _observations: Observations, model: str, cost: Cost, *_: object
+) -> bool:
+    """Return whether `prepare_blocks` has a kernel for these arguments."""
+    return cost is Cost.IMAGE and model in POLYNOMIAL_LENSES
+
+
+@with_kernel("normal_equations", "prepare_blocks", _is_image_of_polynomial_lens)
+def prepare_blocks(
+    observations: Observations, model: str, cost: Cost, scale: float, free: IntArray
+) -> Callable[[State], Blocks]:
+    """Return a function from a state to the blocks of J^T J and J^T r; see `build_stage_two`."""
+
+    def linearise(state: State, views: slice) -> Linearised:
+        return linearise_residuals(state, observations, views, MODELS[model], cost, scale)
+
+    return partial(_accumulate_blocks, linearise, free)
+
+
+def accumulate_normal_equations(
+    linearise: Linearise, state: State, free: IntArray
+) -> NormalEquations:
+    """Accumulate J^T J and J^T r over the views, chunk by chunk."""
+    return _assemble_normal_equations(_accumulate_blocks(linearise, free, state))
+
+
+def _assemble_normal_equations(blocks: Blocks) -> NormalEquations:
+    U, W, V, shared, pose, costs = blocks
+    return NormalEquations(U, W, V, shared, pose, *sum_costs(costs))
+
+
+def _accumulate_blocks(linearise: Linearise, free: IntArray, state: State) -> Blocks:
+    K, P = len(state.R), len(free)
+    U, W, V = np.zeros((P, P)), np.empty((K, P, 6)), np.empty((K, 6, 6))
+    shared, pose, costs = np.zeros(P), np.empty((K, 6)), np.empty(K)
+    for views in slice_views(K):
+        with np.errstate(all="ignore"):  # a wild trial overflows; its cost says so
+            r, by_params, by_pose = linearise(state, views)
+            k = len(r)
+            r = r.reshape(k, -1, 1)
+            Jc = by_params.reshape(k, -1, by_params.shape[-1])[..., free]
+            Jp = by_pose.reshape(k, -1, 6)
+            costs[views] = np.sum(r * r, axis=(1, 2))
+            JcT, JpT = np.swapaxes(Jc, 1, 2), np.swapaxes(Jp, 1, 2)
+            U += (JcT @ Jc).sum(axis=0)
+            W[views], V[views] = JcT @ Jp, JpT @ Jp
+            shared += (JcT @ r)[..., 0].sum(axis=0)
+            pose[views] = (JpT @ r)[..., 0]
+    return U, W, V, shared, pose, costs
+
+
+def has_polynomial_lens(
+    _state: State, _observations: Observations, model: str, *_: object, **__: object
+) -> bool:
+    """Return whether the lens model has kernels of the image cost."""
+    return model in POLYNOMIAL_LENSES
+
+
+@with_kernel("board_shape", "compute_view_products", has_polynomial_lens)
+def compute_view_products(
+    state: State,
+    observations: Observations,
+    model: str,
+    free: IntArray,
+    following: BoardMotion | None = None,
+) -> Array:
+    """Compute (K, P + 7, P + 7) products of each view's columns [camera, pose, r], image cost.
+
+    Args:
+        state: camera and poses.
+        observations: the views, on the board as it is.
+        model: the lens, a key of ``camera.models.MODELS``.
+        free: (P,) indices of the camera's parameters that may change.
+        following: the motion of an estimated board with the camera, which counts as the camera's
+            part; None for a board that stays.
+    """
+    parts = []
+    for views in slice_views(len(state.R)):
+        r, by_params, by_pose = linearise_residuals(
+            state, observations, views, MODELS[model], Cost.IMAGE, 1.0
+        )
+        by_camera = by_params[..., free]
+        if following is not None:
+            by_corner = by_pose[..., 3:] @ state.R[views, None]
+            by_camera = by_camera + by_corner @ following.motion[following.corner[views]]
+        J = np.concatenate([by_camera, by_pose, r[..., None]], axis=-1)
+        J = J.reshape(len(J), -1, J.shape[-1])
+        parts.append(np.swapaxes(J, 1, 2) @ J)
+    return np.concatenate(parts)
+
+
+def compute_residuals(
+    state: State, observations: Observations, model: str, cost: Cost
+) -> tuple[Array, Array]:
+    """Compute residuals in the image and on the board, not whitened; NaN without a prediction.
+
+    Args:
+        state: camera and poses.
+        observations: the views.
+        model: the lens, a key of ``camera.models.MODELS``.
+        cost: the cost, which decides what the board is (see above).
+
+    Returns:
+        (K, N, 2) measured minus predicted corners, px, and registered minus nominal ones, mm.
+    """
+    seen, registered = _compute_residuals(state, observations, model, cost)
+    # The kernel gives a view up for one corner that its Newton's method does not reach.
+    given_up = ~np.isfinite(seen + registered).all(axis=(1, 2))
+    for k in np.flatnonzero(given_up).tolist():
+        view = slice(k, k + 1)
+        seen[view], registered[view] = _compute_residuals.reference(
+            state.select_views(view), observations.select_views(view), model, cost
+        )
+    return seen, registered
+
+
+def _is_image_residual_of_polynomial_lens(
+    _state: State, _observations: Observations, model: str, cost: Cost
+) -> bool:
+    """Return whether `_compute_residuals` has a kernel for these arguments."""
+    return cost is Cost.IMAGE and model in POLYNOMIAL_LENSES
+
+
+@with_kernel("normal_equations", "compute_residuals", _is_image_residual_of_polynomial_lens)
+def _compute_residuals(
+    state: State, observations: Observations, model: str, cost: Cost
+) -> tuple[Array, Array]:
+    """Compute `compute_residuals`."""
+    seen, registered = np.empty_like(observations.uv), np.empty_like(observations.uv)
+    for views in slice_views(len(state.R)):
+        part, own = observations.select_views(views), state.select_views(views)
+        seen[views] = part.uv - predict_corners(own, part, MODELS[model], cost)
+        there = compute_registration_errors(own, part, MODELS[model], cost)
+        registered[views] = np.where(np.isfinite(seen[views]), there, np.nan)
+    return seen, registered
+
+
+def predict_corners(state: State, views: Observations, lens: Lens, cost: Cost) -> Array:
+    """Compute (K, N, 2) px where the camera images the nominal board."""
+    points = views.xy
+    if cost is Cost.PAPER:
+        points = points * np.array([1.0, state.params[0] / state.params[1]])
+    _, _, n, _ = _see_points(state, points)
+    return project(n, state.params, lens).points
+
+
+def compute_registration_errors(state: State, views: Observations, lens: Lens, cost: Cost) -> Array:
+    """Compute (K, N, 2) registered minus nominal corners, mm.
+
+    They are the residuals of `compute_reference_residuals`, not scaled. A corner off the board's
+    plane is registered on the parallel plane through it: the ray, with its direction and origin
+    R^T (n, 1) and -R^T T in the board's frame, is followed to the corner's height.
+    """
+    n = unproject(views.uv, state.params, lens).points
+    along = np.concatenate([n, np.ones((*n.shape[:-1], 1))], axis=-1) @ state.R
+    origin = np.swapaxes(state.R, 1, 2) @ -state.T[..., None]
+    height = views.xy[..., 2:] if views.xy.shape[-1] == 3 else 0.0
+    distance = (height - origin[:, None, 2]) / along[..., 2:]
+    points = origin[:, None, :2, 0] + distance * along[..., :2]
+    if cost is Cost.PAPER:
+        points = points * np.array([1.0, state.params[1] / state.params[0]])
+    return np.asarray(points - views.xy[..., :2])

@@ -1,9 +1,9 @@
-"""Weights from the corners' covariances, and the floor that the model's own errors set.
+"""Whitening: weights from the corners' covariances and the model's own errors.
 
-A corner's residual has the covariance C_i + tau^2 I: what its location is uncertain by, and
-what plate and lens model get wrong, alike for all corners. Weighting by C_i alone would
-believe the sharpest corners far beyond what the model can follow, so tau is estimated: the
-value at which
+A corner's residual has the covariance C_i + tau^2 I: C_i is the uncertainty of its location, and
+tau^2 the variance of the errors of board and lens model, alike for all corners. Weighting by C_i
+alone would trust the sharpest corners far beyond the accuracy of the model, so tau is estimated:
+the value at which
 
     sum_i r_i^T (C_i + tau^2 I)^-1 r_i = 2N - unknowns,
 
@@ -22,8 +22,8 @@ from calibgui.engine.arrays import Array
 from calibgui.engine.calibration.observations import Observations
 
 
-def weighted(observations: Observations, tau2: float = 0.0) -> Observations:
-    """The observations with whitenings from (C + tau^2 I)^-1; unweighted without covariances.
+def whiten_observations(observations: Observations, tau2: float = 0.0) -> Observations:
+    """Return the observations with whitenings from (C + tau^2 I)^-1; unchanged without covariances.
 
     Args:
         observations: the views.
@@ -39,10 +39,13 @@ def weighted(observations: Observations, tau2: float = 0.0) -> Observations:
     return replace(observations, whitening=whitening, tau2=tau2)
 
 
-def model_variance(observations: Observations, residual: Array, unknowns: int) -> float:
-    """tau^2, px^2, of residuals (K, N, 2) px under the observations' covariances.
+def estimate_model_variance(observations: Observations, residual: Array, unknowns: int) -> float:
+    """Estimate tau^2, px^2; 0 without covariances or redundancy.
 
-    0 without covariances or redundancy.
+    Args:
+        observations: the views, with the covariances of their corners.
+        residual: (K, N, 2) residuals, px, not whitened.
+        unknowns: number of unknowns that were fitted to them.
     """
     freedom = 2 * observations.count - unknowns
     if observations.cov is None or freedom <= 0:

@@ -1,4 +1,8 @@
-"""The forward distortion model of OpenCV, ROS and their relatives (the paper's eq. 12).
+"""Brown and Conrady's distortion: the model of OpenCV, ROS and their relatives (eq. 12).
+
+Radial and decentering distortion (Conrady 1919, Brown 1966) take the ideal point to the measured
+one, so that projecting is closed-form and undistorting is not. OpenCV calls its five coefficients
+k1, k2, p1, p2, k3; it has three other models besides.
 
 With n = (x, y) ideal, r2 = x^2 + y^2 and rho = k1 r2 + k2 r2^2 + k3 r2^3, the measured point is
 
@@ -23,28 +27,30 @@ _FROM_LUCCHESE = [0, 1, 4, 3, 2]
 
 
 class BrownConrady:
-    """Distortion model with coefficients in OpenCV's order: k1, k2, p1, p2, k3."""
+    """The distortion model with coefficients in OpenCV's order: k1, k2, p1, p2, k3."""
 
+    title = "Brown-Conrady (OpenCV, ROS)"
     names = ("k1", "k2", "p1", "p2", "k3")
     powers = (2, 4, 1, 1, 6)
     held = ()
     radius_in_pixels = False
 
     def distort(self, n: Array, k: Array) -> Mapped:
-        """Ideal to measured."""
-        return _reordered(Lucchese().correct(n, _eq10(k)))
+        """Map ideal to measured points."""
+        return _reorder_coefficients(Lucchese().correct(n, _convert_to_eq10(k)))
 
     def correct(self, d: Array, k: Array) -> Mapped:
-        """Measured to ideal, by Newton's method."""
-        return _reordered(Lucchese().distort(d, _eq10(k)))
+        """Map measured to ideal points, by Newton's method."""
+        return _reorder_coefficients(Lucchese().distort(d, _convert_to_eq10(k)))
 
 
-def _eq10(k: Array) -> Array:
-    """The coefficients of eq. 10."""
+def _convert_to_eq10(k: Array) -> Array:
+    """Return the coefficients of eq. 10: k1, k2, k3, p1, p2, p3."""
     eq10 = np.zeros(6)
     eq10[_FROM_LUCCHESE] = k
     return eq10
 
 
-def _reordered(mapped: Mapped) -> Mapped:
+def _reorder_coefficients(mapped: Mapped) -> Mapped:
+    """Return the map with its derivatives in the order k1, k2, p1, p2, k3."""
     return mapped._replace(by_coefficients=mapped.by_coefficients[..., _FROM_LUCCHESE])

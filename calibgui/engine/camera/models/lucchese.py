@@ -1,5 +1,8 @@
 """The paper's correction model (eq. 9-11), in dimensionless coordinates.
 
+It takes the measured point to the ideal one, so that undistorting is closed-form and projecting is
+not: an inverse Brown-Conrady model, with one more coefficient p3.
+
 With d = (x, y), r2 = x^2 + y^2 and
 
     rho = k1 r2 + k2 r2^2 + k3 r2^3                          radial
@@ -32,23 +35,25 @@ from __future__ import annotations
 import numpy as np
 
 from calibgui.engine.arrays import Array
-from calibgui.engine.camera.inverse import invert
+from calibgui.engine.camera.inverse import invert_map
 from calibgui.engine.camera.model import Mapped
 
 
 class Lucchese:
-    """Correction model with coefficients k1, k2, k3, p1, p2, p3; `distort` by Newton's method."""
+    """The correction model with coefficients k1, k2, k3, p1, p2, p3."""
 
     names = ("k1", "k2", "k3", "p1", "p2", "p3")
     powers = (2, 4, 6, 1, 1, 2)
 
     def __init__(self, radius_in_pixels: bool = False) -> None:
+        """Choose the unit of the radius: fx along both axes if `radius_in_pixels`, as printed."""
         self.radius_in_pixels = radius_in_pixels
+        self.title = f"Lucchese (inverse Brown-Conrady{', as printed' if radius_in_pixels else ''})"
         # p3 multiplies p1 and p2 and is rarely determined. The paper frees it all the same.
         self.held: tuple[str, ...] = () if radius_in_pixels else ("p3",)
 
     def correct(self, d: Array, k: Array) -> Mapped:
-        """Measured to ideal, eq. 9."""
+        """Map measured to ideal points, eq. 9."""
         k1, k2, k3, p1, p2, p3 = k
         x, y = d[..., 0], d[..., 1]
         xx, yy, xy = x * x, y * y, x * y
@@ -85,5 +90,5 @@ class Lucchese:
         return Mapped(points, by_point, by_k)
 
     def distort(self, n: Array, k: Array) -> Mapped:
-        """Ideal to measured, the inverse of eq. 9."""
-        return invert(lambda d: self.correct(d, k), n, k[:3])
+        """Map ideal to measured points, the inverse of eq. 9, by Newton's method."""
+        return invert_map(lambda d: self.correct(d, k), n, k[:3])

@@ -1,10 +1,10 @@
 """The inner corners of a ChArUco board, from the markers around them.
 
-The markers' corners, known on the plate, give a homography from plate to image around every inner
-corner, that of the nearest markers. The corner is expected there and found by the same means as a
+The markers' corners, known on the board, give a homography from board to image around every inner
+corner, that of the nearest markers. The corner is predicted there and found by the same means as a
 checkerboard's: saddle point, test of its place among its neighbours and of the colours around it,
 fit of the two edges with its covariance. Places beside markers that were not read are tried where
-the corners around expect them.
+the corners around predict them.
 
 A marker leaves only a margin of (1 - rho) / 2 squares of plain white beside the edges, rho being
 its side over a square's: nothing beyond that is looked at.
@@ -17,110 +17,121 @@ import scipy
 
 from calibgui.engine.arrays import GreyImage, GridSize
 from calibgui.engine.detection.charuco.markers import Markers
+from calibgui.engine.detection.charuco.thresholds import CHARUCO_THRESHOLDS
 from calibgui.engine.detection.checkerboard import saddle, verification, x_corner_fit
-from calibgui.engine.detection.checkerboard.find_checkerboard import rejections
-from calibgui.engine.detection.checkerboard.x_corner_fit import Fit
+from calibgui.engine.detection.checkerboard.x_corner_fit import XCornerFit
 from calibgui.engine.detection.corners import RejectedCorner
+from calibgui.engine.detection.detector_io import list_rejected_corners
 from calibgui.engine.detection.lattice import Lattice
 from calibgui.engine.errors import NoBoardError
 from calibgui.engine.geometry import homography
 
-_MIN_CORNERS = 6
-_NEAREST = 4
-"""Markers whose corners place an inner corner."""
-_ADJACENT = 0.8
-"""Farthest that one of them must be, squares."""
-_ROUNDS = 4
-"""How often corners may be left out and the rest fitted again."""
+_MARKERS_PER_CORNER = 4
+"""Number of the nearest markers whose corners place an inner corner."""
+_MAX_FITS = 4
+"""Number of times that corners may be rejected and the rest fitted again."""
 
 
-def expected(markers: Markers, grid_size: GridSize, image: GreyImage) -> Lattice:
-    """The inner corners beside markers where the nearest markers place them, inside the image.
+def predict_corners(markers: Markers, grid_size: GridSize, image: GreyImage) -> Lattice:
+    """Place the inner corners beside markers where the nearest markers predict them.
 
     Args:
-        markers: of the board.
-        board: its rows and columns of inner corners.
-        image: (h, w) grey levels.
+        markers: those of the board.
+        grid_size: the board's rows and columns of inner corners.
+        image: (h, w) grey levels; corners outside of it are left out.
     """
     grid = np.indices(grid_size).reshape(2, -1).T
     xy = grid[:, ::-1].astype(np.float64)
-    places = markers.places
-    count = min(_NEAREST, len(places))
-    near = scipy.spatial.cKDTree(places.mean(axis=1)).query(xy, np.arange(1, count + 1))
-    distance, which = np.asarray(near[0]), np.asarray(near[1])
-    # Around the corner: a homography moves nothing else so little.
-    source = (places[which] - xy[:, None, None]).reshape(len(xy), -1, 2)
+    on_board = markers.board_corners
+    count = min(_MARKERS_PER_CORNER, len(on_board))
+    nearest = scipy.spatial.cKDTree(on_board.mean(axis=1)).query(xy, np.arange(1, count + 1))
+    distance, which = np.asarray(nearest[0]), np.asarray(nearest[1])
+    # Coordinates are counted from the corner, the place that the homography is evaluated at.
+    source = (on_board[which] - xy[:, None, None]).reshape(len(xy), -1, 2)
     target = markers.corners[which].reshape(len(xy), -1, 2)
     H = homography.fit_homography(source, target, np.ones(source.shape[:2]))
-    uv = homography.apply(H, np.zeros((len(xy), 1, 2)))[:, 0]
+    uv = homography.apply_homography(H, np.zeros((len(xy), 1, 2)))[:, 0]
     limit = np.array(image.shape[::-1]) - 1.0
-    seen = (distance[:, 0] < _ADJACENT) & ((uv > 0) & (uv < limit)).all(axis=1)
+    is_near = distance[:, 0] < CHARUCO_THRESHOLDS.max_placing_distance
+    seen = is_near & ((uv > 0) & (uv < limit)).all(axis=1)
     uv[~seen] = np.nan
-    layout = markers.layout
-    return Lattice(uv.reshape(*grid_size, 2), dark=layout.first_dark)
+    return Lattice(uv.reshape(*grid_size, 2), dark=markers.layout.first_dark)
 
 
-def located(
-    image: GreyImage, places: Lattice, plain: float
+def refine_corners(
+    image: GreyImage, predicted: Lattice, plain: float
 ) -> tuple[Lattice, list[RejectedCorner]]:
-    """The corners that are where and as they must be, and the others.
+    """Move corners to their saddle points and verify their places and colours.
 
     Args:
         image: (h, w) grey levels.
-        places: where they are expected.
+        predicted: where the corners are predicted.
         plain: how far from its edges a square is of one colour, squares.
 
+    Returns:
+        The corners that pass, and the predicted ones that do not.
+
     Raises:
-        NoBoardError: if they are too few.
+        NoBoardError: if too few corners have a saddle point.
     """
-    lattice = places
-    for again in (False, True):
-        # The second time also where the corners found expect others.
-        tried = verification.filled(lattice, image.shape) if again else places
+    lattice = predicted
+    for fill in (False, True):
+        # The second pass also tries the gaps where the corners found predict others.
+        tried = verification.fill_gaps(lattice, image.shape) if fill else predicted
         known = tried.found & np.isfinite(tried.spacing())
-        tried = tried.under(known)
+        tried = tried.select(known)
         spacing = tried.spacing()[known]
         uv, converged = tried.uv.copy(), known.copy()
-        width = saddle.window(2 * plain * spacing)
-        uv[known], converged[known] = saddle.refine_saddles(image, uv[known], width, spacing / 4)
-        moved = Lattice(uv, tried.dark).under(converged)
-        check_enough(moved)
-        lattice = moved.under(verification.sound(moved, image, plain))
-    lost = places.found & ~lattice.found
-    return lattice, rejections(places.uv[lost], "off place or colours")
+        sigma = saddle.choose_weight_sigma(2 * plain * spacing)
+        uv[known], converged[known] = saddle.refine_saddles(image, uv[known], sigma, spacing / 4)
+        moved = Lattice(uv, tried.dark).select(converged)
+        require_enough_corners(moved)
+        lattice = moved.select(verification.find_sound_corners(moved, image, plain))
+    lost = predicted.found & ~lattice.found
+    return lattice, list_rejected_corners(predicted.uv[lost], "off place or colours")
 
 
-def fitted(
+def fit_corners(
     image: GreyImage, lattice: Lattice, plain: float
-) -> tuple[Lattice, Fit, list[RejectedCorner]]:
-    """The edge model at the corners that it describes, and the others.
+) -> tuple[Lattice, XCornerFit, list[RejectedCorner]]:
+    """Fit the model of two crossing edges, leaving out the corners that it does not describe.
 
-    Args, Raises: as `located`.
+    Args:
+        image: (h, w) grey levels.
+        lattice: the corners.
+        plain: how far from its edges a square is of one colour, squares.
+
+    Returns:
+        The corners that the model describes, their fit, and the others.
+
+    Raises:
+        NoBoardError: if too few corners are left.
     """
     rejected: list[RejectedCorner] = []
-    for _ in range(_ROUNDS):
-        check_enough(lattice)
-        fit = x_corner_fit.fit(image, lattice, plain)
+    for _ in range(_MAX_FITS):
+        require_enough_corners(lattice)
+        fit = x_corner_fit.fit_x_corners(image, lattice, plain)
         found = lattice.found
-        good = verification.described(fit, lattice)
+        good = verification.find_described_corners(fit, lattice)
         if good.all():
-            if verification.stepped(fit):
+            if verification.has_step_edges(fit):
                 return lattice, fit, rejected
             break
-        rejected += rejections(lattice.uv[found][~good], "not two crossing edges")
+        rejected += list_rejected_corners(lattice.uv[found][~good], "not two crossing edges")
         found[found] = good
-        lattice = lattice.under(found)
-    raise _untrusted()
+        lattice = lattice.select(found)
+    raise _distrust()
 
 
-def check_enough(lattice: Lattice) -> None:
+def require_enough_corners(lattice: Lattice) -> None:
     """Raise NoBoardError if too few corners are found to be trusted."""
     lines = [np.count_nonzero(lattice.found.any(axis=axis)) for axis in (0, 1)]
-    if len(lattice) < _MIN_CORNERS or min(lines) < 2:
-        raise _untrusted()
+    if len(lattice) < CHARUCO_THRESHOLDS.min_corners or min(lines) < 2:
+        raise _distrust()
 
 
-def _untrusted() -> NoBoardError:
+def _distrust() -> NoBoardError:
+    """Return the error for a board of which too few corners pass."""
     return NoBoardError(
         "Markers of a ChArUco board were read, but too few corners of its squares can be trusted.",
         "Take the picture again: sharp, evenly lit, and more of the board in view.",

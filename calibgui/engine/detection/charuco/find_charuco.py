@@ -1,4 +1,9 @@
-"""The detector of ChArUco boards: the markers say which corner is which."""
+"""From an image to the corners of a ChArUco board: the markers tell which corner is which.
+
+`MarkerReader` reads the board's markers and thereby finds what is not stated of dictionary, layout
+and size. `corners_between_markers` predicts the inner corners from them and refines and verifies
+each like a corner of a checkerboard.
+"""
 
 from __future__ import annotations
 
@@ -8,25 +13,28 @@ import numpy as np
 import numpy.typing as npt
 
 from calibgui.engine.arrays import Array, GreyImage, GridSize
-from calibgui.engine.boards.charuco import LAYOUTS, Charuco, Layout, dictionary_family
+from calibgui.engine.boards.charuco import (
+    MARKER_LAYOUTS,
+    Charuco,
+    MarkerLayout,
+    dictionary_family,
+)
 from calibgui.engine.detection import region_of_interest as region
 from calibgui.engine.detection.charuco.corners_between_markers import (
-    check_enough,
-    expected,
-    fitted,
-    located,
+    fit_corners,
+    predict_corners,
+    refine_corners,
+    require_enough_corners,
 )
-from calibgui.engine.detection.charuco.marker_reader import Reader, Seen
+from calibgui.engine.detection.charuco.marker_reader import MarkerReader, ReadBoard
+from calibgui.engine.detection.charuco.thresholds import CHARUCO_THRESHOLDS
 from calibgui.engine.detection.checkerboard import harris
-from calibgui.engine.detection.checkerboard.find_checkerboard import grey_levels
-from calibgui.engine.detection.checkerboard.x_corner_fit import Fit
+from calibgui.engine.detection.checkerboard.x_corner_fit import XCornerFit
 from calibgui.engine.detection.corners import Corners, RejectedCorner
+from calibgui.engine.detection.detector_io import check_grey_levels
 from calibgui.engine.detection.lattice import Lattice
 from calibgui.engine.errors import NoBoardError
-from calibgui.engine.images.reading import stretched
-
-_DIFFERENT = 0.1
-"""Difference of a marker's side from the stated one that is no error of measurement, squares."""
+from calibgui.engine.images.reading import stretch_levels
 
 
 def find_charuco(
@@ -37,70 +45,84 @@ def find_charuco(
     method: str = "edges",
 ) -> Corners:
     """Locate the inner corners of a ChArUco board in an image; see ``find_corners``."""
-    grey = grey_levels(image)
-    outline = None if roi is None else region.outline(roi)
-    dictionary, markers = _read(pattern, stretched(grey), grid_size, outline)
+    grey = check_grey_levels(image)
+    outline = None if roi is None else region.check_outline(roi)
+    dictionary, markers = _read_board(pattern, stretch_levels(grey), grid_size, outline)
     rows, _ = np.max(markers.squares, axis=0).tolist()
     size = grid_size or (rows, markers.layout.cols - 1)
-    # An even number of rows, if it begins with a white square.
+    # An even number of rows of squares, if the board begins with a white square.
     legacy = pattern.legacy if pattern.legacy is not None else not markers.layout.first_dark
     if grid_size is None and not markers.layout.first_dark and size[0] % 2 == 0:
         size = (size[0] + 1, size[1])
     plain = (1 - markers.side) / 2
-    lattice, rejected = located(grey, expected(markers, size, grey), plain)
+    lattice, rejected = refine_corners(grey, predict_corners(markers, size, grey), plain)
     fit = None
     if method == "edges":
-        lattice, fit, more = fitted(grey, lattice, plain)
+        lattice, fit, more = fit_corners(grey, lattice, plain)
         rejected += more
     seen = Charuco(dictionary, markers.side, legacy)
-    return _record(grey, lattice, fit, outline, rejected, seen)
+    return _assemble_corners(grey, lattice, fit, outline, rejected, seen)
 
 
-def _read(
+def _read_board(
     pattern: Charuco, image: GreyImage, grid_size: GridSize | None, outline: Array | None
-) -> Seen:
-    """The dictionary and the board's markers in an 8-bit image (h, w).
+) -> ReadBoard:
+    """Read the dictionary and the board's markers in an 8-bit image (h, w).
 
-    What is stated is tried first; if it does not fit, what does is told.
+    Only what agrees with the statements in `pattern` and `grid_size` is accepted.
+
+    Raises:
+        NoBoardError: if there is no such board; the message names the one that is there instead.
     """
-    read = Reader(image, outline)
-    layouts = _layouts(pattern, grid_size)
+    reader = MarkerReader(image, outline)
+    layouts = _list_layouts(pattern, grid_size)
     found = (
-        read.grid_size(pattern.dictionary, layouts) if pattern.dictionary else read.unknown(layouts)
+        reader.read_dictionary(pattern.dictionary, layouts)
+        if pattern.dictionary
+        else reader.search_dictionaries(layouts)
     )
     if found is None:
-        raise _wrong(pattern, read, grid_size)
+        raise _explain_missing_board(pattern, reader, grid_size)
     dictionary, markers = found
-    if pattern.marker is not None and abs(markers.side - pattern.marker) > _DIFFERENT:
+    if (
+        pattern.marker is not None
+        and abs(markers.side - pattern.marker) > CHARUCO_THRESHOLDS.max_side_difference
+    ):
         raise NoBoardError(
             f"The markers are {markers.side:.2f} of a square, not {pattern.marker:.2f}.",
             "State the sides of marker and square as measured, or leave the marker's out.",
         )
     rows, _ = np.max(markers.squares, axis=0).tolist()
     if grid_size is not None and rows > grid_size[0]:
-        raise _other_size((rows, markers.layout.cols - 1), grid_size)
+        raise _explain_other_size((rows, markers.layout.cols - 1), grid_size)
     return dictionary, markers
 
 
-def _layouts(pattern: Charuco, grid_size: GridSize | None) -> list[Layout]:
-    """Those that what is stated allows."""
+def _list_layouts(pattern: Charuco, grid_size: GridSize | None) -> list[MarkerLayout]:
+    """List the layouts that agree with what is stated."""
     if grid_size is None:
-        return [one for one in LAYOUTS if one.first_dark or pattern.legacy is not False]
+        return [
+            layout for layout in MARKER_LAYOUTS if layout.first_dark or pattern.legacy is not False
+        ]
     if pattern.legacy is not None:
-        return [Layout(grid_size[1] + 1, pattern.first_dark(grid_size))]
+        return [MarkerLayout(grid_size[1] + 1, pattern.is_first_square_dark(grid_size))]
     both = (True, False) if (grid_size[0] + 1) % 2 == 0 else (True,)
-    return [Layout(grid_size[1] + 1, dark) for dark in both]
+    return [MarkerLayout(grid_size[1] + 1, dark) for dark in both]
 
 
-def _wrong(pattern: Charuco, read: Reader, grid_size: GridSize | None) -> NoBoardError:
-    """What is there instead of the board stated."""
+def _explain_missing_board(
+    pattern: Charuco, reader: MarkerReader, grid_size: GridSize | None
+) -> NoBoardError:
+    """Return the error that says what the image shows instead of the stated board."""
     nothing = NoBoardError(
         "No ChArUco board was found.",
         "Take the picture again: sharp, evenly lit and near enough for its markers to be read;"
         " state dictionary and size, or leave them out.",
     )
-    found = read.grid_size(pattern.dictionary, LAYOUTS) if pattern.dictionary else None
-    found = found or read.unknown(LAYOUTS)
+    found = (
+        reader.read_dictionary(pattern.dictionary, MARKER_LAYOUTS) if pattern.dictionary else None
+    )
+    found = found or reader.search_dictionaries(MARKER_LAYOUTS)
     if found is None:
         return nothing
     dictionary, markers = found
@@ -113,7 +135,7 @@ def _wrong(pattern: Charuco, read: Reader, grid_size: GridSize | None) -> NoBoar
         )
     rows, _ = np.max(markers.squares, axis=0).tolist()
     if grid_size is not None and (markers.layout.cols - 1 != grid_size[1] or rows > grid_size[0]):
-        return _other_size((rows, markers.layout.cols - 1), grid_size)
+        return _explain_other_size((rows, markers.layout.cols - 1), grid_size)
     return NoBoardError(
         "The first square of this board is "
         + ("dark." if markers.layout.first_dark else "white, as before OpenCV 4.6."),
@@ -121,7 +143,8 @@ def _wrong(pattern: Charuco, read: Reader, grid_size: GridSize | None) -> NoBoar
     )
 
 
-def _other_size(found: GridSize, stated: GridSize) -> NoBoardError:
+def _explain_other_size(found: GridSize, stated: GridSize) -> NoBoardError:
+    """Return the error that says which size was found instead of the stated one."""
     return NoBoardError(
         f"This board has at least {found[0]} rows and exactly {found[1]} columns of inner corners, "
         f"not {stated[0]} x {stated[1]}.",
@@ -129,24 +152,24 @@ def _other_size(found: GridSize, stated: GridSize) -> NoBoardError:
     )
 
 
-def _record(
+def _assemble_corners(
     image: GreyImage,
     lattice: Lattice,
-    fit: Fit | None,
+    fit: XCornerFit | None,
     outline: Array | None,
     rejected: list[RejectedCorner],
     pattern: Charuco,
 ) -> Corners:
-    """What is handed out."""
-    check_enough(lattice)
+    """Assemble the detector's result: saddle points, or the fitted model where there is one."""
+    require_enough_corners(lattice)
     found = lattice.found
     uv = lattice.uv[found]
     corners = Corners(
         shape=lattice.shape,
         grid=np.argwhere(found),
         uv=uv,
-        estimate=harris.first_estimates(image, uv, lattice.spacing()[found]),
-        roi=region.around(lattice) if outline is None else outline,
+        estimate=harris.estimate_corners(image, uv, lattice.spacing()[found]),
+        roi=region.find_outline(lattice) if outline is None else outline,
         method="saddle",
         rejected=tuple(rejected),
         pattern=pattern,

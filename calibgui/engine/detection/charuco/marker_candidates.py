@@ -1,8 +1,8 @@
-"""Which dictionaries the quadrilaterals in an image may be markers of.
+"""Dark quadrilaterals of an image, and the dictionaries that they may be markers of.
 
-To read the markers of one dictionary takes OpenCV long where the dictionary is large, whatever
+Reading the markers of one dictionary takes OpenCV long where the dictionary is large, whatever
 the image shows. What may be a marker at all is found once for all of them: a dark quadrilateral,
-of which k + 2 cells a side are looked at. The outermost are dark; the k x k others, as +1 and -1,
+sampled in k + 2 cells a side. The outermost cells are dark; the k x k others, as +1 and -1,
 have with each marker of the dictionary, turned by quarters, the inner product k^2 less twice the
 number of cells that differ. As many may differ as OpenCV would correct.
 """
@@ -15,13 +15,12 @@ import numpy as np
 
 from calibgui.engine import opencv
 from calibgui.engine.arrays import BoolArray, FloatImage, GreyImage
+from calibgui.engine.detection.charuco.thresholds import CHARUCO_THRESHOLDS
 from calibgui.engine.geometry import homography
-from calibgui.engine.images.sampling import sample
+from calibgui.engine.images.sampling import sample_image
 
-_BORDER_ERRORS = 0.35
-"""Greatest number of bright cells in the border, over k^2: OpenCV's."""
-_WITHIN = np.array([(u, v) for v in (-0.2, 0.2) for u in (-0.2, 0.2)])
-"""Where a cell is looked at, cells from its centre."""
+_SAMPLE_OFFSETS = np.array([(u, v) for v in (-0.2, 0.2) for u in (-0.2, 0.2)])
+"""(4, 2) where a cell is sampled, cells from its centre."""
 
 
 class MarkerCandidates:
@@ -33,41 +32,49 @@ class MarkerCandidates:
             image: (h, w) 8-bit grey levels.
         """
         self._image = image
-        self._quads = opencv.dark_quads(image)
+        self._quads = opencv.detect_dark_quads(image)
         self._cells: dict[int, BoolArray] = {}
 
-    def fitting(self, dictionary: str) -> int:
-        """How many of them may be markers of a dictionary."""
-        codes, correctable = _codes(dictionary)
+    def count_fitting(self, dictionary: str) -> int:
+        """Count the quadrilaterals that may be markers of a dictionary."""
+        codes, correctable = _encode_markers(dictionary)
         k = int(np.sqrt(codes.shape[1]))
         if k not in self._cells:
-            self._cells[k] = self._dark_cells(k + 2)
+            self._cells[k] = self._find_dark_cells(k + 2)
         dark = self._cells[k]
         inner = dark[:, 1:-1, 1:-1]
         bright = (k + 2) ** 2 - k * k - (dark.sum(axis=(1, 2)) - inner.sum(axis=(1, 2)))
-        inner = inner[bright <= _BORDER_ERRORS * k * k].reshape(-1, k * k)
+        inner = inner[bright <= CHARUCO_THRESHOLDS.max_border_error_share * k * k].reshape(
+            -1, k * k
+        )
         alike = np.where(inner, 1.0, -1.0).astype(np.float32) @ codes.T
         return int(np.count_nonzero((alike >= k * k - 2 * correctable).any(axis=1)))
 
-    def _dark_cells(self, side: int) -> BoolArray:
-        """(n, side, side) whether each cell is darker than the mid level of its quadrilateral."""
+    def _find_dark_cells(self, side: int) -> BoolArray:
+        """Return (n, side, side), True where a cell is darker than the mid level of its
+        quadrilateral."""
         n = len(self._quads)
         square = np.broadcast_to(side * np.array([(0.0, 0), (1, 0), (1, 1), (0, 1)]), (n, 4, 2))
         H = homography.fit_homography(square, self._quads, np.ones((n, 4)))
         v, u = np.indices((side, side)).reshape(2, -1) + 0.5
-        at = (np.column_stack([u, v])[:, None] + _WITHIN).reshape(-1, 2)
-        values = sample(self._image, homography.apply(H, np.broadcast_to(at, (n, *at.shape))))
-        level = values.reshape(n, side, side, len(_WITHIN)).mean(axis=3)
+        at = (np.column_stack([u, v])[:, None] + _SAMPLE_OFFSETS).reshape(-1, 2)
+        values = sample_image(
+            self._image, homography.apply_homography(H, np.broadcast_to(at, (n, *at.shape)))
+        )
+        level = values.reshape(n, side, side, len(_SAMPLE_OFFSETS)).mean(axis=3)
         ends = level.min(axis=(1, 2)), level.max(axis=(1, 2))
         return np.asarray(level < np.mean(ends, axis=0)[:, None, None])
 
 
 @lru_cache
-def _codes(dictionary: str) -> tuple[FloatImage, int]:
-    """(4 m, k^2) the dark (+1) and bright (-1) cells of a dictionary's markers, turned by quarters,
-    float32; and how many misread cells are corrected."""
-    count, correctable = opencv.dictionaries()[dictionary], opencv.correctable_cells(dictionary)
-    cells = [opencv.marker_cells(dictionary, k)[1:-1, 1:-1] for k in range(count)]
+def _encode_markers(dictionary: str) -> tuple[FloatImage, int]:
+    """Return the dark (+1) and bright (-1) cells (4 m, k^2), float32, of a dictionary's markers in
+    all four turns, and the number of misread cells that OpenCV corrects."""
+    count, correctable = (
+        opencv.list_dictionaries()[dictionary],
+        opencv.count_correctable_cells(dictionary),
+    )
+    cells = [opencv.draw_marker_cells(dictionary, k)[1:-1, 1:-1] for k in range(count)]
     turned = np.stack([np.rot90(cells, turn, axes=(1, 2)) for turn in range(4)], axis=1)
     codes = np.where(turned, 1.0, -1.0).astype(np.float32)
     return codes.reshape(4 * count, -1), correctable

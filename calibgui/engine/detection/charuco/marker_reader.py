@@ -1,6 +1,9 @@
-"""Reads the markers of an image: of a dictionary that is known, or of whichever it may be.
+"""Reading the markers of an image: of a stated dictionary, or of whichever it may be.
 
-OpenCV's dictionaries of one family begin alike: the markers of the smallest are the first of all.
+Reading is slow on large images and for large dictionaries. So the image is read at the coarsest
+size first, and of dictionaries that are not stated only those are read of which the image's dark
+quadrilaterals (`MarkerCandidates`) may be markers. The dictionaries of a family of OpenCV's begin
+alike: the markers of the smallest are the first of all.
 """
 
 from __future__ import annotations
@@ -10,97 +13,117 @@ from functools import partial
 
 from calibgui.engine import opencv
 from calibgui.engine.arrays import Array, GreyImage, IntArray
-from calibgui.engine.boards.charuco import Layout, dictionary_family
+from calibgui.engine.boards.charuco import MarkerLayout, dictionary_family
 from calibgui.engine.detection import region_of_interest as region
 from calibgui.engine.detection.charuco.marker_candidates import MarkerCandidates
-from calibgui.engine.detection.charuco.markers import MIN_MARKERS, Markers, on_board
-from calibgui.engine.detection.checkerboard.pyramid_search import contains
+from calibgui.engine.detection.charuco.markers import Markers, identify_board
+from calibgui.engine.detection.charuco.thresholds import CHARUCO_THRESHOLDS
+from calibgui.engine.detection.region_of_interest import are_inside
 
-_COARSE = 1600
+_MAX_COARSE_SIDE = 1600
 """Longer side of the image in which markers are looked for first, px."""
-_USUAL = (
+_COMMON_FAMILIES = (
     *(f"DICT_{k}X{k}" for k in (4, 5, 6, 7)),
     "DICT_ARUCO_ORIGINAL",
     "DICT_APRILTAG_36H11",
     "DICT_ARUCO_MIP_36H12",
 )
-"""Families of dictionaries that are tried where none is stated; others take longer."""
+"""Families of dictionaries that are tried where none is stated; others would take longer."""
 
 
-Seen = tuple[str, Markers]
-"""A dictionary and the board's markers."""
+ReadBoard = tuple[str, Markers]
+"""The name of a dictionary and the board's markers."""
 
 
-class Reader:
-    """Reads the markers of an image, coarsely first."""
+class MarkerReader:
+    """A reader of the markers of one image, from its coarsest size to its full size."""
 
     def __init__(self, image: GreyImage, outline: Array | None) -> None:
+        """
+        Args:
+            image: (h, w) 8-bit grey levels.
+            outline: (4, 2) px, the region of interest; None for the whole image.
+        """
         self._levels = [image]
-        while max(self._levels[-1].shape) > _COARSE:
-            self._levels.append(opencv.half(self._levels[-1]))
-        self._outline = None if outline is None else region.enlarged(outline)
+        while max(self._levels[-1].shape) > _MAX_COARSE_SIDE:
+            self._levels.append(opencv.halve_image(self._levels[-1]))
+        self._outline = None if outline is None else region.enlarge_outline(outline)
         self._candidates: dict[int, MarkerCandidates] = {}
         self._read: dict[tuple[int, str], tuple[IntArray, Array]] = {}
 
-    def grid_size(self, name: str, layouts: Collection[Layout]) -> Seen | None:
-        """The dictionary, and its markers on a board of one of the layouts."""
-        return self._first(lambda _: [name], layouts)
+    def read_dictionary(self, name: str, layouts: Collection[MarkerLayout]) -> ReadBoard | None:
+        """Read the markers of a stated dictionary on a board of one of the layouts.
 
-    def unknown(self, layouts: Collection[Layout]) -> Seen | None:
-        """The same for a dictionary that is not stated: the smallest of its family that reads
-        the most."""
+        Returns:
+            The dictionary and the markers; None if they show no such board.
+        """
+        return self._read_first(lambda _: [name], layouts)
+
+    def search_dictionaries(self, layouts: Collection[MarkerLayout]) -> ReadBoard | None:
+        """Read the markers of an unknown dictionary on a board of one of the layouts.
+
+        Returns:
+            The smallest dictionary of its family that reads the most markers, and these; None if
+            none of the common ones shows such a board.
+        """
         best = None
         for rank in (0, 2):
-            best = best or self._first(partial(self._likely, _offamily(rank)), layouts)
-        for larger in _larger(best[0]) if best is not None else ():
-            found = self.grid_size(larger, layouts)
+            best = best or self._read_first(
+                partial(self._select_likely, _list_family_members(rank)), layouts
+            )
+        for larger in _list_larger(best[0]) if best is not None else ():
+            found = self.read_dictionary(larger, layouts)
             if best is None or found is None or len(found[1].numbers) <= len(best[1].numbers):
                 break
             best = found
         return best
 
-    def _first(
-        self, names: Callable[[int], Iterable[str]], layouts: Collection[Layout]
-    ) -> Seen | None:
-        """The first of the dictionaries to be tried at each depth that shows a board."""
+    def _read_first(
+        self, names: Callable[[int], Iterable[str]], layouts: Collection[MarkerLayout]
+    ) -> ReadBoard | None:
+        """Read the first dictionary that shows a board, of those that `names` lists for each
+        depth of the pyramid."""
         for depth in reversed(range(len(self._levels))):
             for name in names(depth):
-                markers = on_board(*self._markers(depth, name), layouts)
+                markers = identify_board(*self._read_markers(depth, name), layouts)
                 if markers is not None:
                     return name, markers
         return None
 
-    def _likely(self, names: list[str], depth: int) -> list[str]:
-        """The dictionaries that as many quadrilaterals may be of as a board needs."""
+    def _select_likely(self, names: list[str], depth: int) -> list[str]:
+        """Select the dictionaries of which enough quadrilaterals may be markers."""
         if depth not in self._candidates:
             self._candidates[depth] = MarkerCandidates(self._levels[depth])
         seen = self._candidates[depth]
-        return [name for name in names if seen.fitting(name) >= MIN_MARKERS]
+        least = CHARUCO_THRESHOLDS.min_markers
+        return [name for name in names if seen.count_fitting(name) >= least]
 
-    def _markers(self, depth: int, name: str) -> tuple[IntArray, Array]:
+    def _read_markers(self, depth: int, name: str) -> tuple[IntArray, Array]:
+        """Read numbers (n,) and corners (n, 4, 2) px of markers in the region of interest, once."""
         if (depth, name) not in self._read:
-            numbers, corners = opencv.markers(self._levels[depth], name)
+            numbers, corners = opencv.detect_markers(self._levels[depth], name)
             corners = (corners + 0.5) * 2**depth - 0.5
             if self._outline is not None and len(numbers):
-                inside = contains(self._outline, corners.mean(axis=1))
+                inside = are_inside(self._outline, corners.mean(axis=1))
                 numbers, corners = numbers[inside], corners[inside]
             self._read[depth, name] = numbers, corners
         return self._read[depth, name]
 
 
-def _sizes(stem: str) -> list[str]:
-    """The dictionaries of a family, smallest first."""
-    sizes = opencv.dictionaries()
-    same = [name for name in sizes if dictionary_family(name) == stem]
+def _list_family(family: str) -> list[str]:
+    """List the dictionaries of a family, smallest first."""
+    sizes = opencv.list_dictionaries()
+    same = [name for name in sizes if dictionary_family(name) == family]
     return sorted(same, key=lambda name: sizes[name])
 
 
-def _offamily(rank: int) -> list[str]:
-    """One dictionary of each of the usual families, the smallest for rank 0."""
-    return [_sizes(stem)[min(rank, len(_sizes(stem)) - 1)] for stem in _USUAL]
+def _list_family_members(rank: int) -> list[str]:
+    """List one dictionary of each of the common families: that of a rank by size, from 0."""
+    families = [_list_family(family) for family in _COMMON_FAMILIES]
+    return [members[min(rank, len(members) - 1)] for members in families]
 
 
-def _larger(dictionary: str) -> list[str]:
-    """The larger dictionaries of the same family."""
-    same = _sizes(dictionary_family(dictionary))
-    return same[same.index(dictionary) + 1 :]
+def _list_larger(dictionary: str) -> list[str]:
+    """List the larger dictionaries of the same family, smallest first."""
+    members = _list_family(dictionary_family(dictionary))
+    return members[members.index(dictionary) + 1 :]

@@ -1,4 +1,4 @@
-"""Could a lattice have come about by chance?
+"""The a-contrario test: could a lattice have come about by chance?
 
 Where squares are dark or bright at random, as in codes, tilings and textures, some of them
 alternate like a board's. Given a corner, around which four do, the (a + 1)(b + 1) squares of a
@@ -9,7 +9,7 @@ full rectangle of a x b corners that contains it all alternate with the probabil
 
 rectangles by chance alone. A lattice means something if for its most surprising rectangle that
 number is far below one (a-contrario detection: Desolneux, Moisan and Morel 2000). Its size alone
-does not tell: ragged parts of almost any size hang together by chance.
+is no evidence: ragged parts of almost any size hang together by chance.
 """
 
 from __future__ import annotations
@@ -17,17 +17,15 @@ from __future__ import annotations
 import numpy as np
 
 from calibgui.engine.arrays import BoolArray
-
-_ALARMS = 1 / 16
-"""Boards that may be expected by chance in an image full of squares at random."""
+from calibgui.engine.detection.checkerboard.thresholds import THRESHOLDS
 
 
-def meaningful(found: BoolArray, others: int) -> bool:
-    """Whether chance does not explain a lattice.
+def is_meaningful(found: BoolArray, others: int) -> bool:
+    """Return whether chance does not explain a lattice.
 
     Args:
-        found: (rows, cols) where it has corners.
-        others: corners seen in the image that are not its own: J, which is one at least.
+        found: (rows, cols) mask of its corners.
+        others: number J of corners seen in the image that are not its own; 0 counts as 1.
     """
     full = np.ones(found.shape, dtype=np.bool_)
     least = np.inf
@@ -41,4 +39,4 @@ def meaningful(found: BoolArray, others: int) -> bool:
             break
         free = (height + 1) * (width + 1) - 4
         least = min(least, np.log2(max(others, 1) * height * width) - free)
-    return bool(least < np.log2(_ALARMS))
+    return bool(least < np.log2(THRESHOLDS.verification.max_false_boards))

@@ -1,21 +1,22 @@
-"""What the board as a whole says about each corner's surroundings.
+"""Curvatures and gradients at every corner, taken from the board as a whole.
 
 Fitted to a single corner, the curvature of its edges and the gradients of light, blur and scale
 are hard to tell from a displacement: all are odd under point reflection, and freeing them costs
 40 % of the accuracy. Left out they bias it. They vary slowly over the board, so they are taken
-from the lattice: of the lines p(n) of corners p'' normal to p' over |p'|^2 is the curvature, and
+from the lattice: the curvature of a line p(n) of corners is its p'' normal to p' over |p'|^2, and
 the gradient of a quantity f known at every corner follows from its derivatives along both lines,
 
     (df/dcol, df/drow) = (right, down)^T grad f.
 
 Both are smoothed over the board by polynomials in column and row. Their degree is what the
 values support: the one of the least generalised cross-validation score, RSS / (1 - 1.4 k/n)^2 for
-k terms and n values, which estimates how badly the polynomial would predict a corner left out.
+k terms and n values, which estimates how badly the polynomial would predict a corner left out
+(Kim and Gu 2004).
 
 No polynomial follows light that breaks, at the edge of a shadow or of a reflection: it would ring
-all over the board. That shows where it misses the values by more than their second differences
-along the lines let expect, of which a break spoils only a few. The derivatives are then the lesser
-of the differences to both sides, the one that has no break in it.
+all over the board. Such a break shows where the polynomial misses the values by more than their
+second differences along the lines predict, of which it spoils only a few. The derivatives are then
+the lesser of the differences to both sides, the one that does not cross the break.
 """
 
 from __future__ import annotations
@@ -27,21 +28,13 @@ import numpy as np
 
 from calibgui.engine.arrays import Array, BoolArray, GridSize, IntArray
 from calibgui.engine.detection import grid_map
+from calibgui.engine.detection.checkerboard.fit_thresholds import FIT_THRESHOLDS
 
-_HIGHEST = 7
-"""Highest degree tried."""
-_CAUTION = 1.4
-"""What a term costs in the cross-validation, as Kim and Gu (2004) advise: with 1 it takes too high
-a degree by chance now and then."""
-_OWN = 1e-6
-"""Least part of a term that those of lower degree do not have in common with it."""
-_BROKEN = 3.0
-"""Rms miss of the polynomial over the values' noise, by their second differences, in light that
-breaks."""
-_NOISE = 1 / (0.6745 * 6**0.5)
-"""Standard deviation of what is independent over the median of its absolute second differences."""
+_THRESHOLDS = FIT_THRESHOLDS.priors
+_NOISE_PER_DIFFERENCE = 1 / (0.6745 * 6**0.5)
+"""Standard deviation of independent values over the median of their absolute second differences."""
 _ORDERS = ((0, 1), (1, 0), (0, 2), (2, 0))
-"""Derivatives by row and by column that are needed."""
+"""Numbers of derivatives by row and by column that are needed."""
 
 
 class _Terms(NamedTuple):
@@ -50,68 +43,60 @@ class _Terms(NamedTuple):
     orthonormal: Array
     """(n, terms)"""
     derivatives: Array
-    """(4, n, terms) of these, in the order of `_ORDERS`."""
+    """(4, n, terms) derivatives of these, in the order of `_ORDERS`."""
     counts: IntArray
-    """How many of the terms make up the polynomials of one degree after another."""
+    """(degrees,) numbers of the terms that make up the polynomials of one degree after another."""
 
 
 @lru_cache(maxsize=4)
-def _terms(shape: GridSize, found: bytes) -> _Terms:
-    """The terms for the corners found in a lattice of a shape: most images of a set show the
-    same."""
+def _compute_terms(shape: GridSize, found: bytes) -> _Terms:
+    """Compute the terms for the corners found in a lattice of a shape; they are kept, since most
+    images of a set show the same corners."""
     at = np.argwhere(np.frombuffer(found, dtype=np.bool_).reshape(shape))
     half = np.maximum(np.array(shape) - 1, 1) / 2
-    limit = np.minimum(_HIGHEST, np.ptp(at, axis=0))
+    limit = np.minimum(_THRESHOLDS.max_degree, np.ptp(at, axis=0))
     powers = np.argwhere(np.ones(limit + 1))
     degree = powers.sum(axis=1)
     order = np.argsort(degree, kind="stable")
     order = order[: max(2 * len(at) // 3, 1)]
     powers, degree = powers[order], degree[order]
     x = at / half - 1
-    table = x[..., None] ** np.arange(_HIGHEST + 1)
-    basis = _basis(table, powers, half, (0, 0))
+    table = x[..., None] ** np.arange(_THRESHOLDS.max_degree + 1)
+    basis = grid_map.compute_polynomial_terms(table, powers, half)
     Q, R = np.linalg.qr(basis)
-    own = abs(np.diag(R)) > _OWN * np.linalg.norm(basis, axis=0)
-    if not own.all():  # where lines have gaps the corners do not tell all terms apart
-        powers, degree = powers[own], degree[own]
-        Q, R = np.linalg.qr(basis[:, own])
-    # The terms are nested: these many make up the polynomials of one degree after another.
-    counts = np.searchsorted(degree, np.unique(degree[degree <= _HIGHEST]), side="right")
+    independent = abs(np.diag(R)) > _THRESHOLDS.min_independence * np.linalg.norm(basis, axis=0)
+    if not independent.all():  # lines with gaps do not tell all terms apart
+        powers, degree = powers[independent], degree[independent]
+        Q, R = np.linalg.qr(basis[:, independent])
+    # The terms are nested by degree.
+    counts = np.searchsorted(
+        degree, np.unique(degree[degree <= _THRESHOLDS.max_degree]), side="right"
+    )
     inverse = np.linalg.inv(R)
-    derivatives = np.stack([_basis(table, powers, half, order) @ inverse for order in _ORDERS])
-    return _Terms(Q, derivatives, counts)
+    derivatives = [
+        grid_map.compute_polynomial_terms(table, powers, half, order) @ inverse for order in _ORDERS
+    ]
+    return _Terms(Q, np.stack(derivatives), counts)
 
 
-def _basis(table: Array, powers: IntArray, half: Array, order: tuple[int, int]) -> Array:
-    """(n, terms) products of the `powers` (terms, 2) of row and column at the corners, of which
-    `table` (n, 2, degrees) holds all, differentiated so often by either."""
-    basis = np.ones((len(table), len(powers)))
-    for axis in (0, 1):
-        power, factor = powers[:, axis], np.ones(len(powers))
-        for _ in range(order[axis]):
-            factor, power = factor * power / half[axis], np.maximum(power - 1, 0)
-        basis *= factor * table[:, axis, power]
-    return basis
-
-
-class Surroundings:
-    """The polynomials over the corners of a lattice."""
+class BoardPriors:
+    """Geometry and gradients at the corners of a lattice, from polynomials over all of them."""
 
     def __init__(self, found: BoolArray) -> None:
         """
         Args:
-            found: (rows, cols) where the lattice has its n corners.
+            found: (rows, cols) True where the lattice has one of its n corners.
         """
         self._found = found
-        self._terms = _terms(found.shape, found.tobytes())
+        self._terms = _compute_terms(found.shape, found.tobytes())
         self._cells = np.argwhere(found)[:, ::-1].astype(np.float64)
 
-    def geometry(self, uv: Array) -> tuple[Array, Array]:
-        """Steps to the next column and row, and curvatures of the row's and column's edges.
+    def estimate_geometry(self, uv: Array) -> tuple[Array, Array]:
+        """Estimate steps to the next column and row, and curvatures of the edges along both.
 
         An edge is p(s) = c + s t + kappa s^2 / 2 n, with the normal n of a row's edge towards the
-        next row and that of a column's edge towards the next column. p is the lattice's perspective
-        (`perspective`) plus a polynomial for what the lens has bent otherwise.
+        next row and that of a column's edge towards the next column. p is a homography through a
+        radial lens (``grid_map``) plus a polynomial for what the lens bends otherwise.
 
         Args:
             uv: (n, 2) the corners, px.
@@ -119,33 +104,39 @@ class Surroundings:
         Returns:
             (n, 2, 2) derivatives of the position by column and by row, px, and (n, 2) kappa, 1/px.
         """
-        flat = grid_map.fit_perspective(self._cells, uv)
-        first, second = flat.derivatives(self._cells)
-        bent, _ = self._differentiated(uv - flat.at(self._cells))
-        by_col, by_row, by_col2, by_row2 = bent
+        flat = grid_map.fit_radial_homography(self._cells, uv)
+        first, second = flat.differentiate(self._cells)
+        residual, _ = self._differentiate(uv - flat.locate(self._cells))
+        by_col, by_row, by_col2, by_row2 = residual
         steps = first + np.stack([by_col, by_row], axis=1)
-        return steps, curvatures(steps, second + np.stack([by_col2, by_row2], axis=1))
+        return steps, compute_curvatures(steps, second + np.stack([by_col2, by_row2], axis=1))
 
-    def gradients(self, steps: Array, values: Array) -> Array:
-        """(n, k, 2) gradients over the image of `values` (n, k) known at the corners, per px.
+    def estimate_gradients(self, steps: Array, values: Array) -> Array:
+        """Estimate gradients (n, k, 2) over the image, per px, of `values` (n, k) at the corners.
 
         Args:
             steps: (n, 2, 2) to the next column and row, px.
         """
-        derivatives, missed = self._differentiated(values)
+        derivatives, misfit = self._differentiate(values)
         slopes = derivatives[:2].transpose(1, 0, 2)
-        before, after, second = self._differences(values)
+        before, after, second = self._take_differences(values)
         known = np.isfinite(second[..., 0])
         if known.any():
-            noise = _NOISE * np.median(abs(second[known]), axis=0)
+            noise = _NOISE_PER_DIFFERENCE * np.median(abs(second[known]), axis=0)
             lesser = np.where(abs(before) < abs(after), before, after)
-            slopes = np.where(missed > _BROKEN * noise, np.nan_to_num(lesser), slopes)
+            slopes = np.where(
+                misfit > _THRESHOLDS.max_relative_misfit * noise, np.nan_to_num(lesser), slopes
+            )
         return np.asarray(np.linalg.solve(steps, slopes).transpose(0, 2, 1))
 
-    def _differences(self, values: Array) -> tuple[Array, Array, Array]:
-        """Of `values` (n, k) the differences (n, 2, k) from the neighbours before, by column and by
-        row, those to the neighbours after, at the ends of lines the next ones instead, and the
-        second differences; NaN where there is none."""
+    def _take_differences(self, values: Array) -> tuple[Array, Array, Array]:
+        """Take differences of `values` (n, k) along the lines.
+
+        Returns:
+            (n, 2, k) differences by column and by row from the neighbours before and to the
+            neighbours after, at the ends of lines the next ones instead, and second differences;
+            NaN where there is none.
+        """
         rows, cols = self._found.shape
         around = np.full((rows + 4, cols + 4, values.shape[1]), np.nan)
         around[2:-2, 2:-2][self._found] = values
@@ -161,47 +152,52 @@ class Surroundings:
         start, end = np.isnan(before), np.isnan(after)
         return np.where(start, later, before), np.where(end, earlier, after), after - before
 
-    def _differentiated(self, values: Array) -> tuple[Array, Array]:
-        """(4, n, k) derivatives `_ORDERS` of the polynomials through `values` (n, k), and by how
-        much (k,) these would miss a value left out, rms."""
+    def _differentiate(self, values: Array) -> tuple[Array, Array]:
+        """Differentiate the polynomials fitted to `values` (n, k).
+
+        Returns:
+            (4, n, k) the derivatives `_ORDERS`, and (k,) the rms by which the polynomials would
+            miss a value left out.
+        """
         Q, derivatives, counts = self._terms
         weights = Q.T @ values
         # Dropping the last terms leaves the others' weights on Q unchanged.
         explained = np.cumsum(weights**2, axis=0)[counts - 1]
         rss = np.maximum(np.sum(values**2, axis=0) - explained, 0.0)
-        score = rss / (1 - _CAUTION * counts[:, None] / (len(values) + 1)) ** 2
+        score = rss / (1 - _THRESHOLDS.term_cost * counts[:, None] / (len(values) + 1)) ** 2
         best = counts[np.argmin(score, axis=0)]
         weights[np.arange(len(weights))[:, None] >= best] = 0.0
         return derivatives @ weights, np.sqrt(score.min(axis=0) / len(values))
 
 
-class Foreseen(Surroundings):
-    """The same with steps and curvatures that a calibrated camera expects."""
+class PredictedBoardPriors(BoardPriors):
+    """Board priors whose steps and curvatures are predicted by a calibrated camera."""
 
     def __init__(self, found: BoolArray, geometry: tuple[Array, Array]) -> None:
         """
         Args:
-            found: as above.
-            geometry: what is expected, as below.
+            found: as `BoardPriors`.
+            geometry: the predicted steps (n, 2, 2) and curvatures (n, 2), as `estimate_geometry`
+                returns them.
         """
         super().__init__(found)
         self._geometry = geometry
 
-    def geometry(self, uv: Array) -> tuple[Array, Array]:
-        """As expected, wherever the corners were found."""
+    def estimate_geometry(self, uv: Array) -> tuple[Array, Array]:
+        """Return the predicted geometry, wherever the corners were found."""
         del uv
         return self._geometry
 
 
-def curvatures(first: Array, second: Array) -> Array:
-    """(n, 2) kappa, 1/px, of lines from the first and second derivatives (n, 2, 2) of positions by
-    column and by row, px."""
-    normal = _normal(first, first[:, ::-1])
+def compute_curvatures(first: Array, second: Array) -> Array:
+    """Compute kappa (n, 2), 1/px, of lines from the first and second derivatives (n, 2, 2) of
+    positions by column and by row, px."""
+    normal = _compute_normal(first, first[:, ::-1])
     return np.asarray(np.sum(second * normal, axis=2) / np.sum(first * first, axis=2))
 
 
-def _normal(along: Array, across: Array) -> Array:
-    """Unit normal of `along` on the side of `across`."""
+def _compute_normal(along: Array, across: Array) -> Array:
+    """Compute the unit normal of `along` on the side of `across`."""
     normal = np.stack([-along[..., 1], along[..., 0]], axis=-1)
     side = np.sign(np.sum(normal * across, axis=-1, keepdims=True))
     return np.asarray(side * normal / np.linalg.norm(normal, axis=-1, keepdims=True))

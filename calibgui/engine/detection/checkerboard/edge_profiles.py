@@ -6,7 +6,7 @@ offset e where the edge really lies. From samples over [-R, R], in squares,
     e = R - integral of (I - lo) / (hi - lo),
 
 which averages noise and needs no threshold. Half the difference of e between an edge's two arms
-is the overlap or gap w of the squares; what the corner is off the edge drops out. Between 25 and
+is the overlap or gap w of the squares; an error of the corner off the edge cancels. Between 25 and
 75 % of the rise the profile of a Gaussian blur is 1.349 standard deviations wide.
 """
 
@@ -18,31 +18,33 @@ import numpy as np
 
 from calibgui.engine import kernels
 from calibgui.engine.arrays import Array, GreyImage
-from calibgui.engine.images.sampling import sample
+from calibgui.engine.detection.checkerboard.fit_thresholds import FIT_THRESHOLDS
+from calibgui.engine.images.sampling import sample_image
 
-_ALONG = np.array([0.2, 0.3, 0.4, -0.2, -0.3, -0.4])
-"""Where on the two arms profiles are taken, squares from the corner."""
-_NEAR, _FAR = np.array([0, 3]), np.array([2, 5])
-"""Of these the nearest and the farthest."""
+_PROFILE_OFFSETS = np.array([0.2, 0.3, 0.4, -0.2, -0.3, -0.4])
+"""(k,) where on the two arms profiles are taken, squares from the corner."""
+_NEAREST, _FARTHEST = np.array([0, 3]), np.array([2, 5])
+"""Indices of the profiles nearest to the corner and farthest from it."""
 _REACH = 0.35
 """R, squares across the edge."""
-_CLOSE = 6.0
-"""Half width of the profile that tells the blur, px: samples of large squares lie too far apart."""
+_BLUR_REACH = 6.0
+"""Half width of the profile that the blur is measured on, px: the samples of a whole profile of
+large squares lie too far apart."""
 _SAMPLES = 33
-_ENDS = 4
-"""Samples at either end that give lo and hi."""
-_CLEAR = 0.5
-"""Least rise of a profile worth measuring, over the median."""
-_QUARTILES = 1.349
+"""Number of samples of a profile."""
+_END_SAMPLES = 4
+"""Number of samples at either end that give lo and hi."""
+_QUARTILE_WIDTH = 1.349
+"""Distance of a normal distribution's quartiles, standard deviations."""
 
 
-class Profile(NamedTuple):
-    """What the profiles across one edge of each of n corners say."""
+class EdgeProfiles(NamedTuple):
+    """Measurements of the profiles across one edge of each of n corners."""
 
     spread: Array
     """(n,) growth of the dark squares on every side, squares; NaN where the edge is unclear."""
     bulge: Array
-    """(n,) the same away from the corner less near it; NaN where the edge is unclear."""
+    """(n,) the spread far from the corner less that near it; NaN where the edge is unclear."""
     blur: Array
     """(n,) px."""
     low: Array
@@ -51,16 +53,7 @@ class Profile(NamedTuple):
     """(n,) grey level of the bright squares."""
 
 
-class _Edges(NamedTuple):
-    """What profiles are taken of: the first arguments of `across_edge`."""
-
-    image: GreyImage
-    uv: Array
-    along: Array
-    across: Array
-
-
-def across_edge(
+def measure_edge_profiles(
     image: GreyImage,
     uv: Array,
     along: Array,
@@ -68,8 +61,8 @@ def across_edge(
     size: Array,
     sign: Array,
     plain: float = 0.5,
-) -> Profile:
-    """Profiles across one edge of each corner, in the direction of the other.
+) -> EdgeProfiles:
+    """Measure profiles across one edge of each corner, in the direction of the other.
 
     Args:
         image: (h, w) grey levels.
@@ -80,60 +73,88 @@ def across_edge(
         sign: (n,) p, +1 where the square towards both steps is bright.
         plain: how far from its edges a square is of one colour, squares.
     """
-    edges = _Edges(image, uv, along, across)
+    edges = image, uv, along, across, _PROFILE_OFFSETS
     reach = _REACH * 2 * plain
-    first, last, total = (_compiled_levels if kernels.COMPILED else _levels)(edges, reach)
-    rising = sign[:, None] * np.sign(_ALONG)
+    first, last, total = _measure_ends(*edges, reach, _SAMPLES, _END_SAMPLES)
+    rising = sign[:, None] * np.sign(_PROFILE_OFFSETS)
     rise = (last - first) * rising
-    clear = rise > max(_CLEAR * float(np.median(rise)), 0.0)
+    clear = rise > max(FIT_THRESHOLDS.profiles.min_relative_rise * float(np.median(rise)), 0.0)
     rise = np.where(clear, rise * rising, np.inf)
     integral = (total / (_SAMPLES - 1) - first) / rise * 2 * reach
     growth = np.where(clear.all(axis=1, keepdims=True), (reach - integral) * rising, np.nan)
-    bulge = np.mean(growth[:, _FAR] - growth[:, _NEAR], axis=1)
-    close = np.minimum(reach, _CLOSE / size)
+    bulge = np.mean(growth[:, _FARTHEST] - growth[:, _NEAREST], axis=1)
+    close = np.minimum(reach, _BLUR_REACH / size)
     middle = np.clip(reach - integral, close[:, None] - reach, reach - close[:, None])
-    count = _compiled_between if kernels.COMPILED else _between
-    steep = np.median(count(edges, middle, close, first, rise), axis=1)
-    blur = size * steep * 2 * close / (_SAMPLES - 1) / _QUARTILES
+    count = _count_between_quartiles(*edges, middle, close, _SAMPLES, first, rise)
+    blur = size * np.median(count, axis=1) * 2 * close / (_SAMPLES - 1) / _QUARTILE_WIDTH
     low = np.median(np.where(rising > 0, first, last), axis=1)
     high = np.median(np.where(rising > 0, last, first), axis=1)
-    return Profile(np.mean(growth, axis=1), bulge, blur, low, high)
+    return EdgeProfiles(np.mean(growth, axis=1), bulge, blur, low, high)
 
 
-def _levels(edges: _Edges, reach: float) -> tuple[Array, Array, Array]:
-    """(n, k) grey levels at the first and last ends of the profiles, and the sum over each by the
-    trapezoidal rule."""
-    n = len(edges.uv)
-    values = _sampled(edges, np.zeros((n, len(_ALONG))), np.full(n, reach))
+@kernels.with_kernel("edge_profiles", "measure_ends")
+def _measure_ends(
+    image: GreyImage,
+    uv: Array,
+    along: Array,
+    across: Array,
+    offsets: Array,
+    reach: float,
+    samples: int,
+    ends: int,
+) -> tuple[Array, Array, Array]:
+    """Measure the grey levels at both ends of profiles, and their sums.
+
+    Args:
+        image, uv, along, across: as `measure_edge_profiles`.
+        offsets: (k,) where along the edge profiles are taken, squares.
+        reach: half their width, squares.
+        samples: number of samples of each.
+        ends: number of samples averaged at either end.
+
+    Returns:
+        Means of the first and of the last samples, and the sum of all by the trapezoidal rule,
+        each (n, k).
+    """
+    n = len(uv)
+    middle, half = np.zeros((n, len(offsets))), np.full(n, reach)
+    values = _sample_profiles(image, uv, along, across, offsets, middle, half, samples)
     total = values.sum(axis=2) - values[..., [0, -1]].mean(axis=2)
-    return values[..., :_ENDS].mean(axis=2), values[..., -_ENDS:].mean(axis=2), total
+    return values[..., :ends].mean(axis=2), values[..., -ends:].mean(axis=2), total
 
 
-def _compiled_levels(edges: _Edges, reach: float) -> tuple[Array, Array, Array]:
-    """`_levels` by the compiled kernel."""
-    from calibgui.engine.kernels import edge_profiles
-
-    return edge_profiles.levels(*edges, _ALONG, reach, _SAMPLES, _ENDS)
-
-
-def _between(edges: _Edges, middle: Array, half: Array, first: Array, rise: Array) -> Array:
-    """(n, k) how many of the samples around `middle` lie between 25 and 75 % of the rise."""
-    share = (_sampled(edges, middle, half) - first[..., None]) / rise[..., None]
+@kernels.with_kernel("edge_profiles", "count_between_quartiles")
+def _count_between_quartiles(
+    image: GreyImage,
+    uv: Array,
+    along: Array,
+    across: Array,
+    offsets: Array,
+    middle: Array,
+    half: Array,
+    samples: int,
+    first: Array,
+    rise: Array,
+) -> Array:
+    """Count the samples (n, k) around `middle` (n, k), up to `half` (n,) squares to both sides,
+    that lie between 25 and 75 % of the `rise` (n, k) from `first` (n, k)."""
+    values = _sample_profiles(image, uv, along, across, offsets, middle, half, samples)
+    share = (values - first[..., None]) / rise[..., None]
     return np.asarray(((share > 0.25) & (share < 0.75)).sum(axis=2), dtype=np.float64)
 
 
-def _compiled_between(
-    edges: _Edges, middle: Array, half: Array, first: Array, rise: Array
+def _sample_profiles(
+    image: GreyImage,
+    uv: Array,
+    along: Array,
+    across: Array,
+    offsets: Array,
+    middle: Array,
+    half: Array,
+    samples: int,
 ) -> Array:
-    """`_between` by the compiled kernel."""
-    from calibgui.engine.kernels import edge_profiles
-
-    return edge_profiles.between(*edges, _ALONG, middle, half, _SAMPLES, first, rise)
-
-
-def _sampled(edges: _Edges, middle: Array, half: Array) -> Array:
-    """(n, k, samples) grey levels from `middle` (n, k) up to `half` (n,) to both sides, in steps
-    across the edge."""
-    o = middle[..., None] + half[:, None, None] * np.linspace(-1, 1, _SAMPLES)
-    at = edges.uv[:, None, None] + _ALONG[:, None, None] * edges.along[:, None, None]
-    return sample(edges.image, at + o[..., None] * edges.across[:, None, None])
+    """Sample grey levels (n, k, samples) from `middle` (n, k) up to `half` (n,) squares to both
+    sides across the edges."""
+    o = middle[..., None] + half[:, None, None] * np.linspace(-1, 1, samples)
+    at = uv[:, None, None] + offsets[:, None, None] * along[:, None, None]
+    return sample_image(image, at + o[..., None] * across[:, None, None])

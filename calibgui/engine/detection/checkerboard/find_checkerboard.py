@@ -1,6 +1,17 @@
-"""From an image to numbered, refined and verified corners.
+"""The detector of checkerboards: from an image to numbered, refined and verified corners.
 
-From a lattice to a board that can be relied on: refined, verified and fitted.
+A wrong corner harms a calibration more than a missing one, so all that is found is doubted until
+its image proves it. The way of an image, entry first:
+
+1. `find_checkerboard` checks its arguments and asks the search (`pyramid_search`) for candidates,
+   lattices that may be boards.
+2. `refine_board` moves a candidate's corners to their saddle points at full resolution, tries its
+   gaps again, drops what fails (`verification`) and fits the edge model to the rest
+   (`x_corner_fit`). What remains must not be explained by chance (`a_contrario`).
+3. Where nothing is found but the user marked the four outermost corners, `find_marked_board` starts
+   from the places that these give.
+4. The board is numbered from an origin whose outer square is dark (`numbering`), and
+   `assemble_corners` makes the record that is handed out.
 """
 
 from __future__ import annotations
@@ -12,31 +23,58 @@ import numpy.typing as npt
 import scipy
 
 from calibgui.engine.arrays import Array, GreyImage, GridSize
-from calibgui.engine.boards.checkerboard import CHECKERBOARD, Checkerboard, checkerboard_ambiguity
+from calibgui.engine.boards.checkerboard import CHECKERBOARD, Checkerboard, checkerboard_symmetry
 from calibgui.engine.detection import region_of_interest as region
 from calibgui.engine.detection.checkerboard import a_contrario, harris, verification, x_corner_fit
-from calibgui.engine.detection.checkerboard.numbering import Numbering, numberings, place, relative
-from calibgui.engine.detection.checkerboard.prefilter import plausible
-from calibgui.engine.detection.checkerboard.pyramid_search import Candidate, find_boards
-from calibgui.engine.detection.checkerboard.saddle import at_saddles
-from calibgui.engine.detection.checkerboard.x_corner_fit import Fit
+from calibgui.engine.detection.checkerboard.numbering import (
+    Numbering,
+    is_relative,
+    list_numberings,
+    place_corners,
+)
+from calibgui.engine.detection.checkerboard.prefilter import is_plausible
+from calibgui.engine.detection.checkerboard.pyramid_search import Candidate, find_candidates
+from calibgui.engine.detection.checkerboard.saddle import refine_lattice
+from calibgui.engine.detection.checkerboard.x_corner_fit import XCornerFit
 from calibgui.engine.detection.corners import Corners, OtherBoard, RejectedCorner
+from calibgui.engine.detection.detector_io import check_grey_levels, list_rejected_corners
 from calibgui.engine.detection.lattice import (
     MIN_CORNERS,
     MIN_LINES,
     Lattice,
-    large_enough,
-    supported,
+    drop_isolated_and_crop,
+    is_large_enough,
 )
 from calibgui.engine.errors import NoBoardError
 
-_SMALLEST = 16
-"""Short side of an image that can show a board, px."""
+METHODS = ("edges", "saddle")
+"""The methods by which corners are located: the edge model, and the paper's saddle points."""
+_MAX_ROUNDS = 4
+"""Number of times that gaps are tried again, and that corners are left out and the rest fitted
+again; a board that has not come to rest by then is none."""
 _STATE_SIZE = "State the number of inner corners, rows x columns, or leave it out."
 
 
 class _OtherSizeError(NoBoardError):
     """There are boards, but none of the stated size."""
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class RefinedBoard:
+    """A verified board whose origin is still open."""
+
+    lattice: Lattice
+    rejected: tuple[RejectedCorner, ...]
+    fit: XCornerFit | None
+    """The edge model at the lattice's corners, None if the method is another."""
+
+    def __len__(self) -> int:
+        return len(self.lattice)
+
+    @property
+    def edge_length(self) -> float:
+        """Length of the edges at its corners, px: a measure of what its image tells."""
+        return float(np.nansum(self.lattice.spacing()[self.lattice.found]))
 
 
 def find_checkerboard(
@@ -50,7 +88,8 @@ def find_checkerboard(
 
     Args:
         image: (h, w) grey levels, uint8, uint16 or floating.
-        board: rows and columns of inner corners; inferred if None. A board of which only a part
+        pattern: unused; every detector takes one.
+        grid_size: rows and columns of inner corners; inferred if None. A board of which only a part
             is seen then counts as what is seen of it.
         roi: (4, 2) px, points at or just outside the board's outermost corners, in order around
             it: only corners inside count, and where the pattern leaves the origin open it is the
@@ -73,57 +112,49 @@ def find_checkerboard(
         raise ValueError(f"method {method!r} is none of {', '.join(METHODS)}")
     if grid_size is not None and min(grid_size) < MIN_LINES:
         raise ValueError(f"a board needs {MIN_LINES} x {MIN_LINES} inner corners, not {grid_size}")
-    grey = grey_levels(image)
-    outline = None if roi is None else region.outline(roi)
-    others: list[LocatedBoard] = []
+    grey = check_grey_levels(image)
+    outline = None if roi is None else region.check_outline(roi)
+    others: list[RefinedBoard] = []
     try:
-        found, others = _automatic(grey, grid_size, outline, method)
+        board, others = _find_wanted_board(grey, grid_size, outline, method)
     except NoBoardError as error:
         if outline is None or grid_size is None:
             raise
-        marked = guided(grey, grid_size, outline, method)
+        marked = find_marked_board(grey, grid_size, outline, method)
         if marked is None:
-            raise error if isinstance(error, _OtherSizeError) else _misfit(grid_size) from None
-        found = marked
-    return record(grey, found, _numbered(grey, found.lattice, grid_size, outline), outline, others)
+            if isinstance(error, _OtherSizeError):
+                raise
+            raise _describe_misfit(grid_size) from None
+        board = marked
+    numberings = _sort_numberings(grey, board.lattice, grid_size, outline)
+    return assemble_corners(grey, board, numberings, outline, others)
 
 
-def grey_levels(image: npt.ArrayLike) -> GreyImage:
-    """The image (h, w) as uint8, uint16 or float32. Raises ValueError for what is none."""
-    grey = np.asarray(image)
-    if grey.ndim != 2:
-        raise ValueError(f"an image of grey levels (h, w) is needed, not of shape {grey.shape}")
-    if min(grey.shape) < _SMALLEST:
-        raise NoBoardError(
-            f"An image of {grey.shape[1]} x {grey.shape[0]} pixels is too small for a board.",
-            "Take the original picture, not a thumbnail of it.",
-        )
-    if grey.dtype in (np.uint8, np.uint16):
-        return np.ascontiguousarray(grey)
-    grey = np.ascontiguousarray(grey, dtype=np.float32)
-    if not np.isfinite(grey).all():
-        raise ValueError("the image has grey levels that are not finite")
-    return grey
-
-
-def _automatic(
+def _find_wanted_board(
     grey: GreyImage, grid_size: GridSize | None, outline: Array | None, method: str
-) -> tuple[LocatedBoard, list[LocatedBoard]]:
-    """The wanted board, that with the most edge of those that may be of the stated size if there
-    is one, and the others."""
-    boards: list[LocatedBoard] = []
-    tried: dict[Candidate, LocatedBoard | None] = {}
-    for candidates in find_boards(grey, None if outline is None else region.enlarged(outline)):
-        for one in candidates:
-            if one not in tried:
-                tried[one] = _accepted(grey, one, method)
-        boards = [found for one in candidates if (found := tried[one])]
-        boards.sort(key=lambda found: found.edge, reverse=True)
+) -> tuple[RefinedBoard, list[RefinedBoard]]:
+    """Find the board of the longest edges among those that may be of the stated size.
+
+    Returns:
+        The board and all others.
+
+    Raises:
+        NoBoardError: there is no board; an `_OtherSizeError` if there are boards of other sizes.
+    """
+    boards: list[RefinedBoard] = []
+    tried: dict[Candidate, RefinedBoard | None] = {}
+    searched = None if outline is None else region.enlarge_outline(outline)
+    for candidates in find_candidates(grey, searched):
+        for candidate in candidates:
+            if candidate not in tried:
+                tried[candidate] = _verify_candidate(grey, candidate, method)
+        boards = [board for candidate in candidates if (board := tried[candidate])]
+        boards.sort(key=lambda board: board.edge_length, reverse=True)
         for wanted in boards:
-            if grid_size is None or _fits(grey, wanted.lattice, grid_size):
-                return wanted, [found for found in boards if found is not wanted]
+            if grid_size is None or _may_have_size(grey, wanted.lattice, grid_size):
+                return wanted, [board for board in boards if board is not wanted]
     if boards and grid_size is not None:
-        raise _another_size(grey, boards, grid_size)
+        raise _describe_other_sizes(grey, boards, grid_size)
     if tried:
         raise NoBoardError(
             "What looks like a checkerboard is not regular enough to be trusted.",
@@ -137,35 +168,132 @@ def _automatic(
     )
 
 
-def _accepted(grey: GreyImage, candidate: Candidate, method: str) -> LocatedBoard | None:
-    """The board that a candidate is, None if it is none or may be one by chance."""
-    found = locate(grey, candidate.lattice, method)
-    good = found and a_contrario.meaningful(found.lattice.found, candidate.others)
-    return found if good else None
+def _verify_candidate(grey: GreyImage, candidate: Candidate, method: str) -> RefinedBoard | None:
+    """Return the board that a candidate is, None if it is none or may be one by chance."""
+    board = refine_board(grey, candidate.lattice, method)
+    if board and a_contrario.is_meaningful(board.lattice.found, candidate.others):
+        return board
+    return None
 
 
-def _another_size(
-    grey: GreyImage, boards: list[LocatedBoard], grid_size: GridSize
-) -> _OtherSizeError:
-    """What was found instead of the stated board."""
-    sizes = [tuple(sorted(found.lattice.shape)) for found in boards]
-    stated = f"not {grid_size[0]} x {grid_size[1]}"
-    if len(sizes) > 1:
-        seen = ", ".join(f"{rows} x {cols}" for rows, cols in sizes)
-        return _OtherSizeError(f"The boards here have {seen} inner corners, {stated}.", _STATE_SIZE)
-    least = "" if all(verification.ends(boards[0].lattice, grey)) else "at least "
-    rows, cols = sizes[0]
-    return _OtherSizeError(
-        f"This board has {least}{rows} x {cols} inner corners, {stated}.", _STATE_SIZE
-    )
+def refine_board(grey: GreyImage, lattice: Lattice, method: str) -> RefinedBoard | None:
+    """Refine a lattice at full resolution and verify it.
+
+    Its gaps are tried again, as long as that finds more. A corner whose squares overlap or part by
+    much has no saddle point; the edge model copes with it.
+
+    Args:
+        grey: (h, w) grey levels.
+        lattice: corners good to 2 px.
+        method: one of `METHODS`.
+
+    Returns:
+        The board without the corners that fail, None if the lattice is no board.
+    """
+    seen = lattice
+    for _ in range(_MAX_ROUNDS):
+        refined, at_saddle = refine_lattice(grey, verification.fill_gaps(seen, grey.shape))
+        if method == "saddle":
+            refined = refined.select(at_saddle)
+        good = verification.find_sound_corners(refined, grey)
+        if np.count_nonzero(good) <= len(seen):
+            break
+        seen = refined.select(good)
+    if not verification.is_credible(int(np.count_nonzero(lattice.found & ~good)), len(lattice)):
+        return None
+    without_saddle = lattice.found & ~refined.found
+    unsound = lattice.found & refined.found & ~good
+    rejected = [
+        *list_rejected_corners(lattice.uv[without_saddle], "no saddle point"),
+        *list_rejected_corners(lattice.uv[unsound], "off place or colours"),
+    ]
+    return _fit_board(grey, drop_isolated_and_crop(refined.select(good)), rejected, method)
 
 
-def _fits(grey: GreyImage, lattice: Lattice, grid_size: GridSize) -> bool:
-    """Whether `lattice` may be a board of the stated size, or a part of it.
+def _fit_board(
+    grey: GreyImage, lattice: Lattice, rejected: list[RejectedCorner], method: str
+) -> RefinedBoard | None:
+    """Verify a refined lattice as a whole and, unless the method is "saddle", fit the edge model.
+
+    Corners that the model does not describe mislead what is taken from the whole board: without
+    them it is fitted again.
+
+    Args:
+        grey: (h, w) grey levels.
+        lattice: refined corners.
+        rejected: corners rejected so far, to which those rejected here are added.
+        method: one of `METHODS`.
+
+    Returns:
+        The board, None if the lattice is none.
+    """
+    failed = 0
+    for _ in range(_MAX_ROUNDS):
+        if is_large_enough(lattice):
+            lattice = verification.drop_broken_lines(lattice, grey)
+        if not (is_large_enough(lattice) and is_plausible(lattice, grey)):
+            break
+        if method == "saddle":
+            return RefinedBoard(lattice, tuple(rejected), None)
+        fit = x_corner_fit.fit_x_corners(grey, lattice)
+        described = verification.find_described_corners(fit, lattice)
+        displaced = described & verification.find_displaced_corners(fit, lattice)
+        good = described & ~displaced
+        if good.all():
+            is_board = verification.has_step_edges(fit)
+            return RefinedBoard(lattice, tuple(rejected), fit) if is_board else None
+        failed += int(np.count_nonzero(~described))
+        if not verification.is_credible(failed, int(np.count_nonzero(described)) + failed):
+            break
+        uv = lattice.uv[lattice.found]
+        rejected += list_rejected_corners(uv[~described], "not two crossing edges")
+        rejected += list_rejected_corners(uv[displaced], "drawn aside by what is seen there")
+        keep = lattice.found
+        keep[keep] = good
+        lattice = drop_isolated_and_crop(lattice.select(keep))
+    return None
+
+
+def find_marked_board(
+    grey: GreyImage, grid_size: GridSize, outline: Array, method: str
+) -> RefinedBoard | None:
+    """Find the board whose outermost corners were marked.
+
+    Args:
+        grey: (h, w) grey levels.
+        grid_size: rows and columns of inner corners.
+        outline: (4, 2) px, the marks.
+        method: one of `METHODS`.
+
+    Returns:
+        The board, None if fewer than half of its corners are where the marks place them.
+    """
+    parts = []
+    for guess in region.guess_lattices(outline, grid_size):
+        moved, at_saddle = refine_lattice(grey, guess)
+        for dark in (True, False):
+            # Where nothing was found the guess stands in for the neighbours of what was.
+            candidate = Lattice(moved.uv, dark)
+            good = verification.find_sound_corners(candidate, grey) & at_saddle
+            parts.append((candidate.select(good), guess.uv[~good]))
+    lattice, missing = max(parts, key=lambda part: len(part[0]))
+    if len(lattice) < max(MIN_CORNERS, lattice.found.size // 2):
+        return None
+    board = refine_board(grey, lattice, method)
+    if board is None:
+        return None
+    distance, _ = scipy.spatial.cKDTree(board.lattice.uv[board.lattice.found]).query(missing)
+    still_missing = missing[distance > np.nanmedian(board.lattice.spacing()) / 2]
+    rejected = list_rejected_corners(still_missing, "not found where the marked points place it")
+    return replace(board, rejected=(*board.rejected, *rejected))
+
+
+def _may_have_size(grey: GreyImage, lattice: Lattice, grid_size: GridSize) -> bool:
+    """Return whether a lattice may be a board of the stated size, or a part of it.
 
     It may be smaller only along an axis at one end of which the board was not seen to end.
     """
-    top, right, bottom, left = verification.ends(lattice, grey)
+    top, right, bottom, left = verification.find_ends(lattice, grey)
     whole = (top and bottom, left and right)
     return any(
         all(
@@ -176,51 +304,77 @@ def _fits(grey: GreyImage, lattice: Lattice, grid_size: GridSize) -> bool:
     )
 
 
-def _misfit(grid_size: GridSize) -> NoBoardError:
-    """Nothing was found at the marked points."""
+def _describe_other_sizes(
+    grey: GreyImage, boards: list[RefinedBoard], grid_size: GridSize
+) -> _OtherSizeError:
+    """Return an error that says what was found instead of the stated board."""
+    sizes = [tuple(sorted(board.lattice.shape)) for board in boards]
+    stated = f"not {grid_size[0]} x {grid_size[1]}"
+    if len(sizes) > 1:
+        seen = ", ".join(f"{rows} x {cols}" for rows, cols in sizes)
+        return _OtherSizeError(f"The boards here have {seen} inner corners, {stated}.", _STATE_SIZE)
+    least = "" if all(verification.find_ends(boards[0].lattice, grey)) else "at least "
+    rows, cols = sizes[0]
+    return _OtherSizeError(
+        f"This board has {least}{rows} x {cols} inner corners, {stated}.", _STATE_SIZE
+    )
+
+
+def _describe_misfit(grid_size: GridSize) -> NoBoardError:
+    """Return an error that says that nothing was found at the marked points."""
     return NoBoardError(
         f"No board of {grid_size[0]} x {grid_size[1]} inner corners fits the four marked points.",
         "Mark the four outermost inner corners, in order around the board. " + _STATE_SIZE,
     )
 
 
-def _numbered(
+def _sort_numberings(
     grey: GreyImage, lattice: Lattice, grid_size: GridSize | None, outline: Array | None
 ) -> list[Numbering]:
-    """The lattice's numberings, the preferred first: of those that only a look at the marked
-    points can tell apart the one that starts at the first of them."""
+    """Return a lattice's numberings, the preferred first.
+
+    With an outline, those that start at its first point come before the others.
+    """
     if grid_size is None or sorted(grid_size) == sorted(lattice.shape):
-        numbered = numberings(lattice, grid_size)
+        numberings = list_numberings(lattice, grid_size)
     else:
-        numbered = numberings(lattice, grid_size, verification.ends(lattice, grey))
+        numberings = list_numberings(lattice, grid_size, verification.find_ends(lattice, grey))
     if outline is not None:
-        numbered.sort(key=lambda way: not region.starts_at(way.lattice, outline[0]))
-    return numbered
+        numberings.sort(key=lambda each: not region.starts_at(each.lattice, outline[0]))
+    return numberings
 
 
-def record(
+def assemble_corners(
     grey: GreyImage,
-    found: LocatedBoard,
-    numbered: list[Numbering],
+    board: RefinedBoard,
+    numberings: list[Numbering],
     outline: Array | None,
-    others: list[LocatedBoard],
+    others: list[RefinedBoard],
 ) -> Corners:
-    """What is handed out."""
-    chosen = numbered[0]
-    grid, uv, order = place(chosen)
+    """Assemble the record of a board's corners.
+
+    Args:
+        grey: (h, w) grey levels.
+        board: refined and verified.
+        numberings: of its lattice, the one to use first.
+        outline: (4, 2) px, the region that was searched, None if all of the image was.
+        others: further boards in the image.
+    """
+    chosen = numberings[0]
+    grid, uv, order = place_corners(chosen)
     corners = Corners(
         shape=chosen.grid_size,
         grid=grid,
         uv=uv,
-        estimate=harris.first_estimates(grey, uv, chosen.lattice.spacing()[chosen.lattice.found]),
-        ambiguity=checkerboard_ambiguity(chosen.grid_size),
-        roi=region.around(chosen.lattice) if outline is None else outline,
+        estimate=harris.estimate_corners(grey, uv, chosen.lattice.spacing()[chosen.lattice.found]),
+        ambiguity=checkerboard_symmetry(chosen.grid_size),
+        roi=region.find_outline(chosen.lattice) if outline is None else outline,
         method="saddle",
-        relative=relative(numbered),
-        rejected=found.rejected,
-        others=tuple(map(_other, others)),
+        relative=is_relative(numberings),
+        rejected=board.rejected,
+        others=tuple(map(_summarise_board, others)),
     )
-    fit = found.fit
+    fit = board.fit
     if fit is None:
         return corners
     return replace(
@@ -234,118 +388,7 @@ def record(
     )
 
 
-def _other(grid_size: LocatedBoard) -> OtherBoard:
-    first = numberings(grid_size.lattice, None)[0].lattice
-    return OtherBoard(first.shape, region.around(first))
-
-
-METHODS = ("edges", "saddle")
-_ROUNDS = 4
-"""How often corners may be left out and the rest fitted again."""
-
-
-@dataclass(frozen=True, eq=False, slots=True)
-class LocatedBoard:
-    """A verified board whose origin is still open."""
-
-    lattice: Lattice
-    rejected: tuple[RejectedCorner, ...]
-    fit: Fit | None
-    """The edge model at the lattice's corners, unless the method is another."""
-
-    def __len__(self) -> int:
-        return len(self.lattice)
-
-    @property
-    def edge(self) -> float:
-        """Length of edge at its corners, px: how much its image tells."""
-        return float(np.nansum(self.lattice.spacing()[self.lattice.found]))
-
-
-def locate(grey: GreyImage, lattice: Lattice, method: str) -> LocatedBoard | None:
-    """The lattice refined, less the corners that fail, or None if it is no board.
-
-    Its gaps are tried again at full resolution, as long as that finds more. A corner whose squares
-    overlap or part by much has no saddle point; the edge model copes with it.
-    """
-    seen = lattice
-    for _ in range(_ROUNDS):
-        refined, at_saddle = at_saddles(grey, verification.filled(seen, grey.shape))
-        if method == "saddle":
-            refined = refined.under(at_saddle)
-        good = verification.sound(refined, grey)
-        if np.count_nonzero(good) <= len(seen):
-            break
-        seen = refined.under(good)
-    if not verification.credible(int(np.count_nonzero(lattice.found & ~good)), len(lattice)):
-        return None
-    grid_size = supported(refined.under(good))
-    rejected = [
-        *rejections(lattice.uv[lattice.found & ~refined.found], "no saddle point"),
-        *rejections(lattice.uv[lattice.found & refined.found & ~good], "off place or colours"),
-    ]
-    return _fitted(grey, grid_size, rejected, method)
-
-
-def guided(
-    grey: GreyImage, grid_size: GridSize, outline: Array, method: str
-) -> LocatedBoard | None:
-    """The board whose outermost corners were pointed at, if half of its corners are there."""
-    parts = []
-    for guess in region.guesses(outline, grid_size):
-        moved, at_saddle = at_saddles(grey, guess)
-        for dark in (True, False):
-            # Where nothing was found the guess stands in for the neighbours of what was.
-            candidate = Lattice(moved.uv, dark)
-            good = verification.sound(candidate, grey) & at_saddle
-            parts.append((candidate.under(good), guess.uv[~good]))
-    lattice, missing = max(parts, key=lambda part: len(part[0]))
-    if len(lattice) < max(MIN_CORNERS, lattice.found.size // 2):
-        return None
-    found = locate(grey, lattice, method)
-    if found is None:
-        return None
-    distance, _ = scipy.spatial.cKDTree(found.lattice.uv[found.lattice.found]).query(missing)
-    still = missing[distance > np.nanmedian(found.lattice.spacing()) / 2]
-    doubtful = rejections(still, "not found where the marked points place it")
-    return replace(found, rejected=(*found.rejected, *doubtful))
-
-
-def _fitted(
-    grey: GreyImage, lattice: Lattice, rejected: list[RejectedCorner], method: str
-) -> LocatedBoard | None:
-    """The board with the edge model at the corners that it describes, if the method asks for it.
-
-    The others mislead what is taken from the whole board: without them it is fitted again.
-    """
-    failed = 0
-    for _ in range(_ROUNDS):
-        lattice = verification.unbroken(lattice, grey) if large_enough(lattice) else lattice
-        if not (large_enough(lattice) and plausible(lattice, grey)):
-            break
-        if method == "saddle":
-            return LocatedBoard(lattice, tuple(rejected), None)
-        fit = x_corner_fit.fit(grey, lattice)
-        described = verification.described(fit, lattice)
-        astray = described & verification.astray(fit, lattice)
-        good = described & ~astray
-        if good.all():
-            return (
-                LocatedBoard(lattice, tuple(rejected), fit) if verification.stepped(fit) else None
-            )
-        failed += int(np.count_nonzero(~described))
-        if not verification.credible(failed, int(np.count_nonzero(described)) + failed):
-            break
-        rejected += rejections(lattice.uv[lattice.found][~described], "not two crossing edges")
-        rejected += rejections(
-            lattice.uv[lattice.found][astray], "drawn aside by what is seen there"
-        )
-        keep = lattice.found
-        keep[keep] = good
-        lattice = supported(lattice.under(keep))
-    return None
-
-
-def rejections(uv: Array, reason: str) -> list[RejectedCorner]:
-    """Corners (n, 2) px that are not trusted for one reason."""
-    return [RejectedCorner(float(u), float(v), reason) for u, v in uv]
+def _summarise_board(board: RefinedBoard) -> OtherBoard:
+    """Return the size and the outline of a board other than the wanted one."""
+    lattice = list_numberings(board.lattice, None)[0].lattice
+    return OtherBoard(lattice.shape, region.find_outline(lattice))

@@ -3,13 +3,13 @@
 The structure tensor S = sum of w (grad I)(grad I)^T over a neighbourhood has two large
 eigenvalues where the grey levels vary in both directions. The neighbourhood must reach well into
 the squares: where bright ones outshine dark ones the dark tips stand apart, and a small one
-finds each of them instead of the corner. Harris and Stephens score it by
+finds each of them instead of the corner. Harris and Stephens (1988) score it by
 
     det S - 0.04 (tr S)^2
 
-without computing them; the corner is the pixel of the greatest score near where the lattice
-expects it. It is good to a pixel or two: an estimate to look at, and what the saddle point
-improves upon.
+without computing the eigenvalues; the corner is the pixel of the greatest score near where the
+lattice predicts it. It is good to a pixel or two: an estimate to look at, which the saddle point
+improves.
 """
 
 from __future__ import annotations
@@ -20,19 +20,20 @@ from calibgui.engine import kernels, opencv
 from calibgui.engine.arrays import Array, GreyImage
 
 _REACH = 2
-"""Greatest distance from the expected pixel, px along each axis."""
+"""Greatest distance from the predicted pixel along each axis, px."""
 _MARGIN = 9
 """Reach of the neighbourhood's weights, px."""
 _SENSITIVITY = 0.04
+"""Factor of the squared trace (Harris and Stephens 1988)."""
 
 
-def first_estimates(image: GreyImage, uv: Array, spacing: Array) -> Array:
-    """(n, 2) pixel of the greatest Harris score near each of the corners `uv` (n, 2) px.
+def estimate_corners(image: GreyImage, uv: Array, spacing: Array) -> Array:
+    """Find the pixel (n, 2) of the greatest Harris score near each of the corners `uv` (n, 2) px.
 
     Args:
         image: (h, w) grey levels.
-        uv: where corners are expected.
-        spacing: (n,) px to the next corner; sets the neighbourhood, and the search ends at a
+        uv: where corners are predicted.
+        spacing: (n,) px to the next corner; it sets the neighbourhood, and the search ends at a
             quarter of it.
     """
     half = _REACH + _MARGIN
@@ -50,7 +51,7 @@ def first_estimates(image: GreyImage, uv: Array, spacing: Array) -> Array:
 
 @kernels.with_kernel("harris", "score_positions")
 def _score_positions(image: GreyImage, uv: Array, weights: Array, sensitivity: float) -> Array:
-    """Return (n, k, k) Harris scores at each of the k x k positions tried, down and across.
+    """Compute the Harris scores (n, k, k) at each of the k x k positions tried, down and across.
 
     Args:
         image: (h, w) grey levels.
@@ -58,7 +59,7 @@ def _score_positions(image: GreyImage, uv: Array, weights: Array, sensitivity: f
         weights: (n, k, side) along either axis, of each of the k positions tried along it.
         sensitivity: the factor of the squared trace.
     """
-    tiles, _ = opencv.tiles(image, uv, weights.shape[2] // 2)
+    tiles, _ = opencv.cut_tiles(image, uv, weights.shape[2] // 2)
     gv, gu = (np.asarray(g) for g in np.gradient(tiles.astype(np.float64), axis=(1, 2)))
     Suu, Svv, Suv = (
         weights @ product @ weights.transpose(0, 2, 1) for product in (gu * gu, gv * gv, gu * gv)

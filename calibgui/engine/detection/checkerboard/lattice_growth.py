@@ -1,8 +1,11 @@
 """Fill a lattice's holes and extend its borders, one line of corners at a time.
 
+The graph of neighbours misses the corners that are hidden, blurred or at the border of the image.
 An empty place next to the lattice is predicted from its neighbours. It is filled by the
-saddle point within 0.3 steps that looks most as the place requires (`appearance`). At the true
-border of a board none does, since beyond it three or four sectors are alike.
+saddle point within 0.3 steps that looks most as the place requires (`corner_template`). At the true
+border of a board none does, since beyond it three or four sectors are alike. Where nothing can be
+added beside the lattice, gaps of up to three steps are bridged, with junctions that lie where the
+grid map of the whole lattice places them.
 """
 
 from __future__ import annotations
@@ -14,133 +17,148 @@ import scipy
 
 from calibgui.engine.arrays import Array, BoolArray, GreyImage, IntArray
 from calibgui.engine.detection import grid_map
-from calibgui.engine.detection.checkerboard.corner_template import Look, typical
+from calibgui.engine.detection.checkerboard.corner_template import CornerTemplate, estimate_template
+from calibgui.engine.detection.checkerboard.thresholds import THRESHOLDS
 from calibgui.engine.detection.lattice import (
-    DEVIATION,
+    MAX_DEVIATION,
+    MAX_GAP,
     MIN_CORNERS,
-    REACH,
     Lattice,
-    axes,
-    bordered,
-    in_steps,
-    predict,
-    trim,
+    add_border,
+    estimate_steps,
+    measure_in_steps,
+    predict_places,
+    trim_lattice,
 )
 
-_TRIED = 6
-"""How many saddle points near a prediction are looked at."""
-_ACROSS = 0.2
-"""Greatest distance from where the whole lattice expects a corner beyond a gap, steps."""
-_NEW = 1.2
-"""Growth at which the look of a lattice's corners is seen anew."""
-_LITTLE, _IDLE = 1.02, 8
-"""Growth in a round that is little, and how many such rounds there may be: a board grows by whole
-lines, only textures by straggling corners on and on."""
 
-
-def grow(
+def grow_lattice(
     lattice: Lattice,
-    nearby: Places,
-    beyond: Places,
-    hopeless: Callable[[Lattice], bool],
-    max_shape: int = 200,
+    nearby: PointIndex,
+    beyond: PointIndex,
+    is_hopeless: Callable[[Lattice], bool],
 ) -> Lattice:
-    """`lattice` with every hole and border filled that the saddle points allow.
+    """Fill every hole and extend every border of a lattice that the saddle points allow.
 
     Args:
-        lattice: to start from.
+        lattice: the lattice to start from; returned itself if nothing can be added.
         nearby: saddle points, which may fill a place beside the lattice's corners.
         beyond: junctions, which may fill a place beyond a gap.
-        hopeless: whether it is not worth going on.
-        max_shape: rows or columns at which growth ends.
+        is_hopeless: test of whether a lattice can no longer become a board's, which ends growth.
     """
-    look, known = typical(lattice, nearby.smooth), len(lattice)
-    idle = 0
-    while idle < _IDLE:
-        if len(lattice) > _NEW * known:
-            if hopeless(lattice):
+    limits = THRESHOLDS.growth
+    template, size = estimate_template(lattice, nearby.smooth), len(lattice)
+    slow_rounds = 0
+    while slow_rounds < limits.max_slow_rounds:
+        if len(lattice) > limits.min_growth_for_template * size:
+            if is_hopeless(lattice):
                 break
-            look, known = typical(lattice, nearby.smooth), len(lattice)
-        grown = _fill(lattice, 1, predict, nearby, DEVIATION, look)
-        if grown is None and beyond.exceed(lattice):
-            grown = _fill(lattice, REACH, _from_sheet, beyond, _ACROSS, look)
-        if grown is None or max(grown.shape) > max_shape:
+            template, size = estimate_template(lattice, nearby.smooth), len(lattice)
+        grown = _fill_places(lattice, 1, predict_places, nearby, MAX_DEVIATION, template)
+        if grown is None and beyond.exceeds(lattice):
+            deviation = limits.max_gap_deviation
+            grown = _fill_places(
+                lattice, MAX_GAP, _predict_by_grid_map, beyond, deviation, template
+            )
+        if grown is None or max(grown.shape) > limits.max_lattice_side:
             break
-        idle += len(grown) < _LITTLE * len(lattice)
+        slow_rounds += len(grown) < limits.min_round_growth * len(lattice)
         lattice = grown
     return lattice
 
 
-class Places:
-    """Points of an image by their place."""
+class PointIndex:
+    """Points of one image, found by their place."""
 
     def __init__(self, smooth: GreyImage, uv: Array) -> None:
+        """
+        Args:
+            smooth: (h, w) the image in which they were found.
+            uv: (n, 2) px.
+        """
         self.smooth, self.uv = smooth, uv
         self._tree = scipy.spatial.cKDTree(uv) if len(uv) else None
 
-    def exceed(self, lattice: Lattice) -> bool:
-        """Whether there are others than the corners of `lattice`."""
+    def exceeds(self, lattice: Lattice) -> bool:
+        """Return whether there are others than the corners of a lattice."""
         if self._tree is None:
             return False
         _, corners = self._tree.query(lattice.uv[lattice.found])
         return len(np.unique(corners)) < len(self.uv)
 
-    def near(self, uv: Array) -> tuple[IntArray, IntArray]:
-        """Pairs (m,), (m,) of a query in `uv` (n, 2) and a point that is among the nearest."""
+    def pair_nearest(self, uv: Array) -> tuple[IntArray, IntArray]:
+        """Pair each of the positions `uv` (n, 2) px with the few points nearest to it.
+
+        Returns:
+            Indices of positions (m,) and of points (m,).
+        """
         if self._tree is None:
             return np.empty(0, np.int64), np.empty(0, np.int64)
-        tried = min(_TRIED, len(self.uv))
-        _, index = self._tree.query(uv, np.arange(1, tried + 1))
-        return np.repeat(np.arange(len(uv)), tried), np.asarray(index).ravel()
+        count = min(THRESHOLDS.growth.max_points_per_place, len(self.uv))
+        _, index = self._tree.query(uv, np.arange(1, count + 1))
+        return np.repeat(np.arange(len(uv)), count), np.asarray(index).ravel()
 
 
-def _from_sheet(uv: Array) -> Array:
-    """Where the whole lattice expects the places of `uv` (rows, cols, 2), if it is large."""
+def _predict_by_grid_map(uv: Array) -> Array:
+    """Predict the empty places of a lattice `uv` (rows, cols, 2) px from all of its corners; NaN
+    where there is a corner, and everywhere if these are too few."""
     lattice = Lattice(uv, dark=True)
     expected = np.full_like(uv, np.nan)
     if len(lattice) >= MIN_CORNERS:
         missing = ~lattice.found
-        expected[missing] = grid_map.fit_grid_map(lattice).at(
+        expected[missing] = grid_map.fit_grid_map(lattice).locate(
             np.argwhere(missing).astype(np.float64)
         )
     return expected
 
 
-def _fill(
+def _fill_places(
     lattice: Lattice,
     border: int,
-    expected: Callable[[Array], Array],
-    places: Places,
-    deviation: float,
-    look: Look,
+    predict: Callable[[Array], Array],
+    points: PointIndex,
+    max_deviation: float,
+    template: CornerTemplate,
 ) -> Lattice | None:
-    """The lattice with what fits into its empty places and has the `look`, up to `border` steps
-    outside too, within `deviation` steps of where it is `expected`; None where nothing does."""
-    uv = bordered(lattice.uv, border)
+    """Fill the empty places of a lattice with the points that fit.
+
+    Args:
+        lattice: what is known.
+        border: width of the border of places around it that are tried too, steps.
+        predict: predicts the places of a lattice (rows, cols, 2), px; NaN where it cannot.
+        points: what may fill a place.
+        max_deviation: greatest distance of a point from the prediction, steps.
+        template: the lattice's typical corner, which a point must match.
+
+    Returns:
+        The larger lattice, None if nothing fits.
+    """
+    uv = add_border(lattice.uv, border)
     framed = Lattice(uv, lattice.dark)
-    predicted = expected(uv)
-    right, down = axes(uv)
+    predicted = predict(uv)
+    right, down = estimate_steps(uv)
     known = np.isfinite(predicted + right + down).all(axis=2)
     rows, cols = np.nonzero(~framed.found & known)
-    place, index = places.near(predicted[rows, cols])
+    place, index = points.pair_nearest(predicted[rows, cols])
     r, c = rows[place], cols[place]
-    offset = places.uv[index] - predicted[r, c]
-    near = in_steps(offset, right[r, c], down[r, c]) < deviation
+    offset = points.uv[index] - predicted[r, c]
+    near = measure_in_steps(offset, right[r, c], down[r, c]) < max_deviation
     index, r, c = index[near], r[near], c[near]
-    free = _free(places.uv[index], right[r, c], down[r, c], lattice)
+    free = _are_free(points.uv[index], right[r, c], down[r, c], lattice)
     index, r, c = index[free], r[free], c[free]
     if not len(index):
         return None
     dark = framed.dark ^ ((r + c) % 2 == 1)
-    fits, gap = look.shown(places.smooth, places.uv[index], right[r, c], down[r, c], dark)
+    fits, gap = template.match(points.smooth, points.uv[index], right[r, c], down[r, c], dark)
     order = np.flatnonzero(fits)[np.argsort(gap[fits], kind="stable")]  # the best is written last
-    uv[r[order], c[order]] = places.uv[index[order]]
-    filled = trim(Lattice(uv, framed.dark))
+    uv[r[order], c[order]] = points.uv[index[order]]
+    filled = trim_lattice(Lattice(uv, framed.dark))
     return filled if filled is not None and len(filled) > len(lattice) else None
 
 
-def _free(uv: Array, right: Array, down: Array, lattice: Lattice) -> BoolArray:
-    """(n,) which of the points are no corners of `lattice`, by half a step."""
+def _are_free(uv: Array, right: Array, down: Array, lattice: Lattice) -> BoolArray:
+    """Return a mask (n,) of the points `uv` (n, 2) px that are no corners of a lattice, to half of
+    the shorter of the steps `right` and `down` (n, 2) px."""
     distance, _ = scipy.spatial.cKDTree(lattice.uv[lattice.found]).query(uv)
     step = np.minimum(np.linalg.norm(right, axis=1), np.linalg.norm(down, axis=1))
     return np.asarray(distance > step / 2)

@@ -1,4 +1,8 @@
-"""From X-junctions to lattices: links and walk.
+"""From X-junctions to lattices: a graph of neighbours, and a walk along it.
+
+A lens bends the rows and columns of a board, so no line through distant junctions can be trusted;
+but from one corner to the next an edge always leads. The junctions that such edges join form a
+graph, and its connected components, laid out in rows and columns, are the lattices.
 
 Number the four edges that leave a junction 0 (angle A), 1 (B), 2 (A + pi), 3 (B + pi), in the
 sense from u to v. Two neighbours are joined by an edge that leaves one at slot k and the other
@@ -6,9 +10,12 @@ at slot k', and as A and B are exchanged between neighbours k + k' is odd.
 
 Number the directions on the board 0 (columns grow), 1 (rows grow), 2, 3 alike. A junction is
 placed by its cell and its turn rho: slot k points in the board's direction k + rho (mod 4). The
-neighbour then has turn rho' with k' + rho' = k + rho + 2 (mod 4). A walk along the links thus
+neighbour then has turn rho' with k' + rho' = k + rho + 2 (mod 4). A walk along the edges thus
 numbers everything that hangs together, right-handed in the image and whatever the distortion,
 because only neighbours are ever compared.
+
+An array `ends` (n, 4) holds the graph: ``ends[i, k] = 4 j + k'`` where slot k of junction i leads
+to slot k' of junction j, and -1 where it leads to none.
 """
 
 from __future__ import annotations
@@ -22,63 +29,107 @@ import scipy
 
 from calibgui.engine import kernels
 from calibgui.engine.arrays import Array, BoolArray, GreyImage, Int32Array, IntArray
-from calibgui.engine.detection.checkerboard.x_junctions import (
-    CROSSED,
-    Junctions,
-    Saddles,
-    Tolerance,
-)
-from calibgui.engine.detection.lattice import STEPS, Lattice, trim
-from calibgui.engine.images.sampling import sample
+from calibgui.engine.detection.checkerboard.thresholds import THRESHOLDS, JunctionTolerance
+from calibgui.engine.detection.checkerboard.x_junctions import Junctions, Saddles
+from calibgui.engine.detection.lattice import DIRECTIONS, Lattice, trim_lattice
+from calibgui.engine.images.sampling import sample_image
 
-_NEIGHBOURS = 12
-"""Junctions around one that its edges may lead to, the nearest."""
-_ON_WAY = np.array([0.3, 0.5, 0.7])
-"""Where on the way to a neighbour the edge must show."""
-_SPARSE, _FEW = 3, 256
-"""Cells of a lattice for each of its junctions, and beyond these, from which it is no board's."""
-_STEP = 0.25
-"""Least step across the edge between two neighbours over the weaker one's contrast."""
+_EDGE_SAMPLES = np.array([0.3, 0.5, 0.7])
+"""Places on the line to a neighbour at which the edge must show, over the distance."""
+_SIDE_OFFSET, _MIN_SIDE_OFFSET = 0.15, 1.0
+"""Distance of the samples on either side of an edge from it, over the distance of the neighbours,
+and the least such distance, px."""
+_MIN_JUNCTIONS = 4
+"""Number of junctions of the smallest lattice, one cell."""
 
 
 def find_lattices(
-    saddles: Saddles, junctions: Junctions, most: int, tolerance: Tolerance = CROSSED
+    saddles: Saddles,
+    junctions: Junctions,
+    max_count: int,
+    tolerance: JunctionTolerance = THRESHOLDS.junctions.crossing,
 ) -> list[Lattice]:
-    """Lattices of at least one full cell in one image, largest first.
+    """Find the lattices of at least one full cell in one image.
 
-    At most so many: those of which most hangs together.
+    Args:
+        saddles: saddle points, of which only the smoothed image is used.
+        junctions: X-junctions among them.
+        max_count: greatest number of lattices; those of the largest components are kept.
+        tolerance: angles tolerated between an edge and the neighbours that it joins.
+
+    Returns:
+        The lattices, that of the most corners first.
     """
-    if len(junctions) < 4:
+    if len(junctions) < _MIN_JUNCTIONS:
         return []
-    ends = _link(saddles.smooth, junctions, tolerance)
-    arranged = (_arrange(junctions.uv, *part) for part in _parts(ends))
-    lattices = islice((lattice for lattice in arranged if lattice is not None), most)
+    ends = _link_neighbours(saddles.smooth, junctions, tolerance)
+    arranged = (_arrange_lattice(junctions.uv, *part) for part in _split_components(ends))
+    lattices = islice((lattice for lattice in arranged if lattice is not None), max_count)
     return sorted(lattices, key=len, reverse=True)
 
 
-def _link(smooth: GreyImage, junctions: Junctions, tolerance: Tolerance) -> Int32Array:
-    """(n, 4) where the edge that leaves each slot ends: 4 j + k at the slot k of junction j, which
-    looks back; -1 where it ends at none."""
-    ends = (_compiled_nearest if kernels.COMPILED else _nearest)(smooth, junctions, tolerance)
+def _link_neighbours(
+    smooth: GreyImage, junctions: Junctions, tolerance: JunctionTolerance
+) -> Int32Array:
+    """Return the graph's `ends` (n, 4), with the edges that both of their junctions choose."""
+    limits = THRESHOLDS.graph
+    ends = _choose_neighbours(
+        smooth,
+        junctions.uv,
+        _compute_directions(junctions),
+        junctions.contrast,
+        limits.max_neighbours,
+        _EDGE_SAMPLES,
+        (
+            float(np.cos(tolerance.along)),
+            float(np.cos(tolerance.parallel)),
+            limits.min_edge_step,
+        ),
+    )
     slots = np.arange(ends.size, dtype=np.int32).reshape(ends.shape)
     ends[ends.ravel()[ends] != slots] = -1
     return ends
 
 
-def _along(junctions: Junctions) -> Array:
-    """(n, 2, 2) unit vectors along the edges that leave junctions at slots 0 and 1."""
+def _compute_directions(junctions: Junctions) -> Array:
+    """Return (n, 2, 2) unit vectors along the edges that leave junctions at slots 0 and 1."""
     return np.stack([np.cos(junctions.edges), np.sin(junctions.edges)], axis=-1)
 
 
-def _nearest(smooth: GreyImage, junctions: Junctions, tolerance: Tolerance) -> Int32Array:
-    """`_link`, whether or not the other junction looks back."""
-    n, along = len(junctions), _along(junctions)
+@kernels.with_kernel("neighbour_graph", "choose_neighbours")
+def _choose_neighbours(
+    smooth: GreyImage,
+    uv: Array,
+    along: Array,
+    contrast: Array,
+    max_neighbours: int,
+    places: Array,
+    limits: tuple[float, float, float],
+) -> Int32Array:
+    """Choose the nearest neighbour that an edge leads to, for each slot of each junction.
+
+    Args:
+        smooth: (h, w) grey levels.
+        uv: (n, 2) junctions, px.
+        along: (n, 2, 2) unit vectors along the edges that leave them at slots 0 and 1.
+        contrast: (n,) grey levels.
+        max_neighbours: number of other junctions, the nearest, that an edge may lead to.
+        places: (k,) places on the line to a neighbour at which the edge must show, over the
+            distance.
+        limits: least cosine between an edge and the line to the neighbour, and between the
+            crossing edges of the two; least step across the line, over the weaker one's contrast.
+
+    Returns:
+        The graph's `ends` (n, 4), in which a neighbour need not have chosen the same edge.
+    """
+    min_along, min_parallel, min_edge_step = limits
+    n = len(uv)
     slots = np.concatenate([along, -along], axis=1)
-    tree = scipy.spatial.cKDTree(junctions.uv)
-    ranks = np.arange(2, min(_NEIGHBOURS, n - 1) + 2)  # the first is the junction itself
-    other = np.asarray(tree.query(junctions.uv, ranks)[1], dtype=np.int64).ravel()
+    tree = scipy.spatial.cKDTree(uv)
+    ranks = np.arange(2, min(max_neighbours, n - 1) + 2)  # the first is the junction itself
+    other = np.asarray(tree.query(uv, ranks)[1], dtype=np.int64).ravel()
     me = np.repeat(np.arange(n), len(ranks))
-    d = junctions.uv[other] - junctions.uv[me]
+    d = uv[other] - uv[me]
     distance = np.linalg.norm(d, axis=1)
     apart = distance > 0
     me, other, distance = me[apart], other[apart], distance[apart]
@@ -88,20 +139,21 @@ def _nearest(smooth: GreyImage, junctions: Junctions, tolerance: Tolerance) -> I
     k, k_back = np.argmax(here, axis=1), np.argmax(there, axis=1)
     crossing = np.sum(slots[me, (k + 1) % 4] * slots[other, (k_back + 3) % 4], axis=1)
     good = (
-        (here.max(axis=1) > np.cos(tolerance.along))
-        & (there.max(axis=1) > np.cos(tolerance.along))
+        (here.max(axis=1) > min_along)
+        & (there.max(axis=1) > min_along)
         & ((k + k_back) % 2 == 1)
-        & (crossing > np.cos(tolerance.parallel))
+        & (crossing > min_parallel)
     )
     me, other, distance, d, k, k_back = (x[good] for x in (me, other, distance, d, k, k_back))
     # A real edge lies between: dark on the side that the slots' numbers say.
-    way = _ON_WAY * distance[:, None]
-    normal = np.clip(0.15 * distance, 1.0, None)[:, None] * np.column_stack([-d[:, 1], d[:, 0]])
-    on = junctions.uv[me][:, None] + way[..., None] * d[:, None]
-    step = sample(smooth, on + normal[:, None]) - sample(smooth, on - normal[:, None])
+    advance = places * distance[:, None]
+    side = np.clip(_SIDE_OFFSET * distance, _MIN_SIDE_OFFSET, None)[:, None]
+    normal = side * np.column_stack([-d[:, 1], d[:, 0]])
+    on = uv[me][:, None] + advance[..., None] * d[:, None]
+    step = sample_image(smooth, on + normal[:, None]) - sample_image(smooth, on - normal[:, None])
     step *= np.where(k % 2 == 1, 1.0, -1.0)[:, None]
-    weaker = np.minimum(junctions.contrast[me], junctions.contrast[other])
-    good = step.min(axis=1) > _STEP * weaker
+    weaker = np.minimum(contrast[me], contrast[other])
+    good = step.min(axis=1) > min_edge_step * weaker
     me, other, distance, k, k_back = (x[good] for x in (me, other, distance, k, k_back))
     ends = np.full((n, 4), -1, dtype=np.int32)
     order = np.argsort(-distance, kind="stable")  # the nearest is written last
@@ -109,37 +161,48 @@ def _nearest(smooth: GreyImage, junctions: Junctions, tolerance: Tolerance) -> I
     return ends
 
 
-def _compiled_nearest(smooth: GreyImage, junctions: Junctions, tolerance: Tolerance) -> Int32Array:
-    """`_nearest` by the compiled kernel."""
-    from calibgui.engine.kernels import neighbour_graph
+def _split_components(ends: Int32Array) -> Iterator[tuple[Int32Array, Int32Array]]:
+    """Yield the graph's connected components, largest first, down to one cell's junctions.
 
-    points = junctions.uv, _along(junctions), junctions.contrast
-    limits = float(np.cos(tolerance.along)), float(np.cos(tolerance.parallel)), _STEP
-    return neighbour_graph.nearest(smooth, *points, _NEIGHBOURS, _ON_WAY, limits)
+    Junctions that their edges contradict more often than not are left out.
 
+    Args:
+        ends: (n, 4) graph.
 
-def _parts(ends: Int32Array) -> Iterator[tuple[Int32Array, Int32Array]]:
-    """Junctions (m,) and their rows, columns and turns (m, 3) of each connected part with a full
-    cell's worth, largest first, without those that their links contradict more often than not."""
-    links = np.sum(ends >= 0, axis=1)
-    order = np.argsort(-links, kind="stable")
-    seeds = order[links[order] > 0]
+    Yields:
+        Junctions (m,), and their rows, columns and turns (m, 3).
+    """
+    degree = np.sum(ends >= 0, axis=1)
+    order = np.argsort(-degree, kind="stable")
+    seeds = order[degree[order] > 0]
     if not len(seeds):
         return
-    nodes, seed, placed = (_compiled_walk if kernels.COMPILED else _walk)(ends, seeds)
-    agree = (_compiled_agreeing if kernels.COMPILED else _agreeing)(ends, nodes, placed)
+    nodes, seed, placed = _walk_graph(ends, seeds, DIRECTIONS)
+    agree = _check_agreement(ends, nodes, placed, DIRECTIONS)
     begin = np.flatnonzero(np.diff(seed, prepend=-1))
     size = np.diff(begin, append=len(seed))
     for k in np.argsort(-size, kind="stable"):
-        if size[k] < 4:
+        if size[k] < _MIN_JUNCTIONS:
             return
         part = begin[k] + np.flatnonzero(agree[begin[k] : begin[k] + size[k]])
         yield nodes[part], placed[part]
 
 
-def _walk(ends: Int32Array, seeds: IntArray) -> tuple[Int32Array, Int32Array, Int32Array]:
-    """Junctions (m,) in the order of walks from each of the `seeds` not reached before, the seed
-    (m,) of each, and their rows, columns and turns (m, 3)."""
+@kernels.with_kernel("neighbour_graph", "walk_graph")
+def _walk_graph(
+    ends: Int32Array, seeds: IntArray, directions: IntArray
+) -> tuple[Int32Array, Int32Array, Int32Array]:
+    """Walk along the graph from each of the seeds that was not reached before, breadth first.
+
+    Args:
+        ends: (n, 4) graph.
+        seeds: (k,) junctions to start from.
+        directions: (4, 2) steps in row and column of the board's directions.
+
+    Returns:
+        Junctions (m,) in the order of the walks, the seed (m,) of each, and their rows, columns and
+        turns (m, 3).
+    """
     leads = ends.tolist()
     place: dict[int, tuple[int, int, int]] = {}
     origin: list[int] = []
@@ -156,52 +219,62 @@ def _walk(ends: Int32Array, seeds: IntArray) -> tuple[Int32Array, Int32Array, In
                 j, back = divmod(end, 4)
                 if j >= 0 and j not in place:
                     direction = (k + turn) % 4
-                    dr, dc = STEPS[direction].tolist()
+                    dr, dc = directions[direction].tolist()
                     place[j] = (row + dr, col + dc, (direction + 2 - back) % 4)
                     queue.append(j)
     nodes, placed = list(place), list(place.values())
     return np.array(nodes, np.int32), np.array(origin, np.int32), np.array(placed, np.int32)
 
 
-def _compiled_walk(ends: Int32Array, seeds: IntArray) -> tuple[Int32Array, Int32Array, Int32Array]:
-    """`_walk` by the compiled kernel."""
-    from calibgui.engine.kernels import neighbour_graph
+@kernels.with_kernel("neighbour_graph", "check_agreement")
+def _check_agreement(
+    ends: Int32Array, nodes: Int32Array, placed: Int32Array, directions: IntArray
+) -> BoolArray:
+    """Check which junctions most of their edges place where the walk placed them.
 
-    return neighbour_graph.walk(ends, seeds, STEPS)
+    Args:
+        ends: (n, 4) graph.
+        nodes: (m,) junctions reached by the walk.
+        placed: (m, 3) their rows, columns and turns.
+        directions: (4, 2) steps in row and column of the board's directions.
 
-
-def _agreeing(ends: Int32Array, nodes: Int32Array, placed: Int32Array) -> BoolArray:
-    """(m,) which of the junctions `nodes` (m,) most of their links place where they are."""
+    Returns:
+        A mask (m,).
+    """
     where = np.zeros(len(ends), dtype=np.int64)
     where[nodes] = np.arange(len(nodes))
     leads = ends[nodes]
     there = placed[where[leads // 4]]
     direction = (np.arange(4) + placed[:, 2:]) % 4
-    agree = np.all(there[..., :2] == placed[:, None, :2] + STEPS[direction], axis=2)
+    agree = np.all(there[..., :2] == placed[:, None, :2] + directions[direction], axis=2)
     agree &= there[..., 2] == (direction + 2 - leads) % 4
     return np.asarray(np.sum(np.where(agree, 1, -1), axis=1, where=leads >= 0) > 0)
 
 
-def _compiled_agreeing(ends: Int32Array, nodes: Int32Array, placed: Int32Array) -> BoolArray:
-    """`_agreeing` by the compiled kernel."""
-    from calibgui.engine.kernels import neighbour_graph
+def _arrange_lattice(uv: Array, nodes: Int32Array, placed: Int32Array) -> Lattice | None:
+    """Arrange a component as a lattice, without strays.
 
-    return neighbour_graph.agreeing(ends, nodes, placed, STEPS)
+    Args:
+        uv: (n, 2) all junctions, px.
+        nodes: (m,) those of the component.
+        placed: (m, 3) their rows, columns and turns.
 
-
-def _arrange(uv: Array, nodes: Int32Array, placed: Int32Array) -> Lattice | None:
-    """The lattice of the placed junctions, without strays."""
-    if len(nodes) < 4:
+    Returns:
+        The lattice, or None if it is too sparse or holds no full cell.
+    """
+    if len(nodes) < _MIN_JUNCTIONS:
         return None
     placed[:, :2] -= placed[:, :2].min(axis=0)
     rows, cols = placed[:, :2].max(axis=0) + 1
-    if rows * cols > _SPARSE * len(nodes) + _FEW:
+    limits = THRESHOLDS.graph
+    if rows * cols > limits.max_cells_per_junction * len(nodes) + limits.max_spare_cells:
         return None
-    return trim(_laid_out(uv[nodes], placed, (rows, cols)))
+    return trim_lattice(_lay_out(uv[nodes], placed, (rows, cols)))
 
 
-def _laid_out(uv: Array, placed: Int32Array, shape: tuple[int, int]) -> Lattice:
-    """Junctions `uv` (m, 2) by their rows, columns and turns (m, 3), of doubles the first."""
+def _lay_out(uv: Array, placed: Int32Array, shape: tuple[int, int]) -> Lattice:
+    """Lay out junctions `uv` (m, 2) px by their rows, columns and turns (m, 3); where two have one
+    place the first is taken."""
     rows, cols, _ = placed.T
     _, first = np.unique(rows * shape[1] + cols, return_index=True)
     dense = np.full((*shape, 2), np.nan)

@@ -1,7 +1,8 @@
-"""Could a lattice be a board's? A glance at some of its corners tells, before any are fitted.
+"""Could a lattice be a board's? The edges at some of its corners tell, before any are fitted.
 
-What alternates like a board's squares is told from them where the edges cross (`crossing`), and by
-profiles across the edges near that. In squares,
+Textures hold many lattices, and to grow, refine and fit them would take long. What alternates like
+a board's squares is told from them where the edges cross (`corner_template`), and by profiles
+across the edges near that (`edge_profiles`). In squares,
 
 - they are narrow: the crests of waves cross likewise, but across a sine the blur would be 0.25;
 - they are straight: the dark has spread as far near the corner as away from it, while discs bulge;
@@ -21,88 +22,101 @@ import numpy as np
 
 from calibgui.engine.arrays import Array, GreyImage
 from calibgui.engine.detection.checkerboard import edge_profiles
-from calibgui.engine.detection.checkerboard.corner_template import Placed, crossed, placed
-from calibgui.engine.detection.checkerboard.edge_profiles import Profile
-from calibgui.engine.detection.checkerboard.verification import WIDEST, goes_on
+from calibgui.engine.detection.checkerboard.corner_template import (
+    OrientedCorners,
+    check_crossing,
+    orient_corners,
+)
+from calibgui.engine.detection.checkerboard.edge_profiles import EdgeProfiles
+from calibgui.engine.detection.checkerboard.thresholds import THRESHOLDS
+from calibgui.engine.detection.checkerboard.verification import does_pattern_continue
 from calibgui.engine.detection.lattice import MIN_CORNERS, Lattice
 
-_ENOUGH = 64
-"""Corners, spread over a lattice, that tell what it is made of: as many as boards have."""
-_BULGE = 0.02
-"""Greatest median difference of the spread away from the corner and near it, squares."""
-_SPREADS, _WITHIN = 0.018, 0.006
-"""Greatest median deviation of the spreads in one direction from their median, squares: of what
-ends where the lattice does, and of a part of a pattern that goes on in another look."""
-_RISING, _STEADY = 0.03, 0.004
-"""The same of spreads that rise to one side, and of what departs from a steady rise, squares."""
-_DIRECTIONS = 0.06
-"""Greatest difference of the two directions' medians, squares."""
+
+def is_hopeless(lattice: Lattice, image: GreyImage) -> bool:
+    """Return whether a lattice that may still grow is large enough to tell that it is no board."""
+    return len(lattice) >= MIN_CORNERS and not is_plausible(lattice, image, is_grown=False)
 
 
-def hopeless(lattice: Lattice, image: GreyImage) -> bool:
-    """Whether a lattice that may still grow is large enough to tell that it is no board's."""
-    return len(lattice) >= MIN_CORNERS and not plausible(lattice, image, grown=False)
+def is_plausible(lattice: Lattice, image: GreyImage, is_grown: bool = True) -> bool:
+    """Return whether a lattice could be a board's: see the head of this module.
 
-
-def plausible(lattice: Lattice, image: GreyImage, grown: bool = True) -> bool:
-    """Whether `lattice`, `grown` as far as it can or not, could be a board's in `image`: see the
-    head of this module."""
-    corners = placed(lattice)
-    corners = corners.under(_areas(corners) > 0).some(_ENOUGH)
+    Args:
+        lattice: corners, refined or not.
+        image: (h, w) grey levels.
+        is_grown: whether the lattice has grown as far as it can, so that a pattern that goes on
+            around it counts against it.
+    """
+    limits = THRESHOLDS.prefilter
+    corners = orient_corners(lattice)
+    corners = corners.select(_compute_areas(corners) > 0).subsample(limits.max_tested_corners)
     if not len(corners.uv):
         return False
-    is_crossing, bare = crossed(corners, image)
-    edges = _narrow_edges(corners, image) if is_crossing else []
-    if not edges or not bare:
+    is_crossing, is_bare = check_crossing(corners, image)
+    edges = _measure_narrow_edges(corners, image) if is_crossing else []
+    if not edges or not is_bare:
         return bool(edges)
-    if any(abs(_median(edge.bulge)) > _BULGE for edge in edges):
+    if any(abs(_compute_known_median(edge.bulge)) > limits.max_bulge for edge in edges):
         return False
     spreads = np.column_stack([edge.spread for edge in edges])
-    within = grown and not alike(spreads, _WITHIN) and goes_on(lattice, image)
-    return not within and (alike(spreads) or rising(spreads, corners.uv))
+    is_uneven = not have_same_spread(spreads, limits.max_spread_inside)
+    if is_grown and is_uneven and does_pattern_continue(lattice, image):
+        return False
+    return have_same_spread(spreads, limits.max_spread) or rise_steadily(spreads, corners.uv)
 
 
-def _areas(corners: Placed) -> Array:
-    """(n,) of the squares at the corners, px^2."""
+def _compute_areas(corners: OrientedCorners) -> Array:
+    """Return the areas (n,) of the squares at the corners, px^2."""
     _, right, down, _ = corners
     return np.asarray(abs(right[:, 0] * down[:, 1] - right[:, 1] * down[:, 0]))
 
 
-def _narrow_edges(corners: Placed, image: GreyImage) -> list[Profile]:
-    """Profiles across the corners' edges in both directions; none if those in one are wide."""
+def _measure_narrow_edges(corners: OrientedCorners, image: GreyImage) -> list[EdgeProfiles]:
+    """Measure profiles across the corners' edges in both directions; return none if those in one
+    are wider than a board's."""
     uv, right, down, dark = corners
-    sign, area = np.where(dark, -1.0, 1.0), _areas(corners)
-    seen = []
+    sign, area = np.where(dark, -1.0, 1.0), _compute_areas(corners)
+    profiles = []
     for along, across in ((right, down), (down, right)):
         size = area / np.linalg.norm(along, axis=1)
-        edge = edge_profiles.across_edge(image, uv, along, across, size, sign)
-        if np.median(edge.blur / size) > WIDEST:
+        edge = edge_profiles.measure_edge_profiles(image, uv, along, across, size, sign)
+        if np.median(edge.blur / size) > THRESHOLDS.verification.max_edge_blur:
             return []
-        seen.append(edge)
-    return seen
+        profiles.append(edge)
+    return profiles
 
 
-def alike(spreads: Array, most: float = _SPREADS) -> bool:
-    """Whether those of the spreads (n, 2) squares in two directions that are known are those of one
-    print, the median deviation being that at `most`."""
-    middles = np.array([_median(along) for along in spreads.T])
-    apart = abs(middles[1] - middles[0])
-    return _median(abs(spreads - middles)) <= most and bool(apart <= _DIRECTIONS)
+def have_same_spread(spreads: Array, max_deviation: float) -> bool:
+    """Return whether spreads are those of one print.
+
+    Args:
+        spreads: (n, 2) spread of the dark across the edges in either direction, squares; NaN where
+            it is not known.
+        max_deviation: greatest median deviation from the median of their direction, squares.
+    """
+    middles = np.array([_compute_known_median(along) for along in spreads.T])
+    difference = abs(middles[1] - middles[0])
+    return _compute_known_median(abs(spreads - middles)) <= max_deviation and bool(
+        difference <= THRESHOLDS.prefilter.max_direction_difference
+    )
 
 
-def rising(spreads: Array, uv: Array) -> bool:
-    """Whether the spreads (n, 2) of corners `uv` (n, 2) px are those of one print that rise
-    steadily to one side."""
-    steady = spreads.copy()
+def rise_steadily(spreads: Array, uv: Array) -> bool:
+    """Return whether the spreads (n, 2) squares of corners `uv` (n, 2) px are those of one print
+    and rise steadily to one side of the image."""
+    limits = THRESHOLDS.prefilter
+    levelled = spreads.copy()
     place = uv - uv.mean(axis=0)
-    for along in steady.T:
+    for along in levelled.T:
         known = np.isfinite(along)
         terms = np.column_stack([np.ones(len(place)), place])
         along -= place @ np.linalg.lstsq(terms[known], along[known])[0][1:]
-    return alike(spreads, _RISING) and alike(steady, _STEADY)
+    return have_same_spread(spreads, limits.max_rising_spread) and have_same_spread(
+        levelled, limits.max_unsteady_spread
+    )
 
 
-def _median(values: Array) -> float:
-    """Of those that are known, 0 if none is."""
+def _compute_known_median(values: Array) -> float:
+    """Return the median of the values that are known, 0 if none is."""
     known = values[np.isfinite(values)]
     return float(np.median(known)) if len(known) else 0.0

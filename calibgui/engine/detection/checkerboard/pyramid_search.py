@@ -1,10 +1,11 @@
 """Find the boards in an image, whatever their size and place, from coarse to fine.
 
-The image is halved until its short side is below 180 px. Each level, coarsest first, is searched
-for X-junctions and their lattices. Coarse levels are quick and average blur and noise away; a
-finer one is only needed while nothing was found or the squares are too small to be sure that
-none was missed. Lattices of squares that small are left as they are until the finer levels have
-been searched, and grown only if these do not show them in full. What is found is then carried
+A board may fill the image or a tenth of it, sharp or blurred; no single scale suits all. The image
+is therefore halved until its short side is at most 180 px, and each level, coarsest first, is
+searched for X-junctions and their lattices. Coarse levels are quick and average blur and noise
+away; a finer one is only needed while nothing was found or the squares are too small to be sure
+that none was missed. Lattices of squares that small are left as they are until the finer levels
+have been searched, and grown only if these do not show them in full. What is found is then carried
 down to full resolution, refined at each level.
 
 Squares that overlap or part by much show a crossing only where the blur is no less: not in fine
@@ -24,220 +25,247 @@ import numpy as np
 import scipy
 
 from calibgui.engine import opencv
-from calibgui.engine.arrays import Array, BoolArray, GreyImage
+from calibgui.engine.arrays import Array, GreyImage
 from calibgui.engine.detection.checkerboard import prefilter, verification
-from calibgui.engine.detection.checkerboard.lattice_growth import Places, grow
+from calibgui.engine.detection.checkerboard.lattice_growth import PointIndex, grow_lattice
 from calibgui.engine.detection.checkerboard.neighbour_graph import find_lattices
-from calibgui.engine.detection.checkerboard.saddle import at_saddles
+from calibgui.engine.detection.checkerboard.saddle import refine_lattice
+from calibgui.engine.detection.checkerboard.thresholds import THRESHOLDS, JunctionTolerance
 from calibgui.engine.detection.checkerboard.x_junctions import (
-    CROSSED,
-    PARTED,
     Saddles,
-    Tolerance,
-    classify,
+    classify_saddles,
     find_saddles,
 )
-from calibgui.engine.detection.lattice import Lattice, large_enough
+from calibgui.engine.detection.lattice import Lattice, is_large_enough
+from calibgui.engine.detection.region_of_interest import are_inside
 
-_COARSEST = 180
-"""Short side below which an image is not halved further, px."""
-_LEAST = 25
-"""Short side of a level that is searched still for squares that part or overlap, px."""
-_SMALLEST = 6.0
-"""Squares of this side are found reliably, px."""
-_CONTRAST = 0.05
-"""Least contrast of a corner over the range of the image."""
-_SHARED = 0.25
-"""Part of its corners that a lattice may have in common with a larger one that is another."""
-_MOVED = 2.0
-"""How far a corner may lie from where the next coarser level shows it, px."""
-_GROWN = 8
-"""How many of the largest lattices of a level are grown."""
+_RANGE_PERCENTILES = (0.5, 99.5)
+"""Percentiles of the grey levels between which their range is measured, %."""
+_SPACING_PERCENTILE = 5
+"""Percentile of a lattice's spacings that counts as the side of its small squares, %."""
 
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Candidate:
-    """What may be a board."""
+    """A lattice that may be a board."""
 
     lattice: Lattice
     others: int
-    """X-junctions seen beside its own corners in the level that it was found in."""
+    """Number of X-junctions seen beside its own corners in the level that it was found in."""
 
 
 @dataclass(frozen=True, eq=False, slots=True)
-class _Seen:
-    """In one level of the image."""
+class _LevelContent:
+    """The junctions and lattices of one level of the image."""
 
     image: GreyImage
     saddles: Saddles
     junctions: Saddles
-    """Those of them that are X-junctions."""
+    """The saddles that are X-junctions."""
     lattices: list[Lattice]
-    """That these make up and that could be boards, largest first."""
+    """The junctions' lattices that could be boards, largest first."""
 
 
-def find_boards(
+def find_candidates(
     image: GreyImage,
-    inside: Array | None = None,
-    enough: Callable[[Lattice], bool] = large_enough,
+    outline: Array | None = None,
+    is_sufficient: Callable[[Lattice], bool] = is_large_enough,
 ) -> Iterator[list[Candidate]]:
-    """All lattices that may be boards, largest first, in full resolution but not yet verified.
-
-    As many as the image was searched for: once when a finer level could hardly add to them, and
-    then again after each level, should none of them be the board that is wanted.
+    """Find all lattices that may be boards, in full resolution but not yet verified.
 
     Args:
         image: (h, w) grey levels, uint8, uint16 or float32.
-        inside: (4, 2) convex outline, px, that the corners must not leave.
-        enough: whether so much of a lattice may be a board.
+        outline: (m, 2) convex outline, px, that the corners must not leave.
+        is_sufficient: test of whether a lattice is large enough to be kept.
+
+    Yields:
+        The candidates, that of the most corners first: once when a finer level could hardly add to
+        them, and then again after each level, should none of them be the board that is wanted.
     """
+    limits = THRESHOLDS.search
     levels = [image]
-    while min(levels[-1].shape) > _COARSEST:
-        levels.append(opencv.half(levels[-1]))
-    floor = _CONTRAST * _range(levels)
-    if floor == 0:
+    while min(levels[-1].shape) > limits.max_top_level_side:
+        levels.append(opencv.halve_image(levels[-1]))
+    min_contrast = limits.min_contrast * _measure_range(levels)
+    if min_contrast == 0:
         return
-    outlines = [None if inside is None else _in_level(inside, k) for k in range(len(levels))]
-    boards: list[Candidate] = []
+    outlines = [_scale_to_level(outline, k) for k in range(len(levels))]
+    candidates: list[Candidate] = []
     waiting: list[tuple[int, list[Lattice]]] = []
     for depth in reversed(range(len(levels))):
-        found, small = _search(levels[depth], floor, outlines[depth], enough, finest=not depth)
-        if small:
-            waiting.append((depth, small))
+        found, too_small = _search_level(
+            levels[depth], min_contrast, outlines[depth], is_sufficient, is_finest=not depth
+        )
+        if too_small:
+            waiting.append((depth, too_small))
             continue
-        boards = _distinct([_carried(one, levels[:depth]) for one in found] + boards)
-        sure = bool(found) and all(_surely_all(one.lattice) for one in found)
-        if sure or not depth:
-            for k, small in waiting:
-                if missed := _missed(small, k, boards):
-                    found = _grown(_look(levels[k], floor, outlines[k]), missed, enough)
-                    boards = _distinct(boards + [_carried(one, levels[:k]) for one in found])
+        candidates = _drop_parts([_carry_down(new, levels[:depth]) for new in found] + candidates)
+        is_sure = bool(found) and all(_is_surely_complete(new.lattice) for new in found)
+        if is_sure or not depth:
+            for k, lattices in waiting:
+                if missed := _select_missed(lattices, k, candidates):
+                    found = _grow_lattices(
+                        _analyse_level(levels[k], min_contrast, outlines[k]), missed, is_sufficient
+                    )
+                    candidates = _drop_parts(
+                        candidates + [_carry_down(new, levels[:k]) for new in found]
+                    )
             waiting = []
-            yield boards
+            yield candidates
     depth = len(levels) - 1
-    while min(levels[depth].shape) > _LEAST:
-        outline = None if inside is None else _in_level(inside, depth)
-        seen = _look(levels[depth], floor, outline, PARTED)
-        if found := _grown(seen, seen.lattices, enough):
-            boards = _distinct([_carried(one, levels[:depth]) for one in found] + boards)
-            yield boards
-        levels.append(opencv.half(levels[depth]))
+    while min(levels[depth].shape) > limits.min_parted_level_side:
+        content = _analyse_level(
+            levels[depth],
+            min_contrast,
+            _scale_to_level(outline, depth),
+            THRESHOLDS.junctions.parted,
+        )
+        if found := _grow_lattices(content, content.lattices, is_sufficient):
+            candidates = _drop_parts(
+                [_carry_down(new, levels[:depth]) for new in found] + candidates
+            )
+            yield candidates
+        levels.append(opencv.halve_image(levels[depth]))
         depth += 1
 
 
-def _range(levels: list[GreyImage]) -> float:
-    """Of the grey levels, without the few darkest and brightest if what is left varies: 0 if none
-    do. A coarse level may even out squares that fill the image."""
+def _measure_range(levels: list[GreyImage]) -> float:
+    """Measure the range of the grey levels, 0 if they do not vary.
+
+    The few darkest and brightest do not count if what is left varies, in the coarsest level where
+    it does: a coarse level may even out squares that fill the image.
+    """
     for level in reversed(levels):
-        low, high = np.percentile(level, (0.5, 99.5))
+        low, high = np.percentile(level, _RANGE_PERCENTILES)
         if high > low:
             return float(high - low)
     return float(levels[0].max()) - float(levels[0].min())
 
 
-def _in_level(uv: Array, depth: int) -> Array:
-    """Points (..., 2) of the image in the coordinates of a level."""
-    return (uv + 0.5) / 2**depth - 0.5
+def _scale_to_level(uv: Array | None, depth: int) -> Array | None:
+    """Return points (n, 2) px of the image in the coordinates of a level, if there are any."""
+    return None if uv is None else (uv + 0.5) / 2**depth - 0.5
 
 
-def _search(
+def _search_level(
     image: GreyImage,
-    floor: float,
+    min_contrast: float,
     outline: Array | None,
-    enough: Callable[[Lattice], bool],
-    finest: bool,
+    is_sufficient: Callable[[Lattice], bool],
+    is_finest: bool,
 ) -> tuple[list[Candidate], list[Lattice]]:
-    """Lattices large enough for a board in one level, largest first, or, where their squares are
-    too small for that to tell all, what will be of use only if the finer levels show less."""
-    seen = _look(image, floor, outline)
-    if seen.lattices and not finest and not _resolved(seen.lattices[0]):
-        return [], seen.lattices
-    return _grown(seen, seen.lattices, enough), []
+    """Search one level for candidates.
+
+    Returns:
+        The candidates, largest first, and no lattices; or, where the squares are too small for
+        the level to show all and it is not the finest, no candidates and the lattices that are of
+        use only if the finer levels show less.
+    """
+    content = _analyse_level(image, min_contrast, outline)
+    if content.lattices and not is_finest and not _is_resolved(content.lattices[0]):
+        return [], content.lattices
+    return _grow_lattices(content, content.lattices, is_sufficient), []
 
 
-def _look(
-    image: GreyImage, floor: float, outline: Array | None, tolerance: Tolerance = CROSSED
-) -> _Seen:
-    """What there is in one level."""
-    saddles = find_saddles(image, floor)
+def _analyse_level(
+    image: GreyImage,
+    min_contrast: float,
+    outline: Array | None,
+    tolerance: JunctionTolerance = THRESHOLDS.junctions.crossing,
+) -> _LevelContent:
+    """Find the junctions and the lattices of one level.
+
+    Args:
+        image: (h, w) grey levels.
+        min_contrast: least contrast of a junction, grey levels.
+        outline: (m, 2) convex outline, px, that junctions must not leave.
+        tolerance: what is tolerated in junctions and between them.
+    """
+    saddles = find_saddles(image, min_contrast)
     if outline is not None:
-        saddles = saddles.under(contains(outline, saddles.uv))
-    passed, junctions = classify(saddles, tolerance)
-    lattices = find_lattices(saddles, junctions, _GROWN, tolerance)
-    hopeful = [one for one in lattices if not prefilter.hopeless(one, image)]
-    return _Seen(image, saddles, saddles.under(passed), hopeful)
+        saddles = saddles.select(are_inside(outline, saddles.uv))
+    passed, junctions = classify_saddles(saddles, tolerance)
+    lattices = find_lattices(saddles, junctions, THRESHOLDS.search.max_grown_lattices, tolerance)
+    hopeful = [lattice for lattice in lattices if not prefilter.is_hopeless(lattice, image)]
+    return _LevelContent(image, saddles, saddles.select(passed), hopeful)
 
 
-def _grown(seen: _Seen, seeds: list[Lattice], enough: Callable[[Lattice], bool]) -> list[Candidate]:
-    """What lattices of one level grow to, if it is large enough for a board, largest first."""
-    hopeless = partial(prefilter.hopeless, image=seen.image)
-    smooth, junctions = seen.saddles.smooth, len(seen.junctions.uv)
-    nearby, beyond = (Places(smooth, points.uv) for points in (seen.saddles, seen.junctions))
+def _grow_lattices(
+    content: _LevelContent, seeds: list[Lattice], is_sufficient: Callable[[Lattice], bool]
+) -> list[Candidate]:
+    """Grow lattices of one level; return those that are sufficient, largest first."""
+    is_hopeless = partial(prefilter.is_hopeless, image=content.image)
+    smooth, junctions = content.saddles.smooth, len(content.junctions.uv)
+    nearby, beyond = (
+        PointIndex(smooth, points.uv) for points in (content.saddles, content.junctions)
+    )
     grown: list[Lattice] = []
     hopeful: list[Lattice] = []
     for seed in seeds:
-        if not any(_overlap(other, seed) for other in grown):
-            grown.append(one := grow(seed, nearby, beyond, hopeless))
-            if one is seed or not hopeless(one):  # the seeds were glanced at before
-                hopeful.append(verification.without_strays(one, smooth))
-    boards = [Candidate(one, max(junctions - len(one), 0)) for one in hopeful if enough(one)]
-    return _distinct(boards)
+        if any(_is_part(seed, other) for other in grown):
+            continue
+        lattice = grow_lattice(seed, nearby, beyond, is_hopeless)
+        grown.append(lattice)
+        if lattice is seed or not is_hopeless(lattice):  # the seeds passed the prefilter before
+            hopeful.append(verification.drop_stray_lines(lattice, smooth))
+    return _drop_parts(
+        [
+            Candidate(lattice, max(junctions - len(lattice), 0))
+            for lattice in hopeful
+            if is_sufficient(lattice)
+        ]
+    )
 
 
-def _missed(lattices: list[Lattice], depth: int, boards: list[Candidate]) -> list[Lattice]:
-    """Those of the lattices seen in a level that are no part of the full `boards`."""
+def _select_missed(
+    lattices: list[Lattice], depth: int, candidates: list[Candidate]
+) -> list[Lattice]:
+    """Select the lattices of a level that are no part of a candidate without gaps."""
     full = [
-        Lattice(_in_level(one.lattice.uv, depth), one.lattice.dark)
-        for one in boards
-        if one.lattice.found.all()
+        Lattice(np.asarray(_scale_to_level(known.lattice.uv, depth)), known.lattice.dark)
+        for known in candidates
+        if known.lattice.found.all()
     ]
     return [
         lattice
         for lattice in lattices
-        if not any(
-            len(grid_size) >= len(lattice) and _overlap(grid_size, lattice) for grid_size in full
-        )
+        if not any(len(known) >= len(lattice) and _is_part(lattice, known) for known in full)
     ]
 
 
-def _distinct(candidates: list[Candidate]) -> list[Candidate]:
-    """Those that are no parts of others; largest first."""
+def _drop_parts(candidates: list[Candidate]) -> list[Candidate]:
+    """Drop the candidates that are parts of others; return the rest, largest first."""
     kept: list[Candidate] = []
-    for one in sorted(candidates, key=lambda one: len(one.lattice), reverse=True):
-        if not any(_overlap(other.lattice, one.lattice) for other in kept):
-            kept.append(one)
+    for candidate in sorted(candidates, key=lambda each: len(each.lattice), reverse=True):
+        if not any(_is_part(candidate.lattice, larger.lattice) for larger in kept):
+            kept.append(candidate)
     return kept
 
 
-def _overlap(one: Lattice, other: Lattice) -> bool:
-    """Whether a lattice has a good part of another's corners, by half a step. (Where the pattern of
-    a floor or a cloth goes on behind a board, its lattice may catch one of the board's.)"""
-    distance, _ = scipy.spatial.cKDTree(one.uv[one.found]).query(other.uv[other.found])
-    return bool(np.mean(distance < other.spacing()[other.found] / 2) > _SHARED)
+def _is_part(lattice: Lattice, larger: Lattice) -> bool:
+    """Return whether a good share of a lattice's corners are another's, to half a step."""
+    distance, _ = scipy.spatial.cKDTree(larger.uv[larger.found]).query(lattice.uv[lattice.found])
+    shared = np.mean(distance < lattice.spacing()[lattice.found] / 2)
+    return bool(shared > THRESHOLDS.search.max_shared_corners)
 
 
-def _surely_all(lattice: Lattice) -> bool:
-    """Whether a finer level could hardly add to `lattice`: its squares are large, or very large
-    where it has gaps."""
-    return _resolved(lattice, _SMALLEST if lattice.found.all() else 5 * _SMALLEST)
+def _is_surely_complete(lattice: Lattice) -> bool:
+    """Return whether a finer level could hardly add to a lattice: its squares are large, or very
+    large where it has gaps."""
+    limits = THRESHOLDS.search
+    whole = lattice.found.all()
+    return _is_resolved(lattice, limits.min_square if whole else limits.min_square_with_gaps)
 
 
-def _resolved(lattice: Lattice, square: float = _SMALLEST) -> bool:
-    """Whether the squares of `lattice` are larger than so many px."""
-    return bool(np.nanpercentile(lattice.spacing(), 5) > square)
+def _is_resolved(lattice: Lattice, min_square: float = THRESHOLDS.search.min_square) -> bool:
+    """Return whether the squares of a lattice are larger than `min_square` px."""
+    return bool(np.nanpercentile(lattice.spacing(), _SPACING_PERCENTILE) > min_square)
 
 
-def _carried(candidate: Candidate, finer: list[GreyImage]) -> Candidate:
-    """`candidate` in the coordinates of the first of the `finer` levels, refined at each."""
+def _carry_down(candidate: Candidate, finer: list[GreyImage]) -> Candidate:
+    """Carry a candidate to the first of the `finer` levels, refining it at each."""
     lattice = candidate.lattice
     for image in reversed(finer):
-        lattice, _ = at_saddles(image, Lattice(2 * lattice.uv + 0.5, lattice.dark), _MOVED)
+        doubled = Lattice(2 * lattice.uv + 0.5, lattice.dark)
+        lattice, _ = refine_lattice(image, doubled, THRESHOLDS.search.max_level_shift)
     return Candidate(lattice, candidate.others)
-
-
-def contains(outline: Array, uv: Array) -> BoolArray:
-    """Which of the points `uv` (n, 2) lie inside the convex `outline` (m, 2)."""
-    edge = np.roll(outline, -1, axis=0) - outline
-    to = uv[:, None] - outline
-    side = edge[:, 0] * to[..., 1] - edge[:, 1] * to[..., 0]
-    return np.asarray((side >= 0).all(axis=1) | (side <= 0).all(axis=1))

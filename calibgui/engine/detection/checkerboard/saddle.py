@@ -1,6 +1,6 @@
 """Corners as saddle points of the intensity surface (paper 4.1, the yellow marks of figure 6).
 
-Around a corner the surface is fitted by the quadratic
+**One saddle point** (`refine_saddles`). Around a corner the surface is fitted by the quadratic
 
     I(x, y) = g + d x + e y + a x^2 + b x y + c y^2,    x, y from the current estimate,
 
@@ -9,20 +9,18 @@ by least squares with Gaussian weights, and the estimate moves to its stationary
     [2a  b] [x]     [d]
     [ b 2c] [y] = - [e],
 
-a saddle where 4ac - b^2 < 0. This is repeated until it stands still.
+a saddle where 4ac - b^2 < 0. This is repeated until it converges.
 
 The weights are centred on the estimate itself, between the pixels. A corner's surface is point
 symmetric, hence so is the weighted problem at the true corner, and the fit has no bias however
-far from quadratic the surface is; with weights fixed to whole pixels the answer leans with the
+far from quadratic the surface is; with weights fixed to whole pixels the result would lean with the
 corner's sub-pixel phase. Their width follows the squares: wide enough to average noise, never
 so wide that the neighbours' edges come in. The weights being separable, the normal equations
 hold products of one-dimensional moments, and all corners are solved at once.
 
-Corners of a lattice moved to their saddle points, where they have one.
-
-Squares that overlap or part by more than the blur have none: what is printed between them is flat,
-and a saddle found there is noise. It shows in the grey level at the corner, which is not midway
-between those of the squares then.
+**The saddle points of a lattice** (`refine_lattice`). Squares that overlap or part by more than the
+blur have none: what is printed between them is flat, and a saddle found there is noise. It shows in
+the grey level at the corner, which is then not midway between those of the squares.
 """
 
 from __future__ import annotations
@@ -31,25 +29,32 @@ import numpy as np
 
 from calibgui.engine import kernels, opencv
 from calibgui.engine.arrays import Array, BoolArray, GreyImage
-from calibgui.engine.detection.checkerboard.corner_template import Placed, around, placed
+from calibgui.engine.detection.checkerboard.corner_template import (
+    OrientedCorners,
+    orient_corners,
+    sample_around,
+)
+from calibgui.engine.detection.checkerboard.fit_thresholds import FIT_THRESHOLDS
 from calibgui.engine.detection.lattice import Lattice
 
+_THRESHOLDS = FIT_THRESHOLDS.saddle
 _POWERS = np.array([(0, 0), (1, 0), (0, 1), (2, 0), (1, 1), (0, 2)])
 """Powers of x and y of the terms g, d, e, a, b, c."""
-_TOLERANCE = 1e-4
-"""Step at which an estimate stands still, px."""
-_MAX_ITERATIONS = 20
+_SQUARE_POSITIONS = 0.2 * np.array([(1, 1), (-1, -1), (1, -1), (-1, 1)])
+"""Where the grey levels of the four squares are sampled, steps."""
+_CORNER_POSITIONS = 0.05 * np.array([(a, b) for a in (-1, 0, 1) for b in (-1, 0, 1)])
+"""Where that of the corner is sampled, steps."""
 
 
-def window(spacing: Array) -> Array:
-    """(n,) standard deviation of the weights, px, for squares of side `spacing` (n,) px."""
+def choose_weight_sigma(spacing: Array) -> Array:
+    """Choose the standard deviation (n,) px of the weights for squares of `spacing` (n,) px."""
     return np.clip(spacing / 8, 0.8, 2.0)
 
 
 def refine_saddles(
     image: GreyImage, uv: Array, sigma: Array, limit: Array
 ) -> tuple[Array, BoolArray]:
-    """Saddle points nearest to the estimates `uv` (n, 2) px.
+    """Find the saddle points nearest to the estimates `uv` (n, 2) px.
 
     Args:
         image: (h, w) grey levels.
@@ -59,29 +64,44 @@ def refine_saddles(
 
     Returns:
         Positions (n, 2), and whether (n,) each converged to a saddle within its limit; the
-        estimate stays where it did not.
+        estimate is returned where it did not.
     """
     uv = uv.copy()
     good = np.zeros(len(uv), dtype=np.bool_)
-    for narrower in (1.0, 0.5):
+    for factor in (1.0, 0.5):
         rest = np.flatnonzero(~good)
         if len(rest):
-            search = _compiled if kernels.COMPILED else _iterate
-            uv[rest], good[rest] = search(image, uv[rest], narrower * sigma[rest], limit[rest])
+            uv[rest], good[rest] = _iterate(
+                image,
+                uv[rest],
+                factor * sigma[rest],
+                limit[rest],
+                _THRESHOLDS.min_step,
+                _THRESHOLDS.max_iterations,
+            )
     return uv, good
 
 
-def _iterate(image: GreyImage, start: Array, sigma: Array, limit: Array) -> tuple[Array, BoolArray]:
-    """`refine` with one width of the weights."""
+@kernels.with_kernel("saddle", "iterate")
+def _iterate(
+    image: GreyImage, start: Array, sigma: Array, limit: Array, tolerance: float, most: int
+) -> tuple[Array, BoolArray]:
+    """Iterate `refine_saddles` with one width of the weights.
+
+    Args:
+        image, start, sigma, limit: as there.
+        tolerance: length of a step at which an estimate has converged, px.
+        most: number of steps.
+    """
     uv = start.copy()
     good = np.ones(len(uv), dtype=np.bool_)
     active = np.arange(len(uv))
-    for _ in range(_MAX_ITERATIONS):
-        step, is_saddle = _newton(image, uv[active], sigma[active])
+    for _ in range(most):
+        step, is_saddle = _compute_step(image, uv[active], sigma[active])
         uv[active] += step
         near = np.linalg.norm(uv[active] - start[active], axis=1) <= limit[active]
         good[active] = is_saddle & near
-        active = active[good[active] & (np.linalg.norm(step, axis=1) > _TOLERANCE)]
+        active = active[good[active] & (np.linalg.norm(step, axis=1) > tolerance)]
         if not len(active):
             break
     good[active] = False
@@ -89,20 +109,12 @@ def _iterate(image: GreyImage, start: Array, sigma: Array, limit: Array) -> tupl
     return uv, good
 
 
-def _compiled(
-    image: GreyImage, start: Array, sigma: Array, limit: Array
-) -> tuple[Array, BoolArray]:
-    """`_iterate` by the compiled kernel."""
-    from calibgui.engine.kernels import saddle
-
-    return saddle.iterate(image, start, sigma, limit, _TOLERANCE, _MAX_ITERATIONS)
-
-
-def _newton(image: GreyImage, uv: Array, sigma: Array) -> tuple[Array, BoolArray]:
-    """Step (n, 2) px from each estimate to its fitted stationary point, and whether a saddle."""
+def _compute_step(image: GreyImage, uv: Array, sigma: Array) -> tuple[Array, BoolArray]:
+    """Compute the step (n, 2) px from each estimate to its fitted stationary point, at most sigma
+    long, and whether that is a saddle."""
     reach = np.ceil(3 * sigma + 0.5)[:, None]
     half = int(reach.max())
-    tiles, origin = opencv.tiles(image, uv, half)
+    tiles, origin = opencv.cut_tiles(image, uv, half)
     height, width = image.shape
     pixel = np.arange(2 * half + 1)
     moments, weighted = [], []
@@ -129,24 +141,25 @@ def _newton(image: GreyImage, uv: Array, sigma: Array) -> tuple[Array, BoolArray
     return step * (sigma / longest)[:, None], is_saddle
 
 
-_SQUARES = 0.2 * np.array([(1, 1), (-1, -1), (1, -1), (-1, 1)])
-"""Where the levels of the squares are taken, steps both ways ..."""
-_CORNER = 0.05 * np.array([(a, b) for a in (-1, 0, 1) for b in (-1, 0, 1)])
-"""... and where that of the corner is."""
-_OFF_MIDDLE = 0.42
-"""Greatest distance of a crossing's level from the middle, over the contrast."""
-
-
-def at_saddles(
+def refine_lattice(
     image: GreyImage, lattice: Lattice, farthest: float = np.inf
 ) -> tuple[Lattice, BoolArray]:
-    """The lattice with its corners moved to their saddle points, at most a quarter of a step and
-    `farthest` px, and which (rows, cols) have one there."""
-    corners = placed(lattice)
+    """Move the corners of a lattice to their saddle points.
+
+    Args:
+        image: (h, w) grey levels.
+        lattice: the corners.
+        farthest: longest way that one may move, px; never more than a quarter of a step.
+
+    Returns:
+        The lattice, and a mask (rows, cols) of the corners that have a saddle point; the others
+        keep their places.
+    """
+    corners = orient_corners(lattice)
     spacing = np.fmin(np.linalg.norm(corners.right, axis=1), np.linalg.norm(corners.down, axis=1))
     limit = np.minimum(spacing / 4, farthest)
-    moved, good = refine_saddles(image, corners.uv, window(spacing), limit)
-    good &= not _parted(image, corners)
+    moved, good = refine_saddles(image, corners.uv, choose_weight_sigma(spacing), limit)
+    good &= not _do_squares_overlap_or_part(image, corners)
     at_saddle = lattice.found
     at_saddle[at_saddle] = good
     uv = lattice.uv.copy()
@@ -154,10 +167,11 @@ def at_saddles(
     return Lattice(uv, lattice.dark), at_saddle
 
 
-def _parted(image: GreyImage, corners: Placed) -> bool:
-    """Whether the squares at most of the corners overlap, or part, by more than the blur."""
+def _do_squares_overlap_or_part(image: GreyImage, corners: OrientedCorners) -> bool:
+    """Return whether the squares at most of the corners overlap, or part, by more than the blur."""
     uv, right, down, _ = corners
-    squares = around(image, uv, right, down, _SQUARES)
+    squares = sample_around(image, uv, right, down, _SQUARE_POSITIONS)
     contrast = abs(squares @ np.array([0.5, 0.5, -0.5, -0.5]))
-    off = around(image, uv, right, down, _CORNER).mean(axis=1) - squares.mean(axis=1)
-    return bool(abs(np.median(off)) > _OFF_MIDDLE * np.median(contrast))
+    level = sample_around(image, uv, right, down, _CORNER_POSITIONS).mean(axis=1)
+    off = level - squares.mean(axis=1)
+    return bool(abs(np.median(off)) > _THRESHOLDS.max_off_middle * np.median(contrast))

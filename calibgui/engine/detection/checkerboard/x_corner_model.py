@@ -1,18 +1,23 @@
-"""The model of two blurred edges that cross, at many corners at once, and its derivatives.
+"""The model of two blurred edges that cross, at many corners at once, and its normal equations.
 
 Around a corner c the grey level is modelled by
 
     I(q) = m + gm.q + p (a + ga.q) G(d_1, d_2),
 
-with q from c, G the blurred pattern of two crossing edges (`pattern`), p = -1 where the square
-(+, +) is dark and 1 where it is bright. Edge 1 runs along the row of corners, edge 2 along the
-column; with its unit tangent t_i, its normal n_i towards the next row or column and its curvature
-kappa_i, the distance of q from edge i is
+with q from c, G the blurred pattern of two crossing edges (``edge_intensity``), p = -1 where the
+square (+, +) is dark and 1 where it is bright. Edge 1 runs along the row of corners, edge 2 along
+the column; with its unit tangent t_i, its normal n_i towards the next row or column and its
+curvature kappa_i, the distance of q from edge i is
 
     d_i = n_i.q - kappa_i (t_i.q)^2 / 2.
 
-Only pixels near the edges know about c, so only those within 2.3 blurs + 0.7 px of an edge and
-half a square along it are read. ``kernels.edges`` computes the same, compiled.
+Only pixels near the edges hold information on c, so only those within 2.3 blurs + 0.7 px of an edge
+and half a square along it are read: the support of the edges (`EdgeSupport`). An edge that runs
+more along u than v crosses each pixel column once: the pixels of its band are, column by column,
+those around the row where it passes. (Else with u and v exchanged.) This gives rectangular arrays,
+the same for all corners, of little more than the band itself; what lies outside the band or the
+image, or in the band of the other edge before, is masked. So is the outermost line of pixels on
+each side of the image, which cameras and programs that resample often leave dark or half filled.
 """
 
 from __future__ import annotations
@@ -22,25 +27,112 @@ from dataclasses import dataclass, fields
 import numpy as np
 
 from calibgui.engine import kernels
-from calibgui.engine.arrays import Array, GreyImage, IntArray
-from calibgui.engine.arrays import FloatImage as Array32
-from calibgui.engine.detection.checkerboard.edge_support import Bands
-from calibgui.engine.detection.edge_intensity import Floats, Pair, Pattern, meeting, spread
+from calibgui.engine.arrays import Array, BoolArray, FloatImage, GreyImage, IntArray
+from calibgui.engine.detection.edge_intensity import (
+    CrossingIntensity,
+    Floats,
+    Pair,
+    compute_crossing,
+    compute_spread_crossing,
+)
 
-_CHUNK = 16_000
-"""Pixels fitted at once: what the processor's cache holds."""
-SHARPEST = 0.3
+_MAX_PIXELS_AT_ONCE = 16_000
+"""Number of pixels fitted at once: what the processor's cache holds."""
+MIN_BLUR = 0.3
 """Least blur, px: that of the pixel alone is 0.29."""
-_SHARP = 0.6
+_MAX_SHARP_BLUR = 0.6
 """Median blur below which the pixel's own shape matters, px."""
+_BAND_BLURS, _BAND_MARGIN = 2.3, 0.7
+"""Half width of an edge's band: blurs, and px in addition."""
 C, THETA, BLUR = np.s_[:, 0:2], np.s_[:, 2:4], np.s_[:, 4:6]
 M, A, RHO = np.s_[:, 6], np.s_[:, 7], np.s_[:, 8]
 """Columns of the unknowns."""
 UNKNOWNS = 9
+"""Number of unknowns of a corner."""
 
 
 @dataclass(frozen=True, eq=False, slots=True)
-class Edges:
+class EdgeSupport:
+    """The bands of pixels to read along the two edges of n corners."""
+
+    uv: Array
+    """(n, 2) the corners, px."""
+    tangent: Array
+    """(n, 2, 2) unit tangents of edges 1 and 2."""
+    normal: Array
+    """(n, 2, 2) their unit normals."""
+    curvature: Array
+    """(n, 2) 1/px."""
+    arm: Array
+    """(n, 2) reach along the edges to both sides, px."""
+    width: Array
+    """(n, 2) reach across the edges to both sides, px."""
+
+    def count_pixels(self, edge: int) -> int:
+        """Count the pixels read per corner along an edge, masked ones included."""
+        length, breadth = self._measure_extent(edge)
+        return length * breadth
+
+    def read(self, image: GreyImage) -> tuple[IntArray, FloatImage, FloatImage]:
+        """Read the bands in an image (h, w).
+
+        Returns:
+            Pixels (n, P, 2) as (u, v), their grey levels (n, P), and weights (n, P): 1 for pixels
+            of the bands, 0 for the masked ones.
+        """
+        uv = np.concatenate([self._list_pixels(0), self._list_pixels(1)], axis=1)
+        q = (uv - self.uv[:, None]).astype(np.float32)
+        first = self.count_pixels(0)
+        counts = self._contains(0, q)
+        counts[:, first:] = ~counts[:, first:] & self._contains(1, q[:, first:])
+        last = np.array(image.shape[::-1]) - 1
+        inside = np.clip(uv, 1, last - 1)
+        counts &= (inside == uv).all(axis=2)
+        grey = image[inside[..., 1], inside[..., 0]].astype(np.float32)
+        return uv, grey, counts.astype(np.float32)
+
+    def _contains(self, edge: int, q: FloatImage) -> BoolArray:
+        """Return which offsets `q` (n, k, 2) from the corner lie in the band of an edge."""
+        frame = np.stack([self.tangent[:, edge], self.normal[:, edge]], axis=2)
+        along = q @ frame.astype(np.float32)
+        s, d = along[..., 0], along[..., 1]
+        half = (self.curvature[:, edge, None] / 2).astype(np.float32)
+        near = abs(d - half * s * s) <= self.width[:, edge, None].astype(np.float32)
+        return np.asarray(near & (abs(s) <= self.arm[:, edge, None].astype(np.float32)))
+
+    def _list_pixels(self, edge: int) -> IntArray:
+        """List the pixels (n, k, 2) in and around the band of an edge, line by line across it."""
+        length, breadth = self._measure_extent(edge)
+        tangent = self.tangent[:, edge]
+        flat = abs(tangent[:, 0]) >= abs(tangent[:, 1])
+        main = np.where(flat, 0, 1)
+        row = np.arange(len(main))
+        start = np.rint(self.uv[row, main])
+        x = start[:, None] + np.arange(length) - length // 2
+        dx = x - self.uv[row, main][:, None]
+        slope = tangent[row, 1 - main] / tangent[row, main]
+        bend = (
+            self.curvature[:, edge] * self.normal[:, edge][row, 1 - main] / tangent[row, main] ** 2
+        )
+        y = self.uv[row, 1 - main][:, None] + slope[:, None] * dx + bend[:, None] / 2 * dx * dx
+        lines = np.rint(y)[:, :, None] + np.arange(breadth) - breadth // 2
+        columns = np.broadcast_to(x[:, :, None], lines.shape)
+        is_flat = flat[:, None, None]
+        uv = np.stack(
+            [np.where(is_flat, columns, lines), np.where(is_flat, lines, columns)], axis=-1
+        )
+        return uv.reshape(len(main), -1, 2).astype(np.int64)
+
+    def _measure_extent(self, edge: int) -> tuple[int, int]:
+        """Measure the number of lines along, and of pixels across, the largest band of an edge."""
+        slant = np.max(abs(self.tangent[:, edge]), axis=1)
+        along = np.max(self.arm[:, edge] * slant + self.width[:, edge])
+        across = np.max(self.width[:, edge] / slant)
+        return 2 * int(np.ceil(along)) + 1, 2 * int(np.ceil(across + 0.5)) + 1
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class XCornerModel:
     """The model at n corners."""
 
     unknowns: Array
@@ -48,51 +140,57 @@ class Edges:
     rho."""
     sign: Array
     """(n,) p."""
-    size: Array
+    square_height: Array
     """(n, 2) height of a square over edge 1 and over edge 2, px."""
     arm: Array
     """(n, 2) how far edges 1 and 2 are read to both sides, px."""
-    room: Array
+    plain_width: Array
     """(n, 2) how far across them the squares are of one colour, px."""
     curvature: Array
     """(n, 2) kappa_1, kappa_2, 1/px."""
-    spread: Array
-    """(n,) w, growth of the dark squares, over the size of a square."""
+    ink_spread: Array
+    """(n,) w, growth of the dark squares on every side, over the height of a square."""
     level_gradient: Array
     """(n, 2) gm, grey levels per px."""
     contrast_gradient: Array
     """(n, 2) ga, grey levels per px."""
     blur_gradient: Array
-    """(n, 2, 2) of s_1 and s_2, px per px."""
-    size_gradient: Array
-    """(n, 2, 2) of the squares' heights as they count for the spread, px per px."""
+    """(n, 2, 2) gradients of s_1 and s_2, px per px."""
+    height_gradient: Array
+    """(n, 2, 2) gradients of the squares' heights as they count for the spread, px per px."""
 
-    def under(self, index: IntArray) -> Edges:
-        """The model at some of the corners."""
-        return Edges(*(getattr(self, field.name)[index] for field in fields(self)))
+    def select(self, index: IntArray) -> XCornerModel:
+        """Select the model at the corners `index` (k,)."""
+        return XCornerModel(*(getattr(self, field.name)[index] for field in fields(self)))
 
     def tangents(self) -> Array:
-        """(n, 2, 2) t_1, t_2."""
+        """Compute (n, 2, 2) t_1 and t_2."""
         angle = self.unknowns[THETA]
         return np.stack([np.cos(angle), np.sin(angle)], axis=2)
 
     def normals(self) -> Array:
-        """(n, 2, 2) n_1 towards the next row, n_2 towards the next column."""
+        """Compute (n, 2, 2) n_1 towards the next row and n_2 towards the next column."""
         t = self.tangents()
         return np.stack([-t[..., 1], t[..., 0]], axis=2) * np.array([[1.0], [-1.0]])
 
-    def box(self) -> Array | None:
-        """(n, 2) half widths of a pixel across edges 1 and 2, px; None where the blur hides it."""
-        if np.median(self.unknowns[BLUR]) >= _SHARP:
+    def pixel_half_widths(self) -> Array | None:
+        """Compute the half widths (n, 2) px of a pixel across edges 1 and 2; None if the blur is so
+        large that its shape does not matter."""
+        if np.median(self.unknowns[BLUR]) >= _MAX_SHARP_BLUR:
             return None
         return np.asarray(abs(self.normals()).max(axis=2) / 2)
 
-    def bands(self) -> Bands:
-        """The pixels to read."""
-        grown = abs(self.spread)[:, None] * self.size
-        width = np.minimum(2.3 * self.unknowns[BLUR] + 0.7 + grown, self.room)
-        return Bands(
-            self.unknowns[C], self.tangents(), self.normals(), self.curvature, self.arm, width
+    def find_support(self) -> EdgeSupport:
+        """Find the pixels to read."""
+        grown = abs(self.ink_spread)[:, None] * self.square_height
+        width = _BAND_BLURS * self.unknowns[BLUR] + _BAND_MARGIN + grown
+        return EdgeSupport(
+            self.unknowns[C],
+            self.tangents(),
+            self.normals(),
+            self.curvature,
+            self.arm,
+            np.minimum(width, self.plain_width),
         )
 
 
@@ -102,98 +200,67 @@ class _Window:
 
     pixels: IntArray
     """(k, P, 2) u, v."""
-    grey: Array32
+    grey: FloatImage
     """(k, P)"""
-    counts: Array32
+    counts: FloatImage
     """(k, P) 1 for pixels of the bands, 0 for others."""
 
 
-def normal_equations(
-    image: GreyImage, read: Edges, edges: Edges, odd: bool = False
+@kernels.with_kernel("x_corner_model", "accumulate_normal_equations")
+def accumulate_normal_equations(
+    image: GreyImage, read: XCornerModel, model: XCornerModel, odd: bool
 ) -> tuple[Array, Array]:
-    """Products of the columns [J r]: derivatives of the model by the unknowns, and what it leaves
-    unexplained.
+    """Accumulate the products of the columns [J r]: derivatives of the model by the unknowns, and
+    the residual, what the model leaves unexplained.
 
     The pixels are read a few corners at a time and not kept: those of a board may take many times
     the memory of the image.
 
     Args:
         image: (h, w) grey levels.
-        read: the model whose bands are read, near `edges`.
-        edges: the model.
+        read: the model whose support is read, near `model`.
+        model: the model.
         odd: whether the odd part of r is wanted too.
 
     Returns:
         (n, 10, 10) the products of each corner, and (n, 2) the sum of (r(q) - r(-q))^2 / 2 over
         pairs of pixels and their number, or (0, 2).
     """
-    if kernels.COMPILED:
-        return _compiled(image, read, edges, odd)
-    n = len(edges.unknowns)
+    n = len(model.unknowns)
     N, differences = np.empty((n, UNKNOWNS + 1, UNKNOWNS + 1)), np.empty((n if odd else 0, 2))
-    for index in _portions(read):
-        model, window = edges.under(index), _Window(*read.under(index).bands().read(image))
-        J = _columns(model, window)
+    for index in _divide_corners(read):
+        portion = model.select(index)
+        window = _Window(*read.select(index).find_support().read(image))
+        J = _compute_columns(portion, window)
         N[index] = J @ J.transpose(0, 2, 1)
         if odd:
-            differences[index] = _odd_part(model.unknowns[C], window, J[:, UNKNOWNS])
+            differences[index] = _measure_odd_part(portion.unknowns[C], window, J[:, UNKNOWNS])
     return N, differences
 
 
-def _compiled(image: GreyImage, read: Edges, edges: Edges, odd: bool) -> tuple[Array, Array]:
-    """`normal_equations` by the compiled kernel."""
-    from calibgui.engine.kernels import x_corner_fit as kernel
-
-    x, n = edges.unknowns, len(edges.unknowns)
-    near = np.column_stack(
-        [
-            edges.tangents().reshape(n, 4),
-            edges.normals().reshape(n, 4),
-            edges.curvature / 2,
-            x[BLUR],
-            edges.blur_gradient.reshape(n, 4),
-            edges.size,
-            edges.size_gradient.reshape(n, 4),
-            x[M],
-            edges.level_gradient,
-            x[A],
-            edges.contrast_gradient,
-            x[RHO],
-            edges.sign,
-            edges.sign * edges.spread,
-            np.zeros((n, 2)) if (box := edges.box()) is None else box,
-        ]
-    )
-    bands = read.bands()
-    lengths = np.stack([bands.curvature, bands.arm, bands.width], axis=2)
-    packed = np.concatenate([bands.tangent, bands.normal, lengths], axis=2)
-    uv, centre = (np.ascontiguousarray(model.unknowns[C]) for model in (read, edges))
-    return kernel.products(image, uv, packed, centre, near, odd)
-
-
-def _portions(read: Edges) -> list[IntArray]:
-    """Corners whose bands are of about one size."""
+def _divide_corners(read: XCornerModel) -> list[IntArray]:
+    """Divide the corners into portions whose bands are of about one size."""
     order = np.argsort(read.arm.sum(axis=1), kind="stable")
-    largest = read.under(order[-1:]).bands()
-    total = len(order) * (largest.pixels(0) + largest.pixels(1))
-    return np.array_split(order, max(total // _CHUNK, 1))
+    largest = read.select(order[-1:]).find_support()
+    total = len(order) * (largest.count_pixels(0) + largest.count_pixels(1))
+    return np.array_split(order, max(total // _MAX_PIXELS_AT_ONCE, 1))
 
 
-def _columns(edges: Edges, window: _Window) -> Floats:
-    """(k, 10, P) derivatives of the model by the unknowns and the grey levels not explained in a
-    window of `edges`; 0 for pixels that do not count."""
-    x, grey, counts = edges.unknowns, window.grey, window.counts
+def _compute_columns(model: XCornerModel, window: _Window) -> Floats:
+    """Compute the derivatives of the model by the unknowns, and the residual, (k, 10, P) in a
+    window; 0 for pixels that do not count."""
+    x, grey, counts = model.unknowns, window.grey, window.counts
     q = (window.pixels - x[C][:, None]).astype(np.float32)
-    normals = edges.normals().astype(np.float32)
-    s1, s2 = _along(q, edges.tangents())
-    d1, d2 = _along(q, normals)
-    kappa = (edges.curvature / 2).astype(np.float32)
+    normals = model.normals().astype(np.float32)
+    s1, s2 = _project(q, model.tangents())
+    d1, d2 = _project(q, normals)
+    kappa = (model.curvature / 2).astype(np.float32)
     d1 -= kappa[:, :1] * s1 * s1
     d2 -= kappa[:, 1:] * s2 * s2
-    sign = edges.sign[:, None].astype(np.float32)
-    G = _pattern(edges, q, (d1, d2))
-    swing = sign * _linear(x[A], edges.contrast_gradient, q)
-    level = _linear(x[M], edges.level_gradient, q)
+    sign = model.sign[:, None].astype(np.float32)
+    G = _compute_intensity(model, q, (d1, d2))
+    swing = sign * _extrapolate(x[A], model.contrast_gradient, q)
+    level = _extrapolate(x[M], model.level_gradient, q)
     residual = (grey - level - swing * G.value) * counts
     swing = swing * counts
     by1, by2 = swing * G.by_distance[0], swing * G.by_distance[1]
@@ -211,9 +278,9 @@ def _columns(edges: Edges, window: _Window) -> Floats:
     return J
 
 
-def _odd_part(centre: Array, window: _Window, residual: Floats) -> Array:
-    """(k, 2) sum of (r(q) - r(-q))^2 / 2 over the pairs of pixels that lie opposite each other
-    to the nearest half pixel, and their number."""
+def _measure_odd_part(centre: Array, window: _Window, residual: Floats) -> Array:
+    """Measure the odd part of the residual: (k, 2) the sum of (r(q) - r(-q))^2 / 2 over the pairs
+    of pixels that lie opposite each other to the nearest half pixel, and their number."""
     k, side = len(centre), int(np.ptp(window.pixels, axis=1).max()) + 1
     row, counts = np.arange(k)[:, None], window.counts > 0
     corner = window.pixels.min(axis=1)[:, None]
@@ -230,33 +297,37 @@ def _odd_part(centre: Array, window: _Window, residual: Floats) -> Array:
     return np.asarray(both.sum(axis=1) / 2)  # each pair was met twice
 
 
-def _pattern(edges: Edges, q: Array32, d: Pair) -> Pattern:
-    """G at the offsets `q` (n, P, 2) from the corners."""
-    x = edges.unknowns
+def _compute_intensity(model: XCornerModel, q: FloatImage, d: Pair) -> CrossingIntensity:
+    """Compute G at the offsets `q` (n, P, 2) and the distances `d` from the corners' edges."""
+    x = model.unknowns
     s1, s2 = (
-        np.maximum(_linear(x[BLUR][:, i], edges.blur_gradient[:, i], q), SHARPEST) for i in (0, 1)
+        np.maximum(_extrapolate(x[BLUR][:, i], model.blur_gradient[:, i], q), MIN_BLUR)
+        for i in (0, 1)
     )
     rho = x[RHO][:, None].astype(np.float32)
-    half = edges.box()
+    half = model.pixel_half_widths()
     box = None
     if half is not None:
         h1, h2 = half.astype(np.float32).T[..., None]
         box = (h1, h2)
-    if not edges.spread.any():
-        return meeting(d, (s1, s2), rho, box)
-    growth = (edges.sign * edges.spread)[:, None].astype(np.float32)
-    w1, w2 = (growth * _linear(edges.size[:, i], edges.size_gradient[:, i], q) for i in (0, 1))
-    return spread(d, (s1, s2), rho, box, (w1, w2))
+    if not model.ink_spread.any():
+        return compute_crossing(d, (s1, s2), rho, box)
+    growth = (model.sign * model.ink_spread)[:, None].astype(np.float32)
+    w1, w2 = (
+        growth * _extrapolate(model.square_height[:, i], model.height_gradient[:, i], q)
+        for i in (0, 1)
+    )
+    return compute_spread_crossing(d, (s1, s2), rho, box, (w1, w2))
 
 
-def _along(q: Array32, directions: Floats) -> tuple[Array32, Array32]:
-    """Coordinates (n, P) of `q` (n, P, 2) along two directions (n, 2, 2)."""
+def _project(q: FloatImage, directions: Floats) -> tuple[FloatImage, FloatImage]:
+    """Compute coordinates (n, P) of `q` (n, P, 2) along two directions (n, 2, 2)."""
     both = directions.astype(np.float32) @ q.transpose(0, 2, 1)
     return both[:, 0], both[:, 1]
 
 
-def _linear(value: Array, gradient: Array, q: Array32) -> Array32:
-    """`value` (n,) + `gradient` (n, 2) . q at `q` (n, P, 2), or (n, 1) where it does not vary."""
+def _extrapolate(value: Array, gradient: Array, q: FloatImage) -> FloatImage:
+    """Compute `value` (n,) + `gradient` (n, 2) . q at `q` (n, P, 2); (n, 1) if it does not vary."""
     constant = value[:, None].astype(np.float32)
     if not gradient.any():
         return constant

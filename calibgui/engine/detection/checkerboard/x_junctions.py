@@ -1,13 +1,17 @@
 """X-junctions: points where two edges cross and the grey levels alternate around.
 
+The inner corners of a checkerboard are such junctions, whatever the perspective and the lens. They
+are found in two steps, a cheap one at every pixel and a careful one at few.
+
 Near the crossing of two step edges the surface is a saddle, I ~ a sgn(d_1) sgn(d_2), so that
 after a little smoothing the Hessian has one positive and one negative eigenvalue. Candidates
 are the local maxima of its negated determinant
 
     R = Ixy^2 - Ixx Iyy,
 
-which edges (one eigenvalue zero) and blobs (equal signs) leave at or below zero. Newton steps
-to the point of zero gradient, -H^-1 grad I, place them between pixels.
+which edges (one eigenvalue zero) and blobs (equal signs) leave at or below zero (the determinant
+of the Hessian as a detector: Beaudet 1978). Newton steps to the point of zero gradient,
+-H^-1 grad I, place them between pixels.
 
 Many textures have saddles. An X-junction is one whose grey levels on a circle around it change
 side exactly four times, symmetric under a half turn. With angles counted from u towards v the
@@ -18,45 +22,23 @@ sector from A to B is dark. Neighbours on a board see the same two edges with A 
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import NamedTuple
 
 import numpy as np
 
 from calibgui.engine import kernels, opencv
 from calibgui.engine.arrays import Array, BoolArray, GreyImage, IntArray
-from calibgui.engine.images.sampling import sample
+from calibgui.engine.detection.checkerboard.thresholds import THRESHOLDS, JunctionTolerance
+from calibgui.engine.images.sampling import sample_image
 
-MAX_CANDIDATES = 3000
-_NEWTON = 3
-"""Steps to a saddle point: one alone would fall short by a third between two pixels."""
-_FARTHEST = 1.5
-"""Greatest distance of a saddle point from its pixel along either axis, px."""
+_SMOOTHING = 1.0
+"""Standard deviation of the blur before derivatives are taken, px."""
+_NEWTON_STEPS = 3
+"""Number of Newton steps to a saddle point: one would fall short by a third between two pixels."""
 _SAMPLES = 32
 _ANGLES = 2 * np.pi * np.arange(_SAMPLES) / _SAMPLES
 _CIRCLES = np.multiply.outer((3.0, 4.5, 7.0), np.column_stack([np.cos(_ANGLES), np.sin(_ANGLES)]))
-"""Circles tried in turn, px: small squares first, then those that blur has rounded."""
-_ASYMMETRY = 0.30
-"""Greatest rms difference of opposite samples over the circle's contrast."""
-_NARROWEST = np.radians(12.0)
-"""Least angle between the two edges."""
-
-
-class Tolerance(NamedTuple):
-    """In what is taken for a junction and for the edge between two."""
-
-    off_middle: float
-    """Greatest distance of the centre from the mid level, over the contrast."""
-    along: float
-    """Greatest angle between an edge and the way to the neighbour that it leads to, rad."""
-    parallel: float
-    """Greatest angle between the crossing edges of two neighbours, rad."""
-
-
-CROSSED = Tolerance(0.3, np.radians(20.0), np.radians(25.0))
-"""Where edges cross."""
-PARTED = Tolerance(0.42, np.radians(26.0), np.radians(40.0))
-"""Where squares overlap or part: all corners are bright or all dark in the middle, and edges pass
-them by on the one side or, at their neighbours, on the other."""
+"""(circles, samples, 2) offsets of the samples on the circles tried in turn, px: the smallest first
+for small squares, then larger ones for corners that blur has rounded."""
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -65,14 +47,14 @@ class Saddles:
 
     smooth: GreyImage
     """(h, w) the image that they were found in, slightly blurred, in levels of its own."""
-    floor: float
+    min_contrast: float
     """Least contrast of a junction worth finding, in these levels."""
     uv: Array
     """(n, 2) px."""
 
-    def under(self, mask: BoolArray) -> Saddles:
-        """The saddles under a mask (n,)."""
-        return Saddles(self.smooth, self.floor, self.uv[mask])
+    def select(self, mask: BoolArray) -> Saddles:
+        """Return the saddles under a mask (n,)."""
+        return Saddles(self.smooth, self.min_contrast, self.uv[mask])
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -90,36 +72,51 @@ class Junctions:
         return len(self.uv)
 
 
-def find_saddles(image: GreyImage, floor: float) -> Saddles:
-    """The strongest saddle points of `image` (h, w).
+def find_saddles(image: GreyImage, min_contrast: float) -> Saddles:
+    """Find the strongest saddle points of an image.
 
     Args:
-        image: grey levels.
-        floor: least contrast of a junction worth finding, grey levels.
+        image: (h, w) grey levels.
+        min_contrast: least contrast of a junction worth finding, grey levels.
     """
-    g, levels = opencv.smooth(image, 1.0)
-    floor = levels * floor
+    limits = THRESHOLDS.junctions
+    smooth, levels = opencv.blur_image(image, _SMOOTHING)
+    min_contrast = levels * min_contrast
     # A crossing of contrast c, smoothed by 1 px, has R = (c / pi)^2 where it is sharp.
-    where = (_compiled_peaks if kernels.COMPILED else _peaks)(g, (0.1 * floor) ** 2)
-    uv, near = (_compiled_stationary if kernels.COMPILED else _stationary)(g, where)
-    return Saddles(g, floor, uv[near])
+    pixels = _find_peaks(smooth, (limits.min_saddle * min_contrast) ** 2, limits.max_candidates)
+    uv, is_near = _refine_stationary(smooth, pixels, _NEWTON_STEPS, limits.max_shift)
+    return Saddles(smooth, min_contrast, uv[is_near])
 
 
-def _stationary(g: GreyImage, where: IntArray) -> tuple[Array, BoolArray]:
-    """The points of zero gradient (n, 2) of the image's saddles at pixels `where` (n,), and which
-    of them are near."""
-    pixel = np.column_stack(np.divmod(where, g.shape[1]))[:, ::-1].astype(np.float64)
-    uv, near = pixel.copy(), np.ones(len(pixel), dtype=np.bool_)
-    for _ in range(_NEWTON):
-        moved = uv + _newton(g, uv)
-        near &= (abs(moved - pixel) < _FARTHEST).all(axis=1)
-        uv[near] = moved[near]
-    return uv, near
+@kernels.with_kernel("x_junctions", "refine_stationary")
+def _refine_stationary(
+    smooth: GreyImage, pixels: IntArray, steps: int, max_shift: float
+) -> tuple[Array, BoolArray]:
+    """Move saddles from their pixels to the points of zero gradient.
+
+    Args:
+        smooth: (h, w) grey levels.
+        pixels: (n,) flat indices of the saddles' pixels.
+        steps: number of Newton steps.
+        max_shift: greatest distance from the pixel along either axis, px.
+
+    Returns:
+        The points (n, 2) px, and which of them (n,) stayed near their pixels.
+    """
+    start = np.column_stack(np.divmod(pixels, smooth.shape[1]))[:, ::-1].astype(np.float64)
+    uv, is_near = start.copy(), np.ones(len(start), dtype=np.bool_)
+    for _ in range(steps):
+        moved = uv + _compute_newton_step(smooth, uv)
+        is_near &= (abs(moved - start) < max_shift).all(axis=1)
+        uv[is_near] = moved[is_near]
+    return uv, is_near
 
 
-def _newton(g: GreyImage, uv: Array) -> Array:
-    """The step -H^-1 grad I (n, 2) from points `uv` (n, 2) of the image."""
-    at = {(i, j): sample(g, uv + np.array([i, j])) for i in (-1, 0, 1) for j in (-1, 0, 1)}
+def _compute_newton_step(smooth: GreyImage, uv: Array) -> Array:
+    """Compute the step -H^-1 grad I (n, 2) from points `uv` (n, 2) px of the image."""
+    at = {
+        (i, j): sample_image(smooth, uv + np.array([i, j])) for i in (-1, 0, 1) for j in (-1, 0, 1)
+    }
     gu, gv = ((at[i, j] - at[-i, -j]) / 2 for i, j in ((1, 0), (0, 1)))
     xx, yy = (at[i, j] - 2 * at[0, 0] + at[-i, -j] for i, j in ((1, 0), (0, 1)))
     xy = (at[1, 1] - at[1, -1] - at[-1, 1] + at[-1, -1]) / 4
@@ -128,99 +125,126 @@ def _newton(g: GreyImage, uv: Array) -> Array:
         return np.asarray(step / (xy * xy - xx * yy)[:, None])
 
 
-def _compiled_stationary(g: GreyImage, where: IntArray) -> tuple[Array, BoolArray]:
-    """`_stationary` by the compiled kernel."""
-    from calibgui.engine.kernels import x_junctions
+@kernels.with_kernel("x_junctions", "find_peaks")
+def _find_peaks(smooth: GreyImage, min_determinant: float, max_count: int) -> IntArray:
+    """Return (n,) flat indices of the strongest maxima of R, strongest first.
 
-    return x_junctions.stationary(g, where, _NEWTON, _FARTHEST)
-
-
-def _peaks(g: GreyImage, least: float) -> IntArray:
-    """(n,) flat indices of the strongest maxima of R in the image `g`, strongest first."""
+    Args:
+        smooth: (h, w) grey levels.
+        min_determinant: least R, squared grey levels.
+        max_count: greatest number of maxima.
+    """
     delta, central, second = [0.0, 1.0, 0.0], [-0.5, 0.0, 0.5], [1.0, -2.0, 1.0]
-    Ixx = opencv.separable(g, second, delta)
-    Iyy = opencv.separable(g, delta, second)
-    Ixy = opencv.separable(g, central, central)
+    Ixx = opencv.correlate_separable(smooth, second, delta)
+    Iyy = opencv.correlate_separable(smooth, delta, second)
+    Ixy = opencv.correlate_separable(smooth, central, central)
     R = Ixy * Ixy - Ixx * Iyy
     R[[0, -1]] = R[:, [0, -1]] = -np.inf
     around = np.ones((5, 5), dtype=np.bool_)
     before = np.arange(25).reshape(5, 5) < 12  # of equally great ones the first is the peak
-    peak = (least < R) & (opencv.greatest(R, around) == R) & (opencv.greatest(R, before) < R)
+    peak = (
+        (min_determinant < R)
+        & (opencv.dilate_image(R, around) == R)
+        & (opencv.dilate_image(R, before) < R)
+    )
     peak[:2], peak[-2:], peak[:, :2], peak[:, -2:] = False, False, False, False
     where = np.flatnonzero(peak)
     order = np.argsort(-R.ravel()[where], kind="stable")
-    return where[order[:MAX_CANDIDATES]]
+    return where[order[:max_count]]
 
 
-def _compiled_peaks(g: GreyImage, least: float) -> IntArray:
-    """`_peaks` by the compiled kernel."""
-    from calibgui.engine.kernels import x_junctions
-
-    return x_junctions.peaks(g, least, MAX_CANDIDATES)
-
-
-def classify(saddles: Saddles, tolerance: Tolerance = CROSSED) -> tuple[BoolArray, Junctions]:
-    """Which of the `saddles` (n,) are X-junctions of no less contrast than is worth finding.
+def classify_saddles(
+    saddles: Saddles, tolerance: JunctionTolerance = THRESHOLDS.junctions.crossing
+) -> tuple[BoolArray, Junctions]:
+    """Decide which of the `saddles` (n,) are X-junctions of sufficient contrast.
 
     Returns:
         A mask (n,) and the junctions under it.
     """
-    rings = _compiled_rings if kernels.COMPILED else _rings
-    passed, found = rings(saddles.smooth, saddles.uv, saddles.floor, tolerance.off_middle)
-    return passed, Junctions(saddles.uv[passed], found[passed, :2], found[passed, 2])
+    limits = THRESHOLDS.junctions
+    passed, rings = _check_circles(
+        saddles.smooth,
+        saddles.uv,
+        _CIRCLES,
+        saddles.min_contrast,
+        (limits.max_asymmetry, tolerance.off_middle, limits.min_edge_angle),
+    )
+    return passed, Junctions(saddles.uv[passed], rings[passed, :2], rings[passed, 2])
 
 
-def _rings(
-    smooth: GreyImage, uv: Array, floor: float, off_middle: float
+@kernels.with_kernel("x_junctions", "check_circles")
+def _check_circles(
+    smooth: GreyImage,
+    uv: Array,
+    circles: Array,
+    min_contrast: float,
+    limits: tuple[float, float, float],
 ) -> tuple[BoolArray, Array]:
-    """Which points (n,) pass the test on one of the circles, and (n, 3) A, B and contrast."""
-    passed, found = np.zeros(len(uv), dtype=np.bool_), np.zeros((len(uv), 3))
-    for circle in _CIRCLES:
+    """Test points for junctions on circles in turn, until one passes.
+
+    Args:
+        smooth: (h, w) grey levels.
+        uv: (n, 2) px.
+        circles: (k, samples, 2) offsets of the samples, px.
+        min_contrast: least contrast, grey levels.
+        limits: greatest asymmetry and difference of the centre from the mid level, both over the
+            contrast, and least angle between the edges, rad.
+
+    Returns:
+        Which points passed (n,), and for those that did the angles A, B and the contrast (n, 3).
+    """
+    passed, rings = np.zeros(len(uv), dtype=np.bool_), np.zeros((len(uv), 3))
+    for circle in circles:
         rest = np.flatnonzero(~passed)
-        passed[rest], found[rest] = _ring(smooth, uv[rest], circle, floor, off_middle)
-    return passed, found
+        passed[rest], rings[rest] = _check_circle(smooth, uv[rest], circle, min_contrast, limits)
+    return passed, rings
 
 
-def _compiled_rings(
-    smooth: GreyImage, uv: Array, floor: float, off_middle: float
+def _check_circle(
+    smooth: GreyImage,
+    uv: Array,
+    circle: Array,
+    min_contrast: float,
+    limits: tuple[float, float, float],
 ) -> tuple[BoolArray, Array]:
-    """`_rings` by the compiled kernel."""
-    from calibgui.engine.kernels import x_junctions
-
-    return x_junctions.rings(smooth, uv, _CIRCLES, floor, (_ASYMMETRY, off_middle, _NARROWEST))
-
-
-def _ring(
-    smooth: GreyImage, uv: Array, circle: Array, floor: float, off_middle: float
-) -> tuple[BoolArray, Array]:
-    """The test on one circle (samples, 2): passed (n,) and (n, 3) A, B and contrast."""
-    values = sample(smooth, uv[:, None] + circle)
+    """Test points on one circle (samples, 2): see `_check_circles`."""
+    max_asymmetry, max_off_middle, min_angle = limits
+    values = sample_image(smooth, uv[:, None] + circle)
     near, far = values[:, : _SAMPLES // 2], values[:, _SAMPLES // 2 :]
     half = (near + far) / 2
     low, high = half.min(axis=1), half.max(axis=1)
     contrast = high - low
     asymmetry = np.sqrt(np.mean((near - far) ** 2, axis=1))
-    centre = sample(smooth, uv)
+    centre = sample_image(smooth, uv)
     middle = (low + high) / 2
     level = half - middle[:, None]
     after = np.roll(level, -1, axis=1)
-    down, up = (level > 0) & (after <= 0), (level <= 0) & (after > 0)
-    edges = np.stack([_crossing(level, after, down), _crossing(level, after, up)], axis=1)
+    falls, rises = (level > 0) & (after <= 0), (level <= 0) & (after > 0)
+    edges = np.stack(
+        [_interpolate_angle(level, after, falls), _interpolate_angle(level, after, rises)], axis=1
+    )
     edges[:, 1] += np.pi * (edges[:, 1] < edges[:, 0])
-    width = edges[:, 1] - edges[:, 0]
+    angle = edges[:, 1] - edges[:, 0]
     passed = (
-        (np.sum(down, axis=1) == 1)
-        & (contrast > floor)
-        & (asymmetry < _ASYMMETRY * contrast)
-        & (abs(centre - middle) < off_middle * contrast)
-        & (width > _NARROWEST)
-        & (width < np.pi - _NARROWEST)
+        (np.sum(falls, axis=1) == 1)
+        & (contrast > min_contrast)
+        & (asymmetry < max_asymmetry * contrast)
+        & (abs(centre - middle) < max_off_middle * contrast)
+        & (angle > min_angle)
+        & (angle < np.pi - min_angle)
     )
     return passed, np.column_stack([edges, contrast])
 
 
-def _crossing(level: Array, after: Array, where: BoolArray) -> Array:
-    """(n,) angle in [0, pi) at which each row crosses zero between a marked sample and the next."""
+def _interpolate_angle(level: Array, after: Array, where: BoolArray) -> Array:
+    """Return (n,) angles in [0, pi) at which rows cross zero, between a marked sample and the
+    next one.
+
+    Args:
+        level: (n, samples) grey levels less the mid level.
+        after: (n, samples) levels of the next samples.
+        where: (n, samples) mark of the sample before the crossing.
+    """
     k = np.argmax(where, axis=1)
     row = np.arange(len(level))
     a, b = level[row, k], after[row, k]

@@ -15,25 +15,20 @@ import numpy.typing as npt
 
 from calibgui.engine import opencv
 from calibgui.engine.arrays import Array, GreyImage
-
-_LEAST = 12
-"""Area of the smallest parts, px."""
-_ROUND = (0.85, 1.1)
-"""Between which A / (4 pi sqrt(det C)) must lie; pixels count as squares."""
-_SIZES = 8.0
-"""Ratio of the largest area to the smallest in one grid: a tilt's and a lens's."""
+from calibgui.engine.detection.circles.thresholds import CIRCLE_THRESHOLDS
 
 
-def blobs(image: GreyImage, window: int, most: int) -> Array:
-    """(n, 2) px, the centres of at most `most` parts of an 8-bit image (h, w).
+def find_blobs(image: GreyImage, window: int, most: int) -> Array:
+    """Find the centres (n, 2) px of at most `most` parts of an 8-bit image (h, w).
 
     A part is darker than the mean of the `window` px around.
     """
-    labels, end = opencv.dark_parts(image, window)
+    limits = CIRCLE_THRESHOLDS
+    labels, end = opencv.label_dark_parts(image, window)
     v, u = np.nonzero(labels)
     part = labels[v, u]
     area = np.bincount(part, minlength=end).astype(np.float64)
-    large = area >= _LEAST
+    large = area >= limits.min_blob_area
     kept = large[part]
     part, x, y = part[kept], u[kept] * 1.0, v[kept] * 1.0
 
@@ -47,12 +42,13 @@ def blobs(image: GreyImage, window: int, most: int) -> Array:
         + (np.array([1 / 12, 1 / 12, 0.0])[:, None])
     )
     fill = area / (4 * np.pi * np.sqrt(np.maximum(C[0] * C[1] - C[2] ** 2, 1e-9)))
-    round_ = np.flatnonzero(large & (fill > _ROUND[0]) & (fill < _ROUND[1]))
-    if not len(round_):
+    is_round = large & (fill > limits.min_blob_fill) & (fill < limits.max_blob_fill)
+    candidates = np.flatnonzero(is_round)
+    if not len(candidates):
         return np.zeros((0, 2))
-    sizes = np.sort(area[round_])
-    count = np.searchsorted(sizes, _SIZES * sizes, side="right") - np.arange(len(sizes))
+    sizes, ratio = np.sort(area[candidates]), limits.max_area_ratio
+    count = np.searchsorted(sizes, ratio * sizes, side="right") - np.arange(len(sizes))
     smallest = sizes[np.argmax(count)]
-    alike = round_[(area[round_] >= smallest) & (area[round_] <= _SIZES * smallest)]
+    alike = candidates[(area[candidates] >= smallest) & (area[candidates] <= ratio * smallest)]
     best = alike[np.argsort(np.abs(fill[alike] - 1), kind="stable")[:most]]
     return np.column_stack([cu[best], cv[best]])

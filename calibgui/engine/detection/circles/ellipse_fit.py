@@ -1,7 +1,9 @@
-"""Images of discs, located at the physical limit.
+"""Ellipses fitted to images of discs, at the Cramer-Rao bound.
 
-A disc's image is bounded by an ellipse (a conic, where no lens bends it). With q from its centre
-c and S symmetric and positive definite
+A disc's image is bounded by an ellipse (a conic, where no lens bends it). It is fitted to the grey
+levels of the pixels near its edge, by a model of the blurred edge, rather than to points found on
+it: no threshold enters, and the covariance follows. With q from the ellipse's centre c and S
+symmetric and positive definite
 
     rho = sqrt(q^T S q),    d = (1 - rho) rho / |S q|
 
@@ -11,7 +13,7 @@ farther in, and the blurred image is
 
     I(q) = m + gm.q + a E(d - kappa s^2 / 2),
 
-E the blurred edge of ``corners/pattern.py``. The unknowns c, S (3), blur, m and a are found by
+E the blurred edge of ``edge_intensity``. The unknowns c, S (3), blur, m and a are found by
 Gauss-Newton steps on the pixels near the edge, all circles at once. Under point reflection
 about c the derivatives by c are odd and the others even, so that they decouple, and the
 covariance of c is the Cramer-Rao bound noise^2 (sum of (grad I)(grad I)^T)^-1. The light's
@@ -25,32 +27,35 @@ from dataclasses import dataclass
 import numpy as np
 
 from calibgui.engine.arrays import Array, GreyImage
-from calibgui.engine.detection.edge_intensity import edge
-from calibgui.engine.images.sampling import sample
+from calibgui.engine.detection.edge_intensity import compute_edge
+from calibgui.engine.images.sampling import sample_image
 
-_BANDS = (3.0, 2.3)
-"""Half widths of the bands that are read, first and then, blurs."""
-_STEPS = 6
-_SHARPEST = 0.3
+_BAND_HALF_WIDTHS = (3.0, 2.3)
+"""Half widths of the bands that are read, in the first step and in later ones, blurs."""
+_GAUSS_NEWTON_STEPS = 6
+"""Number of steps."""
+_MIN_BLUR = 0.3
 """Least blur, px: that of the pixel alone is 0.29."""
-_CHUNK = 400_000
-"""Pixels fitted at once."""
+_MAX_PIXELS_AT_ONCE = 400_000
+"""Number of pixels fitted at once."""
 _UNKNOWNS = 8
+"""Number of unknowns."""
 _C, _S = np.s_[:, 0:2], np.s_[:, 2:5]
 _BLUR, _M, _A = np.s_[:, 5], np.s_[:, 6], np.s_[:, 7]
 """Columns of the unknowns; S as (uu, uv, vv)."""
 _RAYS = 24
-"""Directions in which an edge is looked for at the start."""
+"""Number of directions in which the edge is sampled for the start."""
 _SAMPLES = 49
-_HEART = 0.3
-"""Least rho of a pixel: nearer the centre the distance from the edge is not what d says."""
-_INNERMOST = 0.2
-"""Part of the way to the neighbour's disc that is surely ink, if there is any."""
+"""Number of samples along each of them."""
+_MIN_RHO = 0.3
+"""Least rho of a pixel that is read: nearer the centre d approximates the distance badly."""
+_INK_REACH = 0.2
+"""Distance from the centre within which samples are ink, half distances of neighbours."""
 
 
 @dataclass(frozen=True, eq=False, slots=True)
-class Ellipses:
-    """n images of discs."""
+class EllipseFit:
+    """Ellipses fitted to n images of discs."""
 
     unknowns: Array
     """(n, 8) c (2) px, S (3) 1/px^2, blur px, m and a grey levels."""
@@ -71,44 +76,48 @@ class Ellipses:
 
     @property
     def contrast(self) -> Array:
-        """(n,) of paper and disc, grey levels."""
+        """(n,) difference of paper and disc, grey levels."""
         return 2 * abs(self.unknowns[_A])
 
     @property
     def spread(self) -> Array:
-        """(n, 2, 2) S^-1: with the image J of a unit of the plate, radius^2 J J^T."""
-        return np.asarray(np.linalg.inv(_matrix(self.unknowns[_S])), np.float64)
+        """(n, 2, 2) S^-1, px^2: radius^2 J J^T for the image J of a unit of the board."""
+        return np.asarray(np.linalg.inv(_assemble_matrix(self.unknowns[_S])), np.float64)
 
 
-def fit(image: GreyImage, uv: Array, steps: Array, reach: float, beside: Array) -> Ellipses:
+def fit_ellipses(
+    image: GreyImage, uv: Array, steps: Array, reach: float, paper: Array
+) -> EllipseFit:
     """Fit the model at every disc.
 
     Args:
         image: (h, w) grey levels.
         uv: (n, 2) first estimates of the centres, good to a fraction of the radius, px.
-        steps: (n, 2, 2) columns: images of a unit of the plate's X and Y there, px.
+        steps: (n, 2, 2) columns: images of a unit of the board's X and Y there, px.
         reach: half the distance of neighbouring discs, in the same unit.
-        beside: (k, 2) from a disc's centre to where there is paper around it.
+        paper: (k, 2) displacements from a disc's centre to paper around it, in the same unit.
     """
-    x = _start(image, uv, steps, reach, beside)
+    x = _estimate_start(image, uv, steps, reach, paper)
     gradient = np.zeros_like(uv)
-    for turn in range(_STEPS):
-        done = _step(image, x, gradient, _BANDS[min(turn, 1)])
-        x = done.unknowns
-        gradient = _gradient(x)
-    return done
+    for step in range(_GAUSS_NEWTON_STEPS):
+        fit = _take_step(image, x, gradient, _BAND_HALF_WIDTHS[min(step, 1)])
+        x = fit.unknowns
+        gradient = _estimate_light_gradient(x)
+    return fit
 
 
-def _start(image: GreyImage, uv: Array, steps: Array, reach: float, beside: Array) -> Array:
-    """Unknowns from where the grey level, seen along rays, is half of paper's and disc's."""
+def _estimate_start(image: GreyImage, uv: Array, steps: Array, reach: float, paper: Array) -> Array:
+    """Estimate the unknowns (n, 8) from where the grey level along rays is midway between those of
+    paper and disc."""
     angle = 2 * np.pi * np.arange(_RAYS) / _RAYS
     ends = reach * np.stack([np.cos(angle), np.sin(angle)])
     along = (steps @ ends).transpose(0, 2, 1)
     share = np.linspace(0, 1, _SAMPLES)
-    seen = sample(image, uv[:, None, None] + share[:, None] * along[:, :, None])
-    ink = np.median(seen[..., share < _INNERMOST], axis=(1, 2))
-    paper = np.median(sample(image, uv[:, None] + (steps @ beside.T).transpose(0, 2, 1)), axis=1)
-    a, m = (ink - paper) / 2, (ink + paper) / 2
+    seen = sample_image(image, uv[:, None, None] + share[:, None] * along[:, :, None])
+    ink = np.median(seen[..., share < _INK_REACH], axis=(1, 2))
+    on_paper = uv[:, None] + (steps @ paper.T).transpose(0, 2, 1)
+    white = np.median(sample_image(image, on_paper), axis=1)
+    a, m = (ink - white) / 2, (ink + white) / 2
     inside = (seen - m[:, None, None]) * np.sign(a)[:, None, None] > 0
     radius = (inside.sum(axis=2) - 0.5) / (_SAMPLES - 1)
     points = radius[..., None] * along
@@ -123,28 +132,30 @@ def _start(image: GreyImage, uv: Array, steps: Array, reach: float, beside: Arra
     return unknowns
 
 
-def _step(image: GreyImage, x: Array, gradient: Array, band: float) -> Ellipses:
-    """The model after one Gauss-Newton step on the pixels within `band` blurs of the edges."""
+def _take_step(image: GreyImage, x: Array, gradient: Array, band: float) -> EllipseFit:
+    """Take one Gauss-Newton step on the pixels within `band` blurs of the edges."""
     n = len(x)
-    half = int(np.ceil(np.sqrt(np.linalg.inv(_matrix(x[_S])).max()) + band * x[_BLUR].max() + 2))
-    portion = max(_CHUNK // (2 * half + 1) ** 2, 1)
+    half = int(
+        np.ceil(np.sqrt(np.linalg.inv(_assemble_matrix(x[_S])).max()) + band * x[_BLUR].max() + 2)
+    )
+    portion = max(_MAX_PIXELS_AT_ONCE // (2 * half + 1) ** 2, 1)
     parts = [
-        _portion(image, x[i : i + portion], gradient[i : i + portion], band, half)
+        _fit_portion(image, x[i : i + portion], gradient[i : i + portion], band, half)
         for i in range(0, n, portion)
     ]
-    return Ellipses(*(np.concatenate(part) for part in zip(*parts, strict=True)))
+    return EllipseFit(*(np.concatenate(part) for part in zip(*parts, strict=True)))
 
 
-def _portion(
+def _fit_portion(
     image: GreyImage, x: Array, gradient: Array, band: float, half: int
 ) -> tuple[Array, Array, Array]:
-    """Unknowns, covariances and residuals of some discs after a step."""
-    grey, qu, qv, weight = _read(image, x, band, half)
-    su, sv, rho, slope = _conic(x, qu, qv)
+    """Compute unknowns (k, 8), covariances (k, 2, 2) and residuals (k,) of k discs after a step."""
+    grey, qu, qv, weight = _read_bands(image, x, band, half)
+    su, sv, rho, slope = _evaluate_conic(x, qu, qv)
     bend = (x[:, 2] * x[:, 4] - x[:, 3] ** 2)[:, None] * (rho / slope) ** 2 / slope
     d = (1 - rho) * rho / slope - bend * x[_BLUR][:, None] ** 2 / 2
     box = np.maximum(abs(su), abs(sv)) / slope / 2
-    E = edge(d, np.broadcast_to(x[_BLUR][:, None], d.shape), box)
+    E = compute_edge(d, np.broadcast_to(x[_BLUR][:, None], d.shape), box)
     a = x[_A][:, None]
     light = gradient[:, :1] * qu + gradient[:, 1:] * qv
     r = (grey - x[_M][:, None] - light - a * E.value) * weight
@@ -171,22 +182,28 @@ def _portion(
     square = np.maximum(np.sum(r * r, axis=1) - np.sum(move * g, axis=1), 0.0)
     square /= np.maximum(weight.sum(axis=1) - _UNKNOWNS, 1)
     inverse = np.linalg.inv(N)[:, :2, :2] / (scale[:, :2, None] * scale[:, None, :2])
-    moved = x + _bounded(move / scale, x)
+    moved = x + _limit_step(move / scale, x)
     return moved, square[:, None, None] * inverse, np.sqrt(square)
 
 
-def _read(image: GreyImage, x: Array, band: float, half: int) -> tuple[Array, Array, Array, Array]:
-    """Grey levels (n, K) of the pixels near the edges, their offsets from the centres along u and
-    v, and 1, or 0 where there are fewer."""
+def _read_bands(
+    image: GreyImage, x: Array, band: float, half: int
+) -> tuple[Array, Array, Array, Array]:
+    """Read the pixels near the edges.
+
+    Returns:
+        Grey levels (n, K), offsets from the centres along u and v, and weights: 1, or 0 beyond the
+        last pixel of a disc that has fewer than K.
+    """
     offset = np.arange(-half, half + 1)
     at = np.rint(x[_C]).astype(np.int64)
     u, v = at[:, :1] + offset, at[:, 1:] + offset
     height, width = image.shape
     inside = ((v >= 0) & (v < height))[:, :, None] & ((u >= 0) & (u < width))[:, None]
     du, dv = (u - x[:, :1])[:, None], (v - x[:, 1:2])[:, :, None]
-    _, _, rho, slope = _conic(x, *np.broadcast_arrays(du, dv))
+    _, _, rho, slope = _evaluate_conic(x, *np.broadcast_arrays(du, dv))
     near = abs((1 - rho) * rho / slope) <= (band * x[_BLUR] + 0.7)[:, None, None]
-    disc, row, col = np.nonzero(inside & near & (rho > _HEART))
+    disc, row, col = np.nonzero(inside & near & (rho > _MIN_RHO))
     counts = np.bincount(disc, minlength=len(x))
     place = np.arange(len(disc)) - np.repeat(np.cumsum(counts) - counts, counts)
     grey, qu, qv, weight = (np.ones((len(x), counts.max(initial=1))) for _ in range(4))
@@ -196,20 +213,20 @@ def _read(image: GreyImage, x: Array, band: float, half: int) -> tuple[Array, Ar
     return grey, qu, qv, weight
 
 
-def _conic(x: Array, qu: Array, qv: Array) -> tuple[Array, Array, Array, Array]:
-    """S q along u and v, rho and |S q| at offsets (n, ...) from the centres."""
+def _evaluate_conic(x: Array, qu: Array, qv: Array) -> tuple[Array, Array, Array, Array]:
+    """Compute S q along u and v, rho and |S q| at offsets (n, ...) from the centres."""
     uu, uv, vv = x[_S].T.reshape(3, -1, *[1] * (qu.ndim - 1))
     su, sv = uu * qu + uv * qv, uv * qu + vv * qv
     rho = np.sqrt(np.maximum(qu * su + qv * sv, 1e-12))
     return su, sv, rho, np.maximum(np.hypot(su, sv), 1e-12)
 
 
-def _bounded(step: Array, x: Array) -> Array:
-    """A step kept where the linear model may hold."""
+def _limit_step(step: Array, x: Array) -> Array:
+    """Limit a step (n, 8) to where the linear model holds."""
     bounded = step.copy()
     bounded[_C] = np.clip(step[_C], -2.0, 2.0)
     bounded[_BLUR] = np.clip(
-        step[_BLUR], np.maximum(-x[_BLUR] / 3, _SHARPEST - x[_BLUR]), x[_BLUR] / 2
+        step[_BLUR], np.maximum(-x[_BLUR] / 3, _MIN_BLUR - x[_BLUR]), x[_BLUR] / 2
     )
     # S may change by a part of itself, lest it lose its sign.
     limit = 0.3 * np.minimum(x[:, 2], x[:, 4])
@@ -217,8 +234,9 @@ def _bounded(step: Array, x: Array) -> Array:
     return bounded
 
 
-def _gradient(x: Array) -> Array:
-    """(n, 2) gradient of the light m over the image, from a quadratic through all discs."""
+def _estimate_light_gradient(x: Array) -> Array:
+    """Estimate the gradient (n, 2) of the light m over the image, grey levels per px, from a
+    quadratic fitted to all discs."""
     centre, unit = x[_C].mean(axis=0), np.ptp(x[_C], axis=0).max()
     u, v = ((x[_C] - centre) / unit).T
     one, zero = np.ones_like(u), np.zeros_like(u)
@@ -228,6 +246,6 @@ def _gradient(x: Array) -> Array:
     return np.column_stack([by_u, by_v]) / unit
 
 
-def _matrix(S: Array) -> Array:
-    """(n, 2, 2) of (n, 3)."""
+def _assemble_matrix(S: Array) -> Array:
+    """Assemble symmetric matrices (n, 2, 2) from (n, 3) = (uu, uv, vv)."""
     return S[:, [0, 1, 1, 2]].reshape(-1, 2, 2)

@@ -1,4 +1,11 @@
-"""The detector of grids of circles."""
+"""From an image to the centres of a grid of circles.
+
+The grid is found among all parts that may be discs (`blobs`, `grid_labelling`), coarsely and whole
+or not at all. An ellipse is then fitted to the pixels of every circle's edge (`ellipse_fit`), and
+the image of the circle's centre follows from the ellipse's (`circle_map`), for the diameter that
+the ellipses show. Numbering is right-handed in the image; among origins that cannot be told apart
+the one that makes the grid upright is taken, or the one nearest to the first of the marked points.
+"""
 
 from __future__ import annotations
 
@@ -7,40 +14,25 @@ import numpy.typing as npt
 
 from calibgui.engine import opencv
 from calibgui.engine.arrays import Array, BoolArray, GreyImage, GridSize
-from calibgui.engine.boards.circle_grid import Circles, grid_indices
+from calibgui.engine.boards.circle_grid import Circles, list_grid_indices
 from calibgui.engine.detection import region_of_interest as region
-from calibgui.engine.detection.checkerboard.find_checkerboard import grey_levels, rejections
 from calibgui.engine.detection.circles import ellipse_fit
-from calibgui.engine.detection.circles.blobs import blobs
-from calibgui.engine.detection.circles.ellipse_fit import Ellipses
-from calibgui.engine.detection.circles.grid_labelling import arranged
+from calibgui.engine.detection.circles.blobs import find_blobs
+from calibgui.engine.detection.circles.circle_map import fit_circle_map
+from calibgui.engine.detection.circles.ellipse_fit import EllipseFit
+from calibgui.engine.detection.circles.grid_labelling import label_grid
+from calibgui.engine.detection.circles.thresholds import CIRCLE_THRESHOLDS
 from calibgui.engine.detection.corners import Corners
-from calibgui.engine.detection.grid_map import fit_circle_map
+from calibgui.engine.detection.detector_io import check_grey_levels, list_rejected_corners
 from calibgui.engine.errors import NoBoardError
-from calibgui.engine.images.reading import stretched
+from calibgui.engine.images.reading import stretch_levels
 
-_COARSE = 1200
+_MAX_COARSE_SIDE = 1200
 """Longer side of the image in which the grid is looked for first, px."""
-_WINDOWS = (4, 16)
-"""Of which part of the image's shorter side ink must be darker than the mean."""
-_MOST = 400
-"""Parts that are looked at where the number of circles is not known."""
-_TURNS = 3
-"""How often the map and the centres are found from each other."""
-_DIFFERENT = 0.05
-"""Difference of the diameter from the stated one that is no error of print, pitches."""
-_MISPLACED = 0.1
-"""Farthest that a circle may be from where the others expect it, pitches."""
-_MISSHAPEN = 0.2
-"""Greatest difference of an ellipse from what the others expect, over its size."""
-_WEAKEST = 0.3
-"""Least contrast over the median."""
-_MISFIT = 0.12
-"""Greatest residual over the contrast, or ..."""
-_UNEXPLAINED = 4.0
-"""... over the median residual."""
-_FAILING = 0.25
-"""Share of circles that may fail before the grid does."""
+_WINDOW_DIVISORS = (4, 16)
+"""The image's shorter side over the windows tried: ink is darker than the mean of the window."""
+_CENTRE_ITERATIONS = 3
+"""Number of times that the map and the centres are computed from each other."""
 
 
 def find_circles(
@@ -51,20 +43,24 @@ def find_circles(
     method: str = "edges",  # noqa: ARG001 - circles have but one
 ) -> Corners:
     """Locate the circles of a grid in an image; see ``find_corners``."""
-    grey = grey_levels(image)
-    outline = None if roi is None else region.outline(roi)
-    coarse = _found(pattern, stretched(grey), grid_size, outline)
+    grey = check_grey_levels(image)
+    outline = None if roi is None else region.check_outline(roi)
+    coarse = _find_grid(pattern, stretch_levels(grey), grid_size, outline)
     grid_size = coarse.shape[0], coarse.shape[1]
-    grid = grid_indices(grid_size)
-    xy = pattern.places(grid.astype(np.float64))
-    first = _numbered(pattern, coarse, xy, outline)
+    grid = list_grid_indices(grid_size)
+    xy = pattern.locate_points(grid.astype(np.float64))
+    first = _number_circles(pattern, coarse, xy, outline)
     start = fit_circle_map(xy, first)
-    beside = np.array([(1.0, 0.0), (0.0, 1.0), (-1.0, 0.0), (0.0, -1.0)])
+    paper = np.array([(1.0, 0.0), (0.0, 1.0), (-1.0, 0.0), (0.0, -1.0)])
     if not pattern.asymmetric:
-        beside = np.array([(0.5, 0.5), (-0.5, 0.5), (0.5, -0.5), (-0.5, -0.5)])
-    fit = ellipse_fit.fit(grey, first, start.jacobian(xy), pattern.reach, beside)
-    good, uv, radius = _verified(fit, xy, grey)
-    if pattern.diameter is not None and abs(2 * radius - pattern.diameter) > _DIFFERENT:
+        paper = np.array([(0.5, 0.5), (-0.5, 0.5), (0.5, -0.5), (-0.5, -0.5)])
+    steps = start.differentiate(xy)
+    fit = ellipse_fit.fit_ellipses(grey, first, steps, pattern.half_distance, paper)
+    good, uv, radius = _verify_circles(fit, xy, grey)
+    if (
+        pattern.diameter is not None
+        and abs(2 * radius - pattern.diameter) > CIRCLE_THRESHOLDS.max_diameter_difference
+    ):
         raise NoBoardError(
             f"The circles measure {2 * radius:.2f} of their distance, not {pattern.diameter:.2f}.",
             "State diameter and distance as measured, or leave the diameter out.",
@@ -76,37 +72,39 @@ def find_circles(
         uv=uv[good],
         estimate=first[good],
         cov=fit.covariance[good],
-        ambiguity=pattern.ambiguity(grid_size),
+        ambiguity=pattern.symmetry(grid_size),
         roi=whole[[0, 0, -1, -1], [0, -1, -1, 0]] if outline is None else outline,
         method="ellipses",
         blur=fit.blur[good],
         contrast=fit.contrast[good],
         residual=fit.residual[good],
-        rejected=tuple(rejections(fit.uv[~good], "not the image of a circle there")),
+        rejected=tuple(list_rejected_corners(fit.uv[~good], "not the image of a circle there")),
         pattern=Circles(pattern.asymmetric, 2 * radius),
     )
 
 
-def _found(
+def _find_grid(
     pattern: Circles, image: GreyImage, grid_size: GridSize | None, outline: Array | None
 ) -> Array:
-    """(rows, cols, 2) px, the circles' centres, coarsely, in an 8-bit image (h, w)."""
+    """Find the circles' centres (rows, cols, 2) px, coarsely, in an 8-bit image (h, w)."""
     left, top = 0, 0
     if outline is not None:
-        marked = region.enlarged(outline)
+        marked = region.enlarge_outline(outline)
         left, top = np.maximum(np.floor(marked.min(axis=0)), 0).astype(int)
         right, bottom = np.ceil(marked.max(axis=0)).astype(int)
         image = image[top : bottom + 1, left : right + 1]
     levels = [image]
-    while max(levels[-1].shape) > _COARSE:
-        levels.append(opencv.half(levels[-1]))
-    most = _MOST if grid_size is None else 2 * grid_size[0] * grid_size[1] + 60
+    while max(levels[-1].shape) > _MAX_COARSE_SIDE:
+        levels.append(opencv.halve_image(levels[-1]))
+    most = (
+        CIRCLE_THRESHOLDS.max_blobs if grid_size is None else 2 * grid_size[0] * grid_size[1] + 60
+    )
     largest = np.zeros((0, 0, 2))
     for depth in reversed(range(len(levels))):
         for seen in (levels[depth], 255 - levels[depth]):
-            for part in _WINDOWS:
-                points = blobs(seen, max(int(min(seen.shape) / part), 9), most)
-                grid = arranged(points, grid_size, asymmetric=pattern.asymmetric)
+            for divisor in _WINDOW_DIVISORS:
+                points = find_blobs(seen, max(int(min(seen.shape) / divisor), 9), most)
+                grid = label_grid(points, grid_size, asymmetric=pattern.asymmetric)
                 if grid is None or (grid.shape != grid_size and 2 * grid.size <= largest.size):
                     continue
                 largest = (points[grid] + 0.5) * 2**depth - 0.5 + [left, top]
@@ -123,64 +121,82 @@ def _found(
     )
 
 
-def _numbered(pattern: Circles, dense: Array, xy: Array, outline: Array | None) -> Array:
-    """The centres (rows, cols, 2) as the pattern counts them, for each of its places (n, 2)."""
-    ways = [dense, dense[::-1], dense[:, ::-1], dense[::-1, ::-1]]
-    if dense.shape[0] == dense.shape[1] and not pattern.asymmetric:
-        ways += [way.transpose(1, 0, 2) for way in ways]
+def _number_circles(pattern: Circles, centres: Array, xy: Array, outline: Array | None) -> Array:
+    """Number the centres (rows, cols, 2) px as the pattern does.
+
+    Returns:
+        (n, 2) px, the centre of each of the pattern's points `xy` (n, 2).
+    """
+    orders = [centres, centres[::-1], centres[:, ::-1], centres[::-1, ::-1]]
+    if centres.shape[0] == centres.shape[1] and not pattern.asymmetric:
+        orders += [order.transpose(1, 0, 2) for order in orders]
     rated = []
-    for way in ways:
-        flat = way.reshape(-1, 2)
-        through = fit_circle_map(xy, flat)
-        J = through.jacobian(xy)
+    for order in orders:
+        uv = order.reshape(-1, 2)
+        circle_map = fit_circle_map(xy, uv)
+        J = circle_map.differentiate(xy)
         if not (np.isfinite(J).all() and (np.linalg.det(J) > 0).all()):
             continue
-        off = float(np.sqrt(np.mean((through.at(xy) - flat) ** 2)))
+        misfit = float(np.sqrt(np.mean((circle_map.locate(xy) - uv) ** 2)))
         right = J[..., 0].mean(axis=0)
-        start = 0.0 if outline is None else float(np.linalg.norm(way[0, 0] - outline[0]))
-        rated.append((off, start, -right[0] / np.linalg.norm(right), flat))
+        start = 0.0 if outline is None else float(np.linalg.norm(order[0, 0] - outline[0]))
+        rated.append((misfit, start, -right[0] / np.linalg.norm(right), uv))
     if not rated:
-        raise _untrusted()
+        raise _distrust()
     least = min(rate[0] for rate in rated)
     same = [rate for rate in rated if rate[0] < 2 * least + 0.1]
     return min(same, key=lambda rate: (rate[1], round(rate[2], 6)))[3]
 
 
-def _verified(fit: Ellipses, xy: Array, image: GreyImage) -> tuple[BoolArray, Array, float]:
-    """Which circles pass, the images of their centres (n, 2) px, and their radius, pitches.
+def _verify_circles(fit: EllipseFit, xy: Array, image: GreyImage) -> tuple[BoolArray, Array, float]:
+    """Verify the circles and compute the images of their centres.
 
     Every ellipse must lie inside the image, be what a circle of the common radius looks like there,
-    where the others expect it, with a contrast like theirs and no more unexplained.
+    where the others predict it, with a contrast like theirs and no more unexplained.
+
+    Returns:
+        A mask (n,) of the circles that pass, the images of the centres (n, 2) px, and the circles'
+        radius, pitches.
+
+    Raises:
+        NoBoardError: if too many fail.
     """
+    limits = CIRCLE_THRESHOLDS
     if not (np.isfinite(fit.unknowns).all() and np.isfinite(fit.covariance).all()):
-        raise _untrusted()
+        raise _distrust()
     half = np.sqrt(np.einsum("nii->ni", fit.spread)) + fit.blur[:, None]
     good = ((fit.uv > half) & (fit.uv + half < np.array(image.shape[::-1]) - 1)).all(axis=1)
     contrast, residual = fit.contrast, fit.residual
     sign = np.sign(np.median(fit.unknowns[:, 7]))
-    good &= (sign * fit.unknowns[:, 7] > 0) & (contrast > _WEAKEST * np.median(contrast))
-    good &= residual < np.maximum(_UNEXPLAINED * np.median(residual), _MISFIT * contrast)
+    good &= sign * fit.unknowns[:, 7] > 0
+    good &= contrast > limits.min_relative_contrast * np.median(contrast)
+    good &= residual < np.maximum(
+        limits.max_residual_over_median * np.median(residual),
+        limits.max_relative_residual * contrast,
+    )
     uv = fit.uv
-    for _ in range(_TURNS):
-        # What fails is not to bend the map for the others.
-        if np.count_nonzero(~good) > _FAILING * len(good):
-            raise _untrusted()
-        through = fit_circle_map(xy[good], uv[good])
-        J = through.jacobian(xy)
+    for _ in range(_CENTRE_ITERATIONS):
+        # A circle that fails must not bend the map for the others.
+        if np.count_nonzero(~good) > limits.max_rejected_share * len(good):
+            raise _distrust()
+        circle_map = fit_circle_map(xy[good], uv[good])
+        J = circle_map.differentiate(xy)
         spread = np.linalg.solve(J, np.linalg.solve(J, fit.spread).transpose(0, 2, 1))
         radii2 = np.sqrt(np.maximum(np.linalg.det(spread), 0.0))
         radius = float(np.sqrt(np.median(radii2[good])))
-        uv = fit.uv - through.bias(xy, radius)
-        off = np.linalg.solve(J, (uv - through.at(xy))[..., None])[..., 0]
+        uv = fit.uv - circle_map.compute_centre_bias(xy, radius)
+        off = np.linalg.solve(J, (uv - circle_map.locate(xy))[..., None])[..., 0]
         shape = np.abs(spread / radius**2 - np.eye(2)).max(axis=(1, 2))
-        good = good & (np.linalg.norm(off, axis=1) < _MISPLACED) & (shape < _MISSHAPEN)
-    enough = np.count_nonzero(~good) <= _FAILING * len(good)
-    if not enough or np.median(residual / contrast) > _MISFIT:
-        raise _untrusted()
+        good = good & (np.linalg.norm(off, axis=1) < limits.max_misplacement)
+        good = good & (shape < limits.max_shape_difference)
+    enough = np.count_nonzero(~good) <= limits.max_rejected_share * len(good)
+    if not enough or np.median(residual / contrast) > limits.max_relative_residual:
+        raise _distrust()
     return good, uv, radius
 
 
-def _untrusted() -> NoBoardError:
+def _distrust() -> NoBoardError:
+    """Return the error for a grid that is not regular enough."""
     return NoBoardError(
         "What looks like a grid of circles is not regular enough to be trusted.",
         "Take the picture again, sharp and evenly lit, or leave it out.",

@@ -1,4 +1,4 @@
-"""Plates that the views cannot carry are refused; those that noise feigns are told as such."""
+"""Board shapes that the views cannot carry are refused, and the reason is named."""
 
 from __future__ import annotations
 
@@ -30,13 +30,13 @@ def drawn(made: Scene, noise: float = 0.1) -> list[Observation]:
 @pytest.mark.parametrize(("board_shape", "few"), [("affine", 2), ("bow", 2), ("free", 5)])
 def test_few_views(board_shape: BoardShapeModel, few: int) -> None:
     made = scene(LONG, few)
-    assert "cannot carry the plate model" in refusal(drawn(made), made, board_shape)
+    assert "cannot carry the board shape" in refusal(drawn(made), made, board_shape)
 
 
-def test_three_views_let_an_affine_plate_stand_in_for_the_camera() -> None:
+def test_three_views_let_an_affine_board_stand_in_for_the_camera() -> None:
     made = scene(LONG, 3)
-    said = refusal(drawn(made), made, BoardShapeModel.AFFINE)
-    assert "plate model 'affine' these views leave cx undetermined" in said
+    message = refusal(drawn(made), made, BoardShapeModel.AFFINE)
+    assert "board shape 'affine' these views leave cx undetermined" in message
 
 
 @pytest.mark.parametrize("tilt", [0.0, 30.0])
@@ -50,10 +50,10 @@ def test_parallel_views(tilt: float) -> None:
 
 @pytest.mark.parametrize("noise", [0.05, 0.4])
 def test_all_corners_in_one_spot(noise: float) -> None:
-    """Where the camera would still be determined on the nominal plate, and where not."""
+    """The refusal depends on whether the nominal board would still determine the camera."""
     made = in_one_spot(LONG)
-    said = refusal(drawn(made, noise), made)
-    assert ("All corners lie in one spot" if noise > 0.1 else "look alike") in said
+    message = refusal(drawn(made, noise), made)
+    assert ("All corners lie in one spot" if noise > 0.1 else "look alike") in message
 
 
 def halves(made: Scene, shared: int) -> list[Observation]:
@@ -69,6 +69,6 @@ def halves(made: Scene, shared: int) -> list[Observation]:
 def test_parts_without_overlap() -> None:
     """The halves' places on the board are then anybody's guess."""
     made = scene(LONG, 16)
-    assert "do not determine the plate's shape" in refusal(halves(made, 0), made)
+    assert "do not determine the board's shape" in refusal(halves(made, 0), made)
     found = calibrate(halves(made, 1), made.size, board_shape=BoardShapeModel.FREE)
     assert found.board_shape is not None

@@ -1,4 +1,4 @@
-"""An imperfect plate widens the nominal plate's uncertainties until they cover the truth."""
+"""An imperfect board widens the nominal board's uncertainties until they cover the truth."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ def errors(count: int, rms: float, draws: int) -> tuple[Array, int]:
 
 @pytest.mark.slow
 @pytest.mark.parametrize("count", [10, 25])
-def test_a_bent_plate_is_covered(count: int) -> None:
+def test_a_bent_board_is_covered(count: int) -> None:
     z, alarms = errors(count, 0.1, 60)
     assert alarms == 60
     assert (np.abs(z) < 2).mean() >= 0.93
@@ -37,13 +37,13 @@ def test_a_bent_plate_is_covered(count: int) -> None:
 
 
 @pytest.mark.slow
-def test_a_true_plate_raises_no_alarm() -> None:
+def test_a_true_board_raises_no_alarm() -> None:
     z, alarms = errors(10, 0.0, 40)
     assert alarms == 0
     assert 0.9 < z.std() < 1.1
 
 
-def test_the_doubt_is_of_the_size_of_the_deviations() -> None:
+def test_the_error_is_of_the_size_of_the_deviations() -> None:
     result = calibrate(photographed(deviation(0.2), 8, 0.05), SIZE)
     assert 0.1 < result.board_shape_error < 0.5
     assert not calibrate(

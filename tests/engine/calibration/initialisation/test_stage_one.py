@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from calibgui.engine.arrays import Array
-from calibgui.engine.calibration.initialisation.stage_one import prealign, registration
+from calibgui.engine.calibration.initialisation.stage_one import register_points, register_views
 from calibgui.engine.geometry import homography, rotations
 from tests.engine.scenes import BOARD, central_differences, relative
 
@@ -28,7 +28,7 @@ def test_registration_is_eq_31_to_33() -> None:
         psi1, psi2 = x + k1 * r2 * (x - xp), y + k1 * r2 * (y - yp)
         P = c1 * (psi1 - xp) + c2 * (psi2 - yp) + 1
         expected = [(a11 * psi1 + a12 * psi2 + d1) / P, (a21 * psi1 + a22 * psi2 + d2) / P]
-        xi, _ = registration(z[None], np.array([[[x, y]]]))
+        xi, _ = register_points(z[None], np.array([[[x, y]]]))
         np.testing.assert_allclose(xi[0, 0], expected, rtol=1e-14)
 
 
@@ -37,9 +37,9 @@ def test_jacobian_against_differences() -> None:
     rng = np.random.default_rng(1)
     x = rng.uniform(-1, 1, size=(1, 30, 2))
     z = z_r(rng)
-    numeric = central_differences(lambda q: registration(q[None], x)[0], z, 1e-3)
+    numeric = central_differences(lambda q: register_points(q[None], x)[0], z, 1e-3)
     # P stays above 0.3, so fifth derivatives below 1e3: 1e-12 of truncation times that.
-    assert relative(registration(z[None], x)[1], numeric) < 1e-8
+    assert relative(register_points(z[None], x)[1], numeric) < 1e-8
 
 
 def views(count: int, noise: float = 0.0) -> tuple[Array, Array, Array]:
@@ -49,7 +49,7 @@ def views(count: int, noise: float = 0.0) -> tuple[Array, Array, Array]:
     measured = []
     for _ in range(count):
         angles = rng.uniform(-0.5, 0.5, size=3)
-        R = rotations.paper_rotation(*angles)
+        R = rotations.rotation_from_paper_angles(*angles)
         point = np.column_stack([xy, np.zeros(len(xy))]) @ R.T + [0.0, 0.0, 550.0]
         ideal = 650.0 * point[:, :2] / point[:, 2:]
         d = ideal.copy()
@@ -61,7 +61,7 @@ def views(count: int, noise: float = 0.0) -> tuple[Array, Array, Array]:
 
 def test_exact_views_are_recovered() -> None:
     measured, reference, mask = views(6)
-    found = prealign(measured, reference, mask)
+    found = register_views(measured, reference, mask)
     assert found.converged.all()
     assert (found.iterations <= 15).all()
     # A view's centre is the worst determined of its unknowns.
@@ -70,7 +70,9 @@ def test_exact_views_are_recovered() -> None:
     assert (found.rms < 1e-8).all()
     corrected = measured - CENTRE
     corrected *= 1 + K1 * np.sum(corrected**2, axis=-1, keepdims=True)
-    np.testing.assert_allclose(homography.apply(found.forward, corrected), reference, atol=1e-5)
+    np.testing.assert_allclose(
+        homography.apply_homography(found.forward, corrected), reference, atol=1e-5
+    )
 
 
 def test_spread_is_the_scatter_under_noise() -> None:
@@ -78,7 +80,9 @@ def test_spread_is_the_scatter_under_noise() -> None:
     for seed in range(60):
         measured, reference, mask = views(1)
         rng = np.random.default_rng(seed)
-        found = prealign(measured + rng.normal(scale=0.1, size=measured.shape), reference, mask)
+        found = register_views(
+            measured + rng.normal(scale=0.1, size=measured.shape), reference, mask
+        )
         draws.append([*found.centre[0], found.k1[0], *found.spread[0]])
     table = np.array(draws)
     ratio = table[:, :3].std(axis=0) / table[:, 3:].mean(axis=0)
@@ -91,8 +95,10 @@ def test_views_do_not_influence_each_other(k: int) -> None:
     measured, reference, mask = views(5, noise=0.3)
     mask = mask.copy()
     mask[k, 50:] = 0.0
-    together = prealign(measured, reference, mask)
-    alone = prealign(measured[k : k + 1, :50], reference[k : k + 1, :50], mask[k : k + 1, :50])
+    together = register_views(measured, reference, mask)
+    alone = register_views(
+        measured[k : k + 1, :50], reference[k : k + 1, :50], mask[k : k + 1, :50]
+    )
     np.testing.assert_allclose(together.centre[k], alone.centre[0], rtol=1e-6, atol=1e-6)
     np.testing.assert_allclose(together.k1[k], alone.k1[0], rtol=1e-6)
     assert together.iterations[k] == alone.iterations[0]

@@ -29,8 +29,8 @@ def test_parallel_to_the_sensor(count: int, noise: float) -> None:
     made = parallel_planes(count, 0.0)
     views = made.noisy(noise, np.random.default_rng(1))
     # At 1 px the tilts that noise makes of a wandering focal length need not look small.
-    said = "parallel to the sensor" if noise < 1 else "parallel to|in one orientation"
-    with pytest.raises(DegenerateError, match=said) as caught:
+    expected = "parallel to the sensor" if noise < 1 else "parallel to|in one orientation"
+    with pytest.raises(DegenerateError, match=expected) as caught:
         calibrate(views, made.size)
     assert "20 to 45 degrees" in caught.value.hint
 
@@ -50,8 +50,8 @@ def test_ten_copies_of_one_view(own: bool, noise: float) -> None:
     made = scene(CAMERA, 1)
     copies = seen(CAMERA, [made.poses[0]] * 10)
     views = copies.noisy(noise, np.random.default_rng(2))
-    said = "in one orientation and place" if own and noise else "All 10 views are copies of one"
-    with pytest.raises(DegenerateError, match=said):
+    expected = "in one orientation and place" if own and noise else "All 10 views are copies of one"
+    with pytest.raises(DegenerateError, match=expected):
         calibrate(views if own else [views[0]] * 10, made.size)
 
 
@@ -104,7 +104,7 @@ def test_one_orientation_is_enough_with_a_known_centre() -> None:
 
 def test_normals_face_away_from_the_camera() -> None:
     R = np.stack([np.eye(3), np.diag([1.0, -1.0, -1.0])])
-    np.testing.assert_array_equal(degeneracy.normals(R), [[0, 0, 1], [0, 0, 1]])
+    np.testing.assert_array_equal(degeneracy.compute_normals(R), [[0, 0, 1], [0, 0, 1]])
 
 
 def test_one_misnumbered_view_is_named_rather_than_what_it_hides() -> None:
@@ -112,7 +112,9 @@ def test_one_misnumbered_view_is_named_rather_than_what_it_hides() -> None:
     views = made.noisy(0.1, np.random.default_rng(2))
     wrong = views[3]
     views[3] = Observation(wrong.uv, np.roll(wrong.xy, 1, axis=0))
-    with pytest.raises(CalibrationError, match="No camera sees a flat board as in View 4") as told:
+    with pytest.raises(
+        CalibrationError, match="No camera sees a flat board as in View 4"
+    ) as caught:
         calibrate(views, made.size)
-    assert not isinstance(told.value, DegenerateError)
+    assert not isinstance(caught.value, DegenerateError)
     assert np.isfinite(calibrate(views[:3] + views[4:], made.size).sigma[:4]).all()

@@ -2,15 +2,16 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
-from calibgui.engine.calibration.observations import pack
+from calibgui.engine.calibration.observations import pack_observations
 from calibgui.engine.calibration.refinement import levenberg_marquardt
 from calibgui.engine.calibration.refinement.levenberg_marquardt import StartError, minimise
-from calibgui.engine.calibration.refinement.normal_equations import stage_two
-from calibgui.engine.calibration.refinement.residuals import State
-from calibgui.engine.calibration.refinement.schur import NormalAt, NormalEquations, Reduced, schur
+from calibgui.engine.calibration.refinement.residuals import NormalAt, State, build_stage_two
+from calibgui.engine.calibration.refinement.schur import NormalEquations, Reduced, eliminate_poses
 from calibgui.engine.calibration.result import Cost, Iteration, Status
 from calibgui.engine.errors import Cancelled
 from tests.engine.calibration.refinement.test_schur import COST, FREE, MADE, TRUTH, VIEWS
@@ -19,7 +20,7 @@ from tests.engine.calibration.refinement.test_schur import COST, FREE, MADE, TRU
 def away(by: float) -> State:
     """The truth moved by some pixels and degrees."""
     step = np.array([30.0, -20.0, 8.0, -6.0, 0.1, -0.1, 0.0, 1e-3, 0.0, 0.0])
-    return TRUTH.moved(by * step, by * np.tile([0.02, -0.03, 0.05, 3.0, -2.0, 9.0], (5, 1)))
+    return TRUTH.take_step(by * step, by * np.tile([0.02, -0.03, 0.05, 3.0, -2.0, 9.0], (5, 1)))
 
 
 def run(start: State, **options: object):  # type: ignore[no-untyped-def]
@@ -36,23 +37,23 @@ def test_the_minimum_does_not_depend_on_the_start() -> None:
     np.testing.assert_array_equal(far.state.params[held], TRUTH.params[held])
 
 
-def test_factors_serve_again_after_a_slight_step(monkeypatch: pytest.MonkeyPatch) -> None:
+def test_factors_are_reused_after_a_slight_step(monkeypatch: pytest.MonkeyPatch) -> None:
     factored: list[float] = []
 
-    def counted(normal: NormalEquations, damping: float) -> Reduced:
+    def count_factors(normal: NormalEquations, damping: float) -> Reduced:
         factored.append(damping)
-        return schur(normal, damping)
+        return eliminate_poses(normal, damping)
 
-    monkeypatch.setattr(levenberg_marquardt, "schur", counted)
+    monkeypatch.setattr(levenberg_marquardt, "eliminate_poses", count_factors)
     sparing, with_spared = run(away(1.0)), len(factored)
-    monkeypatch.setattr(levenberg_marquardt, "_SLIGHT", 0.0)
+    monkeypatch.setattr(levenberg_marquardt, "_MAX_DECREASE_TO_REUSE_FACTORS", 0.0)
     lavish = run(away(1.0))
     assert with_spared < len(sparing.history) <= len(factored) - with_spared
     assert sparing.status is lavish.status is Status.CONVERGED
     assert sparing.normal.cost == pytest.approx(lavish.normal.cost, rel=1e-11)
 
 
-def test_history_descends_and_says_what_happened() -> None:
+def test_history_descends_and_records_each_step() -> None:
     seen: list[Iteration] = []
     solution = run(away(1.0), report=lambda i: seen.append(i) or True)
     assert tuple(seen) == solution.history
@@ -86,14 +87,14 @@ def test_cancelled_propagates() -> None:
         run(away(1.0), report=report)
 
 
-def test_the_limit_of_iterations_is_said() -> None:
+def test_the_limit_of_iterations_is_reported() -> None:
     solution = run(away(1.0), max_iterations=2)
     assert solution.status is Status.MAX_ITERATIONS
     assert len(solution.history) <= 3
 
 
 def test_no_residual_is_converged_at_once() -> None:
-    exact = stage_two(pack(MADE.views), "lucchese", Cost.IMAGE, 1.0, FREE)
+    exact = build_stage_two(pack_observations(MADE.views), "lucchese", Cost.IMAGE, 1.0, FREE)
     solution = minimise(exact, TRUTH, FREE, VIEWS.count, float(np.sum(VIEWS.uv**2)))
     assert solution.status is Status.CONVERGED
     assert len(solution.history) <= 2
@@ -104,10 +105,12 @@ def test_a_start_without_residuals_is_refused() -> None:
         run(TRUTH._replace(T=-TRUTH.T))
 
 
-def walled(limit: float) -> NormalAt:
-    """The problem with no residuals for focal lengths below `limit`."""
+def build_wall(limit: float, tried: list[State] | None = None) -> NormalAt:
+    """The problem with no residuals for focal lengths below `limit`; `tried` lists the states."""
 
     def normal_at(state: State) -> NormalEquations:
+        if tried is not None:
+            tried.append(state)
         normal = COST(state)
         return normal._replace(cost=np.inf) if state.params[0] < limit else normal
 
@@ -115,16 +118,37 @@ def walled(limit: float) -> NormalAt:
 
 
 def test_a_trial_without_residuals_is_only_rejected() -> None:
-    free_of_walls = run(TRUTH).state.params[0]
+    without_wall = run(TRUTH).state.params[0]
     data = float(np.sum(VIEWS.uv**2))
-    solution = minimise(walled(free_of_walls - 0.01), away(1.0), FREE, VIEWS.count, data)
+    solution = minimise(build_wall(without_wall - 0.01), away(1.0), FREE, VIEWS.count, data)
     assert solution.status is Status.CONVERGED
     assert solution.normal.cost == pytest.approx(run(TRUTH).normal.cost, rel=1e-9)
 
 
-def test_stuck_at_a_wall_is_not_converged() -> None:
+def test_blocked_by_a_wall_is_not_converged() -> None:
     data = float(np.sum(VIEWS.uv**2))
-    solution = minimise(walled(655.0), away(1.0), FREE, VIEWS.count, data)
+    solution = minimise(build_wall(655.0), away(1.0), FREE, VIEWS.count, data)
     assert solution.state.params[0] >= 655.0
     assert solution.status is Status.MAX_ITERATIONS
-    assert solution.barred
+    assert solution.is_blocked
+
+
+def test_steps_that_damping_makes_small_are_not_convergence() -> None:
+    """At a wall damping grows until no decrease is predicted; a full step still predicts one."""
+    limit, tried = 1000, list[State]()
+    data = float(np.sum(VIEWS.uv**2))
+    problem = build_wall(655.0, tried)
+    solution = minimise(problem, away(1.0), FREE, VIEWS.count, data, max_iterations=limit)
+    assert len(tried) < limit / 2  # the stop rule ended the iteration, not the limit
+    assert solution.status is Status.MAX_ITERATIONS
+    assert solution.is_blocked
+    assert solution.normal.cost > 1.01 * run(TRUTH).normal.cost
+
+
+def test_the_minimum_is_recognised_under_strong_damping() -> None:
+    """A solve that starts at the minimum with strong damping ends there, converged."""
+    minimum = run(TRUTH)
+    earlier = [replace(minimum.history[-1], damping=1e9)]
+    solution = run(minimum.state, earlier=earlier)
+    assert solution.status is Status.CONVERGED
+    assert solution.normal.cost == minimum.normal.cost

@@ -1,4 +1,4 @@
-"""Tilts taken for their mirror images: made by hand, met in the wild, and told from right ones."""
+"""Mirrored poses: made by hand, in random problems, and distinguished from right ones."""
 
 from __future__ import annotations
 
@@ -6,15 +6,17 @@ import numpy as np
 import pytest
 
 from calibgui.engine.arrays import IntArray
-from calibgui.engine.calibration.observations import Observations, pack
-from calibgui.engine.calibration.refinement import normal_equations
+from calibgui.engine.calibration.observations import Observations, pack_observations
+from calibgui.engine.calibration.refinement import residuals
 from calibgui.engine.calibration.refinement.levenberg_marquardt import Solution, minimise
-from calibgui.engine.calibration.refinement.planar_pose_ambiguity import mirrored, righted
-from calibgui.engine.calibration.refinement.residuals import State
-from calibgui.engine.calibration.refinement.schur import NormalAt
+from calibgui.engine.calibration.refinement.planar_pose_ambiguity import (
+    correct_mirrored_poses,
+    mirror_poses,
+)
+from calibgui.engine.calibration.refinement.residuals import NormalAt, State
 from calibgui.engine.calibration.result import Cost
 from calibgui.engine.camera.camera import Camera
-from calibgui.engine.camera.projection import pixels
+from calibgui.engine.camera.projection import pixels_from_rays
 from tests.engine.calibration.refinement.test_residuals import truth_of
 from tests.engine.random_problems import outcome
 from tests.engine.scenes import VGA, Scene, scene
@@ -24,11 +26,11 @@ FREE = np.arange(9)
 
 
 def problem_of(views: Observations, free: IntArray) -> NormalAt:
-    return normal_equations.stage_two(views, "lucchese", Cost.IMAGE, 1.0, free)
+    return residuals.build_stage_two(views, "lucchese", Cost.IMAGE, 1.0, free)
 
 
 def registration(views: Observations, free: IntArray) -> NormalAt:
-    return normal_equations.stage_two(views, "lucchese", Cost.REFERENCE, 1.0, free)
+    return residuals.build_stage_two(views, "lucchese", Cost.REFERENCE, 1.0, free)
 
 
 def solved(observations: Observations, start: State) -> Solution:
@@ -41,16 +43,16 @@ def made() -> tuple[Scene, Observations]:
     true = scene(TELE, 12, seed=5, tilt=(8.0, 25.0))
     views = true.noisy(0.3, np.random.default_rng(0))
     views[4] = type(views[4])(views[4].uv[30:], views[4].xy[30:])
-    return true, pack(views)
+    return true, pack_observations(views)
 
 
-def test_the_mirrored_plate_is_the_same_from_afar() -> None:
+def test_the_mirrored_board_looks_alike_from_afar() -> None:
     true, observations = made()
     state = truth_of(true)
-    turned = mirrored(state, observations)
+    turned = mirror_poses(state, observations)
     np.testing.assert_allclose(turned.R @ turned.R.swapaxes(1, 2), [np.eye(3)] * 12, atol=1e-12)
     np.testing.assert_allclose(np.linalg.det(turned.R), 1.0)
-    back = mirrored(turned, observations)
+    back = mirror_poses(turned, observations)
     np.testing.assert_allclose(back.R, state.R, atol=1e-12)
     np.testing.assert_allclose(back.T, state.T, rtol=1e-10)
 
@@ -58,7 +60,7 @@ def test_the_mirrored_plate_is_the_same_from_afar() -> None:
         """Images along the mean ray, without perspective about it."""
         point = observations.xy @ pose.R[..., :2].swapaxes(1, 2) + pose.T[:, None]
         places = observations.mask > 0
-        return pixels(point[..., :2][places] / point[..., 2:][places], TELE)
+        return pixels_from_rays(point[..., :2][places] / point[..., 2:][places], TELE)
 
     moved = np.linalg.norm(seen(turned) - seen(state), axis=1)
     size = np.ptp(seen(state), axis=0).max()
@@ -69,27 +71,27 @@ def test_the_mirrored_plate_is_the_same_from_afar() -> None:
 def test_mirrored_views_are_found_and_righted(wrong: list[int]) -> None:
     true, observations = made()
     best = solved(observations, truth_of(true))
-    turned = mirrored(best.state, observations)
+    turned = mirror_poses(best.state, observations)
     R, T = best.state.R.copy(), best.state.T.copy()
     R[wrong], T[wrong] = turned.R[wrong], turned.T[wrong]
     caught = solved(observations, State(best.state.params, R, T))
     assert caught.normal.cost > 1.01 * best.normal.cost
-    state = righted(problem_of, registration, observations, caught)
+    state = correct_mirrored_poses(problem_of, registration, observations, caught)
     assert state is not None
     again = solved(observations, state)
     assert again.normal.cost == pytest.approx(best.normal.cost, rel=1e-9)
-    assert righted(problem_of, registration, observations, again) is None
+    assert correct_mirrored_poses(problem_of, registration, observations, again) is None
 
 
 def test_nothing_is_tried_where_perspective_is_plain(monkeypatch: pytest.MonkeyPatch) -> None:
     true = scene(Camera(VGA, [600.0, 600, 320, 240, 0.2, 0, 0, 0, 0, 0]), 8)
-    observations = pack(true.noisy(0.1, np.random.default_rng(0)))
+    observations = pack_observations(true.noisy(0.1, np.random.default_rng(0)))
     best = solved(observations, truth_of(true))
     monkeypatch.setattr(
         "calibgui.engine.calibration.refinement.levenberg_marquardt.minimise",
         lambda *_, **__: pytest.fail("tried"),
     )
-    assert righted(problem_of, registration, observations, best) is None
+    assert correct_mirrored_poses(problem_of, registration, observations, best) is None
 
 
 @pytest.mark.parametrize("seed", [363, 770, 1374])

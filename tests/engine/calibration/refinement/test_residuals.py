@@ -11,18 +11,19 @@ from scipy.optimize import least_squares
 from scipy.spatial.transform import Rotation
 
 from calibgui.engine.arrays import Array
-from calibgui.engine.calibration.observations import Observations, pack
+from calibgui.engine.calibration.observations import Observations, pack_observations
 from calibgui.engine.calibration.refinement.levenberg_marquardt import minimise
-from calibgui.engine.calibration.refinement.normal_equations import linearised, stage_two
 from calibgui.engine.calibration.refinement.residuals import (
     Linearised,
     State,
-    image_residual,
-    predicted_corners,
-    reference_residual,
-    registration_error,
+    build_stage_two,
+    compute_image_residuals,
+    compute_reference_residuals,
+    compute_registration_errors,
+    linearise_residuals,
+    predict_corners,
 )
-from calibgui.engine.calibration.refinement.whitening import weighted
+from calibgui.engine.calibration.refinement.whitening import whiten_observations
 from calibgui.engine.calibration.result import Cost
 from calibgui.engine.camera.models import MODELS, parameter_names
 from tests.engine.scenes import Scene, barrel, central_differences, example, relative, scene
@@ -51,8 +52,8 @@ def made_with(model: str) -> Scene:
 def residual(model: str, cost: Cost, state: State, views: Observations) -> Linearised:
     lens = MODELS[model]
     if cost is Cost.IMAGE:
-        return image_residual(state, views, lens)
-    return reference_residual(state, views, lens, SCALE, cost is Cost.PAPER)
+        return compute_image_residuals(state, views, lens)
+    return compute_reference_residuals(state, views, lens, SCALE, cost is Cost.PAPER)
 
 
 @pytest.mark.parametrize(("model", "cost"), CASES)
@@ -60,41 +61,44 @@ def test_the_registration_error_is_the_residual_of_the_reference_plane(
     model: str, cost: Cost
 ) -> None:
     made = made_with(model)
-    state, views = truth_of(made), pack(made.noisy(0.5, np.random.default_rng(0)))
+    state, views = truth_of(made), pack_observations(made.noisy(0.5, np.random.default_rng(0)))
     literal = cost is Cost.PAPER
-    expected = reference_residual(state, views, MODELS[model], SCALE, literal).residual
-    found = registration_error(state, views, MODELS[model], cost)
+    expected = compute_reference_residuals(state, views, MODELS[model], SCALE, literal).residual
+    found = compute_registration_errors(state, views, MODELS[model], cost)
     np.testing.assert_allclose(SCALE * found, expected, atol=1e-10)
 
 
 def test_a_corner_off_the_plane_is_registered_beside_its_place() -> None:
     made = made_with("lucchese")
-    state, views = truth_of(made), pack(made.views)
+    state, views = truth_of(made), pack_observations(made.views)
     height = np.random.default_rng(0).normal(0, 3, (*views.mask.shape, 1))
     bent = replace(views, xy=np.concatenate([views.xy, height], axis=-1))
-    seen = replace(bent, uv=predicted_corners(state, bent, MODELS["lucchese"], Cost.IMAGE))
-    found = registration_error(state, seen, MODELS["lucchese"], Cost.IMAGE)
+    seen = replace(bent, uv=predict_corners(state, bent, MODELS["lucchese"], Cost.IMAGE))
+    found = compute_registration_errors(state, seen, MODELS["lucchese"], Cost.IMAGE)
     np.testing.assert_allclose(found, 0.0, atol=1e-10)
 
 
 @pytest.mark.parametrize(("model", "cost"), CASES[:-1])
 def test_no_residual_at_the_truth(model: str, cost: Cost) -> None:
     made = made_with(model)
-    assert np.abs(residual(model, cost, truth_of(made), pack(made.views)).residual).max() < 1e-9
+    assert (
+        np.abs(residual(model, cost, truth_of(made), pack_observations(made.views)).residual).max()
+        < 1e-9
+    )
 
 
-def test_the_literal_grid_is_the_plate_stretched() -> None:
-    """Eq. 29: a square plate is fy/fx times as high as wide on the paper's grid of equal pixels."""
+def test_the_literal_grid_is_the_board_stretched() -> None:
+    """Eq. 29: a square board is fy/fx times as high as wide on the paper's grid of equal pixels."""
     made = made_with("lucchese-pixels")
     stretched = [(uv, xy * [1.0, 0.85]) for uv, xy, _ in made.views]
-    found = residual("lucchese-pixels", Cost.PAPER, truth_of(made), pack(stretched))
+    found = residual("lucchese-pixels", Cost.PAPER, truth_of(made), pack_observations(stretched))
     assert np.abs(found.residual).max() < 1e-9
 
 
 @pytest.mark.parametrize(("model", "cost"), CASES)
 def test_derivatives_against_differences(model: str, cost: Cost) -> None:
     made = made_with(model)
-    views = pack(made.noisy(0.5, np.random.default_rng(0)))
+    views = pack_observations(made.noisy(0.5, np.random.default_rng(0)))
     state = truth_of(made)
     lens_count = len(state.params) - 4
     # Steps of 3e-4 of each unknown's scale: truncation 1e-13 times a fifth derivative.
@@ -104,7 +108,7 @@ def test_derivatives_against_differences(model: str, cost: Cost) -> None:
         return residual(model, cost, state._replace(params=p), views).residual
 
     def by_pose(move: Array) -> Array:
-        moved = state.moved(np.zeros(len(state.params)), np.tile(move, (3, 1)))
+        moved = state.take_step(np.zeros(len(state.params)), np.tile(move, (3, 1)))
         return residual(model, cost, moved, views).residual
 
     found = residual(model, cost, state, views)
@@ -120,9 +124,9 @@ def test_derivatives_against_differences(model: str, cost: Cost) -> None:
 @pytest.mark.parametrize(("model", "cost"), CASES)
 def test_predicted_corners_are_where_the_residual_is_zero(model: str, cost: Cost) -> None:
     made = made_with(model)
-    views = pack(made.noisy(0.5, np.random.default_rng(0)))
+    views = pack_observations(made.noisy(0.5, np.random.default_rng(0)))
     state = truth_of(made)
-    predicted = predicted_corners(state, views, MODELS[model], cost)
+    predicted = predict_corners(state, views, MODELS[model], cost)
     there = Observations(predicted, views.xy, views.mask, None)
     assert np.abs(residual(model, cost, state, there).residual).max() < 1e-8
 
@@ -135,13 +139,13 @@ def test_the_minimum_is_scipys(model: str, cost: Cost) -> None:
     """
     aspect = 1.0 if cost is Cost.PAPER else 0.9  # which the literal grid would misrepresent
     made = scene(example(model, aspect), 4, seed=9)
-    views = pack(made.noisy(0.3, np.random.default_rng(2)))
+    views = pack_observations(made.noisy(0.3, np.random.default_rng(2)))
     count = len(parameter_names(model))
     # p3 next to nothing is a valley without a floor; the others make a proper minimum.
     free = np.flatnonzero([name != "p3" for name in parameter_names(model)])
     truth, scale = truth_of(made), np.concatenate([np.full(4, 10.0), np.full(count - 4, 0.1)])
     ours = minimise(
-        stage_two(views, model, cost, SCALE, free),
+        build_stage_two(views, model, cost, SCALE, free),
         truth,
         free,
         views.count,
@@ -165,13 +169,15 @@ def test_padding_weighs_nothing_and_covariances_whiten() -> None:
     made = scene(barrel(), 2, seed=3)
     uv, xy, _ = made.noisy(0.4, np.random.default_rng(1))[0]
     cov = np.tile(np.array([[0.04, 0.01], [0.01, 0.09]]), (len(uv), 1, 1))
-    views = weighted(pack([(uv, xy, cov), (made.views[1].uv[:30], xy[:30], cov[:30])]))
+    views = whiten_observations(
+        pack_observations([(uv, xy, cov), (made.views[1].uv[:30], xy[:30], cov[:30])])
+    )
     state, lens = truth_of(made), MODELS["lucchese"]
-    found = linearised(state, views, slice(0, 2), lens, Cost.IMAGE, 1.0)
+    found = linearise_residuals(state, views, slice(0, 2), lens, Cost.IMAGE, 1.0)
     assert not found.residual[1, 30:].any()
     assert not found.by_params[1, 30:].any()
     assert not found.by_pose[1, 30:].any()
-    plain = image_residual(state, views, lens).residual[0]
+    plain = compute_image_residuals(state, views, lens).residual[0]
     typical = np.trace(cov[0]) / 2  # in px of the median corner
     squares = typical * np.einsum("ni,nij,nj->n", plain, np.linalg.inv(cov), plain)
     np.testing.assert_allclose(np.sum(found.residual[0] ** 2, axis=1), squares, rtol=1e-9)
@@ -181,4 +187,6 @@ def test_a_board_behind_the_camera_has_no_image() -> None:
     made = scene(barrel(), 2)
     state = truth_of(made)
     behind = state._replace(T=-state.T)
-    assert np.isnan(image_residual(behind, pack(made.views), MODELS["lucchese"]).residual).any()
+    assert np.isnan(
+        compute_image_residuals(behind, pack_observations(made.views), MODELS["lucchese"]).residual
+    ).any()

@@ -6,25 +6,34 @@ import numpy as np
 import pytest
 
 from calibgui.engine.arrays import Array
-from calibgui.engine.calibration.observations import CHUNK, pack
-from calibgui.engine.calibration.refinement.normal_equations import linearised, stage_two
-from calibgui.engine.calibration.refinement.residuals import Linearised, State
-from calibgui.engine.calibration.refinement.schur import factored, normal_equations, schur, solve
+from calibgui.engine.calibration.observations import VIEWS_PER_CHUNK, pack_observations
+from calibgui.engine.calibration.refinement.residuals import (
+    Linearised,
+    State,
+    accumulate_normal_equations,
+    build_stage_two,
+    linearise_residuals,
+)
+from calibgui.engine.calibration.refinement.schur import (
+    eliminate_poses,
+    factorise,
+    solve_normal_equations,
+)
 from calibgui.engine.calibration.result import Cost
 from calibgui.engine.camera.models import MODELS
 from tests.engine.calibration.refinement.test_residuals import truth_of
 from tests.engine.scenes import barrel, scene
 
 MADE = scene(barrel(), 5, seed=4)
-VIEWS = pack(MADE.noisy(0.2, np.random.default_rng(0)))
+VIEWS = pack_observations(MADE.noisy(0.2, np.random.default_rng(0)))
 TRUTH = truth_of(MADE)
 FREE = np.array([0, 1, 2, 3, 4, 5, 7])
-COST = stage_two(VIEWS, "lucchese", Cost.IMAGE, 1.0, FREE)
+COST = build_stage_two(VIEWS, "lucchese", Cost.IMAGE, 1.0, FREE)
 
 
 def jacobian(state: State) -> tuple[Array, Array]:
     """Dense J and r of all unknowns, written out without any block structure."""
-    found = linearised(state, VIEWS, slice(0, 5), MODELS["lucchese"], Cost.IMAGE, 1.0)
+    found = linearise_residuals(state, VIEWS, slice(0, 5), MODELS["lucchese"], Cost.IMAGE, 1.0)
     K, N = found.residual.shape[:2]
     J = np.zeros((K, N, 2, len(FREE) + 6 * K))
     J[..., : len(FREE)] = found.by_params[..., FREE]
@@ -39,7 +48,7 @@ def test_the_step_solves_the_damped_normal_equations(damping: float) -> None:
     J, r = jacobian(TRUTH)
     A = J.T @ J
     expected = np.linalg.solve(A + damping * np.diag(np.diag(A)), -J.T @ r)
-    shared, pose = solve(COST(TRUTH), damping)
+    shared, pose = solve_normal_equations(COST(TRUTH), damping)
     # The dense matrix has a condition number of 1e14 in these units: compare its predictions.
     np.testing.assert_allclose(
         J @ np.concatenate([shared, pose.ravel()]), J @ expected, atol=1e-6 * np.abs(r).max()
@@ -52,13 +61,13 @@ def test_the_schur_complement_is_the_inverse_of_the_covariance() -> None:
     inverse = np.linalg.inv((J * unit).T @ (J * unit)) * np.outer(unit, unit)
     P = len(FREE)
     np.testing.assert_allclose(
-        np.linalg.inv(schur(COST(TRUTH))[0]), inverse[:P, :P], rtol=1e-4, atol=1e-12
+        np.linalg.inv(eliminate_poses(COST(TRUTH))[0]), inverse[:P, :P], rtol=1e-4, atol=1e-12
     )
 
 
 def test_sums_over_chunks_are_the_sums() -> None:
     """More views than a chunk holds, in two different orders of adding up."""
-    count = CHUNK + 3
+    count = VIEWS_PER_CHUNK + 3
     rng = np.random.default_rng(0)
     residual, by_params = rng.normal(size=(count, 4, 2)), rng.normal(size=(count, 4, 2, 9))
     by_pose = rng.normal(size=(count, 4, 2, 6))
@@ -67,7 +76,7 @@ def test_sums_over_chunks_are_the_sums() -> None:
         return Linearised(residual[views], by_params[views], by_pose[views])
 
     state = State(np.zeros(9), np.zeros((count, 3, 3)), np.zeros((count, 3)))
-    found = normal_equations(linearise, state, np.arange(9))
+    found = accumulate_normal_equations(linearise, state, np.arange(9))
     np.testing.assert_allclose(found.cost, np.sum(residual**2))
     J = by_params.reshape(-1, 9)
     np.testing.assert_allclose(found.U, J.T @ J, rtol=1e-12)
@@ -78,9 +87,9 @@ def test_sums_over_chunks_are_the_sums() -> None:
 
 
 def test_factors_of_a_matrix_close_by_give_nearly_the_same_step() -> None:
-    moved = TRUTH.moved(np.zeros(10), np.tile([1e-6, -1e-6, 2e-6, 1e-4, 1e-4, 3e-4], (5, 1)))
-    near, here = factored(schur(COST(moved))), COST(TRUTH)
-    own, lent = solve(here, 0.0), near.at(here).step(here)
+    moved = TRUTH.take_step(np.zeros(10), np.tile([1e-6, -1e-6, 2e-6, 1e-4, 1e-4, 3e-4], (5, 1)))
+    near, here = factorise(eliminate_poses(COST(moved))), COST(TRUTH)
+    own, lent = solve_normal_equations(here, 0.0), near.with_gradient_of(here).solve_step(here)
     for ours, theirs in zip(own, lent, strict=True):
         assert (np.abs(ours - theirs) <= 1e-3 * np.abs(ours).max(axis=0)).all()
         assert (ours != theirs).any()

@@ -7,8 +7,11 @@ import pytest
 
 from calibgui.engine.arrays import Array
 from calibgui.engine.calibration.calibrate import calibrate
-from calibgui.engine.calibration.observations import Observation, Observations, pack
-from calibgui.engine.calibration.refinement.whitening import model_variance, weighted
+from calibgui.engine.calibration.observations import Observation, Observations, pack_observations
+from calibgui.engine.calibration.refinement.whitening import (
+    estimate_model_variance,
+    whiten_observations,
+)
 from tests.engine.calibration.board_shape.test_parametrisation import (
     CAMERA,
     NOMINAL,
@@ -39,7 +42,7 @@ def noisy(views: int, floor: float, seed: int) -> list[Observation]:
 
 
 def test_whitening_is_a_root_of_the_inverse_up_to_scale() -> None:
-    packed = weighted(pack(noisy(3, 0.0, 1)), tau2=0.01)
+    packed = whiten_observations(pack_observations(noisy(3, 0.0, 1)), tau2=0.01)
     assert packed.whitening is not None and packed.cov is not None
     product = np.swapaxes(packed.whitening, -1, -2) @ packed.whitening
     total = packed.cov + 0.01 * np.eye(2)
@@ -55,7 +58,7 @@ def test_the_floor_is_found(floor: float) -> None:
     residual = draws + rng.normal(0, floor, draws.shape)
     observations = Observations(residual, residual, np.ones((10, 500)), cov)
     # 10,000 coordinates: the variance is known to 1.4 % of its total.
-    assert model_variance(observations, residual, 0) == pytest.approx(
+    assert estimate_model_variance(observations, residual, 0) == pytest.approx(
         floor**2, abs=0.03 * (floor**2 + 0.02)
     )
 

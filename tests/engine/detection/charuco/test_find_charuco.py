@@ -10,8 +10,8 @@ import pytest
 
 from calibgui.engine.boards.board import Board
 from calibgui.engine.boards.charuco import Charuco
-from calibgui.engine.boards.pattern import Ambiguity
-from calibgui.engine.boards.printed_pattern import Raster
+from calibgui.engine.boards.pattern import Symmetry
+from calibgui.engine.boards.printed_pattern import PrintedRectangles
 from calibgui.engine.calibration.calibrate import calibrate
 from calibgui.engine.detection.find_corners import find_corners
 from calibgui.engine.errors import CalibrationError, NoBoardError
@@ -36,7 +36,7 @@ def test_located_to_the_bound_and_identified(
     )
     assert corners.shape == grid_size
     assert corners.complete
-    assert corners.ambiguity is Ambiguity.NONE
+    assert corners.ambiguity is Symmetry.NONE
     error = scene.error(corners)
     assert np.sqrt(np.mean(error**2)) < 0.006
     assert corners.cov is not None
@@ -59,8 +59,8 @@ def test_drawn_as_opencv_draws_it(pattern: Charuco, grid_size: tuple[int, int]) 
     drawn.setLegacyPattern(bool(pattern.legacy))
     side = 160
     image = drawn.generateImage((cols * side, rows * side))
-    ink = pattern.ink(grid_size)
-    assert isinstance(ink, Raster)
+    ink = pattern.draw(grid_size)
+    assert isinstance(ink, PrintedRectangles)
     x, y = (
         np.searchsorted(lines, (np.arange(n * side) + 0.5) / side - 1) - 1
         for lines, n in ((ink.x, cols), (ink.y, rows))
@@ -135,7 +135,7 @@ def test_no_board() -> None:
 )
 def test_cannot_be_drawn(pattern: Charuco, grid_size: tuple[int, int]) -> None:
     with pytest.raises(CalibrationError):
-        pattern.ink(grid_size)
+        pattern.draw(grid_size)
 
 
 def test_bad_statements() -> None:
@@ -151,9 +151,9 @@ def test_images_together_tell_more() -> None:
         Charuco("DICT_4X4_100", 0.72, False),
         Charuco("DICT_5X5_50", 0.74, False),
     ]
-    assert Charuco().completed(seen) == Charuco("DICT_4X4_100", 0.72, False)
-    assert Charuco("DICT_4X4_250", 0.75).completed(seen) == Charuco("DICT_4X4_250", 0.75, False)
-    assert Charuco().completed([]) == Charuco()
+    assert Charuco().complete_from(seen) == Charuco("DICT_4X4_100", 0.72, False)
+    assert Charuco("DICT_4X4_250", 0.75).complete_from(seen) == Charuco("DICT_4X4_250", 0.75, False)
+    assert Charuco().complete_from([]) == Charuco()
 
 
 @pytest.mark.data

@@ -11,14 +11,14 @@ from calibgui.engine.boards.charuco import Charuco
 from calibgui.engine.detection.charuco.marker_candidates import MarkerCandidates
 from calibgui.engine.detection.find_corners import find_corners
 from calibgui.engine.errors import NoBoardError
-from tests.benchmarks.corner_boardless import boardless
+from tests.scenes.without_board import draw_without_board
 
 NAMES = ["DICT_4X4_50", "DICT_5X5_250", "DICT_6X6_50", "DICT_7X7_1000", "DICT_ARUCO_ORIGINAL"]
 
 
 def page(name: str, blur: float, noise: float) -> arrays.GreyImage:
     """Twelve markers of a dictionary, seen obliquely and turned."""
-    cells = [opencv.marker_cells(name, k) for k in range(3, 15)]
+    cells = [opencv.draw_marker_cells(name, k) for k in range(3, 15)]
     side = 8 * len(cells[0])
     sheet = np.full((4 * side, 5 * side), 220, np.uint8)
     for k, dark in enumerate(cells):
@@ -38,19 +38,19 @@ def page(name: str, blur: float, noise: float) -> arrays.GreyImage:
 @pytest.mark.parametrize(("blur", "noise"), [(0.5, 2.0), (1.5, 6.0)])
 def test_what_opencv_reads_fits_its_dictionary(name: str, blur: float, noise: float) -> None:
     image = page(name, blur, noise)
-    read = len(opencv.markers(image, name)[0])
+    read = len(opencv.detect_markers(image, name)[0])
     assert read >= 10
     candidates = MarkerCandidates(image)
-    assert candidates.fitting(name) >= read
+    assert candidates.count_fitting(name) >= read
     others = [other for other in NAMES if other[:8] != name[:8]]
-    assert all(candidates.fitting(other) <= 2 for other in others)
+    assert all(candidates.count_fitting(other) <= 2 for other in others)
 
 
 @pytest.mark.parametrize("seed", range(6))
 def test_no_marker_is_read_where_nothing_fits(seed: int, monkeypatch: pytest.MonkeyPatch) -> None:
     """Not even among the hundreds of bricks of one of these images."""
     read: list[str] = []
-    monkeypatch.setattr(opencv, "markers", lambda _, name: read.append(name))
+    monkeypatch.setattr(opencv, "detect_markers", lambda _, name: read.append(name))
     with pytest.raises(NoBoardError):
-        find_corners(boardless(seed), None, pattern=Charuco())
+        find_corners(draw_without_board(seed), None, pattern=Charuco())
     assert not read

@@ -45,7 +45,7 @@ def draw_board(
     levels: tuple[float, float] = (40.0, 210.0),
     seed: int = 0,
 ) -> Scene:
-    """A board of `board` = (rows, cols) inner corners in an image of `size` = (width, height).
+    """Draw a board of `grid_size` = (rows, cols) inner corners, in an image (width, height).
 
     Args:
         step: side of a square at the image's centre, px.

@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 from hypothesis.extra import numpy as hnp
 from numpy.typing import NDArray
 
-from calibgui.engine.detection.checkerboard.a_contrario import meaningful
+from calibgui.engine.detection.checkerboard.a_contrario import is_meaningful
 from calibgui.engine.detection.find_corners import find_corners
 from calibgui.engine.errors import NoBoardError
 from tests.engine.detection.checkerboard.conftest import random_squares
@@ -26,15 +26,15 @@ def test_every_full_rectangle_is_counted(found: NDArray[np.bool_], others: int) 
         for r, c in itertools.product(range(rows - a + 1), range(cols - b + 1))
         if found[r : r + a, c : c + b].all()
     ]
-    assert meaningful(found, others) == (min(expected, default=1) < 1 / 16)
+    assert is_meaningful(found, others) == (min(expected, default=1) < 1 / 16)
 
 
 def test_small_boards_count_where_little_else_is_seen() -> None:
     whole = np.ones((3, 4), np.bool_)
-    assert meaningful(whole, 300)
-    assert not meaningful(whole, 400)
+    assert is_meaningful(whole, 300)
+    assert not is_meaningful(whole, 400)
     ragged = np.eye(9, dtype=np.bool_) | np.eye(9, k=1, dtype=np.bool_)
-    assert not meaningful(ragged, 1)
+    assert not is_meaningful(ragged, 1)
 
 
 @pytest.mark.parametrize(

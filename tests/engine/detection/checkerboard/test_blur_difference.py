@@ -8,7 +8,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from calibgui.engine.arrays import Array
-from calibgui.engine.detection.checkerboard.x_corner_fit import common_blur_difference
+from calibgui.engine.detection.checkerboard.x_corner_fit import estimate_blur_difference
 
 angles = st.floats(-np.pi, np.pi)
 
@@ -35,19 +35,19 @@ def test_one_anisotropy_is_found_whatever_the_focus(
     normals = edges(seed, turn)
     blurs = blurred(normals, np.random.default_rng(seed).uniform(0.7, 2.0, 60), D)
     np.testing.assert_allclose(
-        common_blur_difference(normals, blurs), blurs[:, 0] - blurs[:, 1], rtol=0, atol=1e-12
+        estimate_blur_difference(normals, blurs), blurs[:, 0] - blurs[:, 1], rtol=0, atol=1e-12
     )
 
 
 def test_what_is_not_common_to_the_board_is_averaged_out() -> None:
     normals = edges(1, 0.3)
     noise = np.random.default_rng(2).normal(0, 0.1, (60, 2))
-    found = common_blur_difference(normals, np.full((60, 2), 1.0) + noise)
+    found = estimate_blur_difference(normals, np.full((60, 2), 1.0) + noise)
     assert np.sqrt(np.mean(found**2)) < 0.1 * np.sqrt(2) / 3
 
 
 def test_edges_of_one_direction_leave_what_they_cannot_tell_at_its_least() -> None:
     """Of squares that stand upright only the difference along u and v can be seen."""
     normals = np.tile(np.array([[0.0, 1.0], [1.0, 0.0]]), (20, 1, 1))
-    found = common_blur_difference(normals, np.tile([1.0, 1.5], (20, 1)))
+    found = estimate_blur_difference(normals, np.tile([1.0, 1.5], (20, 1)))
     assert found == pytest.approx(-0.5)

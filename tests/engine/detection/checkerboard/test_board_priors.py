@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from calibgui.engine.detection.checkerboard.board_priors import Surroundings
+from calibgui.engine.detection.checkerboard.board_priors import BoardPriors
 
 TAIL = {(0, c) for c in range(1, 9)} | {(1, 6), (1, 8)}
 COLUMN = {(r, 8) for r in range(6)}
@@ -25,7 +25,7 @@ def test_gradients_do_not_run_away_where_lines_are_short(
     x = col / 8
     values = np.column_stack([100 * x**degree, 2 * row])
     values += 1e-3 * np.random.default_rng(0).standard_normal(values.shape)
-    got = Surroundings(found).gradients(steps, values)
+    got = BoardPriors(found).estimate_gradients(steps, values)
     expected = np.zeros((len(row), 2, 2))
     expected[:, 0, 0] = 100 * degree * x ** (degree - 1) / 8 / step
     expected[:, 1, 1] = 2 / step
@@ -41,7 +41,7 @@ def test_light_that_breaks_does_not_ring() -> None:
     smooth = 100 + 2 * col + 0.05 * row**2
     values = np.column_stack([smooth, np.where(shadow, 0.4, 1.0) * smooth])
     values += 0.01 * np.random.default_rng(0).standard_normal(values.shape)
-    whole, broken = Surroundings(found).gradients(steps, values).transpose(1, 0, 2)
+    whole, broken = BoardPriors(found).estimate_gradients(steps, values).transpose(1, 0, 2)
     np.testing.assert_allclose(whole[:, 0], 2 / 30, atol=2e-3)
     expected = np.where(shadow, 0.4, 1.0)[:, None] * whole
     np.testing.assert_allclose(broken, expected, atol=0.01)

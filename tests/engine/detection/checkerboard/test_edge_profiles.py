@@ -18,7 +18,7 @@ def test_the_blur_is_that_of_the_image(draw: Draw, step: float, blur: float) -> 
     inner = scene.uv[1, 1:3]
     sign = np.array([1.0, -1.0])
     for s in (sign, -sign):  # one of the two is the colours' own order
-        seen = edge_profiles.across_edge(
+        seen = edge_profiles.measure_edge_profiles(
             scene.image,
             inner,
             np.tile(along, (2, 1)),

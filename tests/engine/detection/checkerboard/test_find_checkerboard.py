@@ -11,7 +11,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from numpy.typing import NDArray
 
-from calibgui.engine.boards.pattern import Ambiguity
+from calibgui.engine.boards.pattern import Symmetry
 from calibgui.engine.detection.corners import Corners
 from calibgui.engine.detection.find_corners import find_corners
 from calibgui.engine.errors import NoBoardError
@@ -44,7 +44,7 @@ def test_finds_every_corner_in_its_place(
     assert corners.shape == (6, 9)
     assert corners.complete
     assert not corners.relative
-    assert corners.ambiguity is Ambiguity.NONE
+    assert corners.ambiguity is Symmetry.NONE
     error = corners.uv - truth_of(corners, drawn.uv)
     noise = scene.get("noise", 0.0) / (np.diff(scene.get("levels", (40.0, 210.0)))[0])
     assert np.abs(error).max() < 0.05 + 2 * noise
@@ -96,15 +96,15 @@ def test_boards_that_a_program_drew_pixel_by_pixel(
 @pytest.mark.parametrize(
     ("grid_size", "expected"),
     [
-        ((6, 9), Ambiguity.NONE),
-        ((5, 7), Ambiguity.HALF_TURN),
-        ((6, 8), Ambiguity.HALF_TURN),
-        ((5, 5), Ambiguity.HALF_TURN),
-        ((6, 6), Ambiguity.QUARTER_TURN),
+        ((6, 9), Symmetry.NONE),
+        ((5, 7), Symmetry.HALF_TURN),
+        ((6, 8), Symmetry.HALF_TURN),
+        ((5, 5), Symmetry.HALF_TURN),
+        ((6, 6), Symmetry.QUARTER_TURN),
     ],
 )
 def test_says_when_the_pattern_hides_its_origin(
-    draw: Any, grid_size: tuple[int, int], expected: Ambiguity
+    draw: Any, grid_size: tuple[int, int], expected: Symmetry
 ) -> None:
     assert find_corners(draw(grid_size).image).ambiguity is expected
 

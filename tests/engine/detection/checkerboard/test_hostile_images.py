@@ -17,12 +17,13 @@ from calibgui.engine.detection.checkerboard import (
     lattice_growth,
     pyramid_search,
     x_corner_fit,
-    x_junctions,
 )
+from calibgui.engine.detection.checkerboard.thresholds import THRESHOLDS
 from calibgui.engine.detection.find_corners import find_corners
 from calibgui.engine.errors import NoBoardError
-from tests.benchmarks.corner_scenes import Conditions, draw
 from tests.engine.detection.checkerboard.conftest import random_squares
+from tests.scenes.checkerboards import draw
+from tests.scenes.conditions import Conditions
 
 SHAPE = (900, 1200)
 V, U = np.mgrid[: SHAPE[0], : SHAPE[1]]
@@ -72,17 +73,17 @@ def test_work_is_bounded(name: str, monkeypatch: pytest.MonkeyPatch) -> None:
         monkeypatch.setattr(module, function, wrapper)
 
     counted(pyramid_search, "find_saddles", lambda _, saddles: candidates.append(len(saddles.uv)))
-    counted(lattice_growth, "_fill", lambda args, _: rounds.append(len(args[0])))
-    counted(x_corner_fit, "fit", lambda args, _: fitted.append(len(args[1])))
+    counted(lattice_growth, "_fill_places", lambda args, _: rounds.append(len(args[0])))
+    counted(x_corner_fit, "fit_x_corners", lambda args, _: fitted.append(len(args[1])))
     for grid_size in (None, (6, 9)):
         with contextlib.suppress(NoBoardError):
             find_corners(HOSTILE[name](), grid_size)
     levels, coarser = 4, 2
     # All but the finest may be looked at again, and the coarsest once more with those beyond it.
     assert len(candidates) <= 2 * (2 * levels - 1 + 1 + coarser)
-    assert max(candidates, default=0) <= x_junctions.MAX_CANDIDATES
+    assert max(candidates, default=0) <= THRESHOLDS.junctions.max_candidates
     assert len(rounds) <= 200
-    assert sum(fitted) <= 8 * x_junctions.MAX_CANDIDATES
+    assert sum(fitted) <= 8 * THRESHOLDS.junctions.max_candidates
 
 
 @settings(max_examples=40)
@@ -134,7 +135,7 @@ def test_saturated_halves() -> None:
 def test_many_waves_are_not_fitted(
     period: float, slant: float, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(x_corner_fit, "fit", None)
+    monkeypatch.setattr(x_corner_fit, "fit_x_corners", None)
     image = 127 + 60 * np.sin(U / period + slant * V) + 60 * np.sin(V / period)
     with pytest.raises(NoBoardError):
         find_corners(image[:480, :640].astype(np.float32))

@@ -13,17 +13,17 @@ from numpy.typing import NDArray
 from calibgui.engine import kernels
 from calibgui.engine.detection.find_corners import find_corners
 from calibgui.engine.errors import NoBoardError
-from tests.benchmarks.corner_boardless import boardless
-from tests.benchmarks.corners_speed import photograph
+from tests.scenes.perspective import photograph_board
+from tests.scenes.without_board import draw_without_board
 
 IMAGES = {
-    "noise": lambda: boardless(0),
-    "clutter": lambda: boardless(4),
-    "rectangles": lambda: boardless(5),
-    "waves": lambda: boardless(200),
-    "halftone": lambda: boardless(215),
-    "board": lambda: photograph((640, 480), (6, 9), 36, 0.8),
-    "board of many squares": lambda: photograph((640, 480), (21, 23), 17, 2.0),
+    "noise": lambda: draw_without_board(0),
+    "clutter": lambda: draw_without_board(4),
+    "rectangles": lambda: draw_without_board(5),
+    "waves": lambda: draw_without_board(200),
+    "halftone": lambda: draw_without_board(215),
+    "board": lambda: photograph_board((640, 480), (6, 9), 36, 0.8),
+    "board of many squares": lambda: photograph_board((640, 480), (21, 23), 17, 2.0),
 }
 
 

@@ -1,4 +1,4 @@
-"""What a glance at a lattice's edges tells."""
+"""The prefilter tells boards from what has other edges."""
 
 from __future__ import annotations
 
@@ -6,14 +6,17 @@ from typing import Any
 
 import numpy as np
 import pytest
+from numpy.typing import NDArray
 from scipy.ndimage import gaussian_filter
 
 from calibgui.engine.detection.checkerboard import prefilter
+from calibgui.engine.detection.checkerboard.thresholds import THRESHOLDS
 from calibgui.engine.detection.find_corners import find_corners
 from calibgui.engine.detection.lattice import Lattice
 from calibgui.engine.errors import NoBoardError
-from tests.benchmarks.corner_boardless import boardless
-from tests.benchmarks.corner_scenes import Conditions, draw
+from tests.scenes.checkerboards import draw
+from tests.scenes.conditions import Conditions
+from tests.scenes.without_board import draw_without_board
 
 
 @pytest.mark.parametrize(
@@ -34,7 +37,7 @@ def test_boards_are_plausible(conditions: dict[str, Any]) -> None:
         np.rint(np.mean(scene.uv[:2, k : k + 2], axis=(0, 1))).astype(int) for k in (0, 1)
     )
     dark = bool(scene.clean[*first[::-1]] < scene.clean[*next_[::-1]])
-    assert prefilter.plausible(Lattice(scene.uv, dark), image)
+    assert prefilter.is_plausible(Lattice(scene.uv, dark), image)
 
 
 @pytest.mark.parametrize(
@@ -53,38 +56,42 @@ def test_the_edges_of_discs_bulge(pitch: float, radius: float, blur: float) -> N
 @pytest.mark.parametrize("seed", [80, 8, 17])
 def test_a_picture_printed_in_dots_is_no_board(seed: int) -> None:
     with pytest.raises(NoBoardError):
-        find_corners(boardless(seed))
+        find_corners(draw_without_board(seed))
 
 
 @pytest.mark.parametrize("seed", [62, 89, 98, 116, 179, 188, 197, 3878])
 def test_nor_is_the_part_of_it_where_dots_are_squares(seed: int) -> None:
     with pytest.raises(NoBoardError):
-        find_corners(boardless(seed))
+        find_corners(draw_without_board(seed))
+
+
+def have_same_spread(spreads: NDArray[np.float64]) -> bool:
+    return prefilter.have_same_spread(spreads, THRESHOLDS.prefilter.max_spread)
 
 
 def test_the_squares_of_one_print_spread_alike() -> None:
     rng = np.random.default_rng(0)
-    one = 0.06 + rng.normal(0, 0.01, (100, 2))
-    one[rng.random(100) < 0.3] = np.nan
-    assert prefilter.alike(one)
-    assert prefilter.alike(one + np.array([0.03, 0.0]))  # sharpened in one direction
-    assert not prefilter.alike(one + np.linspace(-0.1, 0.1, 100)[:, None])  # dots that grow
-    assert not prefilter.alike(one + np.array([0.1, 0.0]))  # stripes that are shifted
-    assert prefilter.alike(np.full((100, 2), np.nan))
+    spreads = 0.06 + rng.normal(0, 0.01, (100, 2))
+    spreads[rng.random(100) < 0.3] = np.nan
+    assert have_same_spread(spreads)
+    assert have_same_spread(spreads + np.array([0.03, 0.0]))  # sharpened in one direction
+    assert not have_same_spread(spreads + np.linspace(-0.1, 0.1, 100)[:, None])  # dots that grow
+    assert not have_same_spread(spreads + np.array([0.1, 0.0]))  # stripes that are shifted
+    assert have_same_spread(np.full((100, 2), np.nan))
 
 
 def test_a_print_may_spread_more_where_more_light_blinds_the_camera() -> None:
     rng = np.random.default_rng(0)
     uv = rng.uniform(0, 640, (100, 2))
     rise = 4e-4 * (uv[:, :1] - 320) * np.ones(2)
-    assert not prefilter.alike(rise)
-    one = rise / 2.5 + rng.normal(0, 0.002, (100, 2))
-    one[rng.random(100) < 0.3] = np.nan
-    assert not prefilter.alike(one)
-    assert prefilter.rising(one, uv)
-    assert not prefilter.rising(rise, uv)  # dots that grow
-    assert not prefilter.rising(one + 0.02 * np.sin(uv / 50), uv)
-    assert not prefilter.rising(one + np.array([0.1, 0.0]), uv)
+    assert not have_same_spread(rise)
+    spreads = rise / 2.5 + rng.normal(0, 0.002, (100, 2))
+    spreads[rng.random(100) < 0.3] = np.nan
+    assert not have_same_spread(spreads)
+    assert prefilter.rise_steadily(spreads, uv)
+    assert not prefilter.rise_steadily(rise, uv)  # dots that grow
+    assert not prefilter.rise_steadily(spreads + 0.02 * np.sin(uv / 50), uv)
+    assert not prefilter.rise_steadily(spreads + np.array([0.1, 0.0]), uv)
 
 
 def test_a_board_is_found_where_light_blinds_the_camera_to_one_side() -> None:

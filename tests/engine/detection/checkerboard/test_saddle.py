@@ -12,7 +12,7 @@ from scipy.special import erf
 
 from calibgui.engine.arrays import Array
 from calibgui.engine.detection.checkerboard import harris, saddle
-from calibgui.engine.detection.checkerboard.numbering import numberings, turned
+from calibgui.engine.detection.checkerboard.numbering import list_numberings, turn_lattice
 from calibgui.engine.detection.lattice import Lattice
 
 
@@ -48,7 +48,7 @@ def test_no_saddle_is_said() -> None:
 
 def test_harris_is_near() -> None:
     centre = np.array([20.3, 19.6])
-    estimate = harris.first_estimates(crossing(centre), np.array([[21.0, 20.0]]), np.array([20.0]))
+    estimate = harris.estimate_corners(crossing(centre), np.array([[21.0, 20.0]]), np.array([20.0]))
     assert np.abs(estimate[0] - centre).max() <= 1
     np.testing.assert_array_equal(estimate, np.rint(estimate))
 
@@ -63,8 +63,8 @@ def test_numbering_does_not_depend_on_how_the_lattice_was_walked(
     rows: int, cols: int, dark: bool, quarters: int
 ) -> None:
     lattice = lattice_of(rows, cols, dark)
-    first = numberings(lattice, None)[0]
-    again = numberings(turned(lattice, quarters), None)[0]
+    first = list_numberings(lattice, None)[0]
+    again = list_numberings(turn_lattice(lattice, quarters), None)[0]
     np.testing.assert_array_equal(first.lattice.uv, again.lattice.uv)
     assert first.lattice.dark == again.lattice.dark
     if (rows + cols) % 2:
@@ -75,10 +75,10 @@ def test_numbering_does_not_depend_on_how_the_lattice_was_walked(
 def test_a_whole_board_has_as_many_numberings_as_symmetries(
     rows: int, cols: int, ways: int
 ) -> None:
-    assert len(numberings(lattice_of(rows, cols, True), (rows, cols))) == ways
+    assert len(list_numberings(lattice_of(rows, cols, True), (rows, cols))) == ways
 
 
 def test_a_partial_board_keeps_its_colours() -> None:
     part: Any = lattice_of(4, 9, False)
-    for way in numberings(part, (6, 9)):
+    for way in list_numberings(part, (6, 9)):
         assert way.lattice.dark == (sum(way.offset) % 2 == 0)

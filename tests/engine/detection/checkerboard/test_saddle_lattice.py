@@ -6,10 +6,11 @@ import numpy as np
 import pytest
 import scipy
 
-from calibgui.engine.detection.checkerboard.saddle import at_saddles
+from calibgui.engine.detection.checkerboard.saddle import refine_lattice
 from calibgui.engine.detection.find_corners import find_corners
 from calibgui.engine.detection.lattice import Lattice
-from tests.benchmarks.corner_scenes import Conditions, Scene, draw
+from tests.scenes.checkerboards import Scene, draw
+from tests.scenes.conditions import Conditions
 
 BOARD = (4, 5)
 
@@ -34,6 +35,6 @@ def test_noise_between_parted_squares_moves_no_corner() -> None:
     for ink, some in ((0.0, True), (0.02, True), (0.08, False), (-0.08, False)):
         drawn = scene(ink, 40.0)
         near = Lattice(drawn.uv.reshape(*BOARD, 2) + 0.5, dark=True)
-        moved, at_saddle = at_saddles(drawn.photograph(0), near)
+        moved, at_saddle = refine_lattice(drawn.photograph(0), near)
         assert at_saddle.all() == at_saddle.any() == some
         assert np.array_equal(moved.uv, near.uv) != some

@@ -1,33 +1,495 @@
-"""Which corners of a lattice pass."""
+"""Each rule of the verification, broken alone and just kept.
+
+The images are painted square by square, so that any square may have any colour. A square is 20 px
+wide; the corner in row r and column c, between the squares r and r + 1 by c and c + 1, is at
+`MARGIN` + 20 (c + 1), `MARGIN` + 20 (r + 1), less half a pixel.
+"""
 
 from __future__ import annotations
 
+from types import SimpleNamespace
+from typing import Any
+
 import numpy as np
+import pytest
+from numpy.typing import NDArray
+from scipy.ndimage import gaussian_filter
 
 from calibgui.engine.detection.checkerboard import verification
-from calibgui.engine.detection.lattice import Lattice, axes, supported
-from tests.benchmarks.corner_scenes import Conditions, draw
+from calibgui.engine.detection.checkerboard.numbering import turn_lattice
+from calibgui.engine.detection.lattice import (
+    Lattice,
+    drop_isolated_and_crop,
+    estimate_steps,
+)
+from tests.scenes.checkerboards import draw
+from tests.scenes.conditions import Conditions
+
+Array = NDArray[np.float64]
+Image = NDArray[np.uint8]
+SQUARE, MARGIN = 20, 30
+DARK, BRIGHT = 40.0, 210.0
 
 
-def test_a_corner_too_far_from_others_to_know_its_steps_does_not_pass() -> None:
-    scene = draw(Conditions(grid_size=(6, 12), square=24.0, size=(400, 240), turn=0.0), 2)
-    first = scene.uv[0, 0] - (scene.uv[1, 1] - scene.uv[0, 0]) / 2
-    u, v = np.rint(first).astype(int)
-    seen = np.zeros((6, 12), dtype=bool)
-    seen[:, :4] = seen[0, :8] = seen[3:, 8:] = True
-    lattice = Lattice(scene.uv, dark=bool(scene.clean[v, u] < 127)).under(seen)
-    good = verification.sound(lattice, scene.photograph(0))
-    assert not good[0, 7]
-    seen[0, 7] = False
-    np.testing.assert_array_equal(good, seen)
+def alternate(rows: int, cols: int) -> Array:
+    """Return the levels (rows + 1, cols + 1) of the squares of a board, the first one dark."""
+    row, col = np.indices((rows + 1, cols + 1))
+    return np.where((row + col) % 2 == 0, DARK, BRIGHT)
 
 
-def test_gaps_are_tried_only_where_the_steps_are_known() -> None:
-    row, col = np.indices((10, 14))
-    uv = 20.0 * np.stack([col + 2, row + 2], axis=-1)
-    rng = np.random.default_rng(0)
-    for _ in range(300):
-        ragged = supported(Lattice(uv, dark=True).under(rng.random((10, 14)) < 0.2))
-        tried = verification.filled(ragged, (480, 640))
-        assert tried.found[ragged.found].all()
-        assert np.isfinite(np.sum(axes(tried.uv), axis=0)[tried.found]).all()
+def invert(levels: Array) -> Array:
+    return DARK + BRIGHT - levels
+
+
+def paint(levels: Array, margin: int = MARGIN) -> Image:
+    """Paint squares, in front of a bright margin."""
+    image = np.kron(levels, np.ones((SQUARE, SQUARE)))
+    image = np.pad(image, margin, constant_values=BRIGHT)
+    return np.rint(gaussian_filter(image, 0.7)).astype(np.uint8)
+
+
+def place(rows: int, cols: int, margin: int = MARGIN) -> Lattice:
+    """Return the corners between painted squares."""
+    row, col = np.indices((rows, cols))
+    uv = margin - 0.5 + SQUARE * np.stack([col + 1.0, row + 1.0], axis=-1)
+    return Lattice(uv, dark=True)
+
+
+def move(lattice: Lattice, cell: tuple[int, int], offset: tuple[float, float]) -> Lattice:
+    """Return the lattice with one corner moved by so many squares."""
+    uv = lattice.uv.copy()
+    uv[cell] += SQUARE * np.array(offset)
+    return Lattice(uv, lattice.dark)
+
+
+def drop(lattice: Lattice, *cells: tuple[int, int]) -> Lattice:
+    """Return the lattice without some of its corners."""
+    found = lattice.found
+    for cell in cells:
+        found[cell] = False
+    return lattice.select(found)
+
+
+class TestSoundCorners:
+    def test_a_corner_too_far_from_others_to_know_its_steps_does_not_pass(self) -> None:
+        scene = draw(Conditions(grid_size=(6, 12), square=24.0, size=(400, 240), turn=0.0), 2)
+        first = scene.uv[0, 0] - (scene.uv[1, 1] - scene.uv[0, 0]) / 2
+        u, v = np.rint(first).astype(int)
+        seen = np.zeros((6, 12), dtype=bool)
+        seen[:, :4] = seen[0, :8] = seen[3:, 8:] = True
+        lattice = Lattice(scene.uv, dark=bool(scene.clean[v, u] < 127)).select(seen)
+        good = verification.find_sound_corners(lattice, scene.photograph(0))
+        assert not good[0, 7]
+        seen[0, 7] = False
+        np.testing.assert_array_equal(good, seen)
+
+    def test_a_corner_that_looks_otherwise_does_not_pass(self) -> None:
+        image = paint(alternate(6, 9))
+        assert verification.find_sound_corners(place(6, 9), image).all()
+        u, v = np.rint(place(6, 9).uv[2, 4]).astype(int)
+        image[v - 6 : v + 6, u - 6 : u + 6] = 125
+        good = verification.find_sound_corners(place(6, 9), image)
+        np.testing.assert_array_equal(np.argwhere(~good), [(2, 4)])
+
+    def test_corners_of_the_opposite_colours_do_not_pass(self) -> None:
+        levels = alternate(6, 9)
+        levels[:, 6:] = invert(levels[:, 6:])
+        good = verification.find_sound_corners(place(6, 9), paint(levels))
+        assert good[:, :5].all()
+        assert not good[:, 5:].any()
+
+    @pytest.mark.parametrize(("offset", "passes"), [(0.19, True), (0.21, False)])
+    @pytest.mark.parametrize("along", [0, 1])
+    def test_a_corner_lies_where_its_neighbours_expect_it(
+        self, along: int, offset: float, passes: bool, monkeypatch: pytest.MonkeyPatch
+    ) -> None:
+        """Whatever it looks like: the template matches everything here."""
+
+        def match(_: Image, uv: Array, *__: Any) -> tuple[NDArray[np.bool_], Array]:
+            return np.ones(len(uv), dtype=np.bool_), np.zeros(len(uv))
+
+        monkeypatch.setattr(
+            verification, "estimate_template", lambda *_: SimpleNamespace(match=match)
+        )
+        moved = move(place(6, 9), (3, 4), (0.0, offset) if along else (offset, 0.0))
+        good = verification.find_sound_corners(moved, paint(alternate(6, 9)))
+        assert good[3, 4] == passes
+        assert np.count_nonzero(~good) == (not passes)
+
+    def test_what_does_not_look_like_a_corner_moves_no_prediction(self) -> None:
+        image = paint(alternate(6, 9))
+        moved = move(place(6, 9), (0, 4), (0.45, 0.0))
+        good = verification.find_sound_corners(moved, image)
+        np.testing.assert_array_equal(np.argwhere(~good), [(0, 4)])
+
+    def test_only_plain_parts_of_squares_are_compared(self) -> None:
+        image, lattice = paint(alternate(6, 9)), place(6, 9)
+        u, v = np.rint(lattice.uv[2, 4] + SQUARE / 2).astype(int)
+        image[v - 6 : v + 6, u - 6 : u + 6] = BRIGHT
+        assert not verification.find_sound_corners(lattice, image).all()
+        assert verification.find_sound_corners(lattice, image, plain=0.25).all()
+
+
+def test_a_quarter_of_the_corners_may_fail() -> None:
+    assert verification.is_credible(3, 12)
+    assert not verification.is_credible(4, 12)
+    assert verification.is_credible(0, 0)
+
+
+class TestBrokenLines:
+    @pytest.mark.parametrize(("amplitude", "passes"), [(0.095, True), (0.105, False)])
+    def test_corners_lie_on_a_smooth_grid_map(self, amplitude: float, passes: bool) -> None:
+        lattice = place(12, 12)
+        row, col = np.indices(lattice.shape)
+        uv = lattice.uv.copy()
+        uv[..., 1] += np.where((row // 2 + col) % 2, 1, -1) * amplitude * SQUARE
+        image = paint(alternate(12, 12))
+        assert len(verification.drop_broken_lines(Lattice(uv, True), image)) == 144 * passes
+
+    @pytest.mark.parametrize("quarters", range(4))
+    @pytest.mark.parametrize(("found", "passes"), [(3, True), (2, False)])
+    def test_a_border_line_has_as_many_corners_as_broken_places(
+        self, found: int, passes: bool, quarters: int
+    ) -> None:
+        levels = alternate(6, 9)
+        levels[:, -1] = levels[:, -2]
+        lattice = drop(place(6, 9), *((row, 8) for row in range(found, 6)))
+        kept = verification.drop_broken_lines(turn_lattice(lattice, quarters), paint(levels))
+        assert len(kept) == 48 + found * passes
+
+    def test_a_hidden_border_line_is_not_broken(self) -> None:
+        image = paint(alternate(6, 9))
+        u = int(MARGIN + 8.5 * SQUARE)
+        image[MARGIN + 3 * SQUARE :, u : u + SQUARE] = 125
+        lattice = drop(place(6, 9), *((row, 8) for row in range(2, 6)))
+        assert len(verification.drop_broken_lines(lattice, image)) == 50
+
+    @staticmethod
+    def count_kept(broken: int, hide: bool = False) -> int:
+        """Count the corners kept of 88, of which some are missing inside the board."""
+        levels, missing = alternate(8, 11), []
+        for k in range(5):
+            row, col = 2 + k // 3 * 3, 1 + k % 3 * 3
+            levels[row, col : col + 2] = invert(levels[row, col : col + 2])
+            missing += [(row - 1, col), (row, col)]
+        image, lattice = paint(levels), place(8, 11)
+        if hide:
+            for u, v in np.rint(lattice.uv[1:-1, 1:-1].reshape(-1, 2)).astype(int):
+                image[v - 7 : v, u - 7 : u + 7] = 125
+        return len(verification.drop_broken_lines(drop(lattice, *missing[:broken]), image))
+
+    def test_a_tenth_of_the_places_inside_may_be_broken(self) -> None:
+        assert self.count_kept(8) == 80
+        assert self.count_kept(9) == 0
+
+    def test_hidden_places_inside_are_not_broken(self) -> None:
+        assert self.count_kept(9, hide=True) == 79
+
+    def test_places_that_show_a_corner_are_not_broken(self) -> None:
+        missing = [(row, col) for row in (1, 3, 5) for col in range(1, 10, 2)]
+        lattice = drop(place(8, 11), *missing)
+        kept = verification.drop_broken_lines(lattice, paint(alternate(8, 11)))
+        assert len(kept) == 88 - len(missing)
+
+    def test_stray_lines_are_dropped_as_well(self) -> None:
+        """In front of grey, which is no square."""
+        image = paint(np.pad(alternate(6, 9), 1, constant_values=125))
+        stray = drop(place(7, 9), *((6, col) for col in range(9) if col not in (3, 4)))
+        stray = Lattice(stray.uv + SQUARE, dark=True)
+        assert verification.drop_broken_lines(stray, image).shape == (6, 9)
+
+
+class TestStrayLines:
+    @pytest.mark.parametrize("quarters", range(4))
+    @pytest.mark.parametrize(("found", "passes"), [(3, True), (2, False)])
+    def test_few_corners_beyond_the_end_of_the_board_are_dropped(
+        self, found: int, passes: bool, quarters: int
+    ) -> None:
+        """The line beyond the last row is the border of the board."""
+        image, lattice = paint(alternate(6, 9)), place(7, 9)
+        stray = drop(lattice, *((6, col) for col in range(9) if not 3 <= col < 3 + found))
+        kept = verification.drop_stray_lines(turn_lattice(stray, quarters), image)
+        assert len(kept) == 54 + found * passes
+        assert sorted(kept.shape) == ([7, 9] if passes else [6, 9])
+        board = turn_lattice(kept, -quarters)
+        np.testing.assert_array_equal(board.uv[:6], place(6, 9).uv)
+        assert board.dark
+
+    def test_few_corners_before_the_end_of_the_board_are_kept(self) -> None:
+        lattice = drop(place(6, 9), *((0, col) for col in range(2, 9)))
+        assert verification.drop_stray_lines(lattice, paint(alternate(6, 9))) is lattice
+
+
+class TestContinuation:
+    @staticmethod
+    def paint_around(top: int, left: int) -> Image:
+        """Paint the squares of 4 x 4 corners, and around them those that some places require."""
+        levels = alternate(6, 6)
+        inner = np.zeros(levels.shape, dtype=bool)
+        inner[1:-1, 1:-1] = True
+        inner[0, 1 : top + 2] = top > 0
+        inner[1 : left + 2, 0] = left > 0
+        return paint(np.where(inner, levels, invert(levels)))
+
+    @pytest.mark.parametrize(("left", "goes_on"), [(2, True), (1, False)])
+    def test_a_third_of_the_places_around_alternate(self, left: int, goes_on: bool) -> None:
+        """There are 16 places around."""
+        inner = Lattice(place(6, 6).uv[1:-1, 1:-1], dark=True)
+        image = self.paint_around(top=4, left=left)
+        assert verification.does_pattern_continue(inner, image) == goes_on
+
+    def test_a_whole_board_does_not_continue(self) -> None:
+        assert not verification.does_pattern_continue(place(6, 9), paint(alternate(6, 9)))
+
+    @pytest.mark.parametrize(("top", "goes_on"), [(4, True), (0, False)])
+    def test_places_outside_of_the_image_do_not_count(self, top: int, goes_on: bool) -> None:
+        """Of the twelve places inside, two at the left alternate and those at the top."""
+        inner = Lattice(place(6, 6).uv[1:-1, 1:-1], dark=True)
+        image = self.paint_around(top, left=2)
+        bottom = round(inner.uv[-1, 0, 1]) + SQUARE
+        assert verification.does_pattern_continue(inner, image[:bottom]) == goes_on
+
+
+def pretend_fit(lattice: Lattice, **changes: Any) -> Any:
+    """Return a perfect fit of the edge model at a lattice's corners, but for some changes.
+
+    Args:
+        lattice: corners in rows and columns along the image's.
+        changes: values (n, ...) instead of those of the perfect fit, or for one corner
+            ``name=(k, value)``.
+    """
+    n = len(lattice)
+    values: dict[str, Array] = {
+        "uv": lattice.uv[lattice.found].copy(),
+        "residual": np.ones(n),
+        "contrast": np.full(n, 100.0),
+        "covariance": np.tile(1e-4 * np.eye(2), (n, 1, 1)),
+        "normals": np.tile([[0.0, 1.0], [-1.0, 0.0]], (n, 1, 1)),
+        "blur": np.full((n, 2), 1.0),
+    }
+    for name, change in changes.items():
+        if isinstance(change, tuple):
+            values[name][change[0]] = change[1]
+        else:
+            values[name] = change
+    normals, unknowns = values.pop("normals"), np.zeros((n, 9))
+    unknowns[:, 4:6] = values.pop("blur")
+    square_height = np.full((n, 1), float(SQUARE))
+    model = SimpleNamespace(normals=lambda: normals, unknowns=unknowns, square_height=square_height)
+    return SimpleNamespace(model=model, **values)
+
+
+def turn_normals(degrees: float) -> Array:
+    c, s = np.cos(np.radians(degrees)), np.sin(np.radians(degrees))
+    return np.array([[-s, c], [-c, -s]])
+
+
+K = 22
+"""The corner, of 6 x 9, at which fits are changed: row 2, column 4."""
+
+
+def is_described(lattice: Lattice, expected: Array | None = None, **changes: Any) -> bool:
+    """Return whether the changed corner is described, as all others are."""
+    fit = pretend_fit(lattice, **changes)
+    good = verification.find_described_corners(fit, lattice, expected)
+    assert np.delete(good, K).all()
+    return bool(good[K])
+
+
+class TestDescribedCorners:
+    @pytest.mark.parametrize(("shift", "passes"), [(1.9, True), (2.1, False)])
+    def test_the_fit_stays_within_a_tenth_of_a_square(self, shift: float, passes: bool) -> None:
+        lattice = place(6, 9)
+        uv = lattice.uv[2, 4] + (0.0, shift)
+        assert is_described(lattice, uv=(K, uv)) == passes
+
+    @pytest.mark.parametrize("high", [(1, 2), (2, 1)])
+    def test_of_the_shorter_side(self, high: tuple[int, int]) -> None:
+        lattice = Lattice(place(6, 9).uv * high, dark=True)
+        assert not is_described(lattice, uv=(K, lattice.uv[2, 4] + (0.0, 2.1)))
+
+    @pytest.mark.parametrize(("shift", "passes"), [(0.95, True), (1.05, False)])
+    def test_or_within_a_pixel_where_squares_are_small(self, shift: float, passes: bool) -> None:
+        small = Lattice(place(6, 9).uv / 4, dark=True)
+        assert is_described(small, uv=(K, small.uv[2, 4] + (shift, 0.0))) == passes
+
+    @pytest.mark.parametrize(
+        ("degrees", "residual", "passes"),
+        [(2.9, 2.6, True), (3.1, 2.4, True), (3.1, 2.6, False), (-3.1, 2.6, False)],
+    )
+    @pytest.mark.parametrize("edge", [0, 1])
+    def test_of_more_residual_its_edges_point_to_the_neighbours(
+        self, edge: int, degrees: float, residual: float, passes: bool
+    ) -> None:
+        normals = np.tile(turn_normals(0.0), (54, 1, 1))
+        normals[K, edge] = turn_normals(degrees)[edge]
+        assert is_described(place(6, 9), normals=normals, residual=(K, residual)) == passes
+
+    @pytest.mark.parametrize(("degrees", "passes"), [(9.5, True), (10.5, False)])
+    def test_edges_may_be_askew_where_those_of_the_board_are(
+        self, degrees: float, passes: bool
+    ) -> None:
+        normals = np.tile(turn_normals(1.0), (54, 1, 1))
+        normals[K] = turn_normals(degrees)
+        assert is_described(place(6, 9), normals=normals, residual=(K, 2.6)) == passes
+
+    def test_edges_point_to_where_the_neighbours_are_expected(self) -> None:
+        lattice, normals = place(6, 9), np.tile(turn_normals(20.0), (54, 1, 1))
+        c, s = np.cos(np.radians(20.0)), np.sin(np.radians(20.0))
+        turned = lattice.uv @ np.array([[c, s], [-s, c]])
+        normals[K] = turn_normals(0.0)
+        assert is_described(lattice, normals=normals, residual=(K, 2.6))
+        assert not is_described(lattice, turned, normals=normals, residual=(K, 2.6))
+
+    @pytest.mark.parametrize(("contrast", "passes"), [(21.0, True), (19.0, False)])
+    def test_its_edges_are_as_strong_as_a_fifth_of_the_board_s(
+        self, contrast: float, passes: bool
+    ) -> None:
+        assert is_described(place(6, 9), contrast=(K, contrast)) == passes
+
+    @pytest.mark.parametrize(
+        ("contrast", "residual", "passes"),
+        [(100.0, 14.5, True), (100.0, 15.5, False), (22.0, 3.9, True), (22.0, 4.1, False)],
+    )
+    def test_little_is_left_unexplained(
+        self, contrast: float, residual: float, passes: bool
+    ) -> None:
+        changes = {"contrast": (K, contrast), "residual": (K, residual)}
+        assert is_described(place(6, 9), **changes) == passes
+
+    def test_its_covariance_is_known(self) -> None:
+        assert not is_described(place(6, 9), covariance=(K, np.nan))
+
+
+class TestDisplacedCorners:
+    @pytest.mark.parametrize(
+        ("residual", "shift", "displaced"),
+        [(2.6, 0.029, False), (2.6, 0.031, True), (2.6, np.nan, True), (2.4, 1.0, False)],
+    )
+    def test_of_more_residual_it_is_where_the_others_expect_it(
+        self, residual: float, shift: float, displaced: bool
+    ) -> None:
+        """All are a pixel from where the fit started; the first has more residual too."""
+        lattice, residuals = place(6, 9), np.ones(54)
+        uv = lattice.uv[lattice.found] + (1.0, 0.0)
+        uv[K] += (shift, 0.0)
+        residuals[[0, K]] = 2.6, residual
+        fit = pretend_fit(lattice, uv=uv, residual=residuals)
+        found = verification.find_displaced_corners(fit, lattice)
+        np.testing.assert_array_equal(np.flatnonzero(found), [K] * displaced)
+
+    @pytest.mark.parametrize(("shift", "displaced"), [(5.5, False), (6.5, True)])
+    def test_or_as_near_as_the_others_are(self, shift: float, displaced: bool) -> None:
+        """Corners of large squares, 0.05 px off by noise, which the grid map cannot follow."""
+        lattice = place(10, 14)
+        k = 5 * 14 + 7
+        row, col = np.argwhere(lattice.found).T
+        uv = lattice.uv[lattice.found]
+        uv[:, 0] += 0.05 * np.where((row // 2 + col) % 2, 1, -1)
+        uv[k] = lattice.uv[5, 7] + (0.0, 0.05 * shift)
+        fit = pretend_fit(lattice, uv=uv, residual=(k, 2.6))
+        found = verification.find_displaced_corners(fit, lattice)
+        np.testing.assert_array_equal(np.flatnonzero(found), [k] * displaced)
+
+
+class TestStepEdges:
+    @pytest.mark.parametrize("edge", [0, 1])
+    @pytest.mark.parametrize(("blur", "passes"), [(0.175, True), (0.185, False)])
+    def test_edges_are_narrow(self, blur: float, passes: bool, edge: int) -> None:
+        lattice, blurs = place(6, 9), np.ones((54, 2))
+        blurs[:30, edge] = blur * SQUARE
+        assert verification.has_step_edges(pretend_fit(lattice, blur=blurs)) == passes
+
+    @pytest.mark.parametrize(("misfit", "passes"), [(0.24, True), (0.26, False)])
+    def test_steps_describe_them(self, misfit: float, passes: bool) -> None:
+        lattice, residual = place(6, 9), np.ones(54)
+        residual[:30] = 100 * misfit
+        assert verification.has_step_edges(pretend_fit(lattice, residual=residual)) == passes
+
+
+class TestGaps:
+    def test_gaps_are_tried_only_where_the_steps_are_known(self) -> None:
+        row, col = np.indices((10, 14))
+        uv = 20.0 * np.stack([col + 2, row + 2], axis=-1)
+        rng = np.random.default_rng(0)
+        for _ in range(300):
+            found = rng.random((10, 14)) < 0.2
+            ragged = drop_isolated_and_crop(Lattice(uv, dark=True).select(found))
+            tried = verification.fill_gaps(ragged, (480, 640))
+            assert tried.found[ragged.found].all()
+            assert np.isfinite(np.sum(estimate_steps(tried.uv), axis=0)[tried.found]).all()
+
+    @pytest.mark.parametrize(("margin", "filled"), [(4.4, True), (3.6, False)])
+    def test_gaps_are_tried_only_off_the_border_of_the_image(
+        self, margin: float, filled: bool
+    ) -> None:
+        uv = place(6, 9).uv
+        lattice = drop(Lattice(uv - uv[0, 0] + margin, dark=True), (0, 3), (2, 4))
+        tried = verification.fill_gaps(lattice, (400, 400))
+        assert tried.found[0, 3] == filled
+        np.testing.assert_allclose(tried.uv[2, 4], lattice.uv[2, 3] + (SQUARE, 0.0))
+
+    @pytest.mark.parametrize(
+        ("uv", "inside"),
+        [
+            ((4.1, 50), True),
+            ((3.9, 50), False),
+            ((50, 4.1), True),
+            ((50, 3.9), False),
+            ((94.9, 50), True),
+            ((95.1, 50), False),
+            ((50, 74.9), True),
+            ((50, 75.1), False),
+            ((np.nan, 50), False),
+        ],
+    )
+    def test_positions_at_the_border_are_not_in_the_image(
+        self, uv: tuple[float, float], inside: bool
+    ) -> None:
+        assert verification.are_in_image(np.array(uv), (80, 100)) == inside
+
+
+class TestEnds:
+    def test_a_board_ends_on_all_sides(self) -> None:
+        image = paint(alternate(6, 9))
+        assert verification.find_ends(place(6, 9), image) == (True, True, True, True)
+
+    @pytest.mark.parametrize("side", range(4))
+    def test_it_does_not_end_where_a_line_was_missed(self, side: int) -> None:
+        """Of the sides top, right, bottom and left."""
+        cells = [np.s_[1:], np.s_[:, :-1], np.s_[:-1], np.s_[:, 1:]]
+        part = Lattice(place(6, 9).uv[cells[side]], dark=side in (1, 2))
+        ends = verification.find_ends(part, paint(alternate(6, 9)))
+        assert ends == tuple(k != side for k in range(4))
+
+    def test_the_end_is_not_seen_at_the_border_of_the_image(self) -> None:
+        image = paint(alternate(6, 9))[MARGIN - 3 :]
+        lattice = Lattice(place(6, 9).uv - [0, MARGIN - 3], dark=True)
+        assert verification.find_ends(lattice, image) == (False, True, True, True)
+
+    @pytest.mark.parametrize(("cols", "ends"), [(3, True), (2, False)])
+    def test_three_places_show_the_end(self, cols: int, ends: bool) -> None:
+        top, right, bottom, left = verification.find_ends(place(6, cols), paint(alternate(6, cols)))
+        assert right
+        assert left
+        assert top == bottom == ends
+
+    @pytest.mark.parametrize(("hidden", "ends"), [(4, True), (5, False)])
+    def test_more_than_six_tenths_of_the_places_show_the_end(self, hidden: int, ends: bool) -> None:
+        """Of ten; a place beside a square that is seen shows it."""
+        levels = alternate(6, 10)
+        levels[0, :hidden] = 125
+        assert verification.find_ends(place(6, 10), paint(levels))[0] == ends
+
+    @pytest.mark.parametrize(("contrast", "ends"), [(0.42, True), (0.38, False)])
+    def test_the_last_squares_are_seen(self, contrast: float, ends: bool) -> None:
+        levels = alternate(6, 9)
+        levels[0] = 125 + contrast * (levels[0] - 125)
+        assert verification.find_ends(place(6, 9), paint(levels))[0] == ends
+
+    @pytest.mark.parametrize(("contrast", "ends"), [(0.38, True), (0.42, False)])
+    def test_no_squares_are_seen_behind_them(self, contrast: float, ends: bool) -> None:
+        levels = alternate(7, 9)
+        levels[0] = 125 + contrast * (levels[0] - 125)
+        part = Lattice(place(7, 9).uv[1:], dark=False)
+        assert verification.find_ends(part, paint(levels))[0] == ends

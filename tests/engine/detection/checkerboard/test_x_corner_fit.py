@@ -9,7 +9,8 @@ import numpy as np
 import pytest
 
 from calibgui.engine.detection.find_corners import find_corners
-from tests.benchmarks.corner_scenes import Conditions, draw
+from tests.scenes.checkerboards import draw
+from tests.scenes.conditions import Conditions
 
 
 @pytest.mark.parametrize(

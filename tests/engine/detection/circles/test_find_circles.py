@@ -7,10 +7,10 @@ import pytest
 
 from calibgui.engine.boards.board import Board
 from calibgui.engine.boards.circle_grid import Circles
-from calibgui.engine.boards.pattern import Ambiguity
+from calibgui.engine.boards.pattern import Symmetry
 from calibgui.engine.camera.camera import Camera
+from calibgui.engine.detection.circles.circle_map import fit_circle_map
 from calibgui.engine.detection.find_corners import find_corners
-from calibgui.engine.detection.grid_map import fit_circle_map
 from calibgui.engine.errors import CalibrationError, NoBoardError
 from tests.engine.detection.conftest import CAMERA, Scene
 
@@ -42,8 +42,8 @@ def test_the_bias_of_the_centres_is_corrected(
     assert isinstance(seen, Circles)
     assert seen.diameter == pytest.approx(pattern.diameter, abs=0.005)
     # Left as they are, the ellipses' centres are off many times as far.
-    xy = pattern.places(corners.grid.astype(float))
-    bias = fit_circle_map(xy, corners.uv).bias(xy, seen.diameter / 2)
+    xy = pattern.locate_points(corners.grid.astype(float))
+    bias = fit_circle_map(xy, corners.uv).compute_centre_bias(xy, seen.diameter / 2)
     assert np.sqrt(np.mean((error + bias) ** 2)) > 10 * np.sqrt(np.mean(error**2))
 
 
@@ -79,28 +79,28 @@ def test_an_unique_origin_is_found(turn: float) -> None:
     pattern = Circles(True, 0.8)
     scene = Scene(Board(7, 4, 20.0, pattern), rvec=(0.2, 0.1, turn))
     corners = find_corners(scene.image(), (7, 4), pattern=pattern)
-    assert corners.ambiguity is Ambiguity.NONE
+    assert corners.ambiguity is Symmetry.NONE
     assert np.abs(scene.error(corners)).max() < 0.03
 
 
 @pytest.mark.parametrize(
     ("pattern", "grid_size", "ambiguity"),
     [
-        (Circles(), (5, 7), Ambiguity.HALF_TURN),
-        (Circles(), (5, 5), Ambiguity.QUARTER_TURN),
-        (Circles(True), (11, 4), Ambiguity.NONE),
-        (Circles(True), (6, 4), Ambiguity.HALF_TURN),
+        (Circles(), (5, 7), Symmetry.HALF_TURN),
+        (Circles(), (5, 5), Symmetry.QUARTER_TURN),
+        (Circles(True), (11, 4), Symmetry.NONE),
+        (Circles(True), (6, 4), Symmetry.HALF_TURN),
     ],
 )
 def test_turns_that_cannot_be_told(
-    pattern: Circles, grid_size: tuple[int, int], ambiguity: Ambiguity
+    pattern: Circles, grid_size: tuple[int, int], ambiguity: Symmetry
 ) -> None:
-    assert pattern.ambiguity(grid_size) is ambiguity
+    assert pattern.symmetry(grid_size) is ambiguity
     grid = np.indices(grid_size).reshape(2, -1).T.astype(float)
-    places = pattern.places(grid)
+    places = pattern.locate_points(grid)
     turned = places.max(axis=0) - places
     same = {tuple(p) for p in turned.tolist()} == {tuple(p) for p in places.tolist()}
-    assert same == (ambiguity is not Ambiguity.NONE)
+    assert same == (ambiguity is not Symmetry.NONE)
 
 
 def test_ambiguous_grid_is_upright_or_starts_where_marked() -> None:
@@ -108,7 +108,7 @@ def test_ambiguous_grid_is_upright_or_starts_where_marked() -> None:
     scene = Scene(Board(5, 7, 20.0, pattern), rvec=(0.2, 0.1, 3.0))
     image = scene.image()
     upright = find_corners(image, (5, 7), pattern=pattern)
-    assert upright.ambiguity is Ambiguity.HALF_TURN
+    assert upright.ambiguity is Symmetry.HALF_TURN
     by_place = {tuple(g): uv for g, uv in zip(upright.grid.tolist(), upright.uv, strict=True)}
     assert by_place[0, 6][0] > by_place[0, 0][0]
     truth = scene.error(upright) * 0 + upright.uv - scene.error(upright)  # where truth has them
@@ -174,5 +174,5 @@ def test_the_number_of_circles_may_be_left_out(
 
 def test_images_together_tell_the_diameter() -> None:
     seen = [Circles(False, d) for d in (0.49, 0.5, 0.53)]
-    assert Circles().completed(seen) == Circles(False, 0.5)
-    assert Circles(False, 0.6).completed(seen) == Circles(False, 0.6)
+    assert Circles().complete_from(seen) == Circles(False, 0.5)
+    assert Circles(False, 0.6).complete_from(seen) == Circles(False, 0.6)

@@ -10,14 +10,14 @@ from scipy.spatial.transform import Rotation
 
 from calibgui.engine.arrays import Array, GridSize
 from calibgui.engine.boards.circle_grid import Circles
-from calibgui.engine.detection.circles.grid_labelling import arranged
+from calibgui.engine.detection.circles.grid_labelling import label_grid
 
 BOARDS = [(4, 5), (7, 10), (11, 4), (9, 9), (6, 4)]
 
 
 def imaged(grid_size: GridSize, asymmetric: bool, rng: np.random.Generator, tilt: float) -> Array:
     """(rows * cols, 2) px of a grid that a camera with a barrel lens sees, within 2 % of a step."""
-    places = Circles(asymmetric).places(np.indices(grid_size).reshape(2, -1).T.astype(float))
+    places = Circles(asymmetric).locate_points(np.indices(grid_size).reshape(2, -1).T.astype(float))
     flat = places - places.mean(axis=0)
     flat /= np.abs(flat).max()
     about = rng.uniform(0, 2 * np.pi)
@@ -56,7 +56,7 @@ def test_a_grid_is_found_among_other_points(
     uv = imaged(grid_size, asymmetric, rng, tilt)
     order = rng.permutation(len(uv) + 10)
     points = np.vstack([uv, around(uv, rng)])[order]
-    grid = arranged(points, grid_size if stated else None, asymmetric=asymmetric)
+    grid = label_grid(points, grid_size if stated else None, asymmetric=asymmetric)
     assert grid is not None
     which = order[grid.ravel()]
     assert sorted(which) == list(range(len(uv)))
@@ -64,30 +64,30 @@ def test_a_grid_is_found_among_other_points(
         assert grid.shape == grid_size
     # However it is counted, it is the same grid.
     pattern = Circles(asymmetric)
-    counted = pattern.places(np.indices(grid.shape).reshape(2, -1).T.astype(float))
-    true = pattern.places(np.indices(grid_size).reshape(2, -1).T.astype(float))[which]
+    counted = pattern.locate_points(np.indices(grid.shape).reshape(2, -1).T.astype(float))
+    true = pattern.locate_points(np.indices(grid_size).reshape(2, -1).T.astype(float))[which]
     np.testing.assert_allclose(distances(counted), distances(true), atol=1e-9)
 
 
 def test_strays_beside_the_grid_are_not_of_it() -> None:
     uv = np.indices((6, 6)).reshape(2, -1).T * 40.0
     beside = np.array([[240.0, 80.0], [240.0, 120.0], [-40.0, 0.0]])
-    grid = arranged(np.vstack([uv, beside]), None, asymmetric=False)
+    grid = label_grid(np.vstack([uv, beside]), None, asymmetric=False)
     assert grid is not None
     assert sorted(grid.ravel()) == list(range(36))
 
 
 def test_a_small_grid_must_be_stated() -> None:
     points = np.indices((3, 3)).reshape(2, -1).T * 40.0
-    stated = arranged(points, (3, 3), asymmetric=False)
+    stated = label_grid(points, (3, 3), asymmetric=False)
     assert stated is not None
     assert sorted(stated.ravel()) == list(range(9))
-    assert arranged(points, None, asymmetric=False) is None
+    assert label_grid(points, None, asymmetric=False) is None
 
 
 @pytest.mark.parametrize("asymmetric", [False, True])
 def test_scattered_points_are_no_grid(asymmetric: bool) -> None:
     for seed in range(20):
         points = np.random.default_rng(seed).uniform(0, 1000, (120, 2))
-        assert arranged(points, None, asymmetric=asymmetric) is None
-    assert arranged(points[:5], None, asymmetric=asymmetric) is None
+        assert label_grid(points, None, asymmetric=asymmetric) is None
+    assert label_grid(points[:5], None, asymmetric=asymmetric) is None

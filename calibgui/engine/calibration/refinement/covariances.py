@@ -1,0 +1,169 @@
+"""Covariances of the estimates, and the parameters that the data leave undetermined.
+
+With independent residuals of standard deviation sigma, estimated by
+sigma^2 = r^T r / (2N - P - 6K), the covariance of all unknowns is sigma^2 (J^T J)^-1. In the
+blocks of ``schur.py`` (Triggs et al. 2000)
+
+    cov(shared)  = sigma^2 S^-1
+    cov(pose k)  = sigma^2 (Vk^-1 + Vk^-1 Wk^T S^-1 Wk Vk^-1).
+
+The paper's own standard deviations (Tables 2 and 3) are sqrt(diag((2 J^T J)^-1)), without
+sigma: they tell how well the reference grid, not the corners' noise, determines a value.
+
+A parameter is undetermined if S has lost its rank in it, or if its standard deviation is
+larger than any use of the parameter tolerates. Rank is judged on U^-1/2 S U^-1/2, S scaled
+by the parameters' own diagonal, whose eigenvalues lie between 0 and 1: the part of the
+information on a combination of parameters that is left once the poses have been fitted as
+well. Poor sets of views and long lenses reach 1e-7; only rounding makes it 1e-14.
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+import scipy
+
+from calibgui.engine.arrays import Array
+from calibgui.engine.calibration.observations import slice_views
+from calibgui.engine.calibration.refinement.schur import NormalEquations, Reduced, eliminate_poses
+from calibgui.engine.calibration.result import Calibration, Undetermined
+from calibgui.engine.geometry import frames, rotations
+
+_MIN_INFORMATION = 1e-12
+"""Information left, from 0 to 1, below which a combination of parameters is lost in rounding."""
+_MIN_PIVOT = 1e-6
+"""Pivot of Cholesky's factorisation above which no combination is lost."""
+_MIN_SHARE = 0.2
+"""Share of a lost combination's length from which a parameter is named as undetermined."""
+
+
+class Precision(NamedTuple):
+    """The precision with which the corners' noise lets the camera be known."""
+
+    variance: float
+    """sigma^2 of one residual coordinate."""
+    shared: Array
+    """(P, P) covariance of the free shared parameters."""
+    undetermined: tuple[Undetermined, ...]
+    """Parameters whose standard deviations are not to be believed."""
+
+
+def estimate_variance(cost: float, corners: int, unknowns: int) -> float:
+    """Estimate sigma^2, the variance of one residual coordinate; NaN without redundancy."""
+    freedom = 2 * corners - unknowns
+    return cost / freedom if freedom > 0 else float("nan")
+
+
+def decompose_information(reduced: Reduced) -> tuple[Array, Array]:
+    """Return eigenvalues (P,), ascending, and eigenvectors (P, P) of the scaled information."""
+    values, vectors = np.linalg.eigh(reduced.scaled)
+    return values, vectors
+
+
+def measure_precision(
+    normal: NormalEquations, names: tuple[str, ...], corners: int, tolerated: Array
+) -> Precision:
+    """Measure how well the views determine the camera.
+
+    Args:
+        normal: the normal equations at the solution.
+        names: (P,) names of the free parameters.
+        corners: number of corners in all views.
+        tolerated: (P,) standard deviations beyond which a parameter counts as undetermined.
+    """
+    sigma2 = estimate_variance(normal.cost, corners, len(names) + normal.pose.size)
+    reduced = eliminate_poses(normal)
+    shared = compute_shared_covariance(reduced, sigma2)
+    values, vectors = decompose_information(reduced)
+    is_lost = np.sqrt((vectors[:, values < _MIN_INFORMATION] ** 2).sum(axis=1)) > _MIN_SHARE
+    is_unused = np.diag(normal.U) <= 0
+    is_imprecise = np.sqrt(np.diag(shared)) > tolerated
+    undetermined = tuple(
+        Undetermined(name, reason)
+        for i, name in enumerate(names)
+        if (
+            reason := ("no corner depends on it" if is_unused[i] else "")
+            or ("it can be traded for the boards' poses" if is_lost[i] else "")
+            or ("the corners' noise leaves it open" if is_imprecise[i] else "")
+        )
+    )
+    return Precision(sigma2, shared, undetermined)
+
+
+def compute_shared_covariance(reduced: Reduced, sigma2: float) -> Array:
+    """Compute the covariance (P, P) of the free shared parameters, without lost combinations."""
+    return sigma2 * invert_information(reduced)[0]
+
+
+def invert_information(reduced: Reduced) -> tuple[Array, float]:
+    """Invert S (P, P) without the combinations that are lost, and measure the information left.
+
+    The information left is the least eigenvalue of the scaled S. Where Cholesky's factorisation
+    shows that no combination is lost, it is estimated by the inverse's norm, which makes it at most
+    the root of P times too small: for hundreds of parameters eigenvalues take ten times as long.
+    """
+    lapack = scipy.linalg.lapack
+    empty = not len(reduced.unit)
+    factor, failed = ([], 1) if empty else lapack.dpotrf(reduced.scaled.T, overwrite_a=True)
+    if not failed and (np.diag(factor) ** 2 > _MIN_PIVOT).all():
+        lower = lapack.dpotri(factor, overwrite_c=True)[0].T  # zero above the diagonal
+        inverse = lower + lower.T
+        inverse[np.diag_indices_from(inverse)] /= 2
+        left = 1 / float(np.linalg.norm(inverse))
+    else:
+        values, vectors = decompose_information(reduced)
+        kept = values > _MIN_INFORMATION
+        inverse = vectors[:, kept] / values[kept] @ vectors[:, kept].T
+        left = float(values.min(initial=1.0))
+    inverse *= reduced.unit
+    inverse *= reduced.unit[:, None]
+    return inverse, left
+
+
+def compute_pose_covariances(
+    normal: NormalEquations, shared: Array, rvecs: Array, sigma2: float
+) -> Array:
+    """Compute the covariances (K, 6, 6) of (rvec, tvec), rad and mm.
+
+    Args:
+        normal: the normal equations at the solution.
+        shared: (P, P) covariance of the free shared parameters.
+        rvecs: (K, 3) rotation vectors of the poses.
+        sigma2: variance of one residual coordinate.
+    """
+    local = np.asarray(np.linalg.inv(normal.V))
+    for views in slice_views(len(local)):
+        G = local[views] @ np.swapaxes(normal.W[views], 1, 2)
+        carried = np.tensordot(G, shared, axes=1)  # one product for all views
+        local[views] = sigma2 * local[views] + carried @ np.swapaxes(G, 1, 2)
+    J = differentiate_poses(rvecs)
+    return J @ local @ np.swapaxes(J, 1, 2)
+
+
+def differentiate_poses(rvecs: Array) -> Array:
+    """Return derivatives (K, 6, 6) of (rvec, tvec) by the solver's local (w, tau), for (K, 3)."""
+    J = np.zeros((len(rvecs), 6, 6))
+    J[:, :3, :3] = rotations.inverse_left_jacobian(rvecs)
+    J[:, 3:, 3:] = np.eye(3)
+    return J
+
+
+def compute_correlations(covariance: Array) -> Array:
+    """Return the correlations of a covariance (P, P); NaN for parameters that were held."""
+    sd = np.sqrt(np.diag(covariance))
+    with np.errstate(invalid="ignore", divide="ignore"):
+        return np.asarray(covariance / np.outer(sd, sd))
+
+
+def make_paper_table(calibration: Calibration) -> tuple[Array, Array, Array]:
+    """Make the paper's Table 2: ten intrinsics in its units and two kinds of standard deviations.
+
+    Returns:
+        Values, standard deviations sigma sqrt(diag((J^T J)^-1)) and the paper's
+        sqrt(diag((2 J^T J)^-1)), each (10,) in the order of ``frames.PAPER_NAMES``.
+    """
+    camera = calibration.camera
+    values, J = frames.paper_intrinsics(camera.params, camera.size)
+    sigma = np.sqrt(np.diag(J @ calibration.covariance @ J.T))
+    return values, sigma, sigma / (np.sqrt(2) * calibration.noise)

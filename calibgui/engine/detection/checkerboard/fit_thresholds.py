@@ -1,0 +1,120 @@
+"""The thresholds of refinement and of the edge fit, in one record.
+
+They follow the search (`thresholds`): the typical corner of a board, its saddle points, the
+profiles across its edges, what is taken from the board as a whole, and the fit of two crossing
+edges at every corner. Lengths on the board are in squares. Unless a field says otherwise its value
+is a plausibility limit. The benchmark that exercises them all is
+
+    python -m tests.benchmarks.corners
+
+It is run with the values as they are; which other values would do as well is not recorded.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class TemplateThresholds:
+    """Thresholds of what a corner looks like (`corner_template`)."""
+
+    min_sector_gap: float = 0.25
+    """Least gap between the dark and the bright sectors, over their mean difference."""
+    min_relative_contrast: float = 0.2
+    """Least contrast of a corner, over the median of its lattice."""
+    max_template_corners: int = 400
+    """Number of corners, spread over the lattice, that the typical corner is taken from."""
+    max_dissimilarity: float = 0.05
+    """Greatest lack of correlation with the typical corner ..."""
+    max_relative_dissimilarity: float = 4.0
+    """... or over the median lack, whichever is more."""
+    max_unevenness: float = 0.3
+    """Greatest difference of grey levels within a square that counts as evenly filled, over the
+    board's contrast."""
+    max_crossing_dissimilarity: float = 0.011
+    """Greatest lack of correlation of the typical corner with the nearest of the modelled
+    crossings of two edges ..."""
+    max_printed_dissimilarity: float = 0.005
+    """... and, where things are printed in the squares, of what is near the corner with those
+    crossings that neither overlap nor part."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class SaddleThresholds:
+    """Thresholds of saddle points (`saddle`)."""
+
+    min_step: float = 1e-4
+    """Length of a step at which an estimate has converged, px."""
+    max_iterations: int = 20
+    """Number of steps after which an estimate has failed."""
+    max_off_middle: float = 0.42
+    """Greatest median distance of the grey level at the corners from the middle of their squares',
+    over the contrast: beyond it the squares overlap or part and have no saddle point."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class ProfileThresholds:
+    """Thresholds of profiles across edges (`edge_profiles`)."""
+
+    min_relative_rise: float = 0.5
+    """Least rise of a profile that is measured, over the median."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class PriorThresholds:
+    """Thresholds of what is taken from the board as a whole (`board_priors`)."""
+
+    max_degree: int = 7
+    """Highest degree of the polynomials tried."""
+    term_cost: float = 1.4
+    """Cost of a term in the cross-validation, as Kim and Gu (2004) advise: with 1 it takes too high
+    a degree by chance now and then."""
+    min_independence: float = 1e-6
+    """Least part of a term that those of lower degree do not have in common with it."""
+    max_relative_misfit: float = 3.0
+    """Greatest rms miss of a polynomial, over the noise of the values' second differences; beyond
+    it the values break, as light does at the edge of a shadow."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class EdgeFitThresholds:
+    """Thresholds of the fit of two crossing edges (`x_corner_fit`)."""
+
+    max_arm: float = 18.0
+    """Longest arm that is read on a board of many corners, px ..."""
+    total_arm: float = 4000.0
+    """... and sum of the longest arms of a board's corners, px: fewer corners may have longer
+    ones."""
+    max_first_arm: float = 9.0
+    """Longest arm that is read for the first approximation, px."""
+    min_ink_spread: float = 0.002
+    """Spread of the dark squares below which it counts as none, squares."""
+    max_ink_spread: float = 0.2
+    """Spread of the dark squares beyond which it is not believed, squares."""
+    min_opposite_pixels: int = 20
+    """Number of pairs of opposite pixels from which on their differences give the noise."""
+    max_rho: float = 0.95
+    """Largest correlation rho of the two edges."""
+    rho_sigma: float = 0.3
+    """Standard deviation of rho around that of a blur alike in all directions."""
+    blur_difference_sigma: float = 0.03
+    """Standard deviation of the difference of a corner's two blurs around what the board shows,
+    blurs."""
+    blur_reach: float = 1.5
+    """Distance, in blurs, over which the blur of what follows a square's colour is felt."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class FitThresholds:
+    """Every threshold from a lattice of corners to their fit, by its stage."""
+
+    template: TemplateThresholds = field(default_factory=TemplateThresholds)
+    saddle: SaddleThresholds = field(default_factory=SaddleThresholds)
+    profiles: ProfileThresholds = field(default_factory=ProfileThresholds)
+    priors: PriorThresholds = field(default_factory=PriorThresholds)
+    edges: EdgeFitThresholds = field(default_factory=EdgeFitThresholds)
+
+
+FIT_THRESHOLDS = FitThresholds()
+"""The thresholds in use."""

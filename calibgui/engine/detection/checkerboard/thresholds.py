@@ -1,0 +1,229 @@
+"""The thresholds by which checkerboards are searched for and verified, in one record.
+
+They are listed in the order in which an image meets them: the levels of the pyramid, the
+X-junctions of one level, the graph of neighbours, the growth of a lattice, the prefilter, and the
+verification of what was refined. Lengths on the board are in squares or, what is the same, in
+steps of the lattice, so that they do not depend on the size of the board in the image.
+
+Unless a field says otherwise its value is a plausibility limit. The benchmark
+
+    python -m tests.benchmarks.corners
+
+counts the boards found under each of its conditions and those seen in images without a board; a
+field whose value such images fixed names their kind in `tests.scenes.without_board`.
+
+Limits that every kind of board shares (`MIN_CORNERS`, `MIN_LINES`, `MAX_DEVIATION`, `MAX_GAP`) are
+in `detection.lattice`; those of the fit of an edge model are beside the fit.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class JunctionTolerance:
+    """Greatest deviations from an ideal X-junction and from the edge between two of them."""
+
+    off_middle: float
+    """Greatest difference of the centre from the mid grey level, over the contrast."""
+    along: float
+    """Greatest angle between an edge and the line to the neighbour that it leads to, rad."""
+    parallel: float
+    """Greatest angle between the crossing edges of two neighbours, rad."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class SearchThresholds:
+    """Thresholds of the search through the levels of an image (`pyramid_search`)."""
+
+    max_top_level_side: int = 180
+    """Short side of the coarsest level, px; a larger level is halved."""
+    min_parted_level_side: int = 25
+    """Short side of a level, px, down to which squares that overlap or part are searched for."""
+    min_square: float = 6.0
+    """Side of squares, px, from which on a level shows all of a board; boards of smaller ones are
+    left to the finer levels."""
+    min_square_with_gaps: float = 30.0
+    """Side of squares, px, from which on a finer level is not searched either for a board that has
+    gaps."""
+    min_contrast: float = 0.05
+    """Least contrast of a corner, over the range of the image's grey levels."""
+    max_shared_corners: float = 0.25
+    """Share of its corners that a lattice may have in common with a larger one before it counts as
+    part of that: the pattern of a floor that goes on behind a board may catch some of its."""
+    max_level_shift: float = 2.0
+    """Greatest distance of a corner from where the next coarser level shows it, px; a corner
+    without a saddle point within keeps its place."""
+    max_grown_lattices: int = 8
+    """Number of lattices, those with the most junctions, that are grown in a level."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class JunctionThresholds:
+    """Thresholds of the X-junctions in one level (`x_junctions`)."""
+
+    max_candidates: int = 3000
+    """Number of saddle points, the strongest, that are kept in a level."""
+    min_saddle: float = 0.1
+    """Least square root of the determinant R of a saddle point, over the least contrast of a
+    junction; a sharp crossing smoothed by 1 px has 1 / pi."""
+    max_shift: float = 1.5
+    """Greatest distance of a saddle point from its pixel along either axis, px."""
+    max_asymmetry: float = 0.30
+    """Greatest rms difference of opposite samples of a circle, over its contrast."""
+    min_edge_angle: float = float(np.radians(12.0))
+    """Least angle between the two edges of a junction, rad."""
+    crossing: JunctionTolerance = JunctionTolerance(
+        off_middle=0.3, along=float(np.radians(20.0)), parallel=float(np.radians(25.0))
+    )
+    """Tolerance where edges cross."""
+    parted: JunctionTolerance = JunctionTolerance(
+        off_middle=0.42, along=float(np.radians(26.0)), parallel=float(np.radians(40.0))
+    )
+    """Tolerance where squares overlap or part: all corners are bright or all dark in the middle,
+    and edges pass them by on the one side or, at their neighbours, on the other."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class GraphThresholds:
+    """Thresholds of the graph of neighbours (`neighbour_graph`)."""
+
+    max_neighbours: int = 12
+    """Number of junctions around one, the nearest, that its edges may lead to."""
+    min_edge_step: float = 0.25
+    """Least step across the edge between two neighbours, over the weaker one's contrast."""
+    max_cells_per_junction: int = 3
+    """Greatest number of a lattice's cells per junction, beyond `max_spare_cells` ..."""
+    max_spare_cells: int = 256
+    """... from which on it is too sparse for a board: this bounds the memory that it takes."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class GrowthThresholds:
+    """Thresholds of the growth of a lattice (`lattice_growth`)."""
+
+    max_points_per_place: int = 6
+    """Number of saddle points near a predicted corner, the nearest, that are compared with it."""
+    max_gap_deviation: float = 0.2
+    """Greatest distance of a corner beyond a gap from where the grid map places it, steps."""
+    min_growth_for_template: float = 1.2
+    """Growth in corners, as a factor, after which the typical corner is taken anew and the
+    prefilter is asked again."""
+    min_round_growth: float = 1.02
+    """Growth in one round, as a factor, below which the round counts as slow: a board grows by
+    whole lines, only textures by single corners."""
+    max_slow_rounds: int = 8
+    """Number of slow rounds after which growth ends."""
+    max_lattice_side: int = 200
+    """Number of rows or columns beyond which growth ends."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class PrefilterThresholds:
+    """Thresholds of the test of a lattice's edges before it is refined (`prefilter`)."""
+
+    max_tested_corners: int = 64
+    """Number of corners, spread over the lattice, whose edges are measured: as many as boards
+    have."""
+    max_bulge: float = 0.02
+    """Greatest median difference of the edge's place away from the corner and near it, squares:
+    edges of boards stay below 0.01, those of discs exceed 0.05. Fixed by the "discs"."""
+    max_spread: float = 0.018
+    """Greatest median deviation of the spreads in one direction from their median, squares, where
+    the pattern ends with the lattice. Fixed by the "halftone" and the "stripes" ..."""
+    max_spread_inside: float = 0.006
+    """... and where the pattern goes on around the lattice in another look, squares. Fixed by the
+    "halftone"."""
+    max_rising_spread: float = 0.03
+    """Greatest median deviation of spreads that rise to one side, squares. Fixed by the
+    "halftone" ..."""
+    max_unsteady_spread: float = 0.004
+    """... and of what is left of them without the steady rise, squares."""
+    max_direction_difference: float = 0.06
+    """Greatest difference of the median spreads in the two directions, squares: cameras sharpen
+    rows otherwise than columns. Fixed by the "stripes"."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class VerificationThresholds:
+    """Thresholds of a refined board (`verification`, `a_contrario`)."""
+
+    max_false_boards: float = 1 / 16
+    """Number of boards that may be expected by chance in an image full of squares at random."""
+    max_deviation: float = 0.2
+    """Greatest distance of a corner from its neighbours' prediction, steps."""
+    max_failing_corners: float = 0.25
+    """Share of its corners that may fail before the board does."""
+    max_grid_map_rms: float = 0.1
+    """Greatest rms distance of a board's corners from the smooth grid map through them, steps."""
+    max_broken_places: float = 0.1
+    """Greatest number of places inside a board that show squares but no corner, over that of its
+    corners. Fixed by squares that are dark or bright at random."""
+    min_border_corners: float = 1 / 3
+    """Share of a border line's places below which its corners are doubted."""
+    max_alternating_places: float = 1 / 3
+    """Share of the places around a lattice that alternate, beyond which the pattern goes on."""
+
+    max_fit_shift: float = 0.1
+    """Greatest distance that the edge fit may move a corner, squares ..."""
+    min_fit_shift_limit: float = 1.0
+    """... or px, whichever is more."""
+    min_relative_contrast: float = 0.2
+    """Least contrast of a corner, over the board's median."""
+    max_relative_residual: float = 4.0
+    """Greatest residual of the edge fit, over the board's median ..."""
+    max_residual_to_contrast: float = 0.15
+    """... or over the corner's contrast, whichever is more."""
+    max_edge_angle_sine: float = float(np.sin(np.radians(3.0)))
+    """Sine of the angle between an edge and the step to its neighbours, beyond which the edge is
+    askew ..."""
+    max_relative_edge_angle: float = 10.0
+    """... or the same sine over the board's median, which distortion raises, whichever is more."""
+    suspect_relative_residual: float = 2.5
+    """Residual of the edge fit, over the board's median, beyond which a corner is dropped if its
+    edges are askew or if it lies astray."""
+    max_relative_displacement: float = 6.0
+    """Greatest distance of a corner of such a residual from where the grid map of the others places
+    it, over their own rms distance from there ..."""
+    max_displacement: float = 0.03
+    """... or in px, whichever is more."""
+
+    max_edge_blur: float = 0.18
+    """Greatest median blur of a board's edges, squares: that of a sine wave would be 0.25. Fixed by
+    the "waves"."""
+    max_median_misfit: float = 0.25
+    """Greatest median residual of the edge fit over the contrast. Fixed by the "waves"."""
+
+    image_border: float = 4.0
+    """Width of the image's border in which no corner is expected to be found, px."""
+    end_offset_along: float = 0.25
+    """Distance along a line, from the places of the line beyond the board, at which the squares on
+    either side of a place are sampled, steps ..."""
+    end_offset_across: float = 0.2
+    """... and the distance across, to inside and outside, steps."""
+    min_square_difference: float = 0.4
+    """Least difference of neighbouring squares, over the contrast of the board's corners, where
+    squares are seen."""
+    min_end_places: int = 3
+    """Number of places in the image from which on a line can show that the board ends."""
+    min_ending_places: float = 0.6
+    """Share of a line's places in the image that must show the end."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class CheckerboardThresholds:
+    """All thresholds of the search for a checkerboard, by step."""
+
+    search: SearchThresholds = SearchThresholds()
+    junctions: JunctionThresholds = JunctionThresholds()
+    graph: GraphThresholds = GraphThresholds()
+    growth: GrowthThresholds = GrowthThresholds()
+    prefilter: PrefilterThresholds = PrefilterThresholds()
+    verification: VerificationThresholds = VerificationThresholds()
+
+
+THRESHOLDS = CheckerboardThresholds()
+"""The thresholds in use."""

@@ -1,0 +1,54 @@
+"""The numbers by which the detector of circle grids accepts and rejects, in one record.
+
+They are plausibility limits: no benchmark has fixed them. ``tests/engine/detection/circles``
+exercises the detector.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+
+@dataclass(frozen=True, slots=True)
+class CircleThresholds:
+    """The thresholds of the detector of circle grids."""
+
+    min_blob_area: int = 12
+    """Least area of a dark part that may be a disc, px."""
+    min_blob_fill: float = 0.85
+    """Least ratio of a part's area to that of the ellipse of its covariance; pixels count as
+    squares."""
+    max_blob_fill: float = 1.1
+    """Greatest such ratio."""
+    max_area_ratio: float = 8.0
+    """Greatest ratio of two discs' areas in one grid: what tilt and lens may cause."""
+    max_blobs: int = 400
+    """Number of parts examined where the number of circles is not stated."""
+    min_grid_circles: int = 12
+    """Least number of circles of a grid whose size is not stated."""
+    min_grid_lines: int = 3
+    """Least number of rows and of columns of such a grid."""
+    min_seed_sine: float = 0.25
+    """Least sine of the angle between the first two steps of a lattice."""
+    max_prediction_error: float = 0.3
+    """Greatest distance of a point from where its neighbours predict it, shorter steps."""
+    min_border_share: float = 0.5
+    """Least share of a border line that must be present for its points to belong to the grid."""
+    min_relative_contrast: float = 0.3
+    """Least contrast of a circle over the median."""
+    max_relative_residual: float = 0.12
+    """Greatest residual of a fitted ellipse over its contrast ..."""
+    max_residual_over_median: float = 4.0
+    """... or over the median residual, whichever is more."""
+    max_misplacement: float = 0.1
+    """Greatest distance of a circle from where the others predict it, pitches."""
+    max_shape_difference: float = 0.2
+    """Greatest difference of an ellipse from the one predicted by the others, over its size."""
+    max_rejected_share: float = 0.25
+    """Share of rejected circles beyond which the grid itself is rejected."""
+    max_diameter_difference: float = 0.05
+    """Greatest difference of the measured diameter from the stated one, pitches."""
+
+
+CIRCLE_THRESHOLDS = CircleThresholds()
+"""The thresholds in use."""

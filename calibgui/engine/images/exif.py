@@ -1,0 +1,136 @@
+"""EXIF: how an image is turned, and which camera and lens took it when.
+
+EXIF is a small TIFF, held in a JPEG's APP1 segment, a PNG's eXIf or a WebP's EXIF chunk. Pillow
+reads its directories: the first one names the camera and the orientation, the one that it
+points to (tag 0x8769) the lens and the date.
+
+Tags: Exif 2.32 (CIPA DC-008-2019), 4.6.
+"""
+
+from __future__ import annotations
+
+import io
+import struct
+import warnings
+from dataclasses import dataclass
+from datetime import datetime
+from mmap import mmap
+from typing import Any
+
+from calibgui.engine.arrays import Size
+
+_WIDTH, _HEIGHT = 256, 257
+_MAKE, _MODEL, _ORIENTATION, _DATE_OF_CHANGE = 271, 272, 274, 306
+_EXIF_DIRECTORY = 34665
+_DATE_OF_EXPOSURE, _FOCAL_LENGTH, _FOCAL_LENGTH_35MM, _LENS_MODEL = 36867, 37386, 41989, 42036
+
+_DAMAGE = (
+    ArithmeticError,
+    LookupError,
+    OSError,
+    SyntaxError,
+    TypeError,
+    ValueError,
+    Warning,
+    struct.error,
+)
+"""Errors that Pillow raises on damaged directories; warnings where they are made errors."""
+
+# A damaged directory is no news to somebody who opens a photograph: it counts as none.
+warnings.filterwarnings("ignore", category=UserWarning, module=r"PIL\.TiffImagePlugin")
+
+
+@dataclass(frozen=True, slots=True)
+class Exif:
+    """Orientation, camera, lens and date that a photograph states; None where it does not."""
+
+    orientation: int = 1
+    """1 upright, 2 to 4 mirrored or upside down, 5 to 8 with rows and columns exchanged."""
+    make: str | None = None
+    """Maker of the camera."""
+    model: str | None = None
+    """Model of the camera."""
+    lens: str | None = None
+    """Model of the lens."""
+    focal_length_mm: float | None = None
+    """Nominal focal length, mm."""
+    focal_length_35mm: float | None = None
+    """Focal length of the same field of view on 35 mm film, mm."""
+    date: datetime | None = None
+    """Local time of the exposure, or of the last change of the file."""
+
+
+def read_exif(block: bytes) -> Exif:
+    """Read an EXIF block; a damaged one counts as empty, as decoders take it."""
+    try:
+        return _read_tags(block)[1]
+    except _DAMAGE:
+        return Exif()
+
+
+def read_tiff(data: bytes | mmap) -> tuple[Size, Exif]:
+    """Read stored width and height, px, and EXIF of a TIFF or BigTIFF file.
+
+    Raises:
+        ValueError: if its first directory is damaged or states no size.
+    """
+    try:
+        tags, exif = _read_tags(data)
+        width, height = tags.get(_WIDTH), tags.get(_HEIGHT)
+    except _DAMAGE as error:
+        raise ValueError("damaged directory") from error
+    if not (isinstance(width, int) and isinstance(height, int)):
+        raise ValueError("no size")
+    return (width, height), exif
+
+
+def _read_tags(data: bytes | mmap) -> tuple[Any, Exif]:
+    """Read the first directory of a TIFF, and the EXIF in it and in the one it points to."""
+    # It loads in 18 ms, which the window's start need not wait for.
+    from PIL.TiffImagePlugin import ImageFileDirectory_v2
+
+    file: Any = io.BytesIO(data) if isinstance(data, bytes) else data
+    head = data[:16] if data[2:4] in (b"+\0", b"\0+") else data[:8]
+    first = ImageFileDirectory_v2(head)
+    file.seek(first.next)
+    first.load(file)
+    tags = {key: first.get(key) for key in (_MAKE, _MODEL, _ORIENTATION, _DATE_OF_CHANGE)}
+    try:
+        second = ImageFileDirectory_v2(head, group=_EXIF_DIRECTORY)
+        file.seek(first[_EXIF_DIRECTORY])
+        second.load(file)
+        tags |= dict(second)
+    except _DAMAGE:
+        pass  # absent or damaged: what the first directory says stands
+    orientation = tags[_ORIENTATION]
+    return first, Exif(
+        orientation if isinstance(orientation, int) and 1 <= orientation <= 8 else 1,
+        _read_text(tags[_MAKE]),
+        _read_text(tags[_MODEL]),
+        _read_text(tags.get(_LENS_MODEL)),
+        _read_length(tags.get(_FOCAL_LENGTH)),
+        _read_length(tags.get(_FOCAL_LENGTH_35MM)),
+        _read_date(tags.get(_DATE_OF_EXPOSURE)) or _read_date(tags[_DATE_OF_CHANGE]),
+    )
+
+
+def _read_text(value: object) -> str | None:
+    """Return a tag's text without padding; None if it is empty or no text."""
+    return value.strip("\0 ") or None if isinstance(value, str) else None
+
+
+def _read_length(value: Any) -> float | None:
+    """Return a tag's length, mm; None if it is unknown, which EXIF states as 0."""
+    try:
+        length = float(value)
+    except _DAMAGE:
+        return None
+    return length if 0 < length < float("inf") else None
+
+
+def _read_date(value: object) -> datetime | None:
+    """Return a tag's date; None if it is unknown or damaged."""
+    try:
+        return datetime.strptime(_read_text(value) or "", "%Y:%m:%d %H:%M:%S")
+    except ValueError:
+        return None

@@ -1,0 +1,517 @@
+"""The normal equations of crossing edges, compiled: see ``detection.checkerboard.x_corner_model``.
+
+The pixels of a corner's support are read when they are needed: kept for all the corners of a board
+they would take many times the memory of the image. They are taken in blocks that the processor's
+first cache holds. What is computed from them stands in rows of one array at distances that the
+compiler knows, so that it can prove the loops over a block independent and turn them into vector
+instructions; for the same reason the exponential is arithmetic,
+
+    exp(-y) = (exp(-y / 64))^64,
+
+its argument small enough for five terms of the series. All but the sums is float32.
+"""
+
+from __future__ import annotations
+
+from typing import Any, Protocol
+
+import numpy as np
+import numpy.typing as npt
+
+from calibgui.engine.arrays import Array, GreyImage
+from calibgui.engine.kernels.common import compiled, factor, substitute
+
+_Floats = npt.NDArray[np.floating[Any]]
+"""Arrays of float32."""
+_Ints = npt.NDArray[np.signedinteger[Any]]
+"""Arrays of int32."""
+_Single = np.floating[Any]
+"""A float32."""
+_F = np.float32
+_BLOCK = 256
+"""Number of pixels taken at once."""
+_S1, _S2, _D1, _D2, _B1, _B2, _W1, _W2, _E1, _E2, _F1, _F2, _G, _J = (
+    _BLOCK * row for row in (0, 1, 2, 3, 4, 5, 6, 7, 8, 11, 14, 17, 20, 26)
+)
+"""Where rows begin: along, distance, blur and spread of edges 1 and 2; an edge's value, slope and
+derivative by the blur, shrunk by w and grown; G and its derivatives by d_1, d_2, s_1, s_2 and
+rho; the columns of the normal equations."""
+_COLUMNS = 10
+"""Number of columns: nine unknowns and the residual."""
+_ROWS = 26 + _COLUMNS
+"""Number of rows."""
+_ZERO, _HALF, _ONE = _F(0), _F(0.5), _F(1)
+_ROOT_HALF = _F(np.sqrt(0.5))
+_ROOT_PI = _F(np.sqrt(np.pi))
+_ROOT2_PI = _F(np.sqrt(2 / np.pi))
+_THIRD = _F(1 / 3)
+_MIN_BLUR = _F(0.3)
+_MIN_GAUSSIAN2 = _F(0.01)
+_FAR, _PART = _F(32), _F(1 / 64)
+_C2, _C3, _C4, _C5 = _F(1 / 2), _F(1 / 6), _F(1 / 24), _F(1 / 120)
+_P, _A1, _A2, _A3, _A4, _A5 = (
+    _F(c) for c in (0.3275911, 0.254829592, -0.284496736, 1.421413741, -1.453152027, 1.061405429)
+)
+
+
+class _Support(Protocol):
+    """The fields of ``EdgeSupport`` that are read here."""
+
+    @property
+    def tangent(self) -> Array: ...
+    @property
+    def normal(self) -> Array: ...
+    @property
+    def curvature(self) -> Array: ...
+    @property
+    def arm(self) -> Array: ...
+    @property
+    def width(self) -> Array: ...
+
+
+class _Model(Protocol):
+    """The fields and methods of ``XCornerModel`` that are used here."""
+
+    @property
+    def unknowns(self) -> Array: ...
+    @property
+    def sign(self) -> Array: ...
+    @property
+    def square_height(self) -> Array: ...
+    @property
+    def curvature(self) -> Array: ...
+    @property
+    def ink_spread(self) -> Array: ...
+    @property
+    def level_gradient(self) -> Array: ...
+    @property
+    def contrast_gradient(self) -> Array: ...
+    @property
+    def blur_gradient(self) -> Array: ...
+    @property
+    def height_gradient(self) -> Array: ...
+    def tangents(self) -> Array: ...
+    def normals(self) -> Array: ...
+    def pixel_half_widths(self) -> Array | None: ...
+    def find_support(self) -> _Support: ...
+
+
+_OrientedBand = tuple[float, float, float, float, float, float, float]
+"""Tangent, normal, half the curvature, arm and width of an edge, along and across the axis that it
+is nearer to."""
+
+
+def _bound_pixels(bands: Array) -> int:
+    """Bound the number of pixels of a corner in `bands` (n, 2, 7), laid out as `_read` says."""
+    # Of an area at most as many pixels more than its size as columns cross it.
+    arm, width = bands[..., 5], bands[..., 6]
+    return int(np.ceil(np.sum((2 * arm + 3) * (2 * width + 3), axis=1).max()))
+
+
+def _bound_offsets(bands: Array) -> int:
+    """Bound the distance of pixels along u or v from the one at their corner, px."""
+    slant, arm, width = abs(bands[..., :2]).max(axis=2), bands[..., 5], bands[..., 6]
+    along, across = np.ceil(arm * slant + width), np.ceil(width / slant + 0.5)
+    return int(along.max() + across.max())
+
+
+@compiled
+def _orient_band(band: Array, flat: bool, width: float) -> _OrientedBand:
+    """Return one edge's numbers but with that width, u and v exchanged if it is not flat."""
+    bend, arm = band[4] / 2, band[5]
+    if flat:
+        return band[0], band[1], band[2], band[3], bend, arm, width
+    return band[1], band[0], band[3], band[2], bend, arm, width
+
+
+@compiled
+def _contains(x: float, y: float, edge: _OrientedBand) -> bool:
+    """Return whether the offset (x, y) from a corner lies in the band of an edge."""
+    tx, ty, nx, ny, bend, arm, width = edge
+    s = tx * x + ty * y
+    d = nx * x + ny * y - bend * s * s
+    return abs(d) <= width and abs(s) <= arm
+
+
+@compiled
+def _read_band(
+    image: GreyImage,
+    cx: float,
+    cy: float,
+    edge: _OrientedBand,
+    done: _OrientedBand,
+    x_offset: _Ints,
+    y_offset: _Ints,
+    grey: _Floats,
+) -> int:
+    """Read the pixels of a flat edge's band that are not in the one `done`; return their number."""
+    tx, ty, _, ny, bend, arm, width = edge
+    height, breadth = image.shape
+    x0, y0 = int(np.rint(cx)), int(np.rint(cy))
+    slope, bow = ty / tx, bend * ny / (tx * tx)
+    along = int(np.ceil(arm * abs(tx) + width))
+    across = int(np.ceil(width / abs(tx) + 0.5))
+    count = 0
+    for x in range(max(x0 - along, 1), min(x0 + along, breadth - 2) + 1):
+        dx = x - cx
+        middle = int(np.rint(cy + slope * dx + bow * dx * dx))
+        for y in range(max(middle - across, 1), min(middle + across, height - 2) + 1):
+            dy = y - cy
+            if _contains(dx, dy, edge) and not _contains(dx, dy, done):
+                x_offset[count], y_offset[count], grey[count] = x - x0, y - y0, image[y, x]
+                count += 1
+    return count
+
+
+@compiled
+def _read(image: GreyImage, uv: Array, bands: Array, offset: _Ints, grey: _Floats) -> int:
+    """Fill offset (2, room), counted from the pixel at the corner uv (2,), and grey (room,) with
+    the pixels of its bands (2, 7), each once; return their number. A band is an edge's tangent,
+    normal, curvature, arm and width."""
+    u, v = offset
+    begin = 0
+    for i in range(2):
+        flat = abs(bands[i, 0]) >= abs(bands[i, 1])
+        edge = _orient_band(bands[i], flat, bands[i, 6])
+        done = _orient_band(bands[0], flat, bands[0, 6] if i else -1.0)
+        free = grey[begin:]
+        if flat:
+            begin += _read_band(image, uv[0], uv[1], edge, done, u[begin:], v[begin:], free)
+        else:
+            begin += _read_band(image.T, uv[1], uv[0], edge, done, v[begin:], u[begin:], free)
+    return begin
+
+
+@compiled
+def _bell(x: _Single) -> _Single:
+    """Compute exp(-x^2)."""
+    e = min(x * x, _FAR) * _PART
+    b = _ONE - e * (_ONE - e * (_C2 - e * (_C3 - e * (_C4 - e * _C5))))
+    b *= b
+    b *= b
+    b *= b
+    b *= b
+    b *= b
+    return b * b
+
+
+@compiled
+def _erf(x: _Single, bell: _Single) -> _Single:
+    """Compute erf(x), given exp(-x^2), as ``edge_intensity``."""
+    t = _ONE / (_ONE + _P * abs(x))
+    value = _ONE - t * (_A1 + t * (_A2 + t * (_A3 + t * (_A4 + t * _A5)))) * bell
+    return value if x >= _ZERO else -value
+
+
+@compiled
+def _fill_geometry(
+    w: _Floats,
+    u: _Floats,
+    v: _Floats,
+    t: _Floats,
+    n: _Floats,
+    kappa: _Floats,
+    blur: _Floats,
+    size: _Floats,
+    growth: _Single,
+    m: int,
+) -> None:
+    """Fill rows S, D, B and W of m pixels at the offsets u, v from the corner.
+
+    blur and size of both edges are value, derivative by u and by v."""
+    for p in range(m):
+        s1, s2 = t[0] * u[p] + t[1] * v[p], t[2] * u[p] + t[3] * v[p]
+        w[_S1 + p], w[_S2 + p] = s1, s2
+        w[_D1 + p] = n[0] * u[p] + n[1] * v[p] - kappa[0] * s1 * s1
+        w[_D2 + p] = n[2] * u[p] + n[3] * v[p] - kappa[1] * s2 * s2
+    for p in range(m):
+        w[_B1 + p] = max(blur[0] + blur[2] * u[p] + blur[3] * v[p], _MIN_BLUR)
+        w[_B2 + p] = max(blur[1] + blur[4] * u[p] + blur[5] * v[p], _MIN_BLUR)
+        w[_W1 + p] = growth * (size[0] + size[2] * u[p] + size[3] * v[p])
+        w[_W2 + p] = growth * (size[1] + size[4] * u[p] + size[5] * v[p])
+
+
+@compiled
+def _fill_edge(
+    distance: _Floats,
+    turn: _Single,
+    spread: _Floats,
+    side: _Single,
+    blur: _Floats,
+    box: _Single,
+    to: _Floats,
+    m: int,
+) -> None:
+    """Fill in ``compute_edge`` at turn * d + side * w: value, slope and derivative by the blur."""
+    if box == _ZERO:
+        for p in range(m):
+            s = _ONE / blur[p]
+            y = (turn * distance[p] + side * spread[p]) * s
+            x = y * _ROOT_HALF
+            bell = _bell(x)
+            slope = bell * _ROOT2_PI * s
+            to[p] = _erf(x, bell)
+            to[_BLOCK + p] = slope
+            to[2 * _BLOCK + p] = -y * slope
+        return
+    over = _HALF / box
+    for p in range(m):
+        s = blur[p]
+        d = turn * distance[p] + side * spread[p]
+        g = np.sqrt(max(s * s - box * box * _THIRD, _MIN_GAUSSIAN2))
+        narrow = _ROOT_HALF / g
+        a, b = (d + box) * narrow, (d - box) * narrow
+        bell_a, bell_b = _bell(a), _bell(b)
+        erf_a, erf_b = _erf(a, bell_a), _erf(b, bell_b)
+        fall = bell_a - bell_b
+        to[p] = (a * erf_a - b * erf_b + fall / _ROOT_PI) * (over / narrow)
+        to[_BLOCK + p] = (erf_a - erf_b) * over
+        to[2 * _BLOCK + p] = fall * (_ROOT2_PI * over * s / g)
+
+
+@compiled
+def _fill_crossing(w: _Floats, rho: _Single, box: _Floats, m: int) -> None:
+    """Fill rows G as ``compute_crossing``."""
+    _fill_edge(w[_D1:], _ONE, w[_W1:], _ZERO, w[_B1:], box[0], w[_E1:], m)
+    _fill_edge(w[_D2:], _ONE, w[_W2:], _ZERO, w[_B2:], box[1], w[_E2:], m)
+    half = _HALF * rho * rho
+    for p in range(m):
+        v1, v2 = w[_E1 + p], w[_E2 + p]
+        d1, d2 = w[_E1 + _BLOCK + p], w[_E2 + _BLOCK + p]
+        both = w[_B1 + p] * w[_B2 + p]
+        by_rho = both * d1 * d2
+        w[_G + p] = v1 * v2 + by_rho * (rho + half * w[_D1 + p] * w[_D2 + p] / both)
+        w[_G + _BLOCK + p], w[_G + 2 * _BLOCK + p] = d1 * v2, v1 * d2
+        w[_G + 3 * _BLOCK + p] = w[_E1 + 2 * _BLOCK + p] * v2
+        w[_G + 4 * _BLOCK + p] = v1 * w[_E2 + 2 * _BLOCK + p]
+        w[_G + 5 * _BLOCK + p] = by_rho
+
+
+@compiled
+def _fill_spread_crossing(w: _Floats, rho: _Single, box: _Floats, mirror: _Single, m: int) -> None:
+    """Fill rows G as ``compute_spread_crossing``, for spreads w of the sign of mirror."""
+    _fill_edge(w[_D1:], _ONE, w[_W1:], -mirror, w[_B1:], box[0], w[_E1:], m)
+    _fill_edge(w[_D2:], mirror, w[_W2:], -mirror, w[_B2:], box[1], w[_E2:], m)
+    _fill_edge(w[_D1:], _ONE, w[_W1:], mirror, w[_B1:], box[0], w[_F1:], m)
+    _fill_edge(w[_D2:], mirror, w[_W2:], mirror, w[_B2:], box[1], w[_F2:], m)
+    half = _HALF * mirror
+    for p in range(m):
+        e1, e2, f1, f2 = w[_E1 + p], w[_E2 + p], w[_F1 + p], w[_F2 + p]
+        de1, de2 = w[_E1 + _BLOCK + p], w[_E2 + _BLOCK + p]
+        df1, df2 = w[_F1 + _BLOCK + p], w[_F2 + _BLOCK + p]
+        by_rho = _HALF * w[_B1 + p] * w[_B2 + p] * (de1 * de2 + df1 * df2)
+        w[_G + p] = half * (e1 * e2 + f1 * f2 + e1 - f1 + e2 - f2) + rho * by_rho
+        w[_G + _BLOCK + p] = half * (de1 * (e2 + _ONE) + df1 * (f2 - _ONE))
+        w[_G + 2 * _BLOCK + p] = _HALF * (de2 * (e1 + _ONE) + df2 * (f1 - _ONE))
+        w[_G + 5 * _BLOCK + p] = by_rho
+    for p in range(m):
+        e1, e2, f1, f2 = w[_E1 + p], w[_E2 + p], w[_F1 + p], w[_F2 + p]
+        be1, be2 = w[_E1 + 2 * _BLOCK + p], w[_E2 + 2 * _BLOCK + p]
+        bf1, bf2 = w[_F1 + 2 * _BLOCK + p], w[_F2 + 2 * _BLOCK + p]
+        w[_G + 3 * _BLOCK + p] = half * (be1 * (e2 + _ONE) + bf1 * (f2 - _ONE))
+        w[_G + 4 * _BLOCK + p] = half * (be2 * (e1 + _ONE) + bf2 * (f1 - _ONE))
+
+
+@compiled
+def _fill_columns(
+    w: _Floats,
+    u: _Floats,
+    v: _Floats,
+    grey: _Floats,
+    n: _Floats,
+    level: _Floats,
+    swing: _Floats,
+    sign: _Single,
+    m: int,
+) -> None:
+    """Fill rows J: derivatives of the model by the nine unknowns, and the residual.
+
+    level and swing are value, derivative by u and by v."""
+    for p in range(m):
+        a = sign * (swing[0] + swing[1] * u[p] + swing[2] * v[p])
+        g = w[_G + p]
+        w[_J + 7 * _BLOCK + p] = sign * g
+        w[_J + 9 * _BLOCK + p] = grey[p] - level[0] - level[1] * u[p] - level[2] * v[p] - a * g
+        by1, by2 = a * w[_G + _BLOCK + p], a * w[_G + 2 * _BLOCK + p]
+        w[_J + p] = -by1 * n[0] - by2 * n[2]
+        w[_J + _BLOCK + p] = -by1 * n[1] - by2 * n[3]
+        w[_J + 2 * _BLOCK + p] = -by1 * w[_S1 + p]  # t_1 turns n_1 away from itself,
+        w[_J + 3 * _BLOCK + p] = by2 * w[_S2 + p]  # and n_2 towards it
+    for p in range(m):
+        a = sign * (swing[0] + swing[1] * u[p] + swing[2] * v[p])
+        w[_J + 4 * _BLOCK + p] = a * w[_G + 3 * _BLOCK + p]
+        w[_J + 5 * _BLOCK + p] = a * w[_G + 4 * _BLOCK + p]
+        w[_J + 6 * _BLOCK + p] = _ONE
+        w[_J + 8 * _BLOCK + p] = a * w[_G + 5 * _BLOCK + p]
+
+
+@compiled
+def _add_products(w: _Floats, m: int, out: Array) -> None:
+    """Add the products of the rows J to the lower triangle of out (10, 10)."""
+    for a in range(_COLUMNS):
+        one = w[_J + a * _BLOCK : _J + (a + 1) * _BLOCK]
+        for b in range(a + 1):
+            other = w[_J + b * _BLOCK : _J + (b + 1) * _BLOCK]
+            total = _ZERO
+            for p in range(m):
+                total += one[p] * other[p]
+            out[a, b] += total
+
+
+@compiled
+def _add_corner(
+    offset: _Ints,
+    grey: _Floats,
+    du: _Single,
+    dv: _Single,
+    near: _Floats,
+    w: _Floats,
+    u: _Floats,
+    v: _Floats,
+    out: Array,
+) -> None:
+    """Add to out (10, 10) the products of one corner's pixels, and leave in grey the residuals;
+    near (33,) is laid out as `_pack_model` says."""
+    t, n, kappa = near[0:4], near[4:8], near[8:10]
+    blur, size, level, swing = near[10:16], near[16:22], near[22:25], near[25:28]
+    rho, sign, growth, box = near[28], near[29], near[30], near[31:33]
+    for begin in range(0, grey.shape[0], _BLOCK):
+        m = min(grey.shape[0] - begin, _BLOCK)
+        for p in range(m):
+            u[p], v[p] = offset[0, begin + p] + du, offset[1, begin + p] + dv
+        _fill_geometry(w, u, v, t, n, kappa, blur, size, growth, m)
+        if growth == _ZERO:
+            _fill_crossing(w, rho, box, m)
+        else:
+            _fill_spread_crossing(w, rho, box, _ONE if growth > _ZERO else -_ONE, m)
+        _fill_columns(w, u, v, grey[begin:], n, level, swing, sign, m)
+        _add_products(w, m, out)
+        for p in range(m):
+            grey[begin + p] = w[_J + 9 * _BLOCK + p]
+    for a in range(_COLUMNS):
+        for b in range(a):
+            out[b, a] = out[a, b]
+
+
+@compiled
+def _measure_odd_part(
+    offset: _Ints, residual: _Floats, mu: int, mv: int, square: _Floats, out: Array
+) -> None:
+    """Fill out (2,) as ``_measure_odd_part`` of the reference for one corner, about which offsets
+    of pixels are mirrored to (mu, mv) less them; square (side, side) is full of NaN, before and
+    after."""
+    reach, pixels = square.shape[0] // 2, range(residual.shape[0])
+    for p in pixels:
+        square[offset[1, p] + reach, offset[0, p] + reach] = residual[p]
+    for p in pixels:
+        u, v = offset[0, p], offset[1, p]
+        if max(abs(mu - u), abs(mv - v)) > reach or (2 * u == mu and 2 * v == mv):
+            continue
+        opposite = square[mv - v + reach, mu - u + reach]
+        if not np.isnan(opposite):
+            out[0] += (residual[p] - opposite) ** 2 / 4
+            out[1] += 0.5
+    for p in pixels:
+        square[offset[1, p] + reach, offset[0, p] + reach] = np.nan
+
+
+@compiled
+def _accumulate(
+    image: GreyImage,
+    uv: Array,
+    bands: Array,
+    room: int,
+    centre: Array,
+    near: _Floats,
+    square: _Floats,
+    out: Array,
+    odd: Array,
+) -> None:
+    """Fill out (n, 10, 10) and, unless it is empty, odd (n, 2)."""
+    offset, grey = np.empty((2, room), dtype=np.int32), np.empty(room, dtype=_F)
+    w = np.empty(_ROWS * _BLOCK, dtype=_F)
+    u, v = np.empty(_BLOCK, dtype=_F), np.empty(_BLOCK, dtype=_F)
+    for i in range(uv.shape[0]):
+        count = _read(image, uv[i], bands[i], offset, grey)
+        du, dv = np.rint(uv[i, 0]) - centre[i, 0], np.rint(uv[i, 1]) - centre[i, 1]
+        pixels = offset[:, :count], grey[:count]
+        _add_corner(*pixels, _F(du), _F(dv), near[i], w, u, v, out[i])
+        if odd.shape[0]:
+            _measure_odd_part(*pixels, int(np.rint(-2 * du)), int(np.rint(-2 * dv)), square, odd[i])
+
+
+def accumulate_normal_equations(
+    image: GreyImage, read: _Model, model: _Model, odd: bool
+) -> tuple[Array, Array]:
+    """Compute ``accumulate_normal_equations`` of the reference."""
+    n = len(model.unknowns)
+    uv, centre = (np.ascontiguousarray(x.unknowns[:, 0:2]) for x in (read, model))
+    bands, near = pack_support(read.find_support()), _pack_model(model)
+    side = 2 * _bound_offsets(bands) + 1 if odd else 0
+    out, odd_part = np.zeros((n, _COLUMNS, _COLUMNS)), np.zeros((n if odd else 0, 2))
+    square = np.full((side, side), np.nan, dtype=_F)
+    room = _bound_pixels(bands)
+    _accumulate(image, uv, bands, room, centre, near.astype(_F), square, out, odd_part)
+    return out, odd_part
+
+
+def pack_support(support: _Support) -> Array:
+    """Pack the bands of n corners (n, 2, 7) as `_read` takes them."""
+    lengths = np.stack([support.curvature, support.arm, support.width], axis=2)
+    return np.concatenate([support.tangent, support.normal, lengths], axis=2)
+
+
+def _pack_model(model: _Model) -> Array:
+    """Pack the model at n corners (n, 33).
+
+    In this order: t_1, t_2, n_1, n_2, kappa_1 / 2, kappa_2 / 2; blur and height of edges 1 and 2
+    (s_1, s_2, their gradients); m and gm; a and ga; rho, p, growth of the squares (+, +) over the
+    height of a square, half widths of the pixel across edges 1 and 2 or 0.
+    """
+    x, n = model.unknowns, len(model.unknowns)
+    box = model.pixel_half_widths()
+    return np.column_stack(
+        [
+            model.tangents().reshape(n, 4),
+            model.normals().reshape(n, 4),
+            model.curvature / 2,
+            x[:, 4:6],
+            model.blur_gradient.reshape(n, 4),
+            model.square_height,
+            model.height_gradient.reshape(n, 4),
+            x[:, 6],
+            model.level_gradient,
+            x[:, 7],
+            model.contrast_gradient,
+            x[:, 8],
+            model.sign,
+            model.sign * model.ink_spread,
+            np.zeros((n, 2)) if box is None else box,
+        ]
+    )
+
+
+@compiled
+def _solve(N: Array, damping: float, step: Array, inverse: Array) -> None:
+    L, unit = np.empty((N.shape[1], N.shape[2])), np.empty(N.shape[1])
+    for n in range(N.shape[0]):
+        L[:] = N[n]
+        largest = 1e-300
+        for k in range(L.shape[0]):
+            largest = max(largest, L[k, k])
+        for k in range(L.shape[0]):
+            L[k, k] += damping * largest
+        factor(L)
+        substitute(L, step[n])
+        for axis in range(2):
+            unit[:] = 0
+            unit[axis] = 1
+            substitute(L, unit)
+            inverse[n, axis] = unit[:2]
+
+
+def solve_normal_equations(N: Array, g: Array, damping: float) -> tuple[Array, Array]:
+    """Compute ``_solve_normal_equations`` of the reference."""
+    step, inverse = np.array(g, order="C"), np.empty((len(N), 2, 2))
+    _solve(np.ascontiguousarray(N), damping, step, inverse)
+    return step, inverse

@@ -1,0 +1,301 @@
+"""The selected image with its marks, and the bar of what to show of them."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from pathlib import PurePath
+
+import numpy as np
+from PySide6.QtCore import Signal
+from PySide6.QtGui import QAction
+from PySide6.QtWidgets import (
+    QDoubleSpinBox,
+    QHBoxLayout,
+    QLabel,
+    QMenu,
+    QToolButton,
+    QVBoxLayout,
+    QWidget,
+    QWidgetAction,
+)
+
+from calibgui.app.project import Project
+from calibgui.dataset import Result, View, ViewStatus
+from calibgui.engine.images import Image
+from calibgui.gui.canvas.canvas import Canvas
+from calibgui.gui.canvas.layers import Layer, Marks
+from calibgui.gui.canvas.marker import Marker
+from calibgui.gui.images.image_model import status_text
+from calibgui.gui.jobs.job import Job
+from calibgui.gui.session.session import Session
+from calibgui.gui.widgets import theme
+from calibgui.gui.widgets.actions import make_action
+from calibgui.gui.widgets.elided import ElidedLabel
+from calibgui.gui.widgets.picture import Levels, stretch_levels
+
+
+class ImagePage(QWidget):
+    """Follows the session: whatever image and corner are selected are shown."""
+
+    place = Signal(str)
+    """The text on what is under the cursor, for the status bar, has changed."""
+
+    def __init__(self, session: Session) -> None:
+        super().__init__()
+        self._session = session
+        self._image: Image | None = None
+        self._job: Job | None = None
+        self.canvas = Canvas()
+        self.heading = ElidedLabel()
+        self.reason = QLabel(wordWrap=True)
+        self.reason.setContentsMargins(theme.SPACING, 0, theme.SPACING, theme.SPACING)
+        self.reason.hide()
+        self.marker = Marker(session, self.canvas)
+        self.bar = QHBoxLayout()
+        self.bar.setContentsMargins(theme.SPACING, 4, theme.SPACING, 4)
+        self.bar.addWidget(self.heading, 1)
+        self._add_tools()
+        self._add_layers()
+        self._add_zoom()
+        layout = QVBoxLayout(self)
+        layout.setContentsMargins(0, 0, 0, 0)
+        layout.setSpacing(0)
+        layout.addLayout(self.bar)
+        layout.addWidget(self.reason)
+        layout.addWidget(self.marker.roi_bar)
+        layout.addWidget(self.marker.corner_bar)
+        layout.addWidget(self.canvas, 1)
+        self.canvas.hovered.connect(self._hovered)
+        self.canvas.stepped.connect(session.select_next)
+        self.canvas.picked.connect(lambda corner: session.select(session.image, corner))
+        for changes_axes in (self.marker.corner_bar.turn, self.marker.corner_bar.flip):
+            changes_axes.clicked.connect(lambda: self.layers[Layer.ORDER].setChecked(True))
+        session.selected.connect(self._selected)
+        session.renewed.connect(lambda image: self._load(image) if image == session.image else None)
+        session.changed.connect(self._project_changed)
+        session.result_changed.connect(lambda _: self._show_marks())
+
+    def _add_tools(self) -> None:
+        self.tools = [
+            make_action(
+                self,
+                self.tr("&Mark board"),
+                "M",
+                self.tr("Point at the board's four outermost corners"),
+                self._mark_or_leave,
+            ),
+            make_action(
+                self,
+                self.tr("&Edit corners"),
+                "E",
+                self.tr("Move, remove and restore single corners; turn the axes"),
+                self._edit_or_leave,
+            ),
+        ]
+        for action in self.tools:
+            action.setCheckable(True)
+            button = QToolButton()
+            button.setDefaultAction(action)
+            self.bar.addWidget(button)
+        self.marker.finished.connect(self._untoggle)
+
+    def _mark_or_leave(self) -> None:
+        self._run_tool(self.tools[0], self.marker.mark_board)
+
+    def _edit_or_leave(self) -> None:
+        self._run_tool(self.tools[1], self.marker.edit_corners)
+
+    def _run_tool(self, action: QAction, run: Callable[[], None]) -> None:
+        if not action.isChecked():
+            self.marker.leave()
+            return
+        run()
+        self._untoggle()
+        action.setChecked(self.canvas.tool is not None)
+
+    def _untoggle(self) -> None:
+        for action in self.tools:
+            action.setChecked(False)
+
+    def _add_layers(self) -> None:
+        menu = QMenu(self)
+        self.layers = {}
+        for layer, name, key, tip in (
+            (
+                Layer.REGION,
+                self.tr("&Region of interest"),
+                "Shift+1",
+                self.tr("The part of the image that was searched (yellow outline)"),
+            ),
+            (
+                Layer.ESTIMATES,
+                self.tr("First &estimates"),
+                "Shift+2",
+                self.tr("Corners to the nearest pixel, by Harris' detector (red +)"),
+            ),
+            (
+                Layer.CORNERS,
+                self.tr("Refi&ned corners"),
+                "Shift+3",
+                self.tr("Corners at the saddle point of the grey levels (yellow +)"),
+            ),
+            (
+                Layer.ORDER,
+                self.tr("&Order and axes"),
+                "Shift+4",
+                self.tr("The numbering of the corners: origin, rows, and the board's axes"),
+            ),
+            (
+                Layer.REPROJECTION,
+                self.tr("Re&projection"),
+                "Shift+5",
+                self.tr("Where the calibration expects the corners (blue circles)"),
+            ),
+            (
+                Layer.RESIDUALS,
+                self.tr("Re&siduals"),
+                "Shift+6",
+                self.tr("Arrows from expected to measured corners, magnified"),
+            ),
+        ):
+            action = make_action(self, name, key, tip, lambda: None)
+            action.setCheckable(True)
+            action.setChecked(layer in self.canvas.shown)
+            action.toggled.connect(lambda shown, layer=layer: self.canvas.set_layer(layer, shown))
+            menu.addAction(action)
+            self.layers[layer] = action
+        menu.setToolTipsVisible(True)
+        button = QToolButton()
+        button.setText(self.tr("Layers"))
+        button.setMenu(menu)
+        button.setPopupMode(QToolButton.ToolButtonPopupMode.InstantPopup)
+        button.setToolTip(self.tr("What to draw over the image"))
+        self.scale = QDoubleSpinBox(decimals=0, minimum=1, maximum=10_000, prefix="× ")
+        self.scale.setValue(self.canvas.residual_scale)
+        self.scale.setToolTip(self.tr("How many times as long as they are residuals are drawn"))
+        self.scale.setAccessibleName(self.tr("Magnification of residuals"))
+        self.scale.valueChanged.connect(self.canvas.set_residual_scale)
+        self.bar.addWidget(button)
+        row = QWidget()
+        line = QHBoxLayout(row)
+        line.addWidget(QLabel(self.tr("Residuals drawn")))
+        line.addWidget(self.scale)
+        setting = QWidgetAction(menu)
+        setting.setDefaultWidget(row)
+        menu.addAction(setting)
+
+    def _add_zoom(self) -> None:
+        self.zoom_actions = [
+            make_action(
+                self, self.tr("&Fit"), "Ctrl+0", self.tr("Show the whole image"), self.canvas.fit
+            ),
+            make_action(
+                self,
+                self.tr("&1:1"),
+                "Ctrl+1",
+                self.tr("Show the image's pixels as pixels of the screen"),
+                self.canvas.actual_size,
+            ),
+        ]
+        for action in self.zoom_actions:
+            button = QToolButton()
+            button.setDefaultAction(action)
+            self.bar.addWidget(button)
+
+    def _selected(self, image: str, corner: int) -> None:
+        if self.shown_path != image:
+            self._load(image)
+        self._show_marks()
+        view = self._session.view
+        if view is not None and view.corners is not None and 0 <= corner < len(view.corners):
+            self.canvas.show_place(view.corners.uv[corner])
+
+    @property
+    def shown_path(self) -> str:
+        """The image whose pixels are on the canvas; "" while it is being read."""
+        return "" if self._image is None else str(self._image.path)
+
+    def _load(self, path: str) -> None:
+        if self._job is not None:
+            self._job.cancel()
+            self._job = None
+        self._image = None
+        if not path:
+            self.canvas.show_image(())
+            return
+
+        def done(found: tuple[Image, Levels]) -> None:
+            self._image = found[0]
+            self.canvas.show_image(found[1])
+            self._show_marks()
+            if self.marker.goes_on(path):
+                self.tools[0].trigger()
+
+        def read(_: Job) -> tuple[Image, Levels]:
+            image = self._session.images.read(path)
+            return image, stretch_levels(image)
+
+        self._job = self._session.jobs.start(
+            "", read, done, failed=lambda _: self.canvas.show_image(())
+        )
+
+    def _project_changed(self, before: Project, after: Project) -> None:
+        if before.views is not after.views:
+            self._show_marks()
+
+    def _show_marks(self) -> None:
+        session, view = self._session, self._session.view
+        self.reason.setText("" if view is None else view.reason)
+        self.reason.setVisible(bool(self.reason.text()))
+        for action in self.tools:
+            action.setEnabled(view is not None and view.status is not ViewStatus.UNREADABLE)
+        if view is None:
+            self.heading.clear()
+            self.canvas.show_marks(Marks())
+            return
+        self.heading.setText(PurePath(view.image).name)
+        self.heading.setToolTip(f"{view.image}\n{view.reason or status_text(view)}")
+        measured, predicted = _find_residuals(session.result, view)
+        region = view.roi
+        if region is None and view.corners is not None:
+            region = view.corners.roi
+        self.canvas.show_marks(Marks(view.corners, region, measured, predicted, session.corner))
+
+    def _hovered(self, u: float, v: float) -> None:
+        image = self._image
+        if image is None or not (math.isfinite(u) and math.isfinite(v)):
+            self.place.emit("")
+            return
+        text = self.tr("u {0:.2f}  v {1:.2f} px").format(u, v)
+        column, row = round(u), round(v)
+        width, height = image.size
+        if 0 <= column < width and 0 <= row < height:
+            text += self.tr("   grey {0}").format(int(image.pixels[row, column]))
+        text += self._board_index(u, v)
+        self.place.emit(text)
+
+    def _board_index(self, u: float, v: float) -> str:
+        corners = self.canvas.marks.corners
+        if corners is None or len(corners) < 2:
+            return ""
+        distance = np.linalg.norm(corners.uv - [u, v], axis=1)
+        k = int(np.argmin(distance))
+        spacing = np.partition(np.linalg.norm(corners.uv - corners.uv[k], axis=1), 1)[1]
+        if distance[k] > spacing / 2:
+            return ""
+        row, col = corners.grid[k]
+        return self.tr("   corner: row {0}, column {1}").format(row, col)
+
+
+def _find_residuals(
+    result: Result | None, view: View
+) -> tuple[np.ndarray | None, np.ndarray | None]:
+    """Measured corners (n, 2) of the result that has this very view, and where it expects them."""
+    if result is None or not view.usable:
+        return None, None
+    for used, residuals in zip(result.used, result.calibration.residuals, strict=True):
+        if used.image == view.image and used.corners is view.corners:
+            measured = used.observation(result.board).uv
+            return measured, measured - residuals.image
+    return None, None

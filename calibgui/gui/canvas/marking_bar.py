@@ -1,0 +1,122 @@
+"""The bars above the image while corners are marked by hand."""
+
+from __future__ import annotations
+
+from PySide6.QtCore import Qt, Signal
+from PySide6.QtGui import QKeyEvent
+from PySide6.QtWidgets import (
+    QFrame,
+    QHBoxLayout,
+    QLabel,
+    QPushButton,
+    QSpinBox,
+    QVBoxLayout,
+    QWidget,
+)
+
+from calibgui.engine.arrays import GridSize
+from calibgui.gui.widgets import theme
+
+
+class _Bar(QFrame):
+    """Words over buttons; Enter and Esc mean what they mean on the image."""
+
+    def __init__(self, accept: QPushButton, leave: QPushButton) -> None:
+        super().__init__()
+        self.accept, self.leave = accept, leave
+        self.setFrameShape(QFrame.Shape.NoFrame)
+        self.setAutoFillBackground(True)
+        self.setBackgroundRole(self.backgroundRole().AlternateBase)
+        self.words = QLabel()
+        self.words.setWordWrap(True)
+        # Room for two lines: the image must not move between two clicks.
+        self.words.setMinimumHeight(2 * self.words.fontMetrics().lineSpacing())
+        self.words.setAlignment(Qt.AlignmentFlag.AlignTop)
+        self.row = QHBoxLayout()
+        self.row.addStretch(1)
+        column = QVBoxLayout(self)
+        column.setContentsMargins(theme.SPACING, 4, theme.SPACING, 4)
+        column.addWidget(self.words)
+        column.addLayout(self.row)
+        self.hide()
+
+    def add(self, *widgets: QWidget) -> None:
+        for widget in widgets:
+            self.row.addWidget(widget)
+
+    def keyPressEvent(self, event: QKeyEvent) -> None:  # noqa: N802 - Qt's name
+        match event.key():
+            case Qt.Key.Key_Return | Qt.Key.Key_Enter:
+                self.accept.click()
+            case Qt.Key.Key_Escape:
+                self.leave.click()
+            case _:
+                super().keyPressEvent(event)
+
+
+class RoiBar(_Bar):
+    """Says what to click next, and how many corners there are."""
+
+    board_changed = Signal()
+
+    def __init__(self) -> None:
+        super().__init__(QPushButton(self.tr("&Accept")), QPushButton(self.tr("Lea&ve")))
+        self.counts = tuple(QSpinBox(minimum=2, maximum=200) for _ in range(2))
+        names = (self.tr("rows of inner corners"), self.tr("columns of inner corners"))
+        for box, name in zip(self.counts, names, strict=True):
+            box.setAccessibleName(name)
+            box.setToolTip(
+                self.tr(
+                    "As counted between the clicks, with those clicked. State it if the count is "
+                    "wrong."
+                )
+            )
+            box.valueChanged.connect(self.board_changed)
+        self.accept.setToolTip(self.tr("Keep these corners and go on (Enter)"))
+        self.leave.setToolTip(self.tr("Leave the image as it was (Esc)"))
+        self.add(
+            QLabel(self.tr("Inner corners")),
+            self.counts[0],
+            QLabel("×"),
+            self.counts[1],
+            self.accept,
+            self.leave,
+        )
+
+    @property
+    def grid_size(self) -> GridSize:
+        """Rows and columns of inner corners."""
+        return self.counts[0].value(), self.counts[1].value()
+
+    def show_board(self, grid_size: GridSize) -> None:
+        """Show a board's size without announcing it."""
+        for box, count in zip(self.counts, grid_size, strict=True):
+            box.blockSignals(True)
+            box.setValue(count)
+            box.blockSignals(False)
+
+
+class CornerBar(_Bar):
+    """The buttons for single corners, and for the numbering of all."""
+
+    turn_wanted = Signal()
+    flip_wanted = Signal()
+    left = Signal()
+
+    def __init__(self) -> None:
+        done = QPushButton(self.tr("&Done"))
+        super().__init__(done, done)
+        self.words.setText(
+            self.tr(
+                "Drag a corner to move it, Delete removes it, a click on a red ring finds it "
+                "again. Ctrl: do not snap."
+            )
+        )
+        self.turn = QPushButton(self.tr("&Turn 90°"))
+        self.turn.setToolTip(self.tr("Count from the board's next corner"))
+        self.flip = QPushButton(self.tr("F&lip"))
+        self.flip.setToolTip(self.tr("Count columns from the other end: for mirrored images"))
+        self.turn.clicked.connect(self.turn_wanted)
+        self.flip.clicked.connect(self.flip_wanted)
+        self.leave.clicked.connect(self.left)
+        self.add(self.turn, self.flip, self.leave)

@@ -1,0 +1,179 @@
+"""Export: every format with what it keeps, what is lost, and how far a refitted camera is off."""
+
+from __future__ import annotations
+
+import math
+from pathlib import Path
+from tempfile import TemporaryDirectory
+
+from PySide6.QtCore import Signal
+from PySide6.QtGui import QGuiApplication
+from PySide6.QtWidgets import (
+    QDialog,
+    QDialogButtonBox,
+    QFileDialog,
+    QFormLayout,
+    QHBoxLayout,
+    QLabel,
+    QListWidget,
+    QPlainTextEdit,
+    QPushButton,
+    QVBoxLayout,
+    QWidget,
+)
+
+from calibgui.dataset import Result
+from calibgui.formats import EXPORTERS, export
+from calibgui.formats.exporter import Exporter, ExportReport
+from calibgui.gui.jobs.job import Job
+from calibgui.gui.jobs.jobs import Jobs
+from calibgui.gui.widgets import theme
+from calibgui.gui.widgets.actions import add_close_button
+
+_NAME = "camera"
+"""The name that a file is given unless the user chooses another."""
+_SHOWN = 20_000
+"""Characters of a file that are shown."""
+
+
+class ExportDialog(QDialog):
+    """Shows a result in every format before it is written.
+
+    Each format that is looked at is written to a temporary folder by a job: what is shown is
+    what will be saved, and the refit's error is known beforehand.
+    """
+
+    exported = Signal(object)
+    """The `ExportReport` of a file that was saved."""
+
+    def __init__(self, jobs: Jobs, result: Result, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self.setWindowTitle(self.tr("Export"))
+        self._jobs, self._result = jobs, result
+        self._folder = TemporaryDirectory(prefix="calibgui-", ignore_cleanup_errors=True)
+        self._drafts: dict[str, ExportReport] = {}
+        self._job: Job | None = None
+        self.formats = QListWidget()
+        self.formats.addItems([exporter.title for exporter in EXPORTERS.values()])
+        self.formats.setAccessibleName(self.tr("Formats"))
+        self.formats.setMaximumWidth(self.formats.sizeHintForColumn(0) + 4 * theme.SPACING)
+        self.limits, self.note, self.error, self.saved = (QLabel(wordWrap=True) for _ in range(4))
+        self.text = QPlainTextEdit(readOnly=True)
+        self.text.setFont(theme.fixed_font())
+        self.text.setLineWrapMode(QPlainTextEdit.LineWrapMode.NoWrap)
+        self.text.setAccessibleName(self.tr("The file's text"))
+        self._facts = facts = QFormLayout()
+        facts.addRow(self.tr("Holds"), self.limits)
+        facts.addRow(self.tr("Camera"), self.note)
+        facts.addRow(self.tr("Largest error"), self.error)
+        right = QVBoxLayout()
+        right.addLayout(facts)
+        right.addWidget(self.text, 1)
+        columns = QHBoxLayout()
+        columns.addWidget(self.formats)
+        columns.addLayout(right, 1)
+        self.copy = QPushButton(self.tr("&Copy text"), autoDefault=False)
+        self.save = QPushButton(self.tr("&Save…"), default=True)
+        buttons = add_close_button(self)
+        buttons.addButton(self.copy, QDialogButtonBox.ButtonRole.ActionRole)
+        buttons.addButton(self.save, QDialogButtonBox.ButtonRole.ActionRole)
+        self.copy.clicked.connect(self._copy)
+        self.save.clicked.connect(self._save)
+        layout = QVBoxLayout(self)
+        layout.addLayout(columns, 1)
+        last = QHBoxLayout()
+        last.addWidget(self.saved, 1)
+        last.addWidget(buttons)
+        layout.addLayout(last)
+        self.resize(880, 520)
+        self.formats.currentRowChanged.connect(self._chosen)
+        self.formats.setCurrentRow(0)
+
+    @property
+    def exporter(self) -> Exporter:
+        """The chosen format."""
+        return list(EXPORTERS.values())[self.formats.currentRow()]
+
+    def done(self, code: int) -> None:
+        """Close, and remove the drafts."""
+        if self._job is not None:
+            self._job.cancel()
+        self._folder.cleanup()
+        super().done(code)
+
+    def _chosen(self) -> None:
+        exporter = self.exporter
+        self.limits.setText(exporter.limits)
+        self.saved.clear()
+        if exporter.name in self._drafts:
+            self._show(self._drafts[exporter.name])
+            return
+        self.note.setText(self.tr("working…"))
+        self._facts.setRowVisible(self.note, True)
+        self.error.clear()
+        self.text.clear()
+        for button in (self.copy, self.save):
+            button.setEnabled(False)
+        # Some formats hold the file's own name.
+        draft = Path(self._folder.name) / exporter.name / f"{_NAME}{exporter.suffixes[0]}"
+        draft.parent.mkdir(exist_ok=True)
+        self._job = self._jobs.start(
+            self.tr("Preparing {0}").format(exporter.title),
+            lambda _: exporter.write(self._result, draft),
+            lambda report: self._drafted(exporter, report),
+            failed=lambda error: self.note.setText(str(error)),
+            owner=self,
+        )
+
+    def _drafted(self, exporter: Exporter, report: ExportReport) -> None:
+        self._drafts[exporter.name] = report
+        if exporter is self.exporter:
+            self._show(report)
+
+    def _show(self, report: ExportReport) -> None:
+        self.note.setText(report.note)
+        self._facts.setRowVisible(self.note, report.note != self.limits.text())
+        self.error.setText(self._error(report.largest_error_px))
+        with report.path.open(encoding="utf-8") as file:
+            shown = file.read(_SHOWN)
+            cut = bool(file.read(1))
+        self.text.setPlainText(shown + ("\n…" if cut else ""))
+        for button in (self.copy, self.save):
+            button.setEnabled(True)
+
+    def _error(self, largest: float | None) -> str:
+        if largest is None:
+            return self.tr("none: nothing is refitted")
+        if math.isnan(largest):
+            return self.tr("unlimited in parts of the image that no corner covers")
+        return self.tr("{0:.3g} px over the whole image").format(largest)
+
+    def _copy(self) -> None:
+        text = self._drafts[self.exporter.name].path.read_text(encoding="utf-8")
+        QGuiApplication.clipboard().setText(text)
+        self.saved.setText(self.tr("The text is on the clipboard."))
+
+    def _save(self) -> None:
+        exporter = self.exporter
+        pattern = " ".join(f"*{suffix}" for suffix in exporter.suffixes)
+        path, _ = QFileDialog.getSaveFileName(
+            self,
+            self.tr("Export"),
+            f"{_NAME}{exporter.suffixes[0]}",
+            f"{exporter.title} ({pattern})",
+        )
+        if not path:
+            return
+        if not Path(path).suffix:
+            path += exporter.suffixes[0]
+        self._jobs.start(
+            self.tr("Writing {0}").format(path),
+            lambda _: export(self._result, exporter.name, path),
+            self._saved,
+            failed=lambda error: self.saved.setText(str(error)),
+            owner=self,
+        )
+
+    def _saved(self, report: ExportReport) -> None:
+        self.saved.setText(self.tr("Saved as {0}").format(report.path))
+        self.exported.emit(report)

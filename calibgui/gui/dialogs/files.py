@@ -1,0 +1,276 @@
+"""The dialogs about files: open, add, save and export, with the questions that go with them."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Sequence
+from dataclasses import replace
+from pathlib import Path
+
+from PySide6.QtCore import QObject, Signal
+from PySide6.QtGui import QGuiApplication
+from PySide6.QtWidgets import QFileDialog, QInputDialog, QLineEdit, QMessageBox, QWidget
+
+from calibgui.app.document import Document
+from calibgui.app.moved_images import find_moved_images, list_missing_images
+from calibgui.app.paths import find_images
+from calibgui.app.project import Project, add_images, relocate_images, remove_result, rename_result
+from calibgui.app.resampling import WrittenImage, rectify_files, undistort_files
+from calibgui.app.resources import find_resource, find_sample_square
+from calibgui.engine.errors import CalibrationError
+from calibgui.engine.images import FORMATS, FieldOfView
+from calibgui.gui.dialogs.print_dialog import PrintDialog
+from calibgui.gui.jobs.job import Job
+from calibgui.gui.session.calibrator import Calibrator
+from calibgui.gui.session.detector import Detector
+from calibgui.gui.session.saver import Saver
+from calibgui.gui.session.session import Session
+from calibgui.gui.widgets.actions import show_dialog
+
+_PROJECT = "calibgui.json"
+
+
+class Files(QObject):
+    """Dialogs over the saver; what fails is shown in the banner."""
+
+    recoverable = Signal(Path)
+    images_missing = Signal(list)
+
+    def __init__(
+        self, session: Session, detector: Detector, calibrator: Calibrator, window: QWidget
+    ) -> None:
+        super().__init__(session)
+        self._session, self._window = session, window
+        self._detector, self._calibrator = detector, calibrator
+        self.saver = Saver(session)
+        self.saver.recoverable.connect(self.recoverable)
+        self.saver.opened.connect(self.check_images)
+
+    @property
+    def _place(self) -> str:
+        """The folder to begin a choice of files in: the project's, or its images'."""
+        path, views = self._session.document.path, self._session.project.views
+        if path is None and not views:
+            return ""
+        return str((path or Path(views[0].image)).parent)
+
+    def open_paths(self, names: Sequence[str]) -> None:
+        """Open what was dropped, pasted or named on the command line: a project, or images."""
+        projects = [name for name in names if name.lower().endswith(".json")]
+        if projects:
+            self.open_project(Path(projects[0]))
+        elif names:
+            self._attempt(lambda: self._add(find_images(names)))
+
+    def paste(self) -> None:
+        """Add the files or paths on the clipboard."""
+        data = QGuiApplication.clipboard().mimeData()
+        urls = [url.toLocalFile() for url in data.urls() if url.isLocalFile()]
+        lines = [line.strip().strip('"') for line in data.text().splitlines()]
+        self.open_paths(urls or [line for line in lines if line])
+
+    def ask_for_folder(self) -> None:
+        """Add the images of a folder."""
+        folder = QFileDialog.getExistingDirectory(
+            self._window, self.tr("Folder of images"), self._place
+        )
+        if folder:
+            self.open_paths([folder])
+
+    def ask_for_images(self) -> None:
+        """Add single images."""
+        kinds = " ".join(f"*{suffix}" for suffix in FORMATS)
+        names, _ = QFileDialog.getOpenFileNames(
+            self._window, self.tr("Add images"), self._place, self.tr("Images ({0})").format(kinds)
+        )
+        self.open_paths(names)
+
+    def open_sample(self) -> None:
+        """Begin with the sample that comes with the program."""
+        self._attempt(lambda: self.open_paths([str(find_resource("sample"))]))
+
+    def new(self) -> None:
+        """Begin with nothing."""
+        if self.may_leave():
+            self._session.begin(Document())
+
+    def ask_for_project(self) -> None:
+        """Open a project of the user's choice."""
+        name, _ = QFileDialog.getOpenFileName(
+            self._window, self.tr("Open project"), self._place, self.tr("Projects (*.json)")
+        )
+        if name:
+            self.open_project(Path(name))
+
+    def open_project(self, path: Path) -> None:
+        """Open a project file."""
+        if self.may_leave():
+            self.saver.open(path)
+
+    def save(self) -> None:
+        """Save to the document's file, asking for one if it has none."""
+        if (path := self._session.document.path or self._ask_for_file()) is not None:
+            self.saver.save_beside(path)
+
+    def save_as(self) -> None:
+        """Save to a file of the user's choice."""
+        if (path := self._ask_for_file()) is not None:
+            self.saver.save_beside(path)
+
+    def _ask_for_file(self) -> Path | None:
+        views = self._session.project.views
+        beside = Path(views[0].image).parent if views else Path()
+        start = self._session.document.path or beside / _PROJECT
+        name, _ = QFileDialog.getSaveFileName(
+            self._window, self.tr("Save project"), str(start), self.tr("Projects (*.json)")
+        )
+        if not name:
+            return None
+        return Path(name) if Path(name).suffix else Path(name).with_suffix(".json")
+
+    def may_leave(self) -> bool:
+        """Return whether the document can be given up, being saved or not wanted."""
+        if self._session.document.saved or not self._session.project.views:
+            return True
+        button = QMessageBox.StandardButton
+        answer = QMessageBox.question(
+            self._window,
+            self.tr("Unsaved changes"),
+            self.tr("Save the changes to this project?"),
+            button.Save | button.Discard | button.Cancel,
+            button.Save,
+        )
+        if answer == button.Save:
+            path = self._session.document.path or self._ask_for_file()
+            return path is not None and self._attempt(lambda: self.saver.save(path))
+        return answer == button.Discard
+
+    def export(self) -> None:
+        """Offer the shown result in every format."""
+        from calibgui.gui.dialogs.export_dialog import ExportDialog
+
+        if self._session.result is not None:
+            show_dialog(ExportDialog(self._session.jobs, self._session.result, self._window))
+
+    def print_board(self) -> None:
+        """Offer a board to print, like the project's."""
+        show_dialog(PrintDialog(self._session.project.board, self._window))
+
+    def check_images(self) -> None:
+        """Announce images that are not where the project says."""
+        project = self._session.project
+        self._session.jobs.start(
+            "",
+            lambda _: list_missing_images(project),
+            lambda missing: self.images_missing.emit(missing) if missing else None,
+        )
+
+    def ask_for_moved(self, missing: list[str]) -> None:
+        """Find missing images in a folder of the user's choice."""
+        folder = QFileDialog.getExistingDirectory(
+            self._window, self.tr("Folder that holds the missing images"), self._place
+        )
+        if folder:
+            self.find_moved(missing, Path(folder))
+
+    def find_moved(self, missing: list[str], folder: Path) -> None:
+        """Find missing images in `folder`."""
+        digests = self._session.project.digests
+
+        def done(moved: dict[str, str]) -> None:
+            if moved:
+                self._session.edit(self.tr("Relocate images"), lambda p: relocate_images(p, moved))
+            self._session.notified.emit(
+                self.tr("Found {0} of {1} missing images in {2}.").format(
+                    len(moved), len(missing), folder
+                )
+            )
+
+        self._session.jobs.start(
+            self.tr("Looking for images"),
+            lambda _: find_moved_images(missing, folder, digests),
+            done,
+        )
+
+    def keep_work(self) -> None:
+        """Write the unsaved state, because something went wrong."""
+        self._attempt(self.saver.autosave_now)
+
+    def rename_result(self, name: str) -> None:
+        """Give a result another name."""
+        new, ok = QInputDialog.getText(
+            self._window,
+            self.tr("Rename result"),
+            self.tr("Name"),
+            QLineEdit.EchoMode.Normal,
+            name,
+        )
+        if ok and new.strip() and new != name and new not in self._session.project.results:
+            self._session.edit(
+                self.tr("Rename result"), lambda p: rename_result(p, name, new.strip())
+            )
+            self._session.show_result(new.strip())
+
+    def delete_result(self, name: str) -> None:
+        """Remove a result; undo brings it back."""
+        self._session.edit(self.tr("Delete {0}").format(name), lambda p: remove_result(p, name))
+
+    def _add(self, images: Iterable[Path]) -> None:
+        """Add images and search them."""
+        paths = [path.absolute() for path in images]
+        square = find_sample_square(paths)
+
+        def change(project: Project) -> Project:
+            if square is not None and not project.views:
+                project = replace(project, square=square)
+            return add_images(project, map(str, paths))
+
+        self._session.edit(self.tr("Add images"), change)
+        self.search()
+
+    def search(self) -> None:
+        """Search the images that wait; a project's first are calibrated as well."""
+        if self._session.project.results:
+            self._detector.search()
+        else:
+            self._calibrator.calibrate()
+
+    def save_changed_images(self, views: tuple[int, ...], way: str) -> None:
+        """Write undistorted or rectified images to a folder of the user's choice."""
+        from calibgui.gui.panels.undistort import RECTIFIED
+
+        result = self._session.result
+        folder = QFileDialog.getExistingDirectory(
+            self._window, self.tr("Folder for the images"), self._place
+        )
+        if result is None or not folder:
+            return
+        images = [Path(result.views[k].image) for k in views]
+
+        def work(job: Job) -> int:
+            def progress(done: int, total: int, _: WrittenImage) -> None:
+                job.advance(done, total)
+
+            if way == RECTIFIED:
+                return len(rectify_files(result, images, Path(folder), progress=progress))
+            view, camera = FieldOfView(way), result.calibration.camera
+            return len(undistort_files(camera, images, Path(folder), view, progress))
+
+        self._session.jobs.start(
+            self.tr("Writing images"),
+            work,
+            lambda count: self._session.notified.emit(
+                (
+                    self.tr("Wrote {0} images to {1}.")
+                    if count > 1
+                    else self.tr("Wrote {0} image to {1}.")
+                ).format(count, folder)
+            ),
+        )
+
+    def _attempt(self, action: Callable[[], object]) -> bool:
+        try:
+            action()
+        except CalibrationError as error:
+            self._session.failed.emit(error)
+            return False
+        return True

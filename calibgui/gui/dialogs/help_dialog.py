@@ -1,0 +1,84 @@
+"""Help: the way from photographs to a calibrated camera, on one page."""
+
+from __future__ import annotations
+
+from PySide6.QtWidgets import QDialog, QTextBrowser, QVBoxLayout, QWidget
+
+import calibgui
+from calibgui.gui.widgets.actions import add_close_button
+
+
+class HelpDialog(QDialog):
+    """The workflow, the keys, and where the method comes from."""
+
+    def __init__(self, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self.setWindowTitle(self.tr("Help"))
+        self.text = QTextBrowser()
+        self.text.setOpenExternalLinks(True)
+        self.text.setHtml(self._page())
+        buttons = add_close_button(self)
+        layout = QVBoxLayout(self)
+        layout.addWidget(self.text)
+        layout.addWidget(buttons)
+        self.resize(680, 600)
+
+    def _page(self) -> str:
+        steps = (
+            self.tr(
+                "<b>Photograph</b> a flat checkerboard 10 to 30 times with focus and zoom fixed: "
+                "tilted by 20 to 50 degrees in different directions, near and far, and with "
+                "corners close to every corner of the image. <i>Print a board</i> makes one; "
+                "glue it to something flat and measure the bar below it."
+            ),
+            self.tr(
+                "<b>Drop</b> the images or their folder on the window. Corners are found and "
+                "the camera is calibrated at once. State the <b>side of a square</b>: only "
+                "distances depend on it."
+            ),
+            self.tr(
+                "<b>Look at the list</b>: images without a board say why. <i>Mark board</i> (M) "
+                "takes four clicks on the outermost inner corners; the loupe shows where a click "
+                "will go. <i>Edit corners</i> (E) moves, removes and restores single ones. An "
+                "image whose file has changed since says so: <i>detect again</i> (F5)."
+            ),
+            self.tr(
+                "<b>Read the result</b>: every value with its standard deviation, what is badly "
+                "determined and what to photograph to improve it."
+            ),
+            self.tr(
+                "<b>Doubt it</b>: residuals that point the same way, a view with a long bar, or "
+                "a synthetic check whose residuals are much smaller than the real ones show what "
+                "the model does not explain; so does the sentence above the residuals. Exclude "
+                "views above a threshold, or let the Settings leave outliers out and estimate the "
+                "board's shape, and calibrate again; "
+                "every result keeps its name and can be compared."
+            ),
+            self.tr(
+                "<b>Export</b> to the format that your program reads. Models that differ are "
+                "refitted to the same corners; the dialog says how far they are off, in pixels."
+            ),
+        )
+        keys = (
+            ("F9", self.tr("calibrate")),
+            ("M / E", self.tr("mark board / edit corners")),
+            (self.tr("Space"), self.tr("exclude or include the selected images")),
+            (self.tr("← →"), self.tr("previous and next image, with the image in focus")),
+            (
+                self.tr("Wheel, + −"),
+                self.tr("zoom, before and after as well; Ctrl+0 fits, Ctrl+1 shows pixels"),
+            ),
+            ("Shift+1 … 6", self.tr("layers over the image")),
+            ("Ctrl+Z / Ctrl+Shift+Z", self.tr("undo and redo: everything can be taken back")),
+        )
+        origin = self.tr(
+            "The method is L. Lucchese, <i>Geometric calibration of digital cameras through "
+            "multi-view rectification</i>, Image and Vision Computing 23 (2005) 517-539."
+        )
+        rows = "".join(f"<tr><td><b>{a}</b>&nbsp;&nbsp;</td><td>{b}</td></tr>" for a, b in keys)
+        listed = "".join(f"<li style='margin-bottom: 6px'>{step}</li>" for step in steps)
+        return (
+            f"<h2>{self.tr('From photographs to a camera')}</h2><ol>{listed}</ol>"
+            f"<h3>{self.tr('Keys')}</h3><table>{rows}</table>"
+            f"<p>{origin}</p><p>calibgui {calibgui.__version__}</p>"
+        )

@@ -1,0 +1,162 @@
+"""A board to print: its size and paper, and how it will look."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from PySide6.QtCore import QByteArray, QRectF, Qt
+from PySide6.QtGui import QPainter, QPaintEvent
+from PySide6.QtSvg import QSvgRenderer
+from PySide6.QtWidgets import (
+    QComboBox,
+    QDialog,
+    QDialogButtonBox,
+    QDoubleSpinBox,
+    QFileDialog,
+    QFormLayout,
+    QHBoxLayout,
+    QLabel,
+    QSpinBox,
+    QVBoxLayout,
+    QWidget,
+)
+
+from calibgui.app.printable_board import (
+    PAPER_SIZES_MM,
+    Page,
+    choose_paper,
+    complete_pattern,
+    lay_out_page,
+    write_page,
+)
+from calibgui.engine.boards import Board
+from calibgui.engine.errors import CalibrationError
+from calibgui.gui.settings.pattern_choice import PatternChoice
+from calibgui.gui.widgets import theme
+from calibgui.gui.widgets.actions import add_close_button
+
+_DEFAULT = Board(7, 10, 25.0)
+
+
+class _Preview(QWidget):
+    """The sheet, as large as there is room for."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self._drawing = QSvgRenderer(self)
+        self.setMinimumSize(280, 280)
+
+    def show_sheet(self, page: Page | None) -> None:
+        self._drawing.load(QByteArray() if page is None else page.svg().encode())
+        self.update()
+
+    def paintEvent(self, event: QPaintEvent) -> None:  # noqa: N802, ARG002 - Qt's signature
+        if not self._drawing.isValid():
+            return
+        size = self._drawing.viewBoxF().size()
+        size.scale(self.width() - 2.0, self.height() - 2.0, Qt.AspectRatioMode.KeepAspectRatio)
+        place = QRectF(0, 0, size.width(), size.height())
+        place.moveCenter(QRectF(self.rect()).center())
+        painter = QPainter(self)
+        self._drawing.render(painter, place)
+        painter.setPen(theme.current().line)
+        painter.drawRect(place)
+
+
+class PrintDialog(QDialog):
+    """Makes a PDF or SVG of a board in true size."""
+
+    def __init__(self, board: Board | None, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self.setWindowTitle(self.tr("Board to print"))
+        board = board or _DEFAULT
+        self.rows, self.cols = (QSpinBox(minimum=3, maximum=200) for _ in range(2))
+        squares_more = 1 if board.pattern.has_squares else 0
+        self.rows.setValue(board.rows + squares_more)
+        self.cols.setValue(board.cols + squares_more)
+        self.pattern = PatternChoice(self.tr("usual"))
+        self.pattern.show_pattern(board.pattern, board.square)
+        self.counted, self.side = QLabel(), QLabel()
+        self.square = QDoubleSpinBox(decimals=2, minimum=1.0, maximum=500.0, suffix=self.tr(" mm"))
+        self.square.setValue(board.square)
+        self.paper = QComboBox()
+        self.paper.addItems(list(PAPER_SIZES_MM))
+        self.paper.setCurrentText(choose_paper(board))
+        self.words = QLabel()
+        self.words.setWordWrap(True)
+        self.preview = _Preview()
+        squares = QHBoxLayout()
+        squares.addWidget(self.rows)
+        squares.addWidget(QLabel("×"))
+        squares.addWidget(self.cols)
+        form = QFormLayout()
+        form.addRow(self.pattern)
+        form.addRow(self.counted, squares)
+        form.addRow(self.side, self.square)
+        form.addRow(self.tr("&Paper"), self.paper)
+        form.addRow(self.words)
+        self.odd_and_even = QLabel(
+            self.tr("An odd and an even number of squares\nlets every view find the same origin.")
+        )
+        form.addRow(self.odd_and_even)
+        buttons = add_close_button(self)
+        self.save = buttons.addButton(
+            self.tr("&Save as PDF or SVG…"), QDialogButtonBox.ButtonRole.ActionRole
+        )
+        self.save.setDefault(True)
+        self.save.clicked.connect(self._ask_and_save)
+        middle = QHBoxLayout()
+        middle.addLayout(form)
+        middle.addWidget(self.preview, 1)
+        layout = QVBoxLayout(self)
+        layout.addLayout(middle, 1)
+        layout.addWidget(buttons)
+        for box in (self.rows, self.cols, self.square):
+            box.valueChanged.connect(self._refresh)
+        self.pattern.changed.connect(self._refresh)
+        self.pattern.failed.connect(lambda error: self.words.setText(str(error)))
+        self.paper.currentIndexChanged.connect(self._refresh)
+        self.resize(760, 440)
+        self._refresh()
+
+    def make_sheet(self) -> Page:
+        """The sheet as chosen. Raises CalibrationError if it does not fit the paper."""
+        pattern, more = self.pattern.pattern, 1 if self.pattern.pattern.has_squares else 0
+        grid_size = (self.rows.value() - more, self.cols.value() - more)
+        board = Board(*grid_size, self.square.value(), complete_pattern(pattern, grid_size))
+        return lay_out_page(board, self.paper.currentText())
+
+    def _refresh(self) -> None:
+        colours = theme.current()
+        circles = not self.pattern.pattern.has_squares
+        self.counted.setText(self.tr("Circles") if circles else self.tr("Squares"))
+        self.side.setText(self.tr("Distance") if circles else self.tr("Side of a square"))
+        self.odd_and_even.setVisible(self.pattern.pattern.kind == "checkerboard")
+        self.pattern.show_pattern(self.pattern.pattern, self.square.value())
+        try:
+            page: Page | None = self.make_sheet()
+            text, colour = self.tr("Fits. Print it without scaling."), colours.good
+        except CalibrationError as error:
+            page, text, colour = None, str(error), colours.bad
+        self.preview.show_sheet(page)
+        self.words.setText(text)
+        self.words.setStyleSheet(f"color: {colour}")
+        self.save.setEnabled(page is not None)
+
+    def _ask_and_save(self) -> None:
+        name, chosen = QFileDialog.getSaveFileName(
+            self,
+            self.tr("Save board"),
+            "board.pdf",
+            self.tr("PDF (*.pdf);;SVG drawing (*.svg)"),
+        )
+        if not name:
+            return
+        path = Path(name)
+        if not path.suffix:
+            path = path.with_suffix(".svg" if "svg" in chosen else ".pdf")
+        try:
+            write_page(self.make_sheet(), path)
+            self.accept()
+        except CalibrationError as error:
+            self.words.setText(str(error))

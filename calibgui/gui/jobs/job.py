@@ -1,0 +1,137 @@
+"""One piece of work beside the window, as its workers and the window see it; see ``jobs``."""
+
+from __future__ import annotations
+
+import queue
+import threading
+import time
+from collections.abc import Callable, Hashable, Sequence
+from dataclasses import dataclass, field
+from functools import partial
+from typing import Any
+
+import shiboken6
+from PySide6.QtCore import QObject
+
+from calibgui.engine.errors import Cancelled
+
+Queue = queue.SimpleQueue[Callable[[], None]]
+Outcome = Callable[[], Any]
+
+
+def nothing(*_: Any) -> None:
+    """Do nothing: the default of callbacks."""
+
+
+@dataclass(eq=False, kw_only=True)
+class Job:
+    """One piece of work on each of some items."""
+
+    label: str
+    """Name of the work for the user; empty if it need not be mentioned."""
+    items: Sequence[Any]
+    work: Callable[[Any], Any]
+    """Function from an item to its result; runs in a worker."""
+    done: Callable[[Any, Any], None] = nothing
+    """Callback that takes an item and its result, on the main thread like all that follow."""
+    received: Callable[[Any], None] = nothing
+    """Callback that takes each record that the work sends."""
+    failed: Callable[[Exception], None]
+    """Callback that takes what the work or `done` raised; `Cancelled` is no failure."""
+    ended: Callable[[], None] = nothing
+    """Callback at the end of the job, however it ended."""
+    owner: QObject | None = None
+    """Object whose deletion makes the job unwanted: no callback is called after it."""
+    inputs: Callable[[Any], Hashable] = nothing
+    """Function from an item to a digest of what its result depends on."""
+    queue: Queue
+    total: int = field(init=False)
+    """Number of parts of the work, as far as known."""
+    finished: int = field(default=0, init=False)
+    cancelling: threading.Event = field(default_factory=threading.Event, init=False)
+    """Set by `cancel`."""
+    settled: int = field(default=0, init=False)
+    _begun: float = field(default_factory=time.monotonic, init=False)
+    _stop: threading.Event = field(default_factory=threading.Event, init=False)
+
+    def __post_init__(self) -> None:
+        self.total = len(self.items)
+
+    def stop(self) -> None:
+        """Ask the work to end and keep the best so far."""
+        self._stop.set()
+
+    def cancel(self) -> None:
+        """Ask the work to end and drop what it found."""
+        self.cancelling.set()
+        self._stop.set()
+
+    @property
+    def stopping(self) -> bool:
+        """Return whether `stop` or `cancel` was called."""
+        return self._stop.is_set()
+
+    @property
+    def cancelled(self) -> bool:
+        """Return whether `cancel` was called."""
+        return self.cancelling.is_set()
+
+    def send(self, record: Any) -> bool:
+        """Pass a record from the worker to the main thread; return False if the work should stop.
+
+        Raises:
+            Cancelled: the user wants none of it.
+        """
+        self.check()
+        self.queue.put(lambda: self.received(record) if self.wanted else None)
+        return not self.stopping
+
+    def advance(self, finished: int, total: int) -> None:
+        """Report from the worker of a single item how many of its parts are finished."""
+
+        def note() -> None:
+            self.finished, self.total = finished, total
+
+        self.check()
+        self.queue.put(note)
+
+    def rename(self, label: str) -> None:
+        """Report from the worker what is being done from now on."""
+
+        def note() -> None:
+            if label != self.label:
+                self.label, self._begun = label, time.monotonic()
+
+        self.check()
+        self.queue.put(note)
+
+    def check(self) -> None:
+        """Raise `Cancelled` in the worker if the user wants none of it."""
+        if self.cancelled:
+            raise Cancelled
+
+    def outcome(self, item: Any) -> Outcome:
+        """Do the work; return a function that returns its result or raises what the work raised."""
+        try:
+            self.check()
+            result = self.work(item)
+        except Exception as raised:
+            return partial(_raise, raised)
+        return lambda: result
+
+    @property
+    def wanted(self) -> bool:
+        """Return whether the owner, if there is one, still exists."""
+        return self.owner is None or shiboken6.isValid(self.owner)
+
+    @property
+    def seconds_left(self) -> float | None:
+        """Estimated time left, from the parts that are finished, s; None before the first."""
+        if self.total <= 1 or self.finished == 0:
+            return None
+        each = (time.monotonic() - self._begun) / self.finished
+        return each * (self.total - self.finished)
+
+
+def _raise(error: Exception) -> None:
+    raise error

@@ -1,0 +1,237 @@
+"""The list of panels on a result, one of which is shown."""
+
+from __future__ import annotations
+
+from functools import partial
+from typing import TypeVar, cast
+
+from PySide6.QtCore import QCoreApplication, QEvent, Signal
+from PySide6.QtWidgets import (
+    QComboBox,
+    QHBoxLayout,
+    QLabel,
+    QListWidget,
+    QMenu,
+    QStackedWidget,
+    QToolButton,
+    QVBoxLayout,
+    QWidget,
+)
+
+from calibgui.app.project import Project
+from calibgui.dataset import Result
+from calibgui.engine.calibration import Iteration
+from calibgui.gui.panels.board_shape import BoardShapePanel
+from calibgui.gui.panels.convergence import ConvergencePanel
+from calibgui.gui.panels.coverage import CoveragePanel
+from calibgui.gui.panels.distortion import DistortionPanel
+from calibgui.gui.panels.histograms import HistogramsPanel
+from calibgui.gui.panels.panel import Panel
+from calibgui.gui.panels.poses import PosesPanel
+from calibgui.gui.panels.residuals import ResidualsPanel
+from calibgui.gui.panels.result import ResultPanel
+from calibgui.gui.panels.services import Services
+from calibgui.gui.panels.stage_one import StageOnePanel
+from calibgui.gui.panels.synthetic import SyntheticPanel
+from calibgui.gui.panels.uncertainty import UncertaintyPanel
+from calibgui.gui.panels.undistort import UndistortPanel
+from calibgui.gui.session.session import Session
+from calibgui.gui.widgets import theme
+
+PANELS: tuple[type[Panel], ...] = (
+    ResultPanel,
+    StageOnePanel,
+    ConvergencePanel,
+    ResidualsPanel,
+    HistogramsPanel,
+    DistortionPanel,
+    UndistortPanel,
+    PosesPanel,
+    CoveragePanel,
+    UncertaintyPanel,
+    BoardShapePanel,
+    SyntheticPanel,
+)
+"""The panels in the order of the list."""
+
+_WIDTH = 380
+"""Least width of a panel, px."""
+
+P = TypeVar("P", bound=Panel)
+
+
+class Analysis(QWidget):
+    """Shows the named results, and every panel on the chosen one."""
+
+    exclude_wanted = Signal(list)
+    """Images that the user wants out of the calibration."""
+    save_wanted = Signal(tuple, str)
+    """See `Panel.save_wanted`."""
+    rename_wanted = Signal(str)
+    delete_wanted = Signal(str)
+
+    def __init__(self, session: Session) -> None:
+        super().__init__()
+        self._session = session
+        self._services = Services(session.jobs, session.images.read)
+        self._shown: Result | None = None
+        self._built: dict[type[Panel], Panel] = {}
+        self._blank = {kind: QWidget() for kind in PANELS}
+        self.names = QListWidget()
+        self.names.setAccessibleName(self.tr("Panels"))
+        self.names.setSpacing(2)
+        self.stack = QStackedWidget()
+        # All panels get the width that there is, or choosing one would move the image.
+        self.stack.setMinimumSize(_WIDTH, 0)
+        for kind in PANELS:
+            self.names.addItem(QCoreApplication.translate(kind.__name__, kind.title))
+            self.stack.addWidget(self._blank[kind])
+        width = self.names.sizeHintForColumn(0) + theme.SPACING
+        self.names.setFixedWidth(width)
+        self.names.currentRowChanged.connect(lambda row: self.show_panel(PANELS[row]))
+        below = QHBoxLayout()
+        below.setSpacing(0)  # panels have margins of their own
+        below.addWidget(self.names)
+        below.addWidget(self.stack, 1)
+        layout = QVBoxLayout(self)
+        layout.setContentsMargins(theme.SPACING, 0, 0, theme.SPACING)
+        layout.addLayout(self._make_bar())
+        layout.addLayout(below, 1)
+        session.changed.connect(self._project_changed)
+        session.result_changed.connect(self._show_result)
+        session.selected.connect(self._select)
+        self._show_result(session.result)
+        self.show_panel(ResultPanel)
+
+    def panel(self, kind: type[P]) -> P:
+        """The panel of that kind; built when it is wanted first."""
+        if kind not in self._built:
+            panel = self._built[kind] = kind(self._services)
+            panel.picked.connect(self._select_picked)
+            panel.exclude_wanted.connect(self._exclude)
+            panel.save_wanted.connect(self.save_wanted)
+            panel.failed.connect(self._session.failed)
+            panel.show_result(self._shown)
+            panel.select(self._place(self._session.image), self._session.corner)
+            row = PANELS.index(kind)
+            self.stack.insertWidget(row, panel)
+            self.stack.removeWidget(self._blank[kind])
+        return cast(P, self._built[kind])
+
+    def show_panel(self, kind: type[P]) -> P:
+        """Bring a panel to the front."""
+        panel = self.panel(kind)
+        self.stack.setCurrentWidget(panel)
+        self.names.setCurrentRow(PANELS.index(kind))
+        return panel
+
+    def show_beginning(self) -> None:
+        """A calibration starts: its progress is shown."""
+        self.panel(ConvergencePanel).start()  # before it would draw the last one
+        self.show_panel(ConvergencePanel)
+
+    def show_iteration(self, iteration: Iteration) -> None:
+        """A calibration has come one iteration further."""
+        self.panel(ConvergencePanel).add(iteration)
+
+    def show_end(self) -> None:
+        """A calibration is over: what came of it is shown."""
+        convergence = self.panel(ConvergencePanel)
+        if self.stack.currentWidget() is convergence and self._session.result is not None:
+            self.show_panel(ResultPanel)
+        convergence.show_result(self._session.result)
+
+    def _make_bar(self) -> QHBoxLayout:
+        self.results = QComboBox()
+        self.results.setAccessibleName(self.tr("Result"))
+        self.results.setToolTip(self.tr("Every calibration keeps its result under a name"))
+        self.results.activated.connect(
+            lambda row: self._session.show_result(self.results.itemText(row))
+        )
+        self.state = QLabel()
+        self.more = QToolButton()
+        self.more.setText(self.tr("Manage"))
+        self.more.setPopupMode(QToolButton.ToolButtonPopupMode.InstantPopup)
+        self.more.setToolTip(self.tr("Rename, delete or compare results"))
+        menu = QMenu(self.more)
+        self.compare = menu.addMenu(self.tr("&Compare with"))
+        menu.addAction(
+            self.tr("&Rename…"), lambda: self.rename_wanted.emit(self._session.result_name)
+        )
+        menu.addAction(
+            self.tr("&Delete"), lambda: self.delete_wanted.emit(self._session.result_name)
+        )
+        self.more.setMenu(menu)
+        bar = QHBoxLayout()
+        bar.setContentsMargins(0, 0, theme.SPACING, 0)
+        bar.addWidget(self.results, 1)
+        bar.addWidget(self.state)
+        bar.addWidget(self.more)
+        return bar
+
+    def _project_changed(self, before: Project, after: Project) -> None:
+        if before.results is not after.results:
+            self._list_results()
+        self._show_state()
+
+    def _list_results(self) -> None:
+        names = list(self._session.project.results)
+        self.results.clear()
+        self.results.addItems(names)
+        self.results.setCurrentText(self._session.result_name)
+        self.more.setEnabled(bool(names))
+        self.compare.clear()
+        for name in names:
+            if name != self._session.result_name:
+                self.compare.addAction(name, partial(self.compare_with, name))
+        self.compare.setEnabled(len(names) > 1)
+
+    def compare_with(self, name: str) -> None:
+        """Set another result beside the one shown."""
+        mine, other = self._session.result, self._session.project.results[name]
+        if mine is not None:
+            self.show_panel(ResultPanel).show_comparison(
+                other, mine, (name, self._session.result_name)
+            )
+
+    def _show_state(self) -> None:
+        result = self._session.result
+        old = result is not None and not self._session.project.is_current(result)
+        self.state.setText(self.tr("out of date") if old else "")
+        self.state.setToolTip(
+            self.tr("Views or board have changed since: calibrate again.") if old else ""
+        )
+        self.state.setStyleSheet(f"color: {theme.current().warning}")
+
+    def changeEvent(self, event: QEvent) -> None:  # noqa: N802 - Qt's name
+        super().changeEvent(event)
+        if event.type() == QEvent.Type.PaletteChange and hasattr(self, "state"):
+            self._show_state()
+
+    def _show_result(self, result: Result | None) -> None:
+        self._list_results()
+        self._show_state()
+        if result is self._shown:
+            return
+        self._shown = result
+        for panel in self._built.values():
+            panel.show_result(result)
+        self._select(self._session.image, self._session.corner)
+
+    def _select(self, image: str, corner: int) -> None:
+        if self._shown is not None:
+            for panel in self._built.values():
+                panel.select(self._place(image), corner)
+
+    def _place(self, image: str) -> int:
+        """Index of an image in the shown result; -1 if it has none."""
+        views = () if self._shown is None else self._shown.views
+        return next((i for i, view in enumerate(views) if view.image == image), -1)
+
+    def _select_picked(self, view: int, corner: int) -> None:
+        if self._shown is not None:
+            self._session.select(self._shown.views[view].image, corner)
+
+    def _exclude(self, views: tuple[int, ...]) -> None:
+        if self._shown is not None:
+            self.exclude_wanted.emit([self._shown.views[k].image for k in views])

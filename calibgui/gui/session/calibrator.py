@@ -1,0 +1,124 @@
+"""Calibrating in the background, once every image has been searched.
+
+Where the camera then lets more be found, the corners come with the result, in one edit."""
+
+from __future__ import annotations
+
+from functools import partial
+
+from PySide6.QtCore import QObject, Signal
+
+from calibgui.app.project import find_free_name, record_result
+from calibgui.app.redetection import calibrate_twice
+from calibgui.dataset import CornerSet, Result
+from calibgui.engine.calibration import Iteration, Status
+from calibgui.engine.errors import CalibrationError
+from calibgui.engine.kernels import SOLVER_SECONDS, when_compiling
+from calibgui.gui.jobs.job import Job
+from calibgui.gui.session.detector import Detector
+from calibgui.gui.session.session import Session
+
+
+class Calibrator(QObject):
+    """Does what is still to do: searches the images that wait, then solves."""
+
+    began = Signal()
+    """Stage I and II start."""
+    advanced = Signal(Iteration)
+    """An iteration of Stage II is done."""
+    ended = Signal()
+    """There is a result, or a reason why not."""
+
+    def __init__(self, session: Session, detector: Detector) -> None:
+        super().__init__(session)
+        self._session = session
+        self._detector = detector
+        self._job: Job | None = None
+        self._wanted = False
+        detector.finished.connect(self._searched)
+
+    @property
+    def running(self) -> bool:
+        """Return whether a calibration is under way, or waits for the search to end."""
+        return self._wanted or self._job is not None
+
+    @property
+    def stopping(self) -> bool:
+        """Return whether the calibration under way has been asked to end."""
+        return self._job is not None and self._job.stopping
+
+    def calibrate(self) -> None:
+        """Search what has not been searched, and solve for a new result."""
+        if not self.running:
+            self._wanted = True
+            self._detector.search()
+
+    def stop(self) -> None:
+        """End with the best camera so far; without one, end."""
+        self._wanted = False
+        if self._job is None:
+            self.ended.emit()
+        else:
+            self._job.stop()
+
+    def _searched(self, everything: bool) -> None:
+        wanted, self._wanted = self._wanted, False
+        if wanted and everything:
+            self._solve()
+        elif wanted:
+            self.ended.emit()
+
+    def _solve(self) -> None:
+        project = self._session.project
+        if project.size is None:
+            self._session.failed.emit(
+                CalibrationError(
+                    self.tr("There is no image to calibrate from."),
+                    self.tr("Add photographs of a checkerboard."),
+                )
+            )
+            self.ended.emit()
+            return
+        corner_set = CornerSet(project.size, project.views, project.board)
+        settings = project.settings
+
+        preparing = self.tr("Preparing the solver for its first use (once, about {0} s)…").format(
+            SOLVER_SECONDS
+        )
+
+        def work(job: Job) -> Result:
+            with when_compiling(lambda: job.rename(preparing)):
+                return calibrate_twice(corner_set, settings, job.send, job.cancelling)
+
+        self._job = self._session.jobs.start(
+            self.tr("Calibrating"),
+            work,
+            partial(self._done, corner_set),
+            received=self.advanced.emit,
+            ended=self._end,
+            inputs=self._session.question,
+        )
+        self.began.emit()
+
+    def _done(self, asked: CornerSet, result: Result) -> None:
+        name = find_free_name(self._session.project, self.tr("Calibration"))
+        self._session.edit(
+            self.tr("Calibrate"), lambda p: record_result(p, name, asked.views, result)
+        )
+        self._session.show_result(name)
+        if result.calibration.status is Status.STOPPED:
+            self._session.notified.emit(
+                self.tr("Stopped: “{0}” is the best so far, not the optimum.").format(name)
+            )
+
+        if (diagnosis := result.calibration.diagnosis) is not None:
+            self._session.failed.emit(
+                CalibrationError(
+                    self.tr("“{0}” is partial. {1}").format(name, diagnosis.message),
+                    diagnosis.hint,
+                )
+            )
+
+    def _end(self) -> None:
+        self._job = None
+        self.ended.emit()

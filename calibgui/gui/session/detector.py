@@ -1,0 +1,160 @@
+"""The search for corners in the background: its findings fill the document."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable
+from dataclasses import replace
+from pathlib import Path
+
+from PySide6.QtCore import QObject, Signal
+
+from calibgui.app.detection import Detection, find_views, infer_grid_size, infer_pattern
+from calibgui.app.project import Project, change_views, remove_digests
+from calibgui.dataset import View, ViewStatus
+from calibgui.engine.arrays import Array
+from calibgui.engine.boards import Pattern
+from calibgui.engine.detection import Corners
+from calibgui.engine.kernels import FINDER_SECONDS
+from calibgui.gui.jobs.job import Job
+from calibgui.gui.session.session import Session
+
+
+class Detector(QObject):
+    """Searches the images that wait, one batch after the other."""
+
+    finished = Signal(bool)
+    """The search has ended: True if all images have been searched, False if the user cancelled."""
+
+    def __init__(self, session: Session) -> None:
+        super().__init__(session)
+        self._session = session
+        self._job: Job | None = None
+        self._failed = False
+        """True if the batch ended with an error."""
+        self._has_more = False
+        """True if images are waiting that the batch does not have."""
+        self._batch: dict[str, Array | None] = {}
+        """Images of the batch, with the regions that are searched."""
+        self._found_in_batch: dict[str, Corners | None] = {}
+        """Corners that the batch found in them so far."""
+        self._search_key = _find_search_key(session.project)
+        """Pattern and method that the batch searches with."""
+
+    @property
+    def running(self) -> bool:
+        """Return whether a search is under way."""
+        return self._job is not None
+
+    def search(self) -> None:
+        """Search every enabled image that waits, if that is not being done already."""
+        project = self._session.project
+        asked = tuple(view for view in project.views if view.status is ViewStatus.WAITING)
+        if self.running:
+            other = _find_search_key(project) != self._search_key
+            self._has_more = other or any(view.image not in self._batch for view in asked)
+            return
+        if not asked:
+            self.finished.emit(True)
+            return
+        self._batch = {view.image: view.roi for view in asked}
+        self._found_in_batch = dict.fromkeys(self._batch)
+        grid_size = project.grid_size or infer_grid_size(project.views)
+        self._search_key = _find_search_key(project)
+        pattern = infer_pattern(project.views, project.pattern)
+        rois = {Path(image): roi for image, roi in self._batch.items() if roi is not None}
+
+        searching = self.tr("Finding corners")
+        preparing = self.tr(
+            "Preparing the corner finder for its first use (once, about {0} s)…"
+        ).format(FINDER_SECONDS)
+
+        def work(job: Job) -> Detection:
+            def progress(done: int, total: int, view: View) -> None:
+                job.rename(searching)
+                job.advance(done, total)
+                job.send([view])
+
+            images = [Path(view.image) for view in asked]
+            return find_views(
+                images,
+                grid_size,
+                rois,
+                progress,
+                job.cancelling,
+                project.size,
+                method=project.method,
+                pattern=pattern,
+                preparing=lambda: job.rename(preparing),
+            )
+
+        self._job = self._session.jobs.start(
+            searching,
+            work,
+            self._done,
+            received=self._learn,
+            failed=self._fail,
+            ended=self._ended,
+        )
+
+    def search_again(self, images: Iterable[str]) -> None:
+        """Forget what was found in `images`, and search them anew."""
+
+        def forget(view: View) -> View:
+            return replace(view, status=ViewStatus.WAITING, reason="", corners=None, points=None)
+
+        chosen = list(images)
+
+        def change(project: Project) -> Project:
+            return remove_digests(change_views(project, chosen, forget), chosen)
+
+        self._session.edit(self.tr("Detect again"), change)
+        self.search()
+
+    def _learn(self, found: Iterable[View]) -> None:
+        """Write findings into every snapshot in which the question is still open."""
+        news = {view.image: view for view in found}
+
+        def answered(view: View) -> View:
+            new = news.get(view.image)
+            if new is None or (view.status is new.status and view.corners is new.corners):
+                return view
+            asked = view.roi is self._batch[view.image]
+            if not asked or view.corners is not self._found_in_batch[view.image]:
+                return view  # changed by the user meanwhile, or of a time before the question
+            return replace(view, status=new.status, reason=new.reason, corners=new.corners)
+
+        def change(project: Project) -> Project:
+            if _find_search_key(project) != self._search_key:
+                return project  # another question
+            views = tuple(map(answered, project.views))
+            same = all(a is b for a, b in zip(views, project.views, strict=True))
+            return project if same else replace(project, views=views)
+
+        self._session.document.learn(change)
+        self._found_in_batch.update({view.image: view.corners for view in news.values()})
+
+    def _done(self, detection: Detection) -> None:
+        self._learn(detection.views)
+        if detection.size is not None:
+            self._session.document.learn(
+                lambda p: replace(p, size=detection.size) if p.views and p.size is None else p
+            )
+
+    def _fail(self, error: Exception) -> None:
+        """Report it, and do not try again: it would fail in the same way."""
+        self._failed = True
+        self._session.failed.emit(error)
+
+    def _ended(self) -> None:
+        cancelled = self._job is not None and self._job.cancelled
+        again, self._has_more, self._job = self._has_more, False, None
+        failed, self._failed = self._failed, False
+        if failed or (cancelled and not again):
+            self.finished.emit(False)
+        else:
+            self.search()  # what was added meanwhile
+
+
+def _find_search_key(project: Project) -> tuple[Pattern, str]:
+    """Return the pattern that is searched for, and the method that locates its corners."""
+    return project.pattern, project.method

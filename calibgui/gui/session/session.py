@@ -1,0 +1,122 @@
+"""The session that all parts share: the document, the selection and the running jobs."""
+
+from __future__ import annotations
+
+from collections.abc import Hashable
+
+from PySide6.QtCore import QObject, Signal
+
+from calibgui.app.document import Change, Document
+from calibgui.app.image_store import ImageStore
+from calibgui.app.project import Project
+from calibgui.dataset import Result, View
+from calibgui.gui.jobs.jobs import Jobs
+
+
+class Session(QObject):
+    """One project being worked on. Widgets listen to it, and tell it what the user does."""
+
+    changed = Signal(object, object)
+    """The project before and after an edit, an undo, a finding, or opening another one."""
+    selected = Signal(str, int)
+    """The image chosen to be looked at ("" for none), and one of its corners or -1."""
+    renewed = Signal(str)
+    """The file of an image holds another picture than before."""
+    result_changed = Signal(object)
+    """The result that is shown, or None."""
+    failed = Signal(Exception)
+    """An operation could not be done (a CalibrationError), or met a bug (anything else)."""
+    notified = Signal(str)
+    """There is a message for the user."""
+
+    def __init__(self, parent: QObject | None = None) -> None:
+        super().__init__(parent)
+        self.jobs = Jobs(self)
+        self.jobs.failed.connect(self.failed)
+        self.images = ImageStore()
+        self.document = Document()
+        self.document.listeners.append(self._document_changed)
+        self.image = ""
+        self.corner = -1
+        self._result_name = ""
+        self._announced: Result | None = None
+
+    @property
+    def project(self) -> Project:
+        """The project as it is now."""
+        return self.document.project
+
+    @property
+    def view(self) -> View | None:
+        """The view that is selected."""
+        return next((view for view in self.project.views if view.image == self.image), None)
+
+    @property
+    def result_name(self) -> str:
+        """Name of the result that is shown: the chosen one, or the newest."""
+        results = self.project.results
+        if self._result_name in results:
+            return self._result_name
+        return list(results)[-1] if results else ""
+
+    @property
+    def result(self) -> Result | None:
+        """The result that is shown."""
+        return self.project.results.get(self.result_name)
+
+    def show_result(self, name: str) -> None:
+        """Show another result; the empty name stands for the newest."""
+        self._result_name = name
+        self._announce_result()
+
+    def edit(self, label: str, change: Change, *, sliding: bool = False) -> None:
+        """Apply an edit of the user's; see ``Document.edit``."""
+        self.document.edit(label, change, sliding=sliding)
+
+    def select(self, image: str, corner: int = -1) -> None:
+        """Look at an image, and at one of its corners."""
+        if (image, corner) != (self.image, self.corner):
+            self.image, self.corner = image, corner
+            self.selected.emit(image, corner)
+
+    def renew(self, image: str) -> None:
+        """Forget the picture of an image: its file holds another one."""
+        self.images.forget(image)
+        self.renewed.emit(image)
+
+    def select_next(self, step: int) -> None:
+        """Look at the next image in the project's order, or the one before."""
+        views = self.project.views
+        place = self.project.find(self.image) + step
+        if 0 <= place < len(views):
+            self.select(views[place].image)
+
+    def begin(self, document: Document) -> None:
+        """Work on another document."""
+        before = self.project
+        for job in self.jobs.running:
+            job.cancel()
+        self.document.listeners.remove(self._document_changed)
+        self.document = document
+        document.listeners.append(self._document_changed)
+        self._result_name = ""
+        self._document_changed(before, document.project)
+
+    def question(self) -> Hashable:
+        """Return what a calibration depends on: a result holds as long as this stays the same."""
+        project = self.project
+        return (project.usable, project.board, project.size, project.settings)
+
+    def _document_changed(self, before: Project, after: Project) -> None:
+        if after.find(self.image) < 0:
+            self.image, self.corner = (after.views[0].image if after.views else ""), -1
+            self.changed.emit(before, after)
+            self.selected.emit(self.image, self.corner)
+        else:
+            self.changed.emit(before, after)
+        self._announce_result()
+
+    def _announce_result(self) -> None:
+        if self.result is not self._announced:
+            self._announced = self.result
+            self.result_changed.emit(self.result)

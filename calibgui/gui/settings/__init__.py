@@ -1,0 +1,1 @@
+"""The tabs below the list of images: the board, and how to calibrate."""

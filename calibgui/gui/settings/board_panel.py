@@ -1,0 +1,184 @@
+"""The board: how many inner corners, how large the squares, and one to print."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+from PySide6.QtCore import Qt, Signal
+from PySide6.QtWidgets import (
+    QCheckBox,
+    QComboBox,
+    QDoubleSpinBox,
+    QFormLayout,
+    QHBoxLayout,
+    QLabel,
+    QPushButton,
+    QSpinBox,
+    QWidget,
+)
+
+from calibgui.app.project import Project, Unit, set_method, set_pattern, set_square
+from calibgui.dataset import View, ViewStatus
+from calibgui.gui.session.session import Session
+from calibgui.gui.settings.pattern_choice import PatternChoice
+from calibgui.gui.widgets import theme
+from calibgui.gui.widgets.narrow_combo import NarrowCombo
+
+
+class BoardPanel(QWidget):
+    """Pattern and size of the board, as stated or as seen."""
+
+    search_wanted = Signal()
+    """The board has changed: images wait to be searched."""
+    print_wanted = Signal()
+
+    def __init__(self, session: Session) -> None:
+        super().__init__()
+        self._session = session
+        self.inferred = QCheckBox(self.tr("&Counted in the images"))
+        self.inferred.setToolTip(
+            self.tr("Take the size that most images show; turn it off to state it.")
+        )
+        self.rows, self.cols = (QSpinBox(minimum=2, maximum=200) for _ in range(2))
+        self.rows.setAccessibleName(self.tr("rows of inner corners"))
+        self.cols.setAccessibleName(self.tr("columns of inner corners"))
+        for box in (self.rows, self.cols):
+            box.setToolTip(
+                self.tr("Corners where four squares meet: one fewer than squares each way.")
+            )
+            box.setSpecialValueText("–")
+        self.square = QDoubleSpinBox(decimals=3, minimum=0.001, maximum=100_000.0)
+        self.square.setToolTip(
+            self.tr(
+                "Side of one square. Only the distances depend on it: measure several squares "
+                "together and divide."
+            )
+        )
+        self.square.setAccessibleName(self.tr("Side of a square"))
+        self.unit = QComboBox()
+        self.unit.addItems(list(Unit))
+        self.unit.setAccessibleName(self.tr("Unit"))
+        self.method = NarrowCombo()
+        for method, text, tip in (
+            (
+                "edges",
+                self.tr("by their edges"),
+                self.tr(
+                    "Fit the edges that cross at each corner, as exactly as the noise allows, and "
+                    "tell how exact that is."
+                ),
+            ),
+            (
+                "saddle",
+                self.tr("by the saddle point"),
+                self.tr("As the paper does: the saddle point of the grey levels at each corner."),
+            ),
+        ):
+            self.method.addItem(text, method)
+            self.method.setItemData(self.method.count() - 1, tip, Qt.ItemDataRole.ToolTipRole)
+        self.method.setToolTip(self.tr("How corners are located; another way searches anew."))
+        self.print = QPushButton(self.tr("&Print a board…"))
+        self.print.setToolTip(self.tr("Make a PDF or SVG of a board of any size."))
+
+        self.pattern = PatternChoice(self.tr("read from the images"))
+        self.counted, self.side = QLabel(), QLabel()
+        corners = QHBoxLayout()
+        corners.addWidget(self.rows, 1)
+        corners.addWidget(QLabel("×"))
+        corners.addWidget(self.cols, 1)
+        side = QHBoxLayout()
+        side.addWidget(self.square, 1)
+        side.addWidget(self.unit)
+        form = self._form = QFormLayout(self)
+        form.setContentsMargins(theme.SPACING, theme.SPACING, theme.SPACING, theme.SPACING)
+        form.addRow(self.pattern)
+        form.addRow(self.counted, corners)
+        form.addRow("", self.inferred)
+        form.addRow(self.tr("&Located"), self.method)
+        form.addRow(self.side, side)
+        form.addRow("", self.print)
+
+        self.pattern.changed.connect(self._edit_pattern)
+        self.pattern.failed.connect(session.failed)
+        self.inferred.clicked.connect(self._edit_board)
+        for box in (self.rows, self.cols):
+            box.editingFinished.connect(self._edit_board)
+        self.square.valueChanged.connect(self._edit_square)
+        self.square.editingFinished.connect(lambda: session.document.end_sliding_edit())
+        self.method.activated.connect(self._edit_method)
+        self.unit.activated.connect(self._edit_unit)
+        self.print.clicked.connect(self.print_wanted)
+        session.changed.connect(self._refresh)
+        self._refresh()
+
+    def _refresh(self) -> None:
+        project = self._session.project
+        board = project.board
+        inferred = project.grid_size is None
+        self.pattern.show_pattern(project.pattern, project.square / project.unit.mm)
+        self.method.setCurrentIndex(self.method.findData(project.method))
+        circles = not project.pattern.has_squares
+        self._form.setRowVisible(self.method, not circles)
+        self.counted.setText(self.tr("Circles") if circles else self.tr("Inner corners"))
+        self.side.setText(self.tr("Distance") if circles else self.tr("Square"))
+        self.inferred.setChecked(inferred)
+        for box, value in (
+            (self.rows, board and board.rows),
+            (self.cols, board and board.cols),
+        ):
+            box.blockSignals(True)
+            box.setValue(value or box.minimum())
+            box.setEnabled(not inferred)
+            box.blockSignals(False)
+        self.square.blockSignals(True)
+        if abs(self.square.value() * project.unit.mm - project.square) > 1e-9:
+            self.square.setValue(project.square / project.unit.mm)
+        self.square.blockSignals(False)
+        self.unit.setCurrentText(project.unit)
+
+    def _edit_board(self) -> None:
+        project = self._session.project
+        seen = project.board
+        stated = None if self.inferred.isChecked() else (self.rows.value(), self.cols.value())
+        if stated == project.grid_size:
+            return
+
+        def reset_mismatch(view: View) -> View:
+            """Mark a view to be searched anew if its corners are of another board."""
+            fits = view.corners is not None and stated in (None, view.corners.shape)
+            searched = view.status in (ViewStatus.FOUND, ViewStatus.NO_BOARD)
+            if fits or view.points is not None or not searched or stated is None:
+                return view
+            return replace(view, status=ViewStatus.WAITING, reason="", corners=None)
+
+        def change(project: Project) -> Project:
+            return replace(
+                project, grid_size=stated, views=tuple(map(reset_mismatch, project.views))
+            )
+
+        self._session.edit(self.tr("Number of corners"), change)
+        if seen is None or stated != (seen.rows, seen.cols):
+            self.search_wanted.emit()
+
+    def _edit_pattern(self) -> None:
+        pattern = self.pattern.pattern
+        self._session.edit(self.tr("Pattern"), lambda p: set_pattern(p, pattern))
+        self.search_wanted.emit()
+
+    def _edit_method(self) -> None:
+        method = self.method.currentData()
+        if method != self._session.project.method:
+            self._session.edit(self.tr("Way to locate corners"), lambda p: set_method(p, method))
+            self.search_wanted.emit()
+
+    def _edit_square(self, value: float) -> None:
+        mm = value * self._session.project.unit.mm
+        self._session.edit(self.tr("Size of squares"), lambda p: set_square(p, mm), sliding=True)
+
+    def _edit_unit(self) -> None:
+        unit = Unit(self.unit.currentText())
+        mm = self.square.value() * unit.mm
+        if unit is not self._session.project.unit:
+            self._session.edit(
+                self.tr("Unit of squares"), lambda p: replace(set_square(p, mm), unit=unit)
+            )

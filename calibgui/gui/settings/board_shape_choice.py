@@ -1,0 +1,169 @@
+"""The choice of what is known of the board's shape."""
+
+from __future__ import annotations
+
+from PySide6.QtCore import Qt, Signal
+from PySide6.QtWidgets import (
+    QCheckBox,
+    QDoubleSpinBox,
+    QFileDialog,
+    QFormLayout,
+    QHBoxLayout,
+    QWidget,
+)
+
+from calibgui.engine.boards import BoardShape, BoardShapeModel, BoardShapePrior
+from calibgui.engine.errors import CalibrationError
+from calibgui.formats.board_shape_json import read_board_shape
+from calibgui.gui.widgets.narrow_combo import NarrowCombo
+
+_OFFICE_PRIOR = BoardShapePrior(in_plane=0.1, out_of_plane=0.3)
+"""Standard deviations of a board from an office printer that is glued to something stiff, mm."""
+
+_FROM_FILE = "file"
+
+
+class BoardShapeChoice(QWidget):
+    """A model to estimate or a known shape to hold, and what is known of a free shape."""
+
+    changed = Signal()
+    slid = Signal()
+    """The prior is being changed, and may go on changing."""
+    failed = Signal(Exception)
+    """The chosen file holds no board shape."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.board_shape: BoardShapeModel | BoardShape | None = BoardShapeModel.NOMINAL
+        """The choice, as in `Settings.board_shape`."""
+        self.model = NarrowCombo()
+        self.model.setAccessibleName(self.tr("Shape of the board"))
+        for model, text, tip in (
+            (
+                BoardShapeModel.NOMINAL,
+                self.tr("as drawn"),
+                self.tr("Flat and printed true (nominal). Its errors become the camera's."),
+            ),
+            (
+                BoardShapeModel.AFFINE,
+                self.tr("stretched or askew"),
+                self.tr("Sides of unequal scale, not quite at right angles (affine)."),
+            ),
+            (BoardShapeModel.BOW, self.tr("bowed"), self.tr("Bent along rows and columns (bow).")),
+            (
+                BoardShapeModel.FREE,
+                self.tr("free: every corner"),
+                self.tr(
+                    "Every corner is estimated in three dimensions (free). Needs 6 views, and "
+                    "every corner in 4 of them, or a prior."
+                ),
+            ),
+            (
+                None,
+                self.tr("what predicts best"),
+                self.tr("Of these, the one that predicts views best that it has not seen. Slow."),
+            ),
+        ):
+            self._add(text, model, tip)
+        self._add(
+            self.tr("as in a file…"), _FROM_FILE, self.tr("Hold a shape that was saved before.")
+        )
+        self.known = QCheckBox(self.tr("known to"))
+        self.in_plane = self._make_length(
+            _OFFICE_PRIOR.in_plane, self.tr("Standard deviation of the print in the plane, mm")
+        )
+        self.out_of_plane = self._make_length(
+            _OFFICE_PRIOR.out_of_plane, self.tr("Standard deviation out of the plane: flatness, mm")
+        )
+        self.known.setToolTip(
+            self.tr(
+                "State how far corners may be from where they should be: in the plane, and out "
+                "of it. Few views can then carry a free board."
+            )
+        )
+        row = QHBoxLayout()
+        row.addWidget(self.in_plane, 1)
+        row.addWidget(self.out_of_plane, 1)
+        form = QFormLayout(self)
+        form.setContentsMargins(0, 0, 0, 0)
+        form.addRow(self.tr("Boar&d is"), self.model)
+        form.addRow(self.known, row)
+        self.model.activated.connect(self._choose)
+        self.known.clicked.connect(self._edit_known)
+
+    @property
+    def prior(self) -> BoardShapePrior | None:
+        """The standard deviations that are stated for a free shape; None for other choices."""
+        if self.board_shape is not BoardShapeModel.FREE or not self.known.isChecked():
+            return None
+        return BoardShapePrior(self.in_plane.value(), self.out_of_plane.value())
+
+    def show_choice(
+        self, board_shape: BoardShapeModel | BoardShape | None, prior: BoardShapePrior | None
+    ) -> None:
+        """Show a choice without announcing it."""
+        self.board_shape = board_shape
+        last = self.model.count() - 1
+        self.model.setItemText(
+            last,
+            self.tr("as in a file: {0:.2g} mm off").format(board_shape.rms)
+            if isinstance(board_shape, BoardShape)
+            else self.tr("as in a file…"),
+        )
+        chosen = last if isinstance(board_shape, BoardShape) else self.model.findData(board_shape)
+        self.model.setCurrentIndex(chosen)
+        self.known.setChecked(prior is not None)
+        if prior is not None:
+            for box, value in (
+                (self.in_plane, prior.in_plane),
+                (self.out_of_plane, prior.out_of_plane),
+            ):
+                box.blockSignals(True)
+                box.setValue(value)
+                box.blockSignals(False)
+        self._enable()
+
+    def _add(self, text: str, model: BoardShapeModel | str | None, tip: str) -> None:
+        self.model.addItem(text, model)
+        self.model.setItemData(self.model.count() - 1, tip, Qt.ItemDataRole.ToolTipRole)
+
+    def _make_length(self, value: float, tip: str) -> QDoubleSpinBox:
+        box = QDoubleSpinBox(
+            decimals=3, minimum=0.001, maximum=9.0, singleStep=0.05, suffix=self.tr(" mm")
+        )
+        box.setValue(value)
+        box.setKeyboardTracking(False)
+        box.setButtonSymbols(QDoubleSpinBox.ButtonSymbols.NoButtons)
+        box.setToolTip(tip)
+        box.setAccessibleName(tip)
+        box.valueChanged.connect(self.slid)
+        return box
+
+    def _enable(self) -> None:
+        free = self.board_shape is BoardShapeModel.FREE
+        self.known.setEnabled(free)
+        for box in (self.in_plane, self.out_of_plane):
+            box.setEnabled(free and self.known.isChecked())
+
+    def _edit_known(self) -> None:
+        self._enable()
+        self.changed.emit()
+
+    def _choose(self) -> None:
+        model = self.model.currentData()
+        if model == _FROM_FILE:
+            self._ask_for_file()
+        else:
+            self.board_shape = None if model is None else BoardShapeModel(model)
+        self.changed.emit()
+
+    def _ask_for_file(self) -> None:
+        name, _ = QFileDialog.getOpenFileName(
+            self, self.tr("The board's shape"), "", self.tr("Shapes (*.json)")
+        )
+        if name:
+            try:
+                self.board_shape = read_board_shape(name)
+            except CalibrationError as error:
+                self.failed.emit(error)
+        self.show_choice(self.board_shape, self.prior)

@@ -1,0 +1,303 @@
+"""How to calibrate: the lens model, what is minimised, what is estimated, and the board's shape."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import replace
+
+from PySide6.QtCore import Qt
+from PySide6.QtWidgets import (
+    QCheckBox,
+    QFormLayout,
+    QGridLayout,
+    QLabel,
+    QLineEdit,
+    QVBoxLayout,
+    QWidget,
+)
+
+from calibgui.app.settings import DEFAULT_MODEL, MODEL_CHOICES, Settings, parse_fixed
+from calibgui.engine.boards import BoardShapeModel
+from calibgui.engine.calibration import Cost
+from calibgui.engine.camera import MODELS, parameter_names
+from calibgui.engine.errors import CalibrationError
+from calibgui.gui.session.session import Session
+from calibgui.gui.settings.board_shape_choice import BoardShapeChoice
+from calibgui.gui.widgets import theme
+from calibgui.gui.widgets.narrow_combo import NarrowCombo
+
+_FOCAL_AND_CENTRE = ("fx", "fy", "cx", "cy")
+"""Parameters that mean the same in every lens model."""
+_BOXES_PER_ROW = 5
+"""Number of parameters side by side."""
+
+
+class SettingsPanel(QWidget):
+    """Edits the calibration settings of the project: one widget for each of them.
+
+    The panel has the cost, the lens model, the board's shape, what to do about poor views, and a
+    box for every parameter of the lens model: a parameter without its tick is held.
+    """
+
+    def __init__(self, session: Session) -> None:
+        super().__init__()
+        self._session = session
+        self.cost = self._make_cost()
+        self.model = self._make_model()
+        self.board_shape = BoardShapeChoice()
+        self.robust = QCheckBox(self.tr("&Leave outliers out"))
+        self.robust.setToolTip(
+            self.tr(
+                "Remove corners and views that do not fit from the images, as by hand: undo "
+                "brings them back. The result names them."
+            )
+        )
+        self.weigh = QCheckBox(self.tr("&Weigh views by their noise"))
+        self.weigh.setToolTip(
+            self.tr(
+                "Poor views then spoil less. Best with an estimated shape of the board, which "
+                "would else pass for noise."
+            )
+        )
+        self.again = QCheckBox(self.tr("Search a&gain with the camera"))
+        self.again.setToolTip(
+            self.tr(
+                "Once the camera is known, search the images without a board and the boards found "
+                "in part again, and calibrate from what that gains."
+            )
+        )
+        names = (name for model in MODEL_CHOICES for name in parameter_names(model))
+        self.boxes = {name: QCheckBox(name, self) for name in dict.fromkeys(names)}
+        self._arranged: tuple[str, ...] = ()
+        """Names of the parameters whose boxes are shown, in their order."""
+        self.values = self._make_values()
+        self._lay_out()
+        choices = (self.robust, self.weigh, self.again, *self.boxes.values())
+        clicks = (box.clicked for box in choices)
+        for edited in (
+            self.cost.activated,
+            self.model.activated,
+            self.board_shape.changed,
+            *clicks,
+        ):
+            edited.connect(lambda: self._edit())
+        self.board_shape.slid.connect(lambda: self._edit(sliding=True))
+        self.board_shape.failed.connect(session.failed)
+        session.changed.connect(self._refresh)
+        self._refresh()
+
+    def _make_cost(self) -> NarrowCombo:
+        choice = NarrowCombo()
+        for cost, text, tip in (
+            (
+                Cost.IMAGE,
+                self.tr("error in the image"),
+                self.tr(
+                    "Distance between measured and predicted corners, px. The noise is in the "
+                    "image: this gives the smallest standard deviations."
+                ),
+            ),
+            (
+                Cost.REFERENCE,
+                self.tr("error on the reference plane"),
+                self.tr(
+                    "Distance between the corners registered on the board and where they should "
+                    "be. Far and tilted views weigh more."
+                ),
+            ),
+            (
+                Cost.PAPER,
+                self.tr("as printed in the paper"),
+                self.tr("The formulation of the paper to the letter, to reproduce its tables."),
+            ),
+        ):
+            choice.addItem(text, cost)
+            choice.setItemData(choice.count() - 1, tip, Qt.ItemDataRole.ToolTipRole)
+        choice.setAccessibleName(self.tr("Minimise"))
+        return choice
+
+    def _make_model(self) -> NarrowCombo:
+        descriptions = {
+            "lucchese": (
+                self.tr("of the paper"),
+                self.tr(
+                    "From measured to ideal points: radial, decentering and prism terms, undone "
+                    "without iteration. Exported to other programs by a fit."
+                ),
+            ),
+            "brown-conrady": (
+                self.tr("of OpenCV"),
+                self.tr(
+                    "Brown-Conrady: from ideal to measured points, with five coefficients, as "
+                    "OpenCV, ROS and their relatives read them."
+                ),
+            ),
+        }
+        choice = NarrowCombo()
+        for model in MODEL_CHOICES:
+            text, tip = descriptions.get(model, (model, ""))
+            choice.addItem(text, model)
+            choice.setItemData(choice.count() - 1, tip, Qt.ItemDataRole.ToolTipRole)
+        choice.setAccessibleName(self.tr("Lens model"))
+        return choice
+
+    def _make_values(self) -> QLineEdit:
+        values = QLineEdit()
+        values.setPlaceholderText("fx=650, p1=0")
+        values.setAccessibleName(self.tr("Values of held parameters"))
+        values.setToolTip(
+            self.tr(
+                "Parameters that are held at values of their own, as fx=650, p1=0. Of the others "
+                "that are held coefficients are 0, the centre is the image's and focal lengths "
+                "are those of the closed form."
+            )
+        )
+        values.editingFinished.connect(self._hold)
+        return values
+
+    def _lay_out(self) -> None:
+        label = QLabel(self.tr("&Minimise"))
+        label.setBuddy(self.cost)
+        # In line with the labels of the board's shape, which follow.
+        label.setMinimumWidth(self.board_shape.known.sizeHint().width())
+        first = QFormLayout()
+        first.addRow(label, self.cost)
+        first.addRow(self.tr("Lens model"), self.model)
+        self._grid = QGridLayout()
+        self._grid.setHorizontalSpacing(theme.SPACING)
+        for name, box in self.boxes.items():
+            box.setToolTip(
+                self.tr("Estimate {0}; otherwise it is held, coefficients at 0.").format(name)
+            )
+        last = QFormLayout()
+        last.addRow(self.tr("Held at"), self.values)
+        layout = QVBoxLayout(self)
+        layout.addLayout(first)
+        layout.addWidget(self.board_shape)
+        for choice in (self.robust, self.weigh, self.again):
+            layout.addWidget(choice)
+        layout.addWidget(QLabel(self.tr("Estimate")))
+        layout.addLayout(self._grid)
+        layout.addLayout(last)
+        layout.addStretch(1)
+
+    def _arrange_boxes(self, names: Sequence[str]) -> None:
+        """Show the boxes of these parameters, in this order, and no others."""
+        for box in self.boxes.values():
+            self._grid.removeWidget(box)
+        for k, name in enumerate(names):
+            self._grid.addWidget(self.boxes[name], k // _BOXES_PER_ROW, k % _BOXES_PER_ROW)
+        for name, box in self.boxes.items():
+            box.setVisible(name in names)
+
+    def _refresh(self) -> None:
+        settings = self._session.project.settings
+        self.cost.setCurrentIndex(self.cost.findData(settings.cost))
+        self._refresh_model(settings)
+        self.board_shape.show_choice(settings.board_shape, settings.prior)
+        self.board_shape.setEnabled(settings.cost is Cost.IMAGE)
+        self.board_shape.setToolTip(
+            ""
+            if self.board_shape.isEnabled()
+            else self.tr("The error in the image takes any board.")
+        )
+        self.robust.setChecked(settings.robust)
+        self.weigh.setChecked(settings.weigh_views)
+        self.weigh.setEnabled(settings.cost is Cost.IMAGE)
+        self.again.setChecked(not settings.once)
+        stated = {name: value for name, value in settings.fixed.items() if value is not None}
+        self.values.setText(", ".join(f"{name}={value:.12g}" for name, value in stated.items()))
+
+    def _refresh_model(self, settings: Settings) -> None:
+        self.model.setCurrentIndex(self.model.findData(settings.model))
+        is_paper = settings.cost is Cost.PAPER
+        self.model.setEnabled(not is_paper)
+        self.model.setToolTip(
+            self.tr("The formulation of the paper has its own lens model, with a radius in pixels.")
+            if is_paper
+            else self.tr("How the lens bends what a pinhole would image; the result is of it.")
+        )
+        names, held = parameter_names(settings.model), MODELS[settings.model].held
+        if names != self._arranged:
+            self._arranged = names
+            self._arrange_boxes(names)
+        for name in names:
+            is_free = name not in settings.fixed and (name not in held or name in settings.freed)
+            self.boxes[name].setChecked(is_free)
+
+    def _hold(self) -> None:
+        """Hold parameters at the values that were typed."""
+        if not self.values.isModified():
+            return
+        text = self.values.text()
+        try:
+            typed = parse_fixed(text, self._session.project.settings.model) if text.strip() else {}
+        except CalibrationError as error:
+            self._session.failed.emit(error)
+            self._refresh()
+            return
+        for name in typed:
+            self.boxes[name].setChecked(False)
+        self._edit(typed)
+
+    def _edit(
+        self, values: Mapping[str, float | None] | None = None, *, sliding: bool = False
+    ) -> None:
+        """Change the settings to what the widgets show.
+
+        Args:
+            values: at which parameters are held; by default as before.
+            sliding: whether the edit goes on, as of a value that is being turned.
+        """
+        before = self._session.project.settings
+        cost = Cost(self.cost.currentData())
+        model = DEFAULT_MODEL if cost is Cost.PAPER else str(self.model.currentData())
+        if model == before.model:
+            fixed, freed = self._read_boxes(before.fixed if values is None else values)
+        else:
+            fixed, freed = _carry_over(before, model)
+        # Only the error in the image takes another board than the one that was drawn.
+        in_image = cost is Cost.IMAGE
+        settings = replace(
+            before,
+            cost=cost,
+            model=model,
+            fixed=fixed,
+            freed=freed,
+            board_shape=self.board_shape.board_shape if in_image else BoardShapeModel.NOMINAL,
+            prior=self.board_shape.prior if in_image else None,
+            robust=self.robust.isChecked(),
+            weigh_views=self.weigh.isChecked() and in_image,
+            once=not self.again.isChecked(),
+        )
+        if settings != before:
+            self._session.edit(
+                self.tr("Calibration settings"),
+                lambda p: replace(p, settings=settings),
+                sliding=sliding,
+            )
+
+    def _read_boxes(
+        self, values: Mapping[str, float | None]
+    ) -> tuple[dict[str, float | None], tuple[str, ...]]:
+        """Return what is held, at which of `values`, and what is freed, as the boxes show it."""
+        model = self._session.project.settings.model
+        held_by_default = MODELS[model].held
+        held = [name for name in parameter_names(model) if not self.boxes[name].isChecked()]
+        stated = {name: values.get(name) for name in held}
+        fixed = {n: v for n, v in stated.items() if n not in held_by_default or v is not None}
+        return fixed, tuple(name for name in held_by_default if name not in held)
+
+
+def _carry_over(settings: Settings, model: str) -> tuple[dict[str, float | None], tuple[str, ...]]:
+    """Return what stays held and freed with another lens model.
+
+    A coefficient that both models have stays held, but not at its value, which means another lens.
+    """
+    names, held = parameter_names(model), MODELS[model].held
+    fixed = {
+        name: value if name in _FOCAL_AND_CENTRE else None
+        for name, value in settings.fixed.items()
+        if name in names and (name in _FOCAL_AND_CENTRE or name not in held)
+    }
+    return fixed, tuple(name for name in settings.freed if name in held)

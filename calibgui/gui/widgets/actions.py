@@ -1,0 +1,58 @@
+"""Making actions and opening dialogs, the same way everywhere."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+from PySide6.QtCore import Qt
+from PySide6.QtGui import QAction, QIcon, QKeySequence
+from PySide6.QtWidgets import QDialog, QDialogButtonBox, QWidget
+
+
+def make_action(
+    parent: QWidget,
+    text: str,
+    shortcut: str | QKeySequence.StandardKey | None,
+    tip: str,
+    does: Callable[[], Any],
+    *,
+    scope: Qt.ShortcutContext = Qt.ShortcutContext.WindowShortcut,
+) -> QAction:
+    """An action of `parent`.
+
+    Args:
+        parent: owns it.
+        text: with & before the letter that chooses it in a menu.
+        shortcut: keys, or None.
+        tip: what it is good for, in a sentence.
+        does: called without arguments.
+        scope: where the shortcut works.
+    """
+    action = QAction(text, parent)
+    if shortcut is not None:
+        action.setShortcut(QKeySequence(shortcut))
+        keys = action.shortcut().toString(QKeySequence.SequenceFormat.NativeText)
+        action.setToolTip(f"{tip} ({keys})" if keys else tip)
+    else:
+        action.setToolTip(tip)
+    action.setStatusTip(tip)
+    action.setShortcutContext(scope)
+    action.triggered.connect(lambda: does())
+    return action
+
+
+def add_close_button(dialog: QDialog) -> QDialogButtonBox:
+    """A row of buttons with one that closes `dialog`; Enter is left to the others."""
+    buttons = QDialogButtonBox(QDialogButtonBox.StandardButton.Close)
+    close = buttons.button(QDialogButtonBox.StandardButton.Close)
+    close.setIcon(QIcon())  # the style's is black in the dark, too
+    close.setAutoDefault(False)
+    buttons.rejected.connect(dialog.reject)
+    return buttons
+
+
+def show_dialog(dialog: QDialog) -> None:
+    """Open a dialog over its window; it ceases to exist when it is closed."""
+    dialog.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
+    dialog.open()

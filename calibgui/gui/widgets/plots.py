@@ -1,0 +1,232 @@
+"""Plots alike: labelled axes with units, the theme's colours, and a menu to save them."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pyqtgraph as pg
+from PySide6.QtCore import QCoreApplication, QEvent, QPoint, QRectF, Qt
+from PySide6.QtGui import (
+    QAction,
+    QContextMenuEvent,
+    QGuiApplication,
+    QImage,
+    QKeySequence,
+    QMouseEvent,
+    QPainter,
+)
+from PySide6.QtSvg import QSvgGenerator
+from PySide6.QtWidgets import QFileDialog, QMenu, QWidget
+
+from calibgui.gui.widgets import theme
+
+pg.setConfigOptions(antialias=True)
+
+_MANY_DECADES = 4
+"""From which on there is room for the powers of ten only."""
+_RIM = 8.0
+"""Above axes that end with what they enclose: half a line for their topmost number, px."""
+
+
+class Plot(pg.PlotWidget):  # type: ignore[misc]  # pyqtgraph is not typed
+    """A plot whose axes say what they show.
+
+    Args:
+        x, y: what the axes show.
+        x_unit, y_unit: their units; empty for a count or a ratio.
+        square: whether a unit is as long on either axis.
+    """
+
+    def __init__(
+        self,
+        x: str,
+        y: str,
+        x_unit: str = "",
+        y_unit: str = "",
+        *,
+        square: bool = False,
+        parent: QWidget | None = None,
+    ) -> None:
+        axes = {name: _Axis(name) for name in ("left", "bottom")}
+        super().__init__(parent, enableMenu=False, axisItems=axes)  # it has a menu of its own
+        self._labels = _labels(x, y, x_unit, y_unit)
+        self.colour_bar: ColourBar | None = None
+        """What the colours mean, if they mean anything."""
+        self._area: QRectF | None = None
+        item = self.getPlotItem()
+        item.getViewBox().sigResized.connect(self._make_room)
+        item.hideButtons()
+        item.showGrid(x=True, y=True, alpha=0.15)
+        item.getViewBox().setAspectLocked(square)
+        for axis in ("left", "bottom"):
+            item.getAxis(axis).enableAutoSIPrefix(False)
+        self._menu = QMenu(self)
+        for text, shortcut, does in (
+            (self.tr("Show all"), None, self.show_all),
+            (self.tr("Copy as image"), QKeySequence.StandardKey.Copy, self.copy),
+            (self.tr("Save plot…"), None, self.ask_and_save),
+        ):
+            action = QAction(text, self)
+            if shortcut is not None:
+                action.setShortcut(shortcut)
+                action.setShortcutContext(Qt.ShortcutContext.WidgetShortcut)
+            action.triggered.connect(does)
+            self.addAction(action)
+            self._menu.addAction(action)
+        self._restyle()
+
+    def set_labels(self, x: str, y: str, x_unit: str = "", y_unit: str = "") -> None:
+        """Say anew what the axes show."""
+        self._labels = _labels(x, y, x_unit, y_unit)
+        self._restyle()
+
+    def enclose(self, area: QRectF) -> None:
+        """Show all of `area` of a square plot, with axes that end where it ends."""
+        self._area = area
+        self._make_room()
+        self.getPlotItem().getViewBox().setRange(area, padding=0)
+
+    def show_all(self) -> None:
+        """Take back what was zoomed and moved; a double click does so too."""
+        box = self.getPlotItem().getViewBox()
+        if self._area is None:
+            box.autoRange()
+        else:
+            box.setRange(self._area, padding=0)
+
+    def mouseDoubleClickEvent(self, event: QMouseEvent) -> None:  # noqa: N802 - Qt's name
+        super().mouseDoubleClickEvent(event)
+        if event.button() is Qt.MouseButton.LeftButton:
+            self.show_all()
+            event.accept()
+
+    def _make_room(self) -> None:
+        """Leave the room that the enclosed area cannot fill outside the axes."""
+        if self._area is None:
+            return
+        item = self.getPlotItem()
+        box, layout = item.getViewBox(), item.layout
+        left, top, right, bottom = layout.getContentsMargins()
+        width, height = box.width() + left + right, box.height() + top + bottom - _RIM
+        scale = min(width / self._area.width(), height / self._area.height())
+        across = max(width - scale * self._area.width(), 0.0) / 2
+        below = max(height - scale * self._area.height(), 0.0)
+        if abs(across - left) > 1 or abs(below - bottom) > 1:
+            layout.setContentsMargins(across, _RIM, across, below)
+
+    def set_title(self, text: str) -> None:
+        """Say above the plot what it shows at present."""
+        self.getPlotItem().setTitle(text, color=theme.current().text, size="10pt")
+
+    def save(self, path: str | Path) -> None:
+        """Write the plot as PNG or SVG, by the name's ending."""
+        save_picture(self, path)
+
+    def copy(self) -> None:
+        """Put a picture of the plot on the clipboard."""
+        QGuiApplication.clipboard().setPixmap(self.grab())
+
+    def ask_and_save(self) -> None:
+        """Let the user choose a file, then `save`."""
+        ask_and_save_picture(self)
+
+    def contextMenuEvent(self, event: QContextMenuEvent) -> None:  # noqa: N802 - Qt's name
+        self._menu.popup(event.globalPos())
+        event.accept()
+
+    def changeEvent(self, event: QEvent) -> None:  # noqa: N802 - Qt's name
+        super().changeEvent(event)
+        if event.type() == QEvent.Type.PaletteChange and hasattr(self, "_menu"):
+            self._restyle()
+
+    def _restyle(self) -> None:
+        colours = theme.current()
+        self.setBackground(colours.base)
+        for name, text in self._labels.items():
+            axis = self.getPlotItem().getAxis(name)
+            axis.setPen(colours.line)
+            axis.setTextPen(colours.text)
+            axis.setLabel(text, color=colours.text)
+        if self.colour_bar is not None:
+            self.colour_bar.restyle()
+
+
+class _Axis(pg.AxisItem):  # type: ignore[misc]  # pyqtgraph is not typed
+    """An axis that, if it is logarithmic, has numbers at powers of ten, and few between them."""
+
+    def logTickStrings(self, values: list[float], scale: float, spacing: float) -> list[str]:  # noqa: N802 - pyqtgraph's name
+        decades = abs(self.range[1] - self.range[0])
+        shown = (1,) if decades > _MANY_DECADES else (1, 2, 5)
+        texts = super().logTickStrings(values, scale, spacing)
+        leading = (f"{10.0**value:.0e}"[0] for value in values)
+        return [t if int(first) in shown else "" for t, first in zip(texts, leading, strict=True)]
+
+
+class ColourBar(pg.ColorBarItem):  # type: ignore[misc]  # pyqtgraph is not typed
+    """What the colours of a plot mean, beside it.
+
+    Args:
+        plot: that the bar belongs to.
+        quantity: what the colours show, with its unit.
+        colours: the colour map.
+        image: whose values are coloured, if they are one's.
+    """
+
+    def __init__(
+        self, plot: Plot, quantity: str, colours: pg.ColorMap, image: pg.ImageItem | None = None
+    ) -> None:
+        super().__init__(width=14, interactive=False, colorMap=colours)
+        self._quantity = quantity
+        self.setImageItem([] if image is None else image, insert_in=plot.getPlotItem())
+        plot.colour_bar = self
+        self.restyle()
+
+    def restyle(self) -> None:
+        """Take the theme's colours."""
+        colours = theme.current()
+        self.axis.setPen(colours.line)
+        self.axis.setTextPen(colours.text)
+        self.getAxis("left").setLabel(self._quantity, color=colours.text)
+
+
+def save_picture(widget: QWidget, path: str | Path) -> None:
+    """Write what `widget` shows as SVG, or as PNG of twice its size, by the name's ending."""
+    if str(path).lower().endswith(".svg"):
+        drawing = QSvgGenerator()
+        drawing.setFileName(str(path))
+        drawing.setSize(widget.size())
+        drawing.setViewBox(widget.rect())
+        _render(widget, drawing)
+        return
+    image = QImage(widget.size() * 2, QImage.Format.Format_RGB32)
+    image.setDevicePixelRatio(2)
+    _render(widget, image)
+    image.save(str(path))
+
+
+def ask_and_save_picture(widget: QWidget) -> None:
+    """Let the user choose a file, then `save_picture`."""
+    translate = QCoreApplication.translate
+    path, chosen = QFileDialog.getSaveFileName(
+        widget,
+        translate("plots", "Save plot"),
+        "",
+        translate("plots", "PNG image (*.png);;SVG drawing (*.svg)"),
+    )
+    if path:
+        ending = ".svg" if "svg" in chosen else ".png"
+        save_picture(widget, path if Path(path).suffix else path + ending)
+
+
+def _render(widget: QWidget, device: QImage | QSvgGenerator) -> None:
+    painter = QPainter(device)
+    QWidget.render(widget, painter, QPoint())  # a view of a scene has a "render" of its own
+    painter.end()
+
+
+def _labels(x: str, y: str, x_unit: str, y_unit: str) -> dict[str, str]:
+    return {"bottom": _with_unit(x, x_unit), "left": _with_unit(y, y_unit)}
+
+
+def _with_unit(name: str, unit: str) -> str:
+    return f"{name} [{unit}]" if unit else name

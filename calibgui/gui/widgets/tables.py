@@ -1,0 +1,268 @@
+"""Tables alike: sortable by value, copied and saved with every digit."""
+
+from __future__ import annotations
+
+import csv
+import io
+import math
+from collections.abc import Callable, Collection, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from PySide6.QtCore import (
+    QAbstractTableModel,
+    QItemSelectionModel,
+    QModelIndex,
+    QPersistentModelIndex,
+    QPoint,
+    QSize,
+    QSortFilterProxyModel,
+    Qt,
+    Signal,
+)
+from PySide6.QtGui import QAction, QColor, QGuiApplication, QKeySequence, QResizeEvent, QShowEvent
+from PySide6.QtWidgets import (
+    QAbstractItemView,
+    QFileDialog,
+    QHeaderView,
+    QMenu,
+    QStyle,
+    QTableView,
+    QWidget,
+)
+
+from calibgui.gui.widgets import theme
+
+Index = QModelIndex | QPersistentModelIndex
+_SORT_ROLE = Qt.ItemDataRole.UserRole
+
+
+@dataclass(frozen=True, slots=True)
+class Column:
+    """One column of a table.
+
+    `values` are what sorting and CSV use; `text` turns one into what is shown.
+    """
+
+    title: str
+    values: Sequence[Any]
+    text: Callable[[Any], str] = str
+    tip: str = ""
+    """What the column means, with its unit."""
+    hidden: bool = False
+    """Whether only copies and files hold it."""
+    optional: bool = False
+    """Whether it is left out where there is no room for all."""
+    heading: str = ""
+    """What stands over the texts, if not the title: with the unit that only they are in."""
+
+
+def with_digits(digits: int) -> Callable[[float], str]:
+    """Text of a number with that many significant digits; a dash where there is none."""
+
+    def text(value: float) -> str:
+        return f"{value:.{digits}g}" if math.isfinite(value) else "–"
+
+    return text
+
+
+def with_decimals(decimals: int) -> Callable[[float], str]:
+    """Text of a number with that many decimals; a dash where there is none."""
+
+    def text(value: float) -> str:
+        return f"{value:.{decimals}f}" if math.isfinite(value) else "–"
+
+    return text
+
+
+class _Model(QAbstractTableModel):
+    def __init__(self, parent: QWidget) -> None:
+        super().__init__(parent)
+        self.columns: tuple[Column, ...] = ()
+        self.marked: dict[int, str] = {}
+
+    def show(self, columns: Sequence[Column], marked: dict[int, str]) -> None:
+        self.beginResetModel()
+        self.columns, self.marked = tuple(columns), marked
+        self.endResetModel()
+
+    def rowCount(self, parent: Index = QModelIndex()) -> int:  # noqa: N802, B008 - Qt's signature
+        return 0 if parent.isValid() or not self.columns else len(self.columns[0].values)
+
+    def columnCount(self, parent: Index = QModelIndex()) -> int:  # noqa: N802, B008
+        return 0 if parent.isValid() else len(self.columns)
+
+    def data(self, index: Index, role: int = Qt.ItemDataRole.DisplayRole) -> Any:
+        column = self.columns[index.column()]
+        value = column.values[index.row()]
+        if role == Qt.ItemDataRole.DisplayRole:
+            return column.text(value)
+        if role == _SORT_ROLE:
+            # NaN has no order: it goes to the end.
+            return math.inf if isinstance(value, float) and math.isnan(value) else value
+        if role == Qt.ItemDataRole.TextAlignmentRole:
+            side = Qt.AlignmentFlag.AlignLeft if isinstance(value, str) else _RIGHT
+            return int(side | Qt.AlignmentFlag.AlignVCenter)
+        if role == Qt.ItemDataRole.BackgroundRole and index.row() in self.marked:
+            return QColor(theme.current().bad_base)
+        if role == Qt.ItemDataRole.ToolTipRole:
+            return self.marked.get(index.row()) or column.tip or None
+        return None
+
+    def headerData(  # noqa: N802 - Qt's name
+        self, section: int, orientation: Qt.Orientation, role: int = Qt.ItemDataRole.DisplayRole
+    ) -> Any:
+        if orientation == Qt.Orientation.Horizontal and section < len(self.columns):
+            if role == Qt.ItemDataRole.DisplayRole:
+                return self.columns[section].heading or self.columns[section].title
+            if role == Qt.ItemDataRole.ToolTipRole:
+                return self.columns[section].tip or None
+        return None
+
+
+_RIGHT = Qt.AlignmentFlag.AlignRight
+_LEGIBLE = 8
+"""Characters of the first column that are shown however narrow the table is."""
+
+
+class _Titles(QHeaderView):
+    """Titles of columns; only the one that the rows are sorted by has room for its arrow."""
+
+    def __init__(self, parent: QWidget) -> None:
+        super().__init__(Qt.Orientation.Horizontal, parent)
+        self.setSectionsClickable(True)
+        self.setHighlightSections(False)  # every row is selected as a whole
+        # Columns as wide as what is in sight: measuring thousands of rows would be felt.
+        self.setResizeContentsPrecision(0)
+        self.setSectionResizeMode(QHeaderView.ResizeMode.ResizeToContents)
+
+    def sectionSizeFromContents(self, column: int) -> QSize:  # noqa: N802 - Qt's name
+        size = super().sectionSizeFromContents(column)
+        if column != self.sortIndicatorSection():
+            metric, style = QStyle.PixelMetric, self.style()
+            arrow = style.pixelMetric(metric.PM_HeaderMarkSize, None, self)
+            size -= QSize(arrow + style.pixelMetric(metric.PM_HeaderMargin, None, self), 0)
+        return size
+
+
+class Table(QTableView):
+    """Rows of numbers, sorted by a click on a column's title."""
+
+    picked = Signal(int)
+    """The row that the user chose, counted as in `Column.values`."""
+
+    def __init__(self, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self._model = _Model(self)
+        self._order = QSortFilterProxyModel(self)
+        self._order.setSourceModel(self._model)
+        self._order.setSortRole(_SORT_ROLE)
+        self.setHorizontalHeader(_Titles(self))
+        self.setModel(self._order)
+        self.setSortingEnabled(True)
+        self.sortByColumn(-1, Qt.SortOrder.AscendingOrder)
+        self.setSelectionBehavior(QAbstractItemView.SelectionBehavior.SelectRows)
+        self.setAlternatingRowColors(True)
+        self.setWordWrap(False)
+        self.setTextElideMode(Qt.TextElideMode.ElideMiddle)
+        self.verticalHeader().hide()
+        self.verticalHeader().setDefaultSectionSize(self.fontMetrics().height() + theme.SPACING)
+        self.horizontalHeader().sortIndicatorChanged.connect(self._fit)
+        self.setTabKeyNavigation(False)
+        self.selectionModel().currentRowChanged.connect(self._current_changed)
+        self._menu = QMenu(self)
+        for text, shortcut, does in (
+            (self.tr("Copy"), QKeySequence(QKeySequence.StandardKey.Copy), self.copy),
+            (self.tr("Save as CSV…"), QKeySequence(), self.ask_and_save),
+        ):
+            action = QAction(text, self, shortcut=shortcut)
+            action.setShortcutContext(Qt.ShortcutContext.WidgetShortcut)
+            action.triggered.connect(does)
+            self.addAction(action)
+            self._menu.addAction(action)
+        self.setContextMenuPolicy(Qt.ContextMenuPolicy.CustomContextMenu)
+        self.customContextMenuRequested.connect(self._show_menu)
+
+    def show_columns(
+        self, columns: Sequence[Column], marked: dict[int, str] | Collection[int] = ()
+    ) -> None:
+        """Show these columns; `marked` rows stand out, each with its reason as the tooltip."""
+        reasons = marked if isinstance(marked, dict) else dict.fromkeys(marked, "")
+        self._model.show(columns, reasons)
+        self._fit()
+
+    def select(self, row: int) -> None:
+        """Highlight a row, without announcing it; none if it is negative."""
+        selection = self.selectionModel()
+        index = self._order.mapFromSource(self._model.index(row, 0))
+        blocked = selection.blockSignals(True)
+        if index.isValid():
+            flags = QItemSelectionModel.SelectionFlag
+            selection.setCurrentIndex(index, flags.ClearAndSelect | flags.Rows)
+        else:
+            selection.clear()
+        selection.blockSignals(blocked)
+        self.viewport().update()
+        if index.isValid():
+            self.scrollTo(index)
+
+    def as_csv(self, separator: str = ",") -> str:
+        """The table in the order shown: titles, then values with every digit."""
+        out = io.StringIO()
+        writer = csv.writer(out, delimiter=separator, lineterminator="\n")
+        writer.writerow([column.title for column in self._model.columns])
+        for shown in range(self._order.rowCount()):
+            row = self._order.mapToSource(self._order.index(shown, 0)).row()
+            writer.writerow([column.values[row] for column in self._model.columns])
+        return out.getvalue()
+
+    def copy(self) -> None:
+        """Put the whole table on the clipboard, as a spreadsheet takes it."""
+        QGuiApplication.clipboard().setText(self.as_csv("\t"))
+
+    def save(self, path: str | Path) -> None:
+        """Write the table as CSV."""
+        Path(path).write_text(self.as_csv(), encoding="utf-8")
+
+    def ask_and_save(self) -> None:
+        """Let the user choose a file, then `save`."""
+        path, _ = QFileDialog.getSaveFileName(
+            self, self.tr("Save table"), "", self.tr("Comma-separated values (*.csv)")
+        )
+        if path:
+            self.save(path if Path(path).suffix else path + ".csv")
+
+    def showEvent(self, event: QShowEvent) -> None:  # noqa: N802 - Qt's name
+        super().showEvent(event)
+        self._fit()
+
+    def resizeEvent(self, event: QResizeEvent) -> None:  # noqa: N802 - Qt's name
+        super().resizeEvent(event)
+        self._fit()
+
+    def _fit(self) -> None:
+        """Spare the user sideways scrolling: leave columns out, then narrow the first one."""
+        header, columns = self.horizontalHeader(), self._model.columns
+        for place, column in enumerate(columns):
+            self.setColumnHidden(place, column.hidden)
+        if not columns or not self.isVisible():
+            return
+        header.setSectionResizeMode(0, QHeaderView.ResizeMode.ResizeToContents)
+        header.resizeSections(QHeaderView.ResizeMode.ResizeToContents)
+        room = self.viewport().width()
+        for place, column in enumerate(columns):
+            if column.optional and header.length() > room:
+                self.setColumnHidden(place, True)
+        if (excess := header.length() - room) > 0:
+            header.setSectionResizeMode(0, QHeaderView.ResizeMode.Interactive)
+            whole = header.sectionSize(0)
+            least = min(whole, _LEGIBLE * self.fontMetrics().averageCharWidth())
+            header.resizeSection(0, max(least, whole - excess))
+
+    def _current_changed(self, current: QModelIndex) -> None:
+        if current.isValid():
+            self.picked.emit(self._order.mapToSource(current).row())
+
+    def _show_menu(self, position: QPoint) -> None:
+        self._menu.popup(self.viewport().mapToGlobal(position))

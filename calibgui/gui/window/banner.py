@@ -1,0 +1,103 @@
+"""A line across the window for failures with their remedies, messages and questions."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from types import MappingProxyType
+
+from PySide6.QtCore import QEvent, Qt
+from PySide6.QtWidgets import QFrame, QHBoxLayout, QLabel, QPushButton, QToolButton, QWidget
+
+from calibgui.engine.errors import CalibrationError
+from calibgui.gui.widgets import theme
+
+
+class Banner(QFrame):
+    """Shown until it is dismissed or the next message comes; a failure until work goes on.
+
+    A question, which has choices, comes back after a message that is none.
+    """
+
+    def __init__(self, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self.text = QLabel()
+        self.text.setWordWrap(True)
+        self.text.setTextFormat(Qt.TextFormat.PlainText)
+        self.text.setTextInteractionFlags(Qt.TextInteractionFlag.TextSelectableByMouse)
+        self.buttons: list[QPushButton] = []
+        self.dismiss = QToolButton()
+        self.dismiss.setText("✕")
+        self.dismiss.setAutoRaise(True)
+        self.dismiss.setToolTip(self.tr("Dismiss this message"))
+        self.dismiss.setAccessibleName(self.dismiss.toolTip())
+        self.dismiss.clicked.connect(self._end)
+        self._row = QHBoxLayout(self)
+        self._row.addWidget(self.text, 1)
+        self._row.addWidget(self.dismiss, 0, Qt.AlignmentFlag.AlignTop)
+        self._failure = False
+        self._question: tuple[str, Mapping[str, Callable[[], None]]] | None = None
+        self.hide()
+
+    def show_error(self, error: CalibrationError) -> None:
+        """Show what cannot be done, and the remedy."""
+        self._show(f"{error.message}\n{error.hint}".strip(), failure=True)
+
+    def show_text(
+        self, text: str, choices: Mapping[str, Callable[[], None]] = MappingProxyType({})
+    ) -> None:
+        """Show a message; each choice is a button with its text and what it does."""
+        self._show(text, failure=False)
+        if choices:
+            self._question = text, choices
+        for name, does in choices.items():
+            button = QPushButton(name)
+            button.clicked.connect(self._end)
+            button.clicked.connect(lambda _=False, does=does: does())
+            self._row.insertWidget(self._row.count() - 1, button)
+            self.buttons.append(button)
+
+    def withdraw(self, text: str) -> None:
+        """Take the question `text` back, shown or covered; others stay."""
+        if self._question is not None and self._question[0] == text:
+            self._question = None
+            if self.text.text() == text:
+                self.hide()
+
+    def hide_failure(self) -> None:
+        """Hide a failure, which is past; a question stays."""
+        if self._failure:
+            self._end()
+
+    def _end(self) -> None:
+        """End what is shown; a question that it covered comes back."""
+        answered = bool(self.buttons)
+        question, self._question = self._question, None
+        if question is None or answered:
+            self.hide()
+        else:
+            self.show_text(*question)
+
+    def _show(self, text: str, *, failure: bool) -> None:
+        for button in self.buttons:
+            button.deleteLater()
+        self.buttons = []
+        self.text.setText(text)
+        self._failure = failure
+        self._restyle()
+        self.show()
+
+    def changeEvent(self, event: QEvent) -> None:  # noqa: N802 - Qt's name
+        super().changeEvent(event)
+        if event.type() == QEvent.Type.PaletteChange and hasattr(self, "_failure"):
+            self._restyle()
+
+    def _restyle(self) -> None:
+        colours = theme.current()
+        base = colours.bad_base if self._failure else colours.warning_base
+        edge = colours.bad if self._failure else colours.warning
+        style = (
+            f"Banner {{ background: {base}; border: none; border-left: 4px solid {edge}; }}"
+            f"Banner QLabel {{ color: {colours.text}; }}"
+        )
+        if style != self.styleSheet():
+            self.setStyleSheet(style)

@@ -1,0 +1,244 @@
+"""The commands of the menus: text, tip, keys and the function that each calls."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from functools import partial
+from pathlib import Path
+
+from PySide6.QtCore import QObject
+from PySide6.QtGui import QKeySequence
+from PySide6.QtWidgets import QDockWidget, QWidget
+
+from calibgui.app.recent import list_recent_projects
+from calibgui.gui.canvas.image_page import ImagePage
+from calibgui.gui.dialogs.files import Files
+from calibgui.gui.dialogs.help_dialog import HelpDialog
+from calibgui.gui.images.image_list import ImageList
+from calibgui.gui.session.session import Session
+from calibgui.gui.widgets import theme
+from calibgui.gui.widgets.actions import show_dialog
+from calibgui.gui.window.menus import Command, Menu
+
+Key = QKeySequence.StandardKey
+
+
+class Commands(QObject):
+    """Describes the menus of the window.
+
+    Args:
+        parent: over which dialogs open.
+        session, files, images, page: on which the commands act.
+    """
+
+    def __init__(
+        self, parent: QWidget, session: Session, files: Files, images: ImageList, page: ImagePage
+    ) -> None:
+        super().__init__(parent)
+        self._parent, self._session, self._files = parent, session, files
+        self._images, self._page = images, page
+
+    def list_menus(
+        self,
+        calibrate: Callable[[], object],
+        leave: Callable[[], object],
+        docks: Mapping[str, QDockWidget],
+    ) -> Sequence[Menu]:
+        """Return the menus from left to right.
+
+        Args:
+            calibrate: starts a calibration, or stops the one that runs.
+            leave: closes the window.
+            docks: by the text of the entry that shows and hides each.
+        """
+        return (
+            self._describe_file(leave),
+            self._describe_edit(),
+            Menu(self.tr("&Images"), (*self._images.actions_for_menu, None, *self._page.tools)),
+            self._describe_calibration(calibrate),
+            self._describe_view(docks),
+            self._describe_help(),
+        )
+
+    def _describe_file(self, leave: Callable[[], object]) -> Menu:
+        files = self._files
+        return Menu(
+            self.tr("&File"),
+            (
+                Command(
+                    text=self.tr("&New project"),
+                    shortcut=Key.New,
+                    tip=self.tr("Begin with nothing"),
+                    run=files.new,
+                ),
+                Command(
+                    text=self.tr("&Open project…"),
+                    shortcut=Key.Open,
+                    tip=self.tr("Open a saved project"),
+                    run=files.ask_for_project,
+                ),
+                Menu(self.tr("Open &recent"), self._list_recent),
+                Command(
+                    text=self.tr("Open the sa&mple"),
+                    tip=self.tr("Rendered photographs, to look around"),
+                    run=files.open_sample,
+                ),
+                None,
+                Command(
+                    text=self.tr("&Save"),
+                    shortcut=Key.Save,
+                    tip=self.tr("Write the project to its file"),
+                    run=files.save,
+                ),
+                Command(
+                    text=self.tr("Save &as…"),
+                    shortcut="Ctrl+Shift+S",
+                    tip=self.tr("Write the project to another file"),
+                    run=files.save_as,
+                ),
+                None,
+                Command(
+                    text=self.tr("Add &images…"),
+                    shortcut="Ctrl+I",
+                    tip=self.tr("Choose image files"),
+                    run=files.ask_for_images,
+                ),
+                Command(
+                    text=self.tr("Add a &folder…"),
+                    shortcut="Ctrl+Shift+I",
+                    tip=self.tr("Take all images of a folder"),
+                    run=files.ask_for_folder,
+                ),
+                None,
+                Command(
+                    text=self.tr("&Quit"),
+                    shortcut="Ctrl+Q",
+                    tip=self.tr("Close the window"),
+                    run=leave,
+                ),
+            ),
+        )
+
+    def _list_recent(self) -> Sequence[Command]:
+        if paths := list_recent_projects():
+            return tuple(map(self._describe_recent, paths))
+        return (
+            Command(
+                text=self.tr("None yet"),
+                tip=self.tr("Projects that were saved or opened stand here"),
+                run=lambda: None,
+                is_enabled=lambda: False,
+            ),
+        )
+
+    def _describe_recent(self, path: Path) -> Command:
+        return Command(
+            text=str(path),
+            tip=self.tr("Open this project"),
+            run=partial(self._files.open_project, path),
+        )
+
+    def _describe_edit(self) -> Menu:
+        session = self._session
+        return Menu(
+            self.tr("&Edit"),
+            (
+                Command(
+                    text=self.tr("&Undo"),
+                    shortcut=Key.Undo,
+                    tip=self.tr("Take the last change back"),
+                    run=lambda: session.document.undo(),
+                    is_enabled=lambda: bool(session.document.undo_label),
+                    get_subject=lambda: session.document.undo_label,
+                ),
+                Command(
+                    text=self.tr("&Redo"),
+                    shortcut=Key.Redo,
+                    tip=self.tr("Do what was undone"),
+                    run=lambda: session.document.redo(),
+                    is_enabled=lambda: bool(session.document.redo_label),
+                    get_subject=lambda: session.document.redo_label,
+                ),
+                None,
+                Command(
+                    text=self.tr("&Paste paths"),
+                    shortcut=Key.Paste,
+                    tip=self.tr("Add the files on the clipboard"),
+                    run=self._files.paste,
+                ),
+            ),
+        )
+
+    def _describe_calibration(self, calibrate: Callable[[], object]) -> Menu:
+        session, files = self._session, self._files
+        return Menu(
+            self.tr("Cali&bration"),
+            (
+                Command(
+                    text=self.tr("&Calibrate or stop"),
+                    shortcut="F9",
+                    tip=self.tr("Do everything that is still to do"),
+                    run=calibrate,
+                ),
+                Command(
+                    text=self.tr("&Export…"),
+                    shortcut="Ctrl+E",
+                    tip=self.tr("Write the camera for another program"),
+                    run=files.export,
+                    is_enabled=lambda: session.result is not None,
+                ),
+                None,
+                Command(
+                    text=self.tr("&Print a board…"),
+                    shortcut="Ctrl+P",
+                    tip=self.tr("Make a board of any size"),
+                    run=files.print_board,
+                ),
+            ),
+        )
+
+    def _describe_view(self, docks: Mapping[str, QDockWidget]) -> Menu:
+        toggles = []
+        for text, dock in docks.items():
+            toggle = dock.toggleViewAction()
+            toggle.setText(text)
+            toggles.append(toggle)
+        page, chosen = self._page, theme.chosen()
+        schemes = (
+            (theme.Scheme.SYSTEM, self.tr("As the &system")),
+            (theme.Scheme.LIGHT, self.tr("&Light")),
+            (theme.Scheme.DARK, self.tr("&Dark")),
+        )
+        colours = [
+            Command(
+                text=text,
+                tip=self.tr("Choose light or dark colours"),
+                run=partial(theme.choose, scheme),
+                is_chosen=chosen is scheme,
+            )
+            for scheme, text in schemes
+        ]
+        return Menu(
+            self.tr("&View"),
+            (
+                *page.zoom_actions,
+                None,
+                *page.layers.values(),
+                None,
+                *toggles,
+                Menu(self.tr("&Colours"), colours),
+            ),
+        )
+
+    def _describe_help(self) -> Menu:
+        return Menu(
+            self.tr("&Help"),
+            (
+                Command(
+                    text=self.tr("&How it works"),
+                    shortcut=Key.HelpContents,
+                    tip=self.tr("The workflow on one page"),
+                    run=lambda: show_dialog(HelpDialog(self._parent)),
+                ),
+            ),
+        )

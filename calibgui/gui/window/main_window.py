@@ -1,0 +1,308 @@
+"""The main window: puts the parts together, and nothing else."""
+
+from __future__ import annotations
+
+import gc
+from importlib import import_module
+from typing import TYPE_CHECKING
+
+from PySide6.QtCore import QEvent, QSettings, Qt, QTimer
+from PySide6.QtGui import QCloseEvent, QDragEnterEvent, QDropEvent
+from PySide6.QtWidgets import (
+    QDockWidget,
+    QLabel,
+    QMainWindow,
+    QPushButton,
+    QStackedWidget,
+    QVBoxLayout,
+    QWidget,
+)
+
+from calibgui.app.recent import list_recent_projects
+from calibgui.dataset import Result
+from calibgui.engine.errors import CalibrationError
+from calibgui.engine.kernels import COMPILED
+from calibgui.gui.canvas.image_page import ImagePage
+from calibgui.gui.dialogs.bug_dialog import BugDialog
+from calibgui.gui.dialogs.files import Files
+from calibgui.gui.images.image_list import ImageList
+from calibgui.gui.jobs import qt_names
+from calibgui.gui.session.calibrator import Calibrator
+from calibgui.gui.session.detector import Detector
+from calibgui.gui.session.session import Session
+from calibgui.gui.settings.board_panel import BoardPanel
+from calibgui.gui.settings.settings_panel import SettingsPanel
+from calibgui.gui.widgets import theme
+from calibgui.gui.widgets.actions import show_dialog
+from calibgui.gui.window.banner import Banner
+from calibgui.gui.window.commands import Commands
+from calibgui.gui.window.dock import Dock
+from calibgui.gui.window.menus import Menus
+from calibgui.gui.window.offers import Offers
+from calibgui.gui.window.page_tabs import PageTabs
+from calibgui.gui.window.progress import Progress
+from calibgui.gui.window.welcome import Welcome
+
+if TYPE_CHECKING:
+    from calibgui.gui.panels.analysis import Analysis
+
+
+class MainWindow(QMainWindow):
+    """Shows images on the left, the selected image in the middle, and results on the right."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.setObjectName("calibgui")
+        self.setDockNestingEnabled(True)
+        self.setAcceptDrops(True)
+        self.resize(1280, 720)
+        self.session = Session(self)
+        self.detector = Detector(self.session)
+        self.calibrator = Calibrator(self.session, self.detector)
+        self.files = Files(self.session, self.detector, self.calibrator, self)
+        self.images = ImageList(self.session)
+        self.page = ImagePage(self.session)
+        self.board = BoardPanel(self.session)
+        self.settings = SettingsPanel(self.session)
+        self.analysis: Analysis | None = None
+        self._empty = True
+        self._at = (self.session.document, 0)
+        self.welcome = Welcome()
+        self.banner = Banner()
+        self.calibrate = QPushButton()
+        self.calibrate.setMinimumHeight(36)
+        self.calibrate.setDefault(True)
+        self._lay_out()
+        self._connect()
+        self._make_menus()
+        self._show_parts(empty=True)
+        self._refresh()
+        self.files.saver.check_slot()
+
+    def open_up(self) -> None:
+        """Show the window as it was left; at first on most of the screen."""
+        if geometry := QSettings().value("geometry"):
+            self.restoreGeometry(geometry)
+        else:
+            room = self.screen().availableSize()
+            self.resize(room * _SHARE_OF_SCREEN)
+            if room.width() < _SMALL_SCREEN:
+                self.setWindowState(Qt.WindowState.WindowMaximized)
+        self.show()
+
+    def _lay_out(self) -> None:
+        self.pages = QStackedWidget()
+        self.pages.addWidget(self.welcome)
+        self.pages.addWidget(self.page)
+        middle = QWidget()
+        column = QVBoxLayout(middle)
+        column.setContentsMargins(0, 0, 0, 0)
+        column.setSpacing(0)
+        column.addWidget(self.banner)
+        column.addWidget(self.pages, 1)
+        self.setCentralWidget(middle)
+
+        how = PageTabs()
+        how.add(self.board, self.tr("Board"))
+        how.add(self.settings, self.tr("Settings"))
+        left = QWidget()
+        column = QVBoxLayout(left)
+        column.setContentsMargins(theme.SPACING, 0, 0, theme.SPACING)
+        column.addWidget(self.images, 1)
+        column.addWidget(how)
+        column.addWidget(self.calibrate)
+        self.image_dock = self._dock(self.tr("Images"), "images", left, _LEFT)
+        nothing = QLabel(self.tr("Nothing is calibrated yet."))
+        nothing.setAlignment(Qt.AlignmentFlag.AlignCenter)
+        self.analysis_dock = self._dock(self.tr("Results"), "results", nothing, _RIGHT)
+        self.place = QLabel()
+        self.place.setFont(theme.fixed_font())
+        self.place.setContentsMargins(0, 0, theme.SPACING, 0)
+        self.statusBar().addPermanentWidget(self.place)
+        self.statusBar().addPermanentWidget(Progress(self.session.jobs))
+
+    def _dock(self, title: str, name: str, widget: QWidget, area: Qt.DockWidgetArea) -> QDockWidget:
+        dock = Dock(title, name, widget, self)
+        self.addDockWidget(area, dock)
+        return dock
+
+    def _make_menus(self) -> None:
+        commands = Commands(self, self.session, self.files, self.images, self.page)
+        docks = {self.tr("&Images"): self.image_dock, self.tr("Resul&ts"): self.analysis_dock}
+        menus = Menus(self.menuBar(), commands.list_menus(self.calibrate.click, self.close, docks))
+        self.session.changed.connect(lambda *_: menus.refresh())
+        self.session.result_changed.connect(lambda _: menus.refresh())
+
+    def _connect(self) -> None:
+        self.session.changed.connect(self._refresh)
+        self.session.failed.connect(self.show_failure)
+        self.session.notified.connect(self.banner.show_text)
+        Offers(self.session, self.detector, self.files, self.images, self.banner)
+        self.page.place.connect(self.place.setText)
+        self.images.list.addActions(self.page.tools)
+        self.board.search_wanted.connect(self.detector.search)
+        self.calibrate.clicked.connect(self._calibrate_or_stop)
+        self.calibrator.began.connect(lambda: self.need_analysis().show_beginning())
+        self.calibrator.advanced.connect(lambda step: self.need_analysis().show_iteration(step))
+        self.calibrator.ended.connect(lambda: self.need_analysis().show_end())
+        self.session.result_changed.connect(self._result_changed)
+        for changed in (self.session.jobs.changed, self.calibrator.began, self.calibrator.ended):
+            changed.connect(self._show_calibrate)
+        self.files.saver.opened.connect(self.images.thumbnails.look_for_changes)
+        self.board.print_wanted.connect(self.files.print_board)
+        self.welcome.folder_wanted.connect(self.files.ask_for_folder)
+        self.welcome.images_wanted.connect(self.files.ask_for_images)
+        self.welcome.sample_wanted.connect(self.files.open_sample)
+        self.welcome.board_wanted.connect(self.files.print_board)
+        self.welcome.project_wanted.connect(self.files.open_project)
+
+    def need_analysis(self) -> Analysis:
+        """Return the panels, which are imported and made when there is something to show."""
+        if self.analysis is None:
+            from calibgui.gui.panels.analysis import Analysis
+
+            self.analysis = Analysis(self.session)
+            self.analysis.exclude_wanted.connect(self.images.exclude)
+            self.analysis.save_wanted.connect(self.files.save_changed_images)
+            self.analysis.rename_wanted.connect(self.files.rename_result)
+            self.analysis.delete_wanted.connect(self.files.delete_result)
+            self.analysis_dock.setWidget(self.analysis)
+        return self.analysis
+
+    def prepare(self) -> None:
+        """Import beside the main thread what will be needed: SciPy, the panels, the solver.
+
+        What is there by then stays: going through it at every full collection of garbage would
+        stop the window for longer than a frame.
+        """
+
+        def load() -> None:
+            if self.isVisible():  # it may have been closed meanwhile
+                self.session.jobs.start(
+                    "", lambda _: list(map(import_module, _NEEDED_SOON)), lambda _: gc.freeze()
+                )
+
+        qt_names.make_classes(self, load)
+
+    def _result_changed(self, result: Result | None) -> None:
+        if result is not None and self.analysis is None:
+            # A frame later, not in the same turn: what has been opened is on screen by then.
+            QTimer.singleShot(_FRAME, self, self.need_analysis)
+
+    def show_failure(self, error: BaseException) -> None:
+        """Show what cannot be done in the banner, and a bug in a dialog."""
+        if isinstance(error, CalibrationError):
+            self.banner.show_error(error)
+            return
+        self.files.keep_work()
+        show_dialog(BugDialog(error, self))
+
+    def _refresh(self) -> None:
+        document = self.session.document
+        if (document, document.edits) != self._at:
+            self._at = (document, document.edits)
+            self.banner.hide_failure()
+        empty = not self.session.project.views
+        if empty is not self._empty:
+            self._show_parts(empty)
+        name = document.path.name if document.path else self.tr("Untitled")
+        self.setWindowTitle(f"{name}[*]")
+        self.setWindowModified(not document.saved)
+        self._show_calibrate()
+
+    def _show_parts(self, empty: bool) -> None:
+        """Show the welcome page alone while there are no images, and all parts otherwise."""
+        self._keep_layout()
+        self._empty = empty
+        if empty:
+            self.welcome.show_recent(list_recent_projects())
+        self.pages.setCurrentWidget(self.welcome if empty else self.page)
+        for dock in (self.image_dock, self.analysis_dock):
+            dock.setVisible(not empty)
+        if empty:
+            return
+        if state := QSettings().value("layout"):
+            self.restoreState(state)
+        else:
+            widths = [_IMAGES_WIDTH, max(_RESULTS_WIDTH, round(_RESULTS_SHARE * self.width()))]
+            self.resizeDocks([self.image_dock, self.analysis_dock], widths, _HORIZONTAL)
+
+    def _keep_layout(self) -> None:
+        if not self._empty:
+            QSettings().setValue("layout", self.saveState())
+
+    def _show_calibrate(self) -> None:
+        running, stopping = self.calibrator.running, self.calibrator.stopping
+        self.calibrate.setText(
+            self.tr("Stopping…")
+            if stopping
+            else self.tr("&Stop")
+            if running
+            else self.tr("C&alibrate")
+        )
+        self.calibrate.setToolTip(
+            self.tr("End with the best camera so far")
+            if running
+            else self.tr("Find the corners still missing, then estimate the camera")
+        )
+        self.calibrate.setEnabled(bool(self.session.project.views) and not stopping)
+
+    def _calibrate_or_stop(self) -> None:
+        if self.calibrator.running:
+            self.calibrator.stop()
+            self._show_calibrate()
+        else:
+            self.calibrator.calibrate()
+
+    def dragEnterEvent(self, event: QDragEnterEvent) -> None:  # noqa: N802 - Qt's name
+        if event.mimeData().hasUrls():
+            _accept_copy(event)
+
+    def dropEvent(self, event: QDropEvent) -> None:  # noqa: N802 - Qt's name
+        urls = event.mimeData().urls()
+        self.files.open_paths([url.toLocalFile() for url in urls if url.isLocalFile()])
+        _accept_copy(event)
+
+    def changeEvent(self, event: QEvent) -> None:  # noqa: N802 - Qt's name
+        super().changeEvent(event)
+        if event.type() == QEvent.Type.ActivationChange and self.isActiveWindow():
+            self.images.thumbnails.look_for_changes()
+
+    def closeEvent(self, event: QCloseEvent) -> None:  # noqa: N802 - Qt's name
+        if not self.files.may_leave():
+            event.ignore()
+            return
+        QSettings().setValue("geometry", self.saveGeometry())
+        self._keep_layout()
+        self.session.jobs.close()
+        self.files.saver.close()
+        event.accept()
+
+
+def _accept_copy(event: QDropEvent) -> None:
+    """Accept dropped files as copies: a program that moves files might delete the originals."""
+    event.setDropAction(Qt.DropAction.CopyAction)
+    event.accept()
+
+
+_SOLVER_KERNELS = ("board_shape", "homography", "normal_equations", "stage_one")
+"""Modules of ``engine.kernels`` that a calibration uses."""
+_NEEDED_SOON = (
+    "scipy.stats",
+    "calibgui.gui.panels.analysis",
+    *(f"calibgui.engine.kernels.{name}" for name in _SOLVER_KERNELS if COMPILED),
+)
+"""Modules that are imported beside the main thread once the window is open."""
+_FRAME = 16
+"""Time between two pictures on the screen, ms."""
+_SHARE_OF_SCREEN = 0.8
+_SMALL_SCREEN = 1600
+"""Width of a screen below which the window fills it, px."""
+_IMAGES_WIDTH = 264
+_RESULTS_WIDTH = 556
+"""At least, px, until the user chooses another."""
+_RESULTS_SHARE = 0.4
+"""Share of the window's width that the results get."""
+_LEFT = Qt.DockWidgetArea.LeftDockWidgetArea
+_RIGHT = Qt.DockWidgetArea.RightDockWidgetArea
+_HORIZONTAL = Qt.Orientation.Horizontal

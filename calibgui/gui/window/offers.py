@@ -1,0 +1,135 @@
+"""Offers in the banner: to put right what is not as it was left."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+
+from PySide6.QtCore import QFileInfo, QLocale, QObject
+
+from calibgui.app.autosave import get_autosave_path
+from calibgui.app.detection import find_other_pattern
+from calibgui.app.project import set_pattern
+from calibgui.dataset import ViewStatus
+from calibgui.engine.boards import Pattern
+from calibgui.gui.dialogs.files import Files
+from calibgui.gui.images.image_list import ImageList
+from calibgui.gui.session.detector import Detector
+from calibgui.gui.session.session import Session
+from calibgui.gui.window.banner import Banner
+
+_LOOKED_AT = 2
+"""Images in which other kinds of boards are looked for, which takes seconds in each."""
+
+
+class Offers(QObject):
+    """To recover unsaved work, to search changed images again, to locate missing ones, and to
+    search for another pattern where the stated one is nowhere."""
+
+    def __init__(
+        self, session: Session, detector: Detector, files: Files, images: ImageList, banner: Banner
+    ) -> None:
+        super().__init__(session)
+        self._session, self._detector, self._files = session, detector, files
+        self._thumbnails, self._banner = images.thumbnails, banner
+        files.recoverable.connect(self._offer_recovery)
+        files.images_missing.connect(self._offer_relocation)
+        images.thumbnails.found_altered.connect(self._offer_detection)
+        images.search_wanted.connect(self._search_again)
+        detector.finished.connect(self._look_for_another)
+        self._offered_for, self._offered = session.document, ""
+        session.changed.connect(self._withdraw)
+
+    def _offer(self, text: str, choice: str, does: Callable[[], None]) -> None:
+        """Offer something to do with the project that is open."""
+        self._banner.show_text(text, {choice: does})
+        self._offered_for, self._offered = self._session.document, text
+
+    def _withdraw(self) -> None:
+        """Withdraw an offer that was made for another project."""
+        if self._offered_for is not self._session.document:
+            self._banner.withdraw(self._offered)
+
+    def _offer_recovery(self, path: Path) -> None:
+        time = QFileInfo(str(get_autosave_path(path))).lastModified()
+        self._banner.show_text(
+            self.tr("The program ended without saving. Its state of {0} has been kept.").format(
+                QLocale().toString(time, QLocale.FormatType.ShortFormat)
+            ),
+            {
+                self.tr("&Recover"): lambda: self._recover(path),
+                self.tr("&Throw away"): lambda: self._files.saver.forget(path),
+            },
+        )
+
+    def _recover(self, path: Path) -> None:
+        if self._files.may_leave():
+            self._files.saver.recover(path)
+        else:
+            self._offer_recovery(path)
+
+    def _offer_detection(self, altered: list[str]) -> None:
+        self._offer(
+            self.tr(
+                "{0} of {1} images changed since their corners were found, among them {2}."
+            ).format(len(altered), len(self._session.project.views), altered[0]),
+            self.tr("&Detect again"),
+            lambda: self._search_again(altered),
+        )
+
+    def _offer_relocation(self, missing: list[str]) -> None:
+        self._offer(
+            self.tr("{0} of {1} images are not where they were, among them {2}.").format(
+                len(missing), len(self._session.project.views), missing[0]
+            ),
+            self.tr("&Locate…"),
+            lambda: self._files.ask_for_moved(missing),
+        )
+
+    def _search_again(self, images: list[str]) -> None:
+        """Search images anew, as their files are now."""
+        self._detector.search_again(images)
+        self._thumbnails.read_again(images)
+
+    def _look_for_another(self, everything: bool) -> None:
+        """Look for another kind of board after a search that found nothing at all."""
+        project = self._session.project
+        searched = [v for v in project.views if v.status in (ViewStatus.FOUND, ViewStatus.NO_BOARD)]
+        if not everything or not searched or any(view.usable for view in searched):
+            return
+        some = [view.image for view in searched[:_LOOKED_AT]]
+        self._session.jobs.start(
+            self.tr("Looking for another kind of board"),
+            lambda job: find_other_pattern(some, project.pattern, job.cancelling),
+            self._offer_pattern,
+            inputs=lambda: (self._session.project.pattern, self._session.project.views),
+            owner=self,
+        )
+
+    def _offer_pattern(self, pattern: Pattern | None) -> None:
+        if pattern is None:
+            return
+        text, choice = {
+            "checkerboard": (
+                self.tr("These look like photographs of a checkerboard."),
+                self.tr("&Search for a checkerboard"),
+            ),
+            "charuco": (
+                self.tr("These look like photographs of a ChArUco board."),
+                self.tr("&Search for a ChArUco board"),
+            ),
+            "circles": (
+                self.tr("These look like photographs of a grid of circles."),
+                self.tr("&Search for circles"),
+            ),
+            "asymmetric-circles": (
+                self.tr("These look like photographs of an asymmetric grid of circles."),
+                self.tr("&Search for asymmetric circles"),
+            ),
+        }[pattern.kind]
+
+        def search() -> None:
+            self._session.edit(self.tr("Pattern"), lambda p: set_pattern(p, pattern))
+            self._files.search()
+
+        self._offer(text, choice, search)

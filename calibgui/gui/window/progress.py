@@ -1,0 +1,59 @@
+"""The progress of the work that runs, and a button that ends it."""
+
+from __future__ import annotations
+
+from PySide6.QtWidgets import QHBoxLayout, QLabel, QProgressBar, QToolButton, QWidget
+
+from calibgui.gui.jobs.job import Job
+from calibgui.gui.jobs.jobs import Jobs
+
+
+class Progress(QWidget):
+    """Shows the oldest job that has a name; n of m and the time left where they are known."""
+
+    def __init__(self, jobs: Jobs) -> None:
+        super().__init__()
+        self._jobs = jobs
+        self.label = QLabel()
+        self.bar = QProgressBar()
+        self.bar.setFixedWidth(140)
+        self.bar.setTextVisible(False)
+        self.cancel = QToolButton()
+        self.cancel.setText(self.tr("Cancel"))
+        self.cancel.setToolTip(self.tr("End this and drop what is not finished"))
+        self.cancel.clicked.connect(self._cancel)
+        row = QHBoxLayout(self)
+        row.setContentsMargins(0, 0, 0, 0)
+        row.addWidget(self.label)
+        row.addWidget(self.bar)
+        row.addWidget(self.cancel)
+        jobs.changed.connect(self._refresh)
+        self._refresh()
+
+    def _shown(self) -> Job | None:
+        return next((job for job in self._jobs.running if job.label), None)
+
+    def _refresh(self) -> None:
+        job = self._shown()
+        self.setVisible(job is not None)
+        if job is None:
+            return
+        text = job.label
+        if job.total > 1:
+            text += self.tr(": {0} of {1}").format(job.finished, job.total)
+        left = job.seconds_left
+        if left is not None and left >= 1:
+            text += self.tr(", {0} left").format(_format_duration(left))
+        self.label.setText(text)
+        # A range of 0 to 0 moves to and fro: it goes on, nobody knows how long.
+        self.bar.setRange(0, job.total if job.total > 1 else 0)
+        self.bar.setValue(job.finished)
+
+    def _cancel(self) -> None:
+        job = self._shown()
+        if job is not None:
+            job.cancel()
+
+
+def _format_duration(seconds: float) -> str:
+    return f"{seconds:.0f} s" if seconds < 60 else f"{seconds // 60:.0f} min {seconds % 60:.0f} s"

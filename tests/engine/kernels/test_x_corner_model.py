@@ -1,0 +1,103 @@
+"""The compiled model of crossing edges against the readable one."""
+
+from __future__ import annotations
+
+from importlib import import_module
+from typing import Any
+
+import numpy as np
+import pytest
+
+from calibgui.engine import kernels
+from calibgui.engine.detection.checkerboard import x_corner_fit
+from calibgui.engine.detection.checkerboard.x_corner_model import EdgeSupport
+from calibgui.engine.detection.find_corners import find_corners
+from tests.scenes.checkerboards import draw
+from tests.scenes.conditions import Conditions
+
+
+@pytest.mark.parametrize(
+    "scene",
+    [
+        {},
+        {"blur": 0.1},  # the pixel's own box counts
+        {"blur": 0.7, "blur_end": 3.0, "light": 1.0},
+        {"distortion": 0.5},
+        {"ink": 0.05},
+        {"ink": -0.05, "blur": 0.2},
+        {"square": 30.0, "grid_size": (9, 12), "turn": 20.0},  # leaves the image
+    ],
+    ids=str,
+)
+@pytest.mark.parametrize("kind", [np.uint8, np.uint16, np.float32])
+def test_compiled_and_readable_find_the_same(
+    scene: dict[str, Any], kind: type, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    usual = {"size": (320, 240), "square": 20.0, "shift": 5.0, "grid_size": (5, 6)}
+    image = draw(Conditions(**{**usual, **scene}), 3).photograph(0).astype(kind)
+    compiled = find_corners(image)
+    monkeypatch.setattr(kernels, "COMPILED", False)
+    readable = find_corners(image)
+    assert compiled.shape == readable.shape
+    np.testing.assert_array_equal(compiled.grid, readable.grid)
+    np.testing.assert_allclose(compiled.uv, readable.uv, atol=2e-5)  # sums in float32
+    assert compiled.cov is not None
+    assert readable.cov is not None
+    scale = np.trace(readable.cov, axis1=1, axis2=2)[:, None, None]
+    assert (np.abs(compiled.cov - readable.cov) < 2e-3 * scale).all()
+    for quantity in ("residual", "blur", "contrast"):
+        pair = getattr(compiled, quantity), getattr(readable, quantity)
+        np.testing.assert_allclose(*pair, rtol=1e-3)
+
+
+def test_the_same_solution_of_the_normal_equations() -> None:
+    rng = np.random.default_rng(0)
+    J = rng.normal(size=(50, 20, 9)) * 10.0 ** rng.uniform(-2, 2, 9)
+    J[0, :, 3] = J[0, :, 4]  # not to be told apart
+    N, g = J.transpose(0, 2, 1) @ J, rng.normal(size=(50, 9))
+    solve = x_corner_fit._solve_normal_equations
+    (step, inverse), expected = solve.kernel(N, g, 1e-9), solve.reference(N, g, 1e-9)
+    np.testing.assert_allclose(step[1:], expected[0][1:], rtol=1e-6)
+    np.testing.assert_allclose(inverse, expected[1], rtol=1e-6)
+    assert np.isfinite(step).all()
+
+
+@pytest.mark.parametrize("bent", [0.0, 0.002, 0.02])
+@pytest.mark.parametrize("longest", [1.0, 8.0, 60.0])
+def test_support_holds_every_pixel_once_and_within_its_bounds(bent: float, longest: float) -> None:
+    rng = np.random.default_rng(0)
+    n = 200
+    angle = (
+        rng.uniform(0, np.pi, (n, 1)) + np.array([0, np.pi / 2]) + rng.uniform(-0.7, 0.7, (n, 2))
+    )
+    tangent = np.stack([np.cos(angle), np.sin(angle)], axis=2)
+    normal = np.stack([-tangent[..., 1], tangent[..., 0]], axis=2)
+    arm = longest * rng.uniform(0.2, 1, (n, 2))
+    support = EdgeSupport(
+        uv=rng.uniform(0, 300, (n, 2)),
+        tangent=tangent,
+        normal=normal,
+        curvature=rng.normal(0, bent, (n, 2)),
+        arm=arm,
+        width=rng.uniform(0.7, np.maximum(arm / 2, 1.0)),
+    )
+    image = rng.integers(0, 256, (300, 300), dtype=np.uint8)
+    compiled = import_module("calibgui.engine.kernels.x_corner_model")
+    packed = compiled.pack_support(support)
+    readable, _, counts = support.read(image)
+    for i in range(n):
+        most, farthest = (
+            compiled._bound_pixels(packed[i : i + 1]),
+            compiled._bound_offsets(packed[i : i + 1]),
+        )
+        offset, grey = np.zeros((2, most), np.int32), np.zeros(most, np.float32)
+        number = compiled._read(image, support.uv[i], packed[i], offset, grey)
+        assert number <= most
+        assert abs(offset).max() <= farthest
+        pixels = offset[:, :number].T + np.rint(support.uv[i]).astype(np.int64)
+        np.testing.assert_array_equal(grey[:number], image[pixels[:, 1], pixels[:, 0]])
+        seen = set(map(tuple, pixels.tolist()))
+        assert len(seen) == number
+        if not bent:  # the readable ones in float32
+            others = set(map(tuple, readable[i][counts[i] > 0].tolist()))
+            assert len(seen ^ others) <= 1

@@ -1,0 +1,131 @@
+"""Corners searched again with a known camera, on rendered boards that are partly hidden."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+
+from calibgui.engine.arrays import Array
+from calibgui.engine.boards.board import Board
+from calibgui.engine.calibration.calibrate import calibrate
+from calibgui.engine.calibration.observations import Observation
+from calibgui.engine.calibration.result import Calibration
+from calibgui.engine.detection.corners import Corners
+from calibgui.engine.detection.find_corners import find_corners
+from calibgui.engine.errors import NoBoardError
+from calibgui.engine.geometry.pose import Pose
+from calibgui.engine.images.rendering import render_view
+from calibgui.engine.redetection.redetect_corners import redetect_corners
+from tests.engine import scenes
+
+BOARD = Board(rows=6, cols=9, square=30.0)
+SHAPE = (6, 9)
+CAMERA = scenes.barrel(focal=420.0, size=(400, 300))
+POSE = scenes.looking(CAMERA, np.random.default_rng(3), fill=(0.8, 0.8), board=BOARD)
+UV = scenes.imaged(CAMERA, POSE, BOARD.points()).reshape(*SHAPE, 2)
+"""(rows, cols, 2) true corners."""
+
+Image = NDArray[np.uint8]
+
+
+@pytest.fixture(scope="module")
+def calibration() -> Calibration:
+    rng = np.random.default_rng(0)
+    poses = [scenes.looking(CAMERA, rng, fill=(0.5, 0.8), board=BOARD) for _ in range(8)]
+    views = scenes.seen(CAMERA, poses, BOARD).noisy(0.02, rng)
+    cov = np.broadcast_to(0.02**2 * np.eye(2), (len(views[0].uv), 2, 2))
+    return calibrate([Observation(view.uv, view.xy, cov) for view in views], CAMERA.size)
+
+
+def photograph(pose: Pose = POSE, board: Board = BOARD) -> Image:
+    return render_view(CAMERA, pose, board, blur=0.7, noise=2.0, seed=1)
+
+
+def covered(image: Image, *hidden: Any) -> Image:
+    """The image with grey discs over some of the corners, given by their places."""
+    image = image.copy()
+    v, u = np.indices(image.shape)
+    for place in hidden:
+        for at in UV[place].reshape(-1, 2):
+            image[np.hypot(u - at[0], v - at[1]) < 9] = 120
+    return image
+
+
+def truth_of(corners: Corners) -> Array:
+    return np.asarray(UV[corners.grid[:, 0], corners.grid[:, 1]])
+
+
+def test_fragments_become_a_board(calibration: Calibration) -> None:
+    image = covered(photograph(), np.s_[:, 2], np.s_[:, 5], np.s_[2], np.s_[5])
+    with pytest.raises(NoBoardError):
+        find_corners(image, SHAPE)
+    corners = redetect_corners(image, calibration, SHAPE)
+    assert len(corners) >= 12
+    np.testing.assert_allclose(corners.uv, truth_of(corners), atol=0.1)
+    assert not corners.relative
+
+
+def test_missed_corners_are_found(calibration: Calibration) -> None:
+    image = photograph()
+    whole = find_corners(image, SHAPE)
+    few = Corners(SHAPE, whole.grid[:14], whole.uv[:14], whole.estimate[:14], whole.cov[:14])  # type: ignore[index]
+    corners = redetect_corners(image, calibration, SHAPE, few)
+    assert corners.complete
+    np.testing.assert_allclose(corners.uv, UV.reshape(-1, 2), atol=0.05)
+    assert corners.cov is not None
+
+
+def test_what_is_hidden_is_not_found(calibration: Calibration) -> None:
+    hidden = np.s_[1:4, 3:6]
+    corners = redetect_corners(covered(photograph(), hidden), calibration, SHAPE)
+    seen = {tuple(place) for place in corners.grid.tolist()}
+    assert not seen & {(m, n) for m in range(1, 4) for n in range(3, 6)}
+    assert len(seen) >= 40
+    np.testing.assert_allclose(corners.uv, truth_of(corners), atol=0.1)
+
+
+def test_a_corner_far_off_is_left_out(calibration: Calibration) -> None:
+    image = photograph()
+    whole = find_corners(image, SHAPE)
+    uv = whole.uv.copy()
+    uv[20] += 4.0
+    hidden = covered(image, np.s_[2, 2])
+    corners = redetect_corners(hidden, calibration, SHAPE, replace(whole, uv=uv))
+    assert [2, 2] not in corners.grid.tolist()
+    np.testing.assert_allclose(corners.uv, truth_of(corners), atol=0.1)
+
+
+def test_part_of_a_board_gets_its_place(calibration: Calibration) -> None:
+    image = photograph()
+    whole = find_corners(image, SHAPE)
+    part = whole.grid[:, 1] < 5
+    grid = whole.grid[part] + np.array([0, 2])
+    shifted = Corners(
+        SHAPE,
+        grid,
+        whole.uv[part],
+        whole.estimate[part],
+        whole.cov[part],
+        relative=True,  # type: ignore[index]
+    )
+    corners = redetect_corners(image, calibration, SHAPE, shifted)
+    assert corners.complete
+    assert not corners.relative
+    np.testing.assert_allclose(corners.uv, UV.reshape(-1, 2), atol=0.05)
+
+
+@pytest.mark.parametrize("kind", ["noise", "nothing", "a larger board"])
+def test_what_is_not_the_board_is_refused(calibration: Calibration, kind: str) -> None:
+    rng = np.random.default_rng(4)
+    images: dict[str, Any] = {
+        "noise": lambda: rng.integers(0, 255, (300, 400)).astype(np.uint8),
+        "nothing": lambda: np.full((300, 400), 90, dtype=np.uint8),
+        "a larger board": lambda: photograph(board=Board(7, 9, 25.0)),
+    }
+    with pytest.raises(NoBoardError) as caught:
+        redetect_corners(images[kind](), calibration, SHAPE)
+    assert caught.value.hint

@@ -1,0 +1,120 @@
+"""The dialog shows what it saves, in every format."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+from PySide6.QtCore import Qt
+from PySide6.QtGui import QGuiApplication
+from PySide6.QtWidgets import QFileDialog
+from pytestqt.qtbot import QtBot
+
+from calibgui.dataset import Result
+from calibgui.formats import EXPORTERS
+from calibgui.formats.camera_refit import express_in_models
+from calibgui.gui.dialogs.export_dialog import ExportDialog
+from calibgui.gui.jobs.jobs import Jobs
+
+
+@pytest.fixture
+def dialog(jobs: Jobs, result: Result, qtbot: QtBot) -> ExportDialog:
+    made = ExportDialog(jobs, result)
+    qtbot.addWidget(made)
+    made.show()
+    qtbot.waitUntil(lambda: not jobs.running)
+    return made
+
+
+def choose(dialog: ExportDialog, name: str, jobs: Jobs, qtbot: QtBot) -> None:
+    """Walk down the list to a format."""
+    dialog.formats.setCurrentRow(0)
+    for _ in range(list(EXPORTERS).index(name)):
+        qtbot.keyClick(dialog.formats, Qt.Key.Key_Down)
+    qtbot.waitUntil(lambda: not jobs.running)
+
+
+@pytest.mark.parametrize("name", EXPORTERS)
+def test_shows_and_copies_the_file(
+    dialog: ExportDialog, result: Result, jobs: Jobs, qtbot: QtBot, tmp_path: Path, name: str
+) -> None:
+    choose(dialog, name, jobs, qtbot)
+    exporter = EXPORTERS[name]
+    report = exporter.write(result, tmp_path / f"camera{exporter.suffixes[0]}")
+    text = report.path.read_text(encoding="utf-8")
+    assert dialog.text.toPlainText().removesuffix("\n…") == text[:20_000]
+    assert dialog.limits.text() == exporter.limits
+    assert dialog.note.text() == report.note
+    assert dialog.note.isVisible() is (report.note != exporter.limits)
+    qtbot.mouseClick(dialog.copy, Qt.MouseButton.LeftButton)
+    assert QGuiApplication.clipboard().text() == text
+
+
+def test_tells_the_refits_largest_error(
+    dialog: ExportDialog, result: Result, jobs: Jobs, qtbot: QtBot
+) -> None:
+    choose(dialog, "opencv", jobs, qtbot)
+    assert (
+        dialog.error.text()
+        == f"{express_in_models(result).largest_error:.3g} px over the whole image"
+    )
+    choose(dialog, "python", jobs, qtbot)
+    assert dialog.error.text() == "none: nothing is refitted"
+    assert "unlimited" in dialog._error(float("nan"))
+
+
+def test_saves_under_the_chosen_name(
+    dialog: ExportDialog,
+    jobs: Jobs,
+    qtbot: QtBot,
+    tmp_path: Path,
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    choose(dialog, "ros", jobs, qtbot)
+    wanted = tmp_path / "camera_info"
+    monkeypatch.setattr(QFileDialog, "getSaveFileName", lambda *_: (str(wanted), ""))
+    with qtbot.waitSignal(dialog.exported) as signal:
+        qtbot.mouseClick(dialog.save, Qt.MouseButton.LeftButton)
+    assert signal.args[0].path == wanted.with_suffix(".yaml")
+    assert "camera_matrix" in wanted.with_suffix(".yaml").read_text()
+    assert "Saved as" in dialog.saved.text()
+
+
+def test_a_wrong_suffix_is_explained(
+    dialog: ExportDialog,
+    jobs: Jobs,
+    qtbot: QtBot,
+    tmp_path: Path,
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    monkeypatch.setattr(QFileDialog, "getSaveFileName", lambda *_: (str(tmp_path / "a.txt"), ""))
+    qtbot.mouseClick(dialog.save, Qt.MouseButton.LeftButton)
+    qtbot.waitUntil(lambda: not jobs.running)
+    assert "Give it the suffix .json" in dialog.saved.text()
+    assert not list(tmp_path.iterdir())
+
+
+def test_a_format_that_fails_says_why(jobs: Jobs, result: Result, qtbot: QtBot) -> None:
+    """Corners that are not numbers cannot be refitted."""
+    few = tuple(
+        replace(v, points=v.observation(result.board)._replace(uv=np.full((108, 2), np.nan)))
+        if v.usable
+        else v
+        for v in result.views
+    )
+    dialog = ExportDialog(jobs, Result(result.calibration, few))
+    qtbot.addWidget(dialog)
+    dialog.show()
+    choose(dialog, "opencv", jobs, qtbot)
+    assert "not a finite number" in dialog.note.text()
+    assert not dialog.save.isEnabled() and not dialog.copy.isEnabled()
+    dialog.reject()
+
+
+def test_closing_removes_the_drafts(dialog: ExportDialog, qtbot: QtBot) -> None:
+    folder = Path(dialog._folder.name)
+    assert list(folder.iterdir())
+    qtbot.keyClick(dialog, Qt.Key.Key_Escape)
+    assert not dialog.isVisible() and not folder.exists()

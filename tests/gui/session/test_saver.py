@@ -1,0 +1,223 @@
+"""Nothing is lost: autosave, recovery, and being killed in the middle of it all."""
+
+from __future__ import annotations
+
+import json
+import os
+import signal
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import pytest
+from pytestqt.qtbot import QtBot
+
+from calibgui.app.autosave import AUTOSAVE_DELAY_S, autosave, find_unsaved_work, get_autosave_path
+from calibgui.app.document import Document
+from calibgui.app.project import Project, add_images
+from calibgui.app.project_file import read_project, write_project
+from calibgui.gui.session.saver import Saver
+from calibgui.gui.session.session import Session
+from calibgui.gui.window.main_window import MainWindow
+from tests.app import examples
+
+_WORK = """
+import itertools, os, sys, time
+from pathlib import Path
+from PySide6.QtCore import QCoreApplication, QTimer
+from calibgui.app.document import Document
+from calibgui.app.project import add_images
+from calibgui.app.project_file import read_project
+from calibgui.gui.session.saver import Saver
+from calibgui.gui.session.session import Session
+
+app = QCoreApplication([])
+session = Session()
+saver = Saver(session)
+path = Path(sys.argv[1])
+session.begin(Document(read_project(path), path))
+numbers = itertools.count()
+
+def edit():
+    n = next(numbers)
+    session.edit("Add", lambda p: add_images(p, [f"{time.monotonic()}/{n}.png"]))
+    if n % 40 == 39:
+        saver.save(path)
+
+timer = QTimer(interval=10)
+timer.timeout.connect(edit)
+timer.start()
+print("ready", flush=True)
+app.exec()
+"""
+
+
+def newest_edit(project_file: Path) -> float:
+    """When the last edit in the file was made; minus infinity if it holds none."""
+    views = read_project(project_file).views
+    times = [
+        float(Path(view.image).parent.name)
+        for view in views
+        if "/" in view.image[1:] and Path(view.image).parent.name.replace(".", "").isdigit()
+    ]
+    return max(times, default=-float("inf"))
+
+
+@pytest.mark.slow
+@pytest.mark.skipif(not hasattr(signal, "SIGKILL"), reason="the system has no SIGKILL")
+@pytest.mark.parametrize("lifetime", [0.4, 1.3, 2.6, 3.1])
+def test_killed_at_any_time_all_but_the_last_two_seconds_is_offered(
+    tmp_path: Path, lifetime: float
+) -> None:
+    path = tmp_path / "project.json"
+    write_project(examples.calibrated(tmp_path), path)
+    env = {**os.environ, "QT_QPA_PLATFORM": "offscreen", "XDG_STATE_HOME": str(tmp_path)}
+    with subprocess.Popen(
+        [sys.executable, "-c", _WORK, str(path)], env=env, stdout=subprocess.PIPE
+    ) as process:
+        assert process.stdout is not None
+        process.stdout.readline()
+        time.sleep(lifetime)
+        process.send_signal(signal.SIGKILL)
+        killed = time.monotonic()
+    latest = newest_edit(path)
+    if (work := find_unsaved_work(path)) is not None:
+        latest = max(latest, newest_edit(work))
+    if lifetime > AUTOSAVE_DELAY_S:
+        assert killed - latest < AUTOSAVE_DELAY_S + 1.0, "a second for a slow machine to write it"
+    # Whatever there is can be read, and the results are whole.
+    assert len(read_project(work or path).results) == 2
+
+
+def test_steady_work_is_kept_though_it_never_pauses(qtbot: QtBot, tmp_path: Path) -> None:
+    session = Session()
+    saver = Saver(session)
+    saver._timer.setInterval(100)
+    session.begin(Document(examples.calibrated(tmp_path), tmp_path / "project.json"))
+    for number in range(30):
+        session.edit("Add", lambda p, n=number: add_images(p, [str(tmp_path / f"{n}.new")]))
+        qtbot.wait(10)
+    kept = get_autosave_path(tmp_path / "project.json")
+    assert len(read_project(kept).views) > 7
+    qtbot.waitUntil(lambda: len(read_project(kept).views) == 37)
+    session.jobs.close()
+    saver.close()
+    assert not kept.exists()
+    session.deleteLater()
+
+
+def test_saving_leaves_nothing_to_recover(window: MainWindow, tmp_path: Path) -> None:
+    path = tmp_path / "project.json"
+    window.session.begin(Document(examples.calibrated(tmp_path)))
+    window.session.edit("Add", lambda p: add_images(p, [str(tmp_path / "new.png")]))
+    assert window.isWindowModified()
+    window.files.keep_work()
+    slot = window.files.saver.file
+    assert get_autosave_path(slot).exists()
+    window.files.saver.save(path)
+    assert not window.isWindowModified()
+    assert window.windowTitle().startswith("project.json")
+    assert not get_autosave_path(slot).exists()
+    assert find_unsaved_work(path) is None
+    assert json.loads(path.read_text(encoding="utf-8"))["format"] == "calibgui-project"
+
+
+def test_unsaved_work_is_offered_and_recovered(
+    window: MainWindow, qtbot: QtBot, tmp_path: Path
+) -> None:
+    path = tmp_path / "project.json"
+    project = examples.calibrated(tmp_path)
+    write_project(project, path)
+    more = add_images(project, [str(tmp_path / "new.png")])
+    write_project(more, get_autosave_path(path))
+    later = path.stat().st_mtime + 5
+    os.utime(get_autosave_path(path), (later, later))
+    window.files.open_project(path)
+    qtbot.waitUntil(lambda: len(window.banner.buttons) == 2)
+    assert len(window.session.project.views) == 7
+    assert "ended without saving" in window.banner.text.text()
+    window.banner.buttons[0].click()
+    qtbot.waitUntil(lambda: len(window.session.project.views) == 8)
+    assert window.session.document.path == path
+    assert window.isWindowModified(), "recovered work still has to be saved"
+
+
+def test_work_on_a_file_stays_until_it_is_decided_about(
+    window: MainWindow, qtbot: QtBot, tmp_path: Path
+) -> None:
+    path = tmp_path / "project.json"
+    project = examples.calibrated(tmp_path)
+    write_project(project, path)
+    autosave(add_images(project, [str(tmp_path / "new.png")]), path)
+    kept = get_autosave_path(path).read_bytes()
+    window.files.open_project(path)
+    qtbot.waitUntil(lambda: len(window.banner.buttons) == 2)
+    window.session.edit("Add", lambda p: add_images(p, [str(tmp_path / "other.png")]))
+    window.files.keep_work()
+    slot = window.files.saver.file
+    assert slot != path and get_autosave_path(path).read_bytes() == kept
+    assert len(read_project(get_autosave_path(slot)).views) == 8
+    window.banner.buttons[1].click()  # thrown away: the edit is kept beside the file from now on
+    assert window.files.saver.file == path
+    assert not get_autosave_path(slot).exists()
+    qtbot.waitUntil(lambda: find_unsaved_work(path) is not None)
+    assert "other.png" in read_project(get_autosave_path(path)).views[-1].image
+
+
+def test_work_left_without_a_file_is_offered_until_it_is_decided_about(
+    window: MainWindow, qtbot: QtBot, tmp_path: Path
+) -> None:
+    left = window.files.saver.file
+    window.files.saver.close()  # as if the program had been killed then
+    autosave(examples.calibrated(tmp_path), left)
+    for answered in (False, True):
+        session = Session()
+        saver = Saver(session)
+        offered: list[Path] = []
+        saver.recoverable.connect(offered.append)
+        saver.check_slot()
+        assert offered == [left]
+        session.begin(Document(add_images(Project(), [str(tmp_path / "1.png")]), saved=False))
+        saver.autosave_now()
+        assert len(read_project(get_autosave_path(left)).views) == 7
+        if answered:
+            saver.recover(left)
+            qtbot.waitUntil(lambda session=session: len(session.project.views) == 7)
+            assert session.document.path is None and not session.document.saved
+            assert find_unsaved_work(left) is None
+            assert len(read_project(get_autosave_path(saver.file)).views) == 7
+        session.jobs.close()
+        saver.close()
+        session.deleteLater()
+
+
+def test_a_file_that_cannot_be_written_is_reported(
+    window: MainWindow, qtbot: QtBot, tmp_path: Path
+) -> None:
+    window.session.begin(Document(examples.calibrated(tmp_path), tmp_path / "gone" / "p.json"))
+    window.files.save()
+    qtbot.waitUntil(window.banner.isVisible)
+    assert "p.json cannot be written" in window.banner.text.text()
+
+
+@pytest.mark.usefixtures("qapp")
+def test_two_programs_do_not_share_a_slot() -> None:
+    savers = [Saver(Session()) for _ in range(2)]
+    assert savers[0].file != savers[1].file
+    for saver in savers:
+        saver.close()
+        saver.parent().jobs.close()
+
+
+def test_saving_twice_at_once_keeps_the_later_state(
+    window: MainWindow, qtbot: QtBot, tmp_path: Path
+) -> None:
+    path = tmp_path / "project.json"
+    window.session.begin(Document(examples.calibrated(tmp_path), path, saved=False))
+    window.files.save()
+    window.session.edit("Add", lambda p: add_images(p, [str(tmp_path / "new.png")]))
+    window.files.save()
+    qtbot.waitUntil(lambda: not window.session.jobs.running)
+    assert window.session.document.saved
+    assert len(read_project(path).views) == 8

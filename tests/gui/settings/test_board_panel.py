@@ -1,0 +1,128 @@
+"""The board's pattern is chosen with real clicks, kept by undo, saved, and searched for."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+from PySide6.QtCore import Qt
+from PySide6.QtTest import QSignalSpy, QTest
+from PySide6.QtWidgets import QApplication, QComboBox
+
+from calibgui.app.document import Document
+from calibgui.app.project_file import read_project, write_project
+from calibgui.dataset import ViewStatus
+from calibgui.engine.boards.board import Board
+from calibgui.engine.boards.charuco import Charuco
+from calibgui.engine.boards.checkerboard import CHECKERBOARD
+from calibgui.engine.boards.circle_grid import Circles
+from calibgui.gui.dialogs.print_dialog import PrintDialog
+from calibgui.gui.session.session import Session
+from calibgui.gui.settings.board_panel import BoardPanel
+from tests.app import examples
+
+
+@pytest.fixture
+def session(qapp: QApplication) -> Iterator[Session]:
+    session = Session(qapp)
+    yield session
+    session.jobs.close()
+    session.deleteLater()
+
+
+@pytest.fixture
+def panel(session: Session) -> Iterator[BoardPanel]:
+    panel = BoardPanel(session)
+    panel.show()
+    yield panel
+    panel.close()
+    panel.deleteLater()
+
+
+def choose(box: QComboBox, row: int) -> None:
+    """Step to a row with the keyboard, as a user does."""
+    box.setFocus()
+    while box.currentIndex() != row:
+        QTest.keyClick(box, Qt.Key.Key_Down if box.currentIndex() < row else Qt.Key.Key_Up)
+
+
+def test_a_charuco_board_is_described(session: Session, panel: BoardPanel, tmp_path: Path) -> None:
+    searched = QSignalSpy(panel.search_wanted)
+    chosen = panel.pattern
+    assert not chosen.dictionary.isVisible()
+    choose(chosen.kind, 1)
+    assert session.project.pattern == Charuco()
+    assert chosen.dictionary.isVisible()
+    assert not chosen.diameter.isVisible()
+    choose(chosen.dictionary, 2)
+    chosen.marker.setFocus()
+    chosen.marker.selectAll()
+    QTest.keyClicks(chosen.marker, "15")
+    QTest.keyClick(chosen.marker, Qt.Key.Key_Return)
+    choose(chosen.layout_used, 2)
+    stated = session.project.pattern
+    assert isinstance(stated, Charuco)
+    assert stated.dictionary == chosen.dictionary.currentData()
+    assert stated.marker == pytest.approx(0.5)
+    assert stated.legacy is True
+    assert searched.count() >= 4
+    # The marker stays as large when the squares are stated to be larger.
+    panel.square.setValue(40.0)
+    changed = session.project.pattern
+    assert isinstance(changed, Charuco)
+    assert changed.marker == pytest.approx(0.375)
+    assert chosen.marker.value() == pytest.approx(15.0)
+    write_project(session.project, tmp_path / "project.json")
+    assert read_project(tmp_path / "project.json").pattern == changed
+    while session.document.undo_label:
+        session.document.undo()
+    assert session.project.pattern == CHECKERBOARD
+    assert chosen.kind.currentData() == "checkerboard"
+
+
+def test_the_size_of_another_kind_of_board_does_not_stay(
+    session: Session, panel: BoardPanel
+) -> None:
+    choose(panel.pattern.kind, 3)
+    assert session.project.pattern == Circles(asymmetric=True)
+    assert panel.counted.text() == "Circles"
+    panel.inferred.click()
+    panel.rows.setValue(11)
+    assert session.project.grid_size is not None
+    choose(panel.pattern.kind, 0)
+    assert session.project.grid_size is None
+
+
+def test_every_pattern_can_be_printed(qapp: QApplication) -> None:
+    dialog = PrintDialog(Board(6, 9, 12.0))
+    dialog.show()
+    for row in range(4):
+        choose(dialog.pattern.kind, row)
+        qapp.processEvents()
+        content = dialog.make_sheet()
+        assert dialog.save.isEnabled()
+        assert bool(content.discs) == (row >= 2)
+        assert dialog.preview._drawing.isValid()
+    dialog.close()
+    dialog.deleteLater()
+
+
+def test_how_corners_are_located_is_kept_and_undone(
+    session: Session, panel: BoardPanel, tmp_path: Path
+) -> None:
+    session.begin(Document(examples.calibrated(tmp_path)))
+    found = session.project.views
+    searched = QSignalSpy(panel.search_wanted)
+    choose(panel.method, 1)
+    assert session.project.method == "saddle"
+    assert {view.status for view in session.project.views} == {ViewStatus.WAITING}
+    assert searched.count() == 1
+    assert session.document.undo_label == "Way to locate corners"
+    write_project(session.project, tmp_path / "project.json")
+    assert read_project(tmp_path / "project.json").method == "saddle"
+    session.document.undo()
+    assert session.project.views is found
+    assert panel.method.currentData() == session.project.method == "edges"
+    choose(panel.pattern.kind, 2)
+    assert not panel.method.isVisible(), "circles have but one"

@@ -1,0 +1,76 @@
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+from PySide6.QtCore import Qt
+from PySide6.QtGui import QImage
+from PySide6.QtWidgets import QApplication
+from pytestqt.qtbot import QtBot
+
+from calibgui.gui.widgets import theme
+from calibgui.gui.widgets.plots import Plot
+
+
+def example(qtbot: QtBot) -> Plot:
+    plot = Plot("iteration", "cost", "", "px²")
+    qtbot.addWidget(plot)
+    plot.plot([0, 1, 2], [9.0, 4.0, 1.0])
+    plot.resize(300, 200)
+    return plot
+
+
+def test_axes_name_their_units(qtbot: QtBot) -> None:
+    item = example(qtbot).getPlotItem()
+    assert item.getAxis("left").labelText == "cost [px²]"
+    assert item.getAxis("bottom").labelText == "iteration"
+
+
+def test_a_double_click_shows_all_again(qtbot: QtBot) -> None:
+    plot = example(qtbot)
+    plot.show()
+    box = plot.getPlotItem().getViewBox()
+    box.setRange(xRange=(7, 8), yRange=(70, 80))
+    qtbot.mouseDClick(plot.viewport(), Qt.MouseButton.LeftButton)
+    (left, right), (bottom, top) = box.viewRange()
+    assert left <= 0 < 2 <= right < 7
+    assert bottom <= 1 < 9 <= top < 70
+
+
+def test_saved_as_png_and_svg(qtbot: QtBot, tmp_path: Path) -> None:
+    plot = example(qtbot)
+    plot.save(tmp_path / "plot.png")
+    image = QImage(str(tmp_path / "plot.png"))
+    assert image.width() == 2 * plot.width()
+    plot.save(tmp_path / "plot.svg")
+    assert "iteration" in (tmp_path / "plot.svg").read_text(encoding="utf-8")
+
+
+def test_colours_follow_the_theme(qtbot: QtBot, qapp: QApplication) -> None:
+    plot = example(qtbot)
+    plot.show()
+    backgrounds = []
+    for scheme in (theme.Scheme.LIGHT, theme.Scheme.DARK):
+        theme.apply(qapp, scheme)
+        qtbot.wait(20)
+        backgrounds.append(plot.grab().toImage().pixelColor(5, 5).lightness())
+    assert backgrounds[0] > 200 > 60 > backgrounds[1]
+
+
+def test_text_is_legible_on_its_background() -> None:
+    def luminance(colour: str) -> float:
+        rgb = np.array([int(colour[i : i + 2], 16) for i in (1, 3, 5)]) / 255
+        linear = np.where(rgb <= 0.04045, rgb / 12.92, ((rgb + 0.055) / 1.055) ** 2.4)
+        return float(linear @ [0.2126, 0.7152, 0.0722])
+
+    for colours in (theme.LIGHT, theme.DARK):
+        pairs = [
+            (text, back)
+            for text in (colours.text, colours.muted, colours.good, colours.bad, colours.warning)
+            for back in (colours.window, colours.base)
+        ]
+        pairs += [(colours.on_accent, colours.accent), (colours.warning, colours.warning_base)]
+        pairs += [(colours.bad, colours.bad_base), (colours.text, colours.bad_base)]
+        for text, back in pairs:
+            bright, dark = sorted((luminance(text), luminance(back)), reverse=True)
+            assert (bright + 0.05) / (dark + 0.05) >= 4.5, (text, back)

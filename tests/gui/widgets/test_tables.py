@@ -1,0 +1,99 @@
+from __future__ import annotations
+
+import math
+from pathlib import Path
+
+from PySide6.QtCore import Qt
+from PySide6.QtGui import QGuiApplication
+from pytestqt.qtbot import QtBot
+
+from calibgui.gui.widgets.tables import Column, Table, with_decimals, with_digits
+
+
+def shown(table: Table, column: int = 0) -> list[str]:
+    model = table.model()
+    return [model.index(row, column).data() for row in range(model.rowCount())]
+
+
+def example(qtbot: QtBot) -> Table:
+    table = Table()
+    qtbot.addWidget(table)
+    table.show_columns(
+        [
+            Column("view", ["a", "b", "c"]),
+            Column("RMS [px]", [0.25, math.nan, 1 / 3], with_decimals(2), "of the residual"),
+        ],
+        {2: "far off"},
+    )
+    return table
+
+
+def test_sorting_is_by_value_with_missing_ones_last(qtbot: QtBot) -> None:
+    table = example(qtbot)
+    assert shown(table) == ["a", "b", "c"]
+    assert shown(table, 1) == ["0.25", "–", "0.33"]
+    table.sortByColumn(1, Qt.SortOrder.AscendingOrder)
+    assert shown(table) == ["a", "c", "b"]
+
+
+def test_a_click_announces_the_original_row(qtbot: QtBot) -> None:
+    table = example(qtbot)
+    table.sortByColumn(0, Qt.SortOrder.DescendingOrder)
+    table.resize(300, 200)
+    table.show()
+    cell = table.visualRect(table.model().index(0, 0)).center()
+    with qtbot.waitSignal(table.picked) as picked:
+        qtbot.mouseClick(table.viewport(), Qt.MouseButton.LeftButton, pos=cell)
+    assert picked.args == [2]
+    with qtbot.assertNotEmitted(table.picked):
+        table.select(0)
+    assert table.currentIndex().data() == "a"
+
+
+def test_copy_and_csv_hold_every_digit(qtbot: QtBot, tmp_path: Path) -> None:
+    table = example(qtbot)
+    table.save(tmp_path / "table.csv")
+    lines = (tmp_path / "table.csv").read_text(encoding="utf-8").splitlines()
+    assert lines == ["view,RMS [px]", "a,0.25", "b,nan", f"c,{1 / 3!r}"]
+    table.copy()
+    assert f"c\t{1 / 3!r}" in QGuiApplication.clipboard().text()
+
+
+def test_number_formats() -> None:
+    assert with_digits(3)(1234.5) == "1.23e+03"
+    assert with_digits(3)(math.nan) == "–"
+
+
+def test_a_hidden_column_is_for_files_only(qtbot: QtBot) -> None:
+    table = example(qtbot)
+    table.show_columns([Column("a", [1]), Column("b", [2], hidden=True)])
+    assert [table.isColumnHidden(k) for k in range(2)] == [False, True]
+    assert table.as_csv() == "a,b\n1,2\n"
+    table.show_columns([Column("a", [1]), Column("b", [2])])
+    assert not table.isColumnHidden(1)
+
+
+def test_columns_give_way_before_the_user_must_scroll(qtbot: QtBot) -> None:
+    table = Table()
+    qtbot.addWidget(table)
+    table.show_columns(
+        [
+            Column("view", ["photograph_of_a_board_001.png"]),
+            Column("change", [1.25], with_decimals(2), optional=True),
+            Column("RMS", [0.25], with_decimals(2), heading="RMS [px]"),
+        ]
+    )
+    table.show()
+    header = table.horizontalHeader()
+    widths = {}
+    for width in (600, 280, 150, 600):
+        table.resize(width, 200)
+        assert header.length() <= table.viewport().width()
+        widths[width] = (table.isColumnHidden(1), header.sectionSize(0))
+    assert widths[600][0] is False
+    assert widths[280] == (True, widths[600][1])
+    assert widths[150][0] is True and widths[150][1] < widths[600][1]
+    table.resize(60, 200)  # then sideways, rather than names of nothing but dots
+    assert header.sectionSize(0) > table.fontMetrics().horizontalAdvance("photog")
+    assert table.as_csv().splitlines()[0] == "view,change,RMS"
+    assert table.model().headerData(2, Qt.Orientation.Horizontal) == "RMS [px]"

@@ -1,0 +1,44 @@
+"""What the banner shows, and what comes back after it."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import pytest
+
+from calibgui.engine.errors import CalibrationError
+from calibgui.gui.window.banner import Banner
+
+
+@pytest.fixture
+def banner() -> Iterator[Banner]:
+    banner = Banner()
+    yield banner
+    banner.close()
+    banner.deleteLater()
+
+
+def test_a_question_comes_back_until_it_is_answered(banner: Banner) -> None:
+    answers: list[str] = []
+    banner.show_text("Recover?", {"Yes": lambda: answers.append("yes")})
+    banner.show_text("Stopped.")
+    assert banner.text.text() == "Stopped." and not banner.buttons
+    banner.dismiss.click()
+    assert banner.text.text() == "Recover?" and banner.isVisible()
+    banner.show_error(CalibrationError("It cannot be.", ""))
+    banner.hide_failure()
+    assert banner.text.text() == "Recover?" and banner.isVisible()
+    banner.buttons[0].click()
+    assert answers == ["yes"] and not banner.isVisible()
+    banner.show_text("Stopped.")
+    banner.dismiss.click()
+    assert not banner.isVisible()
+
+
+def test_a_dismissed_question_is_gone(banner: Banner) -> None:
+    banner.show_text("Recover?", {"Yes": lambda: None})
+    banner.dismiss.click()
+    assert not banner.isVisible()
+    banner.show_text("Stopped.")
+    banner.dismiss.click()
+    assert not banner.isVisible()

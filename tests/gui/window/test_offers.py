@@ -1,0 +1,85 @@
+"""What the banner offers where the stated pattern is in no image."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+from PySide6.QtCore import Qt
+from pytestqt.qtbot import QtBot
+
+from calibgui.app.detection import find_other_pattern
+from calibgui.app.document import Document
+from calibgui.app.project import add_images
+from calibgui.dataset import ViewStatus
+from calibgui.engine.boards.board import Board
+from calibgui.engine.boards.charuco import Charuco
+from calibgui.engine.boards.checkerboard import CHECKERBOARD
+from calibgui.engine.boards.circle_grid import Circles
+from calibgui.engine.boards.kinds import KINDS
+from calibgui.engine.boards.pattern import Pattern
+from calibgui.engine.errors import CalibrationError
+from calibgui.engine.images.reading import write_image
+from calibgui.gui.window.main_window import MainWindow
+from tests.engine.detection.conftest import Scene
+
+pytestmark = pytest.mark.slow
+
+CIRCLES = Circles(False, 0.5)
+
+
+def photographs(folder: Path, pattern: Pattern, grid_size: tuple[int, int], count: int = 1) -> None:
+    """Return views of a board held in different ways."""
+    for k in range(count):
+        rvec = 0.4 * np.array([np.cos(2 * k), np.sin(2 * k), 0.3])
+        scene = Scene(Board(*grid_size, 16.0, pattern), rvec=tuple(rvec))
+        write_image(folder / f"{k}.png", scene.image(noise=2.0, seed=k))
+
+
+@pytest.mark.parametrize(
+    ("pattern", "grid_size"),
+    [
+        (CIRCLES, (7, 9)),
+        (Circles(True, 0.8), (11, 4)),
+        (Charuco("DICT_5X5_100", 0.75), (6, 8)),
+        (CHECKERBOARD, (6, 8)),
+    ],
+    ids=["circles", "asymmetric-circles", "charuco", "checkerboard"],
+)
+def test_the_kind_of_a_board_is_told(
+    tmp_path: Path, pattern: Pattern, grid_size: tuple[int, int]
+) -> None:
+    photographs(tmp_path, pattern, grid_size)
+    stated = Charuco() if pattern == CHECKERBOARD else CHECKERBOARD
+    found = find_other_pattern([str(tmp_path / "0.png")], stated)
+    assert found == KINDS[pattern.kind]
+
+
+def test_an_offer_ends_with_its_project(window: MainWindow, tmp_path: Path) -> None:
+    gone = str(tmp_path / "gone.png")
+    window.files.images_missing.emit([gone])
+    window.banner.show_error(CalibrationError("Something else."))
+    window.banner.dismiss.click()
+    assert "gone.png" in window.banner.text.text()
+    window.session.edit("Images", lambda project: add_images(project, [gone]))
+    assert window.banner.isVisible()
+    window.session.begin(Document())
+    assert not window.banner.isVisible()
+
+
+def test_circles_are_searched_for_with_one_click(
+    window: MainWindow, qtbot: QtBot, tmp_path: Path
+) -> None:
+    photographs(tmp_path, CIRCLES, (7, 9), count=4)
+    window.files.open_paths([str(tmp_path)])
+    qtbot.waitUntil(lambda: len(window.banner.buttons) == 1, timeout=60_000)
+    assert {v.status for v in window.session.project.views} == {ViewStatus.NO_BOARD}
+    assert window.banner.text.text() == "These look like photographs of a grid of circles."
+    qtbot.mouseClick(window.banner.buttons[0], Qt.MouseButton.LeftButton)
+    qtbot.waitUntil(lambda: window.session.result is not None, timeout=60_000)
+    assert {v.status for v in window.session.project.views} == {ViewStatus.FOUND}
+    qtbot.waitUntil(lambda: not window.session.jobs.running, timeout=60_000)
+    window.session.document.undo()
+    window.session.document.undo()
+    assert window.session.project.pattern == CHECKERBOARD

@@ -1,0 +1,67 @@
+"""Lens and pose of the camera of the rendered photographs, both ways in closed form."""
+
+from __future__ import annotations
+
+import cv2
+import numpy as np
+from numpy.typing import NDArray
+
+from tests.scenes.conditions import Conditions
+
+Array = NDArray[np.float64]
+
+
+class Camera:
+    """Lens and pose, both ways."""
+
+    def __init__(self, conditions: Conditions, rng: np.random.Generator) -> None:
+        self._conditions = conditions
+        width, height = conditions.size
+        self._centre = np.array([(width - 1) / 2, (height - 1) / 2])
+        self._half = np.hypot(width, height) / 2
+        self._f = conditions.focal * width
+        turn = np.radians(conditions.turn) * rng.uniform(-1, 1)
+        about = rng.uniform(0, 2 * np.pi)
+        axis = np.array([np.cos(about), np.sin(about), 0.0]) * np.radians(conditions.tilt)
+        tilt, _ = cv2.Rodrigues(axis)
+        spin, _ = cv2.Rodrigues(np.array([0.0, 0.0, turn]))
+        rows, cols = conditions.grid_size
+        origin = np.array([(cols - 1) / 2, (rows - 1) / 2, 0.0])
+        shift = conditions.shift * rng.uniform(-1, 1, 2)
+        R = tilt @ spin
+        distance = self._f / conditions.square
+        t = distance * np.append((shift + conditions.centre) / self._f, 1.0) - R @ origin
+        self._H = np.column_stack([R[:, 0], R[:, 1], t])
+
+    def board_from_image(self, u: Array, v: Array) -> tuple[Array, Array]:
+        q = np.stack([u - self._centre[0], v - self._centre[1]], axis=-1)
+        r2 = np.sum(q * q, axis=-1)
+        if self._conditions.fisheye:
+            theta = np.sqrt(r2) / self._f
+            ray = np.concatenate(
+                [q / self._f * np.sinc(theta / np.pi)[..., None], np.cos(theta)[..., None]], axis=-1
+            )
+        else:
+            q *= (1 + self._conditions.distortion * r2 / self._half**2)[..., None]
+            ray = np.concatenate([q / self._f, np.ones((*r2.shape, 1))], axis=-1)
+        p = ray @ np.linalg.inv(self._H).T
+        with np.errstate(divide="ignore", invalid="ignore"):
+            x, y = p[..., 0] / p[..., 2], p[..., 1] / p[..., 2]
+        behind = p[..., 2] <= 0
+        x[behind] = y[behind] = np.inf
+        return x, y
+
+    def image_from_board(self, x: Array, y: Array) -> Array:
+        ray = np.stack([x, y, np.ones_like(x)], axis=-1) @ self._H.T
+        if self._conditions.fisheye:
+            r = np.linalg.norm(ray[..., :2], axis=-1)
+            theta = np.arctan2(r, ray[..., 2])
+            q = ray[..., :2] * (self._f * theta / np.maximum(r, 1e-300))[..., None]
+            return q + self._centre
+        ideal = self._f * ray[..., :2] / ray[..., 2:]
+        goal = np.linalg.norm(ideal, axis=-1)
+        d = self._conditions.distortion / self._half**2
+        r = goal.copy()
+        for _ in range(50):  # Newton on r (1 + d r^2) = goal
+            r -= (r * (1 + d * r * r) - goal) / (1 + 3 * d * r * r)
+        return ideal * (r / np.maximum(goal, 1e-300))[..., None] + self._centre

@@ -1,0 +1,276 @@
+"""Imports point one way: each rule of import-linter is broken on a copy; circles are computed."""
+
+from __future__ import annotations
+
+import ast
+import re
+import shutil
+import subprocess
+import sys
+import tomllib
+from collections.abc import Iterable, Iterator, Mapping
+from itertools import pairwise, permutations
+from pathlib import Path
+
+import grimp
+import pytest
+
+ROOT = Path(__file__).resolve().parents[1]
+PACKAGE = ROOT / "calibgui"
+CONTRACTS = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["tool"][
+    "importlinter"
+]["contracts"]
+OUTER, ROOMS, FACES, INSIDE, CIRCLES = (contract["name"] for contract in CONTRACTS[:5])
+ENGINE = "calibgui.engine"
+
+
+@pytest.fixture(scope="module")
+def copy(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """A copy of the package that may be spoilt."""
+    folder = tmp_path_factory.mktemp("copy")
+    compiled = shutil.ignore_patterns("__pycache__")
+    shutil.copytree(PACKAGE, folder / "calibgui", ignore=compiled)
+    shutil.copy(ROOT / "pyproject.toml", folder)
+    return folder
+
+
+def find_broken_contracts(folder: Path) -> tuple[set[str], str]:
+    """Return the names of the contracts that the copy in `folder` breaks, and what was printed."""
+    program = "from importlinter.cli import lint_imports_command; lint_imports_command()"
+    done = subprocess.run(
+        [sys.executable, "-c", program, "--no-cache"],
+        cwd=folder,
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    broken = set(re.findall(r"^(.*) BROKEN", done.stdout, re.MULTILINE))
+    assert (done.returncode == 0) == (not broken), done.stdout + done.stderr
+    return broken, done.stdout
+
+
+def spoil(folder: Path, module: str, lines: str) -> set[str]:
+    """Return the names of the contracts that break when `lines` are added to `module`."""
+    file = folder / Path(*module.split("."))
+    file = file / "__init__.py" if file.is_dir() else file.with_suffix(".py")
+    sound = file.read_text(encoding="utf-8") if file.exists() else None
+    file.write_text(f"{sound or ''}\n{lines}\n", encoding="utf-8")
+    try:
+        broken, printed = find_broken_contracts(folder)
+    finally:
+        if sound is None:
+            file.unlink()
+        else:
+            file.write_text(sound, encoding="utf-8")
+    assert "Could not" not in printed
+    return broken
+
+
+def first_module(package: str) -> str:
+    """Return the first module by name below `package`, or `package` if it is a file itself."""
+    folder = ROOT / Path(*package.split("."))
+    if not folder.is_dir():
+        return package
+    files = sorted(file for file in folder.rglob("*.py") if file.stem != "__init__")
+    return ".".join(files[0].relative_to(ROOT).with_suffix("").parts)
+
+
+def wrong_ways(layers: list[str], prefix: str = "") -> Iterator[tuple[str, str]]:
+    """Yield (importing, imported) packages: each layer from the one below, siblings both ways."""
+    named = [[prefix + name for name in re.split(r"\s*[|:]\s*", layer)] for layer in layers]
+    for upper, lower in pairwise(named):
+        yield from ((below, above) for below in lower for above in upper)
+    for siblings in named:
+        yield from permutations(siblings, 2)
+
+
+def test_import_rules_hold(copy: Path) -> None:
+    broken, printed = find_broken_contracts(copy)
+    assert not broken, printed
+
+
+@pytest.mark.parametrize(
+    ("importing", "imported", "contract"),
+    [
+        *((*way, OUTER) for way in wrong_ways(CONTRACTS[0]["layers"])),
+        *((*way, ROOMS) for way in wrong_ways(CONTRACTS[1]["layers"], f"{ENGINE}.")),
+    ],
+)
+def test_no_layer_imports_a_higher_one(
+    copy: Path, importing: str, imported: str, contract: str
+) -> None:
+    broken = spoil(copy, first_module(importing), f"import {first_module(imported)}")
+    assert contract in broken
+    assert broken <= {OUTER, ROOMS, CIRCLES}  # dataset in the engine: through it other rooms too
+
+
+@pytest.mark.parametrize(
+    ("module", "imported", "contract"),
+    [
+        ("app.paths", f"{ENGINE}.camera.camera", FACES),
+        ("report.numbers", f"{ENGINE}.calibration.refinement.schur", FACES),
+        ("engine.geometry.frames", f"{ENGINE}.geometry", INSIDE),
+        ("engine.calibration.options", f"{ENGINE}.camera", INSIDE),
+        ("engine.calibration.refinement.schur", f"{ENGINE}.calibration.calibrate", CIRCLES),
+        ("app.paths", "calibgui.app.document", ""),
+        ("engine.geometry.frames", "matplotlib", "The engine draws nothing"),
+        ("engine.geometry.frames", "tqdm", "The engine draws nothing"),
+        ("cli.console", "PySide6.QtCore", "Qt is imported"),
+        ("app.paths", "pyqtgraph", "Qt is imported"),
+        ("engine.geometry.frames", "cv2", "OpenCV is imported"),
+        ("cli.console", "cv2", "OpenCV is imported"),
+        ("engine.geometry.frames", "numba", "numba is imported"),
+    ],
+)
+def test_rules_beside_the_layers(copy: Path, module: str, imported: str, contract: str) -> None:
+    broken = spoil(copy, f"calibgui.{module}", f"import {imported}")
+    if contract:
+        (name,) = broken
+        assert name.startswith(contract)
+    else:
+        assert not broken
+
+
+@pytest.mark.parametrize(
+    "form",
+    [
+        "def late() -> None:\n    import {}",
+        "from typing import TYPE_CHECKING\nif TYPE_CHECKING:\n    import {}",
+    ],
+    ids=["in a function", "under TYPE_CHECKING"],
+)
+@pytest.mark.parametrize(
+    ("module", "imported", "contract"),
+    [
+        ("formats.exporter", "calibgui.app.paths", OUTER),
+        ("engine.errors", f"{ENGINE}.calibration.result", ROOMS),
+        ("gui.app", f"{ENGINE}.camera.camera", FACES),
+        ("engine.calibration.refinement.schur", f"{ENGINE}.calibration.calibrate", CIRCLES),
+    ],
+)
+def test_imports_in_functions_and_for_typing_count(
+    copy: Path, module: str, imported: str, contract: str, form: str
+) -> None:
+    broken = spoil(copy, f"calibgui.{module}", form.format(imported))
+    assert contract in broken
+    assert broken <= {contract, CIRCLES}
+
+
+def test_a_new_room_has_to_find_its_layer(copy: Path) -> None:
+    assert spoil(copy, f"{ENGINE}.attic", "") == {ROOMS}
+
+
+def test_the_contract_knows_where_a_function_has_the_name_of_its_file() -> None:
+    (faces,) = (contract for contract in CONTRACTS if contract["name"] == FACES)
+    known = {line.partition(" -> ")[2] for line in faces["ignore_imports"]}
+    named = set()
+    for face in (PACKAGE / "engine").glob("*/__init__.py"):
+        files = {file.stem for file in face.parent.glob("*.py")}
+        for node in ast.parse(face.read_text(encoding="utf-8")).body:
+            if isinstance(node, ast.ImportFrom):
+                taken = {alias.name for alias in node.names} & files
+                named |= {f"{ENGINE}.{face.parent.name}.{name}" for name in taken}
+    assert known == named
+
+
+def test_nothing_is_taken_from_the_file_behind_a_face() -> None:
+    """Assert what the contract cannot see where a function has the name of its file."""
+    behind = re.compile(
+        r"from calibgui\.engine\.(?!kernels)\w+\.\w+(\.\w+)* import|import calibgui\.engine\."
+    )
+    found = [
+        f"{file.relative_to(ROOT)}: {line.strip()}"
+        for file in [*PACKAGE.rglob("*.py"), *(ROOT / "packaging").glob("*.py")]
+        if PACKAGE / "engine" not in file.parents
+        for line in file.read_text(encoding="utf-8").splitlines()
+        if behind.search(line)
+    ]
+    assert not found, "\n".join(found)
+
+
+def test_no_import_inside_a_function_of_the_engine() -> None:
+    """Assert that the engine hides none of its own imports in functions or behind TYPE_CHECKING.
+
+    What numba needs may: the kernels are loaded when they are first called.
+    """
+    found = []
+    for file in (PACKAGE / "engine").rglob("*.py"):
+        tree = ast.parse(file.read_text(encoding="utf-8"))
+        hidden = {
+            inner
+            for node in ast.walk(tree)
+            if isinstance(node, ast.FunctionDef | ast.If)
+            for inner in ast.walk(node)
+            if isinstance(inner, ast.ImportFrom)
+            and (inner.module or "").startswith("calibgui")
+            and not (inner.module or "").startswith(f"{ENGINE}.kernels")
+        }
+        found += [f"{file.relative_to(ROOT)}:{node.lineno}" for node in hidden]
+    assert not found, "\n".join(sorted(found))
+
+
+def find_circles(imports: Mapping[str, Iterable[str]]) -> list[set[str]]:
+    """Return the sets of two or more nodes that import each other, directly or through others."""
+    reached: dict[str, set[str]] = {}
+    for start in imports:
+        found: set[str] = set()
+        new = set(imports[start])
+        while new:
+            found |= new
+            new = {after for node in new for after in imports.get(node, ())} - found
+        reached[start] = found
+    circles: list[set[str]] = []
+    for node in imports:
+        circle = {other for other in reached[node] if node in reached.get(other, ())}
+        if len(circle) > 1 and circle not in circles:
+            circles.append(circle)
+    return circles
+
+
+def test_circles_are_found() -> None:
+    imports = {"a": ["b"], "b": ["c", "d"], "c": ["a"], "d": ["e"], "e": []}
+    assert find_circles(imports) == [{"a", "b", "c"}]
+    assert not find_circles({"a": ["b", "c"], "b": ["c"], "c": []})
+
+
+@pytest.fixture(scope="module")
+def graph() -> grimp.ImportGraph:
+    return grimp.build_graph("calibgui", cache_dir=None)
+
+
+def test_no_circle_of_files(graph: grimp.ImportGraph) -> None:
+    imports = {file: graph.find_modules_directly_imported_by(file) for file in graph.modules}
+    assert not find_circles(imports)
+
+
+def test_no_circle_of_folders(graph: grimp.ImportGraph) -> None:
+    """In each folder the files and folders in it, with all they hold, import one way."""
+    circles = []
+    for folder in graph.modules:
+        inside = sorted(graph.find_children(folder))
+        holder = {m: child for child in inside for m in {child} | graph.find_descendants(child)}
+        imports: dict[str, set[str]] = {child: set() for child in inside}
+        for module, child in holder.items():
+            for imported in graph.find_modules_directly_imported_by(module):
+                if holder.get(imported, child) != child:
+                    imports[child].add(holder[imported])
+        circles += find_circles(imports)
+    assert not circles
+
+
+def test_a_calibration_needs_no_detector(graph: grimp.ImportGraph) -> None:
+    needed = graph.find_upstream_modules(f"{ENGINE}.calibration.calibrate")
+    assert f"{ENGINE}.calibration.refinement.schur" in needed
+    assert not {module for module in needed if module.startswith(f"{ENGINE}.detection")}
+
+
+def test_tests_do_not_need_the_benchmarks() -> None:
+    benchmarks = ROOT / "tests" / "benchmarks"
+    found = [
+        f"{file.relative_to(ROOT)}: {line}"
+        for file in (ROOT / "tests").rglob("*.py")
+        if benchmarks not in file.parents
+        for line in file.read_text(encoding="utf-8").splitlines()
+        if re.match(r"\s*(from|import) tests(\.benchmarks| import .*benchmarks)", line)
+    ]
+    assert not found, "\n".join(found)
