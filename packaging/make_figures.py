@@ -132,7 +132,7 @@ def main() -> None:
             propose_views(calibration, views), views, size
         ),
     }
-    pictures["plate"] = draw_bent_board()
+    pictures["board-shape"] = draw_bent_board()
     truth = json.loads((RESOURCES / "sample" / "truth.json").read_text())["camera"]
     camera = Camera(size, list(truth["params"].values()))
     pictures["robust"] = draw_misplaced_corners([v.image for v in result.used], views, camera)

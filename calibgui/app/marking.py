@@ -132,7 +132,7 @@ def restore_corner(image: GreyImage, corners: Corners, place: IntArray) -> Corne
         NoBoardError: if there is no corner where it should be.
         CalibrationError: if the board is no checkerboard.
     """
-    _check_is_checkerboard(corners)
+    _check_has_plain_squares(corners)
     expected = _predict_corner(corners, place)
     spacing = np.sort(np.linalg.norm(corners.uv - expected, axis=1))[1]
     uv = find_nearest_corner(
@@ -157,7 +157,7 @@ def restore_corner(image: GreyImage, corners: Corners, place: IntArray) -> Corne
 
 def turn_board(corners: Corners) -> Corners:
     """Return the same corners numbered from the next corner of the board: a quarter turn."""
-    _check_is_checkerboard(corners)
+    _check_has_plain_squares(corners)
     rows, cols = corners.shape
     grid = np.column_stack([corners.grid[:, 1], rows - 1 - corners.grid[:, 0]])
     return replace(
@@ -167,18 +167,18 @@ def turn_board(corners: Corners) -> Corners:
 
 def flip_board(corners: Corners) -> Corners:
     """Return the same corners with columns numbered from the other end, for mirrored images."""
-    _check_is_checkerboard(corners)
+    _check_has_plain_squares(corners)
     grid = corners.grid.copy()
     grid[:, 1] = corners.shape[1] - 1 - grid[:, 1]
     return replace(corners, grid=grid)
 
 
-def _check_is_checkerboard(corners: Corners) -> None:
-    """Raise CalibrationError unless the board is a checkerboard.
+def _check_has_plain_squares(corners: Corners) -> None:
+    """Raise CalibrationError unless the board shows plain squares.
 
-    The points of other boards identify themselves, or are no corners.
+    Points that say which they are need no renumbering, and circles are no corners.
     """
-    if corners.pattern != CHECKERBOARD:
+    if not corners.pattern.has_squares or corners.pattern.identifies_points:
         raise CalibrationError(
             "Only the corners of a checkerboard can be renumbered or added by hand.",
             "Detect the image again, or remove wrong points.",

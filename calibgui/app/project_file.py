@@ -29,11 +29,11 @@ from types import MappingProxyType
 from typing import Any
 
 from calibgui.app.project import Project, Unit, relocate_images
-from calibgui.app.settings import DEFAULT_METHOD, DEFAULT_MODEL, MODEL_CHOICES, Settings
+from calibgui.app.settings import DEFAULT_MODEL, MODEL_CHOICES, Settings
 from calibgui.dataset import Result, View
 from calibgui.engine.boards import CHECKERBOARD, Board, BoardShape, BoardShapeModel
+from calibgui.engine.calibration import DEFAULT_METHOD, Cost
 from calibgui.engine.calibration import METHODS as CALIBRATION_METHODS
-from calibgui.engine.calibration import Cost
 from calibgui.engine.camera import parameter_names
 from calibgui.engine.detection import METHODS
 from calibgui.formats.board_shape_json import decode_board_shape, decode_prior, encode_board_shape

@@ -7,7 +7,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 
 from calibgui.engine.boards import BoardShape, BoardShapeModel, BoardShapePrior
-from calibgui.engine.calibration import METHODS, Cost
+from calibgui.engine.calibration import DEFAULT_METHOD, METHODS, Cost
 from calibgui.engine.camera import MODELS, parameter_names
 from calibgui.engine.errors import CalibrationError
 
@@ -17,8 +17,6 @@ _PAPER_MODEL = "lucchese-pixels"
 """Name of the lens model of the cost "paper", which the engine takes with that cost alone."""
 MODEL_CHOICES = tuple(name for name in MODELS if name != _PAPER_MODEL)
 """Names of the lens models that the user can choose from."""
-DEFAULT_METHOD = next(iter(METHODS))
-"""Name of the method of calibration that is used unless the user chooses another."""
 
 
 @dataclass(frozen=True, slots=True)

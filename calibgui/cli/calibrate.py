@@ -13,7 +13,6 @@ from pathlib import Path
 from calibgui.app.outputs import check_outputs
 from calibgui.app.redetection import calibrate_twice
 from calibgui.app.settings import (
-    DEFAULT_METHOD,
     DEFAULT_MODEL,
     MODEL_CHOICES,
     Settings,
@@ -33,7 +32,7 @@ from calibgui.cli.boards import add_board_options, read_pattern_options
 from calibgui.cli.console import Console
 from calibgui.dataset import CornerSet, Result
 from calibgui.engine.boards import BoardShape, BoardShapeModel, BoardShapePrior
-from calibgui.engine.calibration import METHODS, Cost, DegenerateError
+from calibgui.engine.calibration import DEFAULT_METHOD, METHODS, Cost, DegenerateError
 from calibgui.engine.camera import MODELS, parameter_names
 from calibgui.engine.errors import CalibrationError
 from calibgui.engine.kernels import SOLVER_SECONDS, when_compiling

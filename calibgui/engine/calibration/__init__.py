@@ -27,7 +27,7 @@ from __future__ import annotations
 
 from calibgui.engine.calibration.calibrate import calibrate
 from calibgui.engine.calibration.initialisation.single_view_pose import evaluate_cosines_equation
-from calibgui.engine.calibration.methods import METHODS, Method
+from calibgui.engine.calibration.methods import DEFAULT_METHOD, METHODS, Method
 from calibgui.engine.calibration.observations import Observation
 from calibgui.engine.calibration.partial.degeneracy import find_copies, is_in_one_spot
 from calibgui.engine.calibration.problem import recover_arguments
@@ -52,6 +52,7 @@ from calibgui.engine.calibration.result import (
 )
 
 __all__ = [
+    "DEFAULT_METHOD",
     "METHODS",
     "Assumption",
     "Calibration",

@@ -91,7 +91,7 @@ def _select_common_held(fixed: Mapping[str, float]) -> dict[str, float]:
 
     The pinhole parameters mean the same in every model. Lens coefficients do not, but the
     inverse of a map without decentering has none, and that of a map without distortion
-    has none either.
+    has none either. This holds for the polynomial models, whose coefficients have these names.
     """
     held = {name: fixed[name] for name in ("fx", "fy", "cx", "cy") if name in fixed}
     without = {name for name, value in fixed.items() if value == 0}

@@ -131,7 +131,8 @@ class PrintDialog(QDialog):
         circles = not self.pattern.pattern.has_squares
         self.counted.setText(self.tr("Circles") if circles else self.tr("Squares"))
         self.side.setText(self.tr("Distance") if circles else self.tr("Side of a square"))
-        self.odd_and_even.setVisible(self.pattern.pattern.kind == "checkerboard")
+        chosen = self.pattern.pattern
+        self.odd_and_even.setVisible(chosen.has_squares and not chosen.identifies_points)
         self.pattern.show_pattern(self.pattern.pattern, self.square.value())
         try:
             page: Page | None = self.make_sheet()

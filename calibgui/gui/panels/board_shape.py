@@ -31,7 +31,6 @@ class BoardShapePanel(Panel):
     """The board's deviations from its drawing."""
 
     title = str(QT_TRANSLATE_NOOP("BoardShapePanel", "Board shape"))
-    icon = "board-shape"
 
     def __init__(self, services: Services) -> None:
         super().__init__(services)

@@ -19,7 +19,6 @@ class ConvergencePanel(Panel):
     """The cost of every iteration; grows while a calibration runs."""
 
     title = str(QT_TRANSLATE_NOOP("ConvergencePanel", "Convergence"))
-    icon = "convergence"
 
     def __init__(self, services: Services) -> None:
         super().__init__(services)

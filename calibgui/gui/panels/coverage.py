@@ -30,11 +30,10 @@ class CoveragePanel(Panel):
     """Shows which parts of the sensor, tilts and distances the views cover, and which view to add.
 
     Args:
-        jobs: that look for the view that would help most.
+        services: the window's jobs look for the view that would help most.
     """
 
     title = str(QT_TRANSLATE_NOOP("CoveragePanel", "Coverage"))
-    icon = "coverage"
 
     def __init__(self, services: Services) -> None:
         super().__init__(services)

@@ -32,7 +32,6 @@ class DistortionPanel(Panel):
     """How far the lens moves each pixel from where an ideal camera would see it."""
 
     title = str(QT_TRANSLATE_NOOP("DistortionPanel", "Distortion"))
-    icon = "distortion"
 
     def __init__(self, services: Services) -> None:
         super().__init__(services)

@@ -47,7 +47,6 @@ class HistogramsPanel(Panel):
     """Shows components against a Gaussian and lengths against a Rayleigh distribution."""
 
     title = str(QT_TRANSLATE_NOOP("HistogramsPanel", "Histograms"))
-    icon = "histograms"
 
     def __init__(self, services: Services) -> None:
         super().__init__(services)

@@ -32,7 +32,6 @@ class Panel(QWidget):
     """Something that the user asked for could not be done."""
 
     title: ClassVar[str] = ""
-    icon: ClassVar[str] = ""
     hint: ClassVar[str] = str(
         QT_TRANSLATE_NOOP(
             "Panel", "Nothing is calibrated yet. Add images of a board and press Calibrate."

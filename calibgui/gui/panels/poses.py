@@ -161,7 +161,6 @@ class PosesPanel(Panel):
     """Shows where the board was held, seen from any side."""
 
     title = str(QT_TRANSLATE_NOOP("PosesPanel", "Poses"))
-    icon = "poses"
 
     def __init__(self, services: Services) -> None:
         super().__init__(services)

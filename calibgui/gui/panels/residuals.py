@@ -30,7 +30,6 @@ class ResidualsPanel(Panel):
     """
 
     title = str(QT_TRANSLATE_NOOP("ResidualsPanel", "Residuals"))
-    icon = "residuals"
 
     def __init__(self, services: Services) -> None:
         super().__init__(services)

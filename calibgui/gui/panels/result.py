@@ -11,6 +11,7 @@ from PySide6.QtWidgets import QTabWidget, QTextBrowser, QVBoxLayout
 
 from calibgui.dataset import Result
 from calibgui.engine.calibration import compute_correlations, make_paper_table
+from calibgui.engine.camera import MODELS, Lucchese
 from calibgui.engine.geometry import PAPER_NAMES
 from calibgui.gui.panels.estimates import estimate_columns
 from calibgui.gui.panels.latest import Latest
@@ -35,7 +36,6 @@ class ResultPanel(Panel):
     """
 
     title = str(QT_TRANSLATE_NOOP("ResultPanel", "Result"))
-    icon = "result"
 
     def __init__(self, services: Services) -> None:
         super().__init__(services)
@@ -115,7 +115,7 @@ class ResultPanel(Panel):
             ],
             {names.index(u.name): u.reason for u in calibration.undetermined},
         )
-        has_paper = calibration.camera.model.startswith("lucchese")
+        has_paper = isinstance(MODELS[calibration.camera.model], Lucchese)
         self.tabs.setTabVisible(1, has_paper)
         if has_paper:
             values, sigma, sd = make_paper_table(calibration)

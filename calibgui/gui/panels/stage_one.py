@@ -33,7 +33,6 @@ class StageOnePanel(Panel):
     """Shows what each view says of the camera by itself."""
 
     title = str(QT_TRANSLATE_NOOP("StageOnePanel", "Stage I"))
-    icon = "stage-one"
 
     def __init__(self, services: Services) -> None:
         super().__init__(services)

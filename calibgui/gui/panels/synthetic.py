@@ -36,7 +36,6 @@ class SyntheticPanel(Panel):
     """
 
     title = str(QT_TRANSLATE_NOOP("SyntheticPanel", "Synthetic check"))
-    icon = "synthetic"
 
     def __init__(self, services: Services) -> None:
         super().__init__(services)

@@ -32,7 +32,6 @@ class UncertaintyPanel(Panel):
     """
 
     title = str(QT_TRANSLATE_NOOP("UncertaintyPanel", "Uncertainty"))
-    icon = "uncertainty"
 
     def __init__(self, services: Services) -> None:
         super().__init__(services)

@@ -30,7 +30,6 @@ class UndistortPanel(Panel):
     """
 
     title = str(QT_TRANSLATE_NOOP("UndistortPanel", "Undistort"))
-    icon = "undistort"
 
     def __init__(self, services: Services) -> None:
         super().__init__(services)

@@ -10,6 +10,7 @@ from PySide6.QtWidgets import QComboBox, QDoubleSpinBox, QFormLayout, QLabel, QW
 from calibgui.engine import opencv
 from calibgui.engine.boards import KINDS, Charuco, Circles, Pattern
 from calibgui.engine.errors import CalibrationError
+from calibgui.gui.widgets.pattern_texts import list_pattern_texts
 
 
 class PatternChoice(QWidget):
@@ -28,17 +29,12 @@ class PatternChoice(QWidget):
 
     def __init__(self, undecided: str) -> None:
         super().__init__()
-        names = {
-            "checkerboard": self.tr("Checkerboard"),
-            "charuco": self.tr("ChArUco board"),
-            "circles": self.tr("Circles"),
-            "asymmetric-circles": self.tr("Asymmetric circles"),
-        }
+        texts = list_pattern_texts()
         self.kind = QComboBox()
         self.kind.setAccessibleName(self.tr("Pattern"))
         self.kind.setToolTip(self.tr("What is printed on the board."))
         for kind in KINDS:
-            self.kind.addItem(names[kind], kind)
+            self.kind.addItem(texts[kind].name, kind)
         self.dictionary = QComboBox()
         self.dictionary.setToolTip(self.tr("The set of markers on the board, by OpenCV's name."))
         self.dictionary.addItem(undecided, None)

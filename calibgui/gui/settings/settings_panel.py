@@ -135,7 +135,7 @@ class SettingsPanel(QWidget):
         }
         choice = NarrowCombo()
         for model in MODEL_CHOICES:
-            text, tip = descriptions.get(model, (model, ""))
+            text, tip = descriptions.get(model, (MODELS[model].title, ""))
             choice.addItem(text, model)
             choice.setItemData(choice.count() - 1, tip, Qt.ItemDataRole.ToolTipRole)
         choice.setAccessibleName(self.tr("Lens model"))

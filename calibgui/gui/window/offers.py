@@ -16,6 +16,7 @@ from calibgui.gui.dialogs.files import Files
 from calibgui.gui.images.image_list import ImageList
 from calibgui.gui.session.detector import Detector
 from calibgui.gui.session.session import Session
+from calibgui.gui.widgets.pattern_texts import list_pattern_texts
 from calibgui.gui.window.banner import Banner
 
 _LOOKED_AT = 2
@@ -109,27 +110,10 @@ class Offers(QObject):
     def _offer_pattern(self, pattern: Pattern | None) -> None:
         if pattern is None:
             return
-        text, choice = {
-            "checkerboard": (
-                self.tr("These look like photographs of a checkerboard."),
-                self.tr("&Search for a checkerboard"),
-            ),
-            "charuco": (
-                self.tr("These look like photographs of a ChArUco board."),
-                self.tr("&Search for a ChArUco board"),
-            ),
-            "circles": (
-                self.tr("These look like photographs of a grid of circles."),
-                self.tr("&Search for circles"),
-            ),
-            "asymmetric-circles": (
-                self.tr("These look like photographs of an asymmetric grid of circles."),
-                self.tr("&Search for asymmetric circles"),
-            ),
-        }[pattern.kind]
+        texts = list_pattern_texts()[pattern.kind]
 
         def search() -> None:
             self._session.edit(self.tr("Pattern"), lambda p: set_pattern(p, pattern))
             self._files.search()
 
-        self._offer(text, choice, search)
+        self._offer(texts.recognised, texts.search, search)

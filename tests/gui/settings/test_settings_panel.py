@@ -17,7 +17,7 @@ from PySide6.QtWidgets import (
 from pytestqt.qtbot import QtBot
 
 from calibgui.app.project import change_views
-from calibgui.app.settings import Settings, check_settings
+from calibgui.app.settings import MODEL_CHOICES, Settings, check_settings
 from calibgui.engine.boards.shape import BoardShape, BoardShapeModel, BoardShapePrior
 from calibgui.engine.calibration.result import Cost
 from calibgui.engine.camera.models import parameter_names
@@ -64,10 +64,8 @@ def test_the_lens_model_decides_what_can_be_held(full: MainWindow, qtbot: QtBot)
     panel, session = full.settings, full.session
     tabs = full.image_dock.findChild(QTabWidget)
     tabs.setCurrentIndex(1)
-    assert [panel.model.itemData(k) for k in range(panel.model.count())] == [
-        "lucchese",
-        "brown-conrady",
-    ]
+    models = [panel.model.itemData(k) for k in range(panel.model.count())]
+    assert models == list(MODEL_CHOICES)
     assert shown_boxes(panel) == list(parameter_names("lucchese"))
     panel.values.selectAll()
     qtbot.keyClicks(panel.values, "fx=650.5, p3=0.01, k1=-0.2")

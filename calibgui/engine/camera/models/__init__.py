@@ -1,10 +1,9 @@
 """Lens models: the map between the measured and the ideal image, in dimensionless coordinates.
 
-A model is closed-form in one direction only; ``camera.inverse`` supplies the other, derivatives
-included. To add a model, write one module with a class that satisfies ``camera.model.Lens``,
-derive its Jacobians in the docstring, and name it in `MODELS`: solver, maps, renderer, reports and
-exports take it from there, and the tests of all models once `LENSES` of ``tests/engine/scenes.py``
-has a lens of it.
+A polynomial model is closed-form in one direction only; ``camera.inverse`` supplies the other,
+derivatives included. To add a model, write one module with a class that satisfies
+``camera.model.Lens``, derive its Jacobians in the docstring, and name it in `MODELS`: solver, maps,
+renderer and reports take it from there (CONTRIBUTING.md says what else a model needs).
 """
 
 from __future__ import annotations

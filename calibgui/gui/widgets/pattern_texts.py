@@ -1,0 +1,48 @@
+"""The window's words for the kinds of boards: one entry for each in ``engine.boards.KINDS``."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+from PySide6.QtCore import QCoreApplication
+
+translate = QCoreApplication.translate
+
+
+class PatternTexts(NamedTuple):
+    """The words for one kind of board."""
+
+    name: str
+    """Its name in the list of kinds."""
+    recognised: str
+    """The sentence that says that photographs show it."""
+    search: str
+    """The button that searches for it."""
+
+
+def list_pattern_texts() -> dict[str, PatternTexts]:
+    """Return the words for every kind of board, in the user's language."""
+    return {
+        "checkerboard": PatternTexts(
+            translate("PatternTexts", "Checkerboard"),
+            translate("PatternTexts", "These look like photographs of a checkerboard."),
+            translate("PatternTexts", "&Search for a checkerboard"),
+        ),
+        "charuco": PatternTexts(
+            translate("PatternTexts", "ChArUco board"),
+            translate("PatternTexts", "These look like photographs of a ChArUco board."),
+            translate("PatternTexts", "&Search for a ChArUco board"),
+        ),
+        "circles": PatternTexts(
+            translate("PatternTexts", "Circles"),
+            translate("PatternTexts", "These look like photographs of a grid of circles."),
+            translate("PatternTexts", "&Search for circles"),
+        ),
+        "asymmetric-circles": PatternTexts(
+            translate("PatternTexts", "Asymmetric circles"),
+            translate(
+                "PatternTexts", "These look like photographs of an asymmetric grid of circles."
+            ),
+            translate("PatternTexts", "&Search for asymmetric circles"),
+        ),
+    }
