@@ -33,11 +33,11 @@ def peak() -> float:
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("views", type=int, nargs="?", default=20_000)
-    parser.add_argument("--plate", default="nominal")
+    parser.add_argument("--board-shape", default="nominal")
     arguments = parser.parse_args()
     camera, rng, xy = barrel(), np.random.default_rng(0), BOARD.points()
     poses = [looking(camera, rng, board=BOARD, fill=(0.4, 0.8)) for _ in range(POSES)]
-    exact = [view.uv for view in seen(camera, poses, grid_size=BOARD).views]
+    exact = [view.uv for view in seen(camera, poses, board=BOARD).views]
     noise = rng.normal(scale=0.1, size=(arguments.views, *xy.shape))
     views = [Observation(exact[k % POSES] + noise[k], xy) for k in range(arguments.views)]
     before, began = peak(), time.process_time()

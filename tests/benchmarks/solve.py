@@ -81,7 +81,7 @@ def corners(count: int) -> list[Observation]:
     """`count` random views of a 12 x 13 board with 0.1 px of noise."""
     camera, rng = brown(), np.random.default_rng(count)
     poses = [looking(camera, rng, board=BOARD, fill=(0.4, 0.8)) for _ in range(count)]
-    return seen(camera, poses, grid_size=BOARD).noisy(0.1, rng)
+    return seen(camera, poses, board=BOARD).noisy(0.1, rng)
 
 
 def whole(views: list[Observation], model: str, board_shape: str = "nominal") -> float:
