@@ -1,4 +1,4 @@
-"""From the names that a user gives (files, folders, patterns) to image files."""
+"""The image files that a user means by names of files, folders and patterns."""
 
 from __future__ import annotations
 

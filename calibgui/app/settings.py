@@ -21,7 +21,7 @@ MODEL_CHOICES = tuple(name for name in MODELS if name != _PAPER_MODEL)
 
 @dataclass(frozen=True, slots=True)
 class Settings:
-    """How to calibrate: the input of ``redetection.calibrate_twice``."""
+    """The settings of a calibration: the input of ``redetection.calibrate_twice``."""
 
     cost: Cost = Cost.IMAGE
     model: str = DEFAULT_MODEL

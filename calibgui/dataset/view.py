@@ -37,7 +37,7 @@ class View:
     reason: str = ""
     """Why the image cannot be used, and the remedy; empty if it can."""
     note: str = ""
-    """How the corners were found, where that is worth knowing; otherwise empty."""
+    """Remark on the search that found the corners, where there is one; otherwise empty."""
     corners: Corners | None = None
     """Corners found on a board of known layout."""
     points: Observation | None = None

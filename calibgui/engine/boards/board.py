@@ -37,7 +37,7 @@ class Board:
     square: float
     """The pattern's pitch, mm: the side of a square (the paper's D_o) or the distance of rows."""
     pattern: Pattern = CHECKERBOARD
-    """What is printed."""
+    """The pattern that is printed on the board."""
 
     def __post_init__(self) -> None:
         if not (self.rows >= 1 and self.cols >= 1 and 0 < self.square < math.inf):

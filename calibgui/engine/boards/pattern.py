@@ -31,7 +31,7 @@ class Symmetry(StrEnum):
 
 
 class Pattern(Protocol):
-    """What is printed on a board.
+    """The pattern that is printed on a board.
 
     An implementation is a frozen dataclass. A field that is None is unknown and is to be inferred
     from the images.

@@ -32,7 +32,7 @@ class BoardShapeModel(StrEnum):
 
 @dataclass(frozen=True, slots=True)
 class BoardShapePrior:
-    """What is known of a board beforehand: standard deviations of its points' positions, mm."""
+    """Prior knowledge of a board: standard deviations of its points' positions, mm."""
 
     in_plane: float
     """Accuracy of the print, mm."""

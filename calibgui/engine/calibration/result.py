@@ -71,7 +71,7 @@ best state so far, and raises `Cancelled` to discard it."""
 
 
 class Status(StrEnum):
-    """How a solve ended."""
+    """The ways in which a solve can end."""
 
     CONVERGED = "converged"
     PARTIAL = "partial"

@@ -149,7 +149,7 @@ def _compute_board_from_ray(pose: Pose, square: float, stretch: float) -> Array:
 
 @dataclass(frozen=True, slots=True)
 class _Scene:
-    """What is rendered."""
+    """The camera, pose and board that are rendered."""
 
     camera: Camera
     pose: Pose

@@ -1,1 +1,1 @@
-"""From corners to a start of Stage II: Stage I, one camera in closed form, and all poses."""
+"""The start of Stage II from corners: Stage I, one camera in closed form, and all poses."""

@@ -102,7 +102,7 @@ class Linearised(NamedTuple):
 
 
 class BoardMotion(NamedTuple):
-    """How the corners of an estimated board move with the camera's parameters."""
+    """The motion of an estimated board's corners with the camera's parameters."""
 
     motion: Array
     """(n, 3, P) mm per unit of each parameter."""

@@ -81,7 +81,8 @@ class FactorisedSystem(NamedTuple):
 
     reduced: Reduced
     inverse: Callable[[Array], Array]
-    """From (P,) to S^-1 times it, both scaled; the shortest solution if S is singular."""
+    """Function that multiplies a (P,) vector by S^-1, both scaled; if S is singular it returns the
+    shortest solution."""
 
     def with_gradient_of(self, normal: NormalEquations) -> FactorisedSystem:
         """Return the same J^T J with the gradient of other normal equations close by."""

@@ -1,4 +1,4 @@
-"""From an image to the corners of a ChArUco board: the markers tell which corner is which.
+"""The detector of ChArUco boards: the markers tell which corner is which.
 
 `MarkerReader` reads the board's markers and thereby finds what is not stated of dictionary, layout
 and size. `corners_between_markers` predicts the inner corners from them and refines and verifies
