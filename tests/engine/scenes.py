@@ -58,21 +58,33 @@ _ALL_AT_WORK = (0.25, 0.1, -0.04, 4e-4, -7e-4, 0.4)
 LENSES = {
     "lucchese": _ALL_AT_WORK,
     "lucchese-pixels": _ALL_AT_WORK,
-    "brown-conrady": (-0.25, 0.12, 3e-4, -5e-4, -0.03),
+    "pinhole": (),
+    "brown-conrady-4": (-0.25, 0.12, 3e-4, -5e-4, 2e-3),
+    "brown-conrady": (-0.25, 0.12, 3e-4, -5e-4, -0.03, 2e-3),
+    "rational": (0.4, 0.2, 3e-4, -5e-4, 0.02, 0.7, 0.3, 0.05, 2e-3),
+    "thin-prism": (0.4, 0.2, 3e-4, -5e-4, 0.02, 0.7, 0.3, 0.05, 1e-3, -2e-3, 2e-3, 1e-3, 2e-3),
+    "kannala-brandt": (-0.05, 4e-3, -3e-3, 4e-4),
+    "kannala-brandt-decentering": (-0.05, 4e-3, -3e-3, 4e-4, 4e-4, -7e-4),
+    "ucm": (0.6,),
+    "eucm": (0.6, 1.1),
+    "double-sphere": (-0.2, 0.55),
+    "mei": (1.4, -0.2, 0.03, 4e-4, -7e-4),
+    "division": (-0.3,),
+    "scaramuzza": (-0.35, 0.02, -0.05),
 }
 """A lens of each model: what `example` is made with, and the tests of all models are."""
 
 
 def example(model: str, aspect: float = 1.0) -> Camera:
     """A camera with a lens of any model, all of its coefficients at work."""
-    return Camera(VGA, [650.0, 650.0 * aspect, 303.0, 243.0, *LENSES[model]], model)
+    f = 650.0 * (1 + LENSES[model][0] if model == "mei" else 1)  # Mei's is that of the sphere
+    return Camera(VGA, [f, f * aspect, 303.0, 243.0, *LENSES[model]], model)
 
 
 def imaged(camera: Camera, pose: Pose, xy: Array) -> Array:
     """(n, 2) where the camera sees plate points (n, 2), px; NaN behind it or beyond the lens."""
     point = xy @ Rotation.from_rotvec(np.array(pose.rvec)).as_matrix()[:, :2].T + pose.tvec
-    depth = np.where(point[:, 2:] > 0, point[:, 2:], np.nan)
-    return pixels_from_rays(point[:, :2] / depth, camera)
+    return pixels_from_rays(point, camera)
 
 
 def looking(

@@ -6,7 +6,8 @@
 2. The method guesses the camera and the poses, and refines the guess to the minimum of the cost.
 3. Views that do not determine the camera are named, with what they do determine (``partial``).
 4. The board's shape is estimated if that is wanted (``board_shape``); otherwise the residuals tell
-   how much an imperfect board adds to the uncertainties.
+   how much an imperfect board adds to the uncertainties. Where they look like a board that is off,
+   the lens is examined first (``lens_error.py``): what it explains is not the board's.
 5. The views' disagreement beyond their noise widens the uncertainties (``overdispersion.py``).
 """
 
@@ -23,7 +24,11 @@ from calibgui.engine.arrays import Array, BoolArray, IntArray, Size
 from calibgui.engine.boards.shape import BoardShape, BoardShapeModel, BoardShapePrior
 from calibgui.engine.calibration.board_shape.estimate import fit_board_shape
 from calibgui.engine.calibration.board_shape.parametrisation import place_on_board_shape
-from calibgui.engine.calibration.board_shape.uncertainty import add_board_shape_error
+from calibgui.engine.calibration.board_shape.uncertainty import (
+    add_board_shape_error,
+    suspect_board,
+)
+from calibgui.engine.calibration.lens_error import measure_lens_error
 from calibgui.engine.calibration.methods import DEFAULT_METHOD, find_method
 from calibgui.engine.calibration.observations import (
     REFERENCE_PITCH,
@@ -39,6 +44,7 @@ from calibgui.engine.calibration.partial.degeneracy import (
     diagnose_degeneracy,
     find_copies,
     find_misfits,
+    find_traded_focal_lengths,
     find_undetermined,
     is_in_one_spot,
 )
@@ -56,8 +62,9 @@ from calibgui.engine.calibration.result_assembly import (
     assemble_calibration,
     make_estimate,
 )
+from calibgui.engine.calibration.score_tests import LinearisedFit
 from calibgui.engine.camera.camera import Camera, check_image_size
-from calibgui.engine.camera.models import MODELS, PINHOLE, parameter_names, resolve_model_id
+from calibgui.engine.camera.models import PINHOLE, find_model, parameter_names, resolve_model_id
 from calibgui.engine.errors import CalibrationError, parse_choice
 from calibgui.engine.threads import with_one_blas_thread
 
@@ -209,7 +216,9 @@ def _measure_precision(
     camera = Camera(options.size, solution.state.params, options.model)
     tolerated = _compute_tolerated_deviations(camera, observations)[options.free]
     precision = covariances.measure_precision(solution.normal, names, observations.count, tolerated)
-    lost = find_undetermined(solution, names, precision, misfits)
+    lens = find_model(options.model)
+    traded = find_traded_focal_lengths(camera.params, lens, names, precision.shared)
+    lost = find_undetermined(solution, names, precision, misfits, traded)
     if lost or is_in_one_spot(observations.uv, options.size):  # padding repeats a corner
         _raise_if_undetermined(observations, originals, options, solution.state, lost)
     return precision
@@ -223,15 +232,25 @@ def _add_model_errors(
     report: Report | None,
 ) -> Estimate:
     """Estimate the board's shape if wanted, and widen the uncertainties by what models miss."""
-    shape = BoardShapeModel(options.settings["plate"])
-    if options.board_shape is None and shape is BoardShapeModel.NOMINAL:
-        estimate = add_board_shape_error(estimate, observations, options.model, options.free)
-    elif options.board_shape is None:
-        solution = estimate.solution
-        estimate = fit_board_shape(
-            solution, observations, options.model, options.free, shape, prior, report
-        )
-        _check_camera_known(estimate, options, shape)
+    shape, lens_error = BoardShapeModel(options.settings["plate"]), 0.0
+    if options.board_shape is None:
+        suspicion = suspect_board(estimate, observations, options.model)
+        if suspicion is not None:  # only then is the lens examined, which takes its time
+            camera = Camera(options.size, estimate.state.params, options.model)
+            fit = LinearisedFit(camera, estimate.state, observations, options.free)
+            lens_error = measure_lens_error(fit)
+        if shape is not BoardShapeModel.NOMINAL:
+            solution = estimate.solution
+            estimate = fit_board_shape(
+                solution, observations, options.model, options.free, shape, prior, report
+            )
+            _check_camera_known(estimate, options, shape)
+        elif suspicion is not None:
+            estimate = add_board_shape_error(
+                estimate, observations, options.model, options.free, suspicion
+            )
+    if lens_error > 0:
+        estimate = estimate._replace(lens_error=lens_error, board_shape_error=0.0)
     return add_overdispersion(estimate, options.model, options.free)
 
 
@@ -307,7 +326,7 @@ def _compute_tolerated_deviations(camera: Camera, observations: Observations) ->
     They are a tenth of the focal length for focal lengths and centre, and for a coefficient the
     value that moves the outermost corner by its whole distance from the centre.
     """
-    f, lens = camera.focal, MODELS[camera.model]
+    f, lens = camera.focal, find_model(camera.model)
     d = (observations.uv - camera.centre) / f
     outermost = np.sqrt(np.max(d[..., 0] ** 2 + d[..., 1] ** 2))
     return np.concatenate([0.1 * f, 0.1 * f, outermost ** -np.array(lens.powers, float)])

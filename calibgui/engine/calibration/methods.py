@@ -32,7 +32,7 @@ from calibgui.engine.calibration.refinement.bundle_adjustment import (
 from calibgui.engine.calibration.refinement.levenberg_marquardt import Solution
 from calibgui.engine.calibration.refinement.residuals import State
 from calibgui.engine.calibration.result import Cost, Report
-from calibgui.engine.camera.models import MODELS, parameter_names
+from calibgui.engine.camera.models import MODELS
 from calibgui.engine.errors import CalibrationError
 
 DEFAULT_METHOD = "lucchese"
@@ -127,9 +127,7 @@ def _initialise_lucchese(
 ) -> Initialisation:
     """Register every view on the reference plane (Stage I), then solve for one camera (3.5)."""
     registration = register_views(*convert_to_paper_frame(observations, scale, size, names))
-    state, values = initialise_stage_two(
-        observations, registration, size, MODELS[model], parameter_names(model), held
-    )
+    state, values = initialise_stage_two(observations, registration, size, model, held)
     return Initialisation(registration, state, values)
 
 

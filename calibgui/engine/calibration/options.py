@@ -11,7 +11,7 @@ from calibgui.engine.arrays import IntArray, Size
 from calibgui.engine.boards.shape import BoardShape
 from calibgui.engine.calibration.initialisation.stage_one import StageOneRegistration
 from calibgui.engine.calibration.result import Cost
-from calibgui.engine.camera.models import MODELS, parameter_names
+from calibgui.engine.camera.models import find_model, parameter_names
 from calibgui.engine.errors import CalibrationError
 
 _MAX_HELD = 100.0
@@ -81,7 +81,7 @@ def resolve_held_parameters(
         raise CalibrationError(
             f"{', '.join(sorted(both))} cannot be both held and freed.", "Name it once."
         )
-    default = dict.fromkeys(name for name in MODELS[model].held if name not in freed)
+    default = dict.fromkeys(name for name in find_model(model).held if name not in freed)
     return default | wanted
 
 

@@ -10,7 +10,7 @@ they disagree, not which of them is right.
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -21,6 +21,9 @@ from calibgui.engine.calibration.calibrate import calibrate
 from calibgui.engine.calibration.observations import Observation
 from calibgui.engine.calibration.result import Calibration
 from calibgui.engine.camera.camera import Camera
+from calibgui.engine.camera.model import Lens
+from calibgui.engine.camera.models import find_model
+from calibgui.engine.camera.plane import PlaneLens
 from calibgui.engine.camera.projection import pixels_from_rays, rays_from_pixels
 from calibgui.engine.images.sampling import make_mesh
 
@@ -71,7 +74,7 @@ def refit(
         >>> found.covered_error < 0.02
         True
     """
-    held = _select_common_held(original.settings["fixed"])
+    held = _select_common_held(original, model)
     board_shape = original.board_shape or BoardShapeModel.NOMINAL
     calibration = calibrate(
         views, original.camera.size, model=model, fix=held, board_shape=board_shape
@@ -86,20 +89,34 @@ def refit(
     )
 
 
-def _select_common_held(fixed: Mapping[str, float]) -> dict[str, float]:
+def _select_common_held(original: Calibration, model: str) -> dict[str, float]:
     """Select the original's held parameters that the refit holds as well.
 
-    The pinhole parameters mean the same in every model. Lens coefficients do not, but the
-    inverse of a map without decentering has none, and that of a map without distortion
-    has none either. This holds for the polynomial models, whose coefficients have these names.
+    The centre means the same in every model, and the focal lengths in every model whose plainest
+    lens images the axis at the scale of a pinhole. Lens coefficients do not, but the inverse of a
+    symmetric map is symmetric, and that of a map of the plane without distortion has none either.
     """
-    held = {name: fixed[name] for name in ("fx", "fy", "cx", "cy") if name in fixed}
+    fixed, own, other = (
+        original.settings["fixed"],
+        find_model(original.camera.model),
+        find_model(model),
+    )
+    held = {name: fixed[name] for name in ("cx", "cy") if name in fixed}
+    if all(_has_pinhole_scale(lens) for lens in (own, other)):
+        held |= {name: fixed[name] for name in ("fx", "fy") if name in fixed}
     without = {name for name, value in fixed.items() if value == 0}
-    if without >= {"p1", "p2"}:
-        held |= dict.fromkeys(("p1", "p2"), 0.0)
-        if without >= {"k1", "k2", "k3"}:
-            held |= dict.fromkeys(("k1", "k2", "k3"), 0.0)
+    if without >= set(own.asymmetric):
+        held |= dict.fromkeys(other.asymmetric, 0.0)
+        is_plane = isinstance(own, PlaneLens) and isinstance(other, PlaneLens)
+        if is_plane and without >= set(own.names):
+            held |= dict.fromkeys(other.names, 0.0)
     return held
+
+
+def _has_pinhole_scale(lens: Lens) -> bool:
+    """Return whether the plainest lens images directions near the axis as a pinhole does."""
+    seen = lens.project(np.array([0.0, 0.0, 1.0]), np.array(lens.defaults))
+    return bool(seen.by_ray[0, 0] == 1)
 
 
 def measure_displacement(a: Camera, b: Camera, uv: Array) -> Array:

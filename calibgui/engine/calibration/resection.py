@@ -1,24 +1,21 @@
 """Resection: the poses of views under a known camera, which is Stage II with the camera held.
 
-The start is in closed form: rays n of the corners are the image of an ideal camera with f = 1 and
-the centre at 0, whose homography from the board is [r1 r2 T]. Levenberg-Marquardt then minimises
-the same cost as the calibration's Stage II, so that residuals of new views compare with its own.
+The start is in closed form, from the rays of the corners (``geometry.planar_pose``).
+Levenberg-Marquardt then minimises the same cost as the calibration's Stage II, so that residuals
+of new views compare with its own.
 """
 
 from __future__ import annotations
 
-from dataclasses import replace
-
 import numpy as np
 
-from calibgui.engine.calibration.initialisation import closed_form
 from calibgui.engine.calibration.observations import Observations
 from calibgui.engine.calibration.refinement.levenberg_marquardt import minimise
 from calibgui.engine.calibration.refinement.residuals import State, build_stage_two
 from calibgui.engine.calibration.result import Cost
 from calibgui.engine.camera.camera import Camera
 from calibgui.engine.camera.projection import rays_from_pixels
-from calibgui.engine.geometry.planar_pose import poses_from_homographies
+from calibgui.engine.geometry.planar_pose import poses_from_rays
 
 
 def refine_poses(
@@ -48,6 +45,5 @@ def refine_poses(
 
 def estimate_poses(camera: Camera, observations: Observations) -> State:
     """Estimate the poses of views of a flat board under a known camera, in closed form."""
-    ideal = replace(observations, uv=rays_from_pixels(observations.uv, camera))
-    M = closed_form.fit_homographies(ideal, np.zeros(2), 0.0)
-    return State(camera.params, *poses_from_homographies(M, np.ones(2), ideal.xy[:, 0]))
+    rays = rays_from_pixels(observations.uv, camera)
+    return State(camera.params, *poses_from_rays(rays, observations.xy[..., :2], observations.mask))

@@ -24,6 +24,7 @@ from calibgui.engine.camera.models import (
     resolve_model_id,
 )
 from calibgui.engine.camera.models.lucchese import Lucchese
+from calibgui.engine.camera.models.splined_stereographic import SplinedStereographic
 from calibgui.engine.camera.projection import pixels_from_rays, rays_from_pixels
 
 __all__ = [
@@ -34,6 +35,7 @@ __all__ = [
     "DisplacementPart",
     "Lens",
     "Lucchese",
+    "SplinedStereographic",
     "check_image_size",
     "compute_displacement",
     "distort_points",

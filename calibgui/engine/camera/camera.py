@@ -5,9 +5,10 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
+import numpy.typing as npt
 
 from calibgui.engine.arrays import Array, Size, freeze
-from calibgui.engine.camera.models import parameter_names, resolve_model_id
+from calibgui.engine.camera.models import find_model, parameter_names, resolve_model_id
 from calibgui.engine.errors import CalibrationError
 
 
@@ -28,6 +29,9 @@ def check_image_size(size: Size) -> Size:
 @dataclass(frozen=True, eq=False, slots=True)
 class Camera:
     """Intrinsics in the array frame: a lens model's id and its parameters.
+
+    The last parameters may be left out if the model holds them by default; they take the values at
+    which it holds them.
 
     Raises:
         CalibrationError: if there is no such model, it has another number of parameters, a number
@@ -54,9 +58,10 @@ class Camera:
     """The lens model, a key of ``camera.models.MODELS``; ids of earlier versions are replaced."""
 
     def __post_init__(self) -> None:
-        freeze(self, "params")
         object.__setattr__(self, "size", check_image_size(self.size))
         object.__setattr__(self, "model", resolve_model_id(self.model))
+        object.__setattr__(self, "params", _fill_held_coefficients(self.params, self.model))
+        freeze(self, "params")
         if self.params.shape != (len(self.names),):
             raise CalibrationError(
                 f"{self.params.size} numbers do not make a camera of the lens model "
@@ -94,3 +99,12 @@ class Camera:
         """(3, 3) the camera matrix K."""
         fx, fy, cx, cy = self.params[:4]
         return np.array([[fx, 0.0, cx], [0.0, fy, cy], [0.0, 0.0, 1.0]])
+
+
+def _fill_held_coefficients(params: npt.ArrayLike, model: str) -> Array:
+    """Return the parameters, with defaults of held ones that were left out at the end."""
+    given, lens = np.asarray(params, dtype=np.float64), find_model(model)
+    left_out = parameter_names(model)[given.size :]
+    if given.ndim != 1 or not left_out or not set(left_out) <= set(lens.held):
+        return given
+    return np.concatenate([given, lens.defaults[-len(left_out) :]])

@@ -1,14 +1,15 @@
 """Distorting and undistorting points, and the displacement between the two (figure 8).
 
-The ideal image is a pinhole's: a ray n = (X/Z, Y/Z) falls on c + f n, with the camera's own
-f and c or those of another camera matrix. With psi of eq. 9 in pixels, the corrective
-displacement of eq. 10 at a measured pixel is
+The ideal image is a pinhole's: a ray in front of the camera falls on c + f n, n = (X/Z, Y/Z), with
+the camera's own f and c or those of another camera matrix; rays at 90 degrees and beyond have no
+ideal point. With psi of eq. 9 in pixels, the corrective displacement of eq. 10 at a measured pixel
+is
 
     (d1, d2) = (c + f n) - uv,      J = d(d1, d2)/d uv = diag(f) dn/duv - I,
 
 and the net displacement of figure 8 is d = sqrt(d1^2 + d2^2), of gradient J^T (d1, d2) / d.
-Its radial part is that of the model with all but the radial coefficients at 0, its decentering
-part the rest: q l in eq. 10.
+Its radial part is that of the model with the coefficients at 0 that make it asymmetric, its
+decentering part the rest: q l in eq. 10.
 """
 
 from __future__ import annotations
@@ -21,7 +22,8 @@ import numpy.typing as npt
 
 from calibgui.engine.arrays import Array
 from calibgui.engine.camera.camera import Camera
-from calibgui.engine.camera.models import MODELS
+from calibgui.engine.camera.models import find_model
+from calibgui.engine.camera.plane import plane_from_rays
 from calibgui.engine.camera.projection import pixels_from_rays, rays_and_slopes, rays_from_pixels
 from calibgui.engine.geometry.pose import Pose
 from calibgui.engine.geometry.rotations import rotation_from_vector
@@ -56,8 +58,9 @@ def undistort_points(points: npt.ArrayLike, camera: Camera, matrix: Array | None
     """
     uv = np.asarray(points, dtype=np.float64)
     with np.errstate(over="ignore", invalid="ignore"):  # a pixel far from any image has no ray
-        n = rays_from_pixels(uv, camera)
-    back = pixels_from_rays(n, camera)
+        rays = rays_from_pixels(uv, camera)
+    back = pixels_from_rays(rays, camera)
+    n, _ = plane_from_rays(rays)
     n[~(np.abs(back - uv).max(axis=-1, initial=0.0) < _MAX_RETURN_ERROR)] = np.nan
     K = camera.matrix if matrix is None else matrix
     return np.asarray(n @ K[:2, :2].T + K[:2, 2])
@@ -75,11 +78,12 @@ def distort_points(points: npt.ArrayLike, camera: Camera, matrix: Array | None =
     """
     K = camera.matrix if matrix is None else matrix
     ideal = np.asarray(points, dtype=np.float64) - K[:2, 2]
-    return pixels_from_rays(ideal @ np.linalg.inv(K[:2, :2]).T, camera)
+    n = ideal @ np.linalg.inv(K[:2, :2]).T
+    return pixels_from_rays(np.concatenate([n, np.ones_like(n[..., :1])], axis=-1), camera)
 
 
 def project_points(xy: npt.ArrayLike, camera: Camera, pose: Pose) -> Array:
-    """Return measured pixels (..., 2) of board points (..., 2) mm; NaN behind the camera.
+    """Return measured pixels (..., 2) of board points (..., 2) mm; NaN where the lens sees none.
 
     Examples:
         >>> from calibgui.engine.camera import Camera, project_points
@@ -92,9 +96,7 @@ def project_points(xy: npt.ArrayLike, camera: Camera, pose: Pose) -> Array:
                [320., 270.]])
     """
     points = np.asarray(xy, dtype=np.float64)
-    point = points @ rotation_from_vector(pose.rvec)[:, :2].T + pose.tvec
-    depth = np.where(point[..., 2:] > 0, point[..., 2:], np.nan)
-    return pixels_from_rays(point[..., :2] / depth, camera)
+    return pixels_from_rays(points @ rotation_from_vector(pose.rvec)[:, :2].T + pose.tvec, camera)
 
 
 class DisplacementPart(StrEnum):
@@ -142,13 +144,15 @@ def compute_displacement(
 
 
 def _compute_correction(uv: Array, camera: Camera) -> Displacement:
-    n, by_uv = rays_and_slopes(uv, camera)
+    rays, by_uv = rays_and_slopes(uv, camera)
+    n, by_ray = plane_from_rays(rays)
     f, c = camera.focal, camera.centre
-    return Displacement(c + f * n - uv, f[:, None] * by_uv - np.eye(2))
+    return Displacement(c + f * n - uv, f[:, None] * (by_ray @ by_uv) - np.eye(2))
 
 
 def _keep_radial_part(camera: Camera) -> Camera:
-    """Return the camera with all but the radial coefficients at 0."""
-    radial = [name.startswith("k") for name in MODELS[camera.model].names]
+    """Return the camera with the coefficients at 0 that make its lens asymmetric."""
+    lens = find_model(camera.model)
+    radial = [name not in lens.asymmetric for name in lens.names]
     params = np.concatenate([camera.params[:4], np.where(radial, camera.coefficients, 0.0)])
     return Camera(camera.size, params, camera.model)

@@ -5,18 +5,19 @@ a <- a - J^-1 (F(a, k) - b), J = dF/da. At the solution da/db = J^-1 and da/dk =
 
 A polynomial lens map is invertible only out to the fold where det J = 0, and may unfold again
 further out. The iteration therefore starts from the inverse of the radial part, which one
-table of r (1 + rho) up to its fold gives for all points; points that have no inverse inside
-the fold come back as NaN.
+table of this curve up to its fold gives for all points; points that have no inverse inside
+the fold come back as NaN. A rational curve can end at a pole instead, which no step may cross.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable
+from typing import NamedTuple
 
 import numpy as np
 
 from calibgui.engine.arrays import Array
-from calibgui.engine.camera.model import Mapped
+from calibgui.engine.camera.plane import Mapped
 
 _MAX_ITERATIONS = 50
 """Number of Newton steps, at most."""
@@ -28,13 +29,49 @@ _NODES = 1024
 """Number of nodes of the radial table: Newton then starts within 1e-3 of the radius."""
 
 
-def invert_map(forward: Callable[[Array], Mapped], b: Array, radial: Array) -> Mapped:
-    """Solve forward(a) = b for a, inside the fold around the origin.
+class RadialCurve(NamedTuple):
+    """The radial part of a lens map, by which a radius r becomes another."""
+
+    evaluate: Callable[[Array], Array]
+    """The curve; its slope at r = 0 is 1."""
+    folds: Array
+    """Radii at which its slope is 0, ascending."""
+    pole: float = np.inf
+    """Radius at which it is infinite and ends."""
+
+
+def make_polynomial_curve(k: Array) -> RadialCurve:
+    """Return the curve r (1 + k1 r^2 + k2 r^4 + ...) of coefficients k (m,)."""
+
+    def evaluate(r: Array) -> Array:
+        r2 = r * r
+        rho = np.zeros_like(r)
+        for kj in k[::-1]:
+            rho = r2 * (kj + rho)
+        return r * (1 + rho)
+
+    slope = np.concatenate([[1.0], np.arange(3, 3 + 2 * len(k), 2) * k])
+    return RadialCurve(evaluate, find_radii(slope))
+
+
+def find_radii(polynomial: Array) -> Array:
+    """Return the radii r > 0, ascending, at which 1 + c1 r^2 + c2 r^4 + ... is 0.
+
+    Args:
+        polynomial: (m + 1,) 1, c1, c2, ...
+    """
+    inverse_squares = np.roots(polynomial)  # 1 / r^2: a last coefficient of 0 is no difficulty
+    real = inverse_squares[inverse_squares.imag == 0].real
+    return np.sort(1 / np.sqrt(real[real > 0]))
+
+
+def invert_map(forward: Callable[[Array], Mapped], b: Array, radial: RadialCurve) -> Mapped:
+    """Solve forward(a) = b for a, inside the fold or pole around the origin.
 
     Args:
         forward: the map, with derivatives.
         b: (..., 2) values to reach, dimensionless.
-        radial: (3,) k1, k2, k3 of the map's radial part r (1 + k1 r^2 + k2 r^4 + k3 r^6).
+        radial: the map's radial part.
 
     Returns:
         The points a with their derivatives by b and by the coefficients, NaN without an inverse.
@@ -46,7 +83,7 @@ def invert_map(forward: Callable[[Array], Mapped], b: Array, radial: Array) -> M
         for _ in range(_MAX_ITERATIONS):
             mapped = forward(a[active])
             step = _solve_pairs(mapped.by_point, mapped.points - target[active])
-            a[active] -= step
+            a[active] = _stop_before_pole(a[active], a[active] - step, radial.pole)
             length = np.hypot(*step.T)
             moving = ~(length <= _MAX_STEP * (1 + np.hypot(*a[active].T))) & np.isfinite(length)
             active = active[moving]
@@ -69,33 +106,35 @@ def invert_map(forward: Callable[[Array], Mapped], b: Array, radial: Array) -> M
     return Mapped(a.reshape(b.shape), inverse.reshape(*b.shape, 2), by_k.reshape(*b.shape, count))
 
 
-def _invert_radial_part(target: Array, radial: Array) -> tuple[Array, float]:
+def _invert_radial_part(target: Array, radial: RadialCurve) -> tuple[Array, float]:
     """Return where the radial part alone is `target` (n, 2), and the radius up to which it holds.
 
-    The points end at 0.9 of the fold's radius: from inside, Newton's method approaches
+    The points end at 0.9 of the radius of the fold or pole: from inside, Newton's method approaches
     solutions up to the fold steadily, while at the fold it has no slope to follow. The second
     value is the radius midway between the fold and where the map unfolds again: solutions
     further out belong to that other branch.
     """
-    k1, k2, k3 = radial
-    inverse_squares = np.roots([1.0, 3 * k1, 5 * k2, 7 * k3])  # 1 / r^2 where the slope is 0
-    real = inverse_squares[inverse_squares.imag == 0].real
-    folds = np.sort(1 / np.sqrt(real[real > 0]))
-    fold = folds.min(initial=np.inf)
+    folds = radial.folds[radial.folds < radial.pole]
+    limit = folds.min(initial=radial.pole)
     radius = np.hypot(*target.T)
-
-    def curve(r: Array) -> Array:
-        r2 = r * r
-        return r * (1 + r2 * (k1 + r2 * (k2 + r2 * k3)))
-
     end = np.ones(1)
-    while end < fold and curve(end) < radius.max(initial=0.0, where=np.isfinite(radius)):
+    farthest = radius.max(initial=0.0, where=np.isfinite(radius))
+    while end < limit and radial.evaluate(end) < farthest:
         end *= 2
-    r = np.linspace(0.0, min(end[0], 0.9 * fold), _NODES)
+    r = np.linspace(0.0, min(end[0], 0.9 * limit), _NODES)
     with np.errstate(invalid="ignore"):
-        shrink = np.where(radius > 0, np.interp(radius, curve(r), r) / radius, 1.0)
+        shrink = np.where(radius > 0, np.interp(radius, radial.evaluate(r), r) / radius, 1.0)
         start = target * shrink[:, None]
-    return start, float(folds[:2].mean()) if len(folds) > 1 else np.inf
+    return start, float(folds[:2].mean()) if len(folds) > 1 else radial.pole
+
+
+def _stop_before_pole(a: Array, moved: Array, pole: float) -> Array:
+    """Return the points (n, 2) after a step, at most half of the way from a to the pole."""
+    if np.isinf(pole):
+        return moved
+    radius = np.hypot(*moved.T)
+    halfway = (np.hypot(*a.T) + pole) / 2
+    return np.where((radius < pole)[:, None], moved, moved * (halfway / radius)[:, None])
 
 
 def _solve_pairs(J: Array, miss: Array) -> Array:

@@ -1,67 +1,97 @@
-"""The contract of a lens model: two maps between measured and ideal points, with derivatives.
+"""The contract of a lens model: rays to image points and back, with all derivatives.
 
-A real lens images a scene point where an ideal pinhole would not. A model either corrects the
-measured point (the paper's does) or distorts the ideal one (OpenCV's does); every model offers
-both directions, so that the rest of the engine need not know which is which.
+A lens maps directions. Seen from the camera, a scene point lies in the direction of a ray
+(X, Y, Z); the lens images it at a point d of the image, and nothing else about it matters. Rays,
+and not the points (X/Z, Y/Z) of a plane, are what a lens of 180 degrees and more needs: at 90
+degrees off the axis the plane has no point, and near it none that is well determined.
 
-Frames: `d` is a measured (distorted) and `n` an ideal (undistorted) image point, both
-(..., 2) dimensionless: d = ((u - cx) / fx, (v - cy) / fy), and n = (X/Z, Y/Z) for a scene
-point in the camera frame. `k` are the model's coefficients.
+Frames: a ray is (..., 3) in the camera frame, X to the right, Y down, Z along the axis, of any
+length; d is (..., 2) and dimensionless, d = ((u - cx) / fx, (v - cy) / fy), measured to the right
+and down. `k` are the model's coefficients. ``camera.projection`` adds focal lengths and centre.
+
+A model whose map is the plane's, d as a function of (X/Z, Y/Z), derives from ``camera.plane``.
 """
 
 from __future__ import annotations
 
-from typing import NamedTuple, Protocol
+from abc import ABC, abstractmethod
+from typing import NamedTuple
 
 from calibgui.engine.arrays import Array
 
 
-class Mapped(NamedTuple):
-    """Points after a lens map, with its derivatives."""
+class Imaged(NamedTuple):
+    """Image points of rays, with derivatives."""
 
     points: Array
-    """(..., 2)."""
-    by_point: Array
-    """(..., 2, 2) derivative with respect to the argument."""
+    """(..., 2) d."""
+    by_ray: Array
+    """(..., 2, 3) derivative by the ray; its product with the ray is 0."""
     by_coefficients: Array
-    """(..., 2, C) derivative with respect to k."""
+    """(..., 2, C) derivative by k."""
 
 
-class Lens(Protocol):
-    """A lens model: two maps, inverse to each other wherever the lens is invertible."""
+class Seen(NamedTuple):
+    """Rays of image points, with derivatives."""
+
+    rays: Array
+    """(..., 3) of length 1."""
+    by_point: Array
+    """(..., 3, 2) derivative by d."""
+    by_coefficients: Array
+    """(..., 3, C) derivative by k."""
+
+
+class Lens(ABC):
+    """A lens model: two maps, inverse to each other wherever the lens is one-to-one."""
+
+    title: str
+    """A short plain name for lists of models to choose from."""
+    names: tuple[str, ...]
+    """Names of the coefficients k."""
+    powers: tuple[int, ...]
+    """Power of the radius that each coefficient multiplies, relative to the radius; 0 for a
+    coefficient that shapes the projection as a whole."""
+    held: tuple[str, ...] = ()
+    """Names of the parameters that are held unless the user frees them.
+
+    A parameter that does what a rotation, a roll or a shift of the camera does belongs here: poses
+    and centre would take up any value of it, the residuals could not tell, and all of them would
+    be undetermined together.
+    """
+    asymmetric: tuple[str, ...] = ()
+    """Names of the coefficients without which the lens is symmetric about its axis."""
+    radius_in_pixels: bool = False
+    """True if d is in units of fx along both axes (the paper's radius), not of fx and fy."""
 
     @property
-    def title(self) -> str:
-        """A short plain name for lists of models to choose from."""
-        ...
+    def defaults(self) -> tuple[float, ...]:
+        """Values of the coefficients of the plainest lens: where held ones stay and fits begin."""
+        return (0.0,) * len(self.names)
 
-    @property
-    def names(self) -> tuple[str, ...]:
-        """Names of the coefficients k; those of the radial part, the lowest first, begin with k.
+    @abstractmethod
+    def project(self, rays: Array, k: Array) -> Imaged:
+        """Map rays to image points. NaN where the model has none, and for a ray of length 0."""
 
-        The start of the estimation sets the first coefficient alone.
+    @abstractmethod
+    def unproject(self, d: Array, k: Array) -> Seen:
+        """Map image points to rays of length 1. NaN where the model has none."""
+
+    def project_points(self, rays: Array, k: Array) -> Array:
+        """Map rays to image points (..., 2) as `project` does, without derivatives."""
+        return self.project(rays, k).points
+
+    def unproject_points(self, d: Array, k: Array) -> tuple[Array, Array]:
+        """Map image points to rays of length 1 as `unproject` does, with derivatives by d only."""
+        rays, by_point, _ = self.unproject(d, k)
+        return rays, by_point
+
+    def compute_stiffness(self, corners: int) -> Array | None:  # noqa: ARG002 - for overrides
+        """Compute (C, C) the matrix Q of a prior k^T Q k that the solver adds to the cost.
+
+        It is None for models whose coefficients the corners determine.
+
+        Args:
+            corners: number of corners in all views.
         """
-        ...
-
-    @property
-    def powers(self) -> tuple[int, ...]:
-        """Power of the radius that each coefficient multiplies, relative to the radius."""
-        ...
-
-    @property
-    def held(self) -> tuple[str, ...]:
-        """Names of the coefficients that are held at 0 unless the user frees them."""
-        ...
-
-    @property
-    def radius_in_pixels(self) -> bool:
-        """True if d is in units of fx along both axes (the paper's radius), not of fx and fy."""
-        ...
-
-    def correct(self, d: Array, k: Array) -> Mapped:
-        """Map measured to ideal points. NaN where the model has no ideal point."""
-        ...
-
-    def distort(self, n: Array, k: Array) -> Mapped:
-        """Map ideal to measured points. NaN where the model has no measured point."""
-        ...
+        return None

@@ -131,9 +131,9 @@ def compute_irradiance(
 
 
 def _compute_board_from_ray(pose: Pose, square: float, stretch: float) -> Array:
-    """Return G (3, 3) with (X, Y, 1) = depth G (n, 1), the inverse of the planar pose's homography.
+    """Return G (3, 3) with (X, Y, 1) = s G b, the inverse of the planar pose's homography.
 
-    X and Y are in squares, n is the ray.
+    X and Y are in squares, b is the ray and s the distance from the camera along it.
     """
     sides = square * np.array([1.0, stretch])
     homography = np.column_stack([rotation_from_vector(pose.rvec)[:, :2] * sides, pose.tvec])
@@ -189,18 +189,18 @@ class _Scene:
 
     def _map_to_board(self, uv: Array) -> tuple[Array, Array, npt.NDArray[np.bool_]]:
         """Compute board points (..., 2) in squares, their slopes (..., 2, 2), and where any are."""
-        n, by_uv = rays_and_slopes(uv, self.camera)
+        rays, by_uv = rays_and_slopes(uv, self.camera)
         G = _compute_board_from_ray(self.pose, self.board.square, self.look.stretch)
         with np.errstate(all="ignore"):  # points at infinity are not visible
-            scaled = n @ G[:, :2].T + G[:, 2]
-            inverse_depth = scaled[..., 2:]
-            XY = scaled[..., :2] / inverse_depth
-            by_n = (G[:2, :2] - XY[..., None] * G[2, :2]) / inverse_depth[..., None]
-            gradient = by_n @ by_uv
-            (a, b), (c, d) = np.moveaxis(by_uv, (-2, -1), (0, 1))
-            one_to_one = a * d > b * c
+            scaled = rays @ G.T
+            nearness = scaled[..., 2:]
+            XY = scaled[..., :2] / nearness
+            by_ray = (G[:2] - XY[..., None] * G[2]) / nearness[..., None]
+            gradient = by_ray @ by_uv
+            turning = np.cross(by_uv[..., 0], by_uv[..., 1])
+            one_to_one = np.einsum("...i,...i->...", turning, rays) > 0
             total = np.einsum("...ij->...", gradient)  # finite if all of it is
-        visible = np.isfinite(total) & (inverse_depth[..., 0] > 0) & one_to_one
+        visible = np.isfinite(total) & (nearness[..., 0] > 0) & one_to_one
         XY[~visible], gradient[~visible] = 0.0, 1.0
         return XY, gradient, visible
 

@@ -27,10 +27,24 @@ after an installation."""
 
 POLYNOMIAL_LENSES = {
     "lucchese": (0, 1, 2, 3, 4, 5, 6, 7, 8, 9),
-    "brown-conrady": (0, 1, 2, 3, 4, 5, 8, 7, 6),  # k1 k2 p1 p2 k3; its p1 is eq. 10's p2
+    "pinhole": (0, 1, 2, 3),
+    "brown-conrady-4": (0, 1, 2, 3, 4, 5, 8, 7, 10),  # k1 k2 p1 p2 skew; its p1 is eq. 10's p2
+    "brown-conrady": (0, 1, 2, 3, 4, 5, 8, 7, 6, 10),  # k1 k2 p1 p2 k3 skew
 }
 """Lens models that the calibration's kernels know, and the place of each camera parameter among
-fx, fy, cx, cy and eq. 10's k1, k2, k3, p1, p2, p3 (``kernels.polynomial_lens``)."""
+fx, fy, cx, cy, eq. 10's k1, k2, k3, p1, p2, p3 and skew (``kernels.polynomial_lens``)."""
+RAY_LENSES = {
+    "kannala-brandt": (0, 1, 2, 3, 4, 5, 6, 7),
+    "kannala-brandt-decentering": (0, 1, 2, 3, 4, 5, 6, 7, 8, 9),
+    "ucm": (0, 1, 2, 3, 5),
+    "eucm": (0, 1, 2, 3, 5, 6),
+    "double-sphere": (0, 1, 2, 3, 4, 5),
+}
+"""Lens models of rays in all directions that the kernels of the normal equations know, and the
+place of each camera parameter among fx, fy, cx, cy and either k1, k2, k3, k4, p1, p2 or xi, alpha,
+beta (``kernels.ray_lenses``)."""
+COMPILED_LENSES = POLYNOMIAL_LENSES | RAY_LENSES
+"""Lens models that have kernels of the normal equations with the image cost."""
 
 _P = ParamSpec("_P")
 _T = TypeVar("_T")

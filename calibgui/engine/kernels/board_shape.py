@@ -12,6 +12,7 @@ from typing import Protocol
 import numpy as np
 
 from calibgui.engine.arrays import Array, IntArray
+from calibgui.engine.kernels.cameras import CameraTuple, PackedCamera, find_rows, pack_camera
 from calibgui.engine.kernels.common import (
     VIEWS_PER_BLOCK,
     compiled,
@@ -29,7 +30,6 @@ from calibgui.engine.kernels.normal_equations import (
     project_view,
     sum_products,
 )
-from calibgui.engine.kernels.polynomial_lens import CameraTuple, Eq10Camera, find_rows, pack_camera
 
 _VIEWS_TOGETHER = 512
 """Number of views whose products with the corners are held at once; 11 MB for 156 corners."""
@@ -56,7 +56,7 @@ def _differentiate_by_corner(R: Array, by_pose: Array, C: Array) -> None:
 @compiled
 def _sum_corner_views(
     camera: CameraTuple,
-    backward: bool,
+    kind: int,
     R: Array,
     T: Array,
     uv: Array,
@@ -74,8 +74,8 @@ def _sum_corner_views(
     P = rows.shape[0]
     work, J, C = make_workspace(N), np.empty((P + 7, 2 * N)), np.empty((3, 2 * N))
     for view in range(K):
-        good = project_view(camera, backward, R[view], T[view], uv[view], xyz[view], work)
-        fill_jacobian(camera, backward, uv[view], weight[view], whitened, rows, work, J)
+        good = project_view(camera, kind, R[view], T[view], uv[view], xyz[view], work)
+        fill_jacobian(camera, kind, uv[view], weight[view], whitened, rows, work, J)
         gram(J, A[view])
         if not good:
             A[view, -1, -1] = np.inf
@@ -94,7 +94,7 @@ def _sum_corner_views(
 
 
 def _sum_corner_products(
-    lens: Eq10Camera,
+    lens: PackedCamera,
     R: Array,
     T: Array,
     views: Views,
@@ -141,7 +141,7 @@ def _sum_corner_products(
 @compiled
 def _sum_moving_views(
     camera: CameraTuple,
-    backward: bool,
+    kind: int,
     R: Array,
     T: Array,
     uv: Array,
@@ -158,8 +158,8 @@ def _sum_moving_views(
     P = rows.shape[0]
     work, J, C = make_workspace(N), np.empty((P + 7, 2 * N)), np.empty((3, 2 * N))
     for view in range(K):
-        good = project_view(camera, backward, R[view], T[view], uv[view], xyz[view], work)
-        fill_jacobian(camera, backward, uv[view], weight[view], whitened, rows, work, J)
+        good = project_view(camera, kind, R[view], T[view], uv[view], xyz[view], work)
+        fill_jacobian(camera, kind, uv[view], weight[view], whitened, rows, work, J)
         _differentiate_by_corner(R[view], J[P : P + 6], C)
         for i in range(2 * N):
             moved = motion[index[view, i % N]]
@@ -171,7 +171,7 @@ def _sum_moving_views(
 
 
 def _sum_moving_products(
-    lens: Eq10Camera,
+    lens: PackedCamera,
     R: Array,
     T: Array,
     views: Views,

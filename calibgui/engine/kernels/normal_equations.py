@@ -2,10 +2,11 @@
 
 The readable reference, which this file is tested against, is ``calibration.refinement.residuals``.
 
-Both polynomial lens models are eq. 10's (``polynomial_lens.py``): the paper's corrects, and is
-inverted from the measured corner; the other distorts. With M = d(measured) / d(ideal) the
-derivatives by the coefficients are -M basis(measured) for the first and basis(ideal) for the
-second. Padded corners carry zero weight.
+All polynomial lens models are eq. 10's (``polynomial_lens.py``): the paper's corrects, and is
+inverted from the measured corner; the others distort. With M = d(measured) / d(ideal) the
+derivatives by the coefficients are -M basis(measured) for the first and S basis(ideal) for the
+others, with S = [1 skew; 0 1]. The lenses of ``ray_lenses.py`` image points in all directions, with
+the derivatives by the point and by the coefficients. Padded corners carry zero weight.
 """
 
 from __future__ import annotations
@@ -16,17 +17,20 @@ from typing import NamedTuple, Protocol
 import numpy as np
 
 from calibgui.engine.arrays import Array, IntArray
-from calibgui.engine.kernels.common import compiled, gram, make_contiguous, run_in_blocks
-from calibgui.engine.kernels.polynomial_lens import (
+from calibgui.engine.kernels.cameras import (
+    BACKWARD,
+    KANNALA_BRANDT,
+    UNIFIED,
     CameraTuple,
-    Eq10Camera,
-    distort,
+    PackedCamera,
     find_rows,
-    invert,
     pack_camera,
 )
+from calibgui.engine.kernels.common import compiled, gram, make_contiguous, run_in_blocks
+from calibgui.engine.kernels.polynomial_lens import add_skew, distort, invert
+from calibgui.engine.kernels.ray_lenses import find_rays, image_points
 
-Workspace = tuple[Array, Array, Array, Array, Array, Array, Array]
+Workspace = tuple[Array, Array, Array, Array, Array, Array, Array, Array, Array]
 Blocks = tuple[Array, Array, Array, Array, Array, Array]
 """U, W, V, the shared gradient, the poses' gradients and the views' costs."""
 
@@ -35,7 +39,7 @@ Blocks = tuple[Array, Array, Array, Array, Array, Array]
 def _differentiate_by_params(
     fc: tuple[float, float, float, float, float], base: Array, lead: Array, d: Array, F: Array
 ) -> None:
-    """Fill the rows of F (10, 2N) with derivatives of u (first N), v by fx, fy, cx, cy and k.
+    """Fill the rows of F (11, 2N) with derivatives of u (first N), v by fx, fy, cx, cy, k and skew.
 
     `base` (2, N) is where the basis is evaluated, `lead` (4, N) what multiplies it.
     """
@@ -59,6 +63,7 @@ def _differentiate_by_params(
         lx = r2 * (p1 * (r2 + 2 * xx) + 2 * p2 * xy)
         ly = r2 * (2 * p1 * xy + p2 * (r2 + 2 * yy))
         F[9, i], F[9, n + i] = c * lx + e * ly, g * lx + h * ly
+        F[10, i] = fx * d[1, i]
 
 
 @compiled
@@ -80,6 +85,20 @@ def _differentiate_by_pose(
 
 
 @compiled
+def _turn_ray_slopes(fx: float, fy: float, rotated: Array, G: Array, J: Array) -> None:
+    """Fill the rows of J (6, 2N) as `_differentiate_by_pose`, from G (6, N) = dd/dX_cam."""
+    N = G.shape[1]
+    for i in range(N):
+        a0, a1, a2 = rotated[0, i], rotated[1, i], rotated[2, i]
+        for row in range(2):
+            f = fx if row == 0 else fy
+            c0, c1, c2 = f * G[3 * row, i], f * G[3 * row + 1, i], f * G[3 * row + 2, i]
+            j = i + row * N
+            J[0, j], J[1, j], J[2, j] = a1 * c2 - a2 * c1, a2 * c0 - a0 * c2, a0 * c1 - a1 * c0
+            J[3, j], J[4, j], J[5, j] = c0, c1, c2
+
+
+@compiled
 def _whiten(weight: Array, J: Array) -> None:
     """Multiply J (M, 2N) with the corners' whitening (4, N): w00, w01, w10, w11."""
     N = weight.shape[1]
@@ -92,29 +111,30 @@ def _whiten(weight: Array, J: Array) -> None:
 
 @compiled
 def make_workspace(N: int) -> Workspace:
-    """Return the arrays of one view that later calls fill: R X, 1 / depth, n, d, M, lead and F."""
+    """Return the arrays of one view that later calls fill: R X, 1 / depth, n, d, M, lead, F,
+    X_cam and dd/dX_cam."""
     rotated, inverse_depth, n, d = np.empty((3, N)), np.empty(N), np.empty((2, N)), np.empty((2, N))
-    M, lead, F = np.empty((4, N)), np.zeros((4, N)), np.zeros((10, 2 * N))
+    M, lead, F = np.empty((4, N)), np.zeros((4, N)), np.zeros((11, 2 * N))
     lead[0, :] = 1.0
     lead[3, :] = 1.0
     F[2, :N] = 1.0
     F[3, N:] = 1.0
-    return rotated, inverse_depth, n, d, M, lead, F
+    return rotated, inverse_depth, n, d, M, lead, F, np.empty((3, N)), np.empty((6, N))
 
 
 @compiled
 def project_view(
     camera: CameraTuple,
-    backward: bool,
+    kind: int,
     R: Array,
     T: Array,
     uv: Array,
     xyz: Array,
     work: Workspace,
 ) -> bool:
-    """Fill in the rays n of one view's corners, their images d and M = dd/dn; return whether all
-    corners have an image."""
-    rotated, inverse_depth, n, d, M, _, _ = work
+    """Fill in the images d of one view's corners, with what `fill_jacobian` needs; return whether
+    all corners have an image. For a polynomial lens these are the rays n and M = dd/dn."""
+    rotated, inverse_depth, n, d, M, _, F, point, G = work
     fx, fy, cx, cy = camera[:4]
     X, Y, Z = xyz[0], xyz[1], xyz[2]
     N = Z.shape[0]
@@ -122,6 +142,11 @@ def project_view(
         r0, r1, r2 = R[row, 0], R[row, 1], R[row, 2]
         for i in range(N):
             rotated[row, i] = r0 * X[i] + r1 * Y[i] + r2 * Z[i]
+    if kind in (KANNALA_BRANDT, UNIFIED):
+        for row in range(3):
+            for i in range(N):
+                point[row, i] = rotated[row, i] + T[row]
+        return image_points(kind, camera, point, d, G, M, F)
     behind = False
     for i in range(N):
         depth = rotated[2, i] + T[2]
@@ -129,19 +154,20 @@ def project_view(
         inverse_depth[i] = 1 / depth
         n[0, i] = (rotated[0, i] + T[0]) * inverse_depth[i]
         n[1, i] = (rotated[1, i] + T[1]) * inverse_depth[i]
-    if backward:
+    if kind == BACKWARD:
         for i in range(N):
             d[0, i] = (uv[0, i] - cx) / fx
             d[1, i] = (uv[1, i] - cy) / fy
-        return invert(n, camera[4:], d, M) and not behind
-    distort(n, camera[4:], d, M)
+        return invert(n, camera[4:10], d, M) and not behind
+    distort(n, camera[4:10], d, M)
+    add_skew(camera[10], d, M)
     return not behind
 
 
 @compiled
 def fill_jacobian(
     camera: CameraTuple,
-    backward: bool,
+    kind: int,
     uv: Array,
     weight: Array,
     whitened: bool,
@@ -150,19 +176,27 @@ def fill_jacobian(
     J: Array,
 ) -> None:
     """Fill J (P + 7, 2N) with the whitened [J_free J_pose r] of the view last projected."""
-    rotated, inverse_depth, n, d, M, lead, F = work
-    fx, fy, cx, cy, _, _, _, p1, p2, p3 = camera
+    rotated, inverse_depth, n, d, M, lead, F, _, G = work
+    fx, fy, cx, cy, _, _, _, p1, p2, p3, skew = camera
     P, N = rows.shape[0], uv.shape[1]
-    if backward:
-        for j in range(4):
-            for i in range(N):
-                lead[j, i] = -M[j, i]
-    _differentiate_by_params((fx, fy, p1, p2, p3), d if backward else n, lead, d, F)
+    if kind in (KANNALA_BRANDT, UNIFIED):
+        for i in range(N):
+            F[0, i], F[1, N + i] = d[0, i], d[1, i]
+        _turn_ray_slopes(fx, fy, rotated, G, J[P : P + 6])
+    else:
+        if kind == BACKWARD:
+            for j in range(4):
+                for i in range(N):
+                    lead[j, i] = -M[j, i]
+        else:
+            lead[1, :] = skew
+        base = d if kind == BACKWARD else n
+        _differentiate_by_params((fx, fy, p1, p2, p3), base, lead, d, F)
+        _differentiate_by_pose(fx, fy, rotated, n, M, inverse_depth, J[P : P + 6])
     for j in range(P):
         row = rows[j]
         for i in range(2 * N):
             J[j, i] = F[row, i]
-    _differentiate_by_pose(fx, fy, rotated, n, M, inverse_depth, J[P : P + 6])
     for i in range(N):
         J[P + 6, i] = cx + fx * d[0, i] - uv[0, i]
         J[P + 6, N + i] = cy + fy * d[1, i] - uv[1, i]
@@ -173,7 +207,7 @@ def fill_jacobian(
 @compiled
 def _sum_views(
     camera: CameraTuple,
-    backward: bool,
+    kind: int,
     R: Array,
     T: Array,
     uv: Array,
@@ -187,8 +221,8 @@ def _sum_views(
     K, _, N = uv.shape
     work, J = make_workspace(N), np.empty((rows.shape[0] + 7, 2 * N))
     for view in range(K):
-        good = project_view(camera, backward, R[view], T[view], uv[view], xyz[view], work)
-        fill_jacobian(camera, backward, uv[view], weight[view], whitened, rows, work, J)
+        good = project_view(camera, kind, R[view], T[view], uv[view], xyz[view], work)
+        fill_jacobian(camera, kind, uv[view], weight[view], whitened, rows, work, J)
         gram(J, out[view])
         if not good:
             out[view, -1, -1] = np.inf
@@ -197,7 +231,7 @@ def _sum_views(
 @compiled
 def _compute_residuals(
     camera: CameraTuple,
-    backward: bool,
+    kind: int,
     R: Array,
     T: Array,
     uv: Array,
@@ -208,32 +242,38 @@ def _compute_residuals(
     """Fill seen and registered (K, 2, N); NaN for a view with corners that have no image."""
     K, _, N = uv.shape
     fx, fy, cx, cy = camera[:4]
+    skew = camera[10]
     work = make_workspace(N)
-    _, _, n, d, M, _, _ = work
-    goal, ideal = np.empty((2, N)), np.empty((2, N))
+    _, _, n, d, M, _, F, point, G = work
+    goal, ray = np.empty((2, N)), np.ones((3, N))
     for view in range(K):
-        good = project_view(camera, backward, R[view], T[view], uv[view], xyz[view], work)
+        good = project_view(camera, kind, R[view], T[view], uv[view], xyz[view], work)
         for i in range(N):
             seen[view, 0, i] = uv[view, 0, i] - cx - fx * d[0, i]
             seen[view, 1, i] = uv[view, 1, i] - cy - fy * d[1, i]
             goal[0, i] = (uv[view, 0, i] - cx) / fx
             goal[1, i] = (uv[view, 1, i] - cy) / fy
-        if backward:
-            distort(goal, camera[4:], ideal, M)
+        if kind in (KANNALA_BRANDT, UNIFIED):
+            ray[:] = point
+            good &= find_rays(kind, camera, goal, ray, d, G, M, F)
+        elif kind == BACKWARD:
+            distort(goal, camera[4:10], ray, M)
         else:
             for i in range(N):
-                ideal[0, i], ideal[1, i] = n[0, i], n[1, i]
-            good &= invert(goal, camera[4:], ideal, M)
+                goal[0, i] -= skew * goal[1, i]
+                ray[0, i], ray[1, i] = n[0, i], n[1, i]
+            good &= invert(goal, camera[4:10], ray, M)
         r, t = R[view], T[view]
         t0 = r[0, 0] * t[0] + r[1, 0] * t[1] + r[2, 0] * t[2]
         t1 = r[0, 1] * t[0] + r[1, 1] * t[1] + r[2, 1] * t[2]
         t2 = r[0, 2] * t[0] + r[1, 2] * t[1] + r[2, 2] * t[2]
         for i in range(N):
-            x, y = ideal[0, i], ideal[1, i]
+            x, y, z = ray[0, i], ray[1, i], ray[2, i]
             X, Y, Z = xyz[view, 0, i], xyz[view, 1, i], xyz[view, 2, i]
-            depth = (Z + t2) / (r[0, 2] * x + r[1, 2] * y + r[2, 2])
-            registered[view, 0, i] = depth * (r[0, 0] * x + r[1, 0] * y + r[2, 0]) - t0 - X
-            registered[view, 1, i] = depth * (r[0, 1] * x + r[1, 1] * y + r[2, 1]) - t1 - Y
+            distance = (Z + t2) / (r[0, 2] * x + r[1, 2] * y + r[2, 2] * z)
+            good &= distance > 0  # the ray leads to the board
+            registered[view, 0, i] = distance * (r[0, 0] * x + r[1, 0] * y + r[2, 0] * z) - t0 - X
+            registered[view, 1, i] = distance * (r[0, 1] * x + r[1, 1] * y + r[2, 1] * z) - t1 - Y
         if not good:
             seen[view] = np.nan
             registered[view] = np.nan
@@ -290,7 +330,7 @@ def pack_views(observations: MeasuredViews) -> Views:
     return Views(np.array(np.swapaxes(observations.uv, 1, 2), order="C"), xyz, weight)
 
 
-def sum_products(lens: Eq10Camera, R: Array, T: Array, views: Views, rows: IntArray) -> Array:
+def sum_products(lens: PackedCamera, R: Array, T: Array, views: Views, rows: IntArray) -> Array:
     """Return (K, P + 7, P + 7) products of the columns [J_free J_pose r] of each view.
 
     The squared residual, the last entry, is infinite for views with no prediction.

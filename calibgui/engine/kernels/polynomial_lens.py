@@ -1,45 +1,18 @@
 """The polynomial of eq. 10 and its inverse, compiled.
 
 The readable counterparts are ``camera.models.lucchese`` and ``camera.inverse``. The coefficients
-are ordered as k1, k2, k3, p1, p2, p3. Two lens models are this polynomial: the paper's takes
-measured to ideal points, Brown and Conrady's takes ideal to measured ones.
+are ordered as k1, k2, k3, p1, p2, p3. The paper's lens model is this polynomial from measured to
+ideal points; Brown and Conrady's are it from ideal to measured ones, with a skew after it
+(``camera.skew``), and the pinhole is one of these.
 """
 
 from __future__ import annotations
 
-from typing import NamedTuple, cast
-
-import numpy as np
-
-from calibgui.engine.arrays import Array, IntArray
-from calibgui.engine.kernels import POLYNOMIAL_LENSES
+from calibgui.engine.arrays import Array
 from calibgui.engine.kernels.common import compiled
 
 Coefficients = tuple[float, float, float, float, float, float]
 """k1, k2, k3, p1, p2, p3 of eq. 10."""
-CameraTuple = tuple[float, float, float, float, float, float, float, float, float, float]
-"""fx, fy, cx, cy, k1, k2, k3, p1, p2, p3."""
-
-
-class Eq10Camera(NamedTuple):
-    """A camera in the terms of eq. 10."""
-
-    camera: CameraTuple
-    """fx, fy, cx, cy, k1, k2, k3, p1, p2, p3."""
-    backward: bool
-    """True if eq. 10 corrects (the paper), false if it distorts."""
-
-
-def pack_camera(model: str, params: Array) -> Eq10Camera:
-    """Return a camera's parameters in the terms of eq. 10."""
-    camera = np.zeros(10)
-    camera[list(POLYNOMIAL_LENSES[model])] = params
-    return Eq10Camera(cast(CameraTuple, tuple(camera.tolist())), model == "lucchese")
-
-
-def find_rows(model: str, free: IntArray) -> IntArray:
-    """Return (P,) places of the free parameters of a lens model in ``Eq10Camera.camera``."""
-    return np.array(POLYNOMIAL_LENSES[model])[free]
 
 
 @compiled
@@ -80,6 +53,16 @@ def distort(n: Array, k: Coefficients, d: Array, M: Array) -> None:
         d[0, i], d[1, i], M[0, i], M[1, i], M[2, i], M[3, i] = eq10(
             n[0, i], n[1, i], k1, k2, k3, p1, p2, p3
         )
+
+
+@compiled
+def add_skew(skew: float, d: Array, M: Array) -> None:
+    """Turn measured points d (2, N) without skew, and M (4, N) = dd/dn, into those with it."""
+    if skew != 0:
+        for i in range(d.shape[1]):
+            d[0, i] += skew * d[1, i]
+            M[0, i] += skew * M[2, i]
+            M[1, i] += skew * M[3, i]
 
 
 @compiled

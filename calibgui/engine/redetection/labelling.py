@@ -49,7 +49,7 @@ from calibgui.engine.calibration.problem import (
 )
 from calibgui.engine.calibration.refinement.residuals import linearise_residuals
 from calibgui.engine.calibration.result import Calibration, Cost
-from calibgui.engine.camera.models import MODELS
+from calibgui.engine.camera.models import find_model
 from calibgui.engine.detection.checkerboard.numbering import list_numberings, place_corners
 from calibgui.engine.detection.corners import Corners
 from calibgui.engine.detection.lattice import Lattice
@@ -371,7 +371,7 @@ def _compute_scores(
     """Compute g (n, 3) and H (n, 3, 3) of each view's corners."""
     observations = prepare_observations(calibration, views)
     state = make_state(calibration.camera, calibration.poses)
-    lens = MODELS[calibration.camera.model]
+    lens = find_model(calibration.camera.model)
     scores = []
     for k, view in enumerate(views):
         part = slice(k, k + 1)

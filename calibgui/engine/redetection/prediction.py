@@ -31,7 +31,7 @@ from calibgui.engine.calibration.refinement.residuals import (
 from calibgui.engine.calibration.refinement.whitening import whiten_observations
 from calibgui.engine.calibration.resection import estimate_poses, refine_poses
 from calibgui.engine.calibration.result import Calibration, Cost
-from calibgui.engine.camera.models import MODELS
+from calibgui.engine.camera.models import find_model
 from calibgui.engine.detection.checkerboard.board_priors import compute_curvatures
 
 _DIFFERENCE_STEP = 0.05
@@ -129,4 +129,4 @@ def resect_view(calibration: Calibration, uv: Array, xy: Array, cov: Array) -> R
 def _linearise(calibration: Calibration, state: State, view: Observation) -> Linearised:
     """Linearise the residuals of one view about a state."""
     observations = Observations(view.uv[None], view.xy[None], np.ones((1, len(view.uv))))
-    return compute_image_residuals(state, observations, MODELS[calibration.camera.model])
+    return compute_image_residuals(state, observations, find_model(calibration.camera.model))

@@ -27,7 +27,7 @@ from calibgui.engine.calibration.refinement.residuals import State
 from calibgui.engine.calibration.result import Calibration
 from calibgui.engine.camera.camera import Camera
 from calibgui.engine.camera.distortion import project_points
-from calibgui.engine.camera.projection import rays_from_pixels
+from calibgui.engine.camera.projection import measure_axis_scale, rays_from_pixels
 from calibgui.engine.errors import CalibrationError, Progress
 from calibgui.engine.geometry import rotations
 from calibgui.engine.geometry.pose import Pose
@@ -45,6 +45,8 @@ _WIDTHS_IN_IMAGE = (0.3, 0.45, 0.6, 0.75, 0.9)
 """Widths of the untilted board, in widths of the image."""
 _MARGIN_IN_WIDTHS = 0.01
 """Margin that is kept free around the board, in widths of the image."""
+_MAX_PARALLEL_ANGLE = np.deg2rad(50.0)
+"""Angle off the axis up to which the untilted board is parallel to the sensor, rad."""
 _SIDE_NAMES = (
     "right",
     "lower right",
@@ -164,6 +166,7 @@ def _list_candidates(
     finest = min(_measure_spacing(view.uv) for view in views)
     middle = (board.min(axis=0) + board.max(axis=0)) / 2
     width = float(np.ptp(board[:, 0]))
+    scale = measure_axis_scale(camera)
     upright = np.diag([1.0, 1.0, 1.0] if _is_y_down(calibration) else [1.0, -1.0, -1.0])
     found = []
     tried = list(product(*_PLACES_IN_IMAGE, _WIDTHS_IN_IMAGE, _list_tilts()))
@@ -173,14 +176,27 @@ def _list_candidates(
         place = np.array([x, y])
         angle = 2 * np.pi * (side or 0) / 8
         lean = np.deg2rad(tilt) * np.array([np.sin(angle), -np.cos(angle), 0.0])
-        R = rotations.rotation_from_vector(lean) @ upright
-        ray = np.append(rays_from_pixels(place * (w - 1, h - 1), camera), 1.0)
-        T = width * camera.focal[0] / (fill * w) * ray - R[:, :2] @ middle
+        ray = rays_from_pixels(place * (w - 1, h - 1), camera)
+        R = _face_camera(ray) @ rotations.rotation_from_vector(lean) @ upright
+        ray = ray / max(ray[2], np.cos(_MAX_PARALLEL_ANGLE))
+        T = width * scale / (fill * w) * ray - R[:, :2] @ middle
         pose = Pose(rotations.vector_from_rotation(R), T)
         corners = project_points(board, camera, pose)
         if _is_within_image(corners, camera) and _measure_spacing(corners) >= finest:
             found.append(NextView(pose, place, fill, tilt, side, corners, np.nan, np.nan))
     return found
+
+
+def _face_camera(ray: Array) -> Array:
+    """Return the rotation (3, 3) of a board that is seen along a ray of length 1, without tilt.
+
+    It is parallel to the sensor, except where it would be seen almost edge-on.
+    """
+    angle = float(np.arctan2(np.hypot(*ray[:2]), ray[2]))
+    if not angle > _MAX_PARALLEL_ANGLE:
+        return np.eye(3)
+    axis = np.array([-ray[1], ray[0], 0.0]) / np.hypot(*ray[:2])
+    return rotations.rotation_from_vector(angle * axis)
 
 
 def _list_tilts() -> list[tuple[float, int | None]]:

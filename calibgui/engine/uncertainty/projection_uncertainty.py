@@ -30,7 +30,7 @@ from calibgui.engine.calibration.observations import Observation
 from calibgui.engine.calibration.problem import find_free_parameters
 from calibgui.engine.calibration.result import Calibration
 from calibgui.engine.camera.camera import Camera
-from calibgui.engine.camera.models import MODELS
+from calibgui.engine.camera.models import find_model
 from calibgui.engine.camera.projection import project, rays_from_pixels
 from calibgui.engine.errors import CalibrationError
 from calibgui.engine.geometry.rotations import cross_matrix
@@ -203,21 +203,16 @@ def compute_sensitivity(camera: Camera, uv: Array, distance: float) -> tuple[Arr
 
 def back_project_pixels(uv: Array, camera: Camera, distance: float) -> Array:
     """Return points (..., 3) at a distance, mm, on the rays of pixels; directions at infinity."""
-    n = rays_from_pixels(uv, camera)
-    ray = np.concatenate([n, np.ones((*n.shape[:-1], 1))], axis=-1)
-    ray /= np.linalg.norm(ray, axis=-1, keepdims=True)
-    return ray * distance if np.isfinite(distance) else ray
+    rays = rays_from_pixels(uv, camera)
+    return rays * distance if np.isfinite(distance) else rays
 
 
 def project_moved_points(p: Array, camera: Camera) -> tuple[Array, Array, Array]:
     """Project points (..., 3), mm, and return their pixels q (..., 2), q_c and q_p B.
 
-    Points that are not in front of the camera have NaN.
+    Points that the lens does not see have NaN.
     """
-    Z = np.where(p[..., 2:] > 0, p[..., 2:], np.nan)
-    n = p[..., :2] / Z
-    q, by_ray, by_params = project(n, camera.params, MODELS[camera.model])
-    by_point = np.concatenate([by_ray, -by_ray @ n[..., None]], axis=-1) / Z[..., None]
+    q, by_point, by_params = project(p, camera.params, find_model(camera.model))
     return q, by_params, np.concatenate([-by_point @ cross_matrix(p), by_point], axis=-1)
 
 

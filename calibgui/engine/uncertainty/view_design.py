@@ -26,7 +26,7 @@ from calibgui.engine.calibration.observations import Observation
 from calibgui.engine.calibration.problem import find_free_parameters
 from calibgui.engine.calibration.result import Calibration
 from calibgui.engine.camera.camera import Camera
-from calibgui.engine.camera.models import MODELS
+from calibgui.engine.camera.models import find_model
 from calibgui.engine.images.sampling import make_mesh
 from calibgui.engine.uncertainty.fisher_information import FisherInformation, compute_information
 from calibgui.engine.uncertainty.projection_uncertainty import (
@@ -147,6 +147,6 @@ def _make_prior_sigma(camera: Camera) -> Array:
     They are half the focal length, a quarter of the image for the centre, and for a coefficient
     the value that moves the image's corner by its whole distance from the centre.
     """
-    lens, half = MODELS[camera.model], np.array(camera.size) / 2
+    lens, half = find_model(camera.model), np.array(camera.size) / 2
     corner = np.linalg.norm(half / camera.focal)
     return np.concatenate([0.5 * camera.focal, 0.5 * half, corner ** -np.array(lens.powers, float)])

@@ -14,10 +14,20 @@ PARAMS = [600.0, 610.0, 320.0, 240.0, -0.2, 0.05, 1e-3, 2e-3, 0.01]
 
 
 def test_a_camera_knows_its_parameters_by_name() -> None:
-    camera = Camera((640, 480), PARAMS, "brown-conrady")  # type: ignore[arg-type]
-    assert camera.names == ("fx", "fy", "cx", "cy", "k1", "k2", "p1", "p2", "k3")
+    camera = Camera((640, 480), [*PARAMS, 0.02], "brown-conrady")  # type: ignore[arg-type]
+    assert camera.names == ("fx", "fy", "cx", "cy", "k1", "k2", "p1", "p2", "k3", "skew")
     np.testing.assert_array_equal(camera.matrix, [[600, 0, 320], [0, 610, 240], [0, 0, 1]])
-    np.testing.assert_array_equal(camera.coefficients, PARAMS[4:])
+    np.testing.assert_array_equal(camera.coefficients, [*PARAMS[4:], 0.02])
+
+
+@pytest.mark.parametrize(
+    ("model", "given"),
+    [("brown-conrady", PARAMS), ("brown-conrady-4", PARAMS[:8]), ("lucchese", PARAMS)],
+)
+def test_held_coefficients_may_be_left_out_at_the_end(model: str, given: list[float]) -> None:
+    camera = Camera((640, 480), np.array(given), model)
+    np.testing.assert_array_equal(camera.params, [*given, 0.0])
+    assert camera.names[-1] in find_model(model).held
 
 
 def test_the_size_is_two_whole_numbers_whatever_it_came_as() -> None:
@@ -40,7 +50,10 @@ def test_its_parameters_are_its_own() -> None:
     [
         ((640, 480), 9, "fisheye", "no lens model 'fisheye'"),
         ((640, 480), 4, "brown-conrady", "4 numbers do not make a camera"),
-        ((640, 480), 9, "lucchese", "9 numbers do not make a camera"),
+        ((640, 480), 8, "lucchese", "8 numbers do not make a camera"),
+        ((640, 480), 9, "lucchese-pixels", "9 numbers do not make a camera"),
+        ((640, 480), 8, "brown-conrady", "8 numbers do not make a camera"),
+        ((640, 480), 5, "pinhole", "5 numbers do not make a camera"),
         ((0, 480), 9, "brown-conrady", "no image of 0 x 480"),
     ],
 )

@@ -1,149 +1,252 @@
-"""The lens models: values from the printed formulae, derivatives, and inverses up to the fold."""
+"""What holds for every lens model: two maps of rays and points, inverse to each other, with their
+derivatives, on the axis, at 90 degrees and beyond, as far as the lens of `LENSES` sees."""
 
 from __future__ import annotations
 
-import cv2
+from collections.abc import Callable
+from functools import cache
+
 import numpy as np
 import pytest
-from hypothesis import assume, given
-from hypothesis import strategies as st
 
 from calibgui.engine.arrays import Array
 from calibgui.engine.camera.model import Lens
-from calibgui.engine.camera.models import MODELS
-from calibgui.engine.camera.models.brown_conrady import BrownConrady
+from calibgui.engine.camera.models import MODELS, find_model
 from calibgui.engine.camera.models.lucchese import Lucchese
-from tests.engine.scenes import LENSES, central_differences, relative
+from calibgui.engine.camera.plane import PlaneLens
+from tests.engine.scenes import LENSES, central_differences
 
-STRONG = np.array([0.27, 0.2, -0.1, 2e-3, -3e-3, 0.5])
-BARREL = np.array([-0.3, 0.11, 2e-3, -3e-3, -0.02])
-POINTS = np.random.default_rng(3).uniform(-0.5, 0.5, size=(40, 2))
-CASES = [
-    pytest.param(Lucchese(), STRONG, id="lucchese"),
-    pytest.param(Lucchese(), -0.5 * STRONG, id="lucchese, pincushion"),
-    pytest.param(Lucchese(), np.zeros(6), id="lucchese, none"),
-    pytest.param(BrownConrady(), BARREL, id="brown-conrady"),
-    pytest.param(BrownConrady(), np.zeros(5), id="opencv, none"),
-    *(pytest.param(MODELS[model], np.array(k), id=f"{model}, all") for model, k in LENSES.items()),
-]
+AZIMUTHS = np.linspace(0, 2 * np.pi, 16, endpoint=False) + 0.1
+every_model = pytest.mark.parametrize("model", list(LENSES))
+EPSILON = np.finfo(float).eps
 
 
-def test_correct_is_eq_9_to_11() -> None:
-    k1, k2, k3, p1, p2, p3 = STRONG
-    for x, y in POINTS:
-        r2 = x**2 + y**2
-        rho, q = k1 * r2 + k2 * r2**2 + k3 * r2**3, 1 + p3 * r2
-        expected = [
-            x + x * rho + q * (p1 * (r2 + 2 * x**2) + 2 * p2 * x * y),
-            y + y * rho + q * (2 * p1 * x * y + p2 * (r2 + 2 * y**2)),
-        ]
-        got = Lucchese().correct(np.array([x, y]), STRONG).points
-        np.testing.assert_allclose(got, expected, atol=1e-15)
-
-
-def test_distort_is_opencvs() -> None:
-    points = np.column_stack([POINTS, np.ones(len(POINTS))])
-    expected = cv2.projectPoints(points, np.zeros(3), np.zeros(3), np.eye(3), BARREL)[0]
-    np.testing.assert_allclose(
-        BrownConrady().distort(POINTS, BARREL).points, expected.reshape(-1, 2), atol=1e-14
+def rays_at(angles: Array | float, azimuths: Array = AZIMUTHS) -> Array:
+    """(n, m, 3) rays at n angles to the axis and m azimuths, radians."""
+    theta, phi = np.atleast_1d(angles)[:, None], azimuths[None, :]
+    return np.stack(
+        [np.sin(theta) * np.cos(phi), np.sin(theta) * np.sin(phi), np.cos(theta) + 0 * phi], axis=-1
     )
 
 
-@pytest.mark.parametrize("direction", ["correct", "distort"])
-@pytest.mark.parametrize(("lens", "k"), CASES)
-def test_derivatives_against_differences(lens: Lens, k: Array, direction: str) -> None:
-    mapping = getattr(lens, direction)
-    by_point = central_differences(lambda e: mapping(POINTS + e, k).points, np.zeros(2), 2e-4)
-    by_k = central_differences(lambda c: mapping(POINTS, c).points, k, 2e-4)
-    mapped = mapping(POINTS, k)
-    # Near a fold the inverse's fifth derivatives reach 1e5: a short step, and h^4 times that.
-    assert relative(mapped.by_point, by_point) < 1e-9
-    assert relative(mapped.by_coefficients, by_k) < 1e-9
+def sample(model: str) -> tuple[Lens, Array]:
+    """A model, and coefficients with all of it at work."""
+    return find_model(model), np.array(LENSES[model], dtype=np.float64)
 
 
-def test_models_keep_the_shape_of_stacks() -> None:
-    for lens in MODELS.values():
-        k = np.full(len(lens.names), 1e-3)
-        for direction in (lens.correct, lens.distort):
-            for shape in ((2,), (0, 2), (3, 4, 2)):
-                mapped = direction(np.full(shape, 0.1), k)
-                assert mapped.points.shape == shape
-                assert mapped.by_point.shape == (*shape, 2)
-                assert mapped.by_coefficients.shape == (*shape, len(k))
+@cache
+def widest(model: str) -> float:
+    """The largest angle to the axis up to which the sample lens is one-to-one, radians.
+
+    There the derivative by the direction of the ray changes its orientation, or ends.
+    """
+    lens, k = sample(model)
+    angles = np.deg2rad(np.arange(0.05, 180, 0.1))
+    phi, theta = np.meshgrid(AZIMUTHS, angles)
+    outward = np.stack(
+        [np.cos(theta) * np.cos(phi), np.cos(theta) * np.sin(phi), -np.sin(theta)], axis=-1
+    )
+    around = np.stack([-np.sin(phi), np.cos(phi), 0 * phi], axis=-1)
+    by_ray = lens.project(rays_at(angles), k).by_ray
+    (a, b), (c, d) = np.moveaxis(by_ray @ np.stack([outward, around], axis=-1), (-2, -1), (0, 1))
+    inside = (a * d - b * c > 0).all(axis=1)
+    return float(np.pi if inside.all() else angles[np.argmin(inside)])
 
 
-def regular(lens: Lucchese, k: Array, d: Array) -> Array:
-    """Whether the map stays invertible, by a margin, all the way from the origin to d."""
-    J = lens.correct(np.linspace(0, 1, 65)[:, None, None] * d, k).by_point
-    det, trace = np.linalg.det(J), np.trace(J, axis1=-2, axis2=-1)
-    return ((det > 0.05) & (trace > 0)).all(axis=0)
+def seen(model: str, share: float) -> Array:
+    """(n, 16, 3) rays on the axis, near it, and up to a share of the largest angle."""
+    angles = np.array([0.0, 1e-9, 1e-5, *np.linspace(0.02, 1.0, 12) * share * widest(model)])
+    if share * widest(model) > np.pi / 2:
+        angles = np.append(angles, [np.pi / 2 - 1e-9, np.pi / 2, np.pi / 2 + 1e-9])
+    rays = rays_at(angles)
+    rays[angles == np.pi / 2, :, 2] = 0.0
+    return rays
 
 
-coefficients = st.builds(
-    lambda *k: np.array(k),
-    st.floats(-0.6, 0.6),
-    st.floats(-0.4, 0.4),
-    st.floats(-0.2, 0.2),
-    st.floats(-5e-3, 5e-3),
-    st.floats(-5e-3, 5e-3),
-    st.floats(-1.0, 1.0),
-)
+def check(analytic: Array, f: Callable[[Array], Array], x: Array) -> None:
+    """Compare derivatives (angles, azimuths, ..., n) of f at x (n,) with central differences.
+
+    The steps move no point by more than 1e-4; the differences are off by its fourth power, and by
+    the rounding of what they are the differences of. Each angle has its own scale, as derivatives
+    grow by orders of magnitude towards the edge of a wide lens.
+    """
+    most = np.abs(analytic).max(axis=tuple(range(analytic.ndim - 1)), initial=1.0)
+    numeric = central_differences(f, x, 1e-4 / most) if x.size else analytic
+    for i, (ours, theirs) in enumerate(zip(analytic / most, numeric / most, strict=True)):
+        limit = 1e-8 * np.abs(theirs).max(initial=0.0) + 1e-10
+        assert np.abs(ours - theirs).max(initial=0.0) < limit, f"angle {i}"
 
 
-@given(coefficients)
-def test_the_inverse_returns_wherever_there_is_one(k: Array) -> None:
-    lens = Lucchese()
-    axis = np.linspace(-1.2, 1.2, 25)
-    d = np.stack(np.meshgrid(axis, axis), axis=-1).reshape(-1, 2)
-    inside = regular(lens, k, d)
-    assume(inside.sum() > 10)
-    d = d[inside]
-    back = lens.distort(lens.correct(d, k).points, k).points
-    # The residual converges to 1e-15; the margin 0.05 of the determinant enlarges it 20 times.
-    np.testing.assert_allclose(back, d, atol=1e-13)
+def test_there_is_a_lens_of_every_model() -> None:
+    for model in MODELS:
+        assert any(name.startswith(model) for name in LENSES), model
 
 
-@given(coefficients)
-def test_whatever_the_inverse_returns_is_one(k: Array) -> None:
-    lens = Lucchese()
-    axis = np.linspace(-3, 3, 25)
-    n = np.stack(np.meshgrid(axis, axis), axis=-1)
-    mapped = lens.distort(n, k)
-    there = np.isfinite(mapped.points).all(axis=-1)
-    np.testing.assert_allclose(lens.correct(mapped.points[there], k).points, n[there], atol=1e-12)
-    assert np.isnan(mapped.by_point[~there]).all()
-    assert np.isnan(mapped.by_coefficients[~there]).all()
+@every_model
+def test_names_and_what_is_said_of_them(model: str) -> None:
+    lens, k = sample(model)
+    assert lens.title
+    assert len(k) == len(lens.names) == len(set(lens.names)) == len(lens.powers)
+    assert len(lens.defaults) == len(lens.names)
+    assert set(lens.asymmetric) <= set(lens.names)
+    assert set(lens.held) <= {*lens.names, "fx", "fy", "cx", "cy"}
 
 
-def test_beyond_the_fold_there_is_no_point() -> None:
-    """r (1 - 0.3 r^2) has its largest value, 2/3 r, at r = 1 / sqrt(0.9)."""
-    k = np.array([-0.3, 0, 0, 0, 0, 0])
-    end = 2 / 3 / np.sqrt(0.9)
-    r = np.array([0.0, 0.5, 0.999, 0.999999, 1.000001, 1.001, 2.0, 30.0]) * end
-    points = np.column_stack([0.6 * r, -0.8 * r])
-    found = Lucchese().distort(points, k).points
-    np.testing.assert_array_equal(np.isfinite(found[:, 0]), r < end)
-    assert (np.hypot(*found[:4].T) < 1 / np.sqrt(0.9)).all()
+@every_model
+def test_wide_models_see_beyond_90_degrees(model: str) -> None:
+    lens, _ = sample(model)
+    if isinstance(lens, PlaneLens):
+        assert widest(model) < np.deg2rad(90.1)
+    else:
+        assert widest(model) > np.deg2rad(60)
+    if model in ("kannala-brandt", "ucm", "eucm", "double-sphere", "mei", "scaramuzza"):
+        assert widest(model) > np.deg2rad(100)
 
 
-def test_a_lens_that_unfolds_again_is_not_followed_there() -> None:
-    """r (1 - 0.5 r^2 + 0.1 r^4) folds at r = 1, value 0.6, and grows again from sqrt(2)."""
-    k = np.array([-0.5, 0.1, 0, 0, 0, 0])
-    found = Lucchese().distort(np.array([[0.59, 0.0], [0.61, 0.0], [2.0, 0.0]]), k).points
-    assert found[0, 0] < 1
-    assert np.isnan(found[1:]).all()
+@every_model
+def test_project_and_unproject_are_inverse(model: str) -> None:
+    lens, k = sample(model)
+    rays = seen(model, 0.97)
+    imaged = lens.project(rays, k)
+    back = lens.unproject(imaged.points, k)
+    np.testing.assert_allclose(np.linalg.norm(back.rays, axis=-1), 1.0, atol=4 * EPSILON)
+    np.testing.assert_allclose(back.rays, rays, atol=1e-12)
+    again = lens.project(back.rays, k).points
+    scale = 1 + np.abs(imaged.points).max(axis=-1, keepdims=True)  # a plane's d grows with tan
+    np.testing.assert_allclose((again - imaged.points) / scale, 0.0, atol=1e-12)
 
 
-def test_strong_barrel_reaches_the_corner() -> None:
-    """The ideal point of a wide lens lies far beyond where its own polynomial folds."""
-    k = np.array([0.2, 0.17, -0.08, 0, 0, 0])
-    d = np.array([[0.9, 0.6], [1.0, 0.0]])
-    n = Lucchese().correct(d, k).points
-    np.testing.assert_allclose(Lucchese().distort(n, k).points, d, atol=1e-14)
+@every_model
+def test_derivatives_of_the_inverse_undo_those_of_the_projection(model: str) -> None:
+    lens, k = sample(model)
+    imaged = lens.project(seen(model, 0.95), k)
+    back = lens.unproject(imaged.points, k)
+    product = imaged.by_ray @ back.by_point
+    np.testing.assert_allclose(product, np.broadcast_to(np.eye(2), product.shape), atol=1e-10)
+    change = imaged.by_ray @ back.by_coefficients + imaged.by_coefficients
+    scale = np.abs(imaged.by_coefficients).max(initial=1.0)
+    np.testing.assert_allclose(change / scale, 0.0, atol=1e-10)
+    radial = np.swapaxes(back.rays[..., None], -1, -2) @ back.by_point  # rays stay of length 1
+    np.testing.assert_allclose(radial, 0.0, atol=1e-12)
 
 
-def test_numbers_that_are_none_stay_none() -> None:
-    for lens in MODELS.values():
-        k = np.full(len(lens.names), 1e-3)
-        assert np.isnan(lens.correct(np.array([np.nan, 0.1]), k).points).any()
-        assert np.isnan(lens.distort(np.array([np.nan, 0.1]), k).points).any()
+@every_model
+def test_only_the_direction_of_a_ray_counts(model: str) -> None:
+    lens, k = sample(model)
+    rays = seen(model, 0.95)
+    imaged = lens.project(rays, k)
+    scale = np.abs(imaged.by_ray).max(axis=(-1, -2), keepdims=True)[..., 0]
+    along = (imaged.by_ray @ rays[..., None])[..., 0]
+    np.testing.assert_allclose(along / scale, 0.0, atol=1e-14)
+    for length in (1e-3, 700.0):
+        longer = lens.project(length * rays, k)
+        np.testing.assert_allclose(longer.points, imaged.points, rtol=1e-12, atol=1e-14)
+        np.testing.assert_allclose(length * longer.by_ray / scale[..., None],
+                                   imaged.by_ray / scale[..., None], atol=1e-12)  # fmt: skip
+        np.testing.assert_allclose(
+            longer.by_coefficients, imaged.by_coefficients, rtol=1e-11, atol=1e-13
+        )
+
+
+@every_model
+def test_derivatives_of_the_projection_against_differences(model: str) -> None:
+    lens, k = sample(model)
+    rays = seen(model, 0.85)
+    imaged = lens.project(rays, k)
+    check(imaged.by_ray, lambda e: lens.project(rays + e, k).points, np.zeros(3))
+    check(imaged.by_coefficients, lambda c: lens.project(rays, c).points, k)
+
+
+@every_model
+def test_derivatives_of_the_inverse_against_differences(model: str) -> None:
+    lens, k = sample(model)
+    d = lens.project(seen(model, 0.85), k).points
+    back = lens.unproject(d, k)
+    check(back.by_point, lambda e: lens.unproject(d + e, k).rays, np.zeros(2))
+    check(back.by_coefficients, lambda c: lens.unproject(d, c).rays, k)
+
+
+@every_model
+def test_the_axis_is_imaged_at_the_centre(model: str) -> None:
+    lens, k = sample(model)
+    np.testing.assert_array_equal(lens.project(np.array([0.0, 0.0, 2.0]), k).points, [0.0, 0.0])
+    np.testing.assert_array_equal(lens.unproject(np.zeros(2), k).rays, [0.0, 0.0, 1.0])
+
+
+@every_model
+def test_a_lens_without_its_asymmetric_coefficients_is_symmetric(model: str) -> None:
+    lens, k = sample(model)
+    k[[name in lens.asymmetric for name in lens.names]] = 0.0
+    angles = np.linspace(0.05, 0.9, 9) * min(widest(model), 1.2)
+    d = lens.project(rays_at(angles), k).points
+    radius = np.linalg.norm(d, axis=-1)
+    np.testing.assert_allclose(radius, np.broadcast_to(radius[:, :1], radius.shape), rtol=1e-12)
+    np.testing.assert_allclose(np.arctan2(d[..., 1], d[..., 0]) % (2 * np.pi),
+                               np.broadcast_to(AZIMUTHS, radius.shape), atol=1e-12)  # fmt: skip
+
+
+@every_model
+def test_stacks_keep_their_shape(model: str) -> None:
+    lens, k = sample(model)
+    for shape in ((), (0,), (3, 4)):
+        imaged = lens.project(np.full((*shape, 3), [0.1, -0.2, 1.0]), k)
+        back = lens.unproject(np.full((*shape, 2), 0.1), k)
+        assert imaged.points.shape == (*shape, 2)
+        assert imaged.by_ray.shape == (*shape, 2, 3)
+        assert imaged.by_coefficients.shape == (*shape, 2, len(k))
+        assert back.rays.shape == (*shape, 3)
+        assert back.by_point.shape == (*shape, 3, 2)
+        assert back.by_coefficients.shape == (*shape, 3, len(k))
+
+
+@every_model
+def test_arguments_stay_as_they_are(model: str) -> None:
+    lens, k = sample(model)
+    rays, d = seen(model, 0.9), np.array([[0.1, np.nan], [0.2, 0.3]])
+    kept = rays.copy(), d.copy(), k.copy()
+    for values in (rays, d, k):
+        values.flags.writeable = False
+    lens.project(rays, k)
+    lens.unproject(d, k)
+    for values, before in zip((rays, d, k), kept, strict=True):
+        np.testing.assert_array_equal(values, before)
+
+
+@every_model
+def test_what_has_no_value_is_nan_with_all_derivatives(model: str) -> None:
+    lens, k = sample(model)
+    good = np.array([0.1, 0.2, 1.0])
+    rays = np.array([good, np.zeros(3), [np.nan, 0.1, 1.0], [0.1, 0.1, np.nan], good])
+    d = np.array([[0.1, 0.2], [np.nan, 0.1], [0.1, np.nan], [0.1, 0.2]])
+    for values in lens.project(rays, k):
+        flat = values.reshape(len(rays), -1)
+        assert np.isnan(flat[1:4]).all()
+        np.testing.assert_array_equal(flat[[0, 4]], values.reshape(len(rays), -1)[[0, 0]])
+        assert np.isfinite(flat[0]).all()
+    for values in lens.unproject(d, k):
+        flat = values.reshape(len(d), -1)
+        assert np.isnan(flat[1:3]).all()
+        assert np.isfinite(flat[[0, 3]]).all()
+
+
+@every_model
+def test_far_points_have_no_ray_or_the_ray_that_is_imaged_there(model: str) -> None:
+    lens, k = sample(model)
+    if isinstance(lens, Lucchese):  # it corrects in closed form, beyond its fold, too
+        return
+    radius = np.linspace(0.5, 12.0, 40)[:, None]
+    d = np.stack([radius * np.cos(AZIMUTHS), radius * np.sin(AZIMUTHS)], axis=-1)
+    rays, *derivatives = lens.unproject(d, k)
+    there = np.isfinite(rays).all(axis=-1)
+    for values in derivatives:
+        assert np.isnan(values[~there]).all()
+    # Near a fold a point's last bits move its ray by their square root, but not the ray's point.
+    np.testing.assert_allclose(lens.project(rays[there], k).points, d[there], atol=1e-10)
+
+
+@pytest.mark.parametrize("model", [m for m in LENSES if isinstance(find_model(m), PlaneLens)])
+def test_models_of_the_plane_see_nothing_behind_them(model: str) -> None:
+    lens, k = sample(model)
+    behind = np.array([[0.1, 0.2, -1.0], [1.0, 0.0, 0.0], [0.0, 0.0, -1.0]])
+    for values in lens.project(behind, k):
+        assert np.isnan(values).all()

@@ -20,16 +20,34 @@ from calibgui.engine.geometry.rotations import rotation_from_vector
 
 CAMERAS = {
     "lucchese": Camera((640, 480), [650, 600, 310, 250, 0.25, 0.06, -0.05, 1e-3, -2e-3, 0.4]),
+    "pinhole": Camera((640, 480), [650, 600, 310, 250], "pinhole"),
+    "brown-conrady-4": Camera(
+        (640, 480), [650, 600, 310, 250, -0.25, 0.1, 1e-3, -2e-3, 0.03], "brown-conrady-4"
+    ),
     "brown-conrady": Camera(
-        (640, 480), [650, 600, 310, 250, -0.25, 0.1, 1e-3, -2e-3, -0.05], "brown-conrady"
+        (640, 480), [650, 600, 310, 250, -0.25, 0.1, 1e-3, -2e-3, -0.05, -0.02], "brown-conrady"
     ),
 }
+
+
+RAY_CAMERAS = {
+    model: Camera((640, 480), [450, 420, 310, 250, *k], model)
+    for model, k in {
+        "kannala-brandt": (-0.05, 4e-3, -3e-3, 4e-4),
+        "kannala-brandt-decentering": (-0.05, 4e-3, -3e-3, 4e-4, 4e-4, -7e-4),
+        "ucm": (0.6,),
+        "eucm": (0.6, 1.1),
+        "double-sphere": (-0.2, 0.55),
+    }.items()
+}
+"""Cameras that see boards in all directions."""
+COMPILED_CAMERAS = CAMERAS | RAY_CAMERAS
 
 
 def scene(model: str, weighted: bool) -> tuple[State, list[Observation]]:
     """Five partial views with 0.5 px of noise, and the state they were made with."""
     rng = np.random.default_rng(3)
-    camera, board_shape = CAMERAS[model], Board(6, 7, 30.0).points()
+    camera, board_shape = COMPILED_CAMERAS[model], Board(6, 7, 30.0).points()
     R = rotation_from_vector(rng.uniform(-0.5, 0.5, (5, 3)))
     T = (
         np.array([0.0, 0.0, 700.0])
@@ -40,14 +58,21 @@ def scene(model: str, weighted: bool) -> tuple[State, list[Observation]]:
     for k in range(5):
         xy = board_shape[rng.permutation(len(board_shape))[: 20 + 4 * k]]
         point = xy @ R[k, :, :2].T + T[k]
-        uv = pixels_from_rays(point[:, :2] / point[:, 2:], camera) + rng.normal(0, 0.5, xy.shape)
+        uv = pixels_from_rays(point, camera) + rng.normal(0, 0.5, xy.shape)
         root = rng.normal(size=(len(xy), 2, 2))
         cov = root @ np.swapaxes(root, 1, 2) + 0.1 * np.eye(2) if weighted else None
         views.append(Observation(uv, xy, cov))
     return State(np.array(camera.params), R, T), views
 
 
-@pytest.mark.parametrize("model", CAMERAS)
+def test_the_kernels_know_these_models() -> None:
+    assert kernels.POLYNOMIAL_LENSES.keys() == CAMERAS.keys()
+    assert kernels.RAY_LENSES.keys() == RAY_CAMERAS.keys()
+    for model, places in kernels.COMPILED_LENSES.items():
+        assert len(places) == len(parameter_names(model))
+
+
+@pytest.mark.parametrize("model", COMPILED_CAMERAS)
 @pytest.mark.parametrize("weighted", [False, True])
 def test_the_compiled_sums_are_the_readable_ones(
     model: str, weighted: bool, monkeypatch: pytest.MonkeyPatch
@@ -64,7 +89,7 @@ def test_the_compiled_sums_are_the_readable_ones(
         np.testing.assert_allclose(ours, truth, rtol=1e-7, atol=1e-9 * np.abs(truth).max())
 
 
-@pytest.mark.parametrize("model", CAMERAS)
+@pytest.mark.parametrize("model", COMPILED_CAMERAS)
 @pytest.mark.parametrize("flat", [True, False])
 def test_the_compiled_residuals_are_the_readable_ones(
     model: str, flat: bool, monkeypatch: pytest.MonkeyPatch

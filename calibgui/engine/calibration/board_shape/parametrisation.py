@@ -36,12 +36,12 @@ from calibgui.engine.calibration.refinement.residuals import (
     Linearised,
     NormalAt,
     State,
-    has_polynomial_lens,
+    has_compiled_lens,
     linearise_residuals,
 )
 from calibgui.engine.calibration.refinement.schur import NormalEquations, sum_costs
 from calibgui.engine.calibration.result import Cost
-from calibgui.engine.camera.models import MODELS
+from calibgui.engine.camera.models import find_model
 from calibgui.engine.errors import CalibrationError
 from calibgui.engine.kernels import with_kernel
 
@@ -135,7 +135,7 @@ def make_board_shape_problem(
     return normal_at
 
 
-@with_kernel("board_shape", "iterate_corner_products", has_polynomial_lens)
+@with_kernel("board_shape", "iterate_corner_products", has_compiled_lens)
 def iterate_corner_products(
     state: State,
     observations: Observations,
@@ -162,10 +162,10 @@ def iterate_corner_products(
         without the poses; (n, 3, P + 4) of these three with the camera's, with r and with
         themselves, summed over the views.
     """
-    K = len(index)
+    K, lens = len(index), find_model(model)
     for part in slice_views(K):
         with np.errstate(all="ignore"):  # a wild trial overflows; its cost says so
-            whole = linearise_residuals(state, observations, part, MODELS[model], Cost.IMAGE, 1.0)
+            whole = linearise_residuals(state, observations, part, lens, Cost.IMAGE, 1.0)
         A, D = _form_products(
             whole, state.R[part], free, index[part], observations.mask[part], count
         )

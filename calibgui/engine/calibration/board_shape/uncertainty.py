@@ -18,9 +18,16 @@ square error is C + b b^T; this is reported in place of sigma^2 (J^T J)^-1.
 
 The camera itself is not moved: the test shows that the board is not as drawn, but a board shape is
 estimated only if the user asks for it.
+
+A lens that the model does not follow looks like a board that is off, too; which of them it is is
+found by ``lens_error.py``. The uncertainties are widened either way. Where it is the lens, b is no
+longer the camera's error (the true lens has no such parameters), but it is how far an error of the
+residuals' size and smoothness, fixed to the board, moves them: without it, they would be too small.
 """
 
 from __future__ import annotations
+
+from typing import NamedTuple
 
 import numpy as np
 
@@ -46,29 +53,39 @@ _MIN_EXCESS = 5.0
 """Excess of chi^2, in its standard deviations, from which the board counts as imperfect."""
 
 
-def add_board_shape_error(
-    estimate: Estimate, observations: Observations, model: str, free: IntArray
-) -> Estimate:
-    """Widen an estimate by the uncertainty of an imperfect board, if the residuals show one.
+class BoardSuspicion(NamedTuple):
+    """The deviations of the board's corners that the residuals suggest."""
+
+    points: Array
+    """(n, 2) the board's corners in the drawing, mm."""
+    index: IntArray
+    """(K, N) index among these of each observation."""
+    variance: float
+    """Variance s^2 of the deviations along each axis, mm^2."""
+
+
+def suspect_board(
+    estimate: Estimate, observations: Observations, model: str
+) -> BoardSuspicion | None:
+    """Test whether the residuals look as if the board's corners were off; None if they do not.
 
     Args:
         estimate: the estimate with the image cost for the board as it is drawn.
         observations: the views.
         model: the lens model, a key of ``camera.models.MODELS``.
-        free: (P,) indices of the camera's parameters that may move.
     """
     points, index = index_board_points(observations)
     g, H, seen = _sum_scores(estimate, observations, model, index, len(points))
     tested = seen >= _MIN_VIEWS_OF_CORNER
     if not tested.any() or not estimate.sigma2 > 0:
-        return estimate
+        return None
     terms = np.einsum("ia,ia->i", g[tested], np.linalg.solve(H[tested], g[tested, :, None])[..., 0])
     expected = 3 * int(tested.sum())
     excess = float(terms.sum()) / estimate.sigma2 - expected
     if excess < _MIN_EXCESS * np.sqrt(2 * expected):
-        return estimate
+        return None
     s2 = excess * estimate.sigma2 / float(np.trace(H[tested], axis1=1, axis2=2).sum())
-    return _widen(estimate, observations, model, free, points, index, s2)
+    return BoardSuspicion(points, index, s2)
 
 
 def _sum_scores(
@@ -87,16 +104,23 @@ def _sum_scores(
     return g, H, seen.astype(np.int64)
 
 
-def _widen(
+def add_board_shape_error(
     estimate: Estimate,
     observations: Observations,
     model: str,
     free: IntArray,
-    points: Array,
-    index: IntArray,
-    s2: float,
+    suspicion: BoardSuspicion,
 ) -> Estimate:
-    """Replace the covariances by C + b b^T for deviations of variance s2, mm^2."""
+    """Widen an estimate by the uncertainty of an imperfect board: covariances C + b b^T.
+
+    Args:
+        estimate: the estimate with the image cost for the board as it is drawn.
+        observations: the views.
+        model: the lens model, a key of ``camera.models.MODELS``.
+        free: (P,) indices of the camera's parameters that may move.
+        suspicion: the deviations that the residuals suggest.
+    """
+    points, index, s2 = suspicion
     B = make_basis(BoardShapeModel.FREE, points)
     P, Q = len(free), B.shape[2]
     state = estimate.state._replace(params=np.append(estimate.state.params, np.zeros(Q)))

@@ -3,20 +3,37 @@
 Stage I (``stage_one.py``) works in the paper's y-up frame on the reference plane; this module
 brings the corners there, and joins Stage I, the closed form and, where that fails, the focal sweep
 into the first state of the joint registration.
+
+Stage I corrects each view by one coefficient, n = d (1 + k1 r^2). The polynomial models take it as
+their first coefficient. Any other model is fitted to the rays that it gives (``lens_fit.py``), or,
+where the start so made misses the corners by more than a hundredth of the image, to those of
+a camera of the unified model that needs no Stage I (``unified_start.py``).
 """
 
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from typing import NamedTuple
 
 import numpy as np
 
 from calibgui.engine.arrays import Array, Size
 from calibgui.engine.calibration.initialisation import closed_form, focal_sweep
+from calibgui.engine.calibration.initialisation.descent import descend
+from calibgui.engine.calibration.initialisation.lens_fit import fit_lens
 from calibgui.engine.calibration.initialisation.stage_one import StageOneRegistration
+from calibgui.engine.calibration.initialisation.unified_start import (
+    find_unified_start,
+    measure_miss,
+)
 from calibgui.engine.calibration.observations import Observations
+from calibgui.engine.calibration.refinement.levenberg_marquardt import StartError
 from calibgui.engine.calibration.refinement.residuals import State
-from calibgui.engine.camera.model import Lens
+from calibgui.engine.camera.camera import Camera
+from calibgui.engine.camera.models import PINHOLE, find_model, parameter_names
+from calibgui.engine.camera.models.splined_stereographic import SplinedStereographic
+from calibgui.engine.camera.plane import PlaneLens
+from calibgui.engine.camera.projection import rays_from_pixels
 from calibgui.engine.errors import CalibrationError
 from calibgui.engine.geometry import frames
 from calibgui.engine.geometry.planar_pose import poses_from_homographies
@@ -24,6 +41,24 @@ from calibgui.engine.geometry.planar_pose import poses_from_homographies
 _CENTRE = ((0, "cx"), (1, "cy"))
 _MAX_CORNERS = 500
 """Number of corners, spread evenly over all, that the start's one coefficient is fitted to."""
+_MAX_FITTED_CORNERS = 500
+"""Number of corners, spread evenly over all, that the start of other models is fitted to."""
+_CLOSED_FORM_MODELS = (
+    "pinhole",
+    "lucchese",
+    "lucchese-pixels",
+    "brown-conrady-4",
+    "brown-conrady",
+)
+"""Lens models whose first coefficient, if they have one, is Stage I's k1 to first order."""
+_MAX_START_MISS = 0.003
+"""Root mean squared miss of the corners at the start, in image widths, from which another start is
+tried."""
+_SHAPES = {"double-sphere": ("xi", (-0.3, 0.0, 0.3)), "mei": ("xi", (0.2, 0.5, 1.0, 1.5, 2.5))}
+"""Coefficient of which models have several minima, and its values to start from: the models' two
+coefficients of shape do nearly the same."""
+_MAX_DESCENT = 30
+"""Number of steps of a descent from each of these."""
 
 
 def convert_to_paper_frame(
@@ -74,24 +109,69 @@ def compute_reference_points(observations: Observations, scale: float, sign: Arr
     return (observations.xy - centre) * (scale * up[:, None])
 
 
+class _ClosedForm(NamedTuple):
+    """Stage I and the closed form together: a camera with one coefficient, and all poses."""
+
+    f: Array
+    """(2,) focal lengths, px."""
+    centre: Array
+    """(2,) principal point, array frame, px."""
+    k1: float
+    """The correction's coefficient in units of fx."""
+    R: Array
+    """(K, 3, 3) rotations."""
+    T: Array
+    """(K, 3) translations, mm."""
+
+
 def initialise_stage_two(
     observations: Observations,
     first: StageOneRegistration,
     size: Size,
-    lens: Lens,
-    names: tuple[str, ...],
+    model: str,
     held: Mapping[str, float | None],
 ) -> tuple[State, dict[str, float]]:
-    """Return the closed-form start of Stage II, and the held parameters with their values.
+    """Return the start of Stage II, and the held parameters with their values.
 
     Args:
         observations: the views.
         first: Stage I of the views.
         size: width and height of the images, px.
-        lens: the lens model.
-        names: names of the camera's parameters.
+        model: the lens model, a key of ``camera.models.MODELS``.
         held: names to hold, with a value or None for the default.
+
+    Raises:
+        StartError: if no start is found.
     """
+    lens, names = find_model(model), parameter_names(model)
+    try:
+        closed_form = _solve_closed_form(observations, first, size, held)
+    except (StartError, np.linalg.LinAlgError):  # no lens of one coefficient sees the board so
+        closed_form = None
+    if closed_form and model in _CLOSED_FORM_MODELS and isinstance(lens, PlaneLens):
+        f, centre, k1, R, T = closed_form
+        d = (observations.uv - centre) / f
+        state = State(np.concatenate([f, centre, _fit_first_coefficient(lens, d, k1)]), R, T)
+    else:
+        state = _start_any_lens(observations, closed_form, size, model, held)
+    values: dict[str, float] = {}
+    defaults = dict(zip(lens.names, lens.defaults, strict=True))
+    for i, name in enumerate(names):
+        if name in held:
+            value = held[name]
+            default = defaults.get(name, float(state.params[i]))
+            values[name] = default if value is None else float(value)
+            state.params[i] = values[name]
+    return state, values
+
+
+def _solve_closed_form(
+    observations: Observations,
+    first: StageOneRegistration,
+    size: Size,
+    held: Mapping[str, float | None],
+) -> _ClosedForm:
+    """Join Stage I of all views into one camera and all poses."""
     centre, k1 = closed_form.estimate_centre_and_k1(first, size)
     array_centre = frames.centre_of_array(size)
     for i, name in _CENTRE:
@@ -110,16 +190,90 @@ def initialise_stage_two(
             M = closed_form.fit_homographies(observations, centre, k1)
         f = np.where(np.isnan(f), found, f)
     R, T = poses_from_homographies(M, f, observations.xy[:, 0])
-    params = np.concatenate(
-        [f, centre, _fit_first_coefficient(lens, (observations.uv - centre) / f, k1 * f[0] ** 2)]
-    )
-    values: dict[str, float] = {}
+    return _ClosedForm(f, centre, k1 * f[0] ** 2, R, T)
+
+
+def _start_any_lens(
+    observations: Observations,
+    closed_form: _ClosedForm | None,
+    size: Size,
+    model: str,
+    held: Mapping[str, float | None],
+) -> State:
+    """Return the start of a model that the closed form does not give: of a few, the best."""
+    lens = find_model(model)
+    sights = [] if closed_form is None else [_see_by_closed_form(observations, closed_form)]
+    starts = [_follow_rays(observations, sight, model, held) for sight in sights]
+    misses = [measure_miss(observations, start, lens, size) for start in starts]
+    if not misses or misses[0] > _MAX_START_MISS * size[0]:
+        known = np.array([_find_known(held, name, size) for name in PINHOLE])
+        unified = find_unified_start(observations, size, known)
+        rays = rays_from_pixels(observations.uv, Camera(size, unified.params, "ucm"))
+        sights.append(_Sight(rays, unified._replace(params=unified.params[:4])))
+        starts.append(_follow_rays(observations, sights[-1], model, held))
+        misses.append(measure_miss(observations, starts[-1], lens, size))
+    best = int(np.argmin(misses))
+    name, shapes = _SHAPES.get(model, ("", ()))
+    if not shapes or name in held:
+        return starts[best]
+    cameras = [
+        _follow_rays(observations, sights[best], model, {**held, name: shape}).params
+        for shape in shapes
+    ]
+    free = np.flatnonzero([name not in held for name in parameter_names(model)])
+    return descend(observations, cameras, size, model, free, _MAX_DESCENT) or starts[best]
+
+
+class _Sight(NamedTuple):
+    """The rays of all corners, as a camera sees them that is not yet of the model wanted."""
+
+    rays: Array
+    """(K, N, 3), NaN for corners without one."""
+    pinhole: State
+    """fx, fy, cx, cy of a pinhole camera that has the same rays near the axis, and all poses."""
+
+
+def _see_by_closed_form(observations: Observations, closed_form: _ClosedForm) -> _Sight:
+    """Return the rays of a lens of one coefficient, except beyond its fold."""
+    f, centre, k1, R, T = closed_form
+    d = (observations.uv - centre) / f
+    square = k1 * np.sum(d**2, axis=-1, keepdims=True)
+    rays = np.concatenate([d * (1 + square), np.ones_like(square)], axis=-1)
+    rays[1 + 3 * square[..., 0] <= 0] = np.nan
+    return _Sight(rays, State(np.concatenate([f, centre]), R, T))
+
+
+def _follow_rays(
+    observations: Observations, sight: _Sight, model: str, held: Mapping[str, float | None]
+) -> State:
+    """Return a camera of the model that images these rays where the corners are."""
+    lens, names = find_model(model), parameter_names(model)
+    rays, (pinhole, R, T) = sight
+    chosen = (observations.mask > 0) & np.isfinite(rays).all(axis=-1)
+    rays, uv = rays[chosen], observations.uv[chosen]
+    step = max(1, len(uv) // _MAX_FITTED_CORNERS)
+    params = np.concatenate([pinhole, lens.defaults])
     for i, name in enumerate(names):
-        if name in held:
-            value = held[name]
-            values[name] = float(params[i] if i < 4 else 0.0) if value is None else float(value)
-            params[i] = values[name]
-    return State(params, R, T), values
+        value = held.get(name)
+        if value is not None:
+            params[i] = value
+    if isinstance(lens, SplinedStereographic):
+        params[4:] = lens.fit_to_rays(rays, (uv - params[2:4]) / params[:2])
+        return State(params, R, T)
+    on_axis = lens.project(np.array([0.0, 0.0, 1.0]), params[4:]).by_ray[0, 0]
+    for i in range(2):
+        if held.get(names[i]) is None and on_axis > 0:
+            params[i] /= on_axis
+    free = np.flatnonzero([name not in held for name in names])
+    return State(fit_lens(rays[::step], uv[::step], params, lens, free), R, T)
+
+
+def _find_known(held: Mapping[str, float | None], name: str, size: Size) -> float:
+    """Find the value at which one of fx, fy, cx, cy is held; NaN if it is not known."""
+    value = held.get(name, np.nan)
+    if value is None:
+        value = {"cx": (size[0] - 1) / 2, "cy": (size[1] - 1) / 2}.get(name, np.nan)
+    return float(value)
 
 
 def find_facing(observations: Observations) -> Array:
@@ -133,16 +287,18 @@ def find_facing(observations: Observations) -> Array:
     return np.asarray(np.sign(np.linalg.det(covariance)))
 
 
-def _fit_first_coefficient(lens: Lens, d: Array, k1: float) -> Array:
+def _fit_first_coefficient(lens: PlaneLens, d: Array, k1: float) -> Array:
     """Return coefficients of any lens model that approximate the correction n = d (1 + k1 r2).
 
     To first order in the coefficients, correct(d, k) = d + (d correct / dk) k; the first
     coefficient alone is fitted, which for the paper's model is k1 itself.
     """
+    k = np.array(lens.defaults)
+    if not k.size:
+        return k
     d = d.reshape(-1, 2)
     d = d[:: max(1, len(d) // _MAX_CORNERS)]
     radial = np.sum(d**2, axis=1, keepdims=True) * d
-    k = np.zeros(len(lens.names))
     slope = lens.correct(d, k).by_coefficients[..., 0]
     k[0] = k1 * np.sum(slope * radial) / np.sum(slope**2)
     return k

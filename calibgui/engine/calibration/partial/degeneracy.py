@@ -30,6 +30,7 @@ from calibgui.engine.calibration.refinement.covariances import Precision
 from calibgui.engine.calibration.refinement.levenberg_marquardt import Solution
 from calibgui.engine.calibration.refinement.residuals import State
 from calibgui.engine.calibration.result import Degeneracy, Diagnosis
+from calibgui.engine.camera.model import Lens
 from calibgui.engine.camera.models import PINHOLE
 from calibgui.engine.errors import CalibrationError
 
@@ -45,6 +46,10 @@ _MAX_RESIDUAL_RATIO = 10.0
 """Ratio of a Stage I residual to the median view's beyond which no flat board explains the view."""
 _MIN_MISFIT = 1.0
 """Stage I residual below which a view is never a misfit, reference px (a square has 30)."""
+_NEAR_AXIS = 1e-6
+"""Distance of a ray from the axis, at a depth of 1, at which the image's scale is measured."""
+_MAX_SCALE_DEVIATION = 0.1
+"""Standard deviation of the image's scale on the axis, relative to it, above which it is open."""
 _MAX_SPOT = 1 / 3
 """Share of the image's width and height below which corners lie in one spot."""
 _MAX_MOTION = 0.03
@@ -89,7 +94,11 @@ def find_misfits(rms: Array) -> IntArray:
 
 
 def find_undetermined(
-    solution: Solution, names: tuple[str, ...], precision: Precision, misfits: Sequence[str]
+    solution: Solution,
+    names: tuple[str, ...],
+    precision: Precision,
+    misfits: Sequence[str],
+    traded: Sequence[str],
 ) -> tuple[str, ...]:
     """Find the focal lengths and coordinates of the centre that the views do not determine.
 
@@ -98,6 +107,7 @@ def find_undetermined(
         names: (P,) names of the free parameters.
         precision: the precision of the solution.
         misfits: names of the views that `find_misfits` found.
+        traded: names of the focal lengths that `find_traded_focal_lengths` found.
 
     Raises:
         CalibrationError: if there are misfits, which are then the cause.
@@ -112,7 +122,9 @@ def find_undetermined(
     found = (
         pinhole
         if are_parallel
-        else tuple(u.name for u in precision.undetermined if u.name in PINHOLE)
+        else tuple(
+            u.name for u in precision.undetermined if u.name in PINHOLE and u.name not in traded
+        )
     )
     if found and misfits:
         raise CalibrationError(
@@ -121,6 +133,32 @@ def find_undetermined(
             "Number their corners as in the other views, or leave them out.",
         )
     return found
+
+
+def find_traded_focal_lengths(
+    params: Array, lens: Lens, names: tuple[str, ...], covariance: Array
+) -> tuple[str, ...]:
+    """Find the focal lengths that the lens's coefficients make up for.
+
+    The image of a lens is (dd/dr on the axis) f times as large as the object near the axis. Where
+    that derivative depends on a coefficient, as on Mei's xi, a focal length can be open that the
+    image's scale is not.
+
+    Args:
+        params: (P,) the camera's parameters.
+        lens: the lens model.
+        names: names of the free parameters.
+        covariance: covariance of the free parameters.
+    """
+    near_axis = lens.project(np.array([_NEAR_AXIS, 0.0, 1.0]), params[4:])
+    by_k = near_axis.by_coefficients[0] / near_axis.points[0]
+    found = []
+    for i, name in enumerate(PINHOLE[:2]):
+        relative = dict(zip(lens.names, by_k.tolist(), strict=True)) | {name: 1 / float(params[i])}
+        by_free = np.array([relative.get(free, 0.0) for free in names])
+        if by_k.any() and np.sqrt(by_free @ covariance @ by_free) < _MAX_SCALE_DEVIATION:
+            found.append(name)
+    return tuple(found)
 
 
 def find_copies(views: Iterable[tuple[Array, Array]]) -> IntArray:

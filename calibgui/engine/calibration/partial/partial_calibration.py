@@ -49,6 +49,7 @@ from calibgui.engine.calibration.refinement.residuals import NormalAt, State
 from calibgui.engine.calibration.refinement.schur import eliminate_poses
 from calibgui.engine.calibration.result import Assumption, Cost, Status
 from calibgui.engine.calibration.result_assembly import Estimate
+from calibgui.engine.camera.models import find_model
 from calibgui.engine.geometry import frames, rotations
 from calibgui.engine.geometry.planar_pose import poses_from_homographies
 
@@ -284,9 +285,11 @@ def _make_nominal(options: Options) -> Array:
     """Make q (P,) of an ordinary camera: f of an image width, square pixels, no distortion."""
     cx, cy = frames.centre_of_array(options.size).tolist()
     held, width = options.held, float(options.size[0])
-    nominal = {"fx": held.get("fy", width), "fy": held.get("fx", width), "cx": cx, "cy": cy, **held}
+    nominal = {"fx": held.get("fy", width), "fy": held.get("fx", width), "cx": cx, "cy": cy}
+    lens = find_model(options.model)
+    nominal |= dict(zip(lens.names, lens.defaults, strict=True)) | dict(held)
     return Quantities.for_options(options).from_params(
-        np.array([nominal.get(name, 0.0) for name in options.names])
+        np.array([nominal[name] for name in options.names])
     )
 
 

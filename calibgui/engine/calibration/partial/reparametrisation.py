@@ -19,7 +19,7 @@ from calibgui.engine.arrays import Array, IntArray
 from calibgui.engine.calibration.options import Options
 from calibgui.engine.calibration.refinement.residuals import NormalAt, State
 from calibgui.engine.calibration.refinement.schur import NormalEquations
-from calibgui.engine.camera.models import MODELS
+from calibgui.engine.camera.models import find_model
 
 
 class Quantities(NamedTuple):
@@ -33,7 +33,7 @@ class Quantities(NamedTuple):
     @classmethod
     def for_options(cls, options: Options) -> Quantities:
         """Return the quantities for some options: parameters that are held stay as they are."""
-        powers = np.array(MODELS[options.model].powers, dtype=np.float64)
+        powers = np.array(find_model(options.model).powers, dtype=np.float64)
         powers[~np.isin(np.arange(4, len(options.names)), options.free)] = 0.0
         return cls(int("fy" in options.held and "fx" not in options.held), powers)
 

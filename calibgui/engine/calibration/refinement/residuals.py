@@ -8,20 +8,20 @@ equations that ``levenberg_marquardt.py`` solves by way of ``schur.py``.
 Unknowns: the camera's parameters (``camera.Camera``) and, for each view k, the pose
 X_cam = R (X, Y, 0)^T + T. A pose is varied by a local rotation w and a translation tau,
 R <- exp(w) R, T <- T + tau, which has no singularity anywhere; then
-dX_cam = w x (R X) + tau. With n = X_cam[:2] / Z and Q = [1 0 -n1; 0 1 -n2],
-
-    dn = Q dX_cam / Z.
+dX_cam = w x (R X) + tau.
 
 There are two kinds of cost.
 
 `image`: the residual is predicted minus measured corner in the image. ``projection.project``
-maps n to pixels, so r = project(n) - uv and dr follows by the chain rule.
+maps the ray X_cam to pixels, so r = project(X_cam) - uv and dr follows by the chain rule.
 
 `reference` (eq. 41-43): the residual is on the virtual reference image. The measured corner's
-ray n = unproject(uv) meets the board at (X, Y), where Q [r1 r2] (dX, dY)^T = Z dn - Q dX_cam|pose,
-so that with G = Q [r1 r2] (2, 2)
+ray b = unproject(uv) of length 1 meets the board at (X, Y), at a distance s from the camera:
+s b = R (X, Y, 0)^T + T. Across the ray, with B (3, 2) a basis there, both sides change alike,
 
-    d(X, Y) = G^-1 (Z dn - Q (w x R X + tau)).
+    G d(X, Y) = B^T (s db - dX_cam|pose),      G = B^T [r1 r2] (2, 2),
+
+so that d(X, Y) = G^-1 B^T (s db - (w x R X + tau)).
 
 This is what appendices C to F write out through the homography's coefficients: eq. 15's
 x' = H(psi(x) - xp) is that intersection. The reference image has s pixels per mm, and the
@@ -33,7 +33,7 @@ camera is then stretched along Y by fx/fy against the nominal one, which the res
 y' = s Y fy / fx. The printed lens measures its radius in pixels ("lucchese-pixels").
 
 The sums over the views are made in chunks, so that memory does not grow with their number. The
-image cost of the polynomial lenses has compiled kernels (``kernels.normal_equations`` and
+image cost of `COMPILED_LENSES` has compiled kernels (``kernels.normal_equations`` and
 ``kernels.board_shape``); all other costs and models, and machines without numba, use the numpy
 code below. Both give the same solution to rounding (``tests/engine/kernels``).
 """
@@ -48,13 +48,22 @@ import numpy as np
 
 from calibgui.engine.arrays import Array, BoolArray, IntArray
 from calibgui.engine.calibration.observations import Observations, slice_views
+from calibgui.engine.calibration.refinement.local_support import prepare_local_blocks
+from calibgui.engine.calibration.refinement.prior import make_prior
 from calibgui.engine.calibration.refinement.schur import NormalEquations, sum_costs
 from calibgui.engine.calibration.result import Cost
 from calibgui.engine.camera.model import Lens
-from calibgui.engine.camera.models import MODELS
-from calibgui.engine.camera.projection import project, unproject
+from calibgui.engine.camera.models import find_model
+from calibgui.engine.camera.models.splined_stereographic import SplinedStereographic
+from calibgui.engine.camera.projection import (
+    project,
+    project_points,
+    unproject,
+    unproject_points,
+)
 from calibgui.engine.geometry import rotations
-from calibgui.engine.kernels import POLYNOMIAL_LENSES, with_kernel
+from calibgui.engine.geometry.directions import make_tangent_basis
+from calibgui.engine.kernels import COMPILED_LENSES, with_kernel
 
 
 class State(NamedTuple):
@@ -120,12 +129,10 @@ Blocks = tuple[Array, Array, Array, Array, Array, Array]
 
 def compute_image_residuals(state: State, views: Observations, lens: Lens) -> Linearised:
     """Compute predicted minus measured corners in the image, px; NaN without a prediction."""
-    rotated, Z, n, Q = _see_points(state, views.xy)
-    predicted = project(n, state.params, lens)
-    by_point = (predicted.by_point @ Q) / Z[..., None, None]
-    return Linearised(
-        predicted.points - views.uv, predicted.by_params, _differentiate_by_pose(by_point, rotated)
-    )
+    rotated, point = _place_points(state, views.xy)
+    predicted = project(point, state.params, lens)
+    by_pose = _differentiate_by_pose(predicted.by_ray, rotated)
+    return Linearised(predicted.points - views.uv, predicted.by_params, by_pose)
 
 
 def compute_reference_residuals(
@@ -141,14 +148,15 @@ def compute_reference_residuals(
         literal: true for the paper's grid, equal in px along both axes (`Cost.PAPER`).
     """
     measured = unproject(views.uv, state.params, lens)
-    ray = np.concatenate([measured.points, np.ones((*measured.points.shape[:-1], 1))], axis=-1)
     M = np.concatenate([state.R[..., :2], state.T[..., None]], axis=-1)
-    h = ray @ np.swapaxes(np.linalg.inv(M), 1, 2)
-    points = h[..., :2] / h[..., 2:]
-    rotated, Z, _, Q = _see_points(state, points)
-    inverse = np.linalg.inv(Q @ state.R[:, None, :, :2])  # G^-1
-    by_params = inverse @ (Z[..., None, None] * measured.by_params)
-    by_pose = _differentiate_by_pose(-inverse @ Q, rotated)
+    h = measured.rays @ np.swapaxes(np.linalg.inv(M), 1, 2)  # (X, Y, 1) / s
+    distance = 1 / np.where(h[..., 2:] > 0, h[..., 2:], np.nan)  # the ray leads to the board
+    points = h[..., :2] * distance
+    rotated, _ = _place_points(state, points)
+    across = np.swapaxes(make_tangent_basis(measured.rays), -1, -2)
+    inverse = np.linalg.inv(across @ state.R[:, None, :, :2])  # G^-1
+    by_params = inverse @ (distance[..., None] * (across @ measured.by_params))
+    by_pose = _differentiate_by_pose(-inverse @ across, rotated)
 
     to_reference = np.array([scale, scale])
     if literal:
@@ -186,19 +194,10 @@ def linearise_residuals(
     )
 
 
-def _see_points(state: State, points: Array) -> tuple[Array, Array, Array, Array]:
-    """Return R X (K, N, 3), depth Z (K, N), ray n (K, N, 2) and Q (K, N, 2, 3).
-
-    The points are (K, N, 2 or 3) on the board, mm.
-    """
+def _place_points(state: State, points: Array) -> tuple[Array, Array]:
+    """Return R X and X_cam (K, N, 3), mm, of points (K, N, 2 or 3) on the board, mm."""
     rotated = points @ np.swapaxes(state.R[..., : points.shape[-1]], 1, 2)
-    point = rotated + state.T[:, None]
-    Z = np.where(point[..., 2] > 0, point[..., 2], np.nan)  # behind the camera: no image
-    n = point[..., :2] / Z[..., None]
-    Q = np.zeros((*n.shape, 3))
-    Q[..., 0, 0] = Q[..., 1, 1] = 1.0
-    Q[..., 2] = -n
-    return rotated, Z, n, Q
+    return rotated, rotated + state.T[:, None]
 
 
 def _differentiate_by_pose(by_point: Array, rotated: Array) -> Array:
@@ -223,28 +222,34 @@ def build_stage_two(
         free: (P,) indices of the camera's parameters that may change.
     """
     blocks_at = prepare_blocks(observations, model, cost, scale, free)
+    stiffness = find_model(model).compute_stiffness(observations.count)
+    prior = None if stiffness is None else make_prior(stiffness, free)
 
     def normal_at(state: State) -> NormalEquations:
-        return _assemble_normal_equations(blocks_at(state))
+        normal = _assemble_normal_equations(blocks_at(state))
+        return normal if prior is None else prior.add_to(normal, state.params)
 
     return normal_at
 
 
-def _is_image_of_polynomial_lens(
+def _is_image_of_compiled_lens(
     _observations: Observations, model: str, cost: Cost, *_: object
 ) -> bool:
     """Return whether `prepare_blocks` has a kernel for these arguments."""
-    return cost is Cost.IMAGE and model in POLYNOMIAL_LENSES
+    return cost is Cost.IMAGE and model in COMPILED_LENSES
 
 
-@with_kernel("normal_equations", "prepare_blocks", _is_image_of_polynomial_lens)
+@with_kernel("normal_equations", "prepare_blocks", _is_image_of_compiled_lens)
 def prepare_blocks(
     observations: Observations, model: str, cost: Cost, scale: float, free: IntArray
 ) -> Callable[[State], Blocks]:
     """Return a function from a state to the blocks of J^T J and J^T r; see `build_stage_two`."""
+    lens = find_model(model)
+    if cost is Cost.IMAGE and isinstance(lens, SplinedStereographic):
+        return prepare_local_blocks(observations, lens, free)
 
     def linearise(state: State, views: slice) -> Linearised:
-        return linearise_residuals(state, observations, views, MODELS[model], cost, scale)
+        return linearise_residuals(state, observations, views, lens, cost, scale)
 
     return partial(_accumulate_blocks, linearise, free)
 
@@ -281,14 +286,14 @@ def _accumulate_blocks(linearise: Linearise, free: IntArray, state: State) -> Bl
     return U, W, V, shared, pose, costs
 
 
-def has_polynomial_lens(
+def has_compiled_lens(
     _state: State, _observations: Observations, model: str, *_: object, **__: object
 ) -> bool:
     """Return whether the lens model has kernels of the image cost."""
-    return model in POLYNOMIAL_LENSES
+    return model in COMPILED_LENSES
 
 
-@with_kernel("board_shape", "compute_view_products", has_polynomial_lens)
+@with_kernel("board_shape", "compute_view_products", has_compiled_lens)
 def compute_view_products(
     state: State,
     observations: Observations,
@@ -309,7 +314,7 @@ def compute_view_products(
     parts = []
     for views in slice_views(len(state.R)):
         r, by_params, by_pose = linearise_residuals(
-            state, observations, views, MODELS[model], Cost.IMAGE, 1.0
+            state, observations, views, find_model(model), Cost.IMAGE, 1.0
         )
         by_camera = by_params[..., free]
         if following is not None:
@@ -346,14 +351,14 @@ def compute_residuals(
     return seen, registered
 
 
-def _is_image_residual_of_polynomial_lens(
+def _is_image_residual_of_compiled_lens(
     _state: State, _observations: Observations, model: str, cost: Cost
 ) -> bool:
     """Return whether `_compute_residuals` has a kernel for these arguments."""
-    return cost is Cost.IMAGE and model in POLYNOMIAL_LENSES
+    return cost is Cost.IMAGE and model in COMPILED_LENSES
 
 
-@with_kernel("normal_equations", "compute_residuals", _is_image_residual_of_polynomial_lens)
+@with_kernel("normal_equations", "compute_residuals", _is_image_residual_of_compiled_lens)
 def _compute_residuals(
     state: State, observations: Observations, model: str, cost: Cost
 ) -> tuple[Array, Array]:
@@ -361,8 +366,8 @@ def _compute_residuals(
     seen, registered = np.empty_like(observations.uv), np.empty_like(observations.uv)
     for views in slice_views(len(state.R)):
         part, own = observations.select_views(views), state.select_views(views)
-        seen[views] = part.uv - predict_corners(own, part, MODELS[model], cost)
-        there = compute_registration_errors(own, part, MODELS[model], cost)
+        seen[views] = part.uv - predict_corners(own, part, find_model(model), cost)
+        there = compute_registration_errors(own, part, find_model(model), cost)
         registered[views] = np.where(np.isfinite(seen[views]), there, np.nan)
     return seen, registered
 
@@ -372,8 +377,7 @@ def predict_corners(state: State, views: Observations, lens: Lens, cost: Cost) -
     points = views.xy
     if cost is Cost.PAPER:
         points = points * np.array([1.0, state.params[0] / state.params[1]])
-    _, _, n, _ = _see_points(state, points)
-    return project(n, state.params, lens).points
+    return project_points(_place_points(state, points)[1], state.params, lens)
 
 
 def compute_registration_errors(state: State, views: Observations, lens: Lens, cost: Cost) -> Array:
@@ -381,13 +385,13 @@ def compute_registration_errors(state: State, views: Observations, lens: Lens, c
 
     They are the residuals of `compute_reference_residuals`, not scaled. A corner off the board's
     plane is registered on the parallel plane through it: the ray, with its direction and origin
-    R^T (n, 1) and -R^T T in the board's frame, is followed to the corner's height.
+    R^T b and -R^T T in the board's frame, is followed to the corner's height.
     """
-    n = unproject(views.uv, state.params, lens).points
-    along = np.concatenate([n, np.ones((*n.shape[:-1], 1))], axis=-1) @ state.R
+    along = unproject_points(views.uv, state.params, lens)[0] @ state.R
     origin = np.swapaxes(state.R, 1, 2) @ -state.T[..., None]
     height = views.xy[..., 2:] if views.xy.shape[-1] == 3 else 0.0
     distance = (height - origin[:, None, 2]) / along[..., 2:]
+    distance = np.where(distance > 0, distance, np.nan)  # the ray leads to the board
     points = origin[:, None, :2, 0] + distance * along[..., :2]
     if cost is Cost.PAPER:
         points = points * np.array([1.0, state.params[1] / state.params[0]])

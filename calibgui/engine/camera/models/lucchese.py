@@ -35,22 +35,23 @@ from __future__ import annotations
 import numpy as np
 
 from calibgui.engine.arrays import Array
-from calibgui.engine.camera.inverse import invert_map
-from calibgui.engine.camera.model import Mapped
+from calibgui.engine.camera.inverse import invert_map, make_polynomial_curve
+from calibgui.engine.camera.plane import Mapped, PlaneLens
 
 
-class Lucchese:
+class Lucchese(PlaneLens):
     """The correction model with coefficients k1, k2, k3, p1, p2, p3."""
 
     names = ("k1", "k2", "k3", "p1", "p2", "p3")
     powers = (2, 4, 6, 1, 1, 2)
+    asymmetric = ("p1", "p2", "p3")
 
     def __init__(self, radius_in_pixels: bool = False) -> None:
         """Choose the unit of the radius: fx along both axes if `radius_in_pixels`, as printed."""
         self.radius_in_pixels = radius_in_pixels
         self.title = f"Lucchese (inverse Brown-Conrady{', as printed' if radius_in_pixels else ''})"
         # p3 multiplies p1 and p2 and is rarely determined. The paper frees it all the same.
-        self.held: tuple[str, ...] = () if radius_in_pixels else ("p3",)
+        self.held = () if radius_in_pixels else ("p3",)
 
     def correct(self, d: Array, k: Array) -> Mapped:
         """Map measured to ideal points, eq. 9."""
@@ -91,4 +92,4 @@ class Lucchese:
 
     def distort(self, n: Array, k: Array) -> Mapped:
         """Map ideal to measured points, the inverse of eq. 9, by Newton's method."""
-        return invert_map(lambda d: self.correct(d, k), n, k[:3])
+        return invert_map(lambda d: self.correct(d, k), n, make_polynomial_curve(k[:3]))

@@ -1,0 +1,33 @@
+"""The pinhole camera: a lens without distortion.
+
+A measured point is the ideal point itself, d = n = (X/Z, Y/Z), and the derivative is I. Images that
+were undistorted or rendered have such a camera, and long focal lengths nearly do.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from calibgui.engine.arrays import Array
+from calibgui.engine.camera.plane import Mapped, PlaneLens
+
+
+class Pinhole(PlaneLens):
+    """The model without coefficients."""
+
+    title = "Pinhole (no distortion)"
+    names = ()
+    powers = ()
+
+    def correct(self, d: Array, k: Array) -> Mapped:  # noqa: ARG002 - there are no coefficients
+        """Map measured to ideal points."""
+        return _map_to_itself(d)
+
+    def distort(self, n: Array, k: Array) -> Mapped:  # noqa: ARG002 - there are no coefficients
+        """Map ideal to measured points."""
+        return _map_to_itself(n)
+
+
+def _map_to_itself(points: Array) -> Mapped:
+    by_point = np.broadcast_to(np.eye(2), (*points.shape, 2))
+    return Mapped(points.copy(), by_point.copy(), np.empty((*points.shape, 0)))
