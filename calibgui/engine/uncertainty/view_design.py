@@ -124,7 +124,7 @@ def build_design(calibration: Calibration, views: Sequence[Observation]) -> View
         noise=calibration.noise,
         views=found,
         systematic=np.zeros((len(free), len(free))),
-        is_systematic_averaged=calibration.board_shape_error == 0,
+        is_systematic_averaged=calibration.board_shape_error == 0 and calibration.lens_error == 0,
         by_params=by_params[good][..., free],
         by_motion=by_motion[good],
     )

@@ -138,7 +138,8 @@ def test_the_near_side_of_a_shifted_sphere_is_not_seen() -> None:
 
 
 def test_rays_beyond_the_fold_are_left_to_the_readable_code() -> None:
-    """theta - theta^3 / 12 has its maximum at 2 rad, and the board lies beyond."""
+    """theta - theta^3 / 12 has its maximum at 2 rad, and the board lies beyond. Its corners have
+    images, whose rays are those before the maximum and meet the board's plane elsewhere."""
     camera = Camera((640, 480), [450, 420, 310, 250, -1 / 12, 0, 0, 0], "kannala-brandt")
     xy = Board(3, 3, 30.0).points()
     state = State(np.array(camera.params), np.eye(3)[None], np.array([[300.0, 0.0, -250.0]]))
@@ -148,7 +149,7 @@ def test_rays_beyond_the_fold_are_left_to_the_readable_code() -> None:
         state, observations, "kannala-brandt", Cost.IMAGE
     )
     np.testing.assert_allclose(seen, 0.0, atol=1e-10)
-    assert np.isnan(registered).all()
+    assert np.linalg.norm(registered, axis=-1).min() > 100
 
 
 def test_the_angle_is_atan2() -> None:

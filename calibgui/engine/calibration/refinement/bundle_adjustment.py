@@ -106,7 +106,15 @@ def solve_stage_two(
     try:
         solution = stage.solve_with_corrected_poses(start)
     except StartError:
-        is_direct, solution = False, solve_by_registration()
+        is_direct = False
+        try:
+            solution = solve_by_registration()
+        except StartError as error:
+            raise StartError(
+                f"The lens model {model!r} cannot image all corners, however it is started.",
+                "For a wide lens choose the lens model 'kannala-brandt'. Otherwise check that the "
+                "views number their corners alike and come from one camera.",
+            ) from error
     is_slow = len(solution.history) - len(earlier) > _MAX_DIRECT_ITERATIONS
     if solution.status is Status.STOPPED or not (is_slow or solution.is_blocked):
         return solution
@@ -197,7 +205,8 @@ def _take_lower(solution: Solution, other: Callable[[], Solution]) -> Solution:
         found = other()
     except StartError:
         return solution
-    return found if found.normal.cost <= (1 + _COST_TOLERANCE) * solution.normal.cost else solution
+    before, after = solution.normal.total_cost, found.normal.total_cost
+    return found if after <= (1 + _COST_TOLERANCE) * before else solution
 
 
 def _step_aside(solution: Solution, free: IntArray, corners: int) -> list[State]:

@@ -7,6 +7,10 @@ blocks of ``schur.py`` (Triggs et al. 2000)
     cov(shared)  = sigma^2 S^-1
     cov(pose k)  = sigma^2 (Vk^-1 + Vk^-1 Wk^T S^-1 Wk Vk^-1).
 
+Where a prior Q is part of U (``prior.py``), the corners determine only P - tr(S^-1 Q) of the shared
+parameters, the number that counts in sigma^2, and sigma^2 S^-1 is what corners and prior know
+together, the prior with the corners' sigma.
+
 The paper's own standard deviations (Tables 2 and 3) are sqrt(diag((2 J^T J)^-1)), without
 sigma: they tell how well the reference grid, not the corners' noise, determines a value.
 
@@ -49,7 +53,7 @@ class Precision(NamedTuple):
     """Parameters whose standard deviations are not to be believed."""
 
 
-def estimate_variance(cost: float, corners: int, unknowns: int) -> float:
+def estimate_variance(cost: float, corners: int, unknowns: float) -> float:
     """Estimate sigma^2, the variance of one residual coordinate; NaN without redundancy."""
     freedom = 2 * corners - unknowns
     return cost / freedom if freedom > 0 else float("nan")
@@ -72,11 +76,15 @@ def measure_precision(
         corners: number of corners in all views.
         tolerated: (P,) standard deviations beyond which a parameter counts as undetermined.
     """
-    sigma2 = estimate_variance(normal.cost, corners, len(names) + normal.pose.size)
     reduced = eliminate_poses(normal)
-    shared = compute_shared_covariance(reduced, sigma2)
-    values, vectors = decompose_information(reduced)
-    is_lost = np.sqrt((vectors[:, values < _MIN_INFORMATION] ** 2).sum(axis=1)) > _MIN_SHARE
+    inverse, left = invert_information(reduced)
+    fitted = len(names) - (0.0 if normal.prior is None else float(np.sum(inverse * normal.prior)))
+    sigma2 = estimate_variance(normal.cost, corners, fitted + normal.pose.size)
+    shared = sigma2 * inverse
+    is_lost = np.zeros(len(names), dtype=bool)
+    if left < _MIN_INFORMATION:
+        values, vectors = decompose_information(reduced)
+        is_lost = np.sqrt((vectors[:, values < _MIN_INFORMATION] ** 2).sum(axis=1)) > _MIN_SHARE
     is_unused = np.diag(normal.U) <= 0
     is_imprecise = np.sqrt(np.diag(shared)) > tolerated
     undetermined = tuple(

@@ -10,6 +10,9 @@ The iteration has converged when the decrease that the linear model still predic
 1e-12 of the cost: the unknowns are then within about 1e-6 sqrt(2N) of their standard
 deviations of the minimum. A slight step with the predicted effect changes J^T J by a hundredth
 at most: its factors are used again.
+
+What is minimised is the corners' cost and that of a prior on the parameters, where the lens model
+has one; the iterations report the corners' alone.
 """
 
 from __future__ import annotations
@@ -111,16 +114,17 @@ def minimise(
         step = factors.solve_step(normal)
         decrease = _predict_decrease(normal, *step)
         is_exact = normal.cost <= _ROUNDING * data_square
-        if is_exact or decrease <= _MAX_DECREASE * normal.cost or damping > _MAX_DAMPING:
+        if is_exact or decrease <= _MAX_DECREASE * normal.total_cost or damping > _MAX_DAMPING:
             if is_exact or _is_minimum(normal, decrease, damping):
                 status = Status.CONVERGED
             break
         trial = state.take_step(*step, free)
         at_trial = normal_at(trial)
-        if at_trial.cost < normal.cost:
+        if at_trial.total_cost < normal.total_cost:
             length = _measure_scaled_step(normal, *step)
-            is_as_predicted = abs(normal.cost - at_trial.cost - decrease) <= 0.1 * decrease
-            is_slight = decrease <= _MAX_DECREASE_TO_REUSE_FACTORS * normal.cost
+            decreased = normal.total_cost - at_trial.total_cost
+            is_as_predicted = abs(decreased - decrease) <= 0.1 * decrease
+            is_slight = decrease <= _MAX_DECREASE_TO_REUSE_FACTORS * normal.total_cost
             if not (is_as_predicted and damping <= _START_DAMPING and is_slight):
                 factors = None
             state, normal = trial, at_trial
@@ -165,11 +169,11 @@ def _is_minimum(normal: NormalEquations, decrease: float, damping: float) -> boo
     full step decides. Weak damping cannot: if even the direction of least information predicts
     little, the full step does.
     """
-    is_small = decrease <= _MAX_DECREASE * normal.cost
+    is_small = decrease <= _MAX_DECREASE * normal.total_cost
     if is_small and damping / _MIN_INFORMATION <= _MAX_UNDAMPED_DECREASE / _MAX_DECREASE:
         return True
     full_step = solve_normal_equations(normal, 0.0)
-    return _predict_decrease(normal, *full_step) <= _MAX_UNDAMPED_DECREASE * normal.cost
+    return _predict_decrease(normal, *full_step) <= _MAX_UNDAMPED_DECREASE * normal.total_cost
 
 
 def _predict_decrease(normal: NormalEquations, by_shared: Array, by_pose: Array) -> float:
