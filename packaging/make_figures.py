@@ -47,7 +47,7 @@ def draw_bent_board() -> Figure:
         R = rotation_from_vector(rng.uniform(-0.6, 0.6, 3))
         point = (np.column_stack([xy - xy.mean(axis=0), np.zeros(len(xy))]) + bend) @ R.T
         point = point + rng.uniform([-20, -20, 300], [20, 20, 400])
-        uv = pixels_from_rays(point[:, :2] / point[:, 2:], camera)
+        uv = pixels_from_rays(point, camera)
         views.append(Observation(uv + rng.normal(0, 0.03, uv.shape), xy))
     board_shape = calibrate(views, camera.size, board_shape="free").board_shape
     assert board_shape is not None
@@ -113,6 +113,59 @@ def draw_misplaced_corners(
     return figure
 
 
+def draw_lens_models() -> Figure:
+    """Draw how far lens models are from a simulated lens of 190 degrees, by the angle."""
+    truth = Camera((1280, 960), [372, 371, 642, 476, -0.04, 3e-3, -2e-3, 1e-4], "kannala-brandt")
+    views = photograph_all_around(truth)
+    angle = np.deg2rad(np.linspace(0.5, 95, 190))
+    around = np.deg2rad(np.arange(0, 360, 15.0))[:, None]
+    rays = np.stack(
+        [
+            np.sin(angle) * np.cos(around),
+            np.sin(angle) * np.sin(around),
+            np.cos(angle) * np.ones_like(around),
+        ],
+        axis=-1,
+    )
+    figure = Figure(figsize=(9, 4.2), layout="constrained")
+    axes = figure.add_subplot()
+    for model in ("brown-conrady", "lucchese", "division", "scaramuzza", "ucm", "kannala-brandt"):
+        camera = calibrate(views, truth.size, model=model).camera
+        uv = pixels_from_rays(rays, truth)
+        turn = rotation_from_vector(compare_cameras(truth, camera, views=views).turn)
+        miss = np.linalg.norm(pixels_from_rays(rays @ turn.T, camera) - uv, axis=-1)
+        axes.semilogy(np.rad2deg(angle), np.sqrt(np.mean(miss**2, axis=0)), label=model)
+    axes.axvline(90, color="0.6", linestyle=":")
+    axes.set(
+        xlabel="angle off the axis, degrees",
+        ylabel="distance from the true image, px",
+        xlim=(0, 95),
+        ylim=(1e-3, 300),
+    )
+    axes.grid(alpha=0.3)
+    figure.legend(loc="outside right center", fontsize=9)
+    return figure
+
+
+def photograph_all_around(camera: Camera) -> list[Observation]:
+    """Return noisy views of boards held all around a fisheye camera, 0.1 px of noise."""
+    rng = np.random.default_rng(2)
+    xy = Board(rows=9, cols=12, square=SQUARE).points()
+    views = []
+    while len(views) < 24:
+        azimuth, off = rng.uniform(0, 2 * np.pi), rng.uniform(0, np.deg2rad(80))
+        towards = rotation_from_vector(off * np.array([-np.sin(azimuth), np.cos(azimuth), 0.0]))
+        R = towards @ rotation_from_vector(rng.uniform(-0.5, 0.5, 3))
+        point = (xy - xy.mean(axis=0)) @ R[:, :2].T + towards[:, 2] * rng.uniform(150, 260)
+        uv = pixels_from_rays(point, camera)
+        seen = (np.abs(uv - np.array(camera.size) / 2) < np.array(camera.size) / 2).all(axis=1)
+        off_axis = np.arctan2(np.linalg.norm(point[:, :2], axis=1), point[:, 2])
+        seen &= off_axis < np.deg2rad(95)
+        if seen.sum() > 40:
+            views.append(Observation(uv[seen] + rng.normal(0, 0.1, (seen.sum(), 2)), xy[seen]))
+    return views
+
+
 def main() -> None:
     """Draw all figures and save them."""
     images = find_images([str(RESOURCES / "sample")])
@@ -133,6 +186,7 @@ def main() -> None:
         ),
     }
     pictures["board-shape"] = draw_bent_board()
+    pictures["lens-models"] = draw_lens_models()
     truth = json.loads((RESOURCES / "sample" / "truth.json").read_text())["camera"]
     camera = Camera(size, list(truth["params"].values()))
     pictures["robust"] = draw_misplaced_corners([v.image for v in result.used], views, camera)

@@ -48,10 +48,15 @@ def pytest_ignore_collect(collection_path: Path) -> bool | None:
     return None if is_test else True
 
 
+def find_data_dir() -> Path:
+    """Find the folder of the real image sets, which may not be there."""
+    return Path(os.environ.get("CALIBGUI_DATA", _REPOSITORY.parent / "shared" / "data"))
+
+
 @pytest.fixture(scope="session")
 def data_dir() -> Path:
     """Folder of the real image sets: CALIBGUI_DATA, or shared/data beside the checkout."""
-    folder = Path(os.environ.get("CALIBGUI_DATA", _REPOSITORY.parent / "shared" / "data"))
+    folder = find_data_dir()
     if not folder.is_dir():
         pytest.skip(f"no real image sets: set CALIBGUI_DATA ({folder} does not exist)")
     return folder

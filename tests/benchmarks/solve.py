@@ -53,7 +53,7 @@ from calibgui.engine.calibration.refinement import residuals as residuals_module
 from calibgui.engine.calibration.refinement.levenberg_marquardt import minimise
 from calibgui.engine.calibration.refinement.residuals import State
 from calibgui.engine.calibration.result import Cost
-from calibgui.engine.camera.models import MODELS, parameter_names
+from calibgui.engine.camera.models import find_model, parameter_names
 from calibgui.engine.geometry import rotations
 from calibgui.engine.kernels import common
 from tests.engine.scenes import VGA, brown, looking, seen
@@ -98,9 +98,8 @@ def started(views: list[Observation], model: str) -> tuple[Observations, State]:
     first = register_views(
         *convert_to_paper_frame(observations, scale, VGA, name_views(len(views)))
     )
-    names = parameter_names(model)
-    held: dict[str, float | None] = {"p3": None} if model == "lucchese" else {}
-    start, _ = initialise_stage_two(observations, first, VGA, MODELS[model], names, held)
+    held = dict.fromkeys(find_model(model).held)
+    start, _ = initialise_stage_two(observations, first, VGA, model, held)
     return observations, start
 
 
@@ -129,7 +128,7 @@ def opencv(views: list[Observation], start: State | None = None, deviations: boo
     fx, fy, cx, cy, *lens = start.params
     K = np.array([[fx, 0, cx], [0, fy, cy], [0, 0, 1]])
     flags = cv2.CALIB_USE_INTRINSIC_GUESS
-    return float(run(boards, uv, VGA, K, np.array(lens), flags=flags, criteria=CRITERIA)[0])
+    return float(run(boards, uv, VGA, K, np.array(lens[:5]), flags=flags, criteria=CRITERIA)[0])
 
 
 def mrcal(
@@ -141,7 +140,7 @@ def mrcal(
         np.savez(
             given,
             boards=observations.uv.reshape(-1, BOARD.rows, BOARD.cols, 2),
-            params=start.params,
+            params=start.params[:9],
             poses=np.column_stack([rotations.vector_from_rotation(start.R), start.T]),
             size=np.array(VGA),
             square=BOARD.square,

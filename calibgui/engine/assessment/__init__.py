@@ -1,10 +1,11 @@
 """Assessment of a calibration: residuals, outliers, errors on unseen views, comparison.
 
 `summarise_residuals` states how well the model fits, `check_residuals` whether what is left is
-noise or has a cause; `screen_outliers` leaves wrong corners out, `calibrate_weighted` weighs views
+noise or has a cause, `separate_error_sources` how many pixels lens, board, single views and noise
+contribute; `screen_outliers` leaves wrong corners out, `calibrate_weighted` weighs views
 by their noise; `cross_validate` and `bootstrap_views` measure errors without trusting the model,
-`choose_board_shape` recommends a model of the board by them; `compare_cameras` maps the difference
-of two calibrations over the image.
+`choose_board_shape` and `choose_lens` recommend models of board and lens by them; `compare_cameras`
+maps the difference of two calibrations over the image.
 """
 
 from __future__ import annotations
@@ -19,6 +20,15 @@ from calibgui.engine.assessment.cross_validation import (
     choose_board_shape,
     cross_validate,
 )
+from calibgui.engine.assessment.error_sources import ErrorSources, separate_error_sources
+from calibgui.engine.assessment.lens_choice import (
+    CANDIDATES,
+    SIMPLEST_MODEL,
+    LensChoice,
+    LensTrial,
+    choose_lens,
+    choose_lens_stepwise,
+)
 from calibgui.engine.assessment.noise_test import NoiseCheck, NoiseReport, check_residuals
 from calibgui.engine.assessment.outliers import Rejection, Screening, screen_outliers
 from calibgui.engine.assessment.residual_statistics import (
@@ -32,12 +42,17 @@ from calibgui.engine.assessment.residual_statistics import (
 from calibgui.engine.assessment.view_weights import calibrate_weighted
 
 __all__ = [
+    "CANDIDATES",
+    "SIMPLEST_MODEL",
     "BoardShapeChoice",
     "Bootstrap",
     "CameraDifference",
     "CrossValidation",
+    "ErrorSources",
     "Fold",
     "Histogram",
+    "LensChoice",
+    "LensTrial",
     "NoiseCheck",
     "NoiseReport",
     "Rejection",
@@ -47,11 +62,14 @@ __all__ = [
     "calibrate_weighted",
     "check_residuals",
     "choose_board_shape",
+    "choose_lens",
+    "choose_lens_stepwise",
     "compare_cameras",
     "cross_validate",
     "make_component_histogram",
     "make_length_histogram",
     "screen_outliers",
+    "separate_error_sources",
     "stack_residuals",
     "summarise_residuals",
 ]

@@ -7,9 +7,10 @@ the two closest together over the region of interest,
     min over R, t   sum |project_b(R p + t) - uv|^2,
 
 by Gauss-Newton with the motion's derivatives of ``projection_uncertainty.py``; at infinity a
-rotation alone. What then remains is the difference of the two as cameras (mrcal's
-"projection diff"). It does not measure what a rotation makes up for: the difference of the
-principal points, above all, to which pixels of distant points are almost blind.
+rotation alone. Points that b images an image's side away or farther do not count: towards the limit
+of its angle a model may image them anywhere. What then remains is the difference of the two as
+cameras (mrcal's "projection diff"). It does not measure what a rotation makes up for: the
+difference of the principal points, above all, to which pixels of distant points are almost blind.
 """
 
 from __future__ import annotations
@@ -36,6 +37,9 @@ _MAX_ITERATIONS = 50
 """Number of Gauss-Newton steps beyond which the cameras have too little in common."""
 _MAX_CHANGE_AT_END_PX = 1e-10
 """Change of the root mean square difference that ends the iteration, px."""
+_MAX_RESTLESSNESS = 0.1
+"""Change of the root mean square difference in the last step, relative to it, that is still an
+answer: cameras far apart trade points at the edge of what they see."""
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -135,18 +139,22 @@ def _fit_motion(a: Camera, b: Camera, distance: float, uv: Array) -> tuple[Array
         moved = p @ R.T + t
         seen, _, by_motion = project_moved_points(moved, b)
         miss = seen - uv
-        good = np.isfinite(miss).all(axis=-1)
+        with np.errstate(invalid="ignore"):
+            good = np.linalg.norm(miss, axis=-1) < max(a.size)
         if good.sum() < moving:
             break
         rms = float(np.sqrt(np.mean(miss[good] ** 2)))
-        if abs(last - rms) < _MAX_CHANGE_AT_END_PX:
+        change, last = abs(last - rms), rms
+        if change < _MAX_CHANGE_AT_END_PX:
             return R, t
-        last = rms
         J = by_motion[good][..., :moving].reshape(-1, moving)
         unit = np.linalg.norm(J, axis=0)
         step = -np.linalg.lstsq(J / unit, miss[good].ravel(), rcond=None)[0] / unit
         turn = rotation_from_vector(step[:3])
         R, t = turn @ R, turn @ t + (step[3:] if moving == 6 else 0.0)
+    else:
+        if change < _MAX_RESTLESSNESS * last:
+            return R, t
     raise CalibrationError(
         "The two cameras cannot be brought together: they see too little in common.",
         "Check that both calibrations are of the same camera and lens.",

@@ -43,6 +43,8 @@ _MIN_GAIN_IN_STANDARD_ERRORS = 2.0
 """Mean gain over its standard error above which a richer model is taken."""
 _MIN_RELATIVE_GAIN = 0.01
 """Mean relative gain above which a richer model is taken."""
+_REASON_LENS = "It would stand in for the lens, which the lens model does not follow."
+"""Reason why a board shape is not tried with a lens model that does not fit."""
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -69,13 +71,15 @@ class CrossValidation:
     """One calibration a fold."""
     by_view: Array
     """(K,) RMS length of every view's residuals when it was held out, px."""
+    lengths: Array
+    """(n,) lengths of all corners' residuals when their view was held out, px."""
     training: float
     """RMS length of the residuals of the other views over all folds, px."""
     held_out: float
     """RMS length of the residuals of held-out views over all folds, px."""
 
     def __post_init__(self) -> None:
-        freeze(self, "by_view")
+        freeze(self, "by_view", "lengths")
 
 
 def cross_validate(
@@ -145,6 +149,7 @@ def cross_validate(
     return CrossValidation(
         folds=tuple(done),
         by_view=np.array([residual.rms for residual in complete]),
+        lengths=np.concatenate([np.linalg.norm(view.image, axis=1) for view in complete]),
         training=_compute_rms(trained),
         held_out=_compute_rms(complete),
     )
@@ -183,7 +188,7 @@ class BoardShapeChoice:
     validations: dict[BoardShapeModel, CrossValidation]
     """Cross-validation of every model that the views can carry."""
     refused: dict[BoardShapeModel, str]
-    """Reasons why the other models could not be tried."""
+    """Reasons why the other models could not be tried, or were not."""
     nominal: Calibration
     """Calibration from all views with the board as drawn."""
     chosen: Calibration
@@ -193,6 +198,12 @@ class BoardShapeChoice:
     def recommendation(self) -> str:
         """Sentence that recommends a model, with its figures."""
         before = self.validations[BoardShapeModel.NOMINAL].held_out
+        if (error := self.nominal.lens_error) > 0:
+            return (
+                f"Keep the board as drawn: the lens model {self.nominal.camera.model} leaves "
+                f"{error:.2g} px that it cannot follow, which a board shape would stand in for. "
+                "The lens comes first: choose a model that follows it, and then the board's shape."
+            )
         if self.chosen.board_shape is None:
             return (
                 "Keep the board as drawn: no estimated shape predicts unseen views better than "
@@ -216,6 +227,9 @@ def choose_board_shape(
 ) -> BoardShapeChoice:
     """Try all models of the board's shape on unseen views and recommend one.
 
+    Where the lens model does not follow the lens (``Calibration.lens_error``), a board of another
+    shape predicts unseen views better, too, although the board is true: none is tried then.
+
     Args:
         views, size, folds, settings: as for `cross_validate`, without `board_shape`.
 
@@ -224,8 +238,11 @@ def choose_board_shape(
     """
     validations: dict[BoardShapeModel, CrossValidation] = {}
     refused: dict[BoardShapeModel, str] = {}
-    best = BoardShapeModel.NOMINAL
+    best, nominal = BoardShapeModel.NOMINAL, calibrate(views, size, **settings)
     for model in BoardShapeModel:
+        if model is not best and nominal.lens_error > 0:
+            refused[model] = _REASON_LENS
+            continue
         try:
             validations[model] = cross_validate(views, size, folds, board_shape=model, **settings)
         except CalibrationError as error:
@@ -235,7 +252,6 @@ def choose_board_shape(
             continue
         if model is not best and _is_better(validations[model].by_view, validations[best].by_view):
             best = model
-    nominal = calibrate(views, size, **settings)
     chosen = (
         nominal
         if best is BoardShapeModel.NOMINAL
