@@ -7,7 +7,7 @@ lock, and a thread finishes the file that it is writing when the work is cancell
 from __future__ import annotations
 
 import os
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor, as_completed
 from dataclasses import dataclass
 from pathlib import Path
@@ -22,11 +22,14 @@ from calibgui.engine.errors import CalibrationError
 from calibgui.engine.geometry import Pose
 from calibgui.engine.images import (
     FieldOfView,
+    IdealCamera,
     Pixels,
+    Projection,
     ResampledImage,
+    choose_ideal_cameras,
+    make_ideal_image,
     read_colour,
     rectify_image,
-    undistort_image,
     write_image,
 )
 from calibgui.formats.resampled_json import write_resampled
@@ -41,17 +44,39 @@ class WrittenImage:
     """The outcome for one photograph."""
 
     source: Path
-    path: Path | None
-    """Path of the new image, or None."""
+    paths: Mapping[str, Path]
+    """Paths of the new images by the face of a cube, or of one new image by the name ""; none if
+    there is none."""
     reason: str = ""
     """Reason why there is no new image."""
+
+
+@dataclass(frozen=True, slots=True)
+class Undistortion:
+    """What undistorted images are to show, as for `choose_ideal_cameras`."""
+
+    projection: Projection = Projection.PERSPECTIVE
+    view: FieldOfView = FieldOfView.ALL
+    field_of_view: float | None = None
+    """Angle from the left edge to the right one, radians, in place of `view`."""
+
+    def choose_cameras(self, camera: Camera) -> dict[str, IdealCamera]:
+        """Choose the ideal cameras of the new images.
+
+        Raises:
+            CalibrationError: if there are none, for a reason of `choose_ideal_cameras`.
+        """
+        return choose_ideal_cameras(
+            camera, self.view, projection=self.projection, field_of_view=self.field_of_view
+        )
 
 
 Progress = Callable[[int, int, WrittenImage], None]
 """Function that is called with the number of finished images, of all images, and the last outcome;
 it may raise Cancelled."""
 
-_Change = Callable[[Path, Pixels], ResampledImage]
+_Change = Callable[[Path, Pixels], Mapping[str, ResampledImage]]
+"""Function from a photograph to its new images, named as in `WrittenImage.paths`."""
 _Geometry = tuple[Size, Array]
 """Size and matrix, the same for all new images."""
 
@@ -60,20 +85,30 @@ def undistort_files(
     camera: Camera,
     images: Sequence[Path],
     folder: Path,
-    view: FieldOfView = FieldOfView.ALL,
+    undistortion: Undistortion | None = None,
     progress: Progress | None = None,
 ) -> tuple[WrittenImage, ...]:
-    """Write every image without distortion into `folder`, with the new camera matrix.
+    """Write every image without distortion into `folder`, with the geometry of the new images.
+
+    Args:
+        camera: the camera that took the images.
+        images: to undistort.
+        folder: to write to, created if missing.
+        undistortion: what the new images show, the whole photographs in perspective if None; the
+            faces of a cube are written as NAME_front.png and so on.
+        progress: see `Progress`.
 
     Raises:
-        CalibrationError: if `folder` cannot be used, or two images would have one name in it.
+        CalibrationError: if `folder` cannot be used, two images would have one name in it, or the
+            lens has no such undistorted image.
         Cancelled: from `progress`.
     """
+    ideals = (undistortion or Undistortion()).choose_cameras(camera)
 
-    def change(_: Path, pixels: Pixels) -> ResampledImage:
-        return undistort_image(pixels, camera, view)
+    def change(_: Path, pixels: Pixels) -> Mapping[str, ResampledImage]:
+        return {face: make_ideal_image(pixels, camera, ideal) for face, ideal in ideals.items()}
 
-    return _write_images("undistorted", change, images, folder, progress)
+    return _write_images("undistorted", change, images, folder, progress, ideals)
 
 
 def rectify_files(
@@ -101,14 +136,14 @@ def rectify_files(
     extent = find_shown_extent(result)
     poses = _collect_poses(result)
 
-    def change(path: Path, pixels: Pixels) -> ResampledImage:
+    def change(path: Path, pixels: Pixels) -> Mapping[str, ResampledImage]:
         pose = poses.get(str(path)) or poses.get(path.name)
         if pose is None:
             raise CalibrationError(
                 f"{path} is not one of the calibrated views.",
                 "Calibrate with it, or rectify the images that were calibrated.",
             )
-        return rectify_image(pixels, camera, pose, extent, scale)
+        return {"": rectify_image(pixels, camera, pose, extent, scale)}
 
     return _write_images("rectified", change, images, folder, progress)
 
@@ -127,6 +162,7 @@ def _write_images(
     images: Sequence[Path],
     folder: Path,
     progress: Progress | None,
+    ideals: Mapping[str, IdealCamera] | None = None,
 ) -> tuple[WrittenImage, ...]:
     """Read, `change` and write every image, under its own name, and the geometry file."""
     targets = _choose_paths(images, folder)
@@ -145,21 +181,30 @@ def _write_images(
         executor.shutdown(cancel_futures=True)
     written = tuple(outcomes[path] for path in images)
     if geometry is not None:
-        names = {w.path.name: str(w.source) for w in written if w.path is not None}
-        write_resampled(folder / GEOMETRY_FILE, kind, *geometry, names)
+        names = {path.name: str(w.source) for w in written for path in w.paths.values()}
+        write_resampled(folder / GEOMETRY_FILE, kind, *geometry, names, ideals)
     return written
 
 
 def _write_image(
-    change: _Change, source: Path, board: Path
+    change: _Change, source: Path, target: Path
 ) -> tuple[WrittenImage, _Geometry | None]:
+    """Write the new images of one photograph; a face's name is added to that of `target`."""
     try:
         made = change(source, read_colour(source))
-        write_image(board, cast(Pixels, made.image))  # of the source's type
+        paths = {face: _name_face(target, face) for face in made}
+        for face, path in paths.items():
+            write_image(path, cast(Pixels, made[face].image))  # of the source's type
     except CalibrationError as error:
-        return WrittenImage(source, None, str(error)), None
-    height, width = made.image.shape[:2]
-    return WrittenImage(source, board), ((width, height), made.matrix)
+        return WrittenImage(source, {}, str(error)), None
+    first = next(iter(made.values()))
+    height, width = first.image.shape[:2]
+    return WrittenImage(source, paths), ((width, height), first.matrix)
+
+
+def _name_face(path: Path, face: str) -> Path:
+    """Return the path of a cube's face, or `path` itself for an image that has no faces."""
+    return path.with_stem(f"{path.stem}_{face}") if face else path
 
 
 def _choose_paths(images: Iterable[Path], folder: Path) -> dict[Path, Path]:

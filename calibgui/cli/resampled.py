@@ -24,26 +24,37 @@ def add_output_folder(parser: argparse.ArgumentParser) -> None:
     )
 
 
-def report_written(written: Sequence[WrittenImage], folder: Path, console: Console) -> None:
-    """Print which images were written and which were not.
+def report_written(
+    written: Sequence[WrittenImage], folder: Path, console: Console, shown: str = ""
+) -> None:
+    """Print which images were written and which were not, and what they show of the lens's view.
+
+    The JSON object names one new image by its path, and the faces of a cube by an object.
 
     Raises:
         CalibrationError: if no image was written.
     """
-    failed = [image for image in written if image.path is None]
+    failed = [image for image in written if not image.paths]
     for image in failed:
         console.print_problem(f"calibgui: skipped {image.source}: {image.reason}")
     done = len(written) - len(failed)
     if not done:
         raise CalibrationError("No image was written.", "See the reasons above.")
+    paths = {
+        str(image.source): {face: str(path) for face, path in image.paths.items()}
+        for image in written
+        if image.paths
+    }
     console.print_json(
         {
             "folder": str(folder),
             "geometry": str(folder / GEOMETRY_FILE),
-            "written": {str(image.source): str(image.path) for image in written if image.path},
+            "written": {source: faces.get("", faces) for source, faces in paths.items()},
             "skipped": {str(image.source): image.reason for image in failed},
+            **({"shown": shown} if shown else {}),
         }
     )
-    console.print_text(
-        f"Wrote {format_count(done, 'image')} and their geometry, {GEOMETRY_FILE}, to {folder}."
-    )
+    if shown:
+        console.print_text(shown)
+    count = format_count(sum(map(len, paths.values())), "image")
+    console.print_text(f"Wrote {count} and their geometry, {GEOMETRY_FILE}, to {folder}.")

@@ -3,15 +3,16 @@
 from __future__ import annotations
 
 import argparse
+import math
 from pathlib import Path
 
 from calibgui.app.paths import find_images
-from calibgui.app.resampling import undistort_files
-from calibgui.cli.arguments import add_image_paths
+from calibgui.app.resampling import Undistortion, undistort_files
+from calibgui.cli.arguments import add_image_paths, parse_positive
 from calibgui.cli.console import Console
 from calibgui.cli.resampled import add_output_folder, report_written
 from calibgui.cli.result import read_result_and_warn
-from calibgui.engine.images import FieldOfView
+from calibgui.engine.images import FieldOfView, Projection, describe_lost_angles
 
 
 def configure(parser: argparse.ArgumentParser) -> None:
@@ -20,11 +21,30 @@ def configure(parser: argparse.ArgumentParser) -> None:
     add_image_paths(parser)
     add_output_folder(parser)
     parser.add_argument(
+        "--projection",
+        choices=[projection.value for projection in Projection],
+        default=Projection.PERSPECTIVE.value,
+        help="perspective (default): straight lines stay straight, for less than 180 degrees; "
+        "cylindrical: a panorama whose upright lines stay straight; equirectangular: a map of "
+        "longitude and latitude, for viewers of 360-degree images; stereographic: a wide view in "
+        "which small things keep their shape; cube: perspective images of 90 degrees to all sides, "
+        "NAME_front.png, NAME_left.png and so on",
+    )
+    shown = parser.add_mutually_exclusive_group()
+    shown.add_argument(
         "--view",
         choices=[view.value for view in FieldOfView],
         default=FieldOfView.ALL.value,
         help="show all of the photograph with some border (default), as much as fits without a "
-        "border, or keep the scale in the middle",
+        "border, or keep the scale in the middle; a perspective image of a lens of 180 degrees and "
+        "more shows at most 120 of them",
+    )
+    shown.add_argument(
+        "--fov",
+        type=parse_positive,
+        metavar="DEGREES",
+        help="field of view instead: the angle from the left edge of the new images to the right "
+        "one, in degrees",
     )
 
 
@@ -32,12 +52,18 @@ def run(options: argparse.Namespace, console: Console) -> None:
     """Read, undistort and write."""
     camera = read_result_and_warn(options.result, console).calibration.camera
     images = find_images(options.paths)
+    undistortion = Undistortion(
+        Projection(options.projection),
+        FieldOfView(options.view),
+        None if options.fov is None else math.radians(options.fov),
+    )
+    shown = describe_lost_angles(camera, undistortion.choose_cameras(camera))
     with console.show_progress("undistorting") as advance:
         written = undistort_files(
             camera,
             images,
             options.output,
-            FieldOfView(options.view),
+            undistortion,
             progress=lambda done, total, _: advance(done, total),
         )
-    report_written(written, options.output, console)
+    report_written(written, options.output, console, shown)

@@ -3,9 +3,13 @@
 To add an exporter, write a module with a function (result, path) -> ExportReport that writes
 through ``engine.files.write_atomically``, describe it in a constant `EXPORTER`, and list the module
 below: command line and window take it from there. `Exporter.models` names the lens models that the
-format holds; ``camera_refit.write_in_models`` writes these as calibrated, refits others and refuses
-a refit that cannot follow the lens. The exporter is complete when a test reads the file with the
-program that it is for and projects the same points to the same pixels.
+format holds; ``camera_refit.write_in_models`` writes these as calibrated, refits others in
+`Exporter.refits` and refuses a refit that cannot follow the lens. The exporter is complete when a
+test reads the file with the program that it is for and projects the same points to the same pixels.
+
+A format whose cameras are read, too, has a function (CameraText) -> ImportedCamera and a constant
+`IMPORTER` in the same module, which is listed in ``camera_import``; `read_camera` finds the format
+of a file by its content.
 """
 
 from __future__ import annotations
@@ -16,17 +20,22 @@ from pathlib import Path
 from calibgui.dataset import Result
 from calibgui.engine.errors import CalibrationError
 from calibgui.formats import (
+    basalt_json,
     colmap_cameras,
     corners_csv,
     corners_json,
     engine_python,
+    kalibr_camchain,
+    matlab_script,
     mrcal_model,
     opencv_file,
     opencv_python,
     result_json,
     ros_yaml,
 )
+from calibgui.formats.camera_import import IMPORTERS, read_camera
 from calibgui.formats.exporter import Exporter, ExportReport
+from calibgui.formats.importer import ImportedCamera, Importer
 
 EXPORTERS: dict[str, Exporter] = {
     module.EXPORTER.name: module.EXPORTER
@@ -34,8 +43,11 @@ EXPORTERS: dict[str, Exporter] = {
         result_json,
         opencv_file,
         ros_yaml,
+        kalibr_camchain,
         mrcal_model,
         colmap_cameras,
+        matlab_script,
+        basalt_json,
         engine_python,
         opencv_python,
         corners_json,
@@ -83,4 +95,15 @@ def find_exporter(name: str, path: str | os.PathLike[str]) -> Exporter:
     return exporter
 
 
-__all__ = ["EXPORTERS", "ExportReport", "Exporter", "Result", "export", "find_exporter"]
+__all__ = [
+    "EXPORTERS",
+    "IMPORTERS",
+    "ExportReport",
+    "Exporter",
+    "ImportedCamera",
+    "Importer",
+    "Result",
+    "export",
+    "find_exporter",
+    "read_camera",
+]

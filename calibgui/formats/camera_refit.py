@@ -2,15 +2,16 @@
 
 The paper corrects measured points, most programs distort ideal ones, and the coefficients of one
 model do not express the other. A format names the lens models that it holds. A camera of one of
-these is written as calibrated; any other is refitted to the same corners
-(``engine.calibration.refit``). How far the refitted camera is from the calibrated one is stated in
-the file itself, and a file is not written if the error would spoil measurements.
+these is written as calibrated, unless it has a skew that the format cannot hold; any other is
+refitted to the same corners (``engine.calibration.refit``). How far the refitted camera is from the
+calibrated one is stated in the file itself, and a file is not written if the error would spoil
+measurements.
 """
 
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
@@ -21,18 +22,21 @@ from calibgui.engine.calibration import Calibration, Refit, refit
 from calibgui.engine.camera import Camera, find_model, pixels_from_rays, rays_from_pixels
 from calibgui.engine.errors import CalibrationError
 from calibgui.engine.files import write_atomically
-from calibgui.formats.exporter import ExportReport
+from calibgui.formats.exporter import Exporter, ExportReport
 
-FORWARD_MODELS = ("brown-conrady",)
-"""Names of the lens models of formats whose coefficients are k1 k2 p1 p2 k3."""
 MAX_REFIT_ERROR = 2.0
 """Error of a refitted camera where corners were seen, px, from which on no file is written."""
+_MAX_NAMES = 20
+"""Number of coefficients, at most, whose names a note lists: a splined model has hundreds."""
+SUFFICIENT_REFIT_ERROR = 0.3
+"""Error of a refitted camera where corners were seen, px, below which no other model is tried: a
+single corner is seldom found more exactly."""
 
 
 def write_in_models(
     result: Result,
     path: Path,
-    models: Sequence[str],
+    exporter: Exporter,
     make_text: Callable[[Calibration, str], str],
 ) -> ExportReport:
     """Write a camera in one of the lens models that a format holds.
@@ -40,30 +44,60 @@ def write_in_models(
     Args:
         result: the calibration to write.
         path: the file.
-        models: names of the lens models that the format holds; the first one is refitted to a
-            camera of any other.
+        exporter: the format.
         make_text: function that turns the calibration in such a model, and the note on its refit,
             into the content of the file.
 
     Raises:
-        CalibrationError: if the model cannot follow the lens, or the file cannot be written.
+        CalibrationError: if none of the models can follow the lens, or the file cannot be written.
     """
-    expressed = express_in_models(result, models)
+    expressed = express_in_format(result, exporter)
     check_refit(result, expressed, path)
     note = describe_refit(result, expressed)
     write_atomically(path, make_text(expressed.calibration, note).encode())
     return ExportReport(path, note, expressed.largest_error)
 
 
-def express_in_models(result: Result, models: Sequence[str] = FORWARD_MODELS) -> Refit:
-    """Return the calibration itself if it is in one of `models`, else a refit in the first of them.
+def express_in_format(result: Result, exporter: Exporter) -> Refit:
+    """Return the calibration itself if the format holds its camera, else a refit.
+
+    Of the models in which the format has cameras refitted it is the first that has an image of
+    every ray of the original, and an error below `SUFFICIENT_REFIT_ERROR` where corners were seen.
+    If there is none, those are preferred that follow the lens where corners were seen, of these
+    those that have an image of every ray, and of these the one of the least error. So a lens of 120
+    degrees is refitted in a fisheye model although Brown's may just follow it, and so is one
+    whose corners of the image look sideways although the board was seen in the middle only.
 
     Raises:
-        CalibrationError: as ``engine.calibrate``.
+        CalibrationError: as ``engine.calibrate``, if that fails in all of these models.
     """
-    if result.calibration.camera.model in models:
+    if exporter.holds(result.calibration.camera):
         return Refit(result.calibration, 0.0, 0.0)
-    return refit(result.observations(), result.calibration, models[0])
+    refits: list[tuple[tuple[bool, bool, float], Refit]] = []
+    failures: list[CalibrationError] = []
+    for model in exporter.refits:
+        try:
+            fitted = refit(result.observations(), result.calibration, model)
+        except CalibrationError as error:
+            failures.append(error)
+            continue
+        whole = _has_image_of_every_ray(result.calibration.camera, fitted.calibration.camera)
+        if fitted.covered_error < SUFFICIENT_REFIT_ERROR and whole:
+            return fitted
+        error_px = fitted.covered_error if math.isfinite(fitted.covered_error) else math.inf
+        refits.append(((error_px >= MAX_REFIT_ERROR, not whole, error_px), fitted))
+    if not refits:
+        raise failures[0]
+    return min(refits, key=lambda ranked: ranked[0])[1]
+
+
+def _has_image_of_every_ray(original: Camera, fitted: Camera) -> bool:
+    """Return whether `fitted` images the rays of all pixels that have one under `original`."""
+    width, height = original.size
+    u, v = np.meshgrid(np.linspace(0, width - 1, 32), np.linspace(0, height - 1, 32))
+    rays = rays_from_pixels(np.stack([u, v], axis=-1), original)
+    imaged = pixels_from_rays(rays[np.isfinite(rays).all(axis=-1)], fitted)
+    return bool(np.isfinite(imaged).all())
 
 
 def check_refit(result: Result, expressed: Refit, path: Path) -> None:
@@ -82,10 +116,10 @@ def check_refit(result: Result, expressed: Refit, path: Path) -> None:
     u, v = corners[worst]
     size = f"is {error[worst]:.3g} px off" if math.isfinite(error[worst]) else "has no image"
     raise CalibrationError(
-        f"{path} is not written: the format holds the lens model {find_model(model).title}, which "
-        f"cannot follow this lens. The refitted camera {size} at the corner seen at ({u:.0f}, "
-        f"{v:.0f}) px; {np.mean(~(error < MAX_REFIT_ERROR)):.0%} of the corners are off by "
-        f"{MAX_REFIT_ERROR:g} px or more.",
+        f"{path} is not written: the lens model {find_model(model).title}, the nearest that the "
+        f"format holds, cannot follow this lens. The refitted camera {size} at the corner seen at "
+        f"({u:.0f}, {v:.0f}) px; {np.mean(~(error < MAX_REFIT_ERROR)):.0%} of the corners are off "
+        f"by {MAX_REFIT_ERROR:g} px or more.",
         "Export the camera as calibrated with the format 'result' or 'python', or write "
         f"undistorted images. Calibrating with --model {model} shows whether that model fits.",
     )
@@ -112,7 +146,12 @@ def describe_refit(result: Result, expressed: Refit) -> str:
     The text has no apostrophes: OpenCV writes them into JSON in a way that only OpenCV reads.
     """
     camera = expressed.calibration.camera
-    model = f"{find_model(camera.model).title}, {' '.join(camera.names[4:])}"
+    model = find_model(camera.model).title
+    stated = dict(zip(camera.names[4:], camera.coefficients.tolist(), strict=True))
+    if stated.get("skew") == 0.0:  # hardly any format has an entry for it
+        del stated["skew"]
+    if 0 < len(stated) <= _MAX_NAMES:
+        model += f", {' '.join(stated)}"
     if expressed.calibration is result.calibration:
         return f"Lens model {model}, as calibrated."
     whole = (

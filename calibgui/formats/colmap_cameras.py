@@ -1,33 +1,71 @@
-"""COLMAP's cameras.txt, with the camera FULL_OPENCV.
+"""COLMAP's cameras.txt, with one camera.
 
-Reader: COLMAP and pycolmap, which take it for the first camera of a sparse model. Pixels of COLMAP
-have whole numbers at their corners: the principal point is half a pixel more than OpenCV's.
-FULL_OPENCV's coefficients are k1 k2 p1 p2 k3 k4 k5 k6, of which the last three are 0.
-Cannot hold: other lens models (they are refitted), standard deviations, poses, corners.
+Reader: COLMAP and pycolmap, which take it for the first camera of a sparse model, and
+`read_colmap`. Pixels of COLMAP have whole numbers at their corners: the principal point is half a
+pixel more than OpenCV's. Each of COLMAP's models lists its parameters in an order of its own. A
+camera of five coefficients is written as FULL_OPENCV, whose other three are 0; decentering on a
+fisheye as THIN_PRISM_FISHEYE, whose thin prism is 0.
+Cannot hold: other lens models and skew (they are refitted), standard deviations, poses, corners.
 """
 
 from __future__ import annotations
 
+import re
 from pathlib import Path
 
 from calibgui.dataset import Result
 from calibgui.engine.camera import Camera
 from calibgui.engine.geometry import corner_from_array
-from calibgui.formats.camera_refit import FORWARD_MODELS, write_in_models
+from calibgui.formats.camera_refit import write_in_models
 from calibgui.formats.exporter import Exporter, ExportReport
+from calibgui.formats.importer import CameraText, ImportedCamera, Importer
+
+_FOCALS = "fx fy cx cy"
+_READABLE = {
+    "SIMPLE_PINHOLE": ("pinhole", "f cx cy"),
+    "PINHOLE": ("pinhole", _FOCALS),
+    "SIMPLE_RADIAL": ("brown-conrady-4", "f cx cy k1"),
+    "RADIAL": ("brown-conrady-4", "f cx cy k1 k2"),
+    "OPENCV": ("brown-conrady-4", f"{_FOCALS} k1 k2 p1 p2"),
+    "FULL_OPENCV": ("rational", f"{_FOCALS} k1 k2 p1 p2 k3 k4 k5 k6"),
+    "SIMPLE_FISHEYE": ("kannala-brandt", "f cx cy"),
+    "FISHEYE": ("kannala-brandt", _FOCALS),
+    "SIMPLE_RADIAL_FISHEYE": ("kannala-brandt", "f cx cy k1"),
+    "RADIAL_FISHEYE": ("kannala-brandt", "f cx cy k1 k2"),
+    "OPENCV_FISHEYE": ("kannala-brandt", f"{_FOCALS} k1 k2 k3 k4"),
+    "THIN_PRISM_FISHEYE": ("kannala-brandt-decentering", f"{_FOCALS} k1 k2 p1 p2 k3 k4 sx1 sy1"),
+    "SIMPLE_DIVISION": ("division", "f cx cy k1"),
+    "DIVISION": ("division", f"{_FOCALS} k1"),
+    "EUCM": ("eucm", f"{_FOCALS} alpha beta"),
+}
+"""COLMAP's models: our id, and the names of the parameters in COLMAP's order; f is fx and fy."""
+_WRITTEN = {
+    "brown-conrady": "FULL_OPENCV",
+    "brown-conrady-4": "OPENCV",
+    "pinhole": "PINHOLE",
+    "rational": "FULL_OPENCV",
+    "kannala-brandt": "OPENCV_FISHEYE",
+    "kannala-brandt-decentering": "THIN_PRISM_FISHEYE",
+    "division": "DIVISION",
+    "ucm": "EUCM",
+    "eucm": "EUCM",
+}
+"""COLMAP's models that cameras of ours are written in."""
 
 
 def write_colmap(result: Result, path: Path) -> ExportReport:
     """Write a cameras.txt with one camera."""
     return write_in_models(
-        result, path, EXPORTER.models, lambda fitted, note: format_cameras(fitted.camera, note)
+        result, path, EXPORTER, lambda fitted, note: format_cameras(fitted.camera, note)
     )
 
 
 def format_cameras(camera: Camera, note: str) -> str:
-    """Return the text of the file; `camera` is in one of `FORWARD_MODELS`."""
-    values = [*camera.focal, *corner_from_array(camera.centre), *camera.coefficients]
-    numbers = " ".join(repr(float(value)) for value in [*values, 0.0, 0.0, 0.0])
+    """Return the text of the file; `camera` is in one of the format's models."""
+    model = _WRITTEN[camera.model]
+    values = {"beta": 1.0} | dict(zip(camera.names, camera.params.tolist(), strict=True))
+    values["cx"], values["cy"] = corner_from_array(camera.centre).tolist()
+    numbers = " ".join(repr(values.get(name, 0.0)) for name in _READABLE[model][1].split())
     width, height = camera.size
     return (
         f"# {note}\n"
@@ -35,15 +73,57 @@ def format_cameras(camera: Camera, note: str) -> str:
         "# Camera list with one line of data per camera:\n"
         "#   CAMERA_ID, MODEL, WIDTH, HEIGHT, PARAMS[]\n"
         "# Number of cameras: 1\n"
-        f"1 FULL_OPENCV {width} {height} {numbers}\n"
+        f"1 {model} {width} {height} {numbers}\n"
     )
+
+
+def read_colmap(source: CameraText) -> ImportedCamera:
+    """Read a camera of a cameras.txt; its name is its number there.
+
+    Raises:
+        CalibrationError: if a line is none of a camera, several cameras are there and none is
+            chosen, or the lens model is none of ours.
+    """
+    lines = [line.split() for line in source.text.splitlines()]
+    cameras = {words[0]: words[1:] for words in lines if words and not words[0].startswith("#")}
+    name, words = source.choose_camera(cameras)
+    if len(words) < 3:
+        source.fail(f"has an incomplete line for camera {name}.")
+    if words[0] not in _READABLE:
+        source.refuse_model(words[0], list(_READABLE))
+    model, listed = _READABLE[words[0]]
+    names = listed.split()
+    try:
+        width, height = map(int, words[1:3])
+        numbers = [float(word) for word in words[3:]]
+    except ValueError as error:
+        source.fail(f"has a line for camera {name} that holds more than numbers: {error}.")
+    if len(numbers) != len(names):
+        source.fail(f"has {len(numbers)} parameters for camera {name}; {words[0]} has {listed}.")
+    values = dict(zip(names, numbers, strict=True))
+    if "f" in values:
+        values["fx"] = values["fy"] = values.pop("f")
+    values["cx"], values["cy"] = values["cx"] - 0.5, values["cy"] - 0.5
+    if any(values.pop(term, 0.0) != 0 for term in ("sx1", "sy1")):
+        source.refuse_model(words[0], list(_READABLE), "its thin prism (sx1, sy1) is not 0")
+    camera = source.make_camera(source.choose_size((width, height)), model, values)
+    notes = (f"Camera {name} of {len(cameras)}.",) if len(cameras) > 1 else ()
+    return ImportedCamera(camera, EXPORTER.title, notes=notes)
 
 
 EXPORTER = Exporter(
     name="colmap",
     title="COLMAP cameras.txt",
     suffixes=(".txt",),
-    models=FORWARD_MODELS,
-    limits="Forward distortion model (FULL_OPENCV) refitted; no standard deviations, no poses.",
+    models=tuple(_WRITTEN),
+    refits=("brown-conrady", "kannala-brandt-decentering"),
+    limits="OpenCV's forward and fisheye models, division or EUCM, other lenses refitted; no "
+    "standard deviations, no poses.",
     write=write_colmap,
+)
+IMPORTER = Importer(
+    EXPORTER.title,
+    re.compile(r"^[ \t]*\d+[ \t]+[A-Z][A-Z_]+[ \t]+\d+[ \t]+\d+[ \t]", re.MULTILINE),
+    read_colmap,
+    several=True,
 )

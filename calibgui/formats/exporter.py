@@ -7,9 +7,13 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from calibgui.dataset import Result
+from calibgui.engine.camera import Camera, SplinedStereographic, find_model
 
 FRAME = "Pixels count from 0 at the centre of the first pixel, u right, v down."
 """The sentence with which a file in the array frame states its convention."""
+
+SPLINED = "splined-stereographic"
+"""The id that stands for the splined models of any size in `Exporter.models`."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -35,11 +39,23 @@ class Exporter:
     suffixes: tuple[str, ...]
     """Suffixes of its files, the usual one first."""
     models: tuple[str, ...]
-    """Names of the lens models that it holds as calibrated. A camera of another model is refitted
-    in the first of them, and not written if that cannot follow the lens."""
+    """Names of the lens models that it holds as calibrated."""
     limits: str
     """Conventions, what is refitted and what the format cannot hold."""
     write: Callable[[Result, Path], ExportReport]
     """Function that writes a file; it raises CalibrationError if it cannot."""
+    refits: tuple[str, ...] = ()
+    """Names of the models in which cameras of other models are refitted, the simplest first; a
+    camera that none of them follows is not written. Empty if nothing is ever refitted."""
+    holds_skew: bool = False
+    """True if the format holds the skew of those models that have one."""
     partial: bool = False
     """True if the format states what was assumed of a camera, or holds no camera."""
+
+    def holds(self, camera: Camera) -> bool:
+        """Return whether a file of this format holds the camera as calibrated."""
+        named = dict(zip(camera.names, camera.params.tolist(), strict=True))
+        if named.get("skew", 0.0) != 0 and not self.holds_skew:
+            return False
+        splined = isinstance(find_model(camera.model), SplinedStereographic)
+        return camera.model in self.models or (splined and SPLINED in self.models)

@@ -262,12 +262,28 @@ def read_json(path: str | os.PathLike[str]) -> Node:
     file = os.fspath(path)
     try:
         text = Path(path).read_text(encoding="utf-8-sig")
-        # Other threads can run between objects, but not within the parser.
-        return Node(json.loads(text, object_hook=_convert_tables), "", file)
     except OSError as error:
         raise CalibrationError(
             f"{file} cannot be read: {error.strerror or error}.", "Check its name and permissions."
         ) from error
+    except UnicodeDecodeError as error:
+        raise _make_error(file, "it is not text in UTF-8") from error
+    return parse_json(text, file)
+
+
+def parse_json(text: str, file: str) -> Node:
+    """Return the content of a JSON text.
+
+    Args:
+        text: the text.
+        file: name of its file, for messages.
+
+    Raises:
+        CalibrationError: if it is cut short or is not JSON.
+    """
+    try:
+        # Other threads can run between objects, but not within the parser.
+        return Node(json.loads(text, object_hook=_convert_tables), "", file)
     except json.JSONDecodeError as error:
         rest = error.doc[error.pos :]
         if _CUT_OFF.fullmatch(rest) or error.msg.startswith("Unterminated string"):
@@ -275,8 +291,6 @@ def read_json(path: str | os.PathLike[str]) -> Node:
                 f"{file} is cut short in line {error.lineno}.", "Copy or write it again."
             ) from error
         raise _make_error(file, f"{error.msg} in line {error.lineno}") from error
-    except UnicodeDecodeError as error:
-        raise _make_error(file, "it is not text in UTF-8") from error
     except (ValueError, RecursionError) as error:
         raise _make_error(file, "it holds an endless number or nests too deeply") from error
 

@@ -1,14 +1,21 @@
-"""mrcal's camera model, with the lens LENSMODEL_OPENCV5.
+"""mrcal's camera model.
 
-Reader: mrcal 2, its command-line tools and its Python module; the newer key `rt_cam_ref` is
-written beside the older `extrinsics`. Pixels are OpenCV's (0-based, integer at pixel centres),
-and so are the five coefficients. The camera is its own reference. `valid_intrinsics_region` is
-the convex hull of the corners that were seen, beyond which a refit extrapolates.
-Cannot hold: other lens models (they are refitted), standard deviations, poses, corners.
+Reader: mrcal 2, its command-line tools and its Python module, and `read_mrcal`; the newer key
+`rt_cam_ref` is written beside the older `extrinsics`. Pixels are OpenCV's (0-based, integer at
+pixel centres), and so are the coefficients of LENSMODEL_OPENCV4, 5, 8 and 12; a splined model is
+that of mrcal, its control points row by row, x before y. The camera is its own reference.
+`valid_intrinsics_region` is the convex hull of the corners that were seen, beyond which a refit
+extrapolates.
+Cannot hold: other lens models and skew (they are refitted), standard deviations, poses, corners.
+
+A file of mrcal may hold the data of its calibration (`optimization_inputs`), from which mrcal
+computes covariances; it holds none of them itself, and the data are not read.
 """
 
 from __future__ import annotations
 
+import ast
+import re
 from pathlib import Path
 
 import numpy as np
@@ -16,9 +23,29 @@ import scipy
 
 from calibgui.dataset import Result
 from calibgui.engine.arrays import Array
-from calibgui.engine.camera import Camera
-from calibgui.formats.camera_refit import FORWARD_MODELS, write_in_models
-from calibgui.formats.exporter import FRAME, Exporter, ExportReport
+from calibgui.engine.camera import Camera, SplinedStereographic, find_model
+from calibgui.formats.camera_refit import write_in_models
+from calibgui.formats.exporter import FRAME, SPLINED, Exporter, ExportReport
+from calibgui.formats.importer import CameraText, ImportedCamera, Importer
+from calibgui.formats.json_document import Node
+from calibgui.formats.opencv_lens import list_coefficients
+
+_LENS_MODELS = {
+    "brown-conrady": "LENSMODEL_OPENCV5",
+    "brown-conrady-4": "LENSMODEL_OPENCV4",
+    "pinhole": "LENSMODEL_PINHOLE",
+    "rational": "LENSMODEL_OPENCV8",
+    "thin-prism": "LENSMODEL_OPENCV12",
+}
+"""mrcal's names of our models, but for the splined ones."""
+_READABLE = {name: model for model, name in _LENS_MODELS.items()}
+_SPLINED_NAME = re.compile(
+    r"LENSMODEL_SPLINED_STEREOGRAPHIC_order=(\d+)_Nx=(\d+)_Ny=(\d+)_fov_x_deg=(\d+)"
+)
+_CALIBRATION_DATA = re.compile(r"""["']optimization_inputs["']\s*:\s*b(["'])[^"'\\]*\1\s*,?""")
+"""The data of the calibration: megabytes in one word, which may stand in the file."""
+_MAX_LENGTH = 1 << 20
+"""Length of the longest model without such data, characters; 3000 control points take a tenth."""
 
 
 def write_mrcal(result: Result, path: Path) -> ExportReport:
@@ -28,7 +55,7 @@ def write_mrcal(result: Result, path: Path) -> ExportReport:
     return write_in_models(
         result,
         path,
-        EXPORTER.models,
+        EXPORTER,
         lambda fitted, note: format_camera_model(fitted.camera, hull, note),
     )
 
@@ -37,18 +64,28 @@ def format_camera_model(camera: Camera, region: Array, note: str) -> str:
     """Return the text of the file.
 
     Args:
-        camera: in one of `FORWARD_MODELS`.
+        camera: in one of the format's models.
         region: (n, 2) px, an open contour.
         note: on the refit.
     """
     contour = [*region.tolist(), region[0].tolist()]
+    lens = find_model(camera.model)
+    if isinstance(lens, SplinedStereographic):
+        name = f"LENSMODEL_SPLINED_STEREOGRAPHIC_order=3_Nx={lens.Nx}_Ny={lens.Ny}"
+        name += f"_fov_x_deg={lens.fov}"
+        listed, intrinsics = "x, y of the control points, row by row", camera.params.tolist()
+    else:
+        name = _LENS_MODELS[camera.model]
+        coefficients = [] if camera.model == "pinhole" else list_coefficients(camera).tolist()
+        intrinsics = [*camera.params[:4].tolist(), *coefficients]
+        listed = ", ".join(camera.names[4 : len(intrinsics)])
     return f"""\
 # {note}
 # {FRAME}
 {{
-    'lensmodel': 'LENSMODEL_OPENCV5',
-    # fx, fy, cx, cy, k1, k2, p1, p2, k3
-    'intrinsics': {camera.params.tolist()},
+    'lensmodel': '{name}',
+    # fx, fy, cx, cy{listed and f", {listed}"}
+    'intrinsics': {intrinsics},
     'valid_intrinsics_region': {contour},
     'extrinsics': {[0.0] * 6},
     'rt_cam_ref': {[0.0] * 6},
@@ -57,11 +94,67 @@ def format_camera_model(camera: Camera, region: Array, note: str) -> str:
 """
 
 
+def read_mrcal(source: CameraText) -> ImportedCamera:
+    """Read a .cameramodel file; the camera's pose and the valid region are left out.
+
+    Raises:
+        CalibrationError: if something is missing or wrong, or the lens model is none of ours.
+    """
+    content = _parse(source)
+    stated = content["lensmodel"].text()
+    model, defaults = _find_model(source, stated)
+    numbers = content["intrinsics"].numbers(None).tolist()
+    names = [name for name in source.list_parameters(model) if name not in ("skew", *defaults)]
+    if len(numbers) != len(names):
+        content["intrinsics"].fail(f"the {len(names)} numbers of {stated}")
+    width, height = content["imagersize"].integers(2).tolist()
+    values = defaults | dict(zip(names, numbers, strict=True))
+    camera = source.make_camera(source.choose_size((width, height)), model, values)
+    return ImportedCamera(camera, EXPORTER.title)
+
+
+def _parse(source: CameraText) -> Node:
+    """Return the object that the file describes, in the syntax of Python."""
+    text = _CALIBRATION_DATA.sub("", source.text)
+    if len(text) > _MAX_LENGTH:
+        source.fail("is too long for a camera model of mrcal.", "Choose another file.")
+    try:
+        content = ast.literal_eval(text.strip())
+    except (SyntaxError, ValueError, TypeError, MemoryError, RecursionError) as error:
+        line = getattr(error, "lineno", None)
+        source.fail(f"is not a camera model of mrcal{f': see line {line}' if line else ''}.")
+    if not isinstance(content, dict):
+        source.fail("is not a camera model of mrcal.", "Choose another file.")
+    # Tuples are lists to mrcal.
+    return Node(
+        {k: list(v) if isinstance(v, tuple) else v for k, v in content.items()}, "", source.file
+    )
+
+
+def _find_model(source: CameraText, name: str) -> tuple[str, dict[str, float]]:
+    """Return our id of a model of mrcal's, and the coefficients that its name implies."""
+    if name in _READABLE:
+        return _READABLE[name], {}
+    if name == "LENSMODEL_STEREOGRAPHIC":
+        return "ucm", {"alpha": 0.5}
+    readable = [*_READABLE, "LENSMODEL_STEREOGRAPHIC", "LENSMODEL_SPLINED_STEREOGRAPHIC of order 3"]
+    splined = _SPLINED_NAME.fullmatch(name)
+    if splined is None:
+        source.refuse_model(name, readable)
+    order, Nx, Ny, fov = map(int, splined.groups())
+    if order != 3:
+        source.refuse_model(name, readable, f"its splines are of order {order}")
+    return f"{SPLINED}-{Nx}x{Ny}-{fov}", {}
+
+
 EXPORTER = Exporter(
     name="mrcal",
     title="mrcal camera model",
     suffixes=(".cameramodel",),
-    models=FORWARD_MODELS,
-    limits="Forward distortion model (OPENCV5) refitted; no standard deviations, no poses.",
+    models=(*_LENS_MODELS, SPLINED),
+    refits=("brown-conrady", "rational"),
+    limits="OPENCV4, 5, 8 or 12 or a splined model, other lenses refitted; no standard deviations, "
+    "no poses.",
     write=write_mrcal,
 )
+IMPORTER = Importer(EXPORTER.title, re.compile(r"""["']lensmodel["']\s*:"""), read_mrcal)

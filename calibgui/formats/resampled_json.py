@@ -1,11 +1,24 @@
 """resampled.json: the geometry of undistorted or rectified images, written beside them.
 
     {"kind": "undistorted" | "rectified", "size": [w, h], "matrix": 3 x 3,
-     "images": {"name of the new image": "image that it was made from", ...}}
+     "images": {"name of the new image": "image that it was made from", ...},
+     "projection": "perspective" | "cylindrical" | "equirectangular" | "stereographic" | "cube",
+     "rotations": {"front": 3 x 3, "left": 3 x 3, ...}}
 
 Reader: any JSON reader. Pixels are in the array frame (0-based, integer at pixel centres, v
-down). `matrix` is the pinhole camera matrix of undistorted images, which have no distortion
-left, or takes points (X, Y, 1) mm of the board to pixels of rectified ones.
+down). The `matrix` of rectified images takes points (X, Y, 1) mm of the board to pixels. That of
+undistorted ones has the focal lengths and the centre of the ideal camera that would have taken
+them. With x = (u - cx) / fx and y = (v - cy) / fy, a pixel looks along the ray (X, Y, Z), X to the
+right, Y down, Z along the axis of the real camera:
+
+    perspective       (x, y, 1)
+    cylindrical       (sin x, y, cos x)
+    equirectangular   (cos y sin x, sin y, cos y cos x)
+    stereographic     (x, y, 1 - (x^2 + y^2) / 4)
+    cube              R (x, y, 1) with the `rotations` R of the face
+
+`projection` stands beside undistorted images only, `rotations` beside a cube only, where the new
+images are named after their face: NAME_front.png and so on.
 Cannot hold: the camera that took the images (see ``result_json.py``).
 """
 
@@ -15,15 +28,34 @@ import os
 from collections.abc import Mapping
 
 from calibgui.engine.arrays import Array, Size
+from calibgui.engine.images import IdealCamera, Projection
 from calibgui.formats.json_document import write_json
 
 
 def write_resampled(
-    path: str | os.PathLike[str], kind: str, size: Size, matrix: Array, images: Mapping[str, str]
+    path: str | os.PathLike[str],
+    kind: str,
+    size: Size,
+    matrix: Array,
+    images: Mapping[str, str],
+    ideals: Mapping[str, IdealCamera] | None = None,
 ) -> None:
     """Write resampled.json.
+
+    Args:
+        path: of the file.
+        kind: "undistorted" or "rectified".
+        size, matrix: of all new images.
+        images: names of the new images, with the images that they were made from.
+        ideals: the ideal cameras of undistorted images, as `choose_ideal_cameras` returns them.
 
     Raises:
         CalibrationError: if the file cannot be written.
     """
-    write_json(path, {"kind": kind, "size": size, "matrix": matrix, "images": images})
+    content: dict[str, object] = {"kind": kind, "size": size, "matrix": matrix, "images": images}
+    if ideals is not None and "" in ideals:
+        content["projection"] = str(ideals[""].projection)
+    elif ideals is not None:
+        content["projection"] = str(Projection.CUBE)
+        content["rotations"] = {face: ideal.rotation for face, ideal in ideals.items()}
+    write_json(path, content)

@@ -9,6 +9,8 @@ standard deviation includes their errors. Unused views have null poses.
 `covariance.matrix` and a view's `pose_covariance` (of rvec, tvec) complete the standard deviations.
 Cannot hold: the images; settings other than JSON's types.
 
+Files of older versions lack coefficients that their lens models have by now and hold by default.
+
 A change that old programs could misread takes a new version: raise `VERSION`, write a schema
 beside the old one, and turn the old record into the new one in `read_result`.
 """
@@ -16,7 +18,8 @@ beside the old one, and turn the old record into the new one in `read_result`.
 from __future__ import annotations
 
 import os
-from collections.abc import Sequence
+import re
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -34,7 +37,14 @@ from calibgui.engine.calibration import (
     Undetermined,
     make_paper_table,
 )
-from calibgui.engine.camera import MODELS, Camera, Lucchese, parameter_names, resolve_model_id
+from calibgui.engine.camera import (
+    MODELS,
+    Camera,
+    Lucchese,
+    find_model,
+    parameter_names,
+    resolve_model_id,
+)
 from calibgui.engine.errors import CalibrationError
 from calibgui.engine.geometry import PAPER_NAMES
 from calibgui.formats.board_shape_json import decode_board_shape, decode_prior, encode_board_shape
@@ -50,7 +60,8 @@ from calibgui.formats.estimates_json import (
     encode_stage_one,
 )
 from calibgui.formats.exporter import Exporter, ExportReport
-from calibgui.formats.json_document import Node, check_format, read_json, write_json
+from calibgui.formats.importer import CameraText, ImportedCamera, Importer
+from calibgui.formats.json_document import Node, check_format, parse_json, read_json, write_json
 from calibgui.formats.pattern_json import decode_board, encode_board
 from calibgui.formats.views_json import decode_views, encode_view
 
@@ -112,6 +123,7 @@ def encode_result(result: Result) -> dict[str, Any]:
         if calibration.board_shape is None
         else encode_board_shape(calibration.board_shape),
         "plate_doubt_mm": calibration.board_shape_error,
+        "lens_error_px": calibration.lens_error,
         "view_scatter": calibration.overdispersion,
         "stage_one": encode_stage_one(result),
         "history": [{k: getattr(i, k) for k in _ITERATION_KEYS} for i in calibration.history],
@@ -121,7 +133,7 @@ def encode_result(result: Result) -> dict[str, Any]:
 
 def _encode_paper_parameters(calibration: Calibration) -> dict[str, Any] | None:
     """Return the ten intrinsics of Table 2; None for a lens model that has others."""
-    if not isinstance(MODELS[calibration.camera.model], Lucchese):
+    if not isinstance(find_model(calibration.camera.model), Lucchese):
         return None
     values, sigma, printed = (
         dict(zip(PAPER_NAMES, column, strict=True)) for column in make_paper_table(calibration)
@@ -150,6 +162,17 @@ def read_result(path: str | os.PathLike[str]) -> Result:
     return decode_result(node)
 
 
+def read_result_camera(source: CameraText) -> ImportedCamera:
+    """Read the camera of a result.json, with its covariance. Raises as `read_result`."""
+    node = parse_json(source.text, source.file)
+    check_format(node, FORMAT, VERSION)
+    calibration = decode_result(node).calibration
+    source.choose_size(calibration.camera.size)
+    diagnosis = calibration.diagnosis
+    notes = () if diagnosis is None else (f"A partial calibration. {diagnosis.message}",)
+    return ImportedCamera(calibration.camera, EXPORTER.title, calibration.covariance, notes)
+
+
 def decode_result(node: Node) -> Result:
     """Return the result in the content of a result.json. Raises as `read_result`."""
     board = decode_board(node.get("target"))
@@ -165,26 +188,28 @@ def decode_result(node: Node) -> Result:
     )
 
 
-def decode_model(node: Node, choices: Sequence[str] = tuple(MODELS)) -> str:
-    """Return the name of a lens model, one of `choices`; an older file may have an older name."""
+def decode_model(node: Node) -> str:
+    """Return the id of a lens model; an older file may have an older one."""
     try:
-        model = resolve_model_id(node.text())
+        return resolve_model_id(node.text())
     except CalibrationError:
-        node.choice(choices)  # names the place, and the choices
+        node.choice(tuple(MODELS))  # names the place, and the choices
         raise
-    return Node(model, node.where, node.file).choice(choices)
 
 
 def _decode_calibration(node: Node, used: list[Node]) -> Calibration:
     camera = node["camera"]
     model = decode_model(camera["model"])
     names = parameter_names(model)
+    added = _find_added_coefficients(camera["params"], model)
     residuals = node["residuals"]
     return Calibration(
-        camera=_decode_camera(camera, model),
-        sigma=_decode_by_name(camera["sigma"], names),
-        covariance=node["covariance"]["matrix"].numbers(len(names), len(names), nullable=True),
-        sigma_by_noise=_decode_by_name(camera.get("sigma_by_noise") or camera["sigma"], names),
+        camera=_decode_camera(camera, model, added),
+        sigma=_decode_by_name(camera["sigma"], names, added),
+        covariance=_decode_covariance(node["covariance"]["matrix"], names, added),
+        sigma_by_noise=_decode_by_name(
+            camera.get("sigma_by_noise") or camera["sigma"], names, added
+        ),
         poses=tuple(map(decode_pose, used)),
         pose_covariances=np.stack(list(map(decode_pose_covariance, used))),
         residuals=tuple(map(decode_residuals, used)),
@@ -195,7 +220,7 @@ def _decode_calibration(node: Node, used: list[Node]) -> Calibration:
         history=tuple(map(_decode_iteration, node["history"].items())),
         status=Status(node["status"].choice(list(Status))),
         cost=Cost(node["settings"]["cost"].choice(list(Cost))),
-        fixed=tuple(n.choice(names) for n in camera["fixed"].items()),
+        fixed=(*(n.choice(names) for n in camera["fixed"].items()), *added),
         undetermined=tuple(
             Undetermined(n["name"].choice(names), n["reason"].text())
             for n in node["undetermined"].items()
@@ -203,16 +228,17 @@ def _decode_calibration(node: Node, used: list[Node]) -> Calibration:
         diagnosis=decode_diagnosis(node.get("diagnosis")),
         board_shape=_decode_board_shape(node.get("plate")),
         board_shape_error=doubt.number() if (doubt := node.get("plate_doubt_mm")) else 0.0,
+        lens_error=missed.number() if (missed := node.get("lens_error_px")) else 0.0,
         overdispersion=scatter.number() if (scatter := node.get("view_scatter")) else 0.0,
         warnings=tuple(n.text() for n in node["warnings"].items()),
-        settings=_decode_settings(node["settings"]),
+        settings=_decode_settings(node["settings"], added),
         digest=node["inputs_sha256"].text(),
     )
 
 
-def _decode_settings(node: Node) -> dict[str, Any]:
+def _decode_settings(node: Node, added: Mapping[str, float]) -> dict[str, Any]:
     held = {name: value.number() for name, value in node["fixed"].members().items()}
-    settings = {**node.value, "fixed": held}
+    settings = {**node.value, "fixed": {**held, **added}}
     if (model := node.get("model")) is not None:
         settings["model"] = decode_model(model)
     if (stated := node.get("prior_mm")) is not None:
@@ -226,17 +252,34 @@ def _decode_board_shape(node: Node | None) -> BoardShape | None:
     return None if node is None or node.value is None else decode_board_shape(node)
 
 
-def _decode_camera(node: Node, model: str) -> Camera:
+def _find_added_coefficients(params: Node, model: str) -> dict[str, float]:
+    """Return the held coefficients that the file lacks, with the values at which they are held."""
+    lens, stored = find_model(model), params.members()
+    values = zip(lens.names, lens.defaults, strict=True)
+    return {name: v for name, v in values if name in lens.held and name not in stored}
+
+
+def _decode_camera(node: Node, model: str, added: Mapping[str, float]) -> Camera:
     params = node["params"]
     for name in ("fx", "fy"):
         if not params[name].number() > 0:
             params[name].fail("a focal length above 0")
-    values = np.array([params[name].number() for name in parameter_names(model)])
-    return Camera(decode_size(node["size"]), values, model)
+    names = parameter_names(model)
+    values = [added[name] if name in added else params[name].number() for name in names]
+    return Camera(decode_size(node["size"]), np.array(values), model)
 
 
-def _decode_by_name(node: Node, names: tuple[str, ...]) -> Array:
-    return np.array([node[name].number(nullable=True) for name in names])
+def _decode_by_name(node: Node, names: Sequence[str], added: Mapping[str, float]) -> Array:
+    """Return standard deviations in the order of `names`: 0 for coefficients that were added."""
+    return np.array([0.0 if n in added else node[n].number(nullable=True) for n in names])
+
+
+def _decode_covariance(node: Node, names: Sequence[str], added: Mapping[str, float]) -> Array:
+    """Return the covariance (P, P) of all parameters: 0 for coefficients that were added."""
+    stored = np.array([i for i, name in enumerate(names) if name not in added])
+    covariance = np.zeros((len(names), len(names)))
+    covariance[np.ix_(stored, stored)] = node.numbers(len(stored), len(stored), nullable=True)
+    return covariance
 
 
 def _decode_iteration(node: Node) -> Iteration:
@@ -257,3 +300,4 @@ EXPORTER = Exporter(
     write=_export,
     partial=True,
 )
+IMPORTER = Importer(EXPORTER.title, re.compile(rf'"format"\s*:\s*"{FORMAT}"'), read_result_camera)

@@ -1,13 +1,16 @@
-"""ROS's camera_info file (plumb_bob), as camera_calibration_parsers writes and reads it.
+"""ROS's camera_info file, as camera_calibration_parsers writes and reads it.
 
-Reader: camera_calibration_parsers and image_geometry of ROS, and any YAML reader. Pixels are
-OpenCV's (0-based, integer at pixel centres). `rectification_matrix` is the identity and
+Reader: camera_calibration_parsers and image_geometry of ROS, any YAML reader, and `read_ros`.
+Pixels are OpenCV's (0-based, integer at pixel centres), and so are the coefficients. The
+distortion models are plumb_bob (k1 k2 p1 p2 k3), rational_polynomial (k1 k2 p1 p2 k3 k4 k5 k6) and
+equidistant (k1 k2 k3 k4 of cv2.fisheye). `rectification_matrix` is the identity and
 `projection_matrix` [K | 0]: a rectified image keeps the camera's focal lengths and centre.
-Cannot hold: other lens models (they are refitted), standard deviations, poses, corners.
+Cannot hold: other lens models and skew (they are refitted), standard deviations, poses, corners.
 """
 
 from __future__ import annotations
 
+import re
 from pathlib import Path
 
 import numpy as np
@@ -15,8 +18,28 @@ import numpy as np
 from calibgui.dataset import Result
 from calibgui.engine.arrays import Array
 from calibgui.engine.camera import Camera
-from calibgui.formats.camera_refit import FORWARD_MODELS, write_in_models
+from calibgui.formats.camera_refit import write_in_models
 from calibgui.formats.exporter import FRAME, Exporter, ExportReport
+from calibgui.formats.importer import CameraText, ImportedCamera, Importer
+from calibgui.formats.opencv_lens import FISHEYE, list_coefficients, make_opencv_camera
+from calibgui.formats.opencv_storage import read_matrix
+from calibgui.formats.yaml_document import format_number, parse_yaml
+
+_DISTORTION_MODELS = {
+    "pinhole": "plumb_bob",
+    "brown-conrady-4": "plumb_bob",
+    "brown-conrady": "plumb_bob",
+    "rational": "rational_polynomial",
+    FISHEYE: "equidistant",
+}
+"""ROS's names of the lens models that it holds."""
+_READABLE = {
+    "plumb_bob": (0, 4, 5),
+    "rational_polynomial": (8, 12, 14),
+    "equidistant": (4,),
+    "fisheye": (4,),
+}
+"""Numbers of coefficients by distortion models that are read."""
 
 
 def write_ros(result: Result, path: Path) -> ExportReport:
@@ -25,22 +48,25 @@ def write_ros(result: Result, path: Path) -> ExportReport:
     return write_in_models(
         result,
         path,
-        EXPORTER.models,
+        EXPORTER,
         lambda fitted, note: format_camera_info(fitted.camera, name, note),
     )
 
 
 def format_camera_info(camera: Camera, name: str, note: str) -> str:
-    """Return the text of the file; `camera` is in one of `FORWARD_MODELS`."""
+    """Return the text of the file; `camera` is in one of the format's models."""
     width, height = camera.size
     P = np.hstack([camera.matrix, np.zeros((3, 1))])
+    coefficients = list_coefficients(camera)
+    if camera.model == "brown-conrady-4":
+        coefficients = np.append(coefficients, 0.0)  # ROS's plumb_bob has five
     return "".join(
         [
             f"# {note}\n# {FRAME}\n",
             f"image_width: {width}\nimage_height: {height}\ncamera_name: {name}\n",
             _format_matrix("camera_matrix", camera.matrix),
-            "distortion_model: plumb_bob\n",
-            _format_matrix("distortion_coefficients", camera.coefficients[None]),
+            f"distortion_model: {_DISTORTION_MODELS[camera.model]}\n",
+            _format_matrix("distortion_coefficients", coefficients[None]),
             _format_matrix("rectification_matrix", np.eye(3)),
             _format_matrix("projection_matrix", P),
         ]
@@ -49,14 +75,8 @@ def format_camera_info(camera: Camera, name: str, note: str) -> str:
 
 def _format_matrix(name: str, values: Array) -> str:
     rows, cols = values.shape
-    data = ", ".join(_format_number(value) for value in values.ravel().tolist())
+    data = ", ".join(format_number(value) for value in values.ravel().tolist())
     return f"{name}:\n  rows: {rows}\n  cols: {cols}\n  data: [{data}]\n"
-
-
-def _format_number(value: float) -> str:
-    """Write a float so that every YAML reader takes it for a number: YAML 1.1 demands a point."""
-    mantissa, exponent, power = repr(value).partition("e")
-    return mantissa + (".0" if exponent and "." not in mantissa else "") + exponent + power
 
 
 def _make_camera_name(path: Path) -> str:
@@ -64,11 +84,44 @@ def _make_camera_name(path: Path) -> str:
     return "".join(c if c.isascii() and c.isalnum() else "_" for c in path.stem)
 
 
+def read_ros(source: CameraText) -> ImportedCamera:
+    """Read the camera of a camera_info file; the rectified image's matrices are left out.
+
+    Raises:
+        CalibrationError: if something is missing or wrong, or the lens model is none of ours.
+    """
+    content = parse_yaml(source.text, source.file)
+    size = source.choose_size((content["image_width"].integer(), content["image_height"].integer()))
+    K, D = content["camera_matrix"], content["distortion_coefficients"]
+    matrix, coefficients = read_matrix(K), read_matrix(D)
+    if len(matrix) != 9:
+        K.fail("a matrix of 3 x 3 numbers")
+    model = content["distortion_model"].text()
+    if model not in _READABLE:
+        source.refuse_model(repr(model), list(_READABLE))
+    if len(coefficients) not in _READABLE[model]:
+        counts = " or ".join(map(str, _READABLE[model]))
+        D.fail(f"{counts} coefficients, as {model} has ({len(coefficients)} are given)")
+    fisheye = model in ("equidistant", "fisheye")
+    camera = make_opencv_camera(source, size, matrix, coefficients, fisheye)
+    return ImportedCamera(camera, EXPORTER.title)
+
+
 EXPORTER = Exporter(
     name="ros",
     title="ROS camera_info",
     suffixes=(".yaml", ".yml"),
-    models=FORWARD_MODELS,
-    limits="Forward distortion model (plumb_bob) refitted; no standard deviations, no poses.",
+    models=tuple(_DISTORTION_MODELS),
+    refits=("brown-conrady", FISHEYE),
+    limits="plumb_bob, rational_polynomial or equidistant, other lenses refitted; no standard "
+    "deviations, no poses.",
     write=write_ros,
+)
+IMPORTER = Importer(
+    EXPORTER.title,
+    re.compile(
+        r"\A(?=.*^camera_matrix[ \t]*:)(?=.*^image_width[ \t]*:)(?=.*^distortion_model[ \t]*:)",
+        re.MULTILINE | re.DOTALL,
+    ),
+    read_ros,
 )

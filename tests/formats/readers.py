@@ -7,6 +7,7 @@ import os
 import shutil
 import subprocess
 import tempfile
+from functools import cache
 from typing import Any
 
 import numpy as np
@@ -24,11 +25,16 @@ def in_other_python(script: str, *arguments: object, needs: str) -> Any:
     The test is skipped where there is none.
     """
     for python in filter(shutil.which, _CANDIDATES):
-        if _run(python, needs).returncode == 0:
+        if _serves(python, needs):
             done = _run(python, script, *arguments)
             assert done.returncode == 0, done.stderr
             return json.loads(done.stdout)
     pytest.skip(f"no Python for {needs!r}: set CALIBGUI_OTHER_PYTHON to one")
+
+
+@cache
+def _serves(python: str, needs: str) -> bool:
+    return _run(python, needs).returncode == 0
 
 
 def _run(python: str, script: str, *arguments: object) -> subprocess.CompletedProcess[str]:

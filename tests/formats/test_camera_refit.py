@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import math
+from dataclasses import replace
 from pathlib import Path
 
 import cv2
@@ -16,24 +18,25 @@ from calibgui.engine.camera.projection import rays_from_pixels
 from calibgui.engine.errors import CalibrationError
 from calibgui.formats import EXPORTERS, export
 from calibgui.formats.camera_refit import (
-    FORWARD_MODELS,
     MAX_REFIT_ERROR,
     check_refit,
     describe_refit,
-    express_in_models,
+    express_in_format,
+    write_in_models,
 )
 from tests.engine import scenes
+from tests.formats.cameras import holding
 from tests.formats.conftest import solved
+
+OPENCV = EXPORTERS["opencv"]
 
 
 def moved(result: Result, fitted: Refit, uv: Array) -> Array:
     """(n,) how far OpenCV images the calibrated camera's rays of pixels uv (n, 2) from them."""
     camera = fitted.calibration.camera
-    points = np.append(
-        rays_from_pixels(uv, result.calibration.camera), np.ones((len(uv), 1)), axis=1
-    )
+    points = rays_from_pixels(uv, result.calibration.camera)
     imaged = cv2.projectPoints(
-        points, np.zeros(3), np.zeros(3), camera.matrix, np.array(camera.coefficients)
+        points, np.zeros(3), np.zeros(3), camera.matrix, np.array(camera.coefficients[:5])
     )[0]
     return np.linalg.norm(imaged.reshape(-1, 2) - uv, axis=1)
 
@@ -43,7 +46,7 @@ def test_the_stated_errors_bound_what_opencv_shows(
     name: str, request: pytest.FixtureRequest
 ) -> None:
     result = request.getfixturevalue(name)
-    fitted = express_in_models(result)
+    fitted = express_in_format(result, OPENCV)
     corners = np.concatenate([uv for uv, *_ in result.observations()])
     assert moved(result, fitted, corners).max() == pytest.approx(fitted.covered_error, abs=1e-6)
     # The corners of the image, where the two models part most, and random pixels inside.
@@ -58,7 +61,7 @@ def test_the_stated_errors_bound_what_opencv_shows(
 
 
 def test_opencvs_model_is_exported_as_calibrated(forward_result: Result) -> None:
-    fitted = express_in_models(forward_result)
+    fitted = express_in_format(forward_result, OPENCV)
     assert fitted.calibration is forward_result.calibration
     assert fitted.largest_error == fitted.covered_error == 0.0
     assert "as calibrated" in describe_refit(forward_result, fitted)
@@ -67,15 +70,16 @@ def test_opencvs_model_is_exported_as_calibrated(forward_result: Result) -> None
 def test_what_was_held_stays_held() -> None:
     """A camera calibrated without distortion is not exported with some fitted to the noise."""
     lens = ["k1", "k2", "k3", "p1", "p2"]
-    without = express_in_models(solved(scenes.barrel(), fix=lens)).calibration.camera
+    without = express_in_format(solved(scenes.barrel(), fix=lens), OPENCV).calibration.camera
     assert not without.coefficients.any()
-    radial = express_in_models(solved(scenes.barrel(), fix={"p1": 0.0, "p2": 0.0, "fx": 640.0}))
+    held = solved(scenes.barrel(), fix={"p1": 0.0, "p2": 0.0, "fx": 640.0})
+    radial = express_in_format(held, OPENCV)
     assert radial.calibration.camera.params[0] == 640.0
-    assert (radial.calibration.camera.coefficients == 0).tolist() == [0, 0, 1, 1, 0]
+    assert (radial.calibration.camera.coefficients[:5] == 0).tolist() == [0, 0, 1, 1, 0]
 
 
 def test_a_model_that_cannot_follow_says_so(result: Result) -> None:
-    fitted = Refit(express_in_models(result).calibration, float("nan"), 0.05)
+    fitted = Refit(express_in_format(result, OPENCV).calibration, float("nan"), 0.05)
     assert "unlimited" in describe_refit(result, fitted)
 
 
@@ -86,39 +90,109 @@ def fisheye() -> Result:
     return solved(Camera((640, 480), [282.0, 282.0, 319.5, 239.5, *lens]))
 
 
-FORWARD = [name for name, exporter in EXPORTERS.items() if exporter.models == FORWARD_MODELS]
+REFITTING = [name for name, exporter in EXPORTERS.items() if exporter.refits]
 
 
-@pytest.mark.parametrize("name", FORWARD)
-def test_a_lens_that_the_model_cannot_follow_is_refused(
+@pytest.mark.parametrize("name", REFITTING)
+def test_a_fisheye_is_refitted_in_a_model_that_follows_it(
     fisheye: Result, tmp_path: Path, name: str
 ) -> None:
-    file = (tmp_path / "camera").with_suffix(EXPORTERS[name].suffixes[0])
+    """Brown's polynomial, which comes first, is some 15 px off."""
+    exporter = EXPORTERS[name]
+    assert exporter.refits[0] in ("brown-conrady", "brown-conrady-4")
+    expressed = express_in_format(fisheye, exporter)
+    assert expressed.calibration.camera.model == exporter.refits[1]
+    assert expressed.covered_error < 1
+    file = (tmp_path / "camera").with_suffix(exporter.suffixes[0])
+    report = export(fisheye, name, file)
+    assert f"{expressed.covered_error:.3g} px where corners were seen" in report.note
+
+
+def test_a_lens_that_looks_sideways_is_refitted_in_a_fisheye_model(
+    result: Result, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Brown's model may follow it where corners were seen, but has no image beyond 90 degrees."""
+    wide = Camera((640, 480), [150, 150, 319.5, 239.5, -0.2, 0.55], "double-sphere")
+    assert rays_from_pixels(np.zeros(2), wide)[2] < 0
+    fits = {
+        "brown-conrady": Camera((640, 480), [200, 200, 319.5, 239.5, *[0] * 5], "brown-conrady"),
+        "kannala-brandt": Camera((640, 480), [200, 200, 319.5, 239.5, *[0] * 4], "kannala-brandt"),
+    }
+    errors = {"brown-conrady": 0.05, "kannala-brandt": 0.5}
+
+    def refit(_views: object, _original: object, model: str) -> Refit:
+        return Refit(replace(result.calibration, camera=fits[model]), math.nan, errors[model])
+
+    monkeypatch.setattr("calibgui.formats.camera_refit.refit", refit)
+    seen = holding(result, wide)
+    assert express_in_format(seen, OPENCV).calibration.camera.model == "kannala-brandt"
+    errors["kannala-brandt"] = MAX_REFIT_ERROR  # no fisheye's curve: better the middle than nothing
+    assert express_in_format(seen, OPENCV).calibration.camera.model == "brown-conrady"
+
+
+def test_a_model_that_fails_leaves_the_others(
+    result: Result, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def fail(_views: object, _original: object, model: str) -> Refit:
+        if model == "brown-conrady":
+            raise CalibrationError("These views leave k3 undetermined.")
+        return Refit(result.calibration, 0.5, 0.5)
+
+    monkeypatch.setattr("calibgui.formats.camera_refit.refit", fail)
+    assert express_in_format(result, OPENCV).covered_error == 0.5
+    with pytest.raises(CalibrationError, match="k3 undetermined"):
+        express_in_format(result, replace(OPENCV, refits=("brown-conrady",)))
+
+
+def test_a_simple_model_that_follows_is_preferred(result: Result) -> None:
+    for name in REFITTING:
+        exporter = EXPORTERS[name]
+        assert express_in_format(result, exporter).calibration.camera.model == exporter.refits[0]
+
+
+def test_a_lens_that_no_model_can_follow_is_refused(fisheye: Result, tmp_path: Path) -> None:
+    file = tmp_path / "camera.yaml"
+    narrow = replace(OPENCV, models=("brown-conrady",), refits=("brown-conrady",))
     with pytest.raises(
         CalibrationError, match=r"Brown-Conrady.* cannot follow this lens"
     ) as caught:
-        export(fisheye, name, file)
+        write_in_models(fisheye, file, narrow, lambda *_: "")
     assert not list(tmp_path.iterdir())
     assert str(file) in caught.value.message
     assert "--model brown-conrady" in caught.value.hint and "'python'" in caught.value.hint
     # The stated place and error are the worst among the corners, by OpenCV itself.
     corners = np.concatenate([uv for uv, *_ in fisheye.observations()])
-    error = moved(fisheye, express_in_models(fisheye), corners)
+    error = moved(fisheye, express_in_format(fisheye, narrow), corners)
     u, v = corners[np.argmax(error)]
     assert error.max() > MAX_REFIT_ERROR
     assert f"({u:.0f}, {v:.0f}) px" in caught.value.message
     assert f"is {error.max():.3g} px off" in caught.value.message
 
 
+def test_skew_that_a_format_cannot_hold_is_refitted_without() -> None:
+    skewed = solved(
+        Camera((640, 480), [650, 640, 303, 243, -0.2, 0.1, 3e-4, -5e-4, 0, 5e-4], "brown-conrady"),
+        model="brown-conrady",
+        free=["skew"],
+    )
+    assert skewed.calibration.camera.params[-1] != 0
+    fitted = express_in_format(skewed, OPENCV)
+    assert fitted.calibration is not skewed.calibration
+    assert fitted.calibration.camera.model == "brown-conrady"
+    assert fitted.calibration.camera.params[-1] == 0
+    assert 0 < fitted.covered_error < 1
+    assert express_in_format(skewed, EXPORTERS["matlab"]).calibration is skewed.calibration
+
+
 def test_the_same_lens_is_written_in_its_own_model(fisheye: Result, tmp_path: Path) -> None:
-    for name in EXPORTERS.keys() - set(FORWARD):
+    for name in EXPORTERS.keys() - set(REFITTING):
         export(fisheye, name, (tmp_path / name).with_suffix(EXPORTERS[name].suffixes[0]))
-    assert len(list(tmp_path.iterdir())) == len(EXPORTERS) - len(FORWARD)
+    assert len(list(tmp_path.iterdir())) == len(EXPORTERS) - len(REFITTING)
 
 
 @pytest.mark.parametrize("error", [MAX_REFIT_ERROR, float("nan")])
 def test_a_refit_is_refused_from_the_limit_on(result: Result, error: float) -> None:
-    camera = express_in_models(result).calibration
+    camera = express_in_format(result, OPENCV).calibration
     with pytest.raises(CalibrationError, match="cannot follow this lens"):
         check_refit(result, Refit(camera, 190.0, error), Path("camera.yaml"))
     check_refit(result, Refit(camera, 190.0, 0.99 * MAX_REFIT_ERROR), Path("camera.yaml"))

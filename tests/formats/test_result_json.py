@@ -24,6 +24,7 @@ from calibgui.formats import export
 from calibgui.formats.json_document import dumps
 from calibgui.formats.result_json import encode_result, read_result, write_result
 from tests.engine import scenes
+from tests.formats.cameras import example, holding, splined
 from tests.formats.conftest import solved
 from tests.formats.mutations import mutated
 from tests.formats.records import same
@@ -88,6 +89,18 @@ def test_what_is_undetermined_reads_back_as_such(tmp_path: Path, result: Result)
     write_result(partly, tmp_path / "result.json")
     assert same(read_result(tmp_path / "result.json"), partly)
     _validator().validate(_content(partly))
+
+
+def test_a_lens_error_is_kept_and_0_where_a_file_has_none(tmp_path: Path, result: Result) -> None:
+    wrong = replace(result, calibration=replace(result.calibration, lens_error=0.375))
+    _validator().validate(_content(wrong))
+    file = tmp_path / "result.json"
+    write_result(wrong, file)
+    assert read_result(file).calibration.lens_error == 0.375
+    content = json.loads(file.read_text())
+    assert content.pop("lens_error_px") == 0.375
+    file.write_text(json.dumps(content))
+    assert read_result(file).calibration.lens_error == 0
 
 
 def test_a_corner_beyond_the_lenss_fold_reads_back_as_such(tmp_path: Path, result: Result) -> None:
@@ -240,6 +253,15 @@ def test_a_camera_that_cannot_be_is_refused(
         read_result(file)
 
 
+@pytest.mark.parametrize("model", [*scenes.LENSES, "splined"])
+def test_cameras_of_every_model_are_read_back(tmp_path: Path, result: Result, model: str) -> None:
+    held = holding(result, splined() if model == "splined" else example(model))
+    export(held, "result", tmp_path / "result.json")
+    camera = read_result(tmp_path / "result.json").calibration.camera
+    assert camera.model == held.calibration.camera.model
+    np.testing.assert_array_equal(camera.params, held.calibration.camera.params)
+
+
 def test_an_older_name_of_the_lens_model_is_read(tmp_path: Path, forward_result: Result) -> None:
     content = _content(forward_result)
     assert content["camera"]["model"] == content["settings"]["model"] == "brown-conrady"
@@ -247,10 +269,31 @@ def test_an_older_name_of_the_lens_model_is_read(tmp_path: Path, forward_result:
     _validator().validate(content)
     (tmp_path / "old.json").write_text(json.dumps(content))
     assert same(read_result(tmp_path / "old.json"), forward_result)
-    content["camera"]["model"] = "pinhole"
+    content["camera"]["model"] = "odd"
     (tmp_path / "odd.json").write_text(json.dumps(content))
     with pytest.raises(CalibrationError, match=r"camera\.model is not one of lucchese"):
         read_result(tmp_path / "odd.json")
+
+
+def test_a_file_from_before_a_coefficient_was_added_holds_it(
+    tmp_path: Path, forward_result: Result
+) -> None:
+    """Brown and Conrady's model had no skew in earlier versions."""
+    content = _content(forward_result)
+    camera, covariance = content["camera"], content["covariance"]
+    for values in (camera["params"], camera["sigma"], camera["sigma_by_noise"]):
+        assert values.pop("skew") == 0.0
+    camera["fixed"].remove("skew")
+    assert content["settings"]["fixed"].pop("skew") == 0.0
+    assert covariance["parameters"].pop() == "skew"
+    covariance["matrix"] = [row[:-1] for row in covariance["matrix"][:-1]]
+    _validator().validate(content)
+    (tmp_path / "old.json").write_text(json.dumps(content))
+    assert same(read_result(tmp_path / "old.json"), forward_result)
+    del camera["params"]["k3"]
+    (tmp_path / "less.json").write_text(json.dumps(content))
+    with pytest.raises(CalibrationError, match=r"camera\.params\.k3 is missing"):
+        read_result(tmp_path / "less.json")
 
 
 def test_a_file_cut_anywhere_is_refused(tmp_path: Path, result: Result) -> None:

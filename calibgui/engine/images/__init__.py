@@ -4,6 +4,12 @@ from __future__ import annotations
 
 from calibgui.engine.images.exif import Exif
 from calibgui.engine.images.headers import Header
+from calibgui.engine.images.lost_angles import (
+    LostAngles,
+    describe_lost_angles,
+    measure_lost_angles,
+)
+from calibgui.engine.images.projections import IdealCamera, Projection, list_cube_rotations
 from calibgui.engine.images.reading import (
     FORMATS,
     Image,
@@ -19,7 +25,12 @@ from calibgui.engine.images.rectification import Extent, compute_board_extent, r
 from calibgui.engine.images.rendering import Appearance, render_view
 from calibgui.engine.images.resampling import ResampledImage
 from calibgui.engine.images.sampling import make_mesh
-from calibgui.engine.images.undistortion import FieldOfView, undistort_image
+from calibgui.engine.images.undistortion import (
+    FieldOfView,
+    choose_ideal_cameras,
+    make_ideal_image,
+    undistort_image,
+)
 
 __all__ = [
     "FORMATS",
@@ -28,11 +39,19 @@ __all__ = [
     "Extent",
     "FieldOfView",
     "Header",
+    "IdealCamera",
     "Image",
+    "LostAngles",
     "Pixels",
+    "Projection",
     "ResampledImage",
+    "choose_ideal_cameras",
     "compute_board_extent",
+    "describe_lost_angles",
+    "list_cube_rotations",
+    "make_ideal_image",
     "make_mesh",
+    "measure_lost_angles",
     "read_colour",
     "read_image",
     "read_image_header",

@@ -15,13 +15,14 @@ import numpy as np
 import numpy.typing as npt
 
 from calibgui.engine import opencv
-from calibgui.engine.arrays import Array, BoolArray, Size
+from calibgui.engine.arrays import Array, BoolArray, FloatImage, Size
 from calibgui.engine.camera.camera import Camera
 from calibgui.engine.errors import CalibrationError
 from calibgui.engine.images.smooth_map import MAP_TOLERANCE_PX, interpolate_map
 
 Pixels = npt.NDArray[np.uint8] | npt.NDArray[np.uint16] | npt.NDArray[np.float32]
 
+_EVERYWHERE = np.array([[-np.inf, -np.inf], [np.inf, np.inf]])
 _PIXELS_PER_BAND = 1 << 20
 """Number of output pixels made at once."""
 
@@ -39,30 +40,44 @@ class ResampledImage:
 
 
 def resample_image(
-    image: Pixels, size: Size, matrix: Array, source: Callable[[Array], Array]
+    image: Pixels,
+    size: Size,
+    matrix: Array,
+    source: Callable[[Array], Array],
+    shown: Array = _EVERYWHERE,
 ) -> ResampledImage:
-    """Make the image of `size` whose pixels p (..., 2) look at `source(p)` (..., 2) of `image`."""
+    """Make the image of `size` whose pixels p (..., 2) look at `source(p)` (..., 2) of `image`.
+
+    Only pixels in the rectangle with the corners `shown` (2, 2) are valid.
+    """
     width, height = size
     measured = (image.shape[1], image.shape[0])
     rows_of = interpolate_map(size, source, np.full(2, -0.5), np.array(measured) - 0.5)
     out = np.empty((height, width, *image.shape[2:]), image.dtype)
     valid = np.empty((height, width), bool)
+    is_shown_column, is_shown_row = (
+        (np.arange(n) >= low) & (np.arange(n) <= high)
+        for n, low, high in zip(size, *shown, strict=True)
+    )
     rows = max(1, min(_PIXELS_PER_BAND // width, opencv.MAX_SIDE))
     for v in range(0, height, rows):
         band = slice(v, min(v + rows, height))
         uv = rows_of(band)
-        valid[band] = is_inside(uv, measured)
-        outside = np.nonzero(~valid[band])
-        uv[outside] = 0.0
+        valid[band] = is_inside(np.moveaxis(uv, 0, -1), measured)
+        valid[band][~is_shown_row[band]] = False
+        valid[band][:, ~is_shown_column] = False
+        outside = ~valid[band]
+        uv[:, outside] = 0.0
         out[band] = opencv.resample_image(image, uv)
         out[band][outside] = 0
     return ResampledImage(out, matrix, valid)
 
 
-def is_inside(uv: Array, size: Size) -> BoolArray:
+def is_inside(uv: Array | FloatImage, size: Size) -> BoolArray:
     """Return (...) whether positions `uv` (..., 2) px fall on an image of `size`; NaN does not."""
     # The allowance keeps the outermost pixels of an image that fits exactly.
-    low, (right, bottom) = -0.5 - MAP_TOLERANCE_PX, np.array(size) - 0.5 + MAP_TOLERANCE_PX
+    low = -0.5 - MAP_TOLERANCE_PX
+    right, bottom = (length - 0.5 + MAP_TOLERANCE_PX for length in size)
     u, v = uv[..., 0], uv[..., 1]
     return np.asarray((u >= low) & (u <= right) & (v >= low) & (v <= bottom))
 

@@ -100,7 +100,7 @@ def test_corners_are_where_the_geometry_says(rvec: list[float]) -> None:
 def _corners(camera: Camera, pose: Pose, board: Board) -> Array:
     grid_size = np.c_[board.points(), np.zeros(board.rows * board.cols)]
     points = Rotation.from_rotvec(np.array(pose.rvec)).apply(grid_size) + pose.tvec
-    return pixels_from_rays(points[:, :2] / points[:, 2:], camera)
+    return pixels_from_rays(points, camera)
 
 
 def test_a_frontal_view_is_point_symmetric_about_a_corner() -> None:

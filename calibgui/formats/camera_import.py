@@ -1,0 +1,100 @@
+"""Reading the camera of a file of another program, whichever it is: `read_camera`.
+
+The format is recognised by the file's content, because suffixes do not tell: ".yaml" is OpenCV's,
+ROS's and Kalibr's, ".json" ours, Basalt's and OpenCV's, ".txt" anybody's.
+"""
+
+from __future__ import annotations
+
+import os
+from pathlib import Path
+
+from calibgui.engine.arrays import Size
+from calibgui.engine.errors import CalibrationError
+from calibgui.formats import (
+    basalt_json,
+    colmap_cameras,
+    kalibr_camchain,
+    matlab_script,
+    mrcal_model,
+    opencv_file,
+    result_json,
+    ros_yaml,
+)
+from calibgui.formats.importer import CameraText, ImportedCamera, Importer
+
+IMPORTERS: tuple[Importer, ...] = tuple(
+    module.IMPORTER
+    for module in (
+        result_json,
+        mrcal_model,
+        basalt_json,
+        matlab_script,
+        kalibr_camchain,
+        ros_yaml,
+        opencv_file,
+        colmap_cameras,
+    )
+)
+"""The formats that cameras are read from, in the order in which files are tried."""
+MAX_FILE_SIZE = 64 << 20
+"""Size of the largest files that are read, bytes: results and mrcal's models hold all corners."""
+
+
+def read_camera(
+    path: str | os.PathLike[str], name: str | None = None, size: Size | None = None
+) -> ImportedCamera:
+    """Read a camera from a file of this program or of another one.
+
+    Args:
+        path: the file; its content tells the format.
+        name: name of the camera in a file that holds several.
+        size: width and height of the images, px, for a file that does not state them.
+
+    Raises:
+        CalibrationError: if the file cannot be read, is of no known format, holds several cameras
+            and `name` does not choose one, has a lens model that this program has not, or
+            something in it is wrong; the message says what can be read.
+    """
+    source = CameraText(_read_text(path), os.fspath(path), name, size)
+    for importer in IMPORTERS:
+        if importer.signature.search(source.text):
+            break
+    else:
+        source.fail(
+            "is not a camera file that can be read.",
+            f"These can be read: {', '.join(importer.title for importer in IMPORTERS)}.",
+        )
+    if name is not None and not importer.several:
+        source.fail(
+            f"holds one camera without a name ({importer.title}).", f"Leave the name {name!r} out."
+        )
+    return importer.read(source)
+
+
+def _read_text(path: str | os.PathLike[str]) -> str:
+    """Return the text of a file.
+
+    Raises:
+        CalibrationError: if it cannot be read, is too large or is not text.
+    """
+    file = os.fspath(path)
+    try:
+        with Path(path).open("rb") as opened:
+            content = opened.read(MAX_FILE_SIZE + 1)
+    except OSError as error:
+        raise CalibrationError(
+            f"{file} cannot be read: {error.strerror or error}.", "Check its name and permissions."
+        ) from error
+    if len(content) > MAX_FILE_SIZE:
+        raise CalibrationError(
+            f"{file} is too large for a camera file: more than {MAX_FILE_SIZE >> 20} MB.",
+            "Choose another file.",
+        )
+    try:
+        return content.decode("utf-8-sig")
+    except UnicodeDecodeError as error:
+        raise CalibrationError(
+            f"{file} is not a camera file that can be read: it is not text in UTF-8.",
+            f"These can be read: {', '.join(importer.title for importer in IMPORTERS)}.",
+        ) from error
