@@ -55,6 +55,8 @@ def brown(aspect: float = 1.0, size: Size = VGA) -> Camera:
 
 
 _ALL_AT_WORK = (0.25, 0.1, -0.04, 4e-4, -7e-4, 0.4)
+_WAVY = np.random.default_rng(7).normal(0, 0.007, (9, 9, 2))
+"""Shifts of control points; less the same ones turned by 180 degrees they leave the axis alone."""
 LENSES = {
     "lucchese": _ALL_AT_WORK,
     "lucchese-pixels": _ALL_AT_WORK,
@@ -71,6 +73,7 @@ LENSES = {
     "mei": (1.4, -0.2, 0.03, 4e-4, -7e-4),
     "division": (-0.3,),
     "scaramuzza": (-0.35, 0.02, -0.05),
+    "splined-stereographic-9x9-160": tuple((_WAVY - _WAVY[::-1, ::-1]).ravel().tolist()),
 }
 """A lens of each model: what `example` is made with, and the tests of all models are."""
 

@@ -16,7 +16,8 @@ The same detour is taken where the solve was slow. It has then crept along a val
 and in few and noisy views such a valley can have several minima: with e the eigenvector of the
 scaled information of least eigenvalue (``covariances.py``), starts a few standard deviations to
 either side of the solution along e, with poses that follow as dk = -Vk^-1 Wk^T e, lead to its
-neighbours. The lowest minimum is the solution.
+neighbours. The lowest minimum is the solution, and if it is still on its way after all iterations
+that a solve is given, it is given more.
 """
 
 from __future__ import annotations
@@ -53,12 +54,19 @@ _MAX_POSE_CORRECTIONS = 3
 """Number of corrections of mirrored poses: each improves the camera that the next relies on."""
 _MAX_DIRECT_ITERATIONS = 15
 """Number of iterations beyond which detours are tried; one in thirty wild problems takes more."""
+_MAX_CONTINUATIONS = 2
+"""Number of further solves from where one used up its iterations, at most."""
+_LAST_ITERATIONS, _MIN_DESCENT = 10, 1e-6
+"""Number of last iterations, and decrease of the cost in them, relative to it, from which a solve
+has not come near its end."""
 _SIDE_STEP = 4.0
 """Distance from the solution, in standard deviations, of the starts along a valley."""
 _MIN_INFORMATION = 1e-10
 """Scaled information below which a direction counts as having this much."""
 _COST_TOLERANCE = 1e-9
 """Difference of costs, relative to them, up to which they are equal."""
+_MIN_POSE_INFORMATION = 1e-14
+"""Scaled information below which rounding errors leave nothing of a pose."""
 _FIRST_COEFFICIENT = 4
 """Index of the first lens coefficient among the camera's parameters."""
 _WEAKENING = 0.99
@@ -95,7 +103,8 @@ def solve_stage_two(
         earlier: iterations of the solve that this one continues.
 
     Raises:
-        StartError: if neither the start nor its registration reprojects the corners.
+        StartError: if neither the start nor its registration reprojects the corners, or if no
+            camera of the model sees all boards where they can be.
         Cancelled: from `report`.
     """
     stage = _StageTwo(observations, model, cost, scale, free, report, max_iterations, earlier)
@@ -110,11 +119,9 @@ def solve_stage_two(
         try:
             solution = solve_by_registration()
         except StartError as error:
-            raise StartError(
-                f"The lens model {model!r} cannot image all corners, however it is started.",
-                "For a wide lens choose the lens model 'kannala-brandt'. Otherwise check that the "
-                "views number their corners alike and come from one camera.",
-            ) from error
+            raise _make_model_error(model) from error
+    if _has_lost_pose(solution):
+        raise _make_model_error(model)
     is_slow = len(solution.history) - len(earlier) > _MAX_DIRECT_ITERATIONS
     if solution.status is Status.STOPPED or not (is_slow or solution.is_blocked):
         return solution
@@ -122,6 +129,12 @@ def solve_stage_two(
         solution = _take_lower(solution, solve_by_registration)
     for beside in _step_aside(solution, free, observations.count):
         solution = _take_lower(solution, partial(stage.solve_with_corrected_poses, beside))
+    for _ in range(_MAX_CONTINUATIONS):
+        if solution.is_blocked or not _is_descending(solution):
+            break
+        solution = stage.solve_directly(solution.state, solution.history)
+    if _has_lost_pose(solution):
+        raise _make_model_error(model)
     return solution
 
 
@@ -197,6 +210,35 @@ class _StageTwo:
             self.max_iterations,
             earlier,
         )
+
+
+def _has_lost_pose(solution: Solution) -> bool:
+    """Return whether a board has gone so far away that its corners leave its pose open."""
+    V = solution.normal.V
+    size = np.sqrt(np.diagonal(V, axis1=1, axis2=2))
+    with np.errstate(divide="ignore", invalid="ignore"):
+        scaled = V / (size[:, :, None] * size[:, None]) - _MIN_POSE_INFORMATION * np.eye(6)
+    try:
+        np.linalg.cholesky(scaled)
+    except np.linalg.LinAlgError:
+        return True
+    return not np.isfinite(scaled).all()
+
+
+def _make_model_error(model: str) -> StartError:
+    """Make the error of a lens model that cannot follow the corners."""
+    return StartError(
+        f"The lens model {model!r} cannot image all corners, however it is started.",
+        "For a wide lens choose the lens model 'kannala-brandt'. Otherwise check that the views "
+        "number their corners alike and come from one camera.",
+    )
+
+
+def _is_descending(solution: Solution) -> bool:
+    """Return whether a solve used up its iterations while its cost still decreased."""
+    costs = [iteration.cost for iteration in solution.history[-_LAST_ITERATIONS:]]
+    before, last = costs[0], costs[-1]
+    return solution.status is Status.MAX_ITERATIONS and before - last > _MIN_DESCENT * last
 
 
 def _take_lower(solution: Solution, other: Callable[[], Solution]) -> Solution:

@@ -39,6 +39,8 @@ _MIN_SPARSE_PARAMETERS = 100
 _MAX_SPARSE_SQUARE = 0.1
 """Mean square of the part of the parameters that a view touches, up to which it pays to leave out
 what is 0: dense products are ten times as fast for each number."""
+_ROUNDING = 1e-12
+"""Damping that makes a pose's singular block regular."""
 
 
 class NormalEquations(NamedTuple):
@@ -127,7 +129,11 @@ def eliminate_poses(normal: NormalEquations, damping: float = 0.0) -> Reduced:
     With Vk = L L^T, Wk Vk^-1 Wk^T is the square of L^-1 Wk^T.
     """
     V = normal.V * (1 + damping * np.eye(6))
-    roots = np.asarray(np.linalg.inv(np.linalg.cholesky(V)))
+    try:
+        roots = np.asarray(np.linalg.inv(np.linalg.cholesky(V)))
+    except np.linalg.LinAlgError:  # a view leaves its pose open, such as far out of a poor camera
+        V = V * (1 + _ROUNDING * np.eye(6)) + np.finfo(float).tiny * np.eye(6)
+        roots = np.asarray(np.linalg.inv(np.linalg.cholesky(V)))
     diagonal, S = np.diag(normal.U), subtract_squares(normal.U, normal.W, roots)
     S[np.diag_indices_from(S)] += damping * diagonal
     unit = 1 / np.sqrt(np.maximum(diagonal, 1e-300))

@@ -124,6 +124,7 @@ class SplinedStereographic(Lens):
             f"{axis}_{iy}_{ix}" for iy in range(Ny) for ix in range(Nx) for axis in ("dx", "dy")
         )
         self.powers = (0,) * len(self.names)
+        self.asymmetric = self.names
 
     def project(self, rays: Array, k: Array) -> Imaged:
         """Map rays to image points. NaN beyond the outermost control points.

@@ -60,7 +60,7 @@ def test_the_mirrored_board_looks_alike_from_afar() -> None:
         """Images along the mean ray, without perspective about it."""
         point = observations.xy @ pose.R[..., :2].swapaxes(1, 2) + pose.T[:, None]
         places = observations.mask > 0
-        return pixels_from_rays(point[..., :2][places] / point[..., 2:][places], TELE)
+        return pixels_from_rays(point[places], TELE)
 
     moved = np.linalg.norm(seen(turned) - seen(state), axis=1)
     size = np.ptp(seen(state), axis=0).max()

@@ -25,12 +25,12 @@ from calibgui.engine.calibration.refinement.residuals import (
 )
 from calibgui.engine.calibration.refinement.whitening import whiten_observations
 from calibgui.engine.calibration.result import Cost
-from calibgui.engine.camera.models import MODELS, parameter_names
-from tests.engine.scenes import Scene, barrel, central_differences, example, relative, scene
+from calibgui.engine.camera.models import find_model, parameter_names
+from tests.engine.scenes import LENSES, Scene, barrel, central_differences, example, relative, scene
 
 CASES = [
     *product(
-        (model for model in MODELS if model != "lucchese-pixels"), (Cost.IMAGE, Cost.REFERENCE)
+        (model for model in LENSES if model != "lucchese-pixels"), (Cost.IMAGE, Cost.REFERENCE)
     ),
     ("lucchese-pixels", Cost.PAPER),
 ]
@@ -50,7 +50,7 @@ def made_with(model: str) -> Scene:
 
 
 def residual(model: str, cost: Cost, state: State, views: Observations) -> Linearised:
-    lens = MODELS[model]
+    lens = find_model(model)
     if cost is Cost.IMAGE:
         return compute_image_residuals(state, views, lens)
     return compute_reference_residuals(state, views, lens, SCALE, cost is Cost.PAPER)
@@ -63,8 +63,8 @@ def test_the_registration_error_is_the_residual_of_the_reference_plane(
     made = made_with(model)
     state, views = truth_of(made), pack_observations(made.noisy(0.5, np.random.default_rng(0)))
     literal = cost is Cost.PAPER
-    expected = compute_reference_residuals(state, views, MODELS[model], SCALE, literal).residual
-    found = compute_registration_errors(state, views, MODELS[model], cost)
+    expected = compute_reference_residuals(state, views, find_model(model), SCALE, literal).residual
+    found = compute_registration_errors(state, views, find_model(model), cost)
     np.testing.assert_allclose(SCALE * found, expected, atol=1e-10)
 
 
@@ -73,8 +73,8 @@ def test_a_corner_off_the_plane_is_registered_beside_its_place() -> None:
     state, views = truth_of(made), pack_observations(made.views)
     height = np.random.default_rng(0).normal(0, 3, (*views.mask.shape, 1))
     bent = replace(views, xy=np.concatenate([views.xy, height], axis=-1))
-    seen = replace(bent, uv=predict_corners(state, bent, MODELS["lucchese"], Cost.IMAGE))
-    found = compute_registration_errors(state, seen, MODELS["lucchese"], Cost.IMAGE)
+    seen = replace(bent, uv=predict_corners(state, bent, find_model("lucchese"), Cost.IMAGE))
+    found = compute_registration_errors(state, seen, find_model("lucchese"), Cost.IMAGE)
     np.testing.assert_allclose(found, 0.0, atol=1e-10)
 
 
@@ -114,7 +114,8 @@ def test_derivatives_against_differences(model: str, cost: Cost) -> None:
     found = residual(model, cost, state, views)
     numeric = central_differences(by_params, state.params, step)
     for i in range(len(step)):
-        assert relative(found.by_params[..., i], numeric[..., i]) < 1e-7
+        # A control point that corners barely touch moves them by less than differences show.
+        assert relative(found.by_params[..., i], numeric[..., i], floor=1.0) < 1e-7
     pose_step = np.array([3e-4] * 3 + [0.2] * 3)
     numeric = central_differences(by_pose, np.zeros(6), pose_step)
     for i in range(6):
@@ -126,12 +127,16 @@ def test_predicted_corners_are_where_the_residual_is_zero(model: str, cost: Cost
     made = made_with(model)
     views = pack_observations(made.noisy(0.5, np.random.default_rng(0)))
     state = truth_of(made)
-    predicted = predict_corners(state, views, MODELS[model], cost)
+    predicted = predict_corners(state, views, find_model(model), cost)
     there = Observations(predicted, views.xy, views.mask, None)
     assert np.abs(residual(model, cost, state, there).residual).max() < 1e-8
 
 
-@pytest.mark.parametrize(("model", "cost"), CASES)
+@pytest.mark.parametrize(
+    ("model", "cost"),
+    # Differences by 162 coefficients take minutes: test_local_support.py asks mrcal instead.
+    [(model, cost) for model, cost in CASES if not model.startswith("splined")],
+)
 def test_the_minimum_is_scipys(model: str, cost: Cost) -> None:
     """The same residual minimised by another program ends at the same cost.
 
@@ -172,7 +177,7 @@ def test_padding_weighs_nothing_and_covariances_whiten() -> None:
     views = whiten_observations(
         pack_observations([(uv, xy, cov), (made.views[1].uv[:30], xy[:30], cov[:30])])
     )
-    state, lens = truth_of(made), MODELS["lucchese"]
+    state, lens = truth_of(made), find_model("lucchese")
     found = linearise_residuals(state, views, slice(0, 2), lens, Cost.IMAGE, 1.0)
     assert not found.residual[1, 30:].any()
     assert not found.by_params[1, 30:].any()
@@ -188,5 +193,7 @@ def test_a_board_behind_the_camera_has_no_image() -> None:
     state = truth_of(made)
     behind = state._replace(T=-state.T)
     assert np.isnan(
-        compute_image_residuals(behind, pack_observations(made.views), MODELS["lucchese"]).residual
+        compute_image_residuals(
+            behind, pack_observations(made.views), find_model("lucchese")
+        ).residual
     ).any()
