@@ -1,9 +1,10 @@
 """Calibration: from corners to a camera, with poses, standard deviations and a diagnosis.
 
 `calibrate` takes `Observation` records and returns a `Calibration`; `METHODS` lists the methods
-that it can use. `refit` expresses a calibration in another lens model, `recover_arguments` gives
-the arguments that repeat one on other views. The remaining functions analyse views and results for
-reports: copies among the views, the paper's tables, correlations.
+that it can use. `refit` expresses a calibration in another lens model, `convert_camera` a camera
+without corners; `recover_arguments` gives the arguments that repeat a calibration on other views.
+The remaining functions analyse views and results for reports: copies among the views, the paper's
+tables, correlations.
 
     >>> import numpy as np
     >>> from calibgui.engine.boards import Board
@@ -26,6 +27,11 @@ reports: copies among the views, the paper's tables, correlations.
 from __future__ import annotations
 
 from calibgui.engine.calibration.calibrate import calibrate
+from calibgui.engine.calibration.conversion import (
+    Conversion,
+    convert_camera,
+    find_followed_angle,
+)
 from calibgui.engine.calibration.initialisation.single_view_pose import evaluate_cosines_equation
 from calibgui.engine.calibration.methods import DEFAULT_METHOD, METHODS, Method
 from calibgui.engine.calibration.observations import Observation
@@ -56,6 +62,7 @@ __all__ = [
     "METHODS",
     "Assumption",
     "Calibration",
+    "Conversion",
     "Cost",
     "Degeneracy",
     "DegenerateError",
@@ -71,8 +78,10 @@ __all__ = [
     "ViewResiduals",
     "calibrate",
     "compute_correlations",
+    "convert_camera",
     "evaluate_cosines_equation",
     "find_copies",
+    "find_followed_angle",
     "is_in_one_spot",
     "make_paper_table",
     "recover_arguments",

@@ -28,6 +28,7 @@ from calibgui.engine.calibration.board_shape.uncertainty import (
     add_board_shape_error,
     suspect_board,
 )
+from calibgui.engine.calibration.initialisation.knots import check_knots, choose_knots
 from calibgui.engine.calibration.lens_error import measure_lens_error
 from calibgui.engine.calibration.methods import DEFAULT_METHOD, find_method
 from calibgui.engine.calibration.observations import (
@@ -65,6 +66,7 @@ from calibgui.engine.calibration.result_assembly import (
 from calibgui.engine.calibration.score_tests import LinearisedFit
 from calibgui.engine.camera.camera import Camera, check_image_size
 from calibgui.engine.camera.models import PINHOLE, find_model, parameter_names, resolve_model_id
+from calibgui.engine.camera.models.splined_stereographic import PREFIX, SplinedStereographic
 from calibgui.engine.errors import CalibrationError, parse_choice
 from calibgui.engine.threads import with_one_blas_thread
 
@@ -150,14 +152,23 @@ def calibrate(
             f"The cost {cost.value!r} registers the views on a flat board as it is drawn.",
             "Use the cost 'image' with another board shape.",
         )
-    size, parameters = check_image_size(size), parameter_names(model)
-    steps = find_method(method, model, cost)
-    held = resolve_held_parameters(fix, free, model, size)
-    names = names or name_views(len(views))
+    size, names = check_image_size(size), names or name_views(len(views))
     observations = pack_observations(views, names)
     _check_size(observations, size, names)
+    if model == PREFIX:
+        model = choose_knots(observations, size)
+    lens, parameters = find_model(model), parameter_names(model)
+    if isinstance(lens, SplinedStereographic) and not as_drawn:
+        raise CalibrationError(
+            "A splined lens model is not estimated together with the shape of a board.",
+            "Choose another lens model, or keep the board as it is drawn.",
+        )
+    steps = find_method(method, model, cost)
+    held = resolve_held_parameters(fix, free, model, size)
     scale = REFERENCE_PITCH / measure_pitch(observations)
     registration, start, values = steps.initialise(observations, size, model, scale, held, names)
+    if isinstance(lens, SplinedStereographic):
+        check_knots(start, observations, lens)
     settings = {
         "cost": cost.value,
         "model": model,
@@ -231,14 +242,20 @@ def _add_model_errors(
     prior: BoardShapePrior | None,
     report: Report | None,
 ) -> Estimate:
-    """Estimate the board's shape if wanted, and widen the uncertainties by what models miss."""
+    """Estimate the board's shape if wanted, and widen the uncertainties by what models miss.
+
+    Nothing is added for a splined lens: it has enough coefficients to follow what a board's shape
+    or a single view does to the image, and the tests that tell these apart know few parameters.
+    """
+    if isinstance(find_model(options.model), SplinedStereographic):
+        return estimate
     shape, lens_error = BoardShapeModel(options.settings["plate"]), 0.0
     if options.board_shape is None:
         suspicion = suspect_board(estimate, observations, options.model)
         if suspicion is not None:  # only then is the lens examined, which takes its time
             camera = Camera(options.size, estimate.state.params, options.model)
             fit = LinearisedFit(camera, estimate.state, observations, options.free)
-            lens_error = measure_lens_error(fit)
+            lens_error = measure_lens_error(fit, suspicion.explained)
         if shape is not BoardShapeModel.NOMINAL:
             solution = estimate.solution
             estimate = fit_board_shape(

@@ -33,6 +33,7 @@ from calibgui.engine.calibration.refinement.levenberg_marquardt import Solution
 from calibgui.engine.calibration.refinement.residuals import State
 from calibgui.engine.calibration.result import Cost, Report
 from calibgui.engine.camera.models import MODELS
+from calibgui.engine.camera.models.splined_stereographic import PREFIX
 from calibgui.engine.errors import CalibrationError
 
 DEFAULT_METHOD = "lucchese"
@@ -93,7 +94,7 @@ def find_method(name: str, model: str, cost: Cost) -> Method:
 
     Args:
         name: a key of `METHODS`.
-        model: the lens model to estimate, a key of ``camera.models.MODELS``.
+        model: the lens model to estimate, a key of ``camera.models.MODELS`` or a splined model.
         cost: what to minimise.
 
     Raises:
@@ -104,7 +105,7 @@ def find_method(name: str, model: str, cost: Cost) -> Method:
             f"There is no calibration method {name!r}.", f"Choose from {', '.join(METHODS)}."
         )
     method = METHODS[name]
-    if model not in method.lens_models:
+    if (model if model in MODELS else PREFIX) not in method.lens_models:
         raise CalibrationError(
             f"The method {name!r} cannot estimate the lens model {model!r}.",
             f"Choose from {', '.join(method.lens_models)}.",

@@ -83,6 +83,7 @@ def add_overdispersion(estimate: Estimate, model: str, free: IntArray) -> Estima
         return estimate
     try:
         unit = np.linalg.cholesky(estimate.noise_covariance / sigma2)  # T^-1 = unit unit^T
+        reported: Array = np.linalg.cholesky(estimate.camera_covariance)
     except np.linalg.LinAlgError:
         return estimate  # a combination of parameters is undetermined, and says so
     A = compute_view_products(
@@ -95,12 +96,15 @@ def add_overdispersion(estimate: Estimate, model: str, free: IntArray) -> Estima
     alone = np.linalg.inv(np.eye(P) - R)  # of the camera without view k
     X = float(np.einsum("kp,kpq,kq->", h, alone, h)) / (P * sigma2 * (1 - leverage))
     D = R @ alone @ R
-    n = P**2 / float(np.sum(R**2) + np.sum(D.sum(axis=0) ** 2) - np.sum(D**2))
+    square = float(np.sum(R**2) + np.sum(D.sum(axis=0) ** 2) - np.sum(D**2))
+    if not square > 0:  # of a camera that is open beyond all measure
+        return estimate
+    n = P**2 / square
     if scipy.special.fdtrc(n, 2 * corners - 6 * K - P - estimate.shape_unknowns, X) > _SIGNIFICANCE:
         return estimate
     moved = np.linalg.solve(np.eye(P) - _JACKKNIFE_SHARE * R, h[..., None])[..., 0] @ unit.T
     clustered = moved.T @ moved * (K - 1) / K / (1 - leverage) ** 2
-    added = _compute_excess(clustered, estimate.camera_covariance)
+    added = _compute_excess(clustered, reported)
     turn = covariances.differentiate_poses(rotations.vector_from_rotation(estimate.state.R)) @ G
     return estimate._replace(
         camera_covariance=estimate.camera_covariance + added,
@@ -128,9 +132,8 @@ def _widen_board_shape(
     return replace(board_shape, sigma=np.sqrt(board_shape.sigma**2 + more))
 
 
-def _compute_excess(covariance: Array, reported: Array) -> Array:
-    """Compute the (P, P) to add to a reported covariance so that it is nowhere below the other."""
-    root = np.linalg.cholesky(reported)
+def _compute_excess(covariance: Array, root: Array) -> Array:
+    """Compute the (P, P) to add to root root^T so that it is nowhere below the covariance."""
     half = np.linalg.solve(root, covariance)
     values, vectors = np.linalg.eigh(np.linalg.solve(root, half.T))
     axes = root @ vectors

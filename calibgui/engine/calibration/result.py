@@ -196,6 +196,12 @@ class Calibration:
     """Deviation of the board's corners from the drawing, mm rms, if the residuals show one that was
     not estimated; the uncertainties then include its effect. 0 otherwise. It measures what the
     residuals show, not what the camera has absorbed."""
+    lens_error: float = 0.0
+    """Displacement that all views share and that the lens model does not follow, px rms (2-D), if
+    the residuals show one and the lens rather than the board explains it (``lens_error.py``). 0
+    otherwise, and not tested where the residuals do not look as if the board were off. The
+    uncertainties are then those of the parameters that fit best, widened by the shift that such an
+    error makes of them; none is of the lens itself, whose rays are off by about this much."""
     overdispersion: float = 0.0
     """Ratio of the views' disagreement about the camera to what the corners' noise explains
     (``overdispersion.py``), if it is significant; the uncertainties then include it. 0

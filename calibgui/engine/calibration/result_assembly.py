@@ -55,6 +55,8 @@ class Estimate(NamedTuple):
     """Motion of the corners of an estimated board with the camera's parameters."""
     board_shape_error: float = 0.0
     """See ``Calibration.board_shape_error``."""
+    lens_error: float = 0.0
+    """See ``Calibration.lens_error``."""
     overdispersion: float = 0.0
     """See ``Calibration.overdispersion``."""
 
@@ -112,6 +114,7 @@ def assemble_calibration(
         undetermined=undetermined,
         board_shape=options.board_shape or estimate.board_shape,
         board_shape_error=estimate.board_shape_error,
+        lens_error=estimate.lens_error,
         overdispersion=estimate.overdispersion,
         settings=options.settings,
         digest=digest,

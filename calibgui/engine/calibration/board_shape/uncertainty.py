@@ -58,10 +58,12 @@ class BoardSuspicion(NamedTuple):
 
     points: Array
     """(n, 2) the board's corners in the drawing, mm."""
-    index: IntArray
+    corner: IntArray
     """(K, N) index among these of each observation."""
     variance: float
     """Variance s^2 of the deviations along each axis, mm^2."""
+    explained: float
+    """Part of the squared residuals that the deviations explain at least, beyond noise."""
 
 
 def suspect_board(
@@ -85,7 +87,7 @@ def suspect_board(
     if excess < _MIN_EXCESS * np.sqrt(2 * expected):
         return None
     s2 = excess * estimate.sigma2 / float(np.trace(H[tested], axis1=1, axis2=2).sum())
-    return BoardSuspicion(points, index, s2)
+    return BoardSuspicion(points, index, s2, excess * estimate.sigma2)
 
 
 def _sum_scores(
@@ -120,7 +122,7 @@ def add_board_shape_error(
         free: (P,) indices of the camera's parameters that may move.
         suspicion: the deviations that the residuals suggest.
     """
-    points, index, s2 = suspicion
+    points, index, s2, _ = suspicion
     B = make_basis(BoardShapeModel.FREE, points)
     P, Q = len(free), B.shape[2]
     state = estimate.state._replace(params=np.append(estimate.state.params, np.zeros(Q)))

@@ -24,6 +24,8 @@ from calibgui.engine.camera.camera import Camera
 
 _MAX_VIEWS = 25
 """Number of views, spread evenly over all, that descents use."""
+_MAX_HELD_ITERATIONS, _MAX_ITERATIONS = 8, 100
+"""Number of steps with one parameter held, and of all parameters after it."""
 
 
 def descend(
@@ -48,24 +50,72 @@ def descend(
         None if no camera images all corners.
     """
     sample = select_spread_views(observations, _MAX_VIEWS)
-    problem = build_stage_two(sample, model, Cost.IMAGE, 1.0, free)
-    data = float(np.sum(sample.uv**2))
-    best: Solution | None = None
-    for params in cameras:
-        start = estimate_poses(Camera(size, params, model), sample)
-        try:
-            found = minimise(
-                problem, start, free, sample.count, data, max_iterations=max_iterations
-            )
-        except StartError:
-            continue
-        if best is None or found.normal.cost < best.normal.cost:
-            best = found
-    if best is None:
+    starts = [estimate_poses(Camera(size, params, model), sample) for params in cameras]
+    ends = [_descend_from(start, sample, model, free, max_iterations) for start in starts]
+    return _take_lowest(ends, observations, size, model)
+
+
+def descend_along(
+    observations: Observations,
+    cameras: Iterable[Array],
+    size: Size,
+    model: str,
+    free: IntArray,
+    shape: int,
+) -> State | None:
+    """Descend to the lowest of several minima that lie along one parameter.
+
+    With that parameter held, the others have one minimum, which few steps reach. Where this is
+    lower than at the neighbouring values, minima of all lie near, on one side or on both, and
+    descents of all parameters begin there and at both neighbours.
+
+    Args:
+        observations: the views.
+        cameras: parameters (P,) for ascending values of that one.
+        size: width and height of the images, px.
+        model: the lens model, a key of ``camera.models.MODELS``.
+        free: indices of the parameters that may change.
+        shape: index of the parameter.
+
+    Returns:
+        Camera and poses; None if no camera images all corners.
+    """
+    sample = select_spread_views(observations, _MAX_VIEWS)
+    starts = [estimate_poses(Camera(size, params, model), sample) for params in cameras]
+    others = free[free != shape]
+    held = [_descend_from(start, sample, model, others, _MAX_HELD_ITERATIONS) for start in starts]
+    costs = np.array([end.normal.cost if end else np.inf for end in held])
+    beside = np.pad(costs, 1, constant_values=np.inf)
+    is_low = (costs <= beside[:-2]) & (costs <= beside[2:])
+    near = np.convolve(is_low, np.ones(3), "same") > 0
+    begins = [end.state for end, is_near in zip(held, near, strict=True) if end and is_near]
+    ends = [_descend_from(begin, sample, model, free, _MAX_ITERATIONS) for begin in begins]
+    return _take_lowest(ends, observations, size, model)
+
+
+def _descend_from(
+    start: State, views: Observations, model: str, free: IntArray, max_iterations: int
+) -> Solution | None:
+    """Take some steps of Stage II from a start; None if it does not image all corners."""
+    problem = build_stage_two(views, model, Cost.IMAGE, 1.0, free)
+    data = float(np.sum(views.uv**2))
+    try:
+        return minimise(problem, start, free, views.count, data, max_iterations=max_iterations)
+    except StartError:
         return None
-    if len(sample.uv) == len(observations.uv):
-        return best.state
-    return estimate_poses(Camera(size, best.state.params, model), observations)
+
+
+def _take_lowest(
+    ends: Iterable[Solution | None], observations: Observations, size: Size, model: str
+) -> State | None:
+    """Return the camera of the lowest end, with the poses of all views; None if there is no end."""
+    found = [end for end in ends if end is not None]
+    if not found:
+        return None
+    state = min(found, key=lambda end: end.normal.cost).state
+    if len(state.R) == len(observations.uv):
+        return state
+    return estimate_poses(Camera(size, state.params, model), observations)
 
 
 def select_spread_views(views: Observations, count: int) -> Observations:

@@ -19,7 +19,7 @@ import numpy as np
 
 from calibgui.engine.arrays import Array, Size
 from calibgui.engine.calibration.initialisation import closed_form, focal_sweep
-from calibgui.engine.calibration.initialisation.descent import descend
+from calibgui.engine.calibration.initialisation.descent import descend_along
 from calibgui.engine.calibration.initialisation.lens_fit import fit_lens
 from calibgui.engine.calibration.initialisation.stage_one import StageOneRegistration
 from calibgui.engine.calibration.initialisation.unified_start import (
@@ -54,11 +54,14 @@ _CLOSED_FORM_MODELS = (
 _MAX_START_MISS = 0.003
 """Root mean squared miss of the corners at the start, in image widths, from which another start is
 tried."""
-_SHAPES = {"double-sphere": ("xi", (-0.3, 0.0, 0.3)), "mei": ("xi", (0.2, 0.5, 1.0, 1.5, 2.5))}
-"""Coefficient of which models have several minima, and its values to start from: the models' two
-coefficients of shape do nearly the same."""
-_MAX_DESCENT = 30
-"""Number of steps of a descent from each of these."""
+_MIN_ALPHA = 0.1
+"""Alpha of the extended unified model below which a start leaves its beta open."""
+_SHAPES = {
+    "double-sphere": ("xi", (-0.5, -0.3, -0.1, 0.1, 0.3, 0.5)),
+    "mei": ("xi", (0.1, 0.3, 0.5, 0.7, 0.9, 1.2, 1.6, 2.2, 3.0)),
+}
+"""Models with several minima, the coefficient along which these lie, and values of it between them:
+the model's other coefficients of shape do nearly the same."""
 
 
 def convert_to_paper_frame(
@@ -221,7 +224,8 @@ def _start_any_lens(
         for shape in shapes
     ]
     free = np.flatnonzero([name not in held for name in parameter_names(model)])
-    return descend(observations, cameras, size, model, free, _MAX_DESCENT) or starts[best]
+    index = parameter_names(model).index(name)
+    return descend_along(observations, cameras, size, model, free, index) or starts[best]
 
 
 class _Sight(NamedTuple):
@@ -264,8 +268,13 @@ def _follow_rays(
     for i in range(2):
         if held.get(names[i]) is None and on_axis > 0:
             params[i] /= on_axis
+    if model == "eucm" and "beta" not in held:  # the unified model's, which it begins as
+        return _follow_rays(observations, sight, model, {**held, "beta": 1.0})
     free = np.flatnonzero([name not in held for name in names])
-    return State(fit_lens(rays[::step], uv[::step], params, lens, free), R, T)
+    fitted = fit_lens(rays[::step], uv[::step], params, lens, free)
+    if model == "eucm" and "alpha" not in held and fitted[4] < _MIN_ALPHA:
+        return _follow_rays(observations, sight, model, {**held, "alpha": _MIN_ALPHA})
+    return State(fitted, R, T)
 
 
 def _find_known(held: Mapping[str, float | None], name: str, size: Size) -> float:

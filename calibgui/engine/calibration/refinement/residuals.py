@@ -129,7 +129,7 @@ Blocks = tuple[Array, Array, Array, Array, Array, Array]
 
 def compute_image_residuals(state: State, views: Observations, lens: Lens) -> Linearised:
     """Compute predicted minus measured corners in the image, px; NaN without a prediction."""
-    rotated, point = _place_points(state, views.xy)
+    rotated, point = place_points(state, views.xy)
     predicted = project(point, state.params, lens)
     by_pose = _differentiate_by_pose(predicted.by_ray, rotated)
     return Linearised(predicted.points - views.uv, predicted.by_params, by_pose)
@@ -152,7 +152,7 @@ def compute_reference_residuals(
     h = measured.rays @ np.swapaxes(np.linalg.inv(M), 1, 2)  # (X, Y, 1) / s
     distance = 1 / np.where(h[..., 2:] > 0, h[..., 2:], np.nan)  # the ray leads to the board
     points = h[..., :2] * distance
-    rotated, _ = _place_points(state, points)
+    rotated, _ = place_points(state, points)
     across = np.swapaxes(make_tangent_basis(measured.rays), -1, -2)
     inverse = np.linalg.inv(across @ state.R[:, None, :, :2])  # G^-1
     by_params = inverse @ (distance[..., None] * (across @ measured.by_params))
@@ -194,7 +194,7 @@ def linearise_residuals(
     )
 
 
-def _place_points(state: State, points: Array) -> tuple[Array, Array]:
+def place_points(state: State, points: Array) -> tuple[Array, Array]:
     """Return R X and X_cam (K, N, 3), mm, of points (K, N, 2 or 3) on the board, mm."""
     rotated = points @ np.swapaxes(state.R[..., : points.shape[-1]], 1, 2)
     return rotated, rotated + state.T[:, None]
@@ -377,7 +377,7 @@ def predict_corners(state: State, views: Observations, lens: Lens, cost: Cost) -
     points = views.xy
     if cost is Cost.PAPER:
         points = points * np.array([1.0, state.params[0] / state.params[1]])
-    return project_points(_place_points(state, points)[1], state.params, lens)
+    return project_points(place_points(state, points)[1], state.params, lens)
 
 
 def compute_registration_errors(state: State, views: Observations, lens: Lens, cost: Cost) -> Array:

@@ -1,0 +1,301 @@
+"""Score tests: how much of the residuals a cause that all views share would explain.
+
+Residuals that are not noise have a cause: another lens, a bent board. To calibrate with each of
+them in turn would be slow, and for most there is no such calibration. A score test needs the
+residuals and their derivatives at the solution only.
+
+A cause adds columns X to the derivatives, with coefficients that are 0 if it is absent. At the
+minimum, where J^T r = 0 for the parameters that were fitted, one Gauss-Newton step on all
+parameters together lowers the cost by
+
+    T = b^T N^+ b,     b = X^T r,     N = X^T X - X^T J (J^T J)^-1 J^T X
+
+(Rao 1948). If the residuals are noise, T / sigma^2 is chi-squared with m = rank N
+degrees of freedom, whatever the columns are; with sigma^2 taken from what X leaves,
+F = (T / m) / ((r^T r - T) / (nu - m)) has Fisher's distribution. The share of
+r^T r that the cause explains is counted beyond what noise gives to any m columns.
+
+The lens is a smooth displacement of the image, the same in all views: bilinear hats over
+`LENS_CELLS` cells. The board is another shape of it: every corner by itself, or a model with few
+unknowns. Both are further columns of the camera's in the arrow-shaped normal equations. A corner
+depends on four hats and on its own three coordinates only, so that the columns are sparse. Several
+causes stand side by side in one Schur complement; what one explains beyond another, which then
+counts as fitted, follows from the rows and columns of the two.
+
+What views have of their own (a board that bends anew, a camera that moves while its rows are read)
+is eliminated with their poses.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import NamedTuple
+
+import numpy as np
+import scipy
+
+from calibgui.engine.arrays import Array, IntArray, Size
+from calibgui.engine.boards.shape import BoardShapeModel
+from calibgui.engine.calibration.board_shape.parametrisation import index_board_points, make_basis
+from calibgui.engine.calibration.observations import Observations, slice_views
+from calibgui.engine.calibration.refinement.residuals import (
+    Linearised,
+    State,
+    compute_image_residuals,
+    linearise_residuals,
+)
+from calibgui.engine.calibration.result import Cost
+from calibgui.engine.camera.camera import Camera
+from calibgui.engine.camera.models import find_model
+
+LENS_CELLS = 8
+"""Number of cells, along the image's longer side, of the displacement that a lens may cause. With
+more of them the test would need more corners."""
+LENS = "lens"
+"""Name of the lens among the causes; those of the boards are `BoardShapeModel`'s."""
+_MIN_PIVOT = 1e-9
+"""Part of a column's square that the others leave, below which it is one of their combinations."""
+
+
+class LinearisedFit(NamedTuple):
+    """A calibration as the tests need it: residuals, and their derivatives at its solution."""
+
+    camera: Camera
+    state: State
+    observations: Observations
+    free: IntArray
+    """(P,) indices of the camera's estimated parameters."""
+
+    def linearise(self, views: slice) -> Linearised:
+        """Compute whitened residuals of the views in the image, with derivatives."""
+        return linearise_residuals(
+            self.state, self.observations, views, find_model(self.camera.model), Cost.IMAGE, 1.0
+        )
+
+    def get_weight(self, views: slice) -> Array:
+        """Return the matrices (k, N, 2, 2) that whiten the views' residuals; zero for padding."""
+        part = self.observations.select_views(views)
+        if part.whitening is not None:
+            return part.whitening
+        return part.mask[..., None, None] * np.eye(2)
+
+    def predict_corners(self, views: slice) -> Array:
+        """Return the corners (k, N, 2) that the calibration predicts, px.
+
+        Columns that depend on the place in the image must take it from here: the measured place
+        holds the noise that the columns are tested against.
+        """
+        state, part = self.state.select_views(views), self.observations.select_views(views)
+        return (
+            part.uv + compute_image_residuals(state, part, find_model(self.camera.model)).residual
+        )
+
+    @property
+    def degrees_of_freedom(self) -> int:
+        """Number nu of residual coordinates beyond that of the fitted unknowns."""
+        return 2 * self.observations.count - len(self.free) - 6 * len(self.state.R)
+
+
+class Explanation(NamedTuple):
+    """The part of the residuals that a cause explains."""
+
+    probability: float
+    """Probability that noise explains as much; 1 where there are too few corners to tell."""
+    share: float
+    """Share of r^T r, beyond what noise gives to any columns."""
+
+
+def judge_explanation(T: float, rank: int, cost: float, freedom: int) -> Explanation:
+    """Judge the T of `rank` columns against r^T r = `cost` with `freedom` degrees of freedom."""
+    rest = freedom - rank
+    if rest < 1 or rank < 1 or not cost > 0:
+        return Explanation(1.0, 0.0)
+    variance = max(cost - T, 0.0) / rest
+    ratio = T / rank / max(variance, 1e-300)
+    probability = float(scipy.special.fdtrc(rank, rest, ratio))
+    return Explanation(probability, max(T - rank * variance, 0.0) / cost)
+
+
+def explain_by_lens(fit: LinearisedFit) -> Explanation:
+    """Explain the residuals by a smooth displacement of the image, the same in all views."""
+    return SharedCauses(fit, [LENS]).explain(LENS)
+
+
+def explain_by_board_shape(fit: LinearisedFit, model: BoardShapeModel) -> Explanation:
+    """Explain the residuals by a board of another shape."""
+    return SharedCauses(fit, [model]).explain(model)
+
+
+class SharedCauses:
+    """Causes that all views share, side by side.
+
+    Args:
+        fit: the calibration.
+        causes: `LENS`, or models of the board's shape.
+        own: (K, 2N, m) orthonormal columns of each view's own, zero where there are fewer, which
+            the poses' are among; those of the poses alone by default.
+        cells: number of cells, along the image's longer side, of the lens's displacement.
+    """
+
+    def __init__(
+        self,
+        fit: LinearisedFit,
+        causes: Sequence[str],
+        own: Array | None = None,
+        cells: int = LENS_CELLS,
+    ) -> None:
+        rows, poses = [], []
+        index = index_board_points(fit.observations)
+        for views in slice_views(len(fit.state.R)):
+            residual, by_camera, by_pose, predicted = _linearise(fit, views)
+            columns = [
+                _make_lens_columns(fit, views, predicted, cells)
+                if cause == LENS
+                else _make_board_columns(fit, views, by_pose, BoardShapeModel(cause), *index)
+                for cause in causes
+            ]
+            dense = (by_camera.reshape(-1, len(fit.free)), residual.reshape(-1, 1))
+            camera, error = map(scipy.sparse.csr_array, dense)
+            rows.append([camera, *columns, error])
+            poses.append(np.linalg.qr(by_pose.reshape(len(residual), -1, 6))[0])
+        blocks = [scipy.sparse.hstack(row, format="csr") for row in rows]
+        whole, left = _multiply(
+            scipy.sparse.vstack(blocks, format="csr"), np.concatenate(poses) if own is None else own
+        )
+        # Columns that no corner depends on would be divided by 0.
+        square = np.diag(whole)[:-1]
+        unit = 1 / np.sqrt(np.where(square > 0, square, np.inf))
+        self._N, self._b = left[:-1, :-1] * np.outer(unit, unit), left[:-1, -1] * unit
+        self._names = np.repeat(["", *causes], [column.shape[1] for column in rows[0][:-1]])
+        self.cost = float(whole[-1, -1])
+        """The sum of squares r^T r."""
+        self.cost_beside_views = float(left[-1, -1])
+        """The sum of squares that the views' own columns leave."""
+        self._reductions: dict[frozenset[str], tuple[float, int]] = {}
+        self.freedom = fit.degrees_of_freedom
+        """Number of residual coordinates beyond that of the fitted unknowns."""
+
+    def reduce_cost(self, *causes: str) -> tuple[float, int]:
+        """Return T of some causes together, and the rank of their columns."""
+        if (key := frozenset(causes)) not in self._reductions:
+            T, rank = self._solve(["", *causes])
+            T_fitted, rank_fitted = self._solve([""])
+            self._reductions[key] = T - T_fitted, rank - rank_fitted
+        return self._reductions[key]
+
+    def explain(self, cause: str, *after: str) -> Explanation:
+        """Judge what a cause explains of the residuals, or of what other causes `after` leave."""
+        T, rank = self.reduce_cost(*after, cause)
+        T_after, rank_after = self.reduce_cost(*after)
+        return judge_explanation(
+            T - T_after, rank - rank_after, self.cost - T_after, self.freedom - rank_after
+        )
+
+    def _solve(self, names: Sequence[str]) -> tuple[float, int]:
+        """Return b^T N^+ b and the rank of N for the columns of these names, "" the camera's."""
+        chosen = np.flatnonzero(np.isin(self._names, names))
+        if not len(chosen):
+            return 0.0, 0
+        N, b = self._N[np.ix_(chosen, chosen)], self._b[chosen]
+        # Pivots bring columns that are combinations of others to the end.
+        factor, pivots, rank, _ = scipy.linalg.lapack.dpstrf(N.T, tol=_MIN_PIVOT)
+        b = b[pivots[:rank] - 1]
+        y = scipy.linalg.solve_triangular(factor[:rank, :rank], b, trans=1) if rank else b
+        return float(y @ y), int(rank)
+
+
+def _linearise(fit: LinearisedFit, views: slice) -> tuple[Array, Array, Array, Array]:
+    """Linearise the fit in some views.
+
+    Returns:
+        Whitened residuals (k, N, 2) and their derivatives by the free parameters of the camera
+        (k, N, 2, P) and by the poses (k, N, 2, 6), and the predicted corners (k, N, 2), px.
+    """
+    state, part = fit.state.select_views(views), fit.observations.select_views(views)
+    raw = compute_image_residuals(state, part, find_model(fit.camera.model))
+    weight = fit.get_weight(views)
+    return (
+        (weight @ raw.residual[..., None])[..., 0],
+        weight @ raw.by_params[..., fit.free],
+        weight @ raw.by_pose,
+        part.uv + raw.residual,
+    )
+
+
+def _multiply(columns: scipy.sparse.csr_array, own: Array) -> tuple[Array, Array]:
+    """Return products (m, m) of columns, and of what the views' own columns leave of them."""
+    K, rows, m = own.shape
+    count = columns.shape[1]
+    whole = (columns.T @ columns).toarray()
+    left = whole.copy()
+    for views in slice_views(K):
+        # In a matrix of blocks along the diagonal, one for each view, all are multiplied at once.
+        part = columns[views.start * rows : views.stop * rows]
+        k = views.stop - views.start
+        block = np.repeat(np.repeat(np.arange(k), rows), np.diff(part.indptr))
+        blocks = scipy.sparse.csr_array(
+            (part.data, part.indices + count * block, part.indptr), shape=(k * rows, k * count)
+        )
+        by_view = (blocks.T @ own[views].reshape(k * rows, m)).reshape(k, count, m)
+        by_own = by_view.swapaxes(0, 1).reshape(count, k * m)
+        left -= by_own @ by_own.T
+    return whole, left
+
+
+def _make_board_columns(
+    fit: LinearisedFit,
+    views: slice,
+    by_pose: Array,
+    model: BoardShapeModel,
+    flat: Array,
+    index: IntArray,
+) -> scipy.sparse.csr_array:
+    """Make the columns (2kN, Q) of the board's deviations from the shape that it has in the fit.
+
+    `flat` (n, 2) are the board's corners, and `index` (K, N) says which of them are observed.
+    """
+    by_corner = (by_pose[..., 3:] @ fit.state.R[views, None]).reshape(-1, 2, 3)
+    corner = index[views].reshape(-1, 1)
+    columns = _make_sparse(by_corner, 3 * corner + np.arange(3), 3 * len(flat))
+    if model is BoardShapeModel.FREE:
+        return columns
+    return columns @ scipy.sparse.csr_array(make_basis(model, flat).reshape(3 * len(flat), -1))
+
+
+def _make_lens_columns(
+    fit: LinearisedFit, views: slice, predicted: Array, cells: int
+) -> scipy.sparse.csr_array:
+    """Make the columns (2kN, 2M) of displacements along u and v at the predicted corners."""
+    nodes, values, M = _evaluate_hats(predicted.reshape(-1, 2), fit.camera.size, cells)
+    weight = fit.get_weight(views).reshape(-1, 2, 2)
+    entries = (weight[..., None] * values[:, None, None, :]).reshape(len(nodes), 2, -1)
+    return _make_sparse(entries, np.concatenate([nodes, M + nodes], axis=1), 2 * M)
+
+
+def _make_sparse(entries: Array, places: IntArray, count: int) -> scipy.sparse.csr_array:
+    """Make a matrix (2n, count) from the entries (n, 2, m) of row pairs in columns (n, m)."""
+    n, _, m = entries.shape
+    places = np.repeat(places[:, None], 2, axis=1).ravel()
+    matrix = scipy.sparse.csr_array(
+        (entries.ravel(), places, np.arange(2 * n + 1) * m), shape=(2 * n, count)
+    )
+    matrix.eliminate_zeros()
+    return matrix
+
+
+def _evaluate_hats(uv: Array, size: Size, along_longer: int) -> tuple[IntArray, Array, int]:
+    """Evaluate bilinear hats at pixels (n, 2), on a mesh of so many cells along the longer side.
+
+    Returns:
+        (n, 4) numbers of the nodes around each pixel, (n, 4) values of their hats there, and the
+        number of all nodes.
+    """
+    cells = np.array([max(1, round(along_longer * n / max(size))) for n in size])
+    place = np.clip(uv / (np.array(size) - 1), 0, 1) * cells
+    first = np.minimum(place.astype(np.int64), cells - 1)
+    far = place - first
+    x, y = np.moveaxis(first[..., None] + np.arange(2), 1, 0)
+    by_x, by_y = np.moveaxis(np.stack([1 - far, far], axis=-1), 1, 0)
+    nodes = x[:, :, None] * (cells[1] + 1) + y[:, None, :]
+    values = by_x[:, :, None] * by_y[:, None, :]
+    return nodes.reshape(-1, 4), values.reshape(-1, 4), int(np.prod(cells + 1))
