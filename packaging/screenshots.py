@@ -26,6 +26,7 @@ from calibgui.app.resources import find_resource
 from calibgui.engine.boards import BoardShapeModel
 from calibgui.gui.panels.analysis import PANELS
 from calibgui.gui.panels.board_shape import BoardShapePanel
+from calibgui.gui.panels.lens_models import LensModelsPanel
 from calibgui.gui.panels.poses import PosesPanel
 from calibgui.gui.panels.synthetic import SyntheticPanel
 from calibgui.gui.widgets import theme
@@ -79,6 +80,9 @@ class Photographer:
             if isinstance(panel, SyntheticPanel):
                 panel.run.click()
                 wait(partial(getattr, panel, "check"))
+            if isinstance(panel, LensModelsPanel):
+                panel.run.click()
+                wait(partial(getattr, panel, "choice"))
             self.take(kind.__name__.removesuffix("Panel").lower())
         self.marking()
 

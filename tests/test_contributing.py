@@ -59,6 +59,7 @@ def test_the_reading_order_is_a_list_of_files() -> None:
         ("calibgui.engine.detection.find_corners", "DETECTORS"),
         ("calibgui.engine.kernels", "with_kernel"),
         ("calibgui.formats", "EXPORTERS"),
+        ("calibgui.formats.camera_import", "IMPORTERS"),
         ("calibgui.cli.main", "COMMANDS"),
         ("calibgui.gui.panels.analysis", "PANELS"),
         ("calibgui.gui.panels.panel", "Panel"),

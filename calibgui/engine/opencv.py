@@ -111,15 +111,15 @@ def encode_image(suffix: str, image: GreyImage) -> bytes | None:
     return bytes(data) if ok else None
 
 
-def resample_image(image: GreyImage, uv: Array) -> GreyImage:
-    """Interpolate `image`, (h, w) or (h, w, c), at `uv` (H, W, 2) px, in the type of `image`.
+def resample_image(image: GreyImage, uv: FloatImage) -> GreyImage:
+    """Interpolate `image`, (h, w) or (h, w, c), at `uv` (2, H, W) px, in the type of `image`.
 
     The interpolation is bilinear, the border replicated.
 
     No side may exceed `MAX_SIDE` px.
     """
-    points = uv.astype(np.float32)
-    return np.asarray(cv2.remap(image, points, None, cv2.INTER_LINEAR, None, cv2.BORDER_REPLICATE))
+    u, v = uv
+    return np.asarray(cv2.remap(image, u, v, cv2.INTER_LINEAR, None, cv2.BORDER_REPLICATE))
 
 
 MAX_SIDE = 32_766

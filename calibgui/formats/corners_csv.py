@@ -132,4 +132,5 @@ EXPORTER = Exporter(
     limits="Corners and their places on the board; no calibration, no images without corners.",
     write=_export,
     partial=True,
+    needs_corners=True,
 )

@@ -85,4 +85,5 @@ EXPORTER = Exporter(
     limits="Corners of all images and their places on the board; no calibration.",
     write=_export,
     partial=True,
+    needs_corners=True,
 )

@@ -6,12 +6,14 @@ are dimensionless; nothing is refitted. Cannot hold: correlations, poses, corner
 
 from __future__ import annotations
 
+import math
 from pathlib import Path
 
 from calibgui.dataset import Result
 from calibgui.engine.calibration import Calibration
 from calibgui.engine.camera import MODELS
 from calibgui.engine.files import write_atomically
+from calibgui.formats.camera_refit import find_conversion_note
 from calibgui.formats.exporter import FRAME, Exporter, ExportReport
 
 _NOTE = "The camera as calibrated; nothing is refitted."
@@ -19,15 +21,16 @@ _NOTE = "The camera as calibrated; nothing is refitted."
 
 def write_engine_python(result: Result, path: Path) -> ExportReport:
     """Write the lines as a file."""
-    write_atomically(path, format_lines(result.calibration).encode())
-    return ExportReport(path, _NOTE)
+    note = find_conversion_note(result) or _NOTE
+    write_atomically(path, format_lines(result.calibration, note).encode())
+    return ExportReport(path, note)
 
 
-def format_lines(calibration: Calibration) -> str:
-    """Return the program text."""
+def format_lines(calibration: Calibration, note: str = _NOTE) -> str:
+    """Return the program text, with a note on the camera."""
     camera = calibration.camera
     rows = "\n".join(
-        f"    {value!r},  # {name} +- {sigma:.2g}"
+        f"    {value!r},  # {name}" + (f" +- {sigma:.2g}" if math.isfinite(sigma) else "")
         for name, value, sigma in zip(
             camera.names,
             camera.params.tolist(),
@@ -36,7 +39,7 @@ def format_lines(calibration: Calibration) -> str:
         )
     )
     return f"""\
-# {_NOTE}
+# {note}
 # {FRAME}
 from calibgui import engine
 

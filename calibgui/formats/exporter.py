@@ -51,11 +51,17 @@ class Exporter:
     """True if the format holds the skew of those models that have one."""
     partial: bool = False
     """True if the format states what was assumed of a camera, or holds no camera."""
+    needs_corners: bool = False
+    """True if a camera without the corners that it was calibrated from cannot be written."""
 
     def holds(self, camera: Camera) -> bool:
         """Return whether a file of this format holds the camera as calibrated."""
         named = dict(zip(camera.names, camera.params.tolist(), strict=True))
         if named.get("skew", 0.0) != 0 and not self.holds_skew:
             return False
-        splined = isinstance(find_model(camera.model), SplinedStereographic)
-        return camera.model in self.models or (splined and SPLINED in self.models)
+        return self.holds_model(camera.model)
+
+    def holds_model(self, model: str) -> bool:
+        """Return whether a file of this format holds cameras of a lens model."""
+        splined = isinstance(find_model(model), SplinedStereographic)
+        return model in self.models or (splined and SPLINED in self.models)

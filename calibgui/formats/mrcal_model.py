@@ -5,7 +5,7 @@ Reader: mrcal 2, its command-line tools and its Python module, and `read_mrcal`;
 pixel centres), and so are the coefficients of LENSMODEL_OPENCV4, 5, 8 and 12; a splined model is
 that of mrcal, its control points row by row, x before y. The camera is its own reference.
 `valid_intrinsics_region` is the convex hull of the corners that were seen, beyond which a refit
-extrapolates.
+extrapolates; for a camera without corners it is the region that was converted.
 Cannot hold: other lens models and skew (they are refitted), standard deviations, poses, corners.
 
 A file of mrcal may hold the data of its calibration (`optimization_inputs`), from which mrcal
@@ -18,13 +18,10 @@ import ast
 import re
 from pathlib import Path
 
-import numpy as np
-import scipy
-
 from calibgui.dataset import Result
 from calibgui.engine.arrays import Array
 from calibgui.engine.camera import Camera, SplinedStereographic, find_model
-from calibgui.formats.camera_refit import write_in_models
+from calibgui.formats.camera_refit import find_seen_region, write_in_models
 from calibgui.formats.exporter import FRAME, SPLINED, Exporter, ExportReport
 from calibgui.formats.importer import CameraText, ImportedCamera, Importer
 from calibgui.formats.json_document import Node
@@ -50,8 +47,7 @@ _MAX_LENGTH = 1 << 20
 
 def write_mrcal(result: Result, path: Path) -> ExportReport:
     """Write a .cameramodel file."""
-    corners = np.concatenate([view.uv for view in result.observations()])
-    hull = corners[scipy.spatial.ConvexHull(corners).vertices]
+    hull = find_seen_region(result)
     return write_in_models(
         result,
         path,

@@ -75,16 +75,20 @@ def format_storage(calibration: Calibration, suffix: str, note: str) -> str:
     values: dict[str, int | float | str | Array] = {
         "image_width": camera.size[0],
         "image_height": camera.size[1],
-        "nframes": len(calibration.poses),
     }
+    if calibration.poses:
+        values["nframes"] = len(calibration.poses)
     if camera.model == FISHEYE:
         values["fisheye_model"] = 1
     values |= {
         "camera_matrix": camera.matrix,
         "distortion_coefficients": coefficients[None],
-        "avg_reprojection_error": summarise_residuals(calibration.residuals).rms,
-        "extrinsic_parameters": np.array([[*p.rvec, *p.tvec] for p in calibration.poses]),
     }
+    if calibration.poses:
+        values |= {
+            "avg_reprojection_error": summarise_residuals(calibration.residuals).rms,
+            "extrinsic_parameters": np.array([[*p.rvec, *p.tvec] for p in calibration.poses]),
+        }
     if np.isfinite(calibration.sigma).all():
         sigma = np.zeros(4 + len(coefficients))  # a pinhole camera has none for its coefficients
         stated = calibration.sigma[: len(sigma)]

@@ -299,5 +299,6 @@ EXPORTER = Exporter(
     limits="Complete: camera, poses, residuals, corners, settings; can be solved again.",
     write=_export,
     partial=True,
+    needs_corners=True,
 )
 IMPORTER = Importer(EXPORTER.title, re.compile(rf'"format"\s*:\s*"{FORMAT}"'), read_result_camera)

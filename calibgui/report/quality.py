@@ -123,18 +123,22 @@ def tabulate_bootstrap(found: Bootstrap, calibration: Calibration) -> str:
     return f"{title}\n{align_columns([head, *rows], left=(0,))}\n{format_bullet(verdict)}"
 
 
-def tabulate_camera_difference(found: CameraDifference, expected: float) -> str:
+def tabulate_camera_difference(found: CameraDifference, expected: float | None) -> str:
     """Tabulate the difference of two cameras.
 
     Args:
         found: the difference.
-        expected: median of the difference that their own uncertainties explain, px.
+        expected: median of the difference that their own uncertainties explain, px; None if one of
+            them is not known.
     """
     rows = [
         ["root mean square", f"{found.rms:.3f}"],
         ["median", f"{found.median:.3f}"],
         ["worst", f"{found.worst:.3f}"],
-        ["expected from both uncertainties (median)", f"{expected:.3f}"],
+        [
+            "expected from both uncertainties (median)",
+            "not known" if expected is None else f"{expected:.3f}",
+        ],
     ]
     title = f"Difference in where points {describe_distance(found.distance)} are imaged, px"
     turn = np.degrees(found.turn)
@@ -146,8 +150,13 @@ def tabulate_camera_difference(found: CameraDifference, expected: float) -> str:
     return "\n".join([title, align_columns(rows, left=(0,)), *map(format_bullet, remarks)])
 
 
-def _describe_agreement(median: float, expected: float) -> str:
+def _describe_agreement(median: float, expected: float | None) -> str:
     """Say whether two cameras differ by more than their uncertainties explain."""
+    if expected is None:
+        return (
+            "Whether that is more than their uncertainties explain is not known: only a "
+            "result.json of this program holds the corners that tell."
+        )
     if median <= 2 * expected:
         return "The two agree within their uncertainties."
     return (

@@ -15,7 +15,11 @@ from itertools import combinations
 import numpy as np
 
 from calibgui.dataset import Result
-from calibgui.engine.assessment import summarise_residuals
+from calibgui.engine.assessment import (
+    ErrorSources,
+    separate_error_sources,
+    summarise_residuals,
+)
 from calibgui.engine.boards import BoardShape
 from calibgui.engine.calibration import Calibration, Status, compute_correlations, is_in_one_spot
 from calibgui.report import advice, partial
@@ -65,6 +69,7 @@ def describe_calibration(result: Result) -> tuple[Sentence, ...]:
             _describe_basis,
             _describe_diagnosis,
             _describe_ending,
+            _describe_sources,
             _describe_board,
             _describe_fit,
             _describe_parameters,
@@ -136,6 +141,38 @@ def describe_board_shape(board_shape: BoardShape) -> str:
     return text
 
 
+def describe_lens_error(calibration: Calibration, rms: float) -> str:
+    """Describe that the lens model of a calibration leaves a displacement of `rms` px."""
+    text = (
+        f"The lens model {calibration.camera.model} does not follow this lens: it leaves a "
+        f"displacement of {rms:.2g} px (rms) that all views share and the board "
+        "does not explain. No ± includes that: each is of the values that fit best."
+    )
+    if calibration.board_shape is not None:
+        text += " The board's estimated shape stands in for the lens: do not rely on it."
+    return f"{text} Calibrate with --model auto, or compare the lens models."
+
+
+def describe_error_sources(sources: ErrorSources) -> str:
+    """Describe what lens, board, single views and noise contribute to the residuals."""
+    causes = [
+        (sources.lens, "the lens model leaves {} that it cannot follow"),
+        (sources.board, "the board adds {}"),
+        (sources.views, "single views add {} of their own"),
+    ]
+    parts = [text.format(f"{px:.2g} px") for px, text in causes if px > 0]
+    if not parts:
+        return (
+            f"The RMS distance of {sources.rms:.3f} px looks like noise: neither lens, board nor "
+            "single views explain a part of it."
+        )
+    listed = ", ".join(parts)
+    return (
+        f"Of the {sources.rms:.2g} px RMS, {listed} and noise adds {sources.noise:.2g} px (these "
+        "add up in squares)."
+    )
+
+
 def describe_board_shape_error(rms: float) -> str:
     """Describe that the residuals suggest deviations of the board of `rms` mm."""
     return (
@@ -152,6 +189,18 @@ def describe_view_scatter(scatter: float) -> str:
         "corners explains: the errors within a view hang together. Every ± is therefore what the "
         "views' disagreement shows, where that is more."
     )
+
+
+def _describe_sources(result: Result) -> Iterator[Sentence]:
+    """Describe where the residuals come from, and a lens that the lens model does not follow."""
+    calibration = result.calibration
+    if calibration.status is not Status.CONVERGED:
+        return
+    sources = separate_error_sources(calibration, result.observations())
+    yield Sentence(Tone.FACT, describe_error_sources(sources))
+    if sources.is_lens_at_fault:
+        rms = calibration.lens_error or sources.lens
+        yield Sentence(Tone.CAUTION, describe_lens_error(calibration, rms))
 
 
 def _describe_board(result: Result) -> Iterator[Sentence]:
@@ -275,7 +324,8 @@ def _describe_advice(result: Result) -> Iterator[Sentence]:
     texts = advice.advise_photographs(result)
     for text in texts:
         yield Sentence(Tone.ADVICE, f"To improve it, {text}.")
-    if not texts and result.calibration.board_shape_error == 0:
+    calibration = result.calibration
+    if not texts and calibration.board_shape_error == 0 and calibration.lens_error == 0:
         yield Sentence(
             Tone.GOOD,
             "The views cover sensor, tilts and distances; four times as many of the same kind "

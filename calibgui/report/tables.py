@@ -17,7 +17,7 @@ from calibgui.dataset import Result, View, ViewStatus
 from calibgui.engine.assessment import summarise_residuals
 from calibgui.engine.boards import Symmetry
 from calibgui.engine.calibration import Calibration, Cost, make_paper_table
-from calibgui.engine.camera import MODELS, Lucchese
+from calibgui.engine.camera import Lucchese, find_model
 from calibgui.engine.geometry import PAPER_NAMES
 from calibgui.report.coverage import measure_attitudes
 from calibgui.report.names import make_printable, shorten_name
@@ -122,7 +122,7 @@ def tabulate_intrinsics(calibration: Calibration) -> str:
     ]
     size = f"{camera.size[0]} x {camera.size[1]} px"
     title = f"Camera, {size}, each value ± one standard deviation"
-    if not isinstance(MODELS[camera.model], Lucchese):
+    if not isinstance(find_model(camera.model), Lucchese):
         return f"{title}\n" + align_columns([["", "array frame", ""], *left], left=(0, 1, 2))
     # The paper's values beside those of the same meaning.
     order = [PAPER_NAMES.index({"cx": "xp", "cy": "yp"}.get(name, name)) for name in names]

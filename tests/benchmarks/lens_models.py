@@ -1,9 +1,9 @@
 """Lens models against each other: `python -m tests.benchmarks.lens_models`.
 
-accuracy: the 186-degree fisheye of BabelCalib's ov_plane (``babelcalib_ov_plane`` of the real data),
-nothing given but its corners: 18 views to calibrate from, 7 unseen ones of which only poses are
-fitted. The figures are root mean square distances, px, of the corners as they are, none left out.
-OpenCV's fisheye calibration is tried on the same views.
+accuracy: the 186-degree fisheye of BabelCalib's ov_plane, nothing given but its corners: 18 views
+to calibrate from, 7 unseen ones of which only poses are fitted. The figures are root mean square
+distances, px, of the corners as they are, none left out. OpenCV's fisheye calibration is tried on
+the same views.
 
 speed: ``calibrate`` from corners to result, with standard deviations, on synthetic views of a lens
 of each model, as a multiple of the time of Brown's model on a lens of its own, one thread.

@@ -4,12 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import replace
+from pathlib import Path
 
 import numpy as np
 import pytest
 
 from calibgui import engine
 from calibgui.dataset import Result, View, ViewStatus
+from calibgui.engine.assessment.error_sources import ErrorSources
 from calibgui.engine.boards.shape import BoardShape, BoardShapeModel
 from calibgui.engine.calibration.observations import Observation
 from calibgui.engine.calibration.result import Status
@@ -18,20 +20,24 @@ from calibgui.report.summary import (
     Tone,
     describe_board_shape,
     describe_calibration,
+    describe_error_sources,
     find_outlying_views,
 )
+from tests.babelcalib import OV_PLANE_SIZE, read_ov_plane
 from tests.engine import scenes
 from tests.engine.degenerate_scenes import LONG, in_one_spot
 
 CAMERA = scenes.barrel()
 
 
-def solved(views: Sequence[Observation], seed: int = 0, left_out: int = 0) -> Result:
+def solved(
+    views: Sequence[Observation], seed: int = 0, left_out: int = 0, **settings: str
+) -> Result:
     rng = np.random.default_rng(seed)
     noisy = [Observation(v.uv + rng.normal(scale=0.1, size=v.uv.shape), v.xy) for v in views]
     made = [View(f"photographs/{k}.png", ViewStatus.FOUND, points=v) for k, v in enumerate(noisy)]
     made += [View("dark.png", ViewStatus.NO_BOARD, "No board.")] * left_out
-    return Result(engine.calibrate(noisy, CAMERA.size), tuple(made))
+    return Result(engine.calibrate(noisy, CAMERA.size, **settings), tuple(made))  # type: ignore[arg-type]
 
 
 def texts(result: Result, tone: Tone) -> str:
@@ -62,6 +68,55 @@ def test_a_board_that_noise_bends_is_distinguished_from_a_bent_one() -> None:
             BoardShapeModel.FREE, nominal, deviation, np.full_like(deviation, 0.02)
         )
         assert ("it may well be as drawn" in describe_board_shape(board_shape)) is feigned
+
+
+def test_a_lens_that_is_not_followed_is_named_and_the_board_is_not(good: Result) -> None:
+    wrong = solved(everywhere(), model="pinhole")
+    caution = texts(wrong, Tone.CAUTION)
+    assert "The lens model pinhole does not follow this lens" in caution
+    assert f"{wrong.calibration.lens_error:.2g} px (rms)" in caution
+    assert "--model auto" in caution
+    assert "not flat" not in caution
+    assert "stands in" not in caution
+    free = texts(solved(everywhere(), model="pinhole", board_shape="bow"), Tone.CAUTION)
+    assert "The board's estimated shape stands in for the lens" in free
+    assert "does not follow" not in texts(good, Tone.CAUTION)
+
+
+def test_a_wrong_lens_is_named_where_the_board_was_not_suspected() -> None:
+    wrong = solved(everywhere(), model="pinhole")
+    unsuspected = replace(wrong, calibration=replace(wrong.calibration, lens_error=0.0))
+    assert "does not follow this lens" in texts(unsuspected, Tone.CAUTION)
+
+
+def test_the_sources_of_the_residuals_are_given_in_pixels(good: Result) -> None:
+    assert "neither lens, board nor single views" in texts(good, Tone.FACT)
+    sources = ErrorSources(5.11, 4.2, 0.0, 0.93, 0.3, True)
+    assert describe_error_sources(sources) == (
+        "Of the 5.1 px RMS, the lens model leaves 4.2 px that it cannot follow, single views add "
+        "0.93 px of their own and noise adds 0.3 px (these add up in squares)."
+    )
+
+
+@pytest.mark.data
+def test_a_fisheye_is_told_from_a_board_that_is_off(data_dir: Path) -> None:
+    views = read_ov_plane(data_dir / "babelcalib_ov_plane", "train")
+    made = tuple(View(f"{k}.png", ViewStatus.FOUND, points=v) for k, v in enumerate(views))
+    papers, fisheye = (
+        Result(engine.calibrate(views, OV_PLANE_SIZE, model=model), made)
+        for model in ("lucchese", "kannala-brandt")
+    )
+    assert "does not follow this lens" in texts(papers, Tone.CAUTION)
+    assert "not flat" not in texts(papers, Tone.CAUTION)
+    assert "Of the 5.1 px RMS, the lens model leaves 5" in texts(papers, Tone.FACT)
+    assert "does not follow" not in texts(fisheye, Tone.CAUTION)
+    assert "not flat" in texts(fisheye, Tone.CAUTION)
+    assert "the board adds 0.43 px" in texts(fisheye, Tone.FACT)
+
+
+def test_an_unfinished_solve_is_not_taken_apart(good: Result) -> None:
+    stopped = replace(good, calibration=replace(good.calibration, status=Status.STOPPED))
+    assert "looks like noise" not in texts(stopped, Tone.FACT)
 
 
 def test_corners_in_one_spot_are_named() -> None:

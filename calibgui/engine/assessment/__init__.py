@@ -5,11 +5,21 @@ noise or has a cause, `separate_error_sources` how many pixels lens, board, sing
 contribute; `screen_outliers` leaves wrong corners out, `calibrate_weighted` weighs views
 by their noise; `cross_validate` and `bootstrap_views` measure errors without trusting the model,
 `choose_board_shape` and `choose_lens` recommend models of board and lens by them; `compare_cameras`
-maps the difference of two calibrations over the image.
+maps the difference of two calibrations over the image; `check_calibration` says whether a stored
+camera is still good for new pictures.
 """
 
 from __future__ import annotations
 
+from calibgui.engine.assessment.calibration_check import (
+    CONFIDENCE,
+    DEFAULT_LIMIT,
+    CalibrationCheck,
+    CheckedView,
+    Verdict,
+    Weakness,
+    check_calibration,
+)
 from calibgui.engine.assessment.comparison import CameraDifference, compare_cameras
 from calibgui.engine.assessment.cross_validation import (
     BoardShapeChoice,
@@ -43,10 +53,14 @@ from calibgui.engine.assessment.view_weights import calibrate_weighted
 
 __all__ = [
     "CANDIDATES",
+    "CONFIDENCE",
+    "DEFAULT_LIMIT",
     "SIMPLEST_MODEL",
     "BoardShapeChoice",
     "Bootstrap",
+    "CalibrationCheck",
     "CameraDifference",
+    "CheckedView",
     "CrossValidation",
     "ErrorSources",
     "Fold",
@@ -58,8 +72,11 @@ __all__ = [
     "Rejection",
     "ResidualSummary",
     "Screening",
+    "Verdict",
+    "Weakness",
     "bootstrap_views",
     "calibrate_weighted",
+    "check_calibration",
     "check_residuals",
     "choose_board_shape",
     "choose_lens",

@@ -15,6 +15,9 @@ parameters that gain a tenth of a thousandth of a pixel on unseen views. The cho
    the region that the corners cover. The difference is that of ``comparison.py``, what a rotation
    of the camera makes up for left out; the uncertainty is the larger of the two models'.
 
+Of a model with coefficients that the views leave open, such as the numerator and denominator of the
+rational one, those of the highest powers are held at 0 one by one until the others are determined.
+
 The paper's model counts as the simplest, so that others are taken only where the views demand it;
 the others follow by their number of free parameters.
 """
@@ -86,6 +89,8 @@ class LensTrial:
 
     calibration: Calibration
     """Calibration from all views."""
+    fixed: dict[str, float]
+    """Coefficients that were held at 0 because the views leave them open."""
     validation: CrossValidation | None
     """Its error on unseen views; None if its residuals rule it out without."""
     bic: float
@@ -160,7 +165,8 @@ def choose_lens(
     """Try lens models on unseen views and recommend one.
 
     Args:
-        views, size, settings: as for ``calibrate``, without `model`, `fix` and `free`.
+        views, size, settings: as for ``calibrate``, without `model` and `free`; `fix` is a mapping of
+            parameters that all models have.
         candidates: ids of the models to try.
         folds: number of folds of the cross-validation, at most one a view.
         progress: a function that is told how many models are done, and of how many.
@@ -205,9 +211,12 @@ class _Attempt:
                 f"{len(views)} views are too few to compare lens models: none can be left out.",
                 "Add views, or name the lens model.",
             )
-        self.views, self.size, self.settings = views, size, settings
+        self.views, self.size = views, size
+        self.settings = {name: value for name, value in settings.items() if name != "fix"}
+        self.held: dict[str, float | None] = dict(settings.get("fix", {}))
         self.folds = min(folds, len(views))
         self.calibrations: dict[str, Calibration] = {}
+        self.fixed: dict[str, dict[str, float]] = {}
         self.validations: dict[str, CrossValidation] = {}
         self.refused: dict[str, str] = {}
 
@@ -231,20 +240,35 @@ class _Attempt:
                 self._validate(model)
 
     def _calibrate(self, model: str) -> None:
+        """Calibrate a candidate, with the coefficients that the views leave open held at 0."""
+        fixed: dict[str, float] = {}
         try:
-            self.calibrations[model] = calibrate(
-                self.views, self.size, model=model, **self.settings
-            )
-        except (CalibrationError, np.linalg.LinAlgError) as error:
-            self.refused[model] = _explain_refusal(error)
+            while True:
+                fix = self.held | fixed
+                calibration = calibrate(
+                    self.views, self.size, model=model, fix=fix, **self.settings
+                )
+                name = _find_open_coefficient(calibration)
+                if name is None:
+                    break
+                fixed[name] = 0.0
+        except CalibrationError as error:
+            self.refused[model] = error.message
+            return
+        self.calibrations[model], self.fixed[model] = calibration, fixed
 
     def _validate(self, model: str) -> None:
         try:
             self.validations[model] = cross_validate(
-                self.views, self.size, self.folds, model=model, **self.settings
+                self.views,
+                self.size,
+                self.folds,
+                model=model,
+                fix=self.held | self.fixed[model],
+                **self.settings,
             )
-        except (CalibrationError, np.linalg.LinAlgError) as error:
-            self.refused[model] = _explain_refusal(error)
+        except CalibrationError as error:
+            self.refused[model] = error.message
             del self.calibrations[model]
 
     def _is_close(self, model: str) -> bool:
@@ -257,21 +281,18 @@ class _Attempt:
     def recommend(self) -> LensChoice:
         """Recommend one of the models."""
         trials = {
-            model: _assess(calibration, self.validations.get(model), self.views)
+            model: _assess(calibration, self.fixed[model], self.validations.get(model), self.views)
             for model, calibration in self.calibrations.items()
         }
         return _recommend(trials, self.refused, self.views)
 
 
-def _explain_refusal(error: Exception) -> str:
-    """Return the reason why a model cannot be calibrated.
-
-    A model that cannot follow the lens at all may end where views have no place left to go to:
-    their equations are singular.
-    """
-    if isinstance(error, CalibrationError):
-        return error.message
-    return "It cannot follow the lens: the poses of views are lost in it."
+def _find_open_coefficient(calibration: Calibration) -> str | None:
+    """Find the coefficient of the highest power of those that the views leave open, if any."""
+    lens = find_model(calibration.camera.model)
+    powers = dict(zip(lens.names, lens.powers, strict=True))
+    names = [u.name for u in calibration.undetermined if powers.get(u.name, 0) > 0]
+    return max(reversed(names), key=powers.__getitem__, default=None)
 
 
 def _measure_rms(calibration: Calibration) -> float:
@@ -281,7 +302,10 @@ def _measure_rms(calibration: Calibration) -> float:
 
 
 def _assess(
-    calibration: Calibration, validation: CrossValidation | None, views: Sequence[Observation]
+    calibration: Calibration,
+    fixed: dict[str, float],
+    validation: CrossValidation | None,
+    views: Sequence[Observation],
 ) -> LensTrial:
     """Assess a calibration as a candidate."""
     camera = calibration.camera
@@ -295,6 +319,7 @@ def _assess(
     is_within = np.linalg.norm(grid - camera.centre, axis=-1) <= radius
     return LensTrial(
         calibration,
+        fixed,
         validation,
         bic=float(n * np.log(np.sum(residuals**2) / n) + P * np.log(n)),
         largest_angle=float(measure_angles(seen, camera).max()),

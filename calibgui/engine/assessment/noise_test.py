@@ -2,8 +2,9 @@
 
 Standard deviations hold if the corners' errors are independent, equal in all directions and
 views, and Gaussian. Each of these is tested, and so is each usual cause of the contrary by what
-it would explain (``systematic_errors.py``): first the causes that all views share, then those
-that each view has of its own, and last the one that can look like almost anything,
+it would explain: first the causes that all views share (``calibration/score_tests.py``), then those
+that each view has of its own (``systematic_errors.py``), and last the one that can look like almost
+anything,
 
 squares     the board's squares are not as wide as high, or askew
 bow         the board is bowed
@@ -34,9 +35,8 @@ are far off.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
-from functools import partial
 
 import numpy as np
 import scipy
@@ -44,8 +44,8 @@ import scipy
 from calibgui.engine.arrays import Array, BoolArray, freeze
 from calibgui.engine.assessment import systematic_errors
 from calibgui.engine.assessment.residual_statistics import summarise_residuals
-from calibgui.engine.assessment.systematic_errors import LinearisedFit
 from calibgui.engine.boards.shape import BoardShapeModel
+from calibgui.engine.calibration.lens_error import outdoes_board
 from calibgui.engine.calibration.observations import (
     Observation,
     Observations,
@@ -53,6 +53,12 @@ from calibgui.engine.calibration.observations import (
     name_views,
 )
 from calibgui.engine.calibration.result import Calibration
+from calibgui.engine.calibration.score_tests import (
+    LENS,
+    Explanation,
+    LinearisedFit,
+    SharedCauses,
+)
 from calibgui.engine.errors import Progress
 
 _MAX_FALSE_ALARM_RATE = 1e-3
@@ -66,56 +72,39 @@ _MAX_LENGTH_IN_SIGMA = 4.5
 _MAX_RMS_OVER_MEDIAN = 1.5
 """A view's rms over that from its median, above which few corners are taken to raise it."""
 
-_CAUSES: tuple[tuple[str, Callable[[LinearisedFit], systematic_errors.Explanation], str], ...] = (
-    (
-        "squares",
-        partial(systematic_errors.explain_by_board_shape, model=BoardShapeModel.AFFINE),
-        "The board's squares are not as wide as high, or askew: measure its sides over many "
-        "squares, or estimate the board's shape (affine).",
-    ),
-    (
-        "bow",
-        partial(systematic_errors.explain_by_board_shape, model=BoardShapeModel.BOW),
-        "The board is bowed: mount it on something stiff, or estimate its shape (bow).",
-    ),
-    (
-        "lens",
-        systematic_errors.explain_by_lens,
-        "The lens model does not follow this lens: free the coefficients that are held, or use "
-        "another model.",
-    ),
-    (
-        "focus",
-        systematic_errors.explain_by_focus,
-        "The focal length differs between the views: switch autofocus and stabilisation off, and "
-        "do not touch zoom and focus.",
-    ),
-    (
-        "bending",
-        systematic_errors.explain_by_bending,
-        "The board bends from view to view, as paper in the hand does: mount it on something "
-        "stiff.",
-    ),
-    (
-        "rows",
-        systematic_errors.explain_by_rows,
-        "Camera or board moved while a rolling shutter read the rows: put both on a stand, or "
-        "expose all rows at once.",
-    ),
-    (
-        "lines",
-        systematic_errors.explain_by_lines,
-        "The image's rows are shifted sideways against each other: an analogue camera's lines do "
-        "not start evenly, or the camera trembled while a rolling shutter read them. Many views "
-        "average it; a digital or steady camera avoids it.",
-    ),
-    (
-        "board",
-        partial(systematic_errors.explain_by_board_shape, model=BoardShapeModel.FREE),
-        "The board is not flat or not printed true: mount it on glass, or estimate its shape "
-        "(free).",
-    ),
-)
+_SHARED_CAUSES = {
+    "squares": BoardShapeModel.AFFINE,
+    "bow": BoardShapeModel.BOW,
+    "lens": LENS,
+    "board": BoardShapeModel.FREE,
+}
+"""Causes that all views share, by the names of their tests."""
+_VIEW_CAUSES: dict[str, Callable[[LinearisedFit], Explanation]] = {
+    "focus": systematic_errors.explain_by_focus,
+    "bending": systematic_errors.explain_by_bending,
+    "rows": systematic_errors.explain_by_rows,
+    "lines": systematic_errors.explain_by_lines,
+}
+"""Tests of the causes that each view has of its own."""
+_ADVICE_ON_CAUSES = {
+    "squares": "The board's squares are not as wide as high, or askew: measure its sides over many "
+    "squares, or estimate the board's shape (affine).",
+    "bow": "The board is bowed: mount it on something stiff, or estimate its shape (bow).",
+    "lens": "The lens model does not follow this lens: free the coefficients that are held, or use "
+    "another model.",
+    "focus": "The focal length differs between the views: switch autofocus and stabilisation off, "
+    "and do not touch zoom and focus.",
+    "bending": "The board bends from view to view, as paper in the hand does: mount it on "
+    "something stiff.",
+    "rows": "Camera or board moved while a rolling shutter read the rows: put both on a stand, or "
+    "expose all rows at once.",
+    "lines": "The image's rows are shifted sideways against each other: an analogue camera's lines "
+    "do not start evenly, or the camera trembled while a rolling shutter read them. Many views "
+    "average it; a digital or steady camera avoids it.",
+    "board": "The board is not flat or not printed true: mount it on glass, or estimate its shape "
+    "(free).",
+}
+"""Meaning and remedy of every cause, in the order in which they are considered."""
 _ADVICE_ON_OUTLIERS = (
     "A few corners are much farther off than the others: look for misplaced ones, or leave "
     "outliers out."
@@ -199,15 +188,9 @@ def check_residuals(
     sigma = estimate_view_sigma(r, fit)
     relative = r / sigma[:, None, None]
     seen = fit.observations.mask > 0
-    even, rms = fit.weigh_views(sigma), summarise_residuals(calibration.residuals).rms
-    checks = []
-    for done, (name, test, advice) in enumerate(_CAUSES):
-        if progress is not None:
-            progress(done, len(_CAUSES))
-        checks.append(_check_cause(name, test(even), rms, advice))
     return NoiseReport(
         (
-            *checks,
+            *_check_causes(calibration, systematic_errors.weigh_views(fit, sigma), progress),
             _check_shape(r, sigma, seen),
             _check_views(sigma, _count_degrees_of_freedom(fit), names),
             _check_neighbours(relative, fit.observations),
@@ -228,13 +211,30 @@ def estimate_view_sigma(residual: Array, fit: LinearisedFit) -> Array:
     return np.asarray(np.sqrt(np.sum(residual**2, axis=(1, 2)) / _count_degrees_of_freedom(fit)))
 
 
-def _check_cause(
-    name: str, found: systematic_errors.Explanation, rms: float, advice: str
-) -> NoiseCheck:
-    """Test what a cause explains of residuals of `rms` px against noise."""
-    passed = found.probability >= _MAX_FALSE_ALARM_RATE
-    finding = "nothing" if passed else f"{np.sqrt(found.share) * rms:.2g} px rms"
-    return NoiseCheck(name, passed, finding, advice, 0.0 if passed else found.share)
+def _check_causes(
+    calibration: Calibration, fit: LinearisedFit, progress: Progress | None
+) -> Iterator[NoiseCheck]:
+    """Test what each cause explains of the residuals, of equally noisy views, against noise."""
+    rms = summarise_residuals(calibration.residuals).rms
+    shared = SharedCauses(fit, list(_SHARED_CAUSES.values()))
+    names, after, left = list(_ADVICE_ON_CAUSES), [], 1.0
+    if calibration.lens_error > 0 or outdoes_board(shared):
+        names.sort(key=lambda name: name != "lens")
+        after, left = [LENS], 1 - shared.reduce_cost(LENS)[0] / shared.cost
+    for done, name in enumerate(names):
+        if progress is not None:
+            progress(done, len(names))
+        share = 1.0
+        if name in _VIEW_CAUSES:
+            found = _VIEW_CAUSES[name](fit)
+        elif name == "lens":
+            found = shared.explain(LENS)
+        else:
+            found, share = shared.explain(_SHARED_CAUSES[name], *after), left
+        share *= found.share
+        passed = found.probability >= _MAX_FALSE_ALARM_RATE
+        finding = "nothing" if passed else f"{np.sqrt(share) * rms:.2g} px rms"
+        yield NoiseCheck(name, passed, finding, _ADVICE_ON_CAUSES[name], 0.0 if passed else share)
 
 
 def _check_shape(residual: Array, sigma: Array, seen: BoolArray) -> NoiseCheck:

@@ -14,10 +14,11 @@ import numpy as np
 
 from calibgui.engine.arrays import Array, Size
 from calibgui.engine.assessment.noise_test import estimate_view_sigma
-from calibgui.engine.assessment.systematic_errors import LinearisedFit, prepare_fit
+from calibgui.engine.assessment.systematic_errors import prepare_fit
 from calibgui.engine.calibration.calibrate import calibrate
 from calibgui.engine.calibration.observations import Observation
 from calibgui.engine.calibration.result import Calibration
+from calibgui.engine.calibration.score_tests import LinearisedFit
 
 _REWEIGHTINGS = 3
 """Number of calibrations with weights from the one before."""

@@ -83,7 +83,7 @@ def add_overdispersion(estimate: Estimate, model: str, free: IntArray) -> Estima
         return estimate
     try:
         unit = np.linalg.cholesky(estimate.noise_covariance / sigma2)  # T^-1 = unit unit^T
-        reported: Array = np.linalg.cholesky(estimate.camera_covariance)
+        reported = np.asarray(np.linalg.cholesky(estimate.camera_covariance), np.float64)
     except np.linalg.LinAlgError:
         return estimate  # a combination of parameters is undetermined, and says so
     A = compute_view_products(

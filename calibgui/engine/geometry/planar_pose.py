@@ -30,6 +30,8 @@ from calibgui.engine.geometry.directions import make_tangent_basis
 
 _MIN_RAYS = 4
 """Number of rays below which a plane has no pose in closed form."""
+_MIN_SPREAD = 1e-9
+"""Least root mean squared angle between rays, rad, that rounding errors leave of a plane."""
 
 
 def poses_from_homographies(M: Array, f: Array, points: Array) -> tuple[Array, Array]:
@@ -75,6 +77,7 @@ def _solve_poses(rays: Array, points: Array, weight: Array) -> tuple[Array, Arra
     turn = np.concatenate([make_tangent_basis(mean), mean[..., None]], axis=2)
     b = b @ turn
     spread = np.sqrt(np.sum(weight * (1 - b[..., 2:] ** 2), axis=1, keepdims=True) / 2)
+    spread = np.maximum(spread, _MIN_SPREAD)
     stretch = np.concatenate([1 / spread, 1 / spread, np.ones_like(spread)], axis=2)
     b = b * stretch
     b /= np.maximum(np.linalg.norm(b, axis=2, keepdims=True), np.finfo(float).tiny)

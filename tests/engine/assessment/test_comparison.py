@@ -65,7 +65,7 @@ def test_the_rotation_is_the_best(turn: tuple[float, float, float]) -> None:
     uv = np.stack(np.meshgrid(found.u, found.v), axis=-1)
     p = back_project_pixels(uv, barrel(), np.inf)
     q = p @ (rotation_from_vector(np.array(turn)) @ rotation_from_vector(found.turn)).T
-    length = np.linalg.norm(pixels_from_rays(q[..., :2] / q[..., 2:], other) - uv, axis=-1)
+    length = np.linalg.norm(pixels_from_rays(q, other) - uv, axis=-1)
     assert found.rms <= np.sqrt(np.mean(length**2)) + 1e-9
 
 

@@ -83,6 +83,16 @@ def test_a_wrong_board_is_described_with_figures() -> None:
     assert "moves fx by" in choice.recommendation
 
 
+def test_no_board_shape_stands_in_for_a_lens_that_is_not_followed() -> None:
+    choice = choose_board_shape(_views(10), SIZE, model="pinhole")
+    assert choice.model is BoardShapeModel.NOMINAL
+    assert choice.chosen is choice.nominal
+    assert set(choice.validations) == {BoardShapeModel.NOMINAL}
+    assert set(choice.refused) == set(BoardShapeModel) - {BoardShapeModel.NOMINAL}
+    assert "The lens comes first" in choice.recommendation
+    assert f"{choice.nominal.lens_error:.2g} px" in choice.recommendation
+
+
 def test_board_shapes_that_the_views_cannot_carry_are_named() -> None:
     choice = choose_board_shape(_views(5), SIZE)
     assert "needs 6" in choice.refused[BoardShapeModel.FREE]

@@ -89,7 +89,7 @@ def test_too_few_views_are_refused() -> None:
 
 
 def test_it_can_be_cancelled() -> None:
-    def cancel(done: int, total: int) -> None:
+    def cancel(_done: int, _total: int) -> None:
         raise Cancelled
 
     with pytest.raises(Cancelled):

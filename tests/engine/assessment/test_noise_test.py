@@ -30,7 +30,7 @@ BOW = 1 - ((XY[:, :1] - XY[:, 0].mean()) / (np.ptp(XY[:, 0]) / 2)) ** 2
 def _solid(pose: Pose, grid_size: Array) -> Array:
     """(n, 2) the image of a board's corners (n, 3)."""
     p = grid_size @ rotations.rotation_from_vector(pose.rvec).T + pose.tvec
-    return pixels_from_rays(p[:, :2] / p[:, 2:], SCENE.camera)
+    return pixels_from_rays(p, SCENE.camera)
 
 
 def _rolling(pose: Pose, velocity: Array, spin: Array) -> Array:
@@ -41,7 +41,7 @@ def _rolling(pose: Pose, velocity: Array, spin: Array) -> Array:
     motion = velocity + np.cross(spin, p - p.mean(axis=0))
     for _ in range(5):
         q = p + (uv[:, 1:] / SIZE[1] - 0.5) * motion
-        uv = pixels_from_rays(q[:, :2] / q[:, 2:], SCENE.camera)
+        uv = pixels_from_rays(q, SCENE.camera)
     return uv
 
 
@@ -96,6 +96,24 @@ def test_a_decentred_lens_is_no_moving_board() -> None:
     report = check_residuals(calibrate(views, SIZE, fix=["p1", "p2"]), views)
     assert report.cause is not None
     assert report.cause.name == "lens"
+
+
+def test_a_lens_that_is_not_followed_is_no_bent_board() -> None:
+    """The board keeps to the middle, so that a free shape explains nearly as much as the lens."""
+    views = scene(barrel(), 12, seed=1).noisy(0.1, np.random.default_rng(0))
+    result = calibrate(views, SIZE, model="pinhole")
+    report = check_residuals(result, views)
+    assert report.cause is not None
+    assert report.cause.name == "lens"
+    share = {check.name: check.share for check in report.checks}
+    assert share["lens"] > 0.9
+    assert share["squares"] + share["bow"] + share["board"] < 0.05
+    # Judged as if the lens were sound, the board explains more than half.
+    unblamed = replace(result, lens_error=0.0)
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr("calibgui.engine.assessment.noise_test.outdoes_board", lambda _: False)
+        report = check_residuals(unblamed, views)
+    assert next(check.share for check in report.checks if check.name == "board") > 0.5
 
 
 def test_outliers_and_rounding_are_told_apart() -> None:

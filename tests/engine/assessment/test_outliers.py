@@ -27,7 +27,7 @@ def clean(count: int, seed: int, noise: float = 0.1) -> list[Observation]:
         R = rotation_from_vector(rng.uniform(-0.6, 0.6, 3))
         T = np.array([rng.uniform(-60, 60), rng.uniform(-40, 40), rng.uniform(450, 650)])
         point = PLATE @ R[:, :2].T + T - R[:, :2] @ PLATE.mean(axis=0)
-        uv = pixels_from_rays(point[:, :2] / point[:, 2:], CAMERA)
+        uv = pixels_from_rays(point, CAMERA)
         if ((uv > 0) & (uv < CAMERA.size)).all():
             views.append(Observation(uv + rng.normal(0, noise, uv.shape), PLATE))
     return views

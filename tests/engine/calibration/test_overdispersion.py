@@ -36,12 +36,12 @@ def _photographed(fault: str, rng: np.random.Generator) -> Array:
     if fault == "bending":
         board_shape[:, 2] = (1 - ACROSS**2) @ rng.normal(0, 0.3, 2)
     p = board_shape @ R.T + T - R[:, :2] @ CENTRE
-    uv = pixels_from_rays(p[:, :2] / p[:, 2:], CAMERA)
+    uv = pixels_from_rays(p, CAMERA)
     if fault == "rolling":
         velocity = rng.normal(0, 0.5, 3)  # mm while the rows are read
         for _ in range(5):
             q = p + (uv[:, 1:] / SIZE[1] - 0.5) * velocity
-            uv = pixels_from_rays(q[:, :2] / q[:, 2:], CAMERA)
+            uv = pixels_from_rays(q, CAMERA)
     return _displaced(fault, uv, rng) + rng.normal(0, NOISE, uv.shape)
 
 

@@ -42,7 +42,7 @@ def photographed(d: Array, count: int, noise: float, seed: int = 1) -> list[Obse
         R = rotation_from_vector(rng.uniform(-0.6, 0.6, 3))
         T = [rng.uniform(-60, 60), rng.uniform(-40, 40), rng.uniform(500, 700)]
         point = true @ R.T + T - R[:, :2] @ CENTRE
-        uv = pixels_from_rays(point[:, :2] / point[:, 2:], CAMERA)
+        uv = pixels_from_rays(point, CAMERA)
         if ((uv > 0) & (uv < SIZE)).all():
             views.append(Observation(uv + rng.normal(0, noise, uv.shape), NOMINAL))
     return views

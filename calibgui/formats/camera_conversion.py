@@ -1,0 +1,173 @@
+"""Writing a camera that came without corners in any format, converted where it has to be.
+
+Exporters write results. A camera of another program becomes a result without views, so that every
+format needs one function only. If a format does not hold the camera's lens model, the camera is
+converted by its rays (``engine.calibration.convert_camera``) into one of the format's, and the file
+states by how much the two differ and where. It is not written if that would spoil measurements.
+"""
+
+from __future__ import annotations
+
+import math
+import os
+from pathlib import Path
+
+import numpy as np
+
+from calibgui.dataset import Result
+from calibgui.engine.calibration import (
+    Calibration,
+    Conversion,
+    Cost,
+    Status,
+    convert_camera,
+    find_followed_angle,
+)
+from calibgui.engine.camera import Camera, find_model
+from calibgui.engine.errors import CalibrationError
+from calibgui.formats.camera_refit import MAX_REFIT_ERROR, SUFFICIENT_REFIT_ERROR
+from calibgui.formats.exporter import Exporter, ExportReport
+
+
+def convert_within_limit(camera: Camera, model: str, angle: float = math.inf) -> Conversion:
+    """Convert a camera into another lens model, which must follow it.
+
+    Args:
+        camera: the camera.
+        model: the other lens model's id.
+        angle: largest angle from the axis that counts, rad.
+
+    Raises:
+        CalibrationError: if the error is `MAX_REFIT_ERROR` or more, with the part of the image in
+            which it would not be; or as ``engine.calibration.convert_camera``.
+    """
+    found = convert_camera(camera, model, angle)
+    if not found.largest_error < MAX_REFIT_ERROR:
+        message, hint = _explain_failure(camera, found)
+        raise CalibrationError(message[0].upper() + message[1:], hint)
+    return found
+
+
+def describe_conversion(original: Camera, found: Conversion) -> str:
+    """Describe how far a converted camera is from the original, and where.
+
+    The text has no apostrophes: OpenCV writes them into JSON in a way that only OpenCV reads.
+    """
+    title = find_model(found.camera.model).title
+    if found.camera.model == original.model:
+        return f"Lens model {title}, as it was read."
+    return (
+        f"Lens model {title}, converted from {find_model(original.model).title} without corners; "
+        f"differs by at most {found.largest_error:.2g} px {_describe_region(found)}."
+    )
+
+
+def export_camera(
+    camera: Camera, exporter: Exporter, path: str | os.PathLike[str], angle: float = math.inf
+) -> ExportReport:
+    """Write a camera without corners.
+
+    Args:
+        camera: the camera.
+        exporter: the format.
+        path: the file.
+        angle: largest angle from the axis at which a conversion must follow the camera, rad.
+
+    Raises:
+        CalibrationError: if the format holds corners, none of its lens models follows the camera,
+            or the file cannot be written.
+    """
+    if exporter.holds(camera):
+        return write_conversion(camera, convert_camera(camera, camera.model), exporter, path)
+    if not exporter.refits:
+        raise CalibrationError(
+            f"{os.fspath(path)} is not written: the format {exporter.name!r} does not hold the "
+            f"lens model {camera.model}.",
+            f"Convert it with --model into {' or '.join(exporter.models)}.",
+        )
+    found = []
+    for model in exporter.refits:
+        found.append(convert_camera(camera, model, angle))
+        if found[-1].largest_error < SUFFICIENT_REFIT_ERROR:
+            break
+    best = min(found, key=lambda conversion: conversion.largest_error)
+    if not best.largest_error < MAX_REFIT_ERROR:
+        message, hint = _explain_failure(camera, best)
+        raise CalibrationError(f"{os.fspath(path)} is not written: {message}", hint)
+    return write_conversion(camera, best, exporter, path)
+
+
+def write_conversion(
+    original: Camera, found: Conversion, exporter: Exporter, path: str | os.PathLike[str]
+) -> ExportReport:
+    """Write a converted camera in a format that holds its lens model.
+
+    Raises:
+        CalibrationError: if the format holds corners, or the file cannot be written.
+    """
+    if exporter.needs_corners:
+        raise CalibrationError(
+            f"{os.fspath(path)} is not written: the format {exporter.name!r} holds corners, and "
+            "the camera file has none.",
+            "Choose a format that holds a camera only.",
+        )
+    result = _make_result(found, describe_conversion(original, found))
+    report = exporter.write(result, Path(path))
+    return ExportReport(report.path, report.note, found.largest_error)
+
+
+def _make_result(found: Conversion, note: str) -> Result:
+    """Return a result without views."""
+    camera = found.camera
+    unknown = np.full(len(camera.params), np.nan)
+    calibration = Calibration(
+        camera=camera,
+        sigma=unknown,
+        covariance=np.full((len(unknown), len(unknown)), np.nan),
+        sigma_by_noise=unknown,
+        poses=(),
+        pose_covariances=np.zeros((0, 6, 6)),
+        residuals=(),
+        noise=math.nan,
+        model_error=0.0,
+        reference_scale=math.nan,
+        stage_one=(),
+        history=(),
+        status=Status.CONVERGED,
+        cost=Cost.IMAGE,
+        fixed=(),
+        settings={"conversion": note, "region": found.region.tolist()},
+    )
+    return Result(calibration, ())
+
+
+def _explain_failure(camera: Camera, found: Conversion) -> tuple[str, str]:
+    """Say how far a model is from the camera, and up to which angle it would follow."""
+    model = found.camera.model
+    u, v = found.worst
+    off = (
+        f"is {found.largest_error:.3g} px off"
+        if math.isfinite(found.largest_error)
+        else "has no image"
+    )
+    message = (
+        f"the lens model {find_model(model).title} cannot follow this lens "
+        f"{_describe_region(found)}: the ray of the pixel ({u:.0f}, {v:.0f}) {off}."
+    )
+    angle = find_followed_angle(camera, model, SUFFICIENT_REFIT_ERROR)
+    whole_degrees = 0 if angle is None else math.floor(math.degrees(angle))
+    if whole_degrees < 1:
+        return message, "Choose another lens model."
+    return message, (
+        f"Choose another lens model, or convert a part of the image: with --within {whole_degrees} "
+        f"the error is below {SUFFICIENT_REFIT_ERROR:g} px up to {whole_degrees} degrees from the "
+        "axis."
+    )
+
+
+def _describe_region(found: Conversion) -> str:
+    """Describe the part of the image in which the error was measured."""
+    degrees = f"up to {math.degrees(found.angle):.0f} degrees from the axis"
+    if found.share > 0.999:
+        return f"over the whole image, {degrees}"
+    return f"over {found.share:.0%} of the image, {degrees}"

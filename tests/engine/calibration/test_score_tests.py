@@ -1,0 +1,157 @@
+"""What lens and board would explain, against calibrations that do explain it and dense algebra."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from calibgui.engine.arrays import Array
+from calibgui.engine.assessment.systematic_errors import prepare_fit
+from calibgui.engine.boards.shape import BoardShapeModel
+from calibgui.engine.calibration import score_tests
+from calibgui.engine.calibration.calibrate import calibrate
+from calibgui.engine.calibration.observations import Observation
+from calibgui.engine.calibration.result import Calibration
+from calibgui.engine.calibration.score_tests import LENS, LinearisedFit, SharedCauses
+from tests.engine.scenes import BOARD, barrel, scene, uneven
+
+SIZE = barrel().size
+FREE = BoardShapeModel.FREE
+
+
+def _cost(result: Calibration) -> float:
+    return sum(float(np.sum(view.image**2)) for view in result.residuals)
+
+
+def _stretched(count: int = 8) -> list[Observation]:
+    """Views of a board that is 0.3 % wider than said, and bowed by its own lens."""
+    views = scene(barrel(), count, 1).noisy(0.1, np.random.default_rng(2))
+    return [Observation(view.uv, view.xy * np.array([0.997, 1.0])) for view in views]
+
+
+@pytest.mark.parametrize("model", [BoardShapeModel.AFFINE, BoardShapeModel.BOW])
+def test_a_board_shape_explains_what_estimating_it_gains(model: BoardShapeModel) -> None:
+    views = _stretched()
+    nominal, fitted = (
+        calibrate(views, SIZE, board_shape=board_shape) for board_shape in ("nominal", model)
+    )
+    found = score_tests.explain_by_board_shape(prepare_fit(nominal, views), model)
+    gained = 1 - _cost(fitted) / _cost(nominal)
+    two_columns = 2 / prepare_fit(nominal, views).degrees_of_freedom
+    assert found.share == pytest.approx(max(gained - two_columns, 0.0), abs=0.001)
+
+
+def test_a_board_shape_that_was_estimated_explains_no_more() -> None:
+    views = _stretched()
+    for model in (BoardShapeModel.AFFINE, BoardShapeModel.FREE):
+        result = calibrate(views, SIZE, board_shape=model)
+        found = score_tests.explain_by_board_shape(prepare_fit(result, views), model)
+        assert found.probability > 0.5
+        assert found.share == 0.0
+
+
+def test_a_lens_explains_what_its_held_coefficients_would() -> None:
+    views = scene(barrel(), 10, 1).noisy(0.1, np.random.default_rng(2))
+    held, freed = calibrate(views, SIZE, fix=["k2", "k3"]), calibrate(views, SIZE)
+    found = score_tests.explain_by_lens(prepare_fit(held, views))
+    assert found.share == pytest.approx(1 - _cost(freed) / _cost(held), abs=0.05)
+    assert score_tests.explain_by_lens(prepare_fit(freed, views)).probability > 0.001
+
+
+def _dense_columns(fit: LinearisedFit, cause: str) -> Array:
+    """(2KN, m) columns by finite differences of the predicted corners and by np.interp."""
+    K = len(fit.state.R)
+    whole = slice(0, K)
+    predicted = fit.predict_corners(whole)
+    weight = fit.get_weight(whole)
+    if cause == LENS:
+        w, h = SIZE
+        columns = []
+        for i in range(9):
+            for j in range(7):  # 8 by 6 cells
+                across = np.interp(predicted[..., 0], np.linspace(0, w - 1, 9), np.eye(9)[i])
+                down = np.interp(predicted[..., 1], np.linspace(0, h - 1, 7), np.eye(7)[j])
+                hat = across * down
+                columns += [np.stack([hat, 0 * hat], -1), np.stack([0 * hat, hat], -1)]
+    else:
+        xy, step, columns = fit.observations.xy, 1e-3, []
+        solid = np.concatenate([xy, np.zeros_like(xy[..., :1])], axis=-1)
+        for place in np.unique(xy.reshape(-1, 2), axis=0):
+            shown = (xy == place).all(axis=-1)
+            for axis in np.eye(3):
+                there, back = (
+                    fit._replace(
+                        observations=replace(
+                            fit.observations, xy=solid + sign * step * shown[..., None] * axis
+                        )
+                    ).predict_corners(whole)
+                    for sign in (1, -1)
+                )
+                columns.append((there - back) / (2 * step))
+    X = np.stack(columns, axis=-1)
+    return np.asarray(weight @ X).reshape(-1, X.shape[-1])
+
+
+def _cost_left(r: Array, columns: Array) -> float:
+    """Sum of squares that the columns leave, by least squares."""
+    scale = np.maximum(np.linalg.norm(columns, axis=0), 1e-300)
+    found = np.linalg.lstsq(columns / scale, r, rcond=1e-7)[0]
+    return float(np.sum((r - columns / scale @ found) ** 2))
+
+
+def test_reductions_are_those_of_dense_least_squares() -> None:
+    views = uneven(barrel(), BOARD, 5, 0.2)
+    views = [Observation(v.uv[4 * k :], v.xy[4 * k :]) for k, v in enumerate(views)]
+    fit = prepare_fit(calibrate(views, SIZE, fix=["k2", "k3"]), views)
+    causes = SharedCauses(fit, [LENS, FREE])
+    r, by_params, by_pose = fit.linearise(slice(0, 5))
+    poses = np.zeros((5, r[0].size, 5, 6))
+    for k in range(5):
+        poses[k, :, k] = by_pose[k].reshape(-1, 6)
+    own = np.hstack([by_params[..., fit.free].reshape(r.size, -1), poses.reshape(r.size, -1)])
+    dense = {cause: _dense_columns(fit, cause) for cause in (LENS, FREE)}
+    least = _cost_left(r.ravel(), own)
+    assert causes.cost == pytest.approx(float(np.sum(r**2)), rel=1e-12)
+    for chosen in ([LENS], [FREE], [LENS, FREE]):
+        left = _cost_left(r.ravel(), np.hstack([own, *(dense[cause] for cause in chosen)]))
+        T, _ = causes.reduce_cost(*chosen)
+        assert T == pytest.approx(least - left, rel=2e-4)
+
+
+def test_what_a_cause_explains_beyond_another_is_judged_by_what_that_leaves() -> None:
+    views = uneven(barrel(), BOARD, 12, 0.2)
+    causes = SharedCauses(prepare_fit(calibrate(views, SIZE, model="pinhole"), views), [LENS, FREE])
+    (T_lens, m_lens), (T, m) = causes.reduce_cost(LENS), causes.reduce_cost(LENS, FREE)
+    expected = score_tests.judge_explanation(
+        T - T_lens, m - m_lens, causes.cost - T_lens, causes.freedom - m_lens
+    )
+    assert causes.explain(FREE, LENS) == expected
+    assert 0.5 < expected.share < 0.99  # the board is off, too
+    assert causes.explain(FREE).share > 0.3  # and is blamed for the lens if judged alone
+
+
+def test_nothing_is_concluded_from_too_few_corners() -> None:
+    found = score_tests.judge_explanation(5.0, rank=10, cost=10.0, freedom=10)
+    assert found.probability == 1.0
+    assert found.share == 0.0
+
+
+@pytest.mark.slow
+def test_probabilities_are_uniform_on_noise() -> None:
+    found: list[list[float]] = []
+    for seed in range(60):
+        true = scene(barrel(), 6, seed)
+        views = true.noisy(0.2, np.random.default_rng(seed))
+        fit = prepare_fit(calibrate(views, SIZE), views)
+        found.append(
+            [
+                score_tests.explain_by_board_shape(fit, model).probability
+                for model in list(BoardShapeModel)[1:]
+            ]
+            + [score_tests.explain_by_lens(fit).probability]
+        )
+    p: Array = np.array(found)
+    assert ((p < 0.05).mean(axis=0) <= 0.15).all()  # 0.05 + 3.5 standard errors
+    assert (np.abs((p < 0.5).mean(axis=0) - 0.5) < 0.23).all()
