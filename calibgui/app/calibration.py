@@ -5,16 +5,22 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
 from pathlib import PurePath
-from typing import Any
+from types import MappingProxyType
+from typing import Any, NamedTuple
 
 import numpy as np
 
 from calibgui import engine
 from calibgui.app.marking import remove_corners
-from calibgui.app.settings import DEFAULT_SETTINGS, Settings, check_settings
+from calibgui.app.settings import DEFAULT_MODEL, DEFAULT_SETTINGS, Settings, check_settings
 from calibgui.dataset import CornerSet, Result, View
 from calibgui.engine.arrays import IntArray, Size
-from calibgui.engine.assessment import calibrate_weighted, choose_board_shape, screen_outliers
+from calibgui.engine.assessment import (
+    calibrate_weighted,
+    choose_board_shape,
+    choose_lens_stepwise,
+    screen_outliers,
+)
 from calibgui.engine.boards import BoardShapeModel, Symmetry
 from calibgui.engine.calibration import (
     Calibration,
@@ -24,9 +30,11 @@ from calibgui.engine.calibration import (
     Report,
     find_copies,
 )
-from calibgui.engine.errors import CalibrationError, Cancelled
+from calibgui.engine.camera import find_model
+from calibgui.engine.errors import CalibrationError, Cancelled, Progress
 from calibgui.engine.redetection import find_upside_down_views
 from calibgui.engine.threads import limit_blas_threads
+from calibgui.report.lens_choice import describe_lens_choice
 from calibgui.report.numbers import format_count
 
 _BOARD_SHAPE_UNTRIED = (
@@ -36,24 +44,55 @@ _BOARD_SHAPE_UNTRIED = (
 _BOARD_SHAPE_STOPPED = (
     "The nominal board shape is taken: the comparison of models on unseen views was stopped."
 )
+_LENS_STOPPED = "The paper's lens model is taken: the comparison of lens models was stopped."
+_REASON = "model_reason"
+"""Key of a result's settings under which a lens model that was chosen automatically has its
+reason."""
+
+
+class ChosenLens(NamedTuple):
+    """A lens model that was chosen automatically."""
+
+    model: str
+    """Its name."""
+    reason: str
+    """The reason in words."""
+    fixed: Mapping[str, float] = MappingProxyType({})
+    """Coefficients that are held at 0 because the views leave them open."""
+
+    def apply_to(self, settings: Settings) -> Settings:
+        """Return the settings with this lens model in place of the automatic choice."""
+        return replace(settings, model=self.model, fixed={**settings.fixed, **self.fixed})
 
 
 def calibrate_views(
-    corner_set: CornerSet, settings: Settings = DEFAULT_SETTINGS, report: Report | None = None
+    corner_set: CornerSet,
+    settings: Settings = DEFAULT_SETTINGS,
+    report: Report | None = None,
+    progress: Progress | None = None,
+    lens: ChosenLens | None = None,
 ) -> Result:
     """Calibrate from the usable views of a set.
 
-    If the model of the board's shape is to be chosen, the result's warnings give the reason of the
-    choice. Outliers are left out first (``engine.assessment.outliers``): the result's views do not
-    contain them, and its warnings name them. If views are weighed, the result's views have the
-    covariances of the last solution. Copies of a view are left out. If the views do not determine
-    the camera, the result is partial (``Calibration.diagnosis``), from all corners and unweighed.
+    If the lens model or the model of the board's shape is to be chosen, the result's warnings give
+    the reason of the choice. Outliers are left out first (``engine.assessment.outliers``): the
+    result's views do not contain them, and its warnings name them. If views are weighed, the
+    result's views have the covariances of the last solution. Copies of a view are left out. If the
+    views do not determine the camera, the result is partial (``Calibration.diagnosis``), from all
+    corners and unweighed.
+
+    Args:
+        corner_set, settings: the views, and how to calibrate from them.
+        report: a function that is called with every iteration.
+        progress: a function that is told how many steps of the choice of a lens model are done; all
+            of them once it is made.
+        lens: the lens model that was chosen from these views before, for settings that name none.
 
     Raises:
         CalibrationError: as ``engine.calibrate``, with the names of images; for settings that do
             not go together; or if no view is usable.
         DegenerateError: if the views determine nothing at all.
-        Cancelled: from `report`.
+        Cancelled: from `report` or `progress`.
     """
     if not any(view.usable for view in corner_set.views):
         raise CalibrationError(
@@ -62,11 +101,16 @@ def calibrate_views(
             "directions, and choose the pattern that it has.",
         )
     check_settings(settings)
-    corner_set = replace(corner_set, views=_disable_copies(corner_set))
+    corner_set = disable_copies(corner_set)
     # The matrices are small: threads would cost more than they bring.
     with limit_blas_threads():
         try:
-            return _calibrate_whole(corner_set, settings, report)
+            if settings.model is not None:
+                return _calibrate_whole(corner_set, settings, report)
+            lens = lens or _choose_lens(corner_set, settings, report, progress)
+            if progress is not None:
+                progress(1, 1)
+            return _calibrate_whole(corner_set, lens.apply_to(settings), report, lens)
         except DegenerateError:
             partial = _calibrate_partially(corner_set, settings, report)
             if partial is None:
@@ -74,8 +118,91 @@ def calibrate_views(
             return partial
 
 
-def _calibrate_whole(corner_set: CornerSet, settings: Settings, report: Report | None) -> Result:
-    """Calibrate from views that determine the camera; raise DegenerateError for others."""
+def recall_lens_choice(result: Result) -> ChosenLens | None:
+    """Return the lens model of a result if it was chosen automatically, else None."""
+    calibration = result.calibration
+    reason = calibration.settings.get(_REASON)
+    if reason is None:
+        return None
+    lens = find_model(calibration.camera.model)
+    fixed = {
+        name: value
+        for name, value in calibration.settings["fixed"].items()
+        if name in lens.names and name not in lens.held
+    }
+    return ChosenLens(calibration.camera.model, reason, fixed)
+
+
+def _choose_lens(
+    corner_set: CornerSet, settings: Settings, report: Report | None, progress: Progress | None
+) -> ChosenLens:
+    """Choose the lens model that the views demand, without their outliers if these are left out.
+
+    The default model is returned if the comparison is impossible or `report` stops it.
+    """
+    lens = _compare_lenses(corner_set, settings, report, progress)
+    if not settings.robust:
+        return lens
+    views, _ = _leave_out_outliers(corner_set, lens.apply_to(settings))
+    if all(a is b for a, b in zip(views, corner_set.views, strict=True)):
+        return lens
+    return _compare_lenses(replace(corner_set, views=views), settings, report, progress)
+
+
+def _compare_lenses(
+    corner_set: CornerSet, settings: Settings, report: Report | None, progress: Progress | None
+) -> ChosenLens:
+    """Choose the lens model that the usable views demand. Returns as `_choose_lens`."""
+    used = [view for view in corner_set.views if view.usable]
+    observations = [view.observation(corner_set.board) for view in used]
+    watch = _Watch(report)
+    try:
+        choice = choose_lens_stepwise(
+            observations,
+            corner_set.size,
+            progress=progress,
+            cost=settings.cost,
+            method=settings.method,
+            fix=settings.fixed,
+            report=watch,
+        )
+    except CalibrationError as error:
+        reason = f"The paper's lens model is taken without a comparison. {error.message}"
+        return ChosenLens(DEFAULT_MODEL, reason)
+    except Cancelled:
+        if not watch.stopped:
+            raise
+        return ChosenLens(DEFAULT_MODEL, _LENS_STOPPED)
+    return ChosenLens(choice.model, describe_lens_choice(choice), choice.chosen.fixed)
+
+
+class _Watch:
+    """A report of a comparison, which cannot end with the best so far: a stop cancels it."""
+
+    def __init__(self, report: Report | None) -> None:
+        """Take the report that may ask to stop."""
+        self._report = report
+        self.stopped = False
+        """True if the report asked to stop."""
+
+    def __call__(self, iteration: Iteration) -> bool:
+        """Hand an iteration on; raise `Cancelled` if the comparison is to be stopped."""
+        if self._report is not None and not self._report(iteration):
+            self.stopped = True
+            raise Cancelled
+        return True
+
+
+def _calibrate_whole(
+    corner_set: CornerSet,
+    settings: Settings,
+    report: Report | None,
+    lens: ChosenLens | None = None,
+) -> Result:
+    """Calibrate from views that determine the camera; raise DegenerateError for others.
+
+    `lens` is the lens model of the settings if it was chosen automatically.
+    """
     views, size = corner_set.views, corner_set.size
     sentences: tuple[str, ...] = ()
     if settings.robust:
@@ -105,6 +232,9 @@ def _calibrate_whole(corner_set: CornerSet, settings: Settings, report: Report |
         sentences = (*sentences, _describe_weights(observations, everything["names"]))
     else:
         calibration = engine.calibrate(observations, size, **everything)
+    if lens is not None:
+        sentences = (lens.reason, *sentences)
+        calibration = replace(calibration, settings={**calibration.settings, _REASON: lens.reason})
     return Result(_add_warnings(calibration, used, settings, sentences), views, corner_set.board)
 
 
@@ -118,21 +248,13 @@ def _choose_board_shape(
 
     The nominal model is returned if the comparison is impossible or `report` stops it.
     """
-    stopped = False
-
-    def watch(iteration: Iteration) -> bool:
-        nonlocal stopped
-        if report is not None and not report(iteration):
-            stopped = True
-            raise Cancelled
-        return True
-
+    watch = _Watch(report)
     try:
         choice = choose_board_shape(observations, size, report=watch, **camera)
     except DegenerateError:
         return BoardShapeModel.NOMINAL, _BOARD_SHAPE_UNTRIED
     except Cancelled:
-        if not stopped:
+        if not watch.stopped:
             raise
         return BoardShapeModel.NOMINAL, _BOARD_SHAPE_STOPPED
     return choice.model, choice.recommendation
@@ -159,6 +281,7 @@ def _calibrate_partially(
     """Return the partial result of views that do not determine the camera, if there is one."""
     plain = replace(
         settings,
+        model=settings.model or DEFAULT_MODEL,
         robust=False,
         weigh_views=False,
         board_shape=settings.board_shape or BoardShapeModel.NOMINAL,
@@ -173,8 +296,8 @@ def _calibrate_partially(
     return None
 
 
-def _disable_copies(corner_set: CornerSet) -> tuple[View, ...]:
-    """Return the views, of which copies are disabled, unless all views are copies of one.
+def disable_copies(corner_set: CornerSet) -> CornerSet:
+    """Return the set with copies of views disabled, unless all views are copies of one.
 
     A copy has exactly the same corners as an earlier view.
     """
@@ -186,7 +309,7 @@ def _disable_copies(corner_set: CornerSet) -> tuple[View, ...]:
         if original != k and originals.any():
             reason = f"A copy of {views[original].image}, which counts once."
             views[k] = replace(views[k], enabled=False, reason=reason)
-    return tuple(views)
+    return replace(corner_set, views=tuple(views))
 
 
 def _replace_covariances(

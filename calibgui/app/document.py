@@ -12,6 +12,7 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 
 from calibgui.app.project import Project
+from calibgui.app.settings import NEW_PROJECT_SETTINGS
 
 Change = Callable[[Project], Project]
 Listener = Callable[[Project, Project], None]
@@ -32,7 +33,7 @@ class Document:
     """A project, its past and its undone future.
 
     Args:
-        project: the first snapshot.
+        project: the first snapshot; an empty project if None.
         path: its file; None if it has none yet.
         saved: true if the file holds it.
     """
@@ -40,7 +41,7 @@ class Document:
     def __init__(
         self, project: Project | None = None, path: Path | None = None, *, saved: bool = True
     ) -> None:
-        project = project or Project()
+        project = project or Project(settings=NEW_PROJECT_SETTINGS)
         self.path = path
         self.listeners: list[Listener] = []
         self._steps: tuple[Step, ...] = (Step("", project),)

@@ -5,10 +5,11 @@
                         pattern as in ``pattern_json.py``; corners, the method of locating them
                         ("edges" where missing)
     size                width and height of the images, px
-    settings            cost, model (of the lens), method, freed, fixed (names, or an object of
-                        them with their values or null); plate (the board's shape: a model, "auto"
-                        or a shape as in ``board_shape_json.py``), prior_mm (in the plane and out
-                        of it, or null), robust; weigh_views and once (false where missing)
+    settings            cost, model (of the lens; "auto" if it is chosen automatically), method,
+                        freed, fixed (names, or an object of them with their values or null); plate
+                        (the board's shape: a model, "auto" or a shape as in
+                        ``board_shape_json.py``), prior_mm (in the plane and out of it, or null),
+                        robust; weigh_views and once (false where missing)
     views               as in ``views_json.py``, and sha256 of the image file where known
     results             by name, each as a result.json is (``result_json.py``)
 
@@ -29,13 +30,20 @@ from types import MappingProxyType
 from typing import Any
 
 from calibgui.app.project import Project, Unit, relocate_images
-from calibgui.app.settings import DEFAULT_MODEL, MODEL_CHOICES, Settings
+from calibgui.app.settings import (
+    AUTO_MODEL,
+    DEFAULT_MODEL,
+    MODEL_CHOICES,
+    Settings,
+    list_parameters,
+    resolve_model_choice,
+)
 from calibgui.dataset import Result, View
 from calibgui.engine.boards import CHECKERBOARD, Board, BoardShape, BoardShapeModel
 from calibgui.engine.calibration import DEFAULT_METHOD, Cost
 from calibgui.engine.calibration import METHODS as CALIBRATION_METHODS
-from calibgui.engine.camera import parameter_names
 from calibgui.engine.detection import METHODS
+from calibgui.engine.errors import CalibrationError
 from calibgui.formats.board_shape_json import decode_board_shape, decode_prior, encode_board_shape
 from calibgui.formats.corners_json import decode_size
 from calibgui.formats.json_document import (
@@ -46,7 +54,7 @@ from calibgui.formats.json_document import (
     write_json,
 )
 from calibgui.formats.pattern_json import decode_pattern, encode_pattern
-from calibgui.formats.result_json import decode_model, decode_result, encode_result
+from calibgui.formats.result_json import decode_result, encode_result
 from calibgui.formats.views_json import decode_views, encode_view
 
 FORMAT = "calibgui-project"
@@ -112,7 +120,7 @@ def _encode_settings(settings: Settings) -> dict[str, Any]:
     at_values = any(value is not None for value in settings.fixed.values())
     return {
         "cost": settings.cost,
-        "model": settings.model,
+        "model": settings.model or AUTO_MODEL,
         "method": settings.method,
         "fixed": settings.fixed if at_values else list(settings.fixed),
         "freed": settings.freed,
@@ -190,8 +198,8 @@ def _decode_project(node: Node) -> Project:
 
 def _decode_settings(node: Node) -> Settings:
     prior = node.get("prior_mm")
-    model = decode_model(node["model"], MODEL_CHOICES)
-    names = parameter_names(model)
+    model = _decode_model(node["model"])
+    names = list_parameters(model)
     return Settings(
         cost=Cost(node["cost"].choice(list(Cost))),
         model=model,
@@ -204,6 +212,17 @@ def _decode_settings(node: Node) -> Settings:
         weigh_views=weigh.flag() if (weigh := node.get("weigh_views")) else False,
         once=once.flag() if (once := node.get("once")) else False,
     )
+
+
+def _decode_model(node: Node) -> str | None:
+    """Return the name of the lens model to estimate, None for one that is chosen automatically."""
+    if node.value == AUTO_MODEL:
+        return None
+    try:
+        return resolve_model_choice(node.text())
+    except CalibrationError:
+        node.choice([AUTO_MODEL, *MODEL_CHOICES])  # names the place, and the choices
+        raise
 
 
 def _decode_fixed(node: Node, names: Sequence[str]) -> dict[str, float | None]:

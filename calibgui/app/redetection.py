@@ -15,7 +15,7 @@ from threading import Event
 
 import numpy as np
 
-from calibgui.app.calibration import calibrate_views, shorten_names
+from calibgui.app.calibration import calibrate_views, recall_lens_choice, shorten_names
 from calibgui.app.labelling import (
     carry_view_labels,
     describe_turned_boards,
@@ -30,7 +30,7 @@ from calibgui.engine.boards import CHECKERBOARD, Board
 from calibgui.engine.calibration import Calibration, Cost, Report, Status
 from calibgui.engine.camera import project_points
 from calibgui.engine.detection import Corners
-from calibgui.engine.errors import CalibrationError
+from calibgui.engine.errors import CalibrationError, Progress
 from calibgui.engine.geometry import Pose
 from calibgui.engine.images import read_image
 from calibgui.engine.redetection import redetect_corners
@@ -48,37 +48,40 @@ def calibrate_twice(
     report: Report | None = None,
     stop: Event | None = None,
     search: bool = True,
+    progress: Progress | None = None,
 ) -> Result:
     """Calibrate, search images again and label views alike, and calibrate again.
 
     The second round is left out if the settings want one only (``Settings.once``), or if the first
-    was stopped or did not determine the camera.
+    was stopped or did not determine the camera. A lens model that was chosen automatically is
+    chosen anew if corners were gained.
 
     Args:
-        corner_set, settings: as for ``calibrate_views``.
+        corner_set, settings, progress: as for ``calibrate_views``.
         report: a function that is called with the iterations of both calibrations.
         stop: an event that abandons the search when it is set.
         search: whether images may be searched again.
 
     Raises:
         CalibrationError: as ``calibrate_views``.
-        Cancelled: from `report`, or if `stop` was set.
+        Cancelled: from `report` or `progress`, or if `stop` was set.
     """
-    result = calibrate_views(corner_set, settings, report)
+    result = calibrate_views(corner_set, settings, report, progress)
     calibration = result.calibration
     is_final = calibration.status is Status.STOPPED or calibration.diagnosis is not None
     if settings.once or is_final:
         return result
     more, sentences = redetect_views(corner_set, result, stop) if search else (corner_set, ())
     if sentences:
-        result = calibrate_views(more, settings, report)
+        result = calibrate_views(more, settings, report, progress)
     labelled = relabel_views(result)
     if have_same_labels(labelled, result.views):
         result = replace(result, views=labelled)
     else:
         sentences = (*sentences, *describe_turned_boards(labelled, result.views))
         views = tuple(map(carry_view_labels, more.views, result.views, labelled))
-        result = calibrate_views(replace(more, views=views), settings, report)
+        lens = recall_lens_choice(result)
+        result = calibrate_views(replace(more, views=views), settings, report, lens=lens)
     warnings = (*result.calibration.warnings, *sentences)
     return replace(result, calibration=replace(result.calibration, warnings=warnings))
 

@@ -3,20 +3,25 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 
 from calibgui.engine.boards import BoardShape, BoardShapeModel, BoardShapePrior
 from calibgui.engine.calibration import DEFAULT_METHOD, METHODS, Cost
-from calibgui.engine.camera import MODELS, parameter_names
+from calibgui.engine.camera import MODELS, PINHOLE, parameter_names, resolve_model_id
 from calibgui.engine.errors import CalibrationError
 
 DEFAULT_MODEL = "lucchese"
 """Name of the lens model that is estimated unless the user chooses another."""
+AUTO_MODEL = "auto"
+"""Word of files and of the command line for a lens model that is chosen automatically."""
 _PAPER_MODEL = "lucchese-pixels"
 """Name of the lens model of the cost "paper", which the engine takes with that cost alone."""
 MODEL_CHOICES = tuple(name for name in MODELS if name != _PAPER_MODEL)
-"""Names of the lens models that the user can choose from."""
+"""Names of the lens models that the user can choose from, and there are splined models with other
+numbers of control points."""
+_MAX_LISTED = 20
+"""Number of parameters that a message lists, at most."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -24,9 +29,10 @@ class Settings:
     """The settings of a calibration: the input of ``redetection.calibrate_twice``."""
 
     cost: Cost = Cost.IMAGE
-    model: str = DEFAULT_MODEL
-    """Name of the lens model, one of `MODEL_CHOICES`. The cost "paper" takes the printed lens of
-    the paper instead of the default."""
+    model: str | None = DEFAULT_MODEL
+    """Name of the lens model, which `resolve_model_choice` takes, or None for the one that the
+    views demand (``app.lens_choice``). The cost "paper" takes the printed lens of the paper
+    instead of the default."""
     method: str = DEFAULT_METHOD
     """Name of the method of calibration, a key of ``calibration.METHODS``."""
     fixed: Mapping[str, float | None] = field(default_factory=dict)
@@ -47,6 +53,23 @@ class Settings:
 
 
 DEFAULT_SETTINGS = Settings()
+NEW_PROJECT_SETTINGS = Settings(model=None)
+"""The settings that the window begins with."""
+
+
+def resolve_model_choice(model: str) -> str:
+    """Return the present name of a lens model that the user can choose.
+
+    Raises:
+        CalibrationError: if there is none, with the names to choose from.
+    """
+    current = resolve_model_id(model)
+    if current == _PAPER_MODEL:
+        raise CalibrationError(
+            f"The lens model {model!r} cannot be chosen.",
+            f"Choose from {AUTO_MODEL}, {', '.join(MODEL_CHOICES)}.",
+        )
+    return current
 
 
 def check_settings(settings: Settings) -> None:
@@ -57,11 +80,8 @@ def check_settings(settings: Settings) -> None:
             cost "paper" does not take, a parameter that the model does not have or that is both
             held and freed, or weighing of views with a cost that knows no weights.
     """
-    if settings.model not in MODEL_CHOICES:
-        raise CalibrationError(
-            f"The lens model {settings.model!r} cannot be chosen.",
-            f"Choose from {', '.join(MODEL_CHOICES)}.",
-        )
+    if settings.model is not None:
+        resolve_model_choice(settings.model)
     if settings.method not in METHODS:
         raise CalibrationError(
             f"There is no calibration method {settings.method!r}.",
@@ -70,7 +90,7 @@ def check_settings(settings: Settings) -> None:
     if settings.cost is Cost.PAPER and settings.model != DEFAULT_MODEL:
         raise CalibrationError(
             f"The cost 'paper' has its own lens model and cannot be combined with "
-            f"{settings.model!r}.",
+            f"{settings.model or AUTO_MODEL!r}.",
             "Choose the cost 'image' for this lens model.",
         )
     for name in (*settings.fixed, *settings.freed):
@@ -86,21 +106,38 @@ def check_settings(settings: Settings) -> None:
         )
 
 
-def check_parameter(name: str, model: str) -> None:
-    """Refuse a name that is none of the parameters of a lens model.
+def list_parameters(model: str | None) -> tuple[str, ...]:
+    """List the parameters that can be held with a lens model.
+
+    If the lens model is yet to be chosen (None), these are the ones that every model has.
+    """
+    return PINHOLE if model is None else parameter_names(model)
+
+
+def check_parameter(name: str, model: str | None) -> None:
+    """Refuse a name that is none of the parameters of a lens model, None for one to be chosen.
 
     Raises:
         CalibrationError: with the names that there are.
     """
-    names = parameter_names(model)
+    names = list_parameters(model)
     if name not in names:
         raise CalibrationError(
-            f"The lens model {model!r} has no parameter {name!r}.",
-            f"Choose from {', '.join(names)}.",
+            f"The lens model is chosen automatically, and not all models have a parameter {name!r}."
+            if model is None
+            else f"The lens model {model!r} has no parameter {name!r}.",
+            f"Choose from {_shorten_list(names)}{', or name the lens model' * (model is None)}.",
         )
 
 
-def parse_names(text: str, model: str = DEFAULT_MODEL) -> tuple[str, ...]:
+def _shorten_list(names: Sequence[str]) -> str:
+    """List names, the hundreds of a splined model by their first and last."""
+    if len(names) > _MAX_LISTED:
+        names = [*names[: _MAX_LISTED - 1], "...", names[-1]]
+    return ", ".join(names)
+
+
+def parse_names(text: str, model: str | None = DEFAULT_MODEL) -> tuple[str, ...]:
     """Read a list of a lens model's parameters such as "k3, p1".
 
     Raises:
@@ -109,7 +146,7 @@ def parse_names(text: str, model: str = DEFAULT_MODEL) -> tuple[str, ...]:
     return tuple(_parse_name(name, model) for name in text.split(","))
 
 
-def parse_fixed(text: str, model: str = DEFAULT_MODEL) -> dict[str, float | None]:
+def parse_fixed(text: str, model: str | None = DEFAULT_MODEL) -> dict[str, float | None]:
     """Read a list of parameters to hold, with values where given, such as "k3, p1=0, fx=650".
 
     Raises:
@@ -124,7 +161,7 @@ def parse_fixed(text: str, model: str = DEFAULT_MODEL) -> dict[str, float | None
     return fixed
 
 
-def _parse_name(text: str, model: str) -> str:
+def _parse_name(text: str, model: str | None) -> str:
     name = text.strip()
     check_parameter(name, model)
     return name

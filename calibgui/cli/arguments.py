@@ -15,7 +15,9 @@ from calibgui.cli.console import Console
 from calibgui.engine.arrays import GridSize
 from calibgui.engine.boards import CHECKERBOARD, Pattern
 from calibgui.engine.detection import METHODS, MIN_LINES
+from calibgui.engine.errors import CalibrationError
 from calibgui.engine.kernels import FINDER_SECONDS
+from calibgui.formats import find_exporter
 
 
 def parse_grid_size(text: str) -> GridSize:
@@ -40,6 +42,18 @@ def parse_positive(text: str) -> float:
     if not 0 < value < float("inf"):
         raise argparse.ArgumentTypeError(f"{text!r} is not a number above 0")
     return value
+
+
+def parse_export(text: str) -> tuple[str, Path]:
+    """Read the name of a format and a file such as "ros=camera.yaml"."""
+    name, equals, file = text.partition("=")
+    if not equals:
+        raise argparse.ArgumentTypeError(f"{text!r} is not FORMAT=FILE")
+    try:
+        find_exporter(name, file)
+    except CalibrationError as error:
+        raise argparse.ArgumentTypeError(str(error)) from error
+    return name, Path(file)
 
 
 def add_image_paths(parser: argparse.ArgumentParser, nargs: str = "+") -> None:

@@ -7,54 +7,44 @@ says what to photograph, and ends with exit code 1.
 from __future__ import annotations
 
 import argparse
-from dataclasses import replace
+import contextlib
 from pathlib import Path
 
 from calibgui.app.outputs import check_outputs
 from calibgui.app.redetection import calibrate_twice
 from calibgui.app.settings import (
+    AUTO_MODEL,
     DEFAULT_MODEL,
     MODEL_CHOICES,
     Settings,
     check_settings,
     parse_fixed,
     parse_names,
+    resolve_model_choice,
 )
 from calibgui.cli.arguments import (
-    add_image_paths,
-    add_search_options,
     is_corners_file,
     list_input_files,
+    parse_export,
     parse_positive,
-    search_images,
 )
-from calibgui.cli.boards import add_board_options, read_pattern_options
-from calibgui.cli.console import Console
-from calibgui.dataset import CornerSet, Result
+from calibgui.cli.console import Advance, Console
+from calibgui.cli.corners import add_corner_options, check_corner_options, read_or_search
+from calibgui.dataset import Result
 from calibgui.engine.boards import BoardShape, BoardShapeModel, BoardShapePrior
 from calibgui.engine.calibration import DEFAULT_METHOD, METHODS, Cost, DegenerateError
-from calibgui.engine.camera import MODELS, parameter_names
+from calibgui.engine.camera import MODELS, PINHOLE, SplinedStereographic
 from calibgui.engine.errors import CalibrationError
 from calibgui.engine.kernels import SOLVER_SECONDS, when_compiling
-from calibgui.formats import EXPORTERS, export, find_exporter
+from calibgui.formats import EXPORTERS, export
 from calibgui.formats.board_shape_json import read_board_shape, write_board_shape
-from calibgui.formats.corners_json import read_corners
 from calibgui.formats.result_json import encode_result, write_result
 from calibgui.report import tables
-from calibgui.report.boards import describe_recognised_board
 
 
 def configure(parser: argparse.ArgumentParser) -> None:
     """Describe the arguments."""
-    add_image_paths(parser)
-    add_search_options(parser)
-    add_board_options(parser)
-    parser.add_argument(
-        "--square",
-        type=parse_positive,
-        metavar="MM",
-        help="side of a square, mm; needed for photographs",
-    )
+    add_corner_options(parser, "needed for photographs")
     parser.add_argument(
         "--cost",
         choices=[cost.value for cost in Cost],
@@ -64,8 +54,9 @@ def configure(parser: argparse.ArgumentParser) -> None:
     )
     parser.add_argument(
         "--model",
-        choices=MODEL_CHOICES,
+        type=_parse_model,
         default=DEFAULT_MODEL,
+        metavar="NAME",
         help=f"the lens model to estimate: {_describe_models()}",
     )
     parser.add_argument(
@@ -86,7 +77,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
         "--free",
         metavar="NAMES",
         help="parameters of the lens model to estimate that are held by default: "
-        + "; ".join(f"{' '.join(MODELS[name].held) or 'none'} of {name}" for name in MODEL_CHOICES),
+        + _describe_held_parameters(),
     )
     parser.add_argument(
         "--robust",
@@ -132,7 +123,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("-o", "--output", type=Path, metavar="FILE", help="write result.json")
     parser.add_argument(
         "--export",
-        type=_parse_export,
+        type=parse_export,
         action="append",
         default=[],
         metavar="FORMAT=FILE",
@@ -148,12 +139,13 @@ def run(options: argparse.Namespace, console: Console) -> None:
     check_outputs(
         [*outputs, *(path for _, path in options.export)], list_input_files(options.paths)
     )
-    corner_set = _read_or_search(options, console)
+    corner_set = read_or_search(options, console)
     try:
         preparing = f"Preparing the solver for its first use (once, about {SOLVER_SECONDS} s)…"
         with when_compiling(lambda: console.print_notice(preparing)):
             search = not is_corners_file(options.paths)
-            result = calibrate_twice(corner_set, settings, search=search)
+            with _show_comparison(settings, console) as advance:
+                result = calibrate_twice(corner_set, settings, search=search, progress=advance)
     except CalibrationError:
         if unused := tables.list_unused_views(corner_set.views):
             console.print_problem(unused)
@@ -172,6 +164,15 @@ def run(options: argparse.Namespace, console: Console) -> None:
         console.print_problem(f"calibgui: {error}")
     if errors:
         raise errors[-1]
+
+
+def _show_comparison(
+    settings: Settings, console: Console
+) -> contextlib.AbstractContextManager[Advance | None]:
+    """Show the progress of the choice of a lens model, if one is to be chosen."""
+    if settings.model is not None:
+        return contextlib.nullcontext()
+    return console.show_progress("comparing lens models", "model")
 
 
 def _write_files(
@@ -236,56 +237,50 @@ def _check_usage(options: argparse.Namespace) -> None:
         )
     if options.prior and options.board_shape not in (BoardShapeModel.FREE, None):
         options.usage_error("--prior is for a free board shape: add --board-shape free or auto")
-    if is_corners_file(options.paths):
-        if options.board or options.roi or options.target != "checkerboard":
-            options.usage_error(
-                "--board, --roi and --target are for photographs, not for a corners file"
-            )
-    elif any(is_corners_file([path]) for path in options.paths):
-        options.usage_error("a corners file is calibrated by itself")
-    elif options.square is None:
+    check_corner_options(options)
+    if options.square is None and not is_corners_file(options.paths):
         options.usage_error("--square MM, side of a square or distance of circles, is needed")
 
 
-def _read_or_search(options: argparse.Namespace, console: Console) -> CornerSet:
-    """Return the views to calibrate from, searched in photographs or read from a file."""
-    if is_corners_file(options.paths):
-        return _read_corners_file(options)
-    pattern = read_pattern_options(options)
-    detection = search_images(
-        console, options.paths, options.board, options.roi, options.corners, pattern
-    )
-    corner_set = detection.corner_set(options.square)
-    if words := describe_recognised_board(pattern, corner_set.board):
-        console.print_text(words + "\n")
-    return corner_set
-
-
-def _read_corners_file(options: argparse.Namespace) -> CornerSet:
-    """Return the views of a corners.json; --square replaces the side of the board's squares."""
-    corner_set = read_corners(options.paths[0])
-    if options.square is None:
-        return corner_set
-    if corner_set.board is None:
-        raise CalibrationError(
-            f"{options.paths[0]} already gives the corners' places on the board in millimetres.",
-            "Leave out --square.",
-        )
-    return replace(corner_set, board=replace(corner_set.board, square=options.square))
+def _parse_model(text: str) -> str | None:
+    """Return the name of a lens model, None for one that is chosen automatically."""
+    if text == AUTO_MODEL:
+        return None
+    try:
+        return resolve_model_choice(text)
+    except CalibrationError as error:
+        raise argparse.ArgumentTypeError(str(error)) from error
 
 
 def _describe_models() -> str:
     """List the lens models to choose from with their titles, the default one marked."""
-    return "; ".join(
+    models = (
         f"{name}{' (default)' if name == DEFAULT_MODEL else ''}, {MODELS[name].title}"
         for name in MODEL_CHOICES
+    )
+    return (
+        f"{AUTO_MODEL}, the paper's unless the views demand another (calibgui models compares "
+        f"all); {'; '.join(models)}; or splined with other numbers, such as "
+        "splined-stereographic-40x30-120 for 40 x 30 control points over 120 degrees"
     )
 
 
 def _describe_parameters() -> str:
-    """List the parameters of the lens models to choose from."""
-    models = (f"{name}: {' '.join(parameter_names(name))}" for name in MODEL_CHOICES)
-    return f"Parameters of {'; of '.join(models)}"
+    """List the parameters of the lens models to choose from, but for the splined one's hundreds."""
+    models = [
+        f"{name} {' '.join(MODELS[name].names)}"
+        for name in MODEL_CHOICES
+        if MODELS[name].names and not isinstance(MODELS[name], SplinedStereographic)
+    ]
+    return f"All models have {' '.join(PINHOLE)}; {'; '.join(models)}"
+
+
+def _describe_held_parameters() -> str:
+    """List the parameters that are held by default, with the lens models that hold them."""
+    models: dict[str, list[str]] = {}
+    for name in MODEL_CHOICES:
+        models.setdefault(" ".join(MODELS[name].held), []).append(name)
+    return "; ".join(f"{held} of {', '.join(names)}" for held, names in models.items() if held)
 
 
 def _read_board_shape(text: str) -> BoardShapeModel | BoardShape | None:
@@ -308,15 +303,3 @@ def _parse_prior(text: str) -> BoardShapePrior:
     except (ValueError, argparse.ArgumentTypeError) as error:
         raise argparse.ArgumentTypeError(f"{text!r} is not XY,Z in mm, as 0.1,0.3") from error
     return BoardShapePrior(in_plane, out_of_plane)
-
-
-def _parse_export(text: str) -> tuple[str, Path]:
-    """Read the name of a format and a file such as "ros=camera.yaml"."""
-    name, equals, file = text.partition("=")
-    if not equals:
-        raise argparse.ArgumentTypeError(f"{text!r} is not FORMAT=FILE")
-    try:
-        find_exporter(name, file)
-    except CalibrationError as error:
-        raise argparse.ArgumentTypeError(str(error)) from error
-    return name, Path(file)

@@ -1,20 +1,26 @@
-"""Compare two calibrations: how far apart do both cameras see the same points?"""
+"""Compare two calibrations: how far apart do both cameras see the same points?
+
+Both are read from result.json or from the files of other programs.
+"""
 
 from __future__ import annotations
 
 import argparse
 import math
+from collections.abc import Sequence
 from pathlib import Path
 
 import numpy as np
 
 from calibgui.app.outputs import check_figure, save_figure
 from calibgui.cli.arguments import add_map_options
+from calibgui.cli.camera import CAMERA_FILE, add_size_option, read_camera_and_warn
 from calibgui.cli.console import Console
-from calibgui.cli.result import read_result_and_warn
 from calibgui.dataset import Result
 from calibgui.engine.assessment import CameraDifference, compare_cameras
 from calibgui.engine.uncertainty import estimate_projection_uncertainty
+from calibgui.formats import EXPORTERS
+from calibgui.formats.result_json import read_result
 from calibgui.report import quality
 
 _MEDIAN_LENGTH = math.sqrt(2 * math.log(2))
@@ -23,8 +29,16 @@ _MEDIAN_LENGTH = math.sqrt(2 * math.log(2))
 
 def configure(parser: argparse.ArgumentParser) -> None:
     """Describe the arguments."""
-    parser.add_argument("a", type=Path, metavar="A", help="result.json of a camera")
-    parser.add_argument("b", type=Path, metavar="B", help="another result.json of the same camera")
+    parser.set_defaults(usage_error=parser.error)
+    parser.add_argument("a", type=Path, metavar="A", help=CAMERA_FILE)
+    parser.add_argument("b", type=Path, metavar="B", help="another one of the same camera")
+    for name in ("a", "b"):
+        parser.add_argument(
+            f"--camera-{name}",
+            metavar="NAME",
+            help=f"the camera to read from {name.upper()}, if it holds several",
+        )
+    add_size_option(parser)
     add_map_options(parser, "are compared")
     parser.add_argument(
         "--covered",
@@ -37,14 +51,17 @@ def run(options: argparse.Namespace, console: Console) -> None:
     """Read both, compare, draw and print."""
     if options.output:
         check_figure(options.output)
-    a, b = read_result_and_warn(options.a, console), read_result_and_warn(options.b, console)
-    found = compare_cameras(
-        a.calibration.camera,
-        b.calibration.camera,
-        options.distance,
-        a.observations() if options.covered else None,
-    )
-    expected = _estimate_expected_difference(a, b, found)
+    a = read_camera_and_warn(options.a, console, options.camera_a, options.size)
+    b = read_camera_and_warn(options.b, console, options.camera_b, options.size)
+    results = [
+        read_result(file) if camera.title == EXPORTERS["result"].title else None
+        for file, camera in ((options.a, a), (options.b, b))
+    ]
+    if options.covered and results[0] is None:
+        options.usage_error("--covered is for a result.json as A: other files have no corners")
+    covered = results[0].observations() if options.covered and results[0] else None
+    found = compare_cameras(a.camera, b.camera, options.distance, covered)
+    expected = _estimate_expected_difference([r for r in results if r is not None], found)
     text = quality.tabulate_camera_difference(found, expected)
     if options.output:
         from calibgui.report import quality_figures  # matplotlib takes a while to import
@@ -68,12 +85,19 @@ def run(options: argparse.Namespace, console: Console) -> None:
     console.print_text(text)
 
 
-def _estimate_expected_difference(a: Result, b: Result, found: CameraDifference) -> float:
-    """Estimate the median length, px, of the difference that both uncertainties explain."""
+def _estimate_expected_difference(
+    results: Sequence[Result], found: CameraDifference
+) -> float | None:
+    """Estimate the median length, px, of the difference that both uncertainties explain.
+
+    It is None unless both cameras are results, whose views tell how uncertain they are.
+    """
+    if len(results) < 2:
+        return None
     sigma = [
         estimate_projection_uncertainty(
             result.calibration, result.observations(), found.distance
         ).rms
-        for result in (a, b)
+        for result in results
     ]
     return float(_MEDIAN_LENGTH * np.nanmedian(np.hypot(*sigma)[found.region]))

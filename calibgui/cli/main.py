@@ -1,10 +1,11 @@
 """Entry point: choose the subcommand, run it, and return an exit code.
 
-The exit codes are 0 success; 1 the task is impossible, for the reason on stderr; 2 wrong usage;
-70 a bug; 130 interrupted (Ctrl-C, SIGTERM); 141 the program that read our output has ended.
+The exit codes are 0 success; 1 the task is impossible, for the reason on stderr, or a check has
+failed; 2 wrong usage; 70 a bug; 130 interrupted (Ctrl-C, SIGTERM); 141 the program that read our
+output has ended.
 
 To add a subcommand, write a module in this folder with `configure(parser)` and
-`run(options, console)`, and name it in `COMMANDS`.
+`run(options, console)`, which may return an exit code, and name it in `COMMANDS`.
 """
 
 from __future__ import annotations
@@ -25,8 +26,11 @@ COMMANDS = {
     "detect": "locate the corners of the board in photographs",
     "undistort": "write photographs without lens distortion",
     "rectify": "write photographs of the board as seen from straight above",
+    "models": "compare lens models on photographs, and recommend one",
     "uncertainty": "show how far a calibration can be trusted",
     "diff": "compare two calibrations of a camera",
+    "check": "check with a few pictures whether a stored calibration is still good",
+    "convert": "convert a camera file to another lens model or format",
     "views": "study how many views are enough, and where to hold the board next",
     "demo": "calibrate the bundled sample and write all results and figures",
     "paper": "reproduce the paper from its 25 images, with its printed numbers beside ours",
@@ -93,11 +97,10 @@ def _run(arguments: list[str]) -> int:
         # SIGTERM ends the program as Ctrl-C does: workers and temporary files are removed.
         signal.signal(signal.SIGTERM, signal.default_int_handler)
     try:
-        command.run(options, output)
+        return int(command.run(options, output) or 0)
     except errors.CalibrationError as error:
         output.print_problem(f"calibgui: {error}")
         return _CANNOT
-    return 0
 
 
 def _should_open_window(arguments: list[str]) -> bool:

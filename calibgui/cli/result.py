@@ -6,12 +6,38 @@ from pathlib import Path
 
 from calibgui.cli.console import Console
 from calibgui.dataset import Result
-from calibgui.formats.result_json import read_result
+from calibgui.engine.errors import CalibrationError
+from calibgui.formats import read_camera
+from calibgui.formats.result_json import EXPORTER, read_result
 
 
 def read_result_and_warn(path: Path, console: Console) -> Result:
-    """Read result.json, and warn if the calibration is partial. Raises as `read_result`."""
-    result = read_result(path)
+    """Read result.json, and warn if the calibration is partial.
+
+    Raises:
+        CalibrationError: as `read_result`; if the file is a camera file of another program, the
+            message says so.
+    """
+    try:
+        result = read_result(path)
+    except CalibrationError as error:
+        _refuse_camera_file(path, error)
+        raise
     if (diagnosis := result.calibration.diagnosis) is not None:
         console.print_problem(f"calibgui: {path} is a partial calibration. {diagnosis.message}")
     return result
+
+
+def _refuse_camera_file(path: Path, error: CalibrationError) -> None:
+    """Raise a CalibrationError if the file holds a camera only."""
+    try:
+        title = read_camera(path).title
+    except CalibrationError:
+        return
+    if title != EXPORTER.title:
+        raise CalibrationError(
+            f"{path} holds a camera only ({title}): neither the corners nor a covariance from "
+            "which its errors follow.",
+            "Give the result.json that calibgui calibrate -o writes. The program that wrote this "
+            "file may tell as well, as mrcal-show-projection-uncertainty does.",
+        ) from error

@@ -9,15 +9,16 @@ from pathlib import Path
 from calibgui.app.paths import find_images
 from calibgui.app.resampling import Undistortion, undistort_files
 from calibgui.cli.arguments import add_image_paths, parse_positive
+from calibgui.cli.camera import CAMERA_FILE, add_camera_options, read_camera_and_warn
 from calibgui.cli.console import Console
 from calibgui.cli.resampled import add_output_folder, report_written
-from calibgui.cli.result import read_result_and_warn
 from calibgui.engine.images import FieldOfView, Projection, describe_lost_angles
 
 
 def configure(parser: argparse.ArgumentParser) -> None:
     """Describe the arguments."""
-    parser.add_argument("result", type=Path, metavar="RESULT", help="result.json of the camera")
+    parser.add_argument("result", type=Path, metavar="RESULT", help=CAMERA_FILE)
+    add_camera_options(parser)
     add_image_paths(parser)
     add_output_folder(parser)
     parser.add_argument(
@@ -50,7 +51,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
 
 def run(options: argparse.Namespace, console: Console) -> None:
     """Read, undistort and write."""
-    camera = read_result_and_warn(options.result, console).calibration.camera
+    camera = read_camera_and_warn(options.result, console, options.camera, options.size).camera
     images = find_images(options.paths)
     undistortion = Undistortion(
         Projection(options.projection),

@@ -7,16 +7,18 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from calibgui.app.calibration import calibrate_views, shorten_names
+from calibgui.app.calibration import calibrate_views, recall_lens_choice, shorten_names
 from calibgui.app.detection import find_views
 from calibgui.app.resources import find_resource, find_sample_square
-from calibgui.app.settings import Settings
+from calibgui.app.settings import Settings, check_settings
 from calibgui.dataset import CornerSet, View, ViewStatus
 from calibgui.engine.arrays import Array
+from calibgui.engine.assessment import lens_choice
 from calibgui.engine.assessment.noise_test import check_residuals
 from calibgui.engine.calibration.calibrate import calibrate
 from calibgui.engine.calibration.observations import Observation
 from calibgui.engine.calibration.result import Cost, Iteration, Status
+from calibgui.engine.camera.camera import Camera
 from calibgui.engine.camera.projection import pixels_from_rays
 from calibgui.engine.errors import CalibrationError, Cancelled
 from calibgui.engine.geometry.rotations import rotation_from_vector
@@ -85,7 +87,7 @@ def noisy(board_shape: Array | None = None) -> CornerSet:
             0 if board_shape is None else board_shape
         )
         seen = point @ rotation_from_vector(pose.rvec).T + pose.tvec
-        uv = pixels_from_rays(seen[:, :2] / seen[:, 2:], CAMERA) + rng.normal(0, 0.05, xy.shape)
+        uv = pixels_from_rays(seen, CAMERA) + rng.normal(0, 0.05, xy.shape)
         views.append(View(f"{k}.png", ViewStatus.FOUND, points=Observation(uv, xy)))
     return CornerSet(CAMERA.size, tuple(views))
 
@@ -153,6 +155,13 @@ def test_the_best_plate_is_chosen_and_said() -> None:
     assert calibrate_views(noisy(), Settings(board_shape=None)).calibration.board_shape is None
 
 
+def test_no_plate_is_chosen_for_a_lens_that_is_not_followed() -> None:
+    result = calibrate_views(noisy(), Settings(board_shape=None, model="pinhole"))
+    assert result.calibration.board_shape is None
+    assert result.calibration.lens_error > 0
+    assert "The lens comes first" in result.calibration.warnings[0]
+
+
 @pytest.mark.slow
 def test_what_is_left_of_the_sample_looks_like_noise() -> None:
     """Its photographs are rendered: nothing is wrong with board, camera or lens."""
@@ -182,3 +191,119 @@ def test_the_comparison_of_plates_can_be_stopped_or_cancelled() -> None:
 
     with pytest.raises(Cancelled):
         calibrate_views(noisy(), Settings(board_shape=None), cancel)
+
+
+@pytest.fixture
+def few_lenses(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Let the choice of a lens model have few to choose from, which is quick."""
+    monkeypatch.setattr(lens_choice, "_FIRST_CANDIDATES", ("lucchese", "brown-conrady"))
+    monkeypatch.setattr(lens_choice, "CANDIDATES", ("lucchese", "division", "kannala-brandt"))
+
+
+AUTO = Settings(model=None)
+
+
+@pytest.mark.usefixtures("few_lenses")
+def test_the_papers_lens_model_is_kept_where_it_is_enough() -> None:
+    progress: list[tuple[int, int]] = []
+    result = calibrate_views(noisy(), AUTO, progress=lambda *at: progress.append(at))
+    calibration = result.calibration
+    assert calibration.camera.model == calibration.settings["model"] == "lucchese"
+    assert calibration.warnings[0] == calibration.settings["model_reason"]
+    assert calibration.warnings[0].startswith("The paper's model (lucchese) is kept: it predicts")
+    assert progress == [(0, 4), (1, 4), (2, 4), (3, 4), (1, 1)]
+    by_name = calibrate_views(noisy(), Settings()).calibration
+    np.testing.assert_array_equal(calibration.camera.params, by_name.camera.params)
+    assert "model_reason" not in by_name.settings
+    assert recall_lens_choice(result) == ("lucchese", calibration.warnings[0])
+
+
+def fisheye() -> CornerSet:
+    """Six views with 0.1 px of noise, far off the axis of a fisheye lens."""
+    rng = np.random.default_rng(1)
+    lens = Camera((640, 480), [235, 234, 318, 243, -0.05, 4e-3, -3e-3, 4e-4], "kannala-brandt")
+    poses = [scenes.looking(lens, rng, fill=(0.8, 2.0)) for _ in range(6)]
+    views = scenes.seen(lens, poses, partial=True).noisy(0.1, rng)
+    found = [View(f"{k}.png", ViewStatus.FOUND, points=view) for k, view in enumerate(views)]
+    return CornerSet(lens.size, tuple(found))
+
+
+@pytest.mark.usefixtures("few_lenses")
+def test_a_fisheye_lens_gets_a_model_of_its_own() -> None:
+    result = calibrate_views(fisheye(), AUTO)
+    assert result.calibration.camera.model == "kannala-brandt"
+    assert result.calibration.warnings[0].startswith("Kannala-Brandt (kannala-brandt): it predicts")
+    again = calibrate_views(fisheye(), AUTO, lens=recall_lens_choice(result))
+    assert again.calibration.settings["model_reason"] == result.calibration.warnings[0]
+
+
+@pytest.mark.usefixtures("few_lenses")
+def test_outliers_do_not_decide_on_the_lens_model() -> None:
+    """The reason is that of the corners that are kept."""
+    spoilt = fisheye()
+    points = spoilt.views[1].points
+    assert points is not None
+    uv = np.array(points.uv)
+    uv[7] += 20.0
+    view = replace(spoilt.views[1], points=Observation(uv, points.xy))
+    views = (spoilt.views[0], view, *spoilt.views[2:])
+    result = calibrate_views(replace(spoilt, views=views), replace(AUTO, robust=True))
+    assert result.calibration.camera.model == "kannala-brandt"
+    clean = float(str(result.calibration.warnings[0]).split(" px RMS")[0].split()[-1])
+    assert clean < 0.2
+    assert result.calibration.warnings[1].startswith("1.png loses 1 corner")
+
+
+def test_where_lenses_cannot_be_compared_the_papers_is_taken() -> None:
+    two = replace(noisy(), views=noisy().views[:2])
+    found = calibrate_views(two, AUTO).calibration
+    assert found.camera.model == "lucchese"
+    assert "without a comparison. 2 views are too few" in found.settings["model_reason"]
+    one = replace(noisy(), views=noisy().views[:1])
+    assert calibrate_views(one, AUTO).calibration.diagnosis is not None
+
+
+@pytest.mark.usefixtures("few_lenses")
+def test_the_comparison_of_lenses_can_be_stopped_or_cancelled() -> None:
+    told: list[Iteration] = []
+
+    def stop(iteration: Iteration) -> bool:
+        told.append(iteration)
+        return len(told) < 8
+
+    result = calibrate_views(noisy(), AUTO, stop)
+    assert result.calibration.status is Status.STOPPED
+    assert result.calibration.camera.model == "lucchese"
+    assert "was stopped" in result.calibration.warnings[0]
+    assert len(told) < 12
+
+    def cancel(*_: object) -> bool:
+        raise Cancelled
+
+    for listening in ({"report": cancel}, {"progress": cancel}):
+        with pytest.raises(Cancelled):
+            calibrate_views(noisy(), AUTO, **listening)  # type: ignore[arg-type]
+
+
+@pytest.mark.usefixtures("few_lenses")
+def test_what_all_lens_models_have_can_be_held() -> None:
+    held = calibrate_views(noisy(), replace(AUTO, fixed={"cx": 155.0})).calibration
+    assert held.camera.params[2] == 155.0
+    for wrong in (
+        replace(AUTO, fixed={"k1": None}),
+        replace(AUTO, freed=("p3",)),
+    ):
+        with pytest.raises(CalibrationError, match="chosen automatically, and not all models have"):
+            check_settings(wrong)
+    with pytest.raises(CalibrationError, match="combined with 'auto'"):
+        check_settings(replace(AUTO, cost=Cost.PAPER))
+
+
+def test_splined_models_of_any_numbers_can_be_named() -> None:
+    check_settings(Settings(model="splined-stereographic-12x8-100", fixed={"dx_2_5": 0.0}))
+    with pytest.raises(CalibrationError, match="no parameter 'k1'") as error:
+        check_settings(Settings(model="splined-stereographic-12x8-100", fixed={"k1": 0.0}))
+    assert len(error.value.hint) < 300, "not all 196 names"
+    for wrong in ("lucchese-pixels", "none", "splined-stereographic-2x2-100"):
+        with pytest.raises(CalibrationError):
+            check_settings(Settings(model=wrong))

@@ -134,8 +134,8 @@ class Editing(RuleBasedStateMachine):
 
     @rule(
         cost=st.sampled_from(Cost),
-        model=st.sampled_from(MODEL_CHOICES),
-        fixed=st.dictionaries(st.sampled_from(["k2", "k3", "p1"]), st.none() | st.floats(-1, 1)),
+        model=st.sampled_from([None, *MODEL_CHOICES]),
+        fixed=st.dictionaries(st.sampled_from(["fx", "cx", "cy"]), st.none() | st.floats(-1, 1)),
         board_shape=st.none() | st.sampled_from(BoardShapeModel),
         prior=st.none() | st.builds(BoardShapePrior, st.floats(0.01, 1.0), st.floats(0.01, 1.0)),
         flags=st.tuples(*[st.booleans()] * 3),
@@ -143,7 +143,7 @@ class Editing(RuleBasedStateMachine):
     def change_settings(
         self,
         cost: Cost,
-        model: str,
+        model: str | None,
         fixed: dict[str, float | None],
         board_shape: BoardShapeModel | None,
         prior: BoardShapePrior | None,

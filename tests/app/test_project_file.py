@@ -88,7 +88,7 @@ def test_what_is_no_project_is_refused_by_name(tmp_path: Path) -> None:
         ('{"format": "something"}', "not a file of the format"),
         (text.replace('"square_mm": 30.0', '"square_mm": -1.0', 1), "a length above 0"),
         (
-            text.replace('"model": "lucchese"', '"model": "pinhole"', 1),
+            text.replace('"model": "lucchese"', '"model": "none"', 1),
             "settings.model is not one of",
         ),
         (text.replace('"model": "lucchese"', '"model": "lucchese-pixels"', 1), "is not one of"),
@@ -142,6 +142,8 @@ def test_the_board_as_known_is_kept(tmp_path: Path) -> None:
         Settings(board_shape=None, robust=True, weigh_views=True, once=True),
         Settings(fixed={"k3": None, "fx": 650.25}, freed=("p3",)),
         Settings(model="brown-conrady", fixed={"k3": 0.5}),
+        Settings(model=None, fixed={"cx": None}),
+        Settings(model="splined-stereographic-12x8-100", freed=("fx", "fy")),
         Settings(board_shape=BoardShapeModel.FREE, prior=BoardShapePrior(0.125, 0.3)),
         Settings(board_shape=board_shape),
     ):

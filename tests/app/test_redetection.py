@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from calibgui.app.calibration import calibrate_views
+from calibgui.app.calibration import ChosenLens, calibrate_views
 from calibgui.app.detection import find_views
 from calibgui.app.redetection import calibrate_twice, redetect_view, redetect_views
 from calibgui.app.settings import Settings
@@ -116,3 +116,30 @@ def test_boards_numbered_from_the_wrong_end_are_named() -> None:
         ]
         assert len(named) == 1
         assert "upside down in 2.png, 5.png" in named[0]
+
+
+def test_a_lens_model_is_chosen_anew_where_corners_were_gained_only(
+    damaged: CornerSet, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Labels do not matter to the camera, and the choice takes long."""
+    asked: list[int] = []
+
+    def choose(views: CornerSet, *_: object) -> ChosenLens:
+        asked.append(sum(view.usable for view in views.views))
+        return ChosenLens("brown-conrady", "It is wanted.")
+
+    monkeypatch.setattr("calibgui.app.calibration._choose_lens", choose)
+    gained = calibrate_twice(damaged, Settings(model=None))
+    assert asked == [5, 6]
+    assert gained.calibration.camera.model == "brown-conrady"
+    asked.clear()
+    camera = scenes.barrel()
+    made = scenes.uneven(camera, Board(6, 9, 30.0), 10, 0.3, (2, 5))
+    views = tuple(View(f"{k}.png", ViewStatus.FOUND, points=view) for k, view in enumerate(made))
+    settings = Settings(model=None, board_shape=BoardShapeModel.FREE)
+    turned = calibrate_twice(CornerSet(camera.size, views), settings)
+    assert any("wrong end" in text for text in turned.calibration.warnings)
+    assert asked == [10]
+    for result in (gained, turned):
+        assert result.calibration.warnings[0] == "It is wanted."
+        assert result.calibration.settings["model_reason"] == "It is wanted."

@@ -6,17 +6,26 @@ import json
 import shutil
 from pathlib import Path
 
+import cv2
 import numpy as np
 import pytest
 
 from calibgui.app.calibration import calibrate_views
 from calibgui.app.paths import find_images
-from calibgui.app.resampling import GEOMETRY_FILE, WrittenImage, rectify_files, undistort_files
+from calibgui.app.resampling import (
+    GEOMETRY_FILE,
+    Undistortion,
+    WrittenImage,
+    rectify_files,
+    undistort_files,
+)
 from calibgui.dataset import CornerSet, Result, View, ViewStatus
+from calibgui.engine.camera.camera import Camera
 from calibgui.engine.camera.distortion import distort_points
 from calibgui.engine.detection.corners import Corners
 from calibgui.engine.detection.find_corners import find_corners
 from calibgui.engine.errors import CalibrationError, Cancelled
+from calibgui.engine.images.projections import Projection
 from calibgui.engine.images.reading import read_image, write_image
 from calibgui.engine.images.undistortion import FieldOfView
 from tests.engine import scenes
@@ -45,10 +54,11 @@ def test_undistorted_images_are_a_pinholes(photographs: Path, tmp_path: Path) ->
     assert told == list(range(COUNT - 1, -1, -1))
     geometry = json.loads((tmp_path / GEOMETRY_FILE).read_text())
     assert geometry["kind"] == "undistorted"
+    assert geometry["projection"] == "perspective"
+    assert "rotations" not in geometry
     assert set(geometry["images"]) == {path.name for path in images}
     # Corners of the new image, distorted again, are the corners of the photograph.
-    assert written[0].path is not None
-    ideal = find_corners(read_image(written[0].path).pixels, (6, 7)).uv
+    ideal = find_corners(read_image(written[0].paths[""]).pixels, (6, 7)).uv
     back = distort_points(ideal, CAMERA, np.array(geometry["matrix"]))
     measured = find_corners(read_image(images[0]).pixels, (6, 7)).uv
     assert np.linalg.norm(back - measured, axis=1).max() < 0.2
@@ -60,10 +70,10 @@ def test_rectified_images_show_the_board_square(
     written = rectify_files(result, find_images([str(photographs)]), tmp_path, pixels_per_mm=1.0)
     geometry = json.loads((tmp_path / GEOMETRY_FILE).read_text())
     assert geometry["size"] == [8 * 30, 7 * 30]
+    assert "projection" not in geometry
     matrix = np.array(geometry["matrix"])
     for one in written:
-        assert one.path is not None
-        corners = find_corners(read_image(one.path).pixels, (6, 7))
+        corners = find_corners(read_image(one.paths[""]).pixels, (6, 7))
         expected = BOARD.points(corners.grid) @ matrix[:2, :2] + matrix[:2, 2]
         assert np.linalg.norm(corners.uv - expected, axis=1).max() < 0.3
 
@@ -77,7 +87,7 @@ def test_the_scale_left_open_is_about_the_photographs(
 
 
 def reasons(written: tuple[WrittenImage, ...]) -> dict[str, str]:
-    return {one.source.name: one.reason for one in written if one.path is None}
+    return {one.source.name: one.reason for one in written if not one.paths}
 
 
 def test_what_cannot_be_done_is_said_and_the_rest_done(
@@ -115,7 +125,49 @@ def test_progress_can_cancel_and_leaves_whole_images(photographs: Path, tmp_path
 
     with pytest.raises(Cancelled):
         undistort_files(
-            CAMERA, find_images([str(photographs)]), tmp_path, FieldOfView.NO_BORDER, cancel
+            CAMERA,
+            find_images([str(photographs)]),
+            tmp_path,
+            Undistortion(view=FieldOfView.NO_BORDER),
+            cancel,
         )
     for path in tmp_path.iterdir():
         assert read_image(path).size == CAMERA.size
+
+
+def test_the_faces_of_a_cube_and_their_geometry(photographs: Path, tmp_path: Path) -> None:
+    fisheye = Camera(CAMERA.size, [90.0, 90, 159.5, 119.5, 0, 0, 0, 0], "kannala-brandt")
+    images = find_images([str(photographs / "view1.png"), str(photographs / "view2.png")])
+    written = undistort_files(fisheye, images, tmp_path, Undistortion(Projection.CUBE))
+    geometry = json.loads((tmp_path / GEOMETRY_FILE).read_text())
+    assert geometry["projection"] == "cube"
+    assert geometry["size"] == [180, 180]
+    names = ["front", "left", "right", "top", "bottom"]
+    assert list(geometry["rotations"]) == names
+    assert [path.name for path in written[1].paths.values()] == [
+        f"view2_{name}.png" for name in names
+    ]
+    assert geometry["images"]["view2_top.png"] == str(images[1])
+    # By the stated formula, a pixel of a face is where the equidistant lens sees its ray.
+    photograph = read_image(images[1]).pixels
+    (fx, _, cx), (_, fy, cy), _ = geometry["matrix"]
+    for name, u, v in (("left", 150, 90), ("top", 90, 120), ("front", 60, 80)):
+        ray = np.array(geometry["rotations"][name]) @ [(u - cx) / fx, (v - cy) / fy, 1.0]
+        theta = np.arctan2(np.hypot(*ray[:2]), ray[2])
+        at = [159.5, 119.5] + 90 * theta * ray[:2] / np.hypot(*ray[:2])
+        expected = cv2.remap(
+            photograph, *(np.full((1, 1), x, np.float32) for x in at), cv2.INTER_LINEAR
+        )
+        level = float(read_image(tmp_path / f"view2_{name}.png").pixels[v, u])
+        assert level == pytest.approx(float(expected[0, 0]), abs=2)
+
+
+def test_an_impossible_undistortion_is_refused_at_once(photographs: Path, tmp_path: Path) -> None:
+    with pytest.raises(CalibrationError, match="cannot show 200 degrees"):
+        undistort_files(
+            CAMERA,
+            find_images([str(photographs)]),
+            tmp_path / "none",
+            Undistortion(field_of_view=np.deg2rad(200)),
+        )
+    assert not (tmp_path / "none").exists()

@@ -47,7 +47,7 @@ def test_every_setting_has_its_option(corners_file: Path, monkeypatch: pytest.Mo
     """The window offers the same record: see tests/gui/test_settings_panel.py."""
     asked: list[Settings] = []
 
-    def noted(_: object, settings: Settings, search: bool) -> None:
+    def noted(_: object, settings: Settings, search: bool, **__: object) -> None:
         assert not search  # of a corners file the images stay out
         asked.append(settings)
         raise CalibrationError("noted", "")
@@ -162,7 +162,7 @@ def test_the_lens_model_is_chosen(corners_file: Path, tmp_path: Path, capsys: Ca
     options = ["--model", "brown-conrady", "--fix", "k3", "-o", str(file)]
     assert main(["calibrate", str(corners_file), *options, "--export", f"ros={yaml}"]) == 0
     camera = read_result(file).calibration.camera
-    assert camera.names == ("fx", "fy", "cx", "cy", "k1", "k2", "p1", "p2", "k3")
+    assert camera.names == ("fx", "fy", "cx", "cy", "k1", "k2", "p1", "p2", "k3", "skew")
     assert camera.params[8] == 0.0
     assert "as calibrated" in " ".join(capsys.readouterr().out.split())
     assert str(camera.params[0]) in yaml.read_text()  # nothing was refitted
@@ -314,7 +314,7 @@ def test_outputs_are_checked_before_the_work(
         ["a.png", "--square", "30", "--export", "opencv"],
         ["a.png", "--square", "30", "--export", "none=a.json"],
         ["a.png", "--square", "30", "--export", "ros=a.txt"],
-        ["a.png", "--square", "30", "--model", "pinhole"],
+        ["a.png", "--square", "30", "--model", "none"],
         ["a.png", "--square", "30", "--model", "lucchese-pixels"],
         ["a.png", "--square", "30", "--model", "brown-conrady", "--cost", "paper"],
         ["a.png", "--square", "30", "--model", "brown-conrady", "--fix", "p3"],

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import math
 from pathlib import Path
 
 import pytest
@@ -64,3 +65,37 @@ def test_a_file_that_is_no_result_is_refused(
 ) -> None:
     assert main(["undistort", str(corners_file), str(photographs), "-o", str(tmp_path)]) == 1
     assert "corners.json is not a file of the format" in capsys.readouterr().err
+
+
+def test_a_projection_and_a_field_of_view(
+    result_file: Path, photographs: Path, tmp_path: Path, capsys: Capture
+) -> None:
+    """The width shows the angle, and what is lost is told."""
+    options = ["--projection", "cylindrical", "--fov", "30", "-o", str(tmp_path)]
+    assert main(["undistort", str(result_file), str(photographs / "view1.png"), *options]) == 0
+    assert "Cylindrical of 30 degrees: the outer " in capsys.readouterr().out
+    geometry = json.loads((tmp_path / GEOMETRY_FILE).read_text())
+    assert geometry["projection"] == "cylindrical"
+    assert geometry["matrix"][0][0] == pytest.approx(320 / math.radians(30))
+    assert geometry["matrix"][1][1] == geometry["matrix"][0][0]
+
+
+def test_a_cube_has_files_named_after_its_faces(
+    result_file: Path, photographs: Path, tmp_path: Path, capsys: Capture
+) -> None:
+    source = photographs / "view1.png"
+    options = ["--projection", "cube", "--json", "-o", str(tmp_path)]
+    assert main(["undistort", str(result_file), str(source), *options]) == 0
+    answer = json.loads(capsys.readouterr().out)
+    assert answer["written"] == {str(source): {"front": str(tmp_path / "view1_front.png")}}
+    assert answer["shown"] == "Cube of front: everything that the lens sees is shown."
+
+
+def test_what_cannot_be_shown_is_said(
+    result_file: Path, photographs: Path, tmp_path: Path, capsys: Capture
+) -> None:
+    arguments = ["undistort", str(result_file), str(photographs), "-o", str(tmp_path / "new")]
+    assert main([*arguments, "--fov", "180"]) == 1
+    assert "Choose a field of view above 0 and below 180 degrees" in capsys.readouterr().err
+    with pytest.raises(SystemExit):
+        main([*arguments, "--fov", "90", "--view", "no-border"])

@@ -30,6 +30,7 @@ from pytestqt.qtbot import QtBot
 
 import calibgui.gui
 from calibgui.app.document import Document
+from calibgui.app.settings import MODEL_CHOICES
 from calibgui.engine.assessment.noise_test import NoiseReport
 from calibgui.engine.boards.board import Board
 from calibgui.engine.images.reading import Image
@@ -43,6 +44,7 @@ from calibgui.gui.panels import residuals
 from calibgui.gui.panels.analysis import PANELS
 from calibgui.gui.widgets.plots import Plot
 from calibgui.gui.window.main_window import MainWindow
+from calibgui.report.lens_models import describe_lens_model, get_lens_title
 from tests.app import examples
 
 OPEN, CLOSE = "⟦", "⟧"
@@ -125,7 +127,7 @@ def english(root: QWidget, folder: Path) -> set[str]:
     return {text for text in texts(root) if WORD.search(no_words.sub("", text))}
 
 
-NAMES = {"Calibration 1", "k3 held", "Letter", "Tabloid", "inch"}
+NAMES = {"Calibration 1", "k3 held", "Letter", "Tabloid", "inch", "alpha", "beta", "skew"}
 OTHERS = {"Close", "Float", "Scroll Left", "Scroll Right", "Export..."}
 """Qt's and pyqtgraph's own."""
 
@@ -153,7 +155,12 @@ def test_no_text_of_the_window_is_left_in_english(
     formats = {
         text for exporter in EXPORTERS.values() for text in (exporter.title, exporter.limits)
     }
-    assert left <= NAMES | OTHERS | formats
+    lenses = {
+        text
+        for model in MODEL_CHOICES
+        for text in (get_lens_title(model), f"{model}. {describe_lens_model(model)}")
+    }
+    assert left <= NAMES | OTHERS | formats | lenses
     assert OPEN in help_dialog.text.toPlainText()
 
 

@@ -160,12 +160,12 @@ def test_from_photographs_to_an_exported_camera(
     assert all(view.enabled for view in session.project.views)
 
     # A solve that is stopped keeps its best, and says so.
-    def slowly(corner_set: Any, settings: Any, report: Any, stop: Any) -> Any:
+    def slowly(corner_set: Any, settings: Any, report: Any, stop: Any, progress: Any) -> Any:
         def slow(iteration: Any) -> bool:
             time.sleep(0.1)
             return report(iteration)
 
-        return calibrate_twice(corner_set, settings, slow, stop)
+        return calibrate_twice(corner_set, settings, slow, stop, progress=progress)
 
     calibrate_twice = redetection.calibrate_twice
     monkeypatch.setattr(calibrator, "calibrate_twice", slowly)

@@ -14,10 +14,10 @@ from calibgui.app.document import Document
 from calibgui.app.moved_images import find_moved_images, list_missing_images
 from calibgui.app.paths import find_images
 from calibgui.app.project import Project, add_images, relocate_images, remove_result, rename_result
-from calibgui.app.resampling import WrittenImage, rectify_files, undistort_files
+from calibgui.app.resampling import Undistortion, WrittenImage, rectify_files, undistort_files
 from calibgui.app.resources import find_resource, find_sample_square
 from calibgui.engine.errors import CalibrationError
-from calibgui.engine.images import FORMATS, FieldOfView
+from calibgui.engine.images import FORMATS
 from calibgui.gui.dialogs.print_dialog import PrintDialog
 from calibgui.gui.jobs.job import Job
 from calibgui.gui.session.calibrator import Calibrator
@@ -234,10 +234,10 @@ class Files(QObject):
         else:
             self._calibrator.calibrate()
 
-    def save_changed_images(self, views: tuple[int, ...], way: str) -> None:
-        """Write undistorted or rectified images to a folder of the user's choice."""
-        from calibgui.gui.panels.undistort import RECTIFIED
-
+    def save_changed_images(
+        self, views: tuple[int, ...], undistortion: Undistortion | None
+    ) -> None:
+        """Write undistorted images, or rectified ones, to a folder of the user's choice."""
         result = self._session.result
         folder = QFileDialog.getExistingDirectory(
             self._window, self.tr("Folder for the images"), self._place
@@ -250,10 +250,12 @@ class Files(QObject):
             def progress(done: int, total: int, _: WrittenImage) -> None:
                 job.advance(done, total)
 
-            if way == RECTIFIED:
-                return len(rectify_files(result, images, Path(folder), progress=progress))
-            view, camera = FieldOfView(way), result.calibration.camera
-            return len(undistort_files(camera, images, Path(folder), view, progress))
+            if undistortion is None:
+                written = rectify_files(result, images, Path(folder), progress=progress)
+            else:
+                camera = result.calibration.camera
+                written = undistort_files(camera, images, Path(folder), undistortion, progress)
+            return sum(len(image.paths) for image in written)
 
         self._session.jobs.start(
             self.tr("Writing images"),

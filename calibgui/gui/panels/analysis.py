@@ -26,6 +26,7 @@ from calibgui.gui.panels.convergence import ConvergencePanel
 from calibgui.gui.panels.coverage import CoveragePanel
 from calibgui.gui.panels.distortion import DistortionPanel
 from calibgui.gui.panels.histograms import HistogramsPanel
+from calibgui.gui.panels.lens_models import LensModelsPanel
 from calibgui.gui.panels.panel import Panel
 from calibgui.gui.panels.poses import PosesPanel
 from calibgui.gui.panels.residuals import ResidualsPanel
@@ -49,6 +50,7 @@ PANELS: tuple[type[Panel], ...] = (
     PosesPanel,
     CoveragePanel,
     UncertaintyPanel,
+    LensModelsPanel,
     BoardShapePanel,
     SyntheticPanel,
 )
@@ -65,8 +67,10 @@ class Analysis(QWidget):
 
     exclude_wanted = Signal(list)
     """Images that the user wants out of the calibration."""
-    save_wanted = Signal(tuple, str)
+    save_wanted = Signal(tuple, object)
     """See `Panel.save_wanted`."""
+    lens_wanted = Signal(str)
+    """See `Panel.lens_wanted`."""
     rename_wanted = Signal(str)
     delete_wanted = Signal(str)
 
@@ -110,6 +114,7 @@ class Analysis(QWidget):
             panel.picked.connect(self._select_picked)
             panel.exclude_wanted.connect(self._exclude)
             panel.save_wanted.connect(self.save_wanted)
+            panel.lens_wanted.connect(self.lens_wanted)
             panel.failed.connect(self._session.failed)
             panel.show_result(self._shown)
             panel.select(self._place(self._session.image), self._session.corner)

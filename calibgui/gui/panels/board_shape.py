@@ -20,7 +20,11 @@ from calibgui.gui.panels.panel import Panel
 from calibgui.gui.panels.services import Services
 from calibgui.gui.widgets import theme
 from calibgui.gui.widgets.plots import ColourBar, Plot
-from calibgui.report.summary import describe_board_shape, describe_board_shape_error
+from calibgui.report.summary import (
+    describe_board_shape,
+    describe_board_shape_error,
+    describe_lens_error,
+)
 
 _LONGEST = 0.8
 """Length of the longest arrow, in distances between corners."""
@@ -91,10 +95,12 @@ class BoardShapePanel(Panel):
             "The board was taken as drawn. To estimate its shape, choose “free” or another "
             "model at “Board is” in the Settings and calibrate again."
         )
+        if (missed := calibration.lens_error) > 0:
+            return describe_lens_error(calibration, missed)
         doubt = calibration.board_shape_error
         return f"{describe_board_shape_error(doubt)}\n\n{how}" if doubt > 0 else how
 
-    def _refresh(self, result: Result) -> None:  # noqa: ARG002 - `board_shape` is the result's
+    def _refresh(self, result: Result) -> None:
         board_shape = self.board_shape
         at, d = board_shape.nominal, board_shape.deviation
         reach = float(np.abs(d[:, 2]).max()) or 1e-3
@@ -116,6 +122,9 @@ class BoardShapePanel(Panel):
         low, high = at.min(axis=0) - pitch * np.array([1.0, 2.0]), at.max(axis=0) + pitch
         self.plot.enclose(QRectF(*low, *(high - low)))
         words = describe_board_shape(board_shape)
+        calibration = result.calibration
+        if (missed := calibration.lens_error) > 0:
+            words = f"{describe_lens_error(calibration, missed)}\n\n{words}"
         if board_shape.sigma.any():
             known = float(np.median(board_shape.sigma[board_shape.sigma > 0]))
             words += self.tr(" Each is known to ± {0:.2g} mm (1σ, median).").format(known)

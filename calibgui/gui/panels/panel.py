@@ -25,9 +25,11 @@ class Panel(QWidget):
     """The user points at a view (index in `Result.views`) and its corner, or -1 for none."""
     exclude_wanted = Signal(tuple)
     """Views (indices in `Result.views`) that the user wants out of the calibration."""
-    save_wanted = Signal(tuple, str)
-    """Views (indices in `Result.views`) whose images are to be written, undistorted to a
-    `FieldOfView` or rectified (`UndistortPanel.RECTIFIED`)."""
+    save_wanted = Signal(tuple, object)
+    """Views (indices in `Result.views`) whose images are to be written, and the `Undistortion`, or
+    None for images rectified to the board."""
+    lens_wanted = Signal(str)
+    """Lens model that the user wants the camera calibrated with."""
     failed = Signal(Exception)
     """Something that the user asked for could not be done."""
 

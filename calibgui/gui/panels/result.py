@@ -11,7 +11,7 @@ from PySide6.QtWidgets import QTabWidget, QTextBrowser, QVBoxLayout
 
 from calibgui.dataset import Result
 from calibgui.engine.calibration import compute_correlations, make_paper_table
-from calibgui.engine.camera import MODELS, Lucchese
+from calibgui.engine.camera import Lucchese, find_model
 from calibgui.engine.geometry import PAPER_NAMES
 from calibgui.gui.panels.estimates import estimate_columns
 from calibgui.gui.panels.latest import Latest
@@ -115,7 +115,7 @@ class ResultPanel(Panel):
             ],
             {names.index(u.name): u.reason for u in calibration.undetermined},
         )
-        has_paper = isinstance(MODELS[calibration.camera.model], Lucchese)
+        has_paper = isinstance(find_model(calibration.camera.model), Lucchese)
         self.tabs.setTabVisible(1, has_paper)
         if has_paper:
             values, sigma, sd = make_paper_table(calibration)

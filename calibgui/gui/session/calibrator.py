@@ -86,12 +86,20 @@ class Calibrator(QObject):
             SOLVER_SECONDS
         )
 
+        calibrating, comparing = self.tr("Calibrating"), self.tr("Comparing lens models")
+
         def work(job: Job) -> Result:
+            def show_comparison(done: int, total: int) -> None:
+                job.rename(calibrating if done == total else comparing)
+                job.advance(*(0, 1) if done == total else (done, total))
+
             with when_compiling(lambda: job.rename(preparing)):
-                return calibrate_twice(corner_set, settings, job.send, job.cancelling)
+                return calibrate_twice(
+                    corner_set, settings, job.send, job.cancelling, progress=show_comparison
+                )
 
         self._job = self._session.jobs.start(
-            self.tr("Calibrating"),
+            calibrating,
             work,
             partial(self._done, corner_set),
             received=self.advanced.emit,

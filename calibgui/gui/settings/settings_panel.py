@@ -16,27 +16,36 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
-from calibgui.app.settings import DEFAULT_MODEL, MODEL_CHOICES, Settings, parse_fixed
+from calibgui.app.settings import (
+    DEFAULT_MODEL,
+    MODEL_CHOICES,
+    Settings,
+    list_parameters,
+    parse_fixed,
+)
 from calibgui.engine.boards import BoardShapeModel
 from calibgui.engine.calibration import Cost
-from calibgui.engine.camera import MODELS, parameter_names
+from calibgui.engine.camera import PINHOLE, find_model
 from calibgui.engine.errors import CalibrationError
 from calibgui.gui.session.session import Session
 from calibgui.gui.settings.board_shape_choice import BoardShapeChoice
 from calibgui.gui.widgets import theme
 from calibgui.gui.widgets.narrow_combo import NarrowCombo
+from calibgui.report.lens_models import describe_lens_model, get_lens_title
 
-_FOCAL_AND_CENTRE = ("fx", "fy", "cx", "cy")
-"""Parameters that mean the same in every lens model."""
 _BOXES_PER_ROW = 5
 """Number of parameters side by side."""
+_MAX_BOXES = 20
+"""Number of parameters above which only those that every lens model has get a box."""
 
 
 class SettingsPanel(QWidget):
     """Edits the calibration settings of the project: one widget for each of them.
 
     The panel has the cost, the lens model, the board's shape, what to do about poor views, and a
-    box for every parameter of the lens model: a parameter without its tick is held.
+    box for every parameter of the lens model: a parameter without its tick is held. The hundreds
+    of coefficients of a splined model have none, nor have those of a model that is yet to be
+    chosen.
     """
 
     def __init__(self, session: Session) -> None:
@@ -66,7 +75,7 @@ class SettingsPanel(QWidget):
                 "in part again, and calibrate from what that gains."
             )
         )
-        names = (name for model in MODEL_CHOICES for name in parameter_names(model))
+        names = (name for model in MODEL_CHOICES for name in _list_boxes(model))
         self.boxes = {name: QCheckBox(name, self) for name in dict.fromkeys(names)}
         self._arranged: tuple[str, ...] = ()
         """Names of the parameters whose boxes are shown, in their order."""
@@ -117,27 +126,18 @@ class SettingsPanel(QWidget):
         return choice
 
     def _make_model(self) -> NarrowCombo:
-        descriptions = {
-            "lucchese": (
-                self.tr("of the paper"),
-                self.tr(
-                    "From measured to ideal points: radial, decentering and prism terms, undone "
-                    "without iteration. Exported to other programs by a fit."
-                ),
-            ),
-            "brown-conrady": (
-                self.tr("of OpenCV"),
-                self.tr(
-                    "Brown-Conrady: from ideal to measured points, with five coefficients, as "
-                    "OpenCV, ROS and their relatives read them."
-                ),
-            ),
-        }
         choice = NarrowCombo()
+        choice.addItem(self.tr("automatic"), None)
+        choice.setItemData(
+            0,
+            self.tr(
+                "The paper's model, unless views that the models have not seen demand another. "
+                "The result says why. Slower."
+            ),
+            Qt.ItemDataRole.ToolTipRole,
+        )
         for model in MODEL_CHOICES:
-            text, tip = descriptions.get(model, (MODELS[model].title, ""))
-            choice.addItem(text, model)
-            choice.setItemData(choice.count() - 1, tip, Qt.ItemDataRole.ToolTipRole)
+            _add_model(choice, model)
         choice.setAccessibleName(self.tr("Lens model"))
         return choice
 
@@ -209,6 +209,8 @@ class SettingsPanel(QWidget):
         self.values.setText(", ".join(f"{name}={value:.12g}" for name, value in stated.items()))
 
     def _refresh_model(self, settings: Settings) -> None:
+        if self.model.findData(settings.model) < 0 and settings.model is not None:
+            _add_model(self.model, settings.model)  # splined, with numbers of its own
         self.model.setCurrentIndex(self.model.findData(settings.model))
         is_paper = settings.cost is Cost.PAPER
         self.model.setEnabled(not is_paper)
@@ -217,13 +219,20 @@ class SettingsPanel(QWidget):
             if is_paper
             else self.tr("How the lens bends what a pinhole would image; the result is of it.")
         )
-        names, held = parameter_names(settings.model), MODELS[settings.model].held
+        names, held = _list_boxes(settings.model), _list_held(settings.model)
         if names != self._arranged:
             self._arranged = names
             self._arrange_boxes(names)
         for name in names:
             is_free = name not in settings.fixed and (name not in held or name in settings.freed)
             self.boxes[name].setChecked(is_free)
+
+    def choose_model(self, model: str) -> None:
+        """Estimate another lens model, as if the user had chosen it here."""
+        if self.cost.currentData() == Cost.PAPER:  # which has a lens model of its own
+            self.cost.setCurrentIndex(self.cost.findData(Cost.IMAGE))
+        self.model.setCurrentIndex(self.model.findData(model))
+        self._edit()
 
     def _hold(self) -> None:
         """Hold parameters at the values that were typed."""
@@ -236,7 +245,7 @@ class SettingsPanel(QWidget):
             self._session.failed.emit(error)
             self._refresh()
             return
-        for name in typed:
+        for name in typed.keys() & self.boxes.keys():
             self.boxes[name].setChecked(False)
         self._edit(typed)
 
@@ -251,7 +260,7 @@ class SettingsPanel(QWidget):
         """
         before = self._session.project.settings
         cost = Cost(self.cost.currentData())
-        model = DEFAULT_MODEL if cost is Cost.PAPER else str(self.model.currentData())
+        model = DEFAULT_MODEL if cost is Cost.PAPER else self.model.currentData()
         if model == before.model:
             fixed, freed = self._read_boxes(before.fixed if values is None else values)
         else:
@@ -282,22 +291,43 @@ class SettingsPanel(QWidget):
     ) -> tuple[dict[str, float | None], tuple[str, ...]]:
         """Return what is held, at which of `values`, and what is freed, as the boxes show it."""
         model = self._session.project.settings.model
-        held_by_default = MODELS[model].held
-        held = [name for name in parameter_names(model) if not self.boxes[name].isChecked()]
+        names, held_by_default = _list_boxes(model), _list_held(model)
+        held = [name for name in names if not self.boxes[name].isChecked()]
         stated = {name: values.get(name) for name in held}
         fixed = {n: v for n, v in stated.items() if n not in held_by_default or v is not None}
+        fixed |= {name: value for name, value in values.items() if name not in names}
         return fixed, tuple(name for name in held_by_default if name not in held)
 
 
-def _carry_over(settings: Settings, model: str) -> tuple[dict[str, float | None], tuple[str, ...]]:
+def _add_model(choice: NarrowCombo, model: str) -> None:
+    """Add a lens model to a choice, with its title and what it is for."""
+    choice.addItem(get_lens_title(model), model)
+    tip = f"{model}. {describe_lens_model(model)}"
+    choice.setItemData(choice.count() - 1, tip, Qt.ItemDataRole.ToolTipRole)
+
+
+def _list_boxes(model: str | None) -> tuple[str, ...]:
+    """List the parameters of a lens model that have a box; None is a model yet to be chosen."""
+    names = list_parameters(model)
+    return names if len(names) <= _MAX_BOXES else PINHOLE
+
+
+def _list_held(model: str | None) -> tuple[str, ...]:
+    """List the parameters that a lens model holds by default; None is one yet to be chosen."""
+    return () if model is None else find_model(model).held
+
+
+def _carry_over(
+    settings: Settings, model: str | None
+) -> tuple[dict[str, float | None], tuple[str, ...]]:
     """Return what stays held and freed with another lens model.
 
     A coefficient that both models have stays held, but not at its value, which means another lens.
     """
-    names, held = parameter_names(model), MODELS[model].held
+    names, held = list_parameters(model), _list_held(model)
     fixed = {
-        name: value if name in _FOCAL_AND_CENTRE else None
+        name: value if name in PINHOLE else None
         for name, value in settings.fixed.items()
-        if name in names and (name in _FOCAL_AND_CENTRE or name not in held)
+        if name in names and (name in PINHOLE or name not in held)
     }
     return fixed, tuple(name for name in settings.freed if name in held)

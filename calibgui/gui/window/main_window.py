@@ -164,6 +164,7 @@ class MainWindow(QMainWindow):
             self.analysis = Analysis(self.session)
             self.analysis.exclude_wanted.connect(self.images.exclude)
             self.analysis.save_wanted.connect(self.files.save_changed_images)
+            self.analysis.lens_wanted.connect(self._calibrate_with)
             self.analysis.rename_wanted.connect(self.files.rename_result)
             self.analysis.delete_wanted.connect(self.files.delete_result)
             self.analysis_dock.setWidget(self.analysis)
@@ -252,6 +253,12 @@ class MainWindow(QMainWindow):
             self.calibrator.stop()
             self._show_calibrate()
         else:
+            self.calibrator.calibrate()
+
+    def _calibrate_with(self, model: str) -> None:
+        """Calibrate with another lens model; what runs would be of the settings before."""
+        self.settings.choose_model(model)
+        if not self.calibrator.running:
             self.calibrator.calibrate()
 
     def dragEnterEvent(self, event: QDragEnterEvent) -> None:  # noqa: N802 - Qt's name

@@ -14,7 +14,7 @@ from pytestqt.qtbot import QtBot
 
 from calibgui.dataset import Result
 from calibgui.formats import EXPORTERS
-from calibgui.formats.camera_refit import express_in_models
+from calibgui.formats.camera_refit import express_in_format
 from calibgui.gui.dialogs.export_dialog import ExportDialog
 from calibgui.gui.jobs.jobs import Jobs
 
@@ -56,10 +56,8 @@ def test_tells_the_refits_largest_error(
     dialog: ExportDialog, result: Result, jobs: Jobs, qtbot: QtBot
 ) -> None:
     choose(dialog, "opencv", jobs, qtbot)
-    assert (
-        dialog.error.text()
-        == f"{express_in_models(result).largest_error:.3g} px over the whole image"
-    )
+    error = express_in_format(result, EXPORTERS["opencv"]).largest_error
+    assert dialog.error.text() == f"{error:.3g} px over the whole image"
     choose(dialog, "python", jobs, qtbot)
     assert dialog.error.text() == "none: nothing is refitted"
     assert "unlimited" in dialog._error(float("nan"))

@@ -58,7 +58,7 @@ def bowed(camera: Camera, pose: Pose, bow: float) -> Array:
     across = 2 * (xy - (xy.min(axis=0) + xy.max(axis=0)) / 2) / np.ptp(xy, axis=0)
     solid = np.column_stack([xy, -bow * (1 - across**2).sum(axis=1) / 2])
     point = solid @ rotation_from_vector(pose.rvec).T + pose.tvec
-    return pixels_from_rays(point[:, :2] / point[:, 2:], camera)
+    return pixels_from_rays(point, camera)
 
 
 @pytest.fixture(scope="session")

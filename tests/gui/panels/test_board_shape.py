@@ -88,6 +88,20 @@ def test_without_a_board_shape_it_says_how_to_get_one(
     assert "Nothing is calibrated" in panel._empty.text()
 
 
+def test_a_lens_that_is_not_followed_comes_before_the_board(
+    shown: Shown[BoardShapePanel], result: Result
+) -> None:
+    wrong, free = made(model="pinhole"), made(model="pinhole", board_shape="free")
+    panel = shown(BoardShapePanel, wrong)
+    assert f"{wrong.calibration.lens_error:.2g} px (rms)" in panel._empty.text()
+    assert "choose “free”" not in panel._empty.text()
+    panel.show_result(free)
+    assert "stands in for the lens" in panel.words.text()
+    assert "deviates from its drawing" in panel.words.text()
+    panel.show_result(result)
+    assert "does not follow" not in panel._empty.text()
+
+
 def test_the_board_shape_is_saved(
     shown: Shown[BoardShapePanel],
     bent: Result,

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 from pathlib import Path
 
@@ -11,15 +12,22 @@ from PySide6.QtCore import QPoint, Qt
 from PySide6.QtGui import QImage
 from pytestqt.qtbot import QtBot
 
+from calibgui.app.resampling import Undistortion
 from calibgui.dataset import Result
 from calibgui.engine.arrays import Array
 from calibgui.engine.errors import CalibrationError
+from calibgui.engine.images.projections import Projection
 from calibgui.engine.images.reading import Image
 from calibgui.engine.images.rectification import rectify_image
-from calibgui.engine.images.undistortion import undistort_image
+from calibgui.engine.images.undistortion import (
+    choose_ideal_cameras,
+    make_ideal_image,
+    undistort_image,
+)
 from calibgui.gui.jobs.jobs import Jobs
+from calibgui.gui.panels.cube_cross import unfold_cube
 from calibgui.gui.panels.services import Services
-from calibgui.gui.panels.undistort import RECTIFIED, UndistortPanel
+from calibgui.gui.panels.undistort import RECTIFIED, STATED_ANGLE, UndistortPanel
 from calibgui.report.coverage import find_shown_extent, measure_natural_scale
 from tests.gui.panels.conftest import drag
 
@@ -60,26 +68,83 @@ def test_the_original_beside_the_undistorted(panel: UndistortPanel, result: Resu
     np.testing.assert_array_equal(before, grey)
     np.testing.assert_array_equal(after, undistort_image(grey, result.calibration.camera).image)
     assert panel.words.text() == "view1.png: 640 × 480 px"
+    assert panel.lost.text().endswith("everything that the lens sees is shown.")
+    assert not panel.angle.isEnabled()
 
 
 @pytest.mark.parametrize(("index", "view"), [(1, "no-border"), (2, "same-scale")])
 def test_field_of_view(
     panel: UndistortPanel, result: Result, jobs: Jobs, qtbot: QtBot, index: int, view: str
 ) -> None:
-    panel.way.setFocus()
+    panel.view.setFocus()
     for _ in range(index):
-        qtbot.keyClick(panel.way, Qt.Key.Key_Down)
+        qtbot.keyClick(panel.view, Qt.Key.Key_Down)
     qtbot.waitUntil(lambda: not jobs.running)
     grey = photograph("view1.png").grey
     expected = undistort_image(grey, result.calibration.camera, view).image
     np.testing.assert_array_equal(shown(panel)[1], expected)
 
 
+@pytest.mark.parametrize("projection", ["cylindrical", "equirectangular", "stereographic"])
+def test_a_stated_field_of_view_in_every_projection(
+    panel: UndistortPanel, result: Result, jobs: Jobs, qtbot: QtBot, projection: str
+) -> None:
+    panel.way.setCurrentIndex(panel.way.findData(projection))
+    panel.view.setCurrentIndex(panel.view.findData(STATED_ANGLE))
+    panel.angle.setValue(40)
+    qtbot.waitUntil(lambda: not jobs.running)
+    grey = photograph("view1.png").grey
+    camera = result.calibration.camera
+    expected = undistort_image(grey, camera, projection=projection, field_of_view=math.radians(40))
+    before, after = shown(panel)
+    np.testing.assert_array_equal(before, grey)
+    np.testing.assert_array_equal(after, expected.image)
+    assert panel.lost.text().startswith(f"{projection.capitalize()} of 40 degrees: the outer ")
+
+
+def test_an_angle_beyond_the_projection_cannot_be_chosen(panel: UndistortPanel) -> None:
+    panel.way.setCurrentIndex(panel.way.findData("equirectangular"))
+    panel.view.setCurrentIndex(panel.view.findData(STATED_ANGLE))
+    panel.angle.setValue(300)
+    assert panel.angle.value() == 300
+    panel.way.setCurrentIndex(panel.way.findData("perspective"))
+    assert panel.angle.value() == 179
+
+
+def test_a_cube_is_unfolded_beside_the_original(
+    panel: UndistortPanel, result: Result, jobs: Jobs, qtbot: QtBot
+) -> None:
+    panel.way.setCurrentIndex(panel.way.findData("cube"))
+    assert not panel.view.isEnabled()
+    qtbot.waitUntil(lambda: not jobs.running)
+    grey = photograph("view1.png").grey
+    camera = result.calibration.camera
+    # A lens of 60 degrees fits the front. The original keeps its shape, with black around it.
+    (front,) = choose_ideal_cameras(camera, projection="cube").values()
+    before, after = shown(panel)
+    np.testing.assert_array_equal(after, make_ideal_image(grey, camera, front).image)
+    assert before.shape == (640, 640)
+    np.testing.assert_array_equal(before[80:560], grey)
+    assert not before[:80].any()
+    assert panel.lost.text() == "Cube of front: everything that the lens sees is shown."
+
+
+def test_the_faces_of_a_cube_join_in_the_cross() -> None:
+    names = ("front", "left", "right", "top", "bottom")
+    faces = {name: np.full((2, 2), k + 1, np.uint8) for k, name in enumerate(names)}
+    expected = [[0, 4, 0], [2, 1, 3], [0, 5, 0]]
+    np.testing.assert_array_equal(unfold_cube(faces)[::2, ::2], expected)
+    faces["back"] = np.full((2, 2), 6, np.uint8)
+    np.testing.assert_array_equal(unfold_cube(faces)[3, ::2], [2, 1, 3, 6])
+    np.testing.assert_array_equal(unfold_cube({"top": faces["top"]}), faces["top"])
+
+
 def test_rectified_of_the_selected_view(
     panel: UndistortPanel, result: Result, jobs: Jobs, qtbot: QtBot
 ) -> None:
     panel.select(5)
-    panel.way.setCurrentIndex(3)
+    panel.way.setCurrentIndex(panel.way.findData(RECTIFIED))
+    assert not panel.view.isEnabled()
     qtbot.waitUntil(lambda: not jobs.running)
     expected = rectify_image(
         photograph("view5.png").grey,
@@ -90,6 +155,7 @@ def test_rectified_of_the_selected_view(
     )
     (only,) = shown(panel)
     np.testing.assert_array_equal(only, expected.image)
+    assert not panel.lost.text()
 
 
 def test_the_divider_slides(panel: UndistortPanel, qtbot: QtBot) -> None:
@@ -119,11 +185,18 @@ def test_saving_names_views_and_way(panel: UndistortPanel, qtbot: QtBot) -> None
     panel.select(3)
     with qtbot.waitSignal(panel.save_wanted) as signal:
         qtbot.mouseClick(panel.save_one, Qt.MouseButton.LeftButton)
-    assert signal.args == [(3,), "all"]
-    panel.way.setCurrentIndex(3)
+    assert signal.args == [(3,), Undistortion()]
+    panel.way.setCurrentIndex(panel.way.findData("stereographic"))
+    panel.view.setCurrentIndex(panel.view.findData(STATED_ANGLE))
+    panel.angle.setValue(90)
+    with qtbot.waitSignal(panel.save_wanted) as signal:
+        qtbot.mouseClick(panel.save_one, Qt.MouseButton.LeftButton)
+    wanted = Undistortion(Projection.STEREOGRAPHIC, field_of_view=math.pi / 2)
+    assert signal.args == [(3,), wanted]
+    panel.way.setCurrentIndex(panel.way.findData(RECTIFIED))
     with qtbot.waitSignal(panel.save_wanted) as signal:
         qtbot.mouseClick(panel.save_all, Qt.MouseButton.LeftButton)
-    assert signal.args == [(0, 2, 3, 4, 5, 6, 7, 8, 9), RECTIFIED]
+    assert signal.args == [(0, 2, 3, 4, 5, 6, 7, 8, 9), None]
 
 
 def test_an_image_that_is_gone_says_so(jobs: Jobs, qtbot: QtBot, result: Result) -> None:

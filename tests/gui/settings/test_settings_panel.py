@@ -20,7 +20,7 @@ from calibgui.app.project import change_views
 from calibgui.app.settings import MODEL_CHOICES, Settings, check_settings
 from calibgui.engine.boards.shape import BoardShape, BoardShapeModel, BoardShapePrior
 from calibgui.engine.calibration.result import Cost
-from calibgui.engine.camera.models import parameter_names
+from calibgui.engine.camera.models import PINHOLE, find_model, parameter_names
 from calibgui.formats.board_shape_json import write_board_shape
 from calibgui.gui.images.image_model import Role
 from calibgui.gui.settings.settings_panel import SettingsPanel
@@ -31,7 +31,8 @@ LEFT = Qt.MouseButton.LeftButton
 
 def test_settings_become_arguments_of_the_calibration(full: MainWindow) -> None:
     panel = full.settings
-    assert [name for name, box in panel.boxes.items() if not box.isChecked()] == ["k3", "p3"]
+    names = parameter_names("lucchese")
+    assert [name for name in names if not panel.boxes[name].isChecked()] == ["k3", "p3"]
     panel.boxes["k3"].click()
     panel.boxes["p3"].click()
     panel.boxes["cx"].click()
@@ -52,7 +53,7 @@ def shown_boxes(panel: SettingsPanel) -> list[str]:
     return [name for _, _, name in sorted(boxes)]
 
 
-def choose_item(combo: QComboBox, data: str, qtbot: QtBot) -> None:
+def choose_item(combo: QComboBox, data: str | None, qtbot: QtBot) -> None:
     """Choose an entry with the keyboard, as a user does."""
     combo.setFocus()
     step = Qt.Key.Key_Down if combo.findData(data) > combo.currentIndex() else Qt.Key.Key_Up
@@ -65,13 +66,13 @@ def test_the_lens_model_decides_what_can_be_held(full: MainWindow, qtbot: QtBot)
     tabs = full.image_dock.findChild(QTabWidget)
     tabs.setCurrentIndex(1)
     models = [panel.model.itemData(k) for k in range(panel.model.count())]
-    assert models == list(MODEL_CHOICES)
+    assert models == [None, *MODEL_CHOICES]
     assert shown_boxes(panel) == list(parameter_names("lucchese"))
     panel.values.selectAll()
     qtbot.keyClicks(panel.values, "fx=650.5, p3=0.01, k1=-0.2")
     qtbot.keyClick(panel.values, Qt.Key.Key_Return)
 
-    choose_item(panel.model, "brown-conrady", qtbot)
+    choose(panel.model, "Brown-Conrady (")  # with the keyboard by way of models without k1
     settings = session.project.settings
     assert settings.model == "brown-conrady"
     assert settings.fixed == {"fx": 650.5, "k1": None, "k3": None}, "values are of the old lens"
@@ -256,3 +257,66 @@ def test_outliers_left_out_are_seen_in_the_images_and_undone(
     session.document.undo()
     assert session.project.views[1] is moved
     qtbot.waitUntil(lambda: not session.jobs.running)
+
+
+def test_a_new_project_begins_with_the_automatic_choice(window: MainWindow) -> None:
+    settings = window.session.project.settings
+    assert settings.model is None
+    panel = window.settings
+    assert panel.model.currentData() is None and panel.model.currentText() == "automatic"
+    assert [n for n, box in panel.boxes.items() if not box.isHidden()] == list(PINHOLE)
+    panel.boxes["cx"].click()
+    assert window.session.project.settings == replace(settings, fixed={"cx": None})
+
+
+def test_what_every_lens_model_has_stays_held_with_the_automatic_choice(
+    full: MainWindow, qtbot: QtBot
+) -> None:
+    panel, session = full.settings, full.session
+    panel.boxes["cy"].click()
+    choose_item(panel.model, None, qtbot)
+    assert session.project.settings.model is None
+    assert session.project.settings.fixed == {"cy": None}, "k3 is none of every lens model's"
+    panel.values.selectAll()
+    qtbot.keyClicks(panel.values, "k1=0.1")
+    qtbot.keyClick(panel.values, Qt.Key.Key_Return)
+    assert "not all models have a parameter 'k1'" in full.banner.text.text()
+    choose_item(panel.model, "kannala-brandt", qtbot)
+    assert session.project.settings.fixed == {"cy": None}
+    check_settings(session.project.settings)
+
+
+def test_every_lens_model_can_be_chosen_and_its_parameters_held(
+    full: MainWindow, qtbot: QtBot
+) -> None:
+    panel, session = full.settings, full.session
+    full.image_dock.findChild(QTabWidget).setCurrentIndex(1)
+    for model in MODEL_CHOICES:
+        choose_item(panel.model, model, qtbot)
+        assert session.project.settings.model == model
+        QApplication.processEvents()
+        names = parameter_names(model)
+        assert shown_boxes(panel) == list(names if len(names) < 20 else PINHOLE)
+        held = find_model(model).held
+        for name in shown_boxes(panel):
+            is_held = name in held or name in session.project.settings.fixed
+            assert panel.boxes[name].isChecked() is not is_held
+        check_settings(session.project.settings)
+        tip = panel.model.itemData(panel.model.currentIndex(), Qt.ItemDataRole.ToolTipRole)
+        assert tip.startswith(f"{model}. ") and tip.endswith(".")
+
+
+def test_the_hundreds_of_a_splined_model_have_no_boxes(full: MainWindow, qtbot: QtBot) -> None:
+    panel, session = full.settings, full.session
+    model = "splined-stereographic-12x8-100"
+    settings = Settings(model=model, fixed={"dx_2_5": 0.0})
+    session.edit("Settings", lambda p: replace(p, settings=settings))
+    assert panel.model.currentData() == model
+    assert "12 x 8 over 100 degrees" in panel.model.currentText()
+    panel.boxes["fx"].click()
+    assert session.project.settings == replace(settings, freed=("fx",))
+    panel.values.selectAll()
+    qtbot.keyClicks(panel.values, "dy_1_1=0.01")
+    qtbot.keyClick(panel.values, Qt.Key.Key_Return)
+    assert session.project.settings.fixed == {"dy_1_1": 0.01}
+    check_settings(session.project.settings)

@@ -1,0 +1,125 @@
+"""Check with one or a few pictures of a board whether a stored calibration is still good.
+
+The exit code is 0 if the calibration is still good, and 1 if the camera has changed or the pictures
+cannot tell. The verdict does not depend on the size of the squares.
+"""
+
+from __future__ import annotations
+
+import argparse
+from pathlib import Path
+from typing import Any
+
+from calibgui.app.calibration import shorten_names
+from calibgui.app.project import DEFAULT_SQUARE
+from calibgui.cli.arguments import parse_positive
+from calibgui.cli.camera import add_camera_options, read_camera_and_warn
+from calibgui.cli.console import Console
+from calibgui.cli.corners import add_corner_options, check_corner_options, read_or_search
+from calibgui.engine.assessment import DEFAULT_LIMIT, CalibrationCheck, Verdict, check_calibration
+from calibgui.engine.errors import CalibrationError
+from calibgui.engine.threads import limit_blas_threads
+from calibgui.report import tables
+from calibgui.report.calibration_check import describe_check, describe_verdict
+
+_NOT_GOOD = 1
+"""Exit code unless the calibration is still good."""
+
+
+def configure(parser: argparse.ArgumentParser) -> None:
+    """Describe the arguments."""
+    add_corner_options(parser, f"only the board's bend depends on it ({DEFAULT_SQUARE:g})")
+    parser.usage = "%(prog)s CALIBRATION PATH... [options] | PATH... --with CALIBRATION [options]"
+    parser.add_argument(
+        "--with",
+        dest="calibration",
+        type=Path,
+        metavar="CALIBRATION",
+        help="result.json or the camera file of another program; the first PATH if left out",
+    )
+    add_camera_options(parser)
+    parser.add_argument(
+        "--limit",
+        type=parse_positive,
+        default=DEFAULT_LIMIT,
+        metavar="PX",
+        help=f"change of the camera from which it counts as changed (default {DEFAULT_LIMIT:g})",
+    )
+
+
+def run(options: argparse.Namespace, console: Console) -> int:
+    """Read, search, check and print; return the exit code."""
+    if options.calibration is None:
+        options.calibration = Path(options.paths.pop(0))
+        if not options.paths:
+            options.usage_error("name the calibration, and then pictures of the board")
+    check_corner_options(options)
+    stored = read_camera_and_warn(options.calibration, console, options.camera, options.size)
+    corner_set = read_or_search(options, console, DEFAULT_SQUARE)
+    views = [view for view in corner_set.views if view.usable]
+    unused = tables.list_unused_views(corner_set.views)
+    if not views:
+        console.print_problem(unused)
+        raise CalibrationError(
+            "The board was found in none of the pictures.",
+            "Photograph the whole board, sharp and evenly lit, or mark its corners with --roi.",
+        )
+    if corner_set.size != stored.camera.size:
+        (width, height), (w, h) = corner_set.size, stored.camera.size
+        raise CalibrationError(
+            f"The pictures have {width} x {height} px, and {options.calibration} is for images of "
+            f"{w} x {h} px.",
+            "Take the pictures with the resolution that the camera was calibrated for.",
+        )
+    names = shorten_names(views)
+    with limit_blas_threads():
+        check = check_calibration(
+            stored.camera,
+            [view.observation(corner_set.board) for view in views],
+            stored.covariance,
+            options.limit,
+            names,
+        )
+    console.print_json(_encode_check(check, names))
+    console.print_text(describe_check(check, names), otherwise=unused)
+    if unused:
+        console.print_text(unused)
+    is_good = check.verdict is Verdict.STILL_GOOD
+    if console.quiet and not (is_good or console.json):
+        console.print_problem(describe_verdict(check))
+    return 0 if is_good else _NOT_GOOD
+
+
+def _encode_check(check: CalibrationCheck, names: list[str]) -> dict[str, Any]:
+    """Return the check for JSON."""
+    return {
+        "verdict": check.verdict,
+        "words": describe_verdict(check),
+        "limit_px": check.limit,
+        "rms_px": check.rms,
+        "sigma_x_px": check.sigma_x,
+        "sigma_y_px": check.sigma_y,
+        "corners": check.count,
+        "noise_px": check.noise,
+        "change_px": check.change,
+        "change_sigma_px": check.change_sigma,
+        "change_with_rotation_px": check.whole_change,
+        "shift_px": check.shift,
+        "shift_sigma_px": check.shift_sigma,
+        "scale": check.scale,
+        "scale_sigma": check.scale_sigma,
+        "board_bend_mm": check.bend,
+        "board_bend_sigma_mm": check.bend_sigma,
+        "weakness": check.weakness,
+        "errors_of_file_known": check.has_covariance,
+        "views": [
+            {
+                "name": name,
+                "rms_px": view.rms,
+                "corners": view.used,
+                "left_out": view.left_out,
+                "reason": view.reason,
+            }
+            for name, view in zip(names, check.views, strict=True)
+        ],
+    }

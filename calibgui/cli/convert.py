@@ -1,0 +1,181 @@
+"""Convert a camera file to another lens model or format.
+
+Cameras are read from result.json and from the files of other programs. A calibration of this
+program is calibrated again on its corners if its lens model has to change. A camera without corners
+is fitted to its own rays; the command says how large the error is, px, and in which part of the
+image.
+"""
+
+from __future__ import annotations
+
+import argparse
+import math
+from collections.abc import Mapping
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+from calibgui.app.outputs import check_outputs
+from calibgui.cli.arguments import parse_export, parse_positive
+from calibgui.cli.camera import CAMERA_FILE, add_camera_options, read_camera_and_warn
+from calibgui.cli.console import Console
+from calibgui.dataset import Result
+from calibgui.engine.calibration import refit
+from calibgui.engine.camera import Camera, resolve_model_id
+from calibgui.engine.errors import CalibrationError
+from calibgui.engine.threads import limit_blas_threads
+from calibgui.formats import EXPORTERS, export
+from calibgui.formats.camera_conversion import (
+    convert_within_limit,
+    describe_conversion,
+    export_camera,
+    write_conversion,
+)
+from calibgui.formats.camera_refit import MAX_REFIT_ERROR
+from calibgui.formats.result_json import read_result
+from calibgui.report import tables
+
+_MAX_LISTED = 30
+"""Number of parameters, at most, that are printed: a splined model has hundreds."""
+
+
+def configure(parser: argparse.ArgumentParser) -> None:
+    """Describe the arguments."""
+    parser.set_defaults(usage_error=parser.error)
+    parser.add_argument("file", type=Path, metavar="FILE", help=CAMERA_FILE)
+    add_camera_options(parser)
+    parser.add_argument(
+        "--model",
+        type=_parse_model,
+        metavar="NAME",
+        help="the lens model to convert to; if left out, the camera's own where the format holds "
+        "it, and otherwise the nearest that it holds",
+    )
+    parser.add_argument(
+        "--within",
+        type=_parse_angle,
+        default=math.inf,
+        metavar="DEGREES",
+        help="angle from the axis up to which the other model must follow a camera without "
+        "corners; the whole image if left out",
+    )
+    parser.add_argument(
+        "--export",
+        type=parse_export,
+        action="append",
+        default=[],
+        metavar="FORMAT=FILE",
+        help=f"the file to write, may be repeated: {', '.join(EXPORTERS)}",
+    )
+
+
+def run(options: argparse.Namespace, console: Console) -> None:
+    """Read, convert, write and print."""
+    if not (options.model or options.export):
+        options.usage_error("say what to convert to: --model NAME, --export FORMAT=FILE or both")
+    check_outputs([path for _, path in options.export], [options.file])
+    found = read_camera_and_warn(options.file, console, options.camera, options.size)
+    with limit_blas_threads():
+        if found.title == EXPORTERS["result"].title:
+            answer = _convert_result(read_result(options.file), options)
+        else:
+            answer = _convert_camera(found.camera, options)
+    console.print_json(answer)
+    console.print_text(_describe(answer))
+
+
+def _convert_result(result: Result, options: argparse.Namespace) -> dict[str, Any]:
+    """Convert a calibration on its corners, and write it."""
+    camera = result.calibration.camera
+    answer: dict[str, Any] = {"largest_error_px": 0.0, "note": ""}
+    if options.model not in (None, camera.model):
+        _check_formats(options, options.model)
+        fitted = refit(result.observations(), result.calibration, options.model)
+        if not fitted.covered_error < MAX_REFIT_ERROR:
+            raise CalibrationError(
+                f"The lens model {options.model} cannot follow this lens: it is "
+                f"{fitted.covered_error:.3g} px off where corners were seen.",
+                "Choose another lens model.",
+            )
+        result = replace(result, calibration=fitted.calibration)
+        answer = {
+            "largest_error_px": fitted.covered_error,
+            "note": f"Calibrated again on the same corners; differs by at most "
+            f"{fitted.covered_error:.2g} px where corners were seen.",
+        }
+    files = {str(path): export(result, name, path).note for name, path in options.export}
+    return _encode_camera(result.calibration.camera) | answer | {"files": files}
+
+
+def _convert_camera(camera: Camera, options: argparse.Namespace) -> dict[str, Any]:
+    """Convert a camera by its rays, and write it."""
+    model = options.model or camera.model
+    if options.model:
+        _check_formats(options, model)
+    found = convert_within_limit(camera, model, options.within)
+    files = {}
+    for name, path in options.export:
+        exporter = EXPORTERS[name]
+        if options.model:
+            report = write_conversion(camera, found, exporter, path)
+        else:
+            report = export_camera(camera, exporter, path, options.within)
+        files[str(path)] = report.note
+    return _encode_camera(found.camera) | {
+        "largest_error_px": found.largest_error,
+        "rms_error_px": found.rms_error,
+        "region": {
+            "share": found.share,
+            "angle_deg": math.degrees(found.angle),
+            "outline_px": found.region,
+        },
+        "note": describe_conversion(camera, found),
+        "files": files,
+    }
+
+
+def _check_formats(options: argparse.Namespace, model: str) -> None:
+    """Refuse formats that do not hold the lens model that is wanted.
+
+    Raises:
+        CalibrationError: if there is one.
+    """
+    for name, path in options.export:
+        if not EXPORTERS[name].holds_model(model):
+            raise CalibrationError(
+                f"{path} is not written: the format {name!r} does not hold the lens model {model}.",
+                "Leave --model out, and the nearest that it holds is taken.",
+            )
+
+
+def _encode_camera(camera: Camera) -> dict[str, Any]:
+    return {
+        "model": camera.model,
+        "size": camera.size,
+        "params": dict(zip(camera.names, camera.params.tolist(), strict=True)),
+    }
+
+
+def _describe(answer: Mapping[str, Any]) -> str:
+    """Describe the converted camera and the files."""
+    width, height = answer["size"]
+    lines = [f"{answer['model']}, {width} x {height} px"]
+    if len(answer["params"]) <= _MAX_LISTED:
+        rows = [[name, f"{value:.9g}"] for name, value in answer["params"].items()]
+        lines.append(tables.align_columns(rows, left=(0, 1)))
+    remarks = [answer["note"]] if answer["note"] else []
+    remarks += [f"Wrote {file}. {note}" for file, note in answer["files"].items()]
+    return "\n".join([*lines, *map(tables.format_bullet, remarks)])
+
+
+def _parse_model(text: str) -> str:
+    """Return the id of a lens model."""
+    try:
+        return resolve_model_id(text)
+    except CalibrationError as error:
+        raise argparse.ArgumentTypeError(str(error)) from error
+
+
+def _parse_angle(text: str) -> float:
+    """Return an angle in degrees as radians."""
+    return math.radians(parse_positive(text))

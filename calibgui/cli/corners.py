@@ -1,0 +1,84 @@
+"""The corners that a subcommand works on: searched in photographs, or read from a file."""
+
+from __future__ import annotations
+
+import argparse
+from dataclasses import replace
+
+from calibgui.cli.arguments import (
+    add_image_paths,
+    add_search_options,
+    is_corners_file,
+    parse_positive,
+    search_images,
+)
+from calibgui.cli.boards import add_board_options, read_pattern_options
+from calibgui.cli.console import Console
+from calibgui.dataset import CornerSet
+from calibgui.engine.errors import CalibrationError
+from calibgui.formats.corners_json import read_corners
+from calibgui.report.boards import describe_recognised_board
+
+
+def add_corner_options(parser: argparse.ArgumentParser, need: str) -> None:
+    """Add the paths of photographs or of a corners.json, and the options on board and search.
+
+    Args:
+        parser: the parser to add them to.
+        need: what the help says of the side of a square, such as "needed for photographs".
+    """
+    add_image_paths(parser)
+    add_search_options(parser)
+    add_board_options(parser)
+    parser.add_argument(
+        "--square", type=parse_positive, metavar="MM", help=f"side of a square, mm; {need}"
+    )
+
+
+def check_corner_options(options: argparse.Namespace) -> None:
+    """End the program if the options on board and search do not fit the paths."""
+    if is_corners_file(options.paths):
+        if options.board or options.roi or options.target != "checkerboard":
+            options.usage_error(
+                "--board, --roi and --target are for photographs, not for a corners file"
+            )
+    elif any(is_corners_file([path]) for path in options.paths):
+        options.usage_error("a corners file is calibrated by itself")
+
+
+def read_or_search(
+    options: argparse.Namespace, console: Console, square: float | None = None
+) -> CornerSet:
+    """Return the views that the options of `add_corner_options` name.
+
+    Args:
+        options: the options; --square replaces the side of the squares in a corners.json.
+        console: shows progress, and what is recognised of the board.
+        square: side of a square, mm, of photographs for which --square is left out.
+
+    Raises:
+        CalibrationError: if the corners or photographs cannot be read.
+    """
+    if is_corners_file(options.paths):
+        return _read_corners_file(options)
+    pattern = read_pattern_options(options)
+    detection = search_images(
+        console, options.paths, options.board, options.roi, options.corners, pattern
+    )
+    corner_set = detection.corner_set(options.square or square)
+    if words := describe_recognised_board(pattern, corner_set.board):
+        console.print_text(words + "\n")
+    return corner_set
+
+
+def _read_corners_file(options: argparse.Namespace) -> CornerSet:
+    """Return the views of a corners.json; --square replaces the side of the board's squares."""
+    corner_set = read_corners(options.paths[0])
+    if options.square is None:
+        return corner_set
+    if corner_set.board is None:
+        raise CalibrationError(
+            f"{options.paths[0]} already gives the corners' places on the board in millimetres.",
+            "Leave out --square.",
+        )
+    return replace(corner_set, board=replace(corner_set.board, square=options.square))

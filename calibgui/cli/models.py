@@ -1,0 +1,101 @@
+"""Compare lens models on photographs of a board, or on a corners.json file, and recommend one.
+
+Every model is calibrated from all views, and again without some of them to see how well it predicts
+these. The recommended model is what `calibgui calibrate --model` takes.
+"""
+
+from __future__ import annotations
+
+import argparse
+from pathlib import Path
+from typing import Any
+
+from calibgui.app.lens_comparison import compare_lenses
+from calibgui.app.outputs import check_outputs
+from calibgui.app.project import DEFAULT_SQUARE
+from calibgui.cli.arguments import list_input_files
+from calibgui.cli.console import Console
+from calibgui.cli.corners import add_corner_options, check_corner_options, read_or_search
+from calibgui.engine.assessment import LensChoice
+from calibgui.engine.errors import CalibrationError
+from calibgui.engine.kernels import SOLVER_SECONDS, when_compiling
+from calibgui.formats.json_document import write_json
+from calibgui.report import tables
+from calibgui.report.lens_choice import (
+    LensRow,
+    describe_lens_choice,
+    list_lens_rows,
+    tabulate_lens_choice,
+)
+
+
+def configure(parser: argparse.ArgumentParser) -> None:
+    """Describe the arguments."""
+    add_corner_options(parser, f"no model depends on it ({DEFAULT_SQUARE:g} if left out)")
+    parser.add_argument(
+        "-o", "--output", type=Path, metavar="FILE", help="write the comparison as JSON"
+    )
+
+
+def run(options: argparse.Namespace, console: Console) -> None:
+    """Search, compare, write and print."""
+    check_corner_options(options)
+    if options.output:
+        check_outputs([options.output], list_input_files(options.paths))
+    corner_set = read_or_search(options, console, DEFAULT_SQUARE)
+    preparing = f"Preparing the solver for its first use (once, about {SOLVER_SECONDS} s)…"
+    try:
+        with (
+            when_compiling(lambda: console.print_notice(preparing)),
+            console.show_progress("comparing lens models", "model") as advance,
+        ):
+            choice = compare_lenses(corner_set, advance)
+    except CalibrationError:
+        if unused := tables.list_unused_views(corner_set.views):
+            console.print_problem(unused)
+        raise
+    answer = _encode_choice(choice)
+    text = tabulate_lens_choice(choice)
+    if options.output:
+        write_json(options.output, answer)
+        text += f"\n\nWrote {options.output}."
+    console.print_json(answer)
+    console.print_text(text, otherwise=tables.list_unused_views(corner_set.views))
+
+
+def _encode_choice(choice: LensChoice) -> dict[str, Any]:
+    """Return the comparison for JSON, which writes null for what is not known."""
+    return {
+        "recommended": choice.model,
+        "reason": describe_lens_choice(choice),
+        "reference": choice.reference,
+        "adequate": choice.adequate,
+        "tolerance_px": choice.tolerance,
+        "models": [_encode_row(row) for row in list_lens_rows(choice)],
+        "refused": choice.refused,
+    }
+
+
+def _encode_row(row: LensRow) -> dict[str, Any]:
+    horizontal, vertical, diagonal = row.field_of_view
+    return {
+        "model": row.model,
+        "parameters": row.parameters,
+        "corners": row.corners,
+        "rms_px": row.rms,
+        "sigma_x_px": row.sigma_x,
+        "sigma_y_px": row.sigma_y,
+        "unseen_rms_px": row.unseen_rms,
+        "unseen_median_px": row.unseen_median,
+        "unseen_95_percent_px": row.unseen_p95,
+        "bic": row.bic,
+        "field_of_view_deg": {
+            "horizontal": horizontal,
+            "vertical": vertical,
+            "diagonal": diagonal,
+        },
+        "largest_corner_angle_deg": row.largest_angle,
+        "largest_difference_px": row.difference,
+        "valid_share": row.valid_share,
+        "remarks": row.remarks,
+    }

@@ -1,0 +1,153 @@
+"""Lens models in two tables: what they leave on the views, and what they say of the image."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+
+from PySide6.QtCore import Signal
+from PySide6.QtWidgets import QTabWidget
+
+from calibgui.gui.widgets.tables import Column, Table, with_decimals
+from calibgui.report.lens_choice import LensRow, format_px
+from calibgui.report.lens_models import get_short_lens_title
+
+
+class LensTables(QTabWidget):
+    """The same lens models in both tables; a row of one is selected in the other as well."""
+
+    picked = Signal(int)
+    """The lens model that the user chose, counted as in the rows."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.setDocumentMode(True)
+        self.errors, self.image = Table(), Table()
+        self.addTab(self.errors, self.tr("Errors"))
+        self.addTab(self.image, self.tr("Image"))
+        for table in (self.errors, self.image):
+            table.picked.connect(self._pick)
+
+    def show_rows(self, rows: Sequence[LensRow]) -> None:
+        """Show lens models; those that something speaks against stand out."""
+        marked = {k: "; ".join(row.remarks) for k, row in enumerate(rows) if row.remarks}
+        self.errors.show_columns(self._make_error_columns(rows), marked)
+        self.image.show_columns(self._make_image_columns(rows), marked)
+
+    def select(self, row: int) -> None:
+        """Highlight a lens model without announcing it."""
+        for table in (self.errors, self.image):
+            table.select(row)
+
+    def _pick(self, row: int) -> None:
+        self.select(row)
+        self.picked.emit(row)
+
+    def _make_error_columns(self, rows: Sequence[LensRow]) -> list[Column]:
+        px = with_decimals(3)
+        return [
+            self._make_name_column(rows),
+            Column(
+                self.tr("n"), [row.parameters for row in rows], tip=self.tr("Estimated parameters")
+            ),
+            Column(
+                self.tr("RMS"),
+                [row.rms for row in rows],
+                px,
+                self.tr("Residuals of a calibration from all views, px"),
+            ),
+            Column(
+                self.tr("σx"),
+                [row.sigma_x for row in rows],
+                px,
+                self.tr("Standard deviation of these residuals across the image, px"),
+                optional=True,
+            ),
+            Column(
+                self.tr("σy"),
+                [row.sigma_y for row in rows],
+                px,
+                self.tr("Standard deviation of these residuals down the image, px"),
+                optional=True,
+            ),
+            Column(
+                self.tr("Unseen"),
+                [row.unseen_rms for row in rows],
+                px,
+                self.tr(
+                    "RMS of the residuals of views that were left out of the calibration in turn,\n"
+                    "with only their poses fitted, px"
+                ),
+            ),
+            Column(
+                self.tr("Median"),
+                [row.unseen_median for row in rows],
+                px,
+                self.tr("Median length of the residuals of unseen views, px"),
+                optional=True,
+            ),
+            Column(
+                self.tr("95 %"),
+                [row.unseen_p95 for row in rows],
+                px,
+                self.tr("Length that 95 % of the residuals of unseen views do not exceed, px"),
+            ),
+            Column(self.tr("Remarks"), ["; ".join(row.remarks) for row in rows], hidden=True),
+        ]
+
+    def _make_image_columns(self, rows: Sequence[LensRow]) -> list[Column]:
+        fields = zip(*(row.field_of_view for row in rows), strict=True)
+        names = (
+            (self.tr("Horizontal"), self.tr("H")),
+            (self.tr("Vertical"), self.tr("V")),
+            (self.tr("Diagonal"), self.tr("D")),
+        )
+        return [
+            self._make_name_column(rows),
+            *(
+                Column(
+                    name,
+                    list(angles),
+                    _format_degrees,
+                    self.tr("Field of view, {0}, degrees").format(name.lower()),
+                    optional=name == self.tr("Diagonal"),
+                    heading=letter,
+                )
+                for (name, letter), angles in zip(names, fields, strict=True)
+            ),
+            Column(
+                self.tr("Corners"),
+                [row.largest_angle for row in rows],
+                _format_degrees,
+                self.tr("Largest angle off the axis at which a corner was seen, degrees"),
+                optional=True,
+            ),
+            Column(
+                self.tr("BIC"),
+                [row.bic for row in rows],
+                with_decimals(0),
+                self.tr("Bayesian information criterion, less the least one"),
+            ),
+            Column(
+                self.tr("Differs"),
+                [row.difference for row in rows],
+                format_px,
+                self.tr(
+                    "Largest distance from the recommended model's map where corners were seen, px"
+                ),
+            ),
+            Column(
+                self.tr("Valid"),
+                [row.valid_share for row in rows],
+                lambda share: f"{math.floor(100 * share)} %",
+                self.tr("Part of the image on which the map is one-to-one"),
+            ),
+        ]
+
+    def _make_name_column(self, rows: Sequence[LensRow]) -> Column:
+        return Column(self.tr("Lens model"), [get_short_lens_title(row.model) for row in rows])
+
+
+def _format_degrees(angle: float) -> str:
+    """Text of an angle in whole degrees; a dash where there is none."""
+    return f"{angle:.0f}°" if math.isfinite(angle) else "–"
