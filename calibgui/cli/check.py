@@ -19,9 +19,14 @@ from calibgui.cli.corners import add_corner_options, check_corner_options, read_
 from calibgui.engine.assessment import DEFAULT_LIMIT, CalibrationCheck, Verdict, check_calibration
 from calibgui.engine.errors import CalibrationError
 from calibgui.engine.threads import limit_blas_threads
+from calibgui.formats import EXPORTERS, ImportedCamera
+from calibgui.formats.result_json import read_result
 from calibgui.report import tables
 from calibgui.report.calibration_check import describe_check, describe_verdict
 
+_USUAL_OVERDISPERSION = 2.0
+"""Ratio by which views of a printed board disagree more than noise explains, where the file does
+not say; calibrations from photographs find 1 to 4."""
 _NOT_GOOD = 1
 """Exit code unless the calibration is still good."""
 
@@ -29,7 +34,10 @@ _NOT_GOOD = 1
 def configure(parser: argparse.ArgumentParser) -> None:
     """Describe the arguments."""
     add_corner_options(parser, f"only the board's bend depends on it ({DEFAULT_SQUARE:g})")
-    parser.usage = "%(prog)s CALIBRATION PATH... [options] | PATH... --with CALIBRATION [options]"
+    parser.usage = (
+        "%(prog)s CALIBRATION PATH... [options]\n"
+        "       %(prog)s PATH... --with CALIBRATION [options]"
+    )
     parser.add_argument(
         "--with",
         dest="calibration",
@@ -79,6 +87,7 @@ def run(options: argparse.Namespace, console: Console) -> int:
             stored.covariance,
             options.limit,
             names,
+            _read_overdispersion(options.calibration, stored),
         )
     console.print_json(_encode_check(check, names))
     console.print_text(describe_check(check, names), otherwise=unused)
@@ -88,6 +97,13 @@ def run(options: argparse.Namespace, console: Console) -> int:
     if console.quiet and not (is_good or console.json):
         console.print_problem(describe_verdict(check))
     return 0 if is_good else _NOT_GOOD
+
+
+def _read_overdispersion(path: Path, stored: ImportedCamera) -> float:
+    """Return by how much views disagreed in the stored calibration."""
+    if stored.title != EXPORTERS["result"].title:
+        return _USUAL_OVERDISPERSION
+    return read_result(path).calibration.overdispersion
 
 
 def _encode_check(check: CalibrationCheck, names: list[str]) -> dict[str, Any]:

@@ -97,5 +97,6 @@ def _encode_row(row: LensRow) -> dict[str, Any]:
         "largest_corner_angle_deg": row.largest_angle,
         "largest_difference_px": row.difference,
         "valid_share": row.valid_share,
+        "held_at_0": row.held,
         "remarks": row.remarks,
     }

@@ -24,6 +24,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--projection",
         choices=[projection.value for projection in Projection],
+        metavar="NAME",
         default=Projection.PERSPECTIVE.value,
         help="perspective (default): straight lines stay straight, for less than 180 degrees; "
         "cylindrical: a panorama whose upright lines stay straight; equirectangular: a map of "

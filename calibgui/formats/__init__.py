@@ -7,6 +7,9 @@ format holds; ``camera_refit.write_in_models`` writes these as calibrated, refit
 `Exporter.refits` and refuses a refit that cannot follow the lens. The exporter is complete when a
 test reads the file with the program that it is for and projects the same points to the same pixels.
 
+A camera that came without corners is a result without views; ``camera_conversion`` makes one, and
+leaves out formats that need corners (`Exporter.needs_corners`).
+
 A format whose cameras are read, too, has a function (CameraText) -> ImportedCamera and a constant
 `IMPORTER` in the same module, which is listed in ``camera_import``; `read_camera` finds the format
 of a file by its content.

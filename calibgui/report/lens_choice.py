@@ -71,8 +71,12 @@ class LensRow:
     corners were seen, after the rotation that brings the two closest."""
     valid_share: float
     """Share of the image where the map is one-to-one."""
+    held: tuple[str, ...]
+    """Coefficients that were held at 0 because the views leave them open."""
+    is_eligible: bool
+    """True if it could be recommended: it is sound, and was tried on unseen views."""
     remarks: tuple[str, ...]
-    """Reservations, each without a capital letter and a full stop."""
+    """What else there is to know, each without a capital letter and a full stop."""
 
 
 def list_lens_rows(choice: LensChoice) -> list[LensRow]:
@@ -102,13 +106,20 @@ def _make_row(choice: LensChoice, trial: LensTrial, least_bic: float, least_rms:
         largest_angle=float(np.rad2deg(trial.largest_angle)),
         difference=choice.differences[trial.model],
         valid_share=trial.valid_share,
-        remarks=tuple(_list_remarks(trial, least_rms)),
+        held=tuple(trial.fixed),
+        is_eligible=trial.is_sound and trial.validation is not None,
+        remarks=(*_list_held(trial), *_list_remarks(trial, least_rms)),
     )
 
 
 def _measure_rms(trial: LensTrial) -> float:
     """Return the RMS length of the residuals of a candidate, px."""
     return summarise_residuals(trial.calibration.residuals).rms
+
+
+def _list_held(trial: LensTrial) -> list[str]:
+    """Name the coefficients, if any, that were held because the views leave them open."""
+    return [f"{', '.join(trial.fixed)} held at 0: left open by these views"] if trial.fixed else []
 
 
 def _list_remarks(trial: LensTrial, least_rms: float) -> list[str]:
@@ -131,15 +142,20 @@ def describe_lens_choice(choice: LensChoice) -> str:
     """Describe the recommended lens model and the reason in one to three sentences."""
     chosen = choice.chosen
     error = f"it predicts unseen views with {chosen.held_out:.3f} px RMS"
+    name = (
+        f"{chosen.model}, with {', '.join(chosen.fixed)} held at 0"
+        if chosen.fixed
+        else chosen.model
+    )
     if chosen.model == SIMPLEST_MODEL:
         text = (
-            f"The paper's model ({SIMPLEST_MODEL}) is kept: {error}, and no other model that these "
+            f"The paper's model ({name}) is kept: {error}, and no other model that these "
             "views determine does better by more than chance and 1 %."
         )
     else:
         clauses = "; ".join([error, *_describe_refusal(choice)])
         title = get_short_lens_title(chosen.model)
-        text = f"{title} ({chosen.model}): {clauses}. {_describe_rivals(choice)}"
+        text = f"{title} ({name}): {clauses}. {_describe_rivals(choice)}"
     if not chosen.is_sound:
         faults = _list_remarks(chosen, min(map(_measure_rms, choice.trials.values())))
         text += f" No model is without reservations; of this one: {'; '.join(faults)}."

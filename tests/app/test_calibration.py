@@ -215,7 +215,7 @@ def test_the_papers_lens_model_is_kept_where_it_is_enough() -> None:
     by_name = calibrate_views(noisy(), Settings()).calibration
     np.testing.assert_array_equal(calibration.camera.params, by_name.camera.params)
     assert "model_reason" not in by_name.settings
-    assert recall_lens_choice(result) == ("lucchese", calibration.warnings[0])
+    assert recall_lens_choice(result) == ("lucchese", calibration.warnings[0], {})
 
 
 def fisheye() -> CornerSet:

@@ -16,6 +16,7 @@ from calibgui.engine.arrays import Array
 from calibgui.engine.assessment.cross_validation import resect_views
 from calibgui.engine.assessment.lens_choice import LensChoice, choose_lens_stepwise
 from calibgui.engine.calibration.observations import Observation
+from calibgui.engine.camera.camera import Camera
 from calibgui.engine.errors import CalibrationError
 from tests.engine.random_lenses import draw_view, problem
 
@@ -23,6 +24,12 @@ VIEWS = 12
 """Numbers of views to choose from, and of unseen ones."""
 NOISE = 0.1
 """Standard deviation of a corner's coordinate, px."""
+
+
+def photograph(camera: Camera, rng: np.random.Generator) -> list[Observation]:
+    """Random views with noise, every third with corners beyond 90 degrees if the lens sees them."""
+    views = [draw_view(rng, camera, past=k % 3 == 0)[1] for k in range(VIEWS)]
+    return [Observation(v.uv + rng.normal(0, NOISE, v.uv.shape), v.xy) for v in views]
 
 
 def measure_errors(choice: LensChoice, unseen: list[Observation]) -> dict[str, float]:
@@ -48,12 +55,7 @@ def main() -> None:
     for seed in range(arguments.first, arguments.first + arguments.scenes):
         camera = problem(seed).scene.camera
         rng = np.random.default_rng([seed, 1])
-
-        def photograph(past: bool) -> Observation:
-            _, view = draw_view(rng, camera, past)
-            return Observation(view.uv + rng.normal(0, NOISE, view.uv.shape), view.xy)
-
-        views, unseen = ([photograph(k % 3 == 0) for k in range(VIEWS)] for _ in range(2))
+        views, unseen = (photograph(camera, rng) for _ in range(2))
         try:
             choice = choose_lens_stepwise(views, camera.size)
         except CalibrationError as error:

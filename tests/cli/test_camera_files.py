@@ -109,9 +109,9 @@ def test_convert_states_the_error(fisheye_file: Path, tmp_path: Path, capsys: Ca
     assert main(["convert", *arguments, "--json"]) == 0
     stated = json.loads(capsys.readouterr().out)["largest_error_px"]
     before, after = read_camera(fisheye_file).camera, read_camera(out).camera
-    uv = np.random.default_rng(0).uniform((0, 0), (999, 799), (5000, 2))
+    uv = np.random.default_rng(0).uniform((0, 0), (999, 799), (50000, 2))
     error = np.linalg.norm(pixels_from_rays(rays_from_pixels(uv, before), after) - uv, axis=1)
-    assert stated / 2 < error.max() <= 1.01 * stated
+    assert stated / 3 < error.max() <= 1.01 * stated
 
 
 @pytest.mark.parametrize(
@@ -221,7 +221,7 @@ def test_a_file_of_several_cameras(fisheye_file: Path, capsys: Capture) -> None:
     one = str(fisheye_file)
     assert main(["convert", one, "--model", "eucm"]) == 1
     assert "holds 2 cameras" in capsys.readouterr().err
-    assert main(["convert", one, "--model", "eucm", "--camera", "cam1"]) == 0
+    assert main(["convert", one, "--model", "ucm", "--within", "60", "--camera", "cam1"]) == 0
     capsys.readouterr()
     assert main(["diff", one, one, "--camera-a", "cam0", "--camera-b", "cam1", "--json"]) == 0
     assert json.loads(capsys.readouterr().out)["worst_px"] > 5

@@ -125,6 +125,17 @@ def test_the_papers_model_is_kept_where_nothing_speaks_against_it(kept: LensChoi
     )
 
 
+def test_coefficients_that_the_views_leave_open_are_named(kept: LensChoice) -> None:
+    held = change(kept, "lucchese", fixed={"k3": 0.0, "k2": 0.0})
+    assert describe_lens_choice(held).startswith(
+        "The paper's model (lucchese, with k3, k2 held at 0) is kept: it predicts "
+    )
+    row = next(row for row in list_lens_rows(held) if row.model == "lucchese")
+    assert row.held == ("k3", "k2") and row.is_eligible
+    assert row.remarks == ("k3, k2 held at 0: left open by these views",)
+    assert "- lucchese: k3, k2 held at 0" in tabulate_lens_choice(held)
+
+
 def test_there_is_a_reason_for_another_model(fisheye: LensChoice) -> None:
     choice = replace(
         fisheye,
@@ -172,7 +183,8 @@ def test_the_reason_against_the_papers_model_is_what_it_lacks(kept: LensChoice) 
 
 def test_remarks_name_what_speaks_against_a_model(kept: LensChoice, fisheye: LensChoice) -> None:
     rows = {row.model: row for row in list_lens_rows(kept)}
-    assert rows["lucchese"].remarks == ()
+    assert rows["lucchese"].remarks == () and rows["lucchese"].is_eligible
+    assert not rows["pinhole"].is_eligible
     assert rows["pinhole"].remarks[-1].startswith("not tried on unseen views: residuals ")
     rms = {row.model: row.rms for row in list_lens_rows(fisheye)}
     times = rms["lucchese"] / min(rms.values())

@@ -14,6 +14,12 @@ c after the pictures and A = mean of B'^T B' over the corners, B' = B less rotat
 
 It is above a limit L if s - 2 sigma > L, and below if s + 2 sigma <= L. It does not measure what
 lies beyond the corners, nor the board's size, which one picture of one board never shows.
+
+On 2700 synthetic checks of unchanged cameras (two lens models; 1, 2 and 4 views; boards flat or
+bowed by 1 or 2 mm on 330 mm) there was one false alarm, and shift and scale scattered as their
+standard deviations say. Photographs need the `overdispersion` that their calibration found: without
+it one of ten checks with two or three of the paper's images was a false alarm, with it none of 128;
+of a lens that its model follows poorly (a GoPro with Kannala and Brandt's) it was 6 of 128.
 """
 
 from __future__ import annotations
@@ -40,6 +46,7 @@ from calibgui.engine.calibration.observations import (
     name_views,
     pack_observations,
 )
+from calibgui.engine.calibration.refinement.levenberg_marquardt import StartError
 from calibgui.engine.calibration.refinement.residuals import compute_image_residuals
 from calibgui.engine.calibration.resection import estimate_poses, refine_poses
 from calibgui.engine.calibration.result import Cost
@@ -158,6 +165,7 @@ def check_calibration(
     covariance: Array | None = None,
     limit: float = DEFAULT_LIMIT,
     names: Sequence[str] | None = None,
+    overdispersion: float = 0.0,
 ) -> CalibrationCheck:
     """Check whether a stored camera still explains views of a flat board.
 
@@ -168,6 +176,7 @@ def check_calibration(
             stored camera is off then counts as a change.
         limit: change from which the camera counts as changed, px rms.
         names: names of the views, for messages.
+        overdispersion: the stored calibration's, `Calibration.overdispersion`; 0 if there is none.
 
     Raises:
         CalibrationError: if no view can be used; the message says why.
@@ -187,7 +196,13 @@ def check_calibration(
             [Observation(given[k].uv[kept[k]], given[k].xy[kept[k]]) for k in used],
             [names[k] for k in used],
         )
-        fit = fit_camera_change(camera, packed, root)
+        try:
+            fit = fit_camera_change(camera, packed, root, max(overdispersion, 1.0))
+        except StartError as error:
+            raise CalibrationError(
+                "No camera near the stored one images the board as the pictures show it.",
+                "Check that the file is of this camera, and the board's rows and columns.",
+            ) from error
         if not _screen_corners(fit, kept, used):
             break
         _leave_out_views(kept, reasons, "too many of its corners do not fit")

@@ -19,7 +19,8 @@ With c are estimated, since all of them are uncertain,
 c and q are Gaussian beforehand with the wide standard deviations below, which weakly regularise
 what the pictures leave open (the scale, if the board is parallel to the sensor). Gauss-Newton: the
 poses are resected, all else follows from the residuals' derivatives less what poses explain, until
-nothing changes. The noise is that of the residuals.
+nothing changes. The noise is that of the residuals; where the calibration found its views to
+disagree by more than noise explains (``calibration/overdispersion.py``), so will these.
 """
 
 from __future__ import annotations
@@ -51,9 +52,6 @@ at its corners: of shift and scale, and of each term of the radial distortion.""
 _BEND_SIGMA, _STRETCH_SIGMA = 0.005, 0.0005
 """Standard deviations of the board's deviations, in its diagonals: of its bends and twist at the
 corners, and of its stretch and shear there."""
-_BENDS = 3
-"""Number of the board's patterns that are bends, which are the first."""
-_VIEW_BEND_SIGMA = float(__import__("os").environ.get("VB","3e-4"))
 _MAX_STEPS, _MAX_STEP_PX = 20, 1e-4
 """Number of steps at most, and change of the displacement of the corners that ends them, px rms."""
 
@@ -90,13 +88,17 @@ class CameraChange(NamedTuple):
     """Its standard deviation, mm."""
 
 
-def fit_camera_change(camera: Camera, packed: Observations, root: Array) -> CameraChange:
+def fit_camera_change(
+    camera: Camera, packed: Observations, root: Array, overdispersion: float
+) -> CameraChange:
     """Fit the change of the camera, its stored error, the board and all poses to the corners.
 
     Args:
         camera: the stored camera.
         packed: the views.
         root: (P, E) root of the covariance of its parameters; (0, 0) if there is none.
+        overdispersion: ratio, at least 1, by which views of this camera and board disagree more
+            than the noise of their corners explains.
     """
     lens = find_model(camera.model)
     Z, prior_q = _make_board_patterns(packed)
@@ -109,8 +111,6 @@ def fit_camera_change(camera: Camera, packed: Observations, root: Array) -> Came
     state = _refine(estimate_poses(camera, packed), packed, camera.model)
     poses_only = compute_image_residuals(state, packed, lens).residual
     predicted = packed.uv + poses_only
-    freedom = max(2 * packed.count - 6 * len(poses_only) - M - Q, 1)
-    noise = max(float(np.sqrt(np.sum(poses_only[packed.mask > 0] ** 2) / freedom)), MIN_NOISE)
     for _ in range(_MAX_STEPS):
         B = _make_patterns(predicted, camera)
         moved = replace(
@@ -122,16 +122,16 @@ def fit_camera_change(camera: Camera, packed: Observations, root: Array) -> Came
         found = compute_image_residuals(state, moved, lens)
         predicted = moved.uv + found.residual
         left = np.where(rows, found.residual, 0.0)
-        columns = _stack_columns(B, found, state, Z, root)
-        by_bend = columns[..., M : M + _BENDS]
-        X, r = _eliminate_views(columns, found, left, rows, by_bend, noise)
-        noise = max(float(np.sqrt(r @ r / freedom)), MIN_NOISE)
-        H = X.T @ X / noise**2 + np.diag(1 / prior**2)
-        step = np.linalg.solve(H, X.T @ r / noise**2 + x / prior**2)
+        freedom = max(2 * packed.count - 6 * len(left) - M - Q, 1)
+        noise = max(float(np.sqrt(np.sum(left**2) / freedom)), MIN_NOISE)
+        X, r = _eliminate_poses(_stack_columns(B, found, state, Z, root), found, left, rows)
+        variance = (noise * overdispersion) ** 2
+        H = X.T @ X / variance + np.diag(1 / prior**2)
+        step = np.linalg.solve(H, X.T @ r / variance + x / prior**2)
         x -= step
         if np.sqrt(np.sum((X @ step) ** 2) / packed.count) < _MAX_STEP_PX:
             break
-    covariance = np.linalg.inv(H)
+    covariance = np.asarray(np.linalg.inv(H), dtype=np.float64)
     board = slice(M, M + Q)
     bend = _measure_bend(Z[packed.mask > 0], x[board], covariance[board, board])
     return CameraChange(x[:M], covariance[:M, :M], B, poses_only, left, noise, *bend)
@@ -194,39 +194,15 @@ def _stack_columns(B: Array, found: Linearised, state: State, Z: Array, root: Ar
     return np.concatenate([B, by_board, found.by_params @ root], axis=-1)
 
 
-def _eliminate_views(
-    columns: Array,
-    found: Linearised,
-    left: Array,
-    rows: BoolArray,
-    by_bend: Array,
-    noise: float,
+def _eliminate_poses(
+    columns: Array, found: Linearised, left: Array, rows: BoolArray
 ) -> tuple[Array, Array]:
-    """Return columns (n, m) and residuals (n,) less what poses and single views' bends explain.
-
-    Poses are eliminated whole. A view's own bends Y b, b ~ N(0, s^2), leave it the weight
-    (I + Y s^2 Y^T / sigma^2)^-1, of which the square root is applied.
-
-    Args:
-        columns: (K, N, 2, m) derivatives by what all views share.
-        found: the residuals' derivatives by the poses.
-        left: (K, N, 2) residuals, px.
-        rows: (K, N, 1) false for padding.
-        by_bend: (K, N, 2, 3) Y, derivatives by the board's bends.
-        noise: sigma, px.
-    """
+    """Return columns (n, m) and residuals (n,) less what the poses of their views explain."""
     K = len(left)
-
-    def flatten(part: Array) -> Array:
-        return np.where(rows[..., None], part, 0.0).reshape(K, -1, part.shape[-1])
-
-    by_pose, Y = flatten(found.by_pose), flatten(by_bend)
-    both = np.concatenate([flatten(columns), left.reshape(K, -1, 1)], axis=-1)
-    own = np.linalg.qr(by_pose / np.linalg.norm(by_pose, axis=1, keepdims=True))[0]
+    Jp = np.where(rows[..., None], found.by_pose, 0.0).reshape(K, -1, 6)
+    X = np.where(rows[..., None], columns, 0.0).reshape(K, Jp.shape[1], -1)
+    both = np.concatenate([X, left.reshape(K, -1, 1)], axis=-1)
+    own = np.linalg.qr(Jp / np.linalg.norm(Jp, axis=1, keepdims=True))[0]
     both = both - own @ (np.swapaxes(own, 1, 2) @ both)
-    Y = Y - own @ (np.swapaxes(own, 1, 2) @ Y)
-    U, S, _ = np.linalg.svd(Y * (_VIEW_BEND_SIGMA / noise), full_matrices=False)
-    shrink = 1 - 1 / np.sqrt(1 + S**2)
-    both = both - (U * shrink[:, None]) @ (np.swapaxes(U, 1, 2) @ both)
     both = both.reshape(-1, both.shape[-1])
     return both[:, :-1], both[:, -1]

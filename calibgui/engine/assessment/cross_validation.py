@@ -250,7 +250,9 @@ def choose_board_shape(
                 raise
             refused[model] = error.message
             continue
-        if model is not best and _is_better(validations[model].by_view, validations[best].by_view):
+        if model is not best and predicts_better(
+            validations[model].by_view, validations[best].by_view
+        ):
             best = model
     chosen = (
         nominal
@@ -260,8 +262,8 @@ def choose_board_shape(
     return BoardShapeChoice(best, validations, refused, nominal, chosen)
 
 
-def _is_better(candidate: Array, incumbent: Array) -> bool:
-    """Return whether errors (K,) are lower than others of the same views, beyond chance."""
+def predicts_better(candidate: Array, incumbent: Array) -> bool:
+    """Return whether errors (K,) are lower than others of the same views, beyond chance and 1 %."""
     gain = np.log(incumbent / candidate)
     error = gain.std(ddof=1) / np.sqrt(len(gain))
     return bool(gain.mean() > max(_MIN_GAIN_IN_STANDARD_ERRORS * error, _MIN_RELATIVE_GAIN))

@@ -7,8 +7,10 @@ parameters that gain a tenth of a thousandth of a pixel on unseen views. The cho
 
 1. A candidate is sound if the views determine its parameters and if its map is one-to-one where
    corners were seen.
-2. It is adequate if no sound candidate predicts unseen views better by more than 1 %. If some
-   adequate candidate is one-to-one over the whole image, and the lens fills it, the others must be.
+2. It is adequate if no sound candidate predicts unseen views better by more than 1 %; of the
+   paper's model, which others are taken in place of only where the views demand it, also beyond
+   chance. If some adequate candidate is one-to-one over the whole image, and the lens fills it, the
+   others must be.
 3. The richest of the adequate candidates is the reference: what a lens model can leave
    unexplained, it leaves least. The recommendation is the simplest adequate candidate whose map
    differs from the reference's by less than the uncertainty of projection, root mean square over
@@ -18,8 +20,7 @@ parameters that gain a tenth of a thousandth of a pixel on unseen views. The cho
 Of a model with coefficients that the views leave open, such as the numerator and denominator of the
 rational one, those of the highest powers are held at 0 one by one until the others are determined.
 
-The paper's model counts as the simplest, so that others are taken only where the views demand it;
-the others follow by their number of free parameters.
+The paper's model counts as the simplest; the others follow by their number of free parameters.
 """
 
 from __future__ import annotations
@@ -36,6 +37,7 @@ from calibgui.engine.assessment.cross_validation import (
     DEFAULT_FOLDS,
     CrossValidation,
     cross_validate,
+    predicts_better,
 )
 from calibgui.engine.calibration.calibrate import calibrate
 from calibgui.engine.calibration.observations import Observation
@@ -66,7 +68,7 @@ CANDIDATES = (
     "scaramuzza",
 )
 """Lens models that are compared, in the order in which people list them."""
-_FIRST_CANDIDATES = (SIMPLEST_MODEL, "brown-conrady", "rational", "kannala-brandt-decentering")
+_FIRST_CANDIDATES = (SIMPLEST_MODEL, "brown-conrady", "kannala-brandt-decentering")
 """Lens models that are enough to see whether the paper's follows a lens."""
 _MIN_VIEWS = 3
 """Number of views below which no view can be spared for a comparison."""
@@ -165,8 +167,8 @@ def choose_lens(
     """Try lens models on unseen views and recommend one.
 
     Args:
-        views, size, settings: as for ``calibrate``, without `model` and `free`; `fix` is a mapping of
-            parameters that all models have.
+        views, size, settings: as for ``calibrate``, without `model` and `free`; `fix` is a mapping
+            of parameters that all models have.
         candidates: ids of the models to try.
         folds: number of folds of the cross-validation, at most one a view.
         progress: a function that is told how many models are done, and of how many.
@@ -378,7 +380,7 @@ def _recommend(
     validated = [trial for trial in order if trial.validation is not None]
     sound = [trial for trial in validated if trial.is_sound] or validated
     best = min(sound, key=lambda trial: trial.held_out)
-    adequate = [trial for trial in sound if trial.held_out <= (1 + _MAX_LOSS) * best.held_out]
+    adequate = [trial for trial in sound if _predicts_as_well(trial, best)]
     adequate = [trial for trial in adequate if _fills_image(trial)] or adequate
     reference = max(adequate, key=lambda t: (t.parameters, -t.held_out))
     chosen, tolerance = reference, 0.0
@@ -397,6 +399,15 @@ def _recommend(
         differences,
         tolerance,
     )
+
+
+def _predicts_as_well(trial: LensTrial, best: LensTrial) -> bool:
+    """Return whether a candidate predicts unseen views as well as the best one."""
+    if trial.held_out <= (1 + _MAX_LOSS) * best.held_out:
+        return True
+    if trial.model != SIMPLEST_MODEL or trial.validation is None or best.validation is None:
+        return False
+    return not predicts_better(best.validation.by_view, trial.validation.by_view)
 
 
 def _fills_image(trial: LensTrial) -> bool:

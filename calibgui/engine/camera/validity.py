@@ -28,7 +28,7 @@ def find_valid_pixels(uv: Array, camera: Camera) -> BoolArray:
 
 
 def measure_angles(uv: Array, camera: Camera) -> Array:
-    """Return the angles (...), rad, between the rays of pixels (..., 2) and the axis; NaN if none."""
+    """Return the angles (...), rad, of the rays of pixels (..., 2) off the axis; NaN if none."""
     with np.errstate(all="ignore"):
         rays, _ = rays_and_slopes(uv, camera)
     return np.asarray(np.arctan2(np.linalg.norm(rays[..., :2], axis=-1), rays[..., 2]))

@@ -69,7 +69,7 @@ class Analysis(QWidget):
     """Images that the user wants out of the calibration."""
     save_wanted = Signal(tuple, object)
     """See `Panel.save_wanted`."""
-    lens_wanted = Signal(str)
+    lens_wanted = Signal(str, tuple)
     """See `Panel.lens_wanted`."""
     rename_wanted = Signal(str)
     delete_wanted = Signal(str)

@@ -30,8 +30,8 @@ class LensModelsPanel(Panel):
         self._jobs = services.jobs
         self._job: Job | None = None
         self._rows: list[LensRow] = []
-        self._chosen = ""
-        """Name of the lens model of the selected row."""
+        self._chosen: LensRow | None = None
+        """The selected row."""
         self._compared: Result | None = None
         """Result whose views were compared on."""
         self.choice: LensChoice | None = None
@@ -46,7 +46,7 @@ class LensModelsPanel(Panel):
         self.run.clicked.connect(self._run)
         self.use = QPushButton(self.tr("&Use this model"))
         self.use.setToolTip(self.tr("Set the selected lens model in the Settings and calibrate."))
-        self.use.clicked.connect(lambda: self.lens_wanted.emit(self._chosen))
+        self.use.clicked.connect(self._use)
         self.words, self.remarks = QLabel(), QLabel()
         for label in (self.words, self.remarks):
             label.setWordWrap(True)
@@ -87,7 +87,7 @@ class LensModelsPanel(Panel):
         if self._job is not None:
             self._job.cancel()
             return
-        self.choice, self._compared, self._chosen = None, result, ""
+        self.choice, self._compared, self._chosen = None, result, None
         self.run.setText(self.tr("&Cancel"))
         self.words.setText(self.tr("Calibrating every lens model several times…"))
         self._job = self._jobs.start(
@@ -127,9 +127,14 @@ class LensModelsPanel(Panel):
         self._rows = list_lens_rows(choice)
         self.tables.show_rows(self._rows)
         models = [row.model for row in self._rows]
-        shown = models.index(self._chosen if self._chosen in models else choice.model)
+        chosen = choice.model if self._chosen is None else self._chosen.model
+        shown = models.index(chosen if chosen in models else choice.model)
         self.tables.select(shown)
         self._show_row(shown)
+
+    def _use(self) -> None:
+        if self._chosen is not None:
+            self.lens_wanted.emit(self._chosen.model, self._chosen.held)
 
     def _invite(self, result: Result) -> str:
         model = get_lens_title(result.calibration.camera.model)
@@ -139,8 +144,7 @@ class LensModelsPanel(Panel):
 
     def _show_row(self, row: int) -> None:
         """Show what there is to know of a lens model, and offer it."""
-        shown = self._rows[row]
-        self._chosen = shown.model
+        shown = self._chosen = self._rows[row]
         fit = self.tr("{0}: RMS {1:.3f} px, σx {2:.3f} px and σy {3:.3f} px of {4}.").format(
             shown.model,
             shown.rms,

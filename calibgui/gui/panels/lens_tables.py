@@ -30,7 +30,7 @@ class LensTables(QTabWidget):
 
     def show_rows(self, rows: Sequence[LensRow]) -> None:
         """Show lens models; those that something speaks against stand out."""
-        marked = {k: "; ".join(row.remarks) for k, row in enumerate(rows) if row.remarks}
+        marked = {k: "; ".join(row.remarks) for k, row in enumerate(rows) if not row.is_eligible}
         self.errors.show_columns(self._make_error_columns(rows), marked)
         self.image.show_columns(self._make_image_columns(rows), marked)
 

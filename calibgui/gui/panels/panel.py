@@ -28,8 +28,8 @@ class Panel(QWidget):
     save_wanted = Signal(tuple, object)
     """Views (indices in `Result.views`) whose images are to be written, and the `Undistortion`, or
     None for images rectified to the board."""
-    lens_wanted = Signal(str)
-    """Lens model that the user wants the camera calibrated with."""
+    lens_wanted = Signal(str, tuple)
+    """Lens model that the user wants the camera calibrated with, and its coefficients to hold."""
     failed = Signal(Exception)
     """Something that the user asked for could not be done."""
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace
 
 from PySide6.QtCore import Qt
@@ -227,12 +227,24 @@ class SettingsPanel(QWidget):
             is_free = name not in settings.fixed and (name not in held or name in settings.freed)
             self.boxes[name].setChecked(is_free)
 
-    def choose_model(self, model: str) -> None:
-        """Estimate another lens model, as if the user had chosen it here."""
-        if self.cost.currentData() == Cost.PAPER:  # which has a lens model of its own
-            self.cost.setCurrentIndex(self.cost.findData(Cost.IMAGE))
-        self.model.setCurrentIndex(self.model.findData(model))
-        self._edit()
+    def choose_model(self, model: str, held: Iterable[str]) -> None:
+        """Estimate another lens model, with the error in the image if the cost has its own.
+
+        Args:
+            model: name of the lens model.
+            held: its coefficients to hold at 0; no others are held that the user may hold.
+        """
+        before = self._session.project.settings
+        fixed = {name: value for name, value in before.fixed.items() if name in PINHOLE}
+        settings = replace(
+            before,
+            cost=Cost.IMAGE if before.cost is Cost.PAPER else before.cost,
+            model=model,
+            fixed={**fixed, **dict.fromkeys(held)},
+            freed=(),
+        )
+        if settings != before:
+            self._session.edit(self.tr("Lens model"), lambda p: replace(p, settings=settings))
 
     def _hold(self) -> None:
         """Hold parameters at the values that were typed."""

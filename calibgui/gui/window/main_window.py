@@ -255,9 +255,9 @@ class MainWindow(QMainWindow):
         else:
             self.calibrator.calibrate()
 
-    def _calibrate_with(self, model: str) -> None:
-        """Calibrate with another lens model; what runs would be of the settings before."""
-        self.settings.choose_model(model)
+    def _calibrate_with(self, model: str, held: tuple[str, ...]) -> None:
+        """Calibrate with another lens model, some of its coefficients held."""
+        self.settings.choose_model(model, held)
         if not self.calibrator.running:
             self.calibrator.calibrate()
 

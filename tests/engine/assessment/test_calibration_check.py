@@ -179,6 +179,14 @@ def test_the_standard_deviations_hold_and_nothing_is_a_false_alarm() -> None:
     assert all(f.verdict is not Verdict.HAS_CHANGED for f in found)
 
 
+def test_views_that_disagree_widen_the_standard_deviation() -> None:
+    views = views_of(LENS, 4, 5)
+    plain = check_calibration(LENS, views)
+    wide = check_calibration(LENS, views, overdispersion=3)
+    assert wide.change_sigma == pytest.approx(3 * plain.change_sigma, rel=0.1)
+    assert wide.noise == pytest.approx(plain.noise, rel=0.02)
+
+
 @pytest.mark.slow
 @pytest.mark.parametrize("camera", [LENS, WIDE], ids=["lucchese", "kannala-brandt"])
 @pytest.mark.parametrize("bow", [0.0, 1.0])

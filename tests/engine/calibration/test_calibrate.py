@@ -325,11 +325,11 @@ def test_the_forward_model_agrees_with_opencv(aspect: float) -> None:
     rms, K, distortion = result[0], result[1], result[2].ravel()
     # float32 corners are 3e-5 px from ours: a thousandth of a standard deviation.
     theirs = np.array([K[0, 0], K[1, 1], K[0, 2], K[1, 2], *distortion[:5]])
-    assert (np.abs(found.camera.params - theirs) < 2e-3 * found.sigma).all()
+    assert (np.abs(found.camera.params[:9] - theirs) < 2e-3 * found.sigma[:9]).all()
     squares = np.concatenate([r.image for r in found.residuals]) ** 2
     assert np.sqrt(squares.sum(axis=1).mean()) == pytest.approx(rms, rel=1e-5)
     sd = result[5].ravel()[:9][[0, 1, 2, 3, 4, 5, 6, 7, 8]]
-    np.testing.assert_allclose(found.sigma_by_noise, sd, rtol=5e-3)
+    np.testing.assert_allclose(found.sigma_by_noise[:9], sd, rtol=5e-3)
 
 
 @pytest.mark.parametrize(("count", "board_shape"), [(300, "nominal"), (12, "free")])

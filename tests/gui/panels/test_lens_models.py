@@ -91,8 +91,9 @@ def test_the_selected_model_is_described_and_can_be_used(
     panel._done(choice)
     QApplication.processEvents()
     models = [row.model for row in list_lens_rows(choice)]
-    wanted: list[str] = []
-    panel.lens_wanted.connect(wanted.append)
+    held = {row.model: row.held for row in list_lens_rows(choice)}
+    wanted: list[tuple[str, tuple[str, ...]]] = []
+    panel.lens_wanted.connect(lambda *which: wanted.append(which))
     for table, model in (
         (panel.tables.errors, "pinhole"),
         (panel.tables.image, "brown-conrady-4"),
@@ -101,7 +102,7 @@ def test_the_selected_model_is_described_and_can_be_used(
         click_row(qtbot, table, models.index(model))
         assert panel.remarks.text().startswith(f"{model}: RMS")
         qtbot.mouseClick(panel.use, LEFT)
-    assert wanted == ["pinhole", "brown-conrady-4"]
+    assert wanted == [(model, held[model]) for model in ("pinhole", "brown-conrady-4")]
     for table in (panel.tables.errors, panel.tables.image):
         assert table.currentIndex().row() == models.index("brown-conrady-4")
     panel._refresh_now()
@@ -148,6 +149,9 @@ def test_using_a_model_sets_it_and_calibrates(full: MainWindow, qtbot: QtBot) ->
     panel = full.need_analysis().show_panel(LensModelsPanel)
     qtbot.mouseClick(panel.run, LEFT)
     qtbot.waitUntil(lambda: panel.choice is not None and panel._job is None, timeout=60_000)
+    trial = panel.choice.trials["brown-conrady-4"]
+    held = replace(trial, fixed={"k2": 0.0})  # as if the views left it open
+    panel._done(replace(panel.choice, trials={**panel.choice.trials, held.model: held}))
     models = [row.model for row in list_lens_rows(panel.choice)]
     click_row(qtbot, panel.tables.errors, models.index("brown-conrady-4"))
     qtbot.mouseClick(panel.use, LEFT)
@@ -155,6 +159,8 @@ def test_using_a_model_sets_it_and_calibrates(full: MainWindow, qtbot: QtBot) ->
     qtbot.waitUntil(lambda: len(session.project.results) == 3, timeout=60_000)
     assert session.result is not None
     assert session.result.calibration.camera.model == "brown-conrady-4"
+    assert session.result.calibration.fixed == ("k2", "skew")
+    assert session.project.settings.fixed == {"k2": None}, "what was held of the old lens is not"
     qtbot.waitUntil(lambda: not session.jobs.running, timeout=60_000)
     session.document.undo()
     session.document.undo()

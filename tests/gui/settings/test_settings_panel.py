@@ -320,3 +320,17 @@ def test_the_hundreds_of_a_splined_model_have_no_boxes(full: MainWindow, qtbot: 
     qtbot.keyClick(panel.values, Qt.Key.Key_Return)
     assert session.project.settings.fixed == {"dy_1_1": 0.01}
     check_settings(session.project.settings)
+
+
+def test_a_model_of_the_comparison_is_taken_as_it_was_compared(full: MainWindow) -> None:
+    panel, session = full.settings, full.session
+    before = Settings(Cost.PAPER, fixed={"cx": 97.0, "k3": None}, freed=("p3",))
+    session.edit("Settings", lambda p: replace(p, settings=before))
+    panel.choose_model("rational", ("k3", "k6"))
+    assert session.project.settings == Settings(
+        model="rational", fixed={"cx": 97.0, "k3": None, "k6": None}
+    )
+    assert panel.model.currentData() == "rational" and panel.cost.currentData() == Cost.IMAGE
+    assert not panel.boxes["k6"].isChecked() and panel.boxes["k1"].isChecked()
+    session.document.undo()
+    assert session.project.settings is before

@@ -6,8 +6,9 @@ into the first state of the joint registration.
 
 Stage I corrects each view by one coefficient, n = d (1 + k1 r^2). The polynomial models take it as
 their first coefficient. Any other model is fitted to the rays that it gives (``lens_fit.py``), or,
-where the start so made misses the corners by more than a hundredth of the image, to those of
-a camera of the unified model that needs no Stage I (``unified_start.py``).
+where the start so made misses the corners by more than 0.3 % of the image's width, to those of
+a camera of the unified model that needs no Stage I (``unified_start.py``). Models of several minima
+are started from several shapes (``descent.py``).
 """
 
 from __future__ import annotations
