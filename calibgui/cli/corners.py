@@ -65,7 +65,9 @@ def read_or_search(
     detection = search_images(
         console, options.paths, options.board, options.roi, options.corners, pattern
     )
-    corner_set = detection.corner_set(options.square or square)
+    side = square if options.square is None else options.square
+    assert side is not None, "a command that has no side of its own checks that one is given"
+    corner_set = detection.corner_set(side)
     if words := describe_recognised_board(pattern, corner_set.board):
         console.print_text(words + "\n")
     return corner_set

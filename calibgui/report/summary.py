@@ -125,7 +125,8 @@ def _describe_ending(result: Result) -> Iterator[Sentence]:
             "the parameters that the views do not determine.",
         )
     for warning in calibration.warnings:
-        yield Sentence(Tone.CAUTION, warning)
+        is_choice = warning == calibration.settings.get("model_reason")
+        yield Sentence(Tone.FACT if is_choice else Tone.CAUTION, warning)
 
 
 def describe_board_shape(board_shape: BoardShape) -> str:

@@ -128,7 +128,7 @@ def fit_camera_change(
         variance = (noise * overdispersion) ** 2
         H = X.T @ X / variance + np.diag(1 / prior**2)
         step = np.linalg.solve(H, X.T @ r / variance + x / prior**2)
-        x -= step
+        x = np.asarray(x - step, dtype=np.float64)
         if np.sqrt(np.sum((X @ step) ** 2) / packed.count) < _MAX_STEP_PX:
             break
     covariance = np.asarray(np.linalg.inv(H), dtype=np.float64)

@@ -121,8 +121,7 @@ class LensTrial:
     @property
     def is_sound(self) -> bool:
         """True if all parameters are determined, and the map is one-to-one at the corners."""
-        is_determined = not (self.calibration.undetermined or self.exchangeable)
-        return self.is_valid_at_corners and is_determined
+        return self.is_valid_at_corners and not self.calibration.undetermined
 
     @property
     def held_out(self) -> float:
@@ -195,7 +194,7 @@ def choose_lens_stepwise(
     """
     attempt = _Attempt([Observation(*view) for view in views], size, folds, settings)
     attempt.try_lenses(_FIRST_CANDIDATES, progress)
-    if attempt.calibrations and (choice := attempt.recommend()).model == SIMPLEST_MODEL:
+    if len(attempt.validations) > 1 and (choice := attempt.recommend()).model == SIMPLEST_MODEL:
         return choice
     attempt.try_lenses(CANDIDATES, progress)
     return attempt.recommend()

@@ -70,7 +70,7 @@ def refit(
         >>> views = [(project_points(xy, camera, Pose(r, (-90, -75, 500))), xy) for r in tilts]
         >>> found = refit(views, calibrate(views, camera.size), model="brown-conrady")
         >>> found.calibration.camera.names
-        ('fx', 'fy', 'cx', 'cy', 'k1', 'k2', 'p1', 'p2', 'k3')
+        ('fx', 'fy', 'cx', 'cy', 'k1', 'k2', 'p1', 'p2', 'k3', 'skew')
         >>> found.covered_error < 0.02
         True
     """

@@ -31,6 +31,9 @@ from calibgui.engine.geometry.rotations import rotation_from_vector
 _MAX_RETURN_ERROR = 1e-6
 """Distance, px, within which a pixel must come back from its ray; beyond it the lens has folded
 and the pixel has no ideal point of its own."""
+_MIN_COSINE = np.cos(np.deg2rad(80.0))
+"""Cosine of the angle off the axis from which on no displacement is computed: towards 90 degrees it
+grows without bounds."""
 
 
 def undistort_points(points: npt.ArrayLike, camera: Camera, matrix: Array | None = None) -> Array:
@@ -132,7 +135,10 @@ class Displacement:
 def compute_displacement(
     uv: npt.ArrayLike, camera: Camera, part: DisplacementPart = DisplacementPart.COMPLETE
 ) -> Displacement:
-    """Compute the corrective displacement at measured pixels `uv` (..., 2), or a part of it."""
+    """Compute the corrective displacement at measured pixels `uv` (..., 2), or a part of it.
+
+    It is NaN where the lens has no ray, and from 80 degrees off the axis on.
+    """
     points = np.asarray(uv, dtype=np.float64)
     complete = _compute_correction(points, camera)
     if part is DisplacementPart.COMPLETE:
@@ -145,6 +151,7 @@ def compute_displacement(
 
 def _compute_correction(uv: Array, camera: Camera) -> Displacement:
     rays, by_uv = rays_and_slopes(uv, camera)
+    rays = np.where(rays[..., 2:] > _MIN_COSINE, rays, np.nan)
     n, by_ray = plane_from_rays(rays)
     f, c = camera.focal, camera.centre
     return Displacement(c + f * n - uv, f[:, None] * (by_ray @ by_uv) - np.eye(2))

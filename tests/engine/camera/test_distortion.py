@@ -155,3 +155,12 @@ def test_gradients(camera: Camera, part: DisplacementPart) -> None:
 def test_the_gradient_where_there_is_no_displacement() -> None:
     camera = barrel()
     np.testing.assert_array_equal(compute_displacement(camera.centre, camera).gradient, [0.0, 0.0])
+
+
+def test_a_fisheye_has_no_displacement_from_80_degrees_on() -> None:
+    """An equidistant lens of f = 100 px images 80 degrees at 139.6 px, a pinhole at 567.1 px."""
+    camera = Camera((640, 480), [100, 100, 320, 240, 0, 0, 0, 0], "kannala-brandt")
+    uv = 320 + np.array([[100.0, 0], [139.0, 0], [140.0, 0], [300.0, 0], [320.0, 0]]) - [0, 80]
+    length = compute_displacement(uv, camera).length
+    np.testing.assert_allclose(length[:2], 100 * np.tan([1.0, 1.39]) - [100, 139])
+    assert np.isnan(length[2:]).all()

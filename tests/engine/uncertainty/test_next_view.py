@@ -8,10 +8,12 @@ import pytest
 from calibgui.engine.calibration.calibrate import calibrate
 from calibgui.engine.calibration.observations import Observation
 from calibgui.engine.calibration.result import Calibration
+from calibgui.engine.camera.camera import Camera
 from calibgui.engine.errors import Cancelled
+from calibgui.engine.geometry.rotations import rotation_from_vector
 from calibgui.engine.uncertainty.next_view import propose_views
 from calibgui.engine.uncertainty.view_design import build_design
-from tests.engine.scenes import barrel, brown, scene, seen
+from tests.engine.scenes import BOARD, VGA, barrel, brown, scene, seen
 
 SIZE = barrel().size
 
@@ -93,3 +95,16 @@ def test_it_can_be_abandoned() -> None:
         propose_views(*_calibrated(4), progress=tenth)
     assert len(calls) == 11
     assert len(set(calls)) == 1
+
+
+def test_boards_at_the_edge_of_a_fisheye_face_it() -> None:
+    """At 80 degrees off the axis a board parallel to the sensor would be seen edge-on."""
+    camera = Camera(VGA, [150, 150, 322, 236, -0.03, 0.004, -0.001, 0], "kannala-brandt")
+    views = scene(camera, 8).noisy(0.1, np.random.default_rng(1))
+    best = propose_views(calibrate(views, VGA, model="kannala-brandt"), views)
+    for view in best:
+        normal = rotation_from_vector(view.pose.rvec)[:, 2]
+        middle = BOARD.points().mean(axis=0)
+        towards = rotation_from_vector(view.pose.rvec)[:, :2] @ middle + view.pose.tvec
+        cosine = abs(normal @ towards) / np.linalg.norm(towards)
+        assert cosine > np.cos(np.deg2rad(80))

@@ -67,7 +67,8 @@ def test_the_papers_units(told: Told, result: Result) -> None:
 def test_other_models_have_no_papers_units(told: Told) -> None:
     panel = told(made(model="brown-conrady"))
     assert not panel.tabs.isTabVisible(1)
-    assert [row[0] for row in rows(panel.array_frame)][4:] == ["k1", "k2", "p1", "p2", "k3"]
+    names = [row[0] for row in rows(panel.array_frame)]
+    assert names[4:] == ["k1", "k2", "p1", "p2", "k3", "skew"]
 
 
 def test_correlations_leave_out_what_is_held(told: Told, result: Result, qtbot: QtBot) -> None:
