@@ -1,7 +1,8 @@
 """How far the solve reaches: `python -m tests.benchmarks.convergence`.
 
-Calibrates random problems (``tests.engine.random_problems``) and lists those that miss the
-minimum, silent ones apart.
+Calibrates random problems (``tests.engine.random_problems``), or with `--lenses` random lenses of
+60 to 220 degrees (``tests.engine.random_lenses``), and lists those that miss the minimum, silent
+ones apart.
 """
 
 from __future__ import annotations
@@ -10,16 +11,18 @@ import argparse
 import os
 from concurrent.futures import ProcessPoolExecutor
 
-from tests.engine.random_problems import outcome
+from tests.engine import random_lenses, random_problems
 
 
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--first", type=int, default=0, help="seed of the first problem")
     parser.add_argument("--problems", type=int, default=1800)
+    parser.add_argument("--lenses", action="store_true", help="lenses of all models, of any angle")
     parser.add_argument("--processes", type=int, default=os.cpu_count())
     arguments = parser.parse_args()
     seeds = range(arguments.first, arguments.first + arguments.problems)
+    outcome = random_lenses.outcome if arguments.lenses else random_problems.outcome
     with ProcessPoolExecutor(arguments.processes) as pool:
         outcomes = list(pool.map(outcome, seeds, chunksize=20))
     missed = [result for result in outcomes if not result.reached]
