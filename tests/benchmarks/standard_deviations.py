@@ -16,17 +16,10 @@ from calibgui.engine.arrays import Array
 from calibgui.engine.calibration.calibrate import calibrate
 from calibgui.engine.camera.models import MODELS, find_model
 from calibgui.engine.camera.models.splined_stereographic import PREFIX
-from tests.engine.scenes import example, scene
+from tests.engine.scenes import VALLEYS, example, scene
 
 NOISE = 0.2
 """Standard deviation of a corner's coordinate, px."""
-VALLEYS = {
-    "rational": ("k4", "k5", "k6"),
-    "thin-prism": ("k4", "k5", "k6", "s1", "s2", "s3", "s4"),
-    "double-sphere": ("xi",),
-    "mei": ("xi",),
-}
-"""Coefficients of models that trade with others on a lens of moderate angle."""
 
 
 def measure_deviation_ratios(model: str, draws: int) -> Array:

@@ -78,6 +78,17 @@ LENSES = {
 """A lens of each model: what `example` is made with, and the tests of all models are."""
 
 
+VALLEYS = {
+    "rational": ("k4", "k5", "k6"),
+    "thin-prism": ("k4", "k5", "k6", "s1", "s2", "s3", "s4"),
+    "eucm": ("beta",),
+    "double-sphere": ("xi",),
+    "mei": ("xi",),
+}
+"""Coefficients that trade with others on a lens of moderate angle: the scatter along a bent valley
+is no standard deviation."""
+
+
 def example(model: str, aspect: float = 1.0) -> Camera:
     """A camera with a lens of any model, all of its coefficients at work."""
     f = 650.0 * (1 + LENSES[model][0] if model == "mei" else 1)  # Mei's is that of the sphere

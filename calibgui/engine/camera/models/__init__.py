@@ -1,9 +1,9 @@
-"""Lens models: the map between the measured and the ideal image, in dimensionless coordinates.
+"""Lens models: the maps between rays and image points, one model a file.
 
-A polynomial model is closed-form in one direction only; ``camera.inverse`` supplies the other,
-derivatives included. To add a model, write one module with a class that satisfies
-``camera.model.Lens``, derive its Jacobians in the docstring, and name it in `MODELS`: solver, maps,
-renderer and reports take it from there (CONTRIBUTING.md says what else a model needs).
+To add a model, write one module with a class that derives from ``camera.model.Lens``, derive its
+derivatives in the docstring, and name it in `MODELS`: solver, maps, renderer and reports take it
+from there (CONTRIBUTING.md says what else a model needs). OpenCV's tilted sensor is not among them:
+it does what a rotation of the camera does.
 """
 
 from __future__ import annotations
