@@ -53,7 +53,7 @@ class WrittenImage:
 
 @dataclass(frozen=True, slots=True)
 class Undistortion:
-    """What undistorted images are to show, as for `choose_ideal_cameras`."""
+    """The projection and angle that undistorted images show; see `choose_ideal_cameras`."""
 
     projection: Projection = Projection.PERSPECTIVE
     view: FieldOfView = FieldOfView.ALL

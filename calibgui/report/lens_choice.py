@@ -81,9 +81,9 @@ class LensRow:
 
 def list_lens_rows(choice: LensChoice) -> list[LensRow]:
     """List the candidates, the best on unseen views first and those that were not asked last."""
-    trials = sorted(choice.trials.values(), key=lambda trial: (trial.held_out, _measure_rms(trial)))
+    trials = sorted(choice.trials.values(), key=lambda trial: (trial.held_out, trial.rms))
     least_bic = min(trial.bic for trial in trials)
-    least_rms = min(map(_measure_rms, trials))
+    least_rms = min(trial.rms for trial in trials)
     return [_make_row(choice, trial, least_bic, least_rms) for trial in trials]
 
 
@@ -112,11 +112,6 @@ def _make_row(choice: LensChoice, trial: LensTrial, least_bic: float, least_rms:
     )
 
 
-def _measure_rms(trial: LensTrial) -> float:
-    """Return the RMS length of the residuals of a candidate, px."""
-    return summarise_residuals(trial.calibration.residuals).rms
-
-
 def _list_held(trial: LensTrial) -> list[str]:
     """Name the coefficients, if any, that were held because the views leave them open."""
     return [f"{', '.join(trial.fixed)} held at 0: left open by these views"] if trial.fixed else []
@@ -131,7 +126,7 @@ def _list_remarks(trial: LensTrial, least_rms: float) -> list[str]:
     if not trial.is_valid_at_corners:
         remarks.append("folds within the corners: there it is not one-to-one")
     if trial.validation is None:
-        ratio = _measure_rms(trial) / least_rms
+        ratio = trial.rms / least_rms
         remarks.append(f"not tried on unseen views: residuals {ratio:.1f} times the least")
     if trial.calibration.status is not Status.CONVERGED:
         remarks.append("did not converge")
@@ -157,7 +152,7 @@ def describe_lens_choice(choice: LensChoice) -> str:
         title = get_short_lens_title(chosen.model)
         text = f"{title} ({name}): {clauses}. {_describe_rivals(choice)}"
     if not chosen.is_sound:
-        faults = _list_remarks(chosen, min(map(_measure_rms, choice.trials.values())))
+        faults = _list_remarks(chosen, min(trial.rms for trial in choice.trials.values()))
         text += f" No model is without reservations; of this one: {'; '.join(faults)}."
     return text
 
@@ -170,9 +165,9 @@ def _describe_refusal(choice: LensChoice) -> list[str]:
         return []
     trial = choice.trials[SIMPLEST_MODEL]
     if trial.validation is None:
-        return [f"{SIMPLEST_MODEL} leaves {_measure_rms(trial):.3g} px on the views themselves"]
+        return [f"{SIMPLEST_MODEL} leaves {trial.rms:.3g} px on the views themselves"]
     if not trial.is_sound:
-        faults = "; ".join(_list_remarks(trial, _measure_rms(trial)))
+        faults = "; ".join(_list_remarks(trial, trial.rms))
         return [f"{SIMPLEST_MODEL} does not suit them ({faults})"]
     if SIMPLEST_MODEL in choice.adequate:
         difference = choice.differences[SIMPLEST_MODEL]

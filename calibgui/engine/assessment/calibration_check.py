@@ -76,7 +76,7 @@ _RAYLEIGH_MEDIAN = float(np.sqrt(2 * np.log(2)))
 
 
 class Verdict(StrEnum):
-    """What the pictures say of a stored calibration."""
+    """The answer that the pictures give about a stored calibration."""
 
     STILL_GOOD = "still good"
     HAS_CHANGED = "has changed"
@@ -84,7 +84,7 @@ class Verdict(StrEnum):
 
 
 class Weakness(StrEnum):
-    """What the pictures say least about."""
+    """The kind of change that the pictures know least about."""
 
     SHIFT = "shift"
     SCALE = "scale"
@@ -93,7 +93,7 @@ class Weakness(StrEnum):
 
 @dataclass(frozen=True, slots=True)
 class CheckedView:
-    """What was used of one view."""
+    """A view of the check: the corners that were used, and those that were left out."""
 
     rms: float
     """Root mean square length of its residuals, only the pose free, px; NaN if it was left out."""
@@ -126,7 +126,7 @@ class CalibrationCheck:
     change_sigma: float
     """Its standard deviation, px."""
     whole_change: float
-    """The same displacement before the rotation is taken out, px rms."""
+    """Displacement of the corners before the rotation is taken out, px rms."""
     shift: Array
     """(2,) shift of the image, px."""
     shift_sigma: Array
@@ -140,18 +140,18 @@ class CalibrationCheck:
     bend_sigma: float
     """Its standard deviation, mm."""
     weakness: Weakness
-    """What contributes most to `change_sigma`."""
+    """The kind of change that contributes most to `change_sigma`."""
     has_covariance: bool
     """True if the stored parameters' own errors were taken into account."""
     views: tuple[CheckedView, ...]
-    """What was used of each view."""
+    """The views, in the order in which they were given."""
 
     def __post_init__(self) -> None:
         freeze(self, "shift", "shift_sigma")
 
     @property
     def verdict(self) -> Verdict:
-        """Whether the calibration is still good, by `limit` and `CONFIDENCE`."""
+        """The answer whether the calibration is still good, by `limit` and `CONFIDENCE`."""
         if self.change + CONFIDENCE * self.change_sigma <= self.limit:
             return Verdict.STILL_GOOD
         if self.change - CONFIDENCE * self.change_sigma > self.limit:

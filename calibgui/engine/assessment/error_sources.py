@@ -1,4 +1,4 @@
-"""What lens, board, single views and noise contribute to the residuals, in pixels.
+"""The residuals split into the parts of lens, board, single views and noise, in pixels.
 
 The squared residuals are shared out in turn, each cause taking what it explains beyond noise of
 what the causes before it leave (score tests, ``calibration/score_tests.py``):

@@ -39,6 +39,7 @@ from calibgui.engine.assessment.cross_validation import (
     cross_validate,
     predicts_better,
 )
+from calibgui.engine.assessment.residual_statistics import summarise_residuals
 from calibgui.engine.calibration.calibrate import calibrate
 from calibgui.engine.calibration.observations import Observation
 from calibgui.engine.calibration.problem import find_free_parameters
@@ -112,6 +113,11 @@ class LensTrial:
     def model(self) -> str:
         """Id of the lens model."""
         return self.calibration.camera.model
+
+    @property
+    def rms(self) -> float:
+        """RMS length of the residuals of all views, px."""
+        return _measure_rms(self.calibration)
 
     @property
     def parameters(self) -> int:
@@ -298,8 +304,7 @@ def _find_open_coefficient(calibration: Calibration) -> str | None:
 
 def _measure_rms(calibration: Calibration) -> float:
     """Measure the root mean square length of the residuals, px."""
-    residuals = np.concatenate([view.image for view in calibration.residuals])
-    return float(np.sqrt(np.mean(np.sum(residuals**2, axis=1))))
+    return summarise_residuals(calibration.residuals).rms
 
 
 def _assess(

@@ -1,4 +1,4 @@
-"""Where a lens model holds: the part of the image in which it maps rays and pixels one to one.
+"""The validity of a lens model: the part of the image in which it is one to one.
 
 Polynomials fold: beyond some radius the image of a ray moves back towards the axis. Quotients have
 poles, and closed forms end at an angle. A pixel counts as valid if the model gives it a ray that
@@ -13,6 +13,7 @@ import numpy as np
 from calibgui.engine.arrays import Array, BoolArray
 from calibgui.engine.camera.camera import Camera
 from calibgui.engine.camera.projection import pixels_from_rays, rays_and_slopes
+from calibgui.engine.geometry.directions import measure_angles_off_axis
 
 _MAX_RETURN_ERROR = 1e-6
 """Distance, px, within which a pixel must come back from its ray."""
@@ -31,4 +32,4 @@ def measure_angles(uv: Array, camera: Camera) -> Array:
     """Return the angles (...), rad, of the rays of pixels (..., 2) off the axis; NaN if none."""
     with np.errstate(all="ignore"):
         rays, _ = rays_and_slopes(uv, camera)
-    return np.asarray(np.arctan2(np.linalg.norm(rays[..., :2], axis=-1), rays[..., 2]))
+    return measure_angles_off_axis(rays)

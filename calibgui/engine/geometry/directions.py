@@ -1,10 +1,15 @@
-"""Directions: rays of length 1, and the plane of small changes across them."""
+"""Directions: the angle of a ray off the axis, and the plane of small changes across it."""
 
 from __future__ import annotations
 
 import numpy as np
 
 from calibgui.engine.arrays import Array
+
+
+def measure_angles_off_axis(rays: Array) -> Array:
+    """Return the angles (...), rad, between rays (..., 3) of any length and the axis Z."""
+    return np.asarray(np.arctan2(np.hypot(rays[..., 0], rays[..., 1]), rays[..., 2]))
 
 
 def make_tangent_basis(rays: Array) -> Array:

@@ -18,6 +18,7 @@ import numpy as np
 from calibgui.engine.arrays import Array, BoolArray
 from calibgui.engine.camera.camera import Camera
 from calibgui.engine.camera.projection import rays_from_pixels
+from calibgui.engine.geometry.directions import measure_angles_off_axis
 from calibgui.engine.images.outline import find_axis, find_outermost_pixels
 from calibgui.engine.images.projections import IdealCamera
 from calibgui.engine.images.resampling import is_inside
@@ -63,7 +64,7 @@ def _measure_way(camera: Camera, ideals: tuple[IdealCamera, ...], end: Array) ->
     """Return the angle, radians, that is lost on the way from the axis to a pixel (2,)."""
     axis, _ = find_axis(camera)
     rays = rays_from_pixels(axis + np.linspace(0, 1, _STEPS)[:, None] * (end - axis), camera)
-    angle = np.arctan2(np.hypot(rays[:, 0], rays[:, 1]), rays[:, 2])
+    angle = measure_angles_off_axis(rays)
     is_shown = _find_shown(rays, ideals)
     first_lost = _STEPS if is_shown.all() else int(is_shown.argmin())
     return float(angle[-1] - angle[max(first_lost - 1, 0)])

@@ -15,6 +15,7 @@ from calibgui.engine.camera.camera import Camera
 from calibgui.engine.camera.models import find_model
 from calibgui.engine.camera.projection import pixels_from_rays, rays_from_pixels
 from calibgui.engine.camera.validity import find_valid_pixels
+from calibgui.engine.geometry.directions import measure_angles_off_axis
 
 _ANGLE_MARGIN = 1.25
 """Multiple of the greatest angle within the image, beyond which rays cannot be of the image. It
@@ -53,19 +54,16 @@ def prepare_tracing(camera: Camera) -> Callable[[Array], Array]:
     if is_unseen.any():
         outermost = find_outermost_pixels(sides[is_unseen], camera, _COARSE_BISECTIONS)
         rays[is_unseen] = trace_pixels(outermost, camera)
-    greatest = float(_measure_angles(rays).max(initial=0.0, where=np.isfinite(rays[..., 0])))
+    greatest = float(
+        measure_angles_off_axis(rays).max(initial=0.0, where=np.isfinite(rays[..., 0]))
+    )
 
     def trace_rays(rays: Array) -> Array:
         pixels = pixels_from_rays(rays, camera)
-        pixels[_measure_angles(rays) > _ANGLE_MARGIN * greatest] = np.nan
+        pixels[measure_angles_off_axis(rays) > _ANGLE_MARGIN * greatest] = np.nan
         return pixels
 
     return trace_rays
-
-
-def _measure_angles(rays: Array) -> Array:
-    """Return the angles (...), radians, between rays (..., 3) and the axis."""
-    return np.asarray(np.arctan2(np.hypot(rays[..., 0], rays[..., 1]), rays[..., 2]))
 
 
 def find_axis(camera: Camera) -> tuple[Array, Array]:

@@ -30,6 +30,7 @@ from calibgui.engine.camera.distortion import project_points
 from calibgui.engine.camera.projection import measure_axis_scale, rays_from_pixels
 from calibgui.engine.errors import CalibrationError, Progress
 from calibgui.engine.geometry import rotations
+from calibgui.engine.geometry.directions import measure_angles_off_axis
 from calibgui.engine.geometry.pose import Pose
 from calibgui.engine.uncertainty.fisher_information import (
     FisherInformation,
@@ -192,7 +193,7 @@ def _face_camera(ray: Array) -> Array:
 
     It is parallel to the sensor, except where it would be seen almost edge-on.
     """
-    angle = float(np.arctan2(np.hypot(*ray[:2]), ray[2]))
+    angle = float(measure_angles_off_axis(ray))
     if not angle > _MAX_PARALLEL_ANGLE:
         return np.eye(3)
     axis = np.array([-ray[1], ray[0], 0.0]) / np.hypot(*ray[:2])

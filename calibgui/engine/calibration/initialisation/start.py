@@ -41,9 +41,7 @@ from calibgui.engine.geometry.planar_pose import poses_from_homographies
 
 _CENTRE = ((0, "cx"), (1, "cy"))
 _MAX_CORNERS = 500
-"""Number of corners, spread evenly over all, that the start's one coefficient is fitted to."""
-_MAX_FITTED_CORNERS = 500
-"""Number of corners, spread evenly over all, that the start of other models is fitted to."""
+"""Number of corners, spread evenly over all, that the coefficients of a start are fitted to."""
 _CLOSED_FORM_MODELS = (
     "pinhole",
     "lucchese",
@@ -256,7 +254,7 @@ def _follow_rays(
     rays, (pinhole, R, T) = sight
     chosen = (observations.mask > 0) & np.isfinite(rays).all(axis=-1)
     rays, uv = rays[chosen], observations.uv[chosen]
-    step = max(1, len(uv) // _MAX_FITTED_CORNERS)
+    step = max(1, len(uv) // _MAX_CORNERS)
     params = np.concatenate([pinhole, lens.defaults])
     for i, name in enumerate(names):
         value = held.get(name)

@@ -1,4 +1,4 @@
-"""What is known of a camera's coefficients before the corners are seen, as part of the cost.
+"""The prior: knowledge of a camera's coefficients before the corners, as a part of the cost.
 
 Corners leave some coefficients of a splined lens open: control points that none of them touches,
 and what a rotation of the camera does. The lens model then says with which quadratic form k^T Q k

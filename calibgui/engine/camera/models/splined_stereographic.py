@@ -52,7 +52,7 @@ from calibgui.engine.camera.model import Imaged, Lens, Seen
 from calibgui.engine.errors import CalibrationError
 
 PREFIX = "splined-stereographic"
-"""What the ids of all splined models begin with; by itself it is the model with the defaults."""
+"""Beginning of the ids of all splined models; by itself it is the model with the defaults."""
 DEFAULT_KNOTS, DEFAULT_FOV = (16, 11), 120
 """Control points along x and y, and degrees from left to right, of the model named `PREFIX`."""
 _MIN_KNOTS, _MAX_COUNT = 4, 3000
