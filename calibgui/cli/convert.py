@@ -16,7 +16,7 @@ from pathlib import Path
 from typing import Any
 
 from calibgui.app.outputs import check_outputs
-from calibgui.cli.arguments import parse_export, parse_positive
+from calibgui.cli.arguments import add_export_option, parse_positive
 from calibgui.cli.camera import CAMERA_FILE, add_camera_options, read_camera_and_warn
 from calibgui.cli.console import Console
 from calibgui.dataset import Result
@@ -59,14 +59,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
         help="angle from the axis up to which the other model must follow a camera without "
         "corners; the whole image if left out",
     )
-    parser.add_argument(
-        "--export",
-        type=parse_export,
-        action="append",
-        default=[],
-        metavar="FORMAT=FILE",
-        help=f"the file to write, may be repeated: {', '.join(EXPORTERS)}",
-    )
+    add_export_option(parser, "the file to write")
 
 
 def run(options: argparse.Namespace, console: Console) -> None:

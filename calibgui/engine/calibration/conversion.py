@@ -8,7 +8,9 @@ them,
 
 by the trust-region method of Branch, Coleman and Li (1999) as in scipy. It begins at the plainest
 lens, after ``initialisation.lens_fit``, and for models of which two coefficients do nearly the same
-at several values of one of them. Nothing is rotated: a pixel keeps its ray.
+at several values of one of them (``Lens.conversion_starts``). Nothing is rotated: a pixel keeps its
+ray. ``lens_fit`` alone would not do: its normal equations lose half of the digits, which is enough
+for a start, and at the edge of what a model images it ends before the minimum.
 
 The error is measured where it was not fitted, on a finer mesh: the distance of a pixel from the
 image of its ray. Only pixels at which the first model is one-to-one count. A model that cannot
@@ -29,7 +31,6 @@ from calibgui.engine.calibration.refit import measure_displacement
 from calibgui.engine.camera.camera import Camera
 from calibgui.engine.camera.model import Lens
 from calibgui.engine.camera.models import find_model, parameter_names, resolve_model_id
-from calibgui.engine.camera.models.splined_stereographic import SplinedStereographic
 from calibgui.engine.camera.projection import measure_axis_scale, project, rays_from_pixels
 from calibgui.engine.camera.validity import find_valid_pixels, measure_angles
 from calibgui.engine.errors import CalibrationError
@@ -38,15 +39,8 @@ from calibgui.engine.images.sampling import make_mesh
 _FITTED_STEPS, _MEASURED_STEPS = 30, 100
 """Numbers of steps along the image's longer side of the pixels whose rays are fitted, and of those
 where the error is measured."""
-_SPLINED_STEPS_PER_KNOT = 4
+_STEPS_PER_CONTROL_POINT = 4
 """Number of fitted pixels along an axis for each control point of a splined model."""
-_SHAPES = {
-    "double-sphere": ("xi", (-0.3, 0.0, 0.3)),
-    "mei": ("xi", (0.0, 0.5, 1.0, 2.0)),
-    "ucm": ("alpha", (0.0, 0.5)),
-    "eucm": ("alpha", (0.0, 0.5)),
-}
-"""Coefficients from several values of which the fit begins."""
 _PULLS = (0.0, 1e-4, 1e-3)
 """Pulls of the coefficients towards the start that are tried, one after the other, until the model
 is one-to-one: rays leave some coefficients of rich models almost open, and then poles arise."""
@@ -114,8 +108,8 @@ def convert_camera(camera: Camera, model: str, angle: float = np.inf) -> Convers
     if model != camera.model:
         lens = find_model(model)
         steps = _FITTED_STEPS
-        if isinstance(lens, SplinedStereographic):
-            steps = max(steps, _SPLINED_STEPS_PER_KNOT * max(lens.Nx, lens.Ny))
+        if lens.control_points is not None:
+            steps = max(steps, _STEPS_PER_CONTROL_POINT * max(lens.control_points))
         fitted = _sample_region(camera, steps, angle).uv
         found = _fit_model(camera, model, fitted, rays_from_pixels(fitted, camera))
     return _measure_conversion(camera, found, angle)
@@ -181,17 +175,16 @@ def _fit_model(camera: Camera, model: str, uv: Array, rays: Array) -> Camera:
     """Fit a model to pixels (n, 2) and their rays (n, 3), from several starts."""
     lens, names = find_model(model), parameter_names(model)
     scale = measure_axis_scale(camera) * np.array([1.0, camera.params[1] / camera.params[0]])
-    if isinstance(lens, SplinedStereographic):
-        params = np.concatenate([scale, camera.centre, np.zeros(len(lens.names))])
-        params[4:] = lens.fit_to_rays(rays, (uv - params[2:4]) / scale)
-        return Camera(camera.size, params, model)
+    k = lens.fit_to_rays(rays, (uv - camera.centre) / scale)
+    if k is not None:
+        return Camera(camera.size, np.concatenate([scale, camera.centre, k]), model)
     free = _select_free(camera, lens)
-    name, shapes = _SHAPES.get(model, ("", (np.nan,)))
+    name, values = lens.conversion_starts or ("", (np.nan,))
     found: list[tuple[bool, float, Array]] = []
-    for shape in shapes:
+    for value in values:
         k = np.array(lens.defaults)
         if name:
-            k[lens.names.index(name)] = shape
+            k[lens.names.index(name)] = value
         params = np.concatenate([scale, camera.centre, k])
         on_axis = lens.project(np.array([0.0, 0.0, 1.0]), k).by_ray[0, 0]
         if on_axis > 0:

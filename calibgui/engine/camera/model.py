@@ -10,11 +10,16 @@ length; d is (..., 2) and dimensionless, d = ((u - cx) / fx, (v - cy) / fy), mea
 and down. `k` are the model's coefficients. ``camera.projection`` adds focal lengths and centre.
 
 A model whose map is the plane's, d as a function of (X/Z, Y/Z), derives from ``camera.plane``.
+
+What the start of a calibration needs besides the maps is data of the model too, so that it knows no
+model by its name: which parameters are held, where several minima lie, what a start leaves alone.
 """
 
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
+from collections.abc import Mapping
+from types import MappingProxyType
 from typing import NamedTuple
 
 from calibgui.engine.arrays import Array
@@ -42,6 +47,15 @@ class Seen(NamedTuple):
     """(..., 3, C) derivative by k."""
 
 
+class Trials(NamedTuple):
+    """Values of one coefficient from each of which a fit begins."""
+
+    coefficient: str
+    """Name of the coefficient."""
+    values: tuple[float, ...]
+    """The values, ascending."""
+
+
 class Lens(ABC):
     """A lens model: two maps, inverse to each other wherever the lens is one-to-one."""
 
@@ -63,6 +77,24 @@ class Lens(ABC):
     """Names of the coefficients without which the lens is symmetric about its axis."""
     radius_in_pixels: bool = False
     """True if d is in units of fx along both axes (the paper's radius), not of fx and fy."""
+    valley: Trials | None = None
+    """The coefficient along which the cost of a calibration has several minima, because others do
+    nearly the same, with values between and beside these; None if one start is enough."""
+    conversion_starts: Trials | None = None
+    """The same for a fit to the rays of another camera, which begins with other coefficients at
+    their defaults; None if one start is enough."""
+    held_at_start: tuple[str, ...] = ()
+    """Names of the coefficients that a start leaves at their defaults, although they are free in
+    the solve: the rays of a start are not good enough to tell them from the others."""
+    least_at_start: Mapping[str, float] = MappingProxyType({})
+    """Least values of coefficients at a start, by name: those below which another coefficient
+    has hardly any effect, so that a solve from there would not determine it."""
+    control_points: tuple[int, int] | None = None
+    """Numbers along x and y of the control points of a spline, whose coefficients each act on a
+    small part of the image; None if each coefficient acts on the whole image."""
+    edge: Array | None = None
+    """(2,) largest |u| along x and y that is imaged, where u = 2 (X, Y) / (|r| + Z) is a ray's
+    stereographic point, if that is fixed beforehand; None if it depends on the coefficients."""
 
     @property
     def defaults(self) -> tuple[float, ...]:
@@ -85,6 +117,17 @@ class Lens(ABC):
         """Map image points to rays of length 1 as `unproject` does, with derivatives by d only."""
         rays, by_point, _ = self.unproject(d, k)
         return rays, by_point
+
+    def fit_to_rays(self, rays: Array, d: Array) -> Array | None:  # noqa: ARG002 - for overrides
+        """Fit the coefficients (C,) to image points of rays, where that is a linear problem.
+
+        It is None for models that are not linear in their coefficients, which take an iteration.
+
+        Args:
+            rays: (n, 3) rays of any length.
+            d: (n, 2) their image points, dimensionless.
+        """
+        return None
 
     def compute_stiffness(self, corners: int) -> Array | None:  # noqa: ARG002 - for overrides
         """Compute (C, C) the matrix Q of a prior k^T Q k that the solver adds to the cost.

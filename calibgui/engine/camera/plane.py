@@ -44,6 +44,11 @@ class Mapped(NamedTuple):
 class PlaneLens(Lens):
     """A lens model of two maps between measured points d and ideal points n = (X/Z, Y/Z)."""
 
+    starts_in_closed_form: bool = False
+    """True if the closed form of Stage I starts the model: its first coefficient, where it has one,
+    does to first order what k1 of n = d (1 + k1 |d|^2) does, and the others begin at their
+    defaults."""
+
     @abstractmethod
     def correct(self, d: Array, k: Array) -> Mapped:
         """Map measured to ideal points. NaN where the model has no ideal point."""

@@ -250,3 +250,43 @@ def test_models_of_the_plane_see_nothing_behind_them(model: str) -> None:
     behind = np.array([[0.1, 0.2, -1.0], [1.0, 0.0, 0.0], [0.0, 0.0, -1.0]])
     for values in lens.project(behind, k):
         assert np.isnan(values).all()
+
+
+@every_model
+def test_what_a_start_needs_names_coefficients_of_the_model(model: str) -> None:
+    lens = find_model(model)
+    named = {*lens.held_at_start, *lens.least_at_start, *lens.asymmetric}
+    for trials in (lens.valley, lens.conversion_starts):
+        if trials is not None:
+            named.add(trials.coefficient)
+            assert list(trials.values) == sorted(trials.values)
+    assert named <= set(lens.names)
+    assert not named & set(lens.held) - set(lens.asymmetric)
+
+
+@pytest.mark.parametrize(
+    "model", ["lucchese", "lucchese-pixels", "brown-conrady-4", "brown-conrady"]
+)
+def test_the_first_coefficient_of_closed_form_models_is_the_corrections_k1(model: str) -> None:
+    """To first order, but for a factor, which is -1 where the model distorts."""
+    lens = find_model(model)
+    assert isinstance(lens, PlaneLens)
+    assert lens.starts_in_closed_form
+    d = np.random.default_rng(0).uniform(-0.4, 0.4, (50, 2))
+    k = np.zeros(len(lens.names))
+    k[0] = 1e-6
+    change = (lens.correct(d, k).points - d) / (k[0] * np.sum(d**2, axis=1, keepdims=True) * d)
+    assert np.sign(change[0, 0]) * change == pytest.approx(1.0, abs=1e-5)
+
+
+@every_model
+def test_a_model_images_nothing_beyond_its_edge(model: str) -> None:
+    lens, k = sample(model)
+    if lens.edge is None:
+        assert lens.control_points is None
+        return
+    for axis in range(2):
+        u = np.zeros((2, 2))
+        u[:, axis] = lens.edge[axis] * np.array([0.999, 1.001])
+        rays = np.column_stack([u, 1 - np.sum(u**2, axis=1) / 4])  # u = 2 (X, Y) / (|r| + Z)
+        assert np.isfinite(lens.project_points(rays, k)).all(axis=1).tolist() == [True, False]

@@ -13,7 +13,8 @@ from calibgui.engine.arrays import Array, Size
 from calibgui.engine.calibration.initialisation.unified_start import find_unified_start
 from calibgui.engine.calibration.observations import Observations
 from calibgui.engine.calibration.refinement.residuals import State, place_points
-from calibgui.engine.camera.models.splined_stereographic import SplinedStereographic
+from calibgui.engine.camera.model import Lens
+from calibgui.engine.camera.models.splined_stereographic import PREFIX
 from calibgui.engine.errors import CalibrationError
 
 _COLUMNS, _ROWS = 16, 11
@@ -31,15 +32,17 @@ def choose_knots(observations: Observations, size: Size) -> str:
     aspect = (_COLUMNS - 3) / (_ROWS - 3)  # the knots are equally far apart along both axes
     half = _MARGIN * max(reach[0], aspect * reach[1])
     angle = min(int(np.ceil(np.rad2deg(4 * np.arctan(half / 2)))), _MAX_ANGLE_DEG)
-    return f"splined-stereographic-{_COLUMNS}x{_ROWS}-{angle}"
+    return f"{PREFIX}-{_COLUMNS}x{_ROWS}-{angle}"
 
 
-def check_knots(start: State, observations: Observations, lens: SplinedStereographic) -> None:
-    """Refuse a splined lens whose knots do not cover the corners as the start sees them.
+def check_knots(start: State, observations: Observations, lens: Lens) -> None:
+    """Refuse a lens model that ends before the corners do, as the start sees them.
 
     Raises:
         CalibrationError: with the part of the knots' extent that the corners take.
     """
+    if lens.edge is None:
+        return
     share = float((_measure_reach(start, observations) / lens.edge).max())
     if share > 1:
         raise CalibrationError(

@@ -5,10 +5,11 @@ brings the corners there, and joins Stage I, the closed form and, where that fai
 into the first state of the joint registration.
 
 Stage I corrects each view by one coefficient, n = d (1 + k1 r^2). The polynomial models take it as
-their first coefficient. Any other model is fitted to the rays that it gives (``lens_fit.py``), or,
-where the start so made misses the corners by more than 0.3 % of the image's width, to those of
-a camera of the unified model that needs no Stage I (``unified_start.py``). Models of several minima
-are started from several shapes (``descent.py``).
+their first coefficient (``PlaneLens.starts_in_closed_form``). Any other model is fitted to the rays
+that it gives (``Lens.fit_to_rays`` or ``lens_fit.py``), or, where the start so made misses the
+corners by more than 0.3 % of the image's width, to those of a camera of the unified model that
+needs no Stage I (``unified_start.py``). Models of several minima are started from several values of
+the coefficient along which these lie (``Lens.valley``, ``descent.py``).
 """
 
 from __future__ import annotations
@@ -32,7 +33,6 @@ from calibgui.engine.calibration.refinement.levenberg_marquardt import StartErro
 from calibgui.engine.calibration.refinement.residuals import State
 from calibgui.engine.camera.camera import Camera
 from calibgui.engine.camera.models import PINHOLE, find_model, parameter_names
-from calibgui.engine.camera.models.splined_stereographic import SplinedStereographic
 from calibgui.engine.camera.plane import PlaneLens
 from calibgui.engine.camera.projection import rays_from_pixels
 from calibgui.engine.errors import CalibrationError
@@ -42,25 +42,9 @@ from calibgui.engine.geometry.planar_pose import poses_from_homographies
 _CENTRE = ((0, "cx"), (1, "cy"))
 _MAX_CORNERS = 500
 """Number of corners, spread evenly over all, that the coefficients of a start are fitted to."""
-_CLOSED_FORM_MODELS = (
-    "pinhole",
-    "lucchese",
-    "lucchese-pixels",
-    "brown-conrady-4",
-    "brown-conrady",
-)
-"""Lens models whose first coefficient, if they have one, is Stage I's k1 to first order."""
 _MAX_START_MISS = 0.003
 """Root mean squared miss of the corners at the start, in image widths, from which another start is
 tried."""
-_MIN_ALPHA = 0.1
-"""Alpha of the extended unified model below which a start leaves its beta open."""
-_SHAPES = {
-    "double-sphere": ("xi", (-0.5, -0.3, -0.1, 0.1, 0.3, 0.5)),
-    "mei": ("xi", (0.1, 0.3, 0.5, 0.7, 0.9, 1.2, 1.6, 2.2, 3.0)),
-}
-"""Models with several minima, the coefficient along which these lie, and values of it between them:
-the model's other coefficients of shape do nearly the same."""
 
 
 def convert_to_paper_frame(
@@ -150,7 +134,7 @@ def initialise_stage_two(
         closed_form = _solve_closed_form(observations, first, size, held)
     except (StartError, np.linalg.LinAlgError):  # no lens of one coefficient sees the board so
         closed_form = None
-    if closed_form and model in _CLOSED_FORM_MODELS and isinstance(lens, PlaneLens):
+    if closed_form and isinstance(lens, PlaneLens) and lens.starts_in_closed_form:
         f, centre, k1, R, T = closed_form
         d = (observations.uv - centre) / f
         state = State(np.concatenate([f, centre, _fit_first_coefficient(lens, d, k1)]), R, T)
@@ -215,16 +199,16 @@ def _start_any_lens(
         starts.append(_follow_rays(observations, sights[-1], model, held))
         misses.append(measure_miss(observations, starts[-1], lens, size))
     best = int(np.argmin(misses))
-    name, shapes = _SHAPES.get(model, ("", ()))
-    if not shapes or name in held:
+    if lens.valley is None or lens.valley.coefficient in held:
         return starts[best]
+    along, names = lens.valley.coefficient, parameter_names(model)
     cameras = [
-        _follow_rays(observations, sights[best], model, {**held, name: shape}).params
-        for shape in shapes
+        _follow_rays(observations, sights[best], model, {**held, along: value}).params
+        for value in lens.valley.values
     ]
-    free = np.flatnonzero([name not in held for name in parameter_names(model)])
-    index = parameter_names(model).index(name)
-    return descend_along(observations, cameras, size, model, free, index) or starts[best]
+    free = np.flatnonzero([name not in held for name in names])
+    found = descend_along(observations, cameras, size, model, free, names.index(along))
+    return found or starts[best]
 
 
 class _Sight(NamedTuple):
@@ -251,6 +235,7 @@ def _follow_rays(
 ) -> State:
     """Return a camera of the model that images these rays where the corners are."""
     lens, names = find_model(model), parameter_names(model)
+    held = {**dict.fromkeys(lens.held_at_start), **held}
     rays, (pinhole, R, T) = sight
     chosen = (observations.mask > 0) & np.isfinite(rays).all(axis=-1)
     rays, uv = rays[chosen], observations.uv[chosen]
@@ -260,19 +245,19 @@ def _follow_rays(
         value = held.get(name)
         if value is not None:
             params[i] = value
-    if isinstance(lens, SplinedStereographic):
-        params[4:] = lens.fit_to_rays(rays, (uv - params[2:4]) / params[:2])
+    k = lens.fit_to_rays(rays, (uv - params[2:4]) / params[:2])
+    if k is not None:
+        params[4:] = k
         return State(params, R, T)
     on_axis = lens.project(np.array([0.0, 0.0, 1.0]), params[4:]).by_ray[0, 0]
     for i in range(2):
         if held.get(names[i]) is None and on_axis > 0:
             params[i] /= on_axis
-    if model == "eucm" and "beta" not in held:  # the unified model's, which it begins as
-        return _follow_rays(observations, sight, model, {**held, "beta": 1.0})
     free = np.flatnonzero([name not in held for name in names])
     fitted = fit_lens(rays[::step], uv[::step], params, lens, free)
-    if model == "eucm" and "alpha" not in held and fitted[4] < _MIN_ALPHA:
-        return _follow_rays(observations, sight, model, {**held, "alpha": _MIN_ALPHA})
+    for name, least in lens.least_at_start.items():
+        if name not in held and fitted[names.index(name)] < least:
+            return _follow_rays(observations, sight, model, {**held, name: least})
     return State(fitted, R, T)
 
 
@@ -296,7 +281,7 @@ def find_facing(observations: Observations) -> Array:
 
 
 def _fit_first_coefficient(lens: PlaneLens, d: Array, k1: float) -> Array:
-    """Return coefficients of any lens model that approximate the correction n = d (1 + k1 r2).
+    """Return coefficients of a model that approximate the correction n = d (1 + k1 r2).
 
     To first order in the coefficients, correct(d, k) = d + (d correct / dk) k; the first
     coefficient alone is fitted, which for the paper's model is k1 itself.

@@ -20,8 +20,9 @@ from calibgui.engine.arrays import Array, Size
 from calibgui.engine.calibration.initialisation.descent import descend, select_spread_views
 from calibgui.engine.calibration.observations import Observations
 from calibgui.engine.calibration.refinement.levenberg_marquardt import StartError
-from calibgui.engine.calibration.refinement.residuals import State, compute_image_residuals
+from calibgui.engine.calibration.refinement.residuals import State, predict_corners
 from calibgui.engine.calibration.resection import estimate_poses
+from calibgui.engine.calibration.result import Cost
 from calibgui.engine.camera.camera import Camera
 from calibgui.engine.camera.model import Lens
 from calibgui.engine.camera.models import find_model
@@ -89,7 +90,7 @@ def _compute_unified_radius(alpha: float, angle: float) -> float:
 def measure_miss(views: Observations, state: State, lens: Lens, size: Size) -> float:
     """Measure the root mean squared miss of the corners, px, each at most an image's width."""
     with np.errstate(all="ignore"):
-        miss = compute_image_residuals(state, views, lens).residual
+        miss = predict_corners(state, views, lens, Cost.IMAGE) - views.uv
         square = np.fmin(np.sum(miss**2, axis=-1), float(size[0] ** 2))
     return float(np.sqrt(np.sum(views.mask * square) / views.count))
 

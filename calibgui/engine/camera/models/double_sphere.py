@@ -22,7 +22,7 @@ from __future__ import annotations
 import numpy as np
 
 from calibgui.engine.arrays import Array
-from calibgui.engine.camera.model import Imaged, Lens, Seen
+from calibgui.engine.camera.model import Imaged, Lens, Seen, Trials
 from calibgui.engine.camera.models.eucm import lift
 from calibgui.engine.camera.models.ucm import Unified
 from calibgui.engine.camera.shifted_sphere import differentiate_shift, shift_rays, unshift_rays
@@ -36,6 +36,8 @@ class DoubleSphere(Lens):
     names = ("xi", "alpha")
     powers = (0, 0)
     defaults = (0.0, 0.5)
+    valley = Trials("xi", (-0.5, -0.3, -0.1, 0.1, 0.3, 0.5))  # alpha does nearly the same
+    conversion_starts = Trials("xi", (-0.3, 0.0, 0.3))
 
     def project(self, rays: Array, k: Array) -> Imaged:
         """Map rays to image points."""

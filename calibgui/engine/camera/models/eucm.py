@@ -27,10 +27,12 @@ Usenko, V., Demmel, N., Cremers, D. (2018). The double sphere camera model. 3DV.
 
 from __future__ import annotations
 
+from types import MappingProxyType
+
 import numpy as np
 
 from calibgui.engine.arrays import Array
-from calibgui.engine.camera.model import Imaged, Lens, Seen
+from calibgui.engine.camera.model import Imaged, Lens, Seen, Trials
 from calibgui.engine.camera.tangent import invert_imaged
 
 
@@ -41,6 +43,9 @@ class ExtendedUnified(Lens):
     names = ("alpha", "beta")
     powers = (0, 0)
     defaults = (0.5, 1.0)
+    held_at_start = ("beta",)  # the unified model's, which it begins as
+    conversion_starts = Trials("alpha", (0.0, 0.5))
+    least_at_start = MappingProxyType({"alpha": 0.1})  # beta does nothing at alpha = 0
 
     def project(self, rays: Array, k: Array) -> Imaged:
         """Map rays to image points."""

@@ -23,7 +23,7 @@ import numpy as np
 
 from calibgui.engine.arrays import Array
 from calibgui.engine.camera.inverse import invert_map, make_polynomial_curve
-from calibgui.engine.camera.model import Imaged, Lens, Seen
+from calibgui.engine.camera.model import Imaged, Lens, Seen, Trials
 from calibgui.engine.camera.polynomial import apply_polynomial
 from calibgui.engine.camera.shifted_sphere import differentiate_shift, shift_rays, unshift_rays
 from calibgui.engine.camera.tangent import invert_imaged
@@ -37,6 +37,10 @@ class Mei(Lens):
     powers = (0, 2, 4, 1, 1)
     asymmetric = ("p1", "p2")
     defaults = (1.0, 0.0, 0.0, 0.0, 0.0)
+    valley = Trials(
+        "xi", (0.1, 0.3, 0.5, 0.7, 0.9, 1.2, 1.6, 2.2, 3.0)
+    )  # k1, k2 do nearly the same
+    conversion_starts = Trials("xi", (0.0, 0.5, 1.0, 2.0))
 
     def project(self, rays: Array, k: Array) -> Imaged:
         """Map rays to image points."""

@@ -18,6 +18,7 @@ class Pinhole(PlaneLens):
     title = "Pinhole (no distortion)"
     names = ()
     powers = ()
+    starts_in_closed_form = True
 
     def correct(self, d: Array, k: Array) -> Mapped:  # noqa: ARG002 - there are no coefficients
         """Map measured to ideal points."""

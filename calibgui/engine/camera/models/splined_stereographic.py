@@ -47,9 +47,10 @@ from typing import NamedTuple
 import numpy as np
 import scipy
 
-from calibgui.engine.arrays import Array, IntArray
+from calibgui.engine.arrays import Array, BoolArray, IntArray
 from calibgui.engine.camera.model import Imaged, Lens, Seen
 from calibgui.engine.errors import CalibrationError
+from calibgui.engine.kernels import with_kernel
 
 PREFIX = "splined-stereographic"
 """Beginning of the ids of all splined models; by itself it is the model with the defaults."""
@@ -74,6 +75,9 @@ _MAX_STEP = 4e-15
 _MAX_MISS = 1e-13
 """Residual, relative to 1 + |d|, up to which a point has converged although its steps have not."""
 
+_MIN_COMPILED_POINTS = 1000
+"""Number of points from which their images are computed by compiled code."""
+
 
 class LocallyImaged(NamedTuple):
     """Image points of rays, with the few control points that each depends on."""
@@ -97,6 +101,8 @@ class SplinedStereographic(Lens):
 
     title = "Splined stereographic (mrcal)"
     held = ("fx", "fy", "cx", "cy")
+    edge: Array
+    """(2,) |u| of the outermost control points."""
 
     def __init__(self, Nx: int, Ny: int, fov: int) -> None:
         """Lay out the control points.
@@ -114,8 +120,8 @@ class SplinedStereographic(Lens):
         self.Nx, self.Ny, self.fov = Nx, Ny, fov
         self.id = f"{PREFIX}-{Nx}x{Ny}-{fov}"
         self.pitch = 4 * np.tan(np.deg2rad(fov) / 4) / (Nx - 3)
+        self.control_points = (Nx, Ny)
         self.edge = self.pitch * np.array([Nx - 1, Ny - 1]) / 2
-        """(2,) |u| of the outermost control points."""
         self.limit = (1 + _EDGE) * self.edge
         """(2,) the same, and a little for rounding errors."""
         self.neighbours = (Nx * np.arange(4)[:, None] + np.arange(4)).ravel()
@@ -138,12 +144,12 @@ class SplinedStereographic(Lens):
     def project_points(self, rays: Array, k: Array) -> Array:
         """Map rays to image points (..., 2) without derivatives, as `project`."""
         u = stereographic_from_rays(rays)[0]
-        return np.asarray(u + self._evaluate_surface(u, k)[0])
+        return np.asarray(u + evaluate_surface(self, u, k)[0])
 
     def project_locally(self, rays: Array, k: Array) -> LocallyImaged:
         """Map rays to image points, with the derivatives that are not 0, as `project`."""
         u, by_ray = stereographic_from_rays(rays)
-        shift, by_u = self._evaluate_surface(u, k)
+        shift, by_u = evaluate_surface(self, u, k)
         weights, first = self._weigh_control_points(u)
         return LocallyImaged(u + shift, (np.eye(2) + by_u) @ by_ray, weights, first)
 
@@ -180,15 +186,19 @@ class SplinedStereographic(Lens):
         Args:
             corners: number of corners in all views.
         """
+        pull = self._compute_pull(corners)
+        stiffness = np.zeros((len(pull), 2, len(pull), 2))
+        each = np.arange(len(pull))
+        stiffness[each, :, each] = pull
+        return stiffness.reshape(2 * len(pull), -1)
+
+    def _compute_pull(self, corners: int) -> Array:
+        """Compute (Nx Ny, 2, 2) the blocks of `compute_stiffness` on its diagonal."""
         u = self.locate_control_points().reshape(-1, 2)
         across = u @ np.array([[0.0, 1.0], [-1.0, 0.0]])
         across /= np.maximum(np.hypot(*u.T), 1e-12 * self.pitch)[:, None]
         pull = np.eye(2) + (_TANGENTIAL - 1) * across[:, :, None] * across[:, None]
-        blocks = _PULL * corners / len(u) * pull
-        stiffness = np.zeros((len(u), 2, len(u), 2))
-        each = np.arange(len(u))
-        stiffness[each, :, each] = blocks
-        return stiffness.reshape(2 * len(u), -1)
+        return np.asarray(_PULL * corners / len(u) * pull)
 
     def fit_to_rays(self, rays: Array, d: Array) -> Array:
         """Fit the surface to image points of rays, by linear least squares.
@@ -212,11 +222,20 @@ class SplinedStereographic(Lens):
         count = self.Nx * self.Ny
         basis = scipy.sparse.csr_array((weights[good].ravel(), index, begin), (good.sum(), count))
         target = basis.T @ (d - u)[good]
-        normal = np.kron((basis.T @ basis).toarray(), np.eye(2))
-        normal += 1e-6 * self.compute_stiffness(max(int(good.sum()), 1))
-        return np.asarray(scipy.linalg.solve(normal, target.ravel(), assume_a="pos"))
+        pull = 1e-6 * self._compute_pull(max(int(good.sum()), 1))
+        # Row k holds the k-th diagonal below the main one: corners couple control points of 4 rows.
+        normal = np.zeros((2 * (3 * self.Nx + 3) + 1, 2 * count))
+        products = (basis.T @ basis).tocoo()
+        row, column = products.coords
+        below = row >= column
+        for axis in range(2):
+            place = 2 * (row - column)[below], 2 * column[below] + axis
+            normal[place] = products.data[below]
+            normal[0, axis::2] += pull[:, axis, axis]
+        normal[1, ::2] = pull[:, 1, 0]
+        return np.asarray(scipy.linalg.solveh_banded(normal, target.ravel(), lower=True))
 
-    def _find_cells(self, u: Array) -> tuple[IntArray, Array]:
+    def find_cells(self, u: Array) -> tuple[IntArray, Array]:
         """Return the first control point (...) of the cell of u, and the place (..., 2) in it.
 
         NaN beyond the outermost control points.
@@ -228,25 +247,9 @@ class SplinedStereographic(Lens):
         first = (cell[..., 1] - 1) * self.Nx + cell[..., 0] - 1
         return first, np.where(inside, place - cell, np.nan)
 
-    def _evaluate_surface(self, u: Array, k: Array) -> tuple[Array, Array]:
-        """Return c(u) (..., 2) and dc/du (..., 2, 2), NaN beyond the outermost control points."""
-        first, place = self._find_cells(u)
-        values, slopes = _weigh_neighbours(place)
-        shift, by_u = np.zeros(u.shape), np.zeros((*u.shape, 2))
-        for j in range(4):
-            row, along = np.zeros(u.shape), np.zeros(u.shape)
-            for i in range(4):
-                control = k.reshape(-1, 2)[first + (j * self.Nx + i)]
-                row += values[i][..., :1] * control
-                along += slopes[i][..., :1] * control
-            shift += values[j][..., 1:] * row
-            by_u[..., 0] += values[j][..., 1:] * along
-            by_u[..., 1] += slopes[j][..., 1:] * row
-        return shift, by_u / self.pitch
-
     def _weigh_control_points(self, u: Array) -> tuple[Array, IntArray]:
         """Return the weights (..., 16) of the control points of the cell of u, and the first."""
-        first, place = self._find_cells(u)
+        first, place = self.find_cells(u)
         values = np.stack(_weigh_neighbours(place)[0], axis=-1)
         weights = values[..., 1, :, None] * values[..., 0, None, :]
         return weights.reshape(*first.shape, 16), first
@@ -254,25 +257,8 @@ class SplinedStereographic(Lens):
     def _invert(self, d: Array, k: Array) -> tuple[Array, Array]:
         """Return u (..., 2) of image points and du/dd (..., 2, 2)."""
         target = d.reshape(-1, 2)
-        u = self._find_starts(target, k)
-        miss, J = self._measure_miss(u, target, k)
-        active = np.flatnonzero(np.isfinite(miss).all(axis=1))
-        share = np.ones(len(u))
-        for _ in range(_MAX_ITERATIONS):
-            if not active.size:
-                break
-            step = _solve_pairs(J[active], -miss[active])
-            trial = np.clip(u[active] + share[active, None] * step, -self.edge, self.edge)
-            there, slope = self._measure_miss(trial, target[active], k)
-            better = np.hypot(*there.T) < np.hypot(*miss[active].T)
-            taken = active[better]
-            u[taken], miss[taken], J[taken] = trial[better], there[better], slope[better]
-            share[active] = np.where(better, np.minimum(2 * share[active], 1.0), share[active] / 4)
-            size = 1 + np.hypot(*u[active].T)
-            moving = np.hypot(*step.T) > _MAX_STEP * size
-            # Rounding errors leave nothing to gain, or a wall of folds stands in the way.
-            moving &= better | (np.hypot(*miss[active].T) > 0.1 * _MAX_MISS * size)
-            active = active[moving & (share[active] > _MIN_SHARE)]
+        limits = np.array([_MAX_ITERATIONS, _MIN_SHARE, _MAX_STEP, _MAX_MISS])
+        u, miss, J = iterate_newton(self, self._find_starts(target, k), target, k, limits)
         det = J[:, 0, 0] * J[:, 1, 1] - J[:, 0, 1] * J[:, 1, 0]
         small = np.hypot(*miss.T) <= _MAX_MISS * (1 + np.hypot(*target.T))
         good = small & (det > 0) & (J[:, 0, 0] + J[:, 1, 1] > 0)
@@ -291,8 +277,8 @@ class SplinedStereographic(Lens):
             for edge, count in zip(self.edge, (self.Nx, self.Ny), strict=True)
         )
         nodes = np.stack(np.meshgrid(x, y), axis=-1).reshape(-1, 2)
-        images, J = self._measure_miss(nodes, np.zeros(2), k)
-        rises = np.linalg.det(J) > 0
+        images, J = self.measure_miss(nodes, np.zeros(2), k)
+        rises = self._select_sheet(np.linalg.det(J).reshape(len(y), len(x)) > 0)
         starts = np.full_like(d, np.nan)
         good = np.isfinite(d).all(axis=1)
         if rises.any() and good.any():
@@ -300,9 +286,19 @@ class SplinedStereographic(Lens):
             starts[good] = nodes[rises][nearest]
         return starts
 
-    def _measure_miss(self, u: Array, d: Array, k: Array) -> tuple[Array, Array]:
+    @staticmethod
+    def _select_sheet(rises: BoolArray) -> BoolArray:
+        """Select the nodes (n,) where the surface rises (y, x) and has not folded since the axis.
+
+        Where no corner keeps it, the surface may fold twice, and a second sheet lie over the first.
+        """
+        sheets, _ = scipy.ndimage.label(rises)
+        own = sheets[rises.shape[0] // 2, rises.shape[1] // 2]
+        return np.asarray((sheets == own if own else rises).ravel())
+
+    def measure_miss(self, u: Array, d: Array, k: Array) -> tuple[Array, Array]:
         """Return u + c(u) - d (n, 2) and its derivative (n, 2, 2) by u."""
-        shift, by_u = self._evaluate_surface(u, k)
+        shift, by_u = evaluate_surface(self, u, k)
         return u + shift - d, np.eye(2) + by_u
 
     def _spread_weights(self, weights: Array, first: IntArray) -> Array:
@@ -352,6 +348,69 @@ def find_splined_model(model: str) -> SplinedStereographic | None:
     """
     numbers = re.fullmatch(PREFIX + r"-(\d{1,5})x(\d{1,5})-(\d{1,5})", model)
     return SplinedStereographic(*map(int, numbers.groups())) if numbers else None
+
+
+def _are_many(_lens: SplinedStereographic, u: Array, *_: Array) -> bool:
+    """Return whether there are so many points that loading their kernel is worth it."""
+    return u.size >= 2 * _MIN_COMPILED_POINTS
+
+
+@with_kernel("splined_lens", "evaluate_surface", _are_many)
+def evaluate_surface(lens: SplinedStereographic, u: Array, k: Array) -> tuple[Array, Array]:
+    """Return c(u) (..., 2) and dc/du (..., 2, 2), NaN beyond the outermost control points."""
+    first, place = lens.find_cells(u)
+    values, slopes = _weigh_neighbours(place)
+    shift, by_u = np.zeros(u.shape), np.zeros((*u.shape, 2))
+    for j in range(4):
+        row, along = np.zeros(u.shape), np.zeros(u.shape)
+        for i in range(4):
+            control = k.reshape(-1, 2)[first + (j * lens.Nx + i)]
+            row += values[i][..., :1] * control
+            along += slopes[i][..., :1] * control
+        shift += values[j][..., 1:] * row
+        by_u[..., 0] += values[j][..., 1:] * along
+        by_u[..., 1] += slopes[j][..., 1:] * row
+    return shift, by_u / lens.pitch
+
+
+@with_kernel("splined_lens", "iterate_newton", _are_many)
+def iterate_newton(
+    lens: SplinedStereographic, u: Array, d: Array, k: Array, limits: Array
+) -> tuple[Array, Array, Array]:
+    """Solve u + c(u) = d by Newton's method, with steps shortened until they lead nearer.
+
+    Args:
+        lens: the lens model.
+        u: (n, 2) starts.
+        d: (n, 2) image points.
+        k: (C,) coefficients.
+        limits: the values of _MAX_ITERATIONS, _MIN_SHARE, _MAX_STEP and _MAX_MISS.
+
+    Returns:
+        (n, 2) u where the iteration ended, (n, 2) u + c(u) - d there and (n, 2, 2) its derivatives;
+        not finite where the start or d is not.
+    """
+    max_iterations, min_share, max_step, max_miss = limits
+    u = u.copy()
+    miss, J = lens.measure_miss(u, d, k)
+    active = np.flatnonzero(np.isfinite(miss).all(axis=1))
+    share = np.ones(len(u))
+    for _ in range(int(max_iterations)):
+        if not active.size:
+            break
+        step = _solve_pairs(J[active], -miss[active])
+        trial = np.clip(u[active] + share[active, None] * step, -lens.edge, lens.edge)
+        there, slope = lens.measure_miss(trial, d[active], k)
+        better = np.hypot(*there.T) < np.hypot(*miss[active].T)
+        taken = active[better]
+        u[taken], miss[taken], J[taken] = trial[better], there[better], slope[better]
+        share[active] = np.where(better, np.minimum(2 * share[active], 1.0), share[active] / 4)
+        size = 1 + np.hypot(*u[active].T)
+        moving = np.hypot(*step.T) > max_step * size
+        # Rounding errors leave nothing to gain, or a wall of folds stands in the way.
+        moving &= better | (np.hypot(*miss[active].T) > 0.1 * max_miss * size)
+        active = active[moving & (share[active] > min_share)]
+    return u, miss, J
 
 
 def _weigh_neighbours(x: Array) -> tuple[list[Array], list[Array]]:

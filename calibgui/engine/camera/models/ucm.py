@@ -16,7 +16,7 @@ from __future__ import annotations
 import numpy as np
 
 from calibgui.engine.arrays import Array
-from calibgui.engine.camera.model import Imaged, Lens, Seen
+from calibgui.engine.camera.model import Imaged, Lens, Seen, Trials
 from calibgui.engine.camera.models.eucm import ExtendedUnified
 
 
@@ -27,6 +27,7 @@ class Unified(Lens):
     names = ("alpha",)
     powers = (0,)
     defaults = (0.5,)
+    conversion_starts = Trials("alpha", (0.0, 0.5))
 
     def project(self, rays: Array, k: Array) -> Imaged:
         """Map rays to image points."""

@@ -193,6 +193,19 @@ def test_behind_a_fold_there_are_no_rays() -> None:
         assert np.isnan(part[5]).all()
 
 
+def test_the_sheet_around_the_axis_is_inverted() -> None:
+    """A surface that folds twice images other rays at the same places; none of them is meant."""
+    k = np.zeros((WIDE.Ny, WIDE.Nx, 2))
+    k[:, WIDE.locate_control_points()[0, :, 0] > 0.55 * WIDE.edge[0], 0] = -1.7
+    at = np.stack(np.meshgrid(np.linspace(-0.7, 0.2, 30), np.linspace(-0.5, 0.5, 20)), axis=-1)
+    rays = rays_from_stereographic((at * WIDE.edge).reshape(-1, 2))[0]
+    images = WIDE.project_points(rays, k.ravel())
+    beyond = rays_from_stereographic(WIDE.edge * [0.97, 0.1])[0]
+    other = WIDE.project_points(beyond, k.ravel())
+    assert np.hypot(*(images - other).T).min() < WIDE.pitch  # the second sheet lies over the first
+    np.testing.assert_allclose(WIDE.unproject_points(images, k.ravel())[0], rays, atol=1e-12)
+
+
 def test_a_mirrored_image_has_no_rays() -> None:
     k = -2 * NARROW.locate_control_points().ravel()
     ray = np.array([0.1, 0.05, 1.0])
@@ -227,6 +240,17 @@ def test_a_fit_finds_the_surface_where_there_are_rays() -> None:
     assert np.abs(fitted.reshape(miss.shape)[:, -2:]).max() < 1e-12
     again = WIDE.fit_to_rays(np.vstack([rays, rays[:1]]), np.full((len(rays) + 1, 2), np.nan))
     np.testing.assert_array_equal(again, 0.0)
+
+
+def test_a_fit_is_the_dense_least_squares_solution() -> None:
+    rng = np.random.default_rng(8)
+    rays, zero = spread_rays(NARROW, 300), np.zeros(len(NARROW.names))
+    target = NARROW.project_points(rays, make_coefficients(NARROW)) + rng.normal(0, 1e-3, (300, 2))
+    start = NARROW.project(rays, zero)
+    A = start.by_coefficients.reshape(600, -1)
+    Q = 1e-6 * NARROW.compute_stiffness(300)
+    expected = np.linalg.solve(A.T @ A + Q, A.T @ (target - start.points).ravel())
+    np.testing.assert_allclose(NARROW.fit_to_rays(rays, target), expected, atol=1e-10)
 
 
 def test_ids_name_the_numbers() -> None:
