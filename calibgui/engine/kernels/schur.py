@@ -11,61 +11,71 @@ from __future__ import annotations
 
 import numpy as np
 
-from calibgui.engine.arrays import Array
+from calibgui.engine.arrays import Array, IntArray
 from calibgui.engine.kernels.common import compiled, make_contiguous
 
 
 @compiled
+def _find_touched(W: Array, touched: IntArray) -> int:
+    """Fill in the numbers of the rows of W (P, 6) that are not 0; return how many there are."""
+    count = 0
+    for j in range(len(W)):
+        is_touched = False
+        for a in range(6):
+            is_touched |= W[j, a] != 0
+        if is_touched:
+            touched[count] = j
+            count += 1
+    return count
+
+
+@compiled
+def _multiply_roots(root: Array, W: Array, touched: IntArray, Y: Array) -> None:
+    """Fill in Y (6, m), L^-1 Wk^T for the m rows of W (P, 6) that are touched."""
+    for n in range(len(touched)):
+        for a in range(6):
+            total = 0.0
+            for b in range(a + 1):
+                total += root[a, b] * W[touched[n], b]
+            Y[a, n] = total
+
+
+@compiled
 def _subtract_squares(W: Array, roots: Array, S: Array) -> None:
-    """Subtract sum_k Wk Vk^-1 Wk^T from S (P, P), from its diagonal on to the right."""
+    """Subtract sum_k Wk Vk^-1 Wk^T from S (P, P), on its diagonal and to the right of it."""
     K, P, _ = W.shape
-    Y, begins, ends = np.empty((6, P)), np.empty(P, np.int64), np.empty(P, np.int64)
+    whole, places, products = np.empty((6, P)), np.empty(P, np.int64), np.empty(P)
     for k in range(K):
-        runs, end = 0, -1
-        for j in range(P):
-            is_touched = False
-            for a in range(6):
-                is_touched |= W[k, j, a] != 0
-            if not is_touched:
-                continue
-            for a in range(6):
-                total = 0.0
-                for b in range(a + 1):
-                    total += roots[k, a, b] * W[k, j, b]
-                Y[a, j] = total
-            if j != end:
-                begins[runs] = j
-                runs += 1
-            end = j + 1
-            ends[runs - 1] = end
-        for run in range(runs):
-            for i in range(begins[run], ends[run]):
-                y0, y1, y2, y3, y4, y5 = Y[0, i], Y[1, i], Y[2, i], Y[3, i], Y[4, i], Y[5, i]
-                for other in range(run, runs):
-                    begin, end = i if other == run else begins[other], ends[other]
-                    # Slices, and not indices, so that the compiler sees what it can vectorise.
-                    row, Y0, Y1, Y2 = (
-                        S[i, begin:end],
-                        Y[0, begin:end],
-                        Y[1, begin:end],
-                        Y[2, begin:end],
-                    )
-                    Y3, Y4, Y5 = Y[3, begin:end], Y[4, begin:end], Y[5, begin:end]
-                    for j in range(end - begin):
-                        row[j] -= (
-                            y0 * Y0[j]
-                            + y1 * Y1[j]
-                            + y2 * Y2[j]
-                            + y3 * Y3[j]
-                            + y4 * Y4[j]
-                            + y5 * Y5[j]
-                        )
+        m = _find_touched(W[k], places)
+        _multiply_roots(roots[k], W[k], places[:m], whole)
+        for n in range(m):
+            y0, y1, y2, y3, y4, y5 = whole[:, n]
+            # Slices, and not indices, so that the compiler sees what it can vectorise.
+            Y0, Y1, Y2 = whole[0, n:m], whole[1, n:m], whole[2, n:m]
+            Y3, Y4, Y5 = whole[3, n:m], whole[4, n:m], whole[5, n:m]
+            for j in range(m - n):
+                products[j] = (
+                    y0 * Y0[j] + y1 * Y1[j] + y2 * Y2[j] + y3 * Y3[j] + y4 * Y4[j] + y5 * Y5[j]
+                )
+            row = S[places[n]]
+            for j in range(m - n):
+                row[places[n + j]] -= products[j]
+
+
+@compiled
+def _mirror(S: Array) -> None:
+    """Copy what is to the right of the diagonal of S (P, P) below it, tile by tile."""
+    P = len(S)
+    for top in range(0, P, 32):
+        for left in range(0, top + 1, 32):
+            for i in range(top, min(top + 32, P)):
+                for j in range(left, min(left + 32, i)):
+                    S[i, j] = S[j, i]
 
 
 def subtract_squares(U: Array, W: Array, roots: Array) -> Array:
     """Compute ``calibration.refinement.schur.subtract_squares``."""
     S = np.array(U, order="C")
     _subtract_squares(make_contiguous(W), make_contiguous(roots), S)
-    for i in range(len(S)):
-        S[i + 1 :, i] = S[i, i + 1 :]
+    _mirror(S)
     return S

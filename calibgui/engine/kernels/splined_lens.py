@@ -1,4 +1,4 @@
-"""Stage II's normal equations of a splined lens with the image cost, compiled.
+"""A splined lens: its surface, and Stage II's normal equations with the image cost, compiled.
 
 The readable reference, which this file is tested against, is
 ``calibration.refinement.local_support``; the lens is ``camera.models.splined_stereographic``.
@@ -7,6 +7,8 @@ A corner depends on 16 control points. With B_i their weights in it, both coordi
 with M = w^T w its weight, the products of the derivatives by the control points i and j are
 B_i B_j diag(f) M diag(f): one product and three sums for four entries of U. The sums are kept for
 each control point i and its 25 neighbours j that follow it, and spread over U at the end.
+
+The surface and its inverse by Newton's method serve the lens model itself, for many points.
 """
 
 from __future__ import annotations
@@ -42,6 +44,8 @@ class SplinedLens(Protocol):
     def pitch(self) -> float: ...
     @property
     def limit(self) -> Array: ...
+    @property
+    def edge(self) -> Array: ...
 
 
 @compiled
@@ -57,23 +61,18 @@ def _weigh_neighbours(x: float, values: Array, slopes: Array) -> None:
 
 
 @compiled
-def _project_corner(
-    p: Array, control: Array, grid: Array, weights: Array, spline: Array, image: Array, J: Array
+def _evaluate_surface(
+    ux: float, uy: float, control: Array, grid: Array, spline: Array, weights: Array, surface: Array
 ) -> int:
-    """Fill in the image d (2,) of a ray p (3,) and its derivative J (2, 3), and the weights (16,).
+    """Fill in the surface at u: c (2,), then dc/du row by row; and the weights (16,).
 
-    It returns the index of the first control point, -1 for a ray without an image. `control` is
-    (Ny, Nx, 2), `grid` holds pitch and both limits of u, and `spline` (4, 4) is overwritten.
+    It returns the index of the first control point, -1 for u beyond the outermost ones. `control`
+    is (Ny, Nx, 2), `grid` holds pitch and both limits of u, and `spline` (4, 4) is overwritten.
     """
     Ny, Nx, _ = control.shape
-    X, Y, Z = p[0], p[1], p[2]
-    square = X * X + Y * Y
-    length = np.sqrt(square + Z * Z)
-    m = square / (length - Z) if Z < 0 else length + Z
-    px, py = X / m, Y / m
-    if not (abs(2 * px) <= grid[1] and abs(2 * py) <= grid[2]):
+    if not (abs(ux) <= grid[1] and abs(uy) <= grid[2]):
         return -1
-    x, y = 2 * px / grid[0] + 0.5 * (Nx - 1), 2 * py / grid[0] + 0.5 * (Ny - 1)
+    x, y = ux / grid[0] + 0.5 * (Nx - 1), uy / grid[0] + 0.5 * (Ny - 1)
     ix, iy = min(max(int(x), 1), Nx - 3), min(max(int(y), 1), Ny - 3)
     _weigh_neighbours(x - ix, spline[0], spline[1])
     _weigh_neighbours(y - iy, spline[2], spline[3])
@@ -90,15 +89,122 @@ def _project_corner(
             cxy += by_y * dx
             cyx += by_x * dy
             cyy += by_y * dy
-    image[0], image[1] = 2 * px + cx, 2 * py + cy
     h = 1 / grid[0]
-    a, b, c, d = 1 + h * cxx, h * cxy, h * cyx, 1 + h * cyy
+    surface[0], surface[1] = cx, cy
+    surface[2], surface[3], surface[4], surface[5] = h * cxx, h * cxy, h * cyx, h * cyy
+    return (iy - 1) * Nx + ix - 1
+
+
+@compiled
+def _project_corner(
+    p: Array,
+    control: Array,
+    grid: Array,
+    weights: Array,
+    spline: Array,
+    surface: Array,
+    image: Array,
+    J: Array,
+) -> int:
+    """Fill in the image d (2,) of a ray p (3,) and its derivative J (2, 3), and the weights (16,).
+
+    It returns -1 for a ray without an image, otherwise the index of the first control point; see
+    `_evaluate_surface`.
+    """
+    X, Y, Z = p[0], p[1], p[2]
+    square = X * X + Y * Y
+    length = np.sqrt(square + Z * Z)
+    m = square / (length - Z) if Z < 0 else length + Z
+    px, py = X / m, Y / m
+    first = _evaluate_surface(2 * px, 2 * py, control, grid, spline, weights, surface)
+    if first < 0:
+        return -1
+    image[0], image[1] = 2 * px + surface[0], 2 * py + surface[1]
+    a, b, c, d = 1 + surface[2], surface[3], surface[4], 1 + surface[5]
     qx, qy, f = X / length, Y / length, 2 / m
     uxx, uxy, uyx, uyy = f * (1 - px * qx), -f * px * qy, -f * py * qx, f * (1 - py * qy)
     uxz, uyz = -2 * px / length, -2 * py / length
     J[0, 0], J[0, 1], J[0, 2] = a * uxx + b * uyx, a * uxy + b * uyy, a * uxz + b * uyz
     J[1, 0], J[1, 1], J[1, 2] = c * uxx + d * uyx, c * uxy + d * uyy, c * uxz + d * uyz
-    return (iy - 1) * Nx + ix - 1
+    return first
+
+
+@compiled
+def _evaluate_surfaces(control: Array, grid: Array, u: Array, surface: Array) -> None:
+    """Fill in the surface (n, 6) at u (n, 2), NaN beyond the outermost control points."""
+    spline, weights = np.empty((4, 4)), np.empty(16)
+    for n in range(len(u)):
+        at = surface[n]
+        if _evaluate_surface(u[n, 0], u[n, 1], control, grid, spline, weights, at) < 0:
+            at[:] = np.nan
+
+
+@compiled
+def _measure_miss(
+    u: Array, d: Array, control: Array, grid: Array, spline: Array, weights: Array, found: Array
+) -> float:
+    """Fill in u + c(u) - d (2,), then its derivative by u row by row; return its length or NaN."""
+    if _evaluate_surface(u[0], u[1], control, grid, spline, weights, found) < 0:
+        return np.nan
+    found[0] += u[0] - d[0]
+    found[1] += u[1] - d[1]
+    found[2] += 1
+    found[5] += 1
+    length: float = np.hypot(found[0], found[1])
+    return length
+
+
+@compiled
+def _iterate_newton(
+    control: Array, grid: Array, edge: Array, limits: Array, d: Array, u: Array, found: Array
+) -> None:
+    """Move u (n, 2) by Newton's method; see `iterate_newton`.
+
+    found (n, 6) takes the misses and their derivatives.
+    """
+    spline, weights, trial, there = np.empty((4, 4)), np.empty(16), np.empty(2), np.empty(6)
+    max_iterations, min_share, max_step, max_miss = limits
+    for n in range(len(d)):
+        at = found[n]
+        miss, share = _measure_miss(u[n], d[n], control, grid, spline, weights, at), 1.0
+        if not np.isfinite(miss):
+            at[:] = np.nan
+            continue
+        for _ in range(int(max_iterations)):
+            determinant = at[2] * at[5] - at[3] * at[4]
+            x = (at[3] * at[1] - at[5] * at[0]) / determinant
+            y = (at[4] * at[0] - at[2] * at[1]) / determinant
+            trial[0] = min(max(u[n, 0] + share * x, -edge[0]), edge[0])
+            trial[1] = min(max(u[n, 1] + share * y, -edge[1]), edge[1])
+            left = _measure_miss(trial, d[n], control, grid, spline, weights, there)
+            is_better = left < miss
+            if is_better:
+                u[n], at[:], miss, share = trial, there, left, min(2 * share, 1.0)
+            else:
+                share /= 4
+            size = 1 + np.hypot(u[n, 0], u[n, 1])
+            is_moving = np.hypot(x, y) > max_step * size
+            is_moving &= is_better or miss > 0.1 * max_miss * size
+            if not is_moving or share <= min_share:
+                break
+
+
+def evaluate_surface(lens: SplinedLens, u: Array, k: Array) -> tuple[Array, Array]:
+    """Compute ``camera.models.splined_stereographic.evaluate_surface``."""
+    control, grid = k.reshape(lens.Ny, lens.Nx, 2).copy(), np.array([lens.pitch, *lens.limit])
+    surface = np.empty((*u.shape[:-1], 6))
+    _evaluate_surfaces(control, grid, make_contiguous(u.reshape(-1, 2)), surface.reshape(-1, 6))
+    return surface[..., :2], surface[..., 2:].reshape(*u.shape, 2)
+
+
+def iterate_newton(
+    lens: SplinedLens, u: Array, d: Array, k: Array, limits: Array
+) -> tuple[Array, Array, Array]:
+    """Compute ``camera.models.splined_stereographic.iterate_newton``."""
+    control, grid = k.reshape(lens.Ny, lens.Nx, 2).copy(), np.array([lens.pitch, *lens.limit])
+    u, found = u.copy(), np.empty((len(d), 6))
+    _iterate_newton(control, grid, lens.edge.copy(), limits.copy(), make_contiguous(d), u, found)
+    return u, found[:, :2], found[:, 2:].reshape(-1, 2, 2)
 
 
 @compiled
@@ -130,6 +236,71 @@ def _add_neighbours(
 
 
 @compiled
+def _add_control_points(
+    first: int,
+    Nx: int,
+    weights: Array,
+    column: IntArray,
+    by_u: Array,
+    by_v: Array,
+    W: Array,
+    shared: Array,
+) -> None:
+    """Add a corner's products of control points with pose and residual to W (P, 6), shared (P,).
+
+    by_u and by_v (7,) are the products of M and of f with the pose's six derivatives and the
+    residual, for d_x and d_y.
+    """
+    for i in range(16):
+        point, w = first + Nx * (i // 4) + i % 4, weights[i]
+        ju, jv = column[4 + 2 * point], column[5 + 2 * point]
+        if ju >= 0:
+            for a in range(6):
+                W[ju, a] += w * by_u[a]
+            shared[ju] += w * by_u[6]
+        if jv >= 0:
+            for a in range(6):
+                W[jv, a] += w * by_v[a]
+            shared[jv] += w * by_v[6]
+
+
+@compiled
+def _add_core(
+    first: int,
+    Nx: int,
+    weights: Array,
+    column: IntArray,
+    core: Array,
+    image: Array,
+    m: tuple[float, float, float],
+    weighed: Array,
+    W: Array,
+    shared_rows: Array,
+) -> None:
+    """Add a corner's products of fx, fy, cx, cy with everything to W (P, 6), shared_rows (5, P)."""
+    for row in range(4):
+        axis, at = row % 2, column[row]
+        if at < 0:
+            continue
+        d = image[axis] if row < 2 else 1.0
+        for a in range(6):
+            W[at, a] += d * weighed[axis, a]
+        shared_rows[4, at] += d * weighed[axis, 6]
+        by_u, by_v = (d * m[0], d * m[1]) if axis == 0 else (d * m[1], d * m[2])
+        for other in range(4):
+            if column[other] >= 0:
+                e = image[other % 2] if other < 2 else 1.0
+                shared_rows[row, column[other]] += e * (by_u if other % 2 == 0 else by_v)
+        for i in range(16):
+            point = first + Nx * (i // 4) + i % 4
+            ju, jv = column[4 + 2 * point], column[5 + 2 * point]
+            if ju >= 0:
+                shared_rows[row, ju] += by_u * core[0] * weights[i]
+            if jv >= 0:
+                shared_rows[row, jv] += by_v * core[1] * weights[i]
+
+
+@compiled
 def _sum_views(
     core: Array,
     control: Array,
@@ -157,15 +328,11 @@ def _sum_views(
     K, _, N = uv.shape
     Nx = control.shape[1]
     fx, fy, cx, cy = core
-    first_row = 0 if (column[:4] >= 0).any() else 4
+    has_core = (column[:4] >= 0).any()
     p, rotated, image, J = np.empty(3), np.empty(3), np.empty(2), np.empty((2, 3))
-    weights, spline = np.empty(16), np.empty((4, 4))
-    by_pose, weighed = np.empty((2, 6)), np.empty((2, 6))
-    # Derivatives of the pixel by the 4 + 2 * 16 parameters that a corner depends on, and the
-    # residual; the places of these parameters.
-    D, place = np.zeros((2, 37)), np.empty(36, np.int64)
-    D[0, 2] = D[1, 3] = 1.0
-    place[:4] = column[:4]
+    weights, spline, surface = np.empty(16), np.empty((4, 4)), np.empty(6)
+    # Derivatives by the pose, and the residual; the same times M; the same times f.
+    by_pose, weighed, scaled = np.empty((2, 7)), np.empty((2, 7)), np.empty((2, 7))
     for view in range(K):
         total = 0.0
         for n in range(N):
@@ -177,37 +344,28 @@ def _sum_views(
             if weight.shape[2]:
                 w0, w1, w2, w3 = weight[view, :, n]
                 m00, m01, m11 = w0 * w0 + w2 * w2, w0 * w1 + w2 * w3, w1 * w1 + w3 * w3
-            first = _project_corner(p, control, grid, weights, spline, image, J)
+            first = _project_corner(p, control, grid, weights, spline, surface, image, J)
             if first < 0:
                 total = np.inf
                 break
             _differentiate_by_pose(rotated, fx, fy, J, by_pose)
-            ru, rv = cx + fx * image[0] - uv[view, 0, n], cy + fy * image[1] - uv[view, 1, n]
-            eu, ev = m00 * ru + m01 * rv, m01 * ru + m11 * rv
-            total += ru * eu + rv * ev
-            D[0, 0], D[1, 1], D[0, 36], D[1, 36] = image[0], image[1], ru, rv
-            for i in range(16):
-                D[0, 4 + 2 * i], D[1, 5 + 2 * i] = fx * weights[i], fy * weights[i]
-                point = first + Nx * (i // 4) + i % 4
-                place[4 + 2 * i], place[5 + 2 * i] = column[4 + 2 * point], column[5 + 2 * point]
-            for a in range(6):
+            by_pose[0, 6] = cx + fx * image[0] - uv[view, 0, n]
+            by_pose[1, 6] = cy + fy * image[1] - uv[view, 1, n]
+            for a in range(7):
                 weighed[0, a] = m00 * by_pose[0, a] + m01 * by_pose[1, a]
                 weighed[1, a] = m01 * by_pose[0, a] + m11 * by_pose[1, a]
-                pose[view, a] += by_pose[0, a] * eu + by_pose[1, a] * ev
+                scaled[0, a], scaled[1, a] = fx * weighed[0, a], fy * weighed[1, a]
+            total += by_pose[0, 6] * weighed[0, 6] + by_pose[1, 6] * weighed[1, 6]
             for a in range(6):
                 for b in range(6):
                     V[view, a, b] += by_pose[0, a] * weighed[0, b] + by_pose[1, a] * weighed[1, b]
-            for c in range(first_row, 36):
-                j = place[c]
-                if j >= 0:
-                    for a in range(6):
-                        W[view, j, a] += D[0, c] * weighed[0, a] + D[1, c] * weighed[1, a]
-            for row in range(first_row, 5):
-                d0, d1 = (D[0, 36], D[1, 36]) if row == 4 else (D[0, row], D[1, row])
-                s0, s1 = m00 * d0 + m01 * d1, m01 * d0 + m11 * d1
-                for c in range(first_row, 36):
-                    if place[c] >= 0:
-                        shared_rows[row, place[c]] += s0 * D[0, c] + s1 * D[1, c]
+                pose[view, a] += by_pose[0, a] * weighed[0, 6] + by_pose[1, a] * weighed[1, 6]
+            _add_control_points(
+                first, Nx, weights, column, scaled[0], scaled[1], W[view], shared_rows[4]
+            )
+            if has_core:
+                m = (m00, m01, m11)
+                _add_core(first, Nx, weights, column, core, image, m, weighed, W[view], shared_rows)
             _add_neighbours(first, Nx, weights, m00, m01, m11, near)
         costs[view] = total
 

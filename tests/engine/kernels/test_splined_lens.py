@@ -7,7 +7,11 @@ import pytest
 
 from calibgui.engine.calibration.refinement.local_support import prepare_local_blocks
 from calibgui.engine.calibration.refinement.whitening import whiten_observations
-from calibgui.engine.camera.models.splined_stereographic import SplinedStereographic
+from calibgui.engine.camera.models.splined_stereographic import (
+    SplinedStereographic,
+    evaluate_surface,
+    iterate_newton,
+)
 from calibgui.engine.kernels import common
 from tests.engine.splined_scenes import make_splined_views
 
@@ -54,3 +58,35 @@ def test_the_sums_do_not_depend_on_the_number_of_threads(monkeypatch: pytest.Mon
     for other in results[1:]:
         for ours, theirs in zip(results[0], other, strict=True):
             np.testing.assert_array_equal(ours, theirs)
+
+
+def test_the_compiled_surface_is_the_readable_one() -> None:
+    rng = np.random.default_rng(2)
+    k = rng.normal(0, 0.01, len(LENS.names))
+    u = 1.1 * LENS.edge * rng.uniform(-1, 1, (40, 5, 2))
+    u[0, 0], u[0, 1] = np.nan, LENS.edge
+    compiled = evaluate_surface.kernel(LENS, u, k)
+    readable = evaluate_surface.reference(LENS, u, k)
+    assert 0 < np.isnan(compiled[0]).sum() < u.size
+    for ours, truth in zip(compiled, readable, strict=True):
+        np.testing.assert_allclose(ours, truth, atol=1e-14)
+
+
+def test_the_compiled_iteration_is_the_readable_one() -> None:
+    """Steps that have to be shortened, points that are not reached, and some without a value."""
+    rng = np.random.default_rng(3)
+    k = rng.normal(0, 0.15, len(LENS.names))
+    u = LENS.edge * rng.uniform(-1, 1, (400, 2))
+    d = u + rng.normal(0, 0.2, u.shape)
+    u[7], u[8], d[9] = np.nan, 2 * LENS.edge, np.nan
+    limits = np.array([60, 1e-6, 4e-15, 1e-13])
+    before = u.copy()
+    compiled = iterate_newton.kernel(LENS, u, d, k, limits)
+    readable = iterate_newton.reference(LENS, u, d, k, limits)
+    np.testing.assert_array_equal(u, before)
+    reached = np.hypot(*readable[1].T) < 1e-13
+    assert 200 < reached.sum() < 395
+    np.testing.assert_array_equal(np.hypot(*compiled[1].T) < 1e-13, reached)
+    for ours, truth in zip(compiled, readable, strict=True):
+        np.testing.assert_allclose(ours[reached], truth[reached], atol=1e-11)
+    assert not np.isfinite(compiled[1][[7, 8, 9]]).any()

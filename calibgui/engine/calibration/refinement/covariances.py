@@ -30,14 +30,19 @@ import scipy
 
 from calibgui.engine.arrays import Array
 from calibgui.engine.calibration.observations import slice_views
-from calibgui.engine.calibration.refinement.schur import NormalEquations, Reduced, eliminate_poses
+from calibgui.engine.calibration.refinement.schur import (
+    NormalEquations,
+    Reduced,
+    eliminate_poses,
+    find_pairs,
+)
 from calibgui.engine.calibration.result import Calibration, Undetermined
 from calibgui.engine.geometry import frames, rotations
 
 _MIN_INFORMATION = 1e-12
 """Information left, from 0 to 1, below which a combination of parameters is lost in rounding."""
-_MIN_PIVOT = 1e-6
-"""Pivot of Cholesky's factorisation above which no combination is lost."""
+_MIN_CERTAIN_INFORMATION = 1e-7
+"""Information left, estimated from below, from which rounding errors in it do not matter."""
 _MIN_SHARE = 0.2
 """Share of a lost combination's length from which a parameter is named as undetermined."""
 
@@ -78,7 +83,9 @@ def measure_precision(
     """
     reduced = eliminate_poses(normal)
     inverse, left = invert_information(reduced)
-    fitted = len(names) - (0.0 if normal.prior is None else float(np.sum(inverse * normal.prior)))
+    fitted = float(len(names))
+    if normal.prior is not None:
+        fitted -= float(inverse[normal.prior.coords] @ normal.prior.data)
     sigma2 = estimate_variance(normal.cost, corners, fitted + normal.pose.size)
     shared = sigma2 * inverse
     is_lost = np.zeros(len(names), dtype=bool)
@@ -107,26 +114,41 @@ def compute_shared_covariance(reduced: Reduced, sigma2: float) -> Array:
 def invert_information(reduced: Reduced) -> tuple[Array, float]:
     """Invert S (P, P) without the combinations that are lost, and measure the information left.
 
-    The information left is the least eigenvalue of the scaled S. Where Cholesky's factorisation
-    shows that no combination is lost, it is estimated by the inverse's norm, which makes it at most
-    the root of P times too small: for hundreds of parameters eigenvalues take ten times as long.
+    The information left is the least eigenvalue of the scaled S. Where the inverse's norm shows
+    that no combination is lost, it is estimated by that, which makes it at most twice the root of P
+    times too small: for hundreds of parameters eigenvalues take ten times as long.
     """
+    pairs, unit = find_pairs(reduced.S), reduced.unit
+    inverse, left = _invert_scaled(reduced.scale_block(pairs.coupled))
+    if pairs.coupled is None:
+        inverse *= unit
+        inverse *= unit[:, None]
+        return inverse, left
+    inverse *= unit[pairs.coupled]
+    inverse *= unit[pairs.coupled, None]
+    whole = np.zeros_like(reduced.S)
+    whole[np.ix_(pairs.coupled, pairs.coupled)] = inverse
+    pairs.fill_in(whole)
+    # Twice the larger entry on the diagonal of a 2 x 2 inverse bounds its larger eigenvalue.
+    return whole, min(left, float(np.min(unit[pairs.alone] ** 2 / (2 * pairs.diagonal))))
+
+
+def _invert_scaled(scaled: Array) -> tuple[Array, float]:
+    """Invert S or a block of it, scaled, as `invert_information`."""
+    if not len(scaled):
+        return scaled, 1.0
     lapack = scipy.linalg.lapack
-    empty = not len(reduced.unit)
-    factor, failed = ([], 1) if empty else lapack.dpotrf(reduced.scaled.T, overwrite_a=True)
-    if not failed and (np.diag(factor) ** 2 > _MIN_PIVOT).all():
+    factor, failed = lapack.dpotrf(scaled.T)
+    if not failed:
         lower = lapack.dpotri(factor, overwrite_c=True)[0].T  # zero above the diagonal
         inverse = lower + lower.T
         inverse[np.diag_indices_from(inverse)] /= 2
         left = 1 / float(np.linalg.norm(inverse))
-    else:
-        values, vectors = decompose_information(reduced)
-        kept = values > _MIN_INFORMATION
-        inverse = vectors[:, kept] / values[kept] @ vectors[:, kept].T
-        left = float(values.min(initial=1.0))
-    inverse *= reduced.unit
-    inverse *= reduced.unit[:, None]
-    return inverse, left
+        if left > _MIN_CERTAIN_INFORMATION:
+            return inverse, left
+    values, vectors = np.linalg.eigh(scaled)
+    kept = values > _MIN_INFORMATION
+    return vectors[:, kept] / values[kept] @ vectors[:, kept].T, float(values[0])
 
 
 def compute_pose_covariances(
@@ -140,9 +162,12 @@ def compute_pose_covariances(
         rvecs: (K, 3) rotation vectors of the poses.
         sigma2: variance of one residual coordinate.
     """
-    local = np.asarray(np.linalg.inv(normal.V))
+    local, W = np.asarray(np.linalg.inv(normal.V)), normal.W
+    is_touched = W.any(axis=(0, 2))
+    if not is_touched.all():  # the coefficients that no corner touches do not act on poses
+        W, shared = W[:, is_touched], shared[np.ix_(is_touched, is_touched)]
     for views in slice_views(len(local)):
-        G = local[views] @ np.swapaxes(normal.W[views], 1, 2)
+        G = local[views] @ np.swapaxes(W[views], 1, 2)
         carried = np.tensordot(G, shared, axes=1)  # one product for all views
         local[views] = sigma2 * local[views] + carried @ np.swapaxes(G, 1, 2)
     J = differentiate_poses(rvecs)

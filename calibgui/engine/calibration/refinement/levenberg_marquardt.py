@@ -9,7 +9,8 @@ decreases the cost divides lambda by ten, one that does not multiplies it by ten
 The iteration has converged when the decrease that the linear model still predicts is below
 1e-12 of the cost: the unknowns are then within about 1e-6 sqrt(2N) of their standard
 deviations of the minimum. A slight step with the predicted effect changes J^T J by a hundredth
-at most: its factors are used again.
+at most: its factors are used again (``quasi_newton.py``). Where they are large, those of splined
+lenses, they are also used again after larger steps and after those that a valley bends.
 
 What is minimised is the corners' cost and that of a prior on the parameters, where the lens model
 has one; the iterations report the corners' alone.
@@ -24,6 +25,7 @@ from typing import NamedTuple
 import numpy as np
 
 from calibgui.engine.arrays import Array, IntArray
+from calibgui.engine.calibration.refinement.quasi_newton import MAX_PAIRS, KeptFactors
 from calibgui.engine.calibration.refinement.residuals import NormalAt, State
 from calibgui.engine.calibration.refinement.schur import (
     NormalEquations,
@@ -38,6 +40,10 @@ _MAX_DECREASE = 1e-12
 """Predicted decrease of the cost, relative to it, below which the iteration has converged."""
 _MAX_DECREASE_TO_REUSE_FACTORS = 1e-4
 """Decrease of a step, relative to the cost, that changes J^T J by a hundredth at most."""
+_MAX_DECREASE_TO_KEEP_LARGE_FACTORS = 1e-3
+"""Decrease of a step, relative to the cost, up to which the factors for a lens with a prior are
+kept: beyond it, the corrections of steps need more iterations than they save factors
+(``tests/benchmarks/lens_models.py``)."""
 _MAX_UNDAMPED_DECREASE = 1e-6
 """Decrease that a full step predicts, relative to the cost, up to which the iteration has
 converged although only strongly damped steps are small."""
@@ -106,11 +112,10 @@ def minimise(
         return Solution(state, normal, tuple(log.history), Status.STOPPED)
     status, is_blocked, factors = Status.MAX_ITERATIONS, False, None
     for _ in range(max_iterations):
-        factors = (
-            factors.with_gradient_of(normal)
-            if factors
-            else factorise(eliminate_poses(normal, damping))
-        )
+        if factors is None:
+            # Without a prior factors are kept for slight steps only, which need no correction.
+            max_pairs = 0 if normal.prior is None else MAX_PAIRS
+            factors = KeptFactors(factorise(eliminate_poses(normal, damping)), max_pairs)
         step = factors.solve_step(normal)
         decrease = _predict_decrease(normal, *step)
         is_exact = normal.cost <= _ROUNDING * data_square
@@ -123,9 +128,7 @@ def minimise(
         if at_trial.total_cost < normal.total_cost:
             length = _measure_scaled_step(normal, *step)
             decreased = normal.total_cost - at_trial.total_cost
-            is_as_predicted = abs(decreased - decrease) <= 0.1 * decrease
-            is_slight = decrease <= _MAX_DECREASE_TO_REUSE_FACTORS * normal.total_cost
-            if not (is_as_predicted and damping <= _START_DAMPING and is_slight):
+            if damping > _START_DAMPING or not _leaves_factors(normal, decrease, decreased):
                 factors = None
             state, normal = trial, at_trial
             damping = max(damping / 10, _MIN_DAMPING)
@@ -160,6 +163,20 @@ class _Log:
         )
         self.history.append(iteration)
         return self._report is None or self._report(iteration)
+
+
+def _leaves_factors(normal: NormalEquations, predicted: float, decrease: float) -> bool:
+    """Return whether a step leaves J^T J so much as it was that its factors are kept.
+
+    Args:
+        normal: the normal equations before the step.
+        predicted: the decrease of the cost that was predicted for it.
+        decrease: its decrease of the cost.
+    """
+    if normal.prior is not None:  # hundreds of coefficients, of which some are hardly determined
+        return predicted <= _MAX_DECREASE_TO_KEEP_LARGE_FACTORS * normal.total_cost
+    is_as_predicted = abs(decrease - predicted) <= 0.1 * predicted
+    return is_as_predicted and predicted <= _MAX_DECREASE_TO_REUSE_FACTORS * normal.total_cost
 
 
 def _is_minimum(normal: NormalEquations, decrease: float, damping: float) -> bool:

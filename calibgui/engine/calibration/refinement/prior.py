@@ -16,6 +16,7 @@ from __future__ import annotations
 from typing import NamedTuple
 
 import numpy as np
+import scipy
 
 from calibgui.engine.arrays import Array, IntArray
 from calibgui.engine.calibration.refinement.schur import NormalEquations
@@ -25,11 +26,14 @@ _FIRST_COEFFICIENT = 4
 
 
 class Prior(NamedTuple):
-    """A prior on the lens coefficients, of which some are free."""
+    """A prior on the lens coefficients, of which some are free.
 
-    stiffness: Array
+    Its matrices are sparse: a coefficient is pulled together with few others.
+    """
+
+    stiffness: scipy.sparse.coo_array
     """(C, C) the matrix Q of all coefficients."""
-    among_free: Array
+    among_free: scipy.sparse.coo_array
     """(P, P) the same for the free parameters, 0 for those that are no coefficients."""
     coefficients: IntArray
     """Indices of the free coefficients among all of them."""
@@ -46,7 +50,7 @@ class Prior(NamedTuple):
         k = params[_FIRST_COEFFICIENT:]
         pull = self.stiffness @ k
         U, shared = normal.U, normal.shared.copy()
-        U += self.among_free  # in place: with hundreds of coefficients new memory costs more
+        U[self.among_free.coords] += self.among_free.data
         shared[self.columns] += pull[self.coefficients]
         return normal._replace(
             U=U, shared=shared, prior=self.among_free, prior_cost=float(k @ pull)
@@ -57,6 +61,13 @@ def make_prior(stiffness: Array, free: IntArray) -> Prior:
     """Return the prior with a matrix Q (C, C) where the parameters with indices `free` (P,) are."""
     columns = np.flatnonzero(free >= _FIRST_COEFFICIENT)
     coefficients = free[columns] - _FIRST_COEFFICIENT
-    among_free = np.zeros((len(free), len(free)))
-    among_free[np.ix_(columns, columns)] = stiffness[np.ix_(coefficients, coefficients)]
-    return Prior(stiffness, among_free, coefficients, columns)
+    place = np.full(len(stiffness), -1)
+    place[coefficients] = columns
+    # Of held coefficients it is a constant, and not worth a search of so large a matrix.
+    whole = scipy.sparse.coo_array(stiffness if columns.size else stiffness.shape)
+    row, column = (place[index] for index in whole.coords)
+    kept = (row >= 0) & (column >= 0)
+    among_free = scipy.sparse.coo_array(
+        (whole.data[kept], (row[kept], column[kept])), (len(free), len(free))
+    )
+    return Prior(whole, among_free, coefficients, columns)

@@ -8,9 +8,14 @@ import pytest
 from calibgui.engine.arrays import Array
 from calibgui.engine.calibration.calibrate import calibrate
 from calibgui.engine.calibration.refinement import covariances
-from calibgui.engine.calibration.refinement.schur import NormalEquations, eliminate_poses
+from calibgui.engine.calibration.refinement.schur import (
+    NormalEquations,
+    Reduced,
+    eliminate_poses,
+)
 from calibgui.engine.calibration.result import Calibration
 from calibgui.engine.geometry import rotations
+from tests.engine.calibration.refinement.test_schur import make_falling_apart
 from tests.engine.scenes import barrel, central_differences, imaged, relative, scene
 
 MADE = scene(barrel(0.9), 6, seed=4)
@@ -139,3 +144,29 @@ def test_pose_covariance_follows_the_rotation_vector() -> None:
         J = rotations.inverse_left_jacobian(rvecs[k])
         np.testing.assert_allclose(local[k, :3, :3], 0.01 * J @ J.T, atol=1e-14)
         np.testing.assert_allclose(local[k, 3:, 3:], 0.01 * np.eye(3))
+
+
+def test_the_inverse_of_what_falls_apart() -> None:
+    """Parameters in pairs are inverted by themselves; the information left is theirs as well."""
+    S = make_falling_apart(np.random.default_rng(5))
+    for pair in ([[3.0, 1.0], [1.0, 2.0]], [[1.0, 1 - 1e-7], [1 - 1e-7, 1.0]]):
+        S[110:112, 110:112] = pair
+        unit = 1 / np.sqrt(np.diag(S))
+        reduced = Reduced(S, np.zeros((1, 130, 6)), np.eye(6)[None], unit)
+        inverse, left = covariances.invert_information(reduced)
+        np.testing.assert_allclose(inverse, np.linalg.inv(S), rtol=1e-7, atol=1e-12)
+        least = np.linalg.eigvalsh(S * np.outer(unit, unit))[0]
+        assert least / (2 * np.sqrt(130)) < left < 1.01 * least
+
+
+def test_poses_hardly_depend_on_what_no_corner_touches() -> None:
+    """Leaving out rows of 0 changes nothing."""
+    rng = np.random.default_rng(6)
+    W, root = rng.normal(size=(4, 8, 6)), rng.normal(size=(8, 8))
+    W[:, [1, 4, 5]] = 0.0
+    found = normal(np.eye(8))._replace(W=W, V=np.tile(100 * np.eye(6), (4, 1, 1)))
+    shared = root @ root.T
+    local = covariances.compute_pose_covariances(found, shared, np.zeros((4, 3)), 0.01)
+    for k in range(4):
+        expected = 0.01 * np.eye(6) / 100 + W[k].T @ shared @ W[k] / 100**2
+        np.testing.assert_allclose(local[k], expected, atol=1e-12)

@@ -10,9 +10,18 @@ import pytest
 from calibgui.engine import kernels
 from calibgui.engine.boards.board import Board
 from calibgui.engine.calibration.observations import Observations
-from calibgui.engine.calibration.refinement import covariances, residuals
+from calibgui.engine.calibration.refinement import (
+    covariances,
+    levenberg_marquardt,
+    residuals,
+)
 from calibgui.engine.calibration.refinement.levenberg_marquardt import Solution, minimise
 from calibgui.engine.calibration.refinement.residuals import State
+from calibgui.engine.calibration.refinement.schur import (
+    NormalEquations,
+    Reduced,
+    eliminate_poses,
+)
 from calibgui.engine.calibration.result import Cost, Status
 from calibgui.engine.camera.models import find_model
 from calibgui.engine.camera.models.splined_stereographic import SplinedStereographic
@@ -97,6 +106,37 @@ def test_the_gradient_is_that_of_the_total_cost() -> None:
     normal = normal_at(state)
     assert normal.prior_cost == pytest.approx(pull, rel=1e-12)
     assert normal.cost == pytest.approx(normal.costs.sum(), rel=1e-12)
+
+
+def test_held_coefficients_are_not_pulled() -> None:
+    """Of them the prior is a constant."""
+    _, state, observations = make_problem(6)
+    for free in (np.arange(4), np.arange(0)):
+        normal = residuals.build_stage_two(observations, MODEL, Cost.IMAGE, 1.0, free)(state)
+        blocks = residuals.prepare_blocks(observations, MODEL, Cost.IMAGE, 1.0, free)(state)
+        np.testing.assert_array_equal(normal.U, blocks[0])
+        np.testing.assert_array_equal(normal.shared, blocks[3])
+        assert normal.total_cost == normal.cost
+
+
+def test_kept_factors_lead_to_the_same_minimum(monkeypatch: pytest.MonkeyPatch) -> None:
+    _, start, observations = make_problem(30)
+    factored: list[float] = []
+
+    def count_factors(normal: NormalEquations, damping: float) -> Reduced:
+        factored.append(damping)
+        return eliminate_poses(normal, damping)
+
+    monkeypatch.setattr(levenberg_marquardt, "eliminate_poses", count_factors)
+    monkeypatch.setattr(levenberg_marquardt, "_MAX_DECREASE", 1e-17)
+    kept, with_kept = solve(start, observations), len(factored)
+    monkeypatch.setattr(levenberg_marquardt, "_MAX_DECREASE_TO_KEEP_LARGE_FACTORS", 0.0)
+    fresh = solve(start, observations)
+    assert kept.status is fresh.status is Status.CONVERGED
+    assert 2 * with_kept < len(factored)
+    assert with_kept < len(kept.history) <= len(fresh.history) + 2
+    np.testing.assert_allclose(kept.state.params, fresh.state.params, atol=1e-8)
+    np.testing.assert_allclose(kept.state.T, fresh.state.T, atol=1e-5)
 
 
 def test_the_minimum_is_mrcals(tmp_path: Path) -> None:

@@ -15,8 +15,10 @@ from calibgui.engine.calibration.refinement.residuals import (
     linearise_residuals,
 )
 from calibgui.engine.calibration.refinement.schur import (
+    Reduced,
     eliminate_poses,
     factorise,
+    find_pairs,
     solve_normal_equations,
 )
 from calibgui.engine.calibration.result import Cost
@@ -89,7 +91,48 @@ def test_sums_over_chunks_are_the_sums() -> None:
 def test_factors_of_a_matrix_close_by_give_nearly_the_same_step() -> None:
     moved = TRUTH.take_step(np.zeros(10), np.tile([1e-6, -1e-6, 2e-6, 1e-4, 1e-4, 3e-4], (5, 1)))
     near, here = factorise(eliminate_poses(COST(moved))), COST(TRUTH)
-    own, lent = solve_normal_equations(here, 0.0), near.with_gradient_of(here).solve_step(here)
+    own, lent = solve_normal_equations(here, 0.0), near.solve(here.shared, here.pose)
     for ours, theirs in zip(own, lent, strict=True):
+        theirs = -theirs
         assert (np.abs(ours - theirs) <= 1e-3 * np.abs(ours).max(axis=0)).all()
         assert (ours != theirs).any()
+
+
+def make_falling_apart(rng: np.random.Generator) -> Array:
+    """A matrix (130, 130) that couples some parameters with all others, and the rest in pairs."""
+    S = np.zeros((130, 130))
+    dense = np.concatenate([np.arange(30), np.arange(70, 100)])
+    root = rng.normal(size=(60, 60))
+    S[np.ix_(dense, dense)] = root @ root.T + np.eye(60)
+    for i in [*range(30, 70, 2), *range(100, 124, 2)]:
+        S[i : i + 2, i : i + 2] = [[3.0, 1.0], [1.0, 2.0]]
+    for i in range(124, 130):
+        S[i, i] = i
+    S[60, 61] = S[61, 60] = 0.0  # each by itself
+    S[40, 64] = S[64, 40] = 0.3  # no neighbours: two pairs are one block of four
+    return S
+
+
+def test_what_is_coupled_in_pairs_is_solved_apart() -> None:
+    rng = np.random.default_rng(5)
+    S = make_falling_apart(rng)
+    pairs = find_pairs(S)
+    assert pairs.coupled is not None
+    expected = np.sort([*range(30), *range(70, 100), 40, 41, 64, 65])
+    np.testing.assert_array_equal(pairs.coupled, expected)
+    unit = 1 / np.sqrt(2 * np.diag(S))
+    W, roots = np.zeros((2, 130, 6)), np.tile(np.eye(6), (2, 1, 1))
+    right = rng.normal(size=130)
+    found = factorise(Reduced(S, W, roots, unit)).solve(right, np.zeros((2, 6)))[0]
+    np.testing.assert_allclose(found, np.linalg.solve(S, right), rtol=1e-10, atol=1e-12)
+
+
+def test_a_parameter_without_information_is_no_pair() -> None:
+    S = make_falling_apart(np.random.default_rng(5))
+    S[126] = S[:, 126] = 0.0
+    S[100:102, 100:102] = 1.0
+    pairs = find_pairs(S)
+    assert pairs.coupled is not None
+    assert {100, 101, 126} <= set(pairs.coupled.tolist())
+    assert np.isfinite(pairs.diagonal).all()
+    assert find_pairs(S[:90, :90]).coupled is None
