@@ -6,14 +6,14 @@ back as (n, 2) float64 whatever the version.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from typing import Any
+from collections.abc import Mapping, Sequence
+from typing import Any, NamedTuple
 
 import cv2
 import numpy as np
 import numpy.typing as npt
 
-from calibgui.engine.arrays import Array, BoolArray, FloatImage, GreyImage, IntArray
+from calibgui.engine.arrays import Array, BoolArray, FloatImage, GreyImage, IntArray, Size
 
 VERSION: str = cv2.__version__
 
@@ -213,3 +213,77 @@ def label_dark_parts(image: GreyImage, window: int) -> tuple[npt.NDArray[np.int3
     )
     count, labels, *_ = cv2.connectedComponentsWithStats(dark, connectivity=4)
     return np.asarray(labels, np.int32), int(count)
+
+
+class CalibratedCamera(NamedTuple):
+    """What OpenCV returns of a calibration, less its root mean square distance."""
+
+    params: Array
+    """(9,) fx, fy, cx, cy, px, and k1, k2, p1, p2, k3."""
+    rvecs: Array
+    """(K, 3) rotation vectors cam_from_board."""
+    tvecs: Array
+    """(K, 3) translations, in the unit of the board's points."""
+
+
+FIX_FLAGS: Mapping[tuple[str, ...], int] = {
+    ("fx", "fy"): cv2.CALIB_FIX_FOCAL_LENGTH,
+    ("cx", "cy"): cv2.CALIB_FIX_PRINCIPAL_POINT,
+    ("k1",): cv2.CALIB_FIX_K1,
+    ("k2",): cv2.CALIB_FIX_K2,
+    ("k3",): cv2.CALIB_FIX_K3,
+    ("p1", "p2"): cv2.CALIB_FIX_TANGENT_DIST,
+}
+"""The flags of `calibrate_camera` that hold parameters, by the names that each one holds."""
+
+
+def calibrate_camera(
+    uv: Sequence[Array],
+    xy: Sequence[Array],
+    size: Size,
+    guess: Array | None,
+    flags: int,
+    max_iterations: int,
+) -> CalibratedCamera | None:
+    """Calibrate a camera with `cv2.calibrateCamera` and its five coefficients.
+
+    It ends after `max_iterations`, or when a step changes the parameters by less than 2.2e-16 of
+    their length (OpenCV's own default). OpenCV takes points in single precision only, which rounds
+    coordinates near 1000 px by up to 3e-5 px.
+
+    Args:
+        uv: per view the corners (n, 2) in the image, px.
+        xy: per view the same corners (n, 2) on the board.
+        size: width and height of the images, px.
+        guess: (9,) parameters to start from, as in `CalibratedCamera`; None for OpenCV's own start.
+        flags: sum of `FIX_FLAGS`, which need a guess.
+        max_iterations: largest number of its iterations.
+
+    Returns:
+        None if OpenCV refuses the views.
+    """
+    places = [np.pad(points, [(0, 0), (0, 1)]).astype(np.float32) for points in xy]
+    corners = [points.astype(np.float32) for points in uv]
+    criteria = (
+        cv2.TERM_CRITERIA_COUNT + cv2.TERM_CRITERIA_EPS,
+        max_iterations,
+        float(np.finfo(np.float64).eps),
+    )
+    matrix, coefficients = None, None
+    if guess is not None:
+        fx, fy, cx, cy = guess[:4]
+        matrix = np.array([[fx, 0.0, cx], [0.0, fy, cy], [0.0, 0.0, 1.0]])
+        coefficients = np.array(guess[4:9])
+        flags |= cv2.CALIB_USE_INTRINSIC_GUESS
+    try:
+        _, K, k, rvecs, tvecs = cv2.calibrateCamera(
+            places, corners, size, matrix, coefficients, flags=flags, criteria=criteria
+        )
+    except cv2.error:
+        return None
+    params = np.concatenate([[K[0, 0], K[1, 1], K[0, 2], K[1, 2]], np.ravel(k)[:5]])
+    return CalibratedCamera(
+        params.astype(np.float64),
+        np.array(rvecs, np.float64).reshape(-1, 3),
+        np.array(tvecs, np.float64).reshape(-1, 3),
+    )

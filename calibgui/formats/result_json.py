@@ -127,6 +127,7 @@ def encode_result(result: Result) -> dict[str, Any]:
         "view_scatter": calibration.overdispersion,
         "stage_one": encode_stage_one(result),
         "history": [{k: getattr(i, k) for k in _ITERATION_KEYS} for i in calibration.history],
+        "solve_seconds": calibration.seconds,
         "views": _encode_views(result),
     }
 
@@ -233,7 +234,13 @@ def _decode_calibration(node: Node, used: list[Node]) -> Calibration:
         warnings=tuple(n.text() for n in node["warnings"].items()),
         settings=_decode_settings(node["settings"], added),
         digest=node["inputs_sha256"].text(),
+        seconds=_decode_seconds(node.get("solve_seconds")),
     )
+
+
+def _decode_seconds(node: Node | None) -> float:
+    """Return the time of the solve, s; NaN in results that do not hold it."""
+    return float("nan") if node is None else node.number(nullable=True)
 
 
 def _decode_settings(node: Node, added: Mapping[str, float]) -> dict[str, Any]:

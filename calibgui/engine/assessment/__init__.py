@@ -4,9 +4,10 @@
 noise or has a cause, `separate_error_sources` how many pixels lens, board, single views and noise
 contribute; `screen_outliers` leaves wrong corners out, `calibrate_weighted` weighs views
 by their noise; `cross_validate` and `bootstrap_views` measure errors without trusting the model,
-`choose_board_shape` and `choose_lens` recommend models of board and lens by them; `compare_cameras`
-maps the difference of two calibrations over the image; `check_calibration` says whether a stored
-camera is still good for new pictures.
+`choose_board_shape` and `choose_lens` recommend models of board and lens by them; `compare_methods`
+tries all methods of calibration side by side; `compare_cameras` maps the difference of two
+calibrations over the image; `check_calibration` says whether a stored camera is still good for new
+pictures.
 """
 
 from __future__ import annotations
@@ -39,6 +40,14 @@ from calibgui.engine.assessment.lens_choice import (
     choose_lens,
     choose_lens_stepwise,
 )
+from calibgui.engine.assessment.method_comparison import (
+    Distortion,
+    LineTrial,
+    MethodComparison,
+    MethodTrial,
+    compare_methods,
+    measure_radial_shift,
+)
 from calibgui.engine.assessment.noise_test import NoiseCheck, NoiseReport, check_residuals
 from calibgui.engine.assessment.outliers import Rejection, Screening, screen_outliers
 from calibgui.engine.assessment.residual_statistics import (
@@ -62,11 +71,15 @@ __all__ = [
     "CameraDifference",
     "CheckedView",
     "CrossValidation",
+    "Distortion",
     "ErrorSources",
     "Fold",
     "Histogram",
     "LensChoice",
     "LensTrial",
+    "LineTrial",
+    "MethodComparison",
+    "MethodTrial",
     "NoiseCheck",
     "NoiseReport",
     "Rejection",
@@ -82,9 +95,11 @@ __all__ = [
     "choose_lens",
     "choose_lens_stepwise",
     "compare_cameras",
+    "compare_methods",
     "cross_validate",
     "make_component_histogram",
     "make_length_histogram",
+    "measure_radial_shift",
     "screen_outliers",
     "separate_error_sources",
     "stack_residuals",

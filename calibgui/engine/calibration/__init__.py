@@ -33,7 +33,8 @@ from calibgui.engine.calibration.conversion import (
     find_followed_angle,
 )
 from calibgui.engine.calibration.initialisation.single_view_pose import evaluate_cosines_equation
-from calibgui.engine.calibration.methods import DEFAULT_METHOD, METHODS, Method
+from calibgui.engine.calibration.methods import DEFAULT_METHOD, METHODS, check_method
+from calibgui.engine.calibration.methods.method import Method
 from calibgui.engine.calibration.observations import Observation
 from calibgui.engine.calibration.partial.degeneracy import find_copies, is_in_one_spot
 from calibgui.engine.calibration.problem import recover_arguments
@@ -77,6 +78,7 @@ __all__ = [
     "Undetermined",
     "ViewResiduals",
     "calibrate",
+    "check_method",
     "compute_correlations",
     "convert_camera",
     "evaluate_cosines_equation",

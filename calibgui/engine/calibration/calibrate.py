@@ -1,6 +1,6 @@
 """The whole calibration: checks, initialisation, refinement, uncertainty and diagnosis.
 
-`calibrate` follows one order whatever the method (``methods.py``):
+`calibrate` follows one order whatever the method (``methods/``):
 
 1. The views are checked and brought into arrays (``observations.py``).
 2. The method guesses the camera and the poses, and refines the guess to the minimum of the cost.
@@ -14,8 +14,10 @@
 from __future__ import annotations
 
 import hashlib
+import time
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -29,8 +31,11 @@ from calibgui.engine.calibration.board_shape.uncertainty import (
     suspect_board,
 )
 from calibgui.engine.calibration.initialisation.knots import check_knots, choose_knots
+from calibgui.engine.calibration.initialisation.start import convert_to_paper_frame
 from calibgui.engine.calibration.lens_error import measure_lens_error
-from calibgui.engine.calibration.methods import DEFAULT_METHOD, find_method
+from calibgui.engine.calibration.methods import DEFAULT_METHOD, check_method, find_method
+from calibgui.engine.calibration.methods.method import Given, Method
+from calibgui.engine.calibration.methods.scatter import simulate_covariances
 from calibgui.engine.calibration.observations import (
     REFERENCE_PITCH,
     Observation,
@@ -66,7 +71,7 @@ from calibgui.engine.calibration.result_assembly import (
 from calibgui.engine.calibration.score_tests import LinearisedFit
 from calibgui.engine.camera.camera import Camera, check_image_size
 from calibgui.engine.camera.models import PINHOLE, find_model, parameter_names, resolve_model_id
-from calibgui.engine.camera.models.splined_stereographic import PREFIX, SplinedStereographic
+from calibgui.engine.camera.models.splined_stereographic import PREFIX
 from calibgui.engine.errors import CalibrationError, parse_choice
 from calibgui.engine.threads import with_one_blas_thread
 
@@ -82,13 +87,13 @@ def calibrate(
     cost: Cost | str = Cost.IMAGE,
     fix: Mapping[str, float | None] | Iterable[str] | str = (),
     free: Iterable[str] | str = (),
-    model: str = "lucchese",
+    model: str | None = None,
     report: Report | None = None,
     board_shape: BoardShapeModel | str | BoardShape = BoardShapeModel.NOMINAL,
     prior: BoardShapePrior | None = None,
     max_iterations: int = 100,
     names: Sequence[str] | None = None,
-    method: str = DEFAULT_METHOD,
+    method: str | Method = DEFAULT_METHOD,
 ) -> Calibration:
     """Calibrate a camera from views of a flat board.
 
@@ -104,7 +109,8 @@ def calibrate(
             coefficients are held at 0, the centre at the array's and focal lengths at the
             closed form.
         free: names of intrinsics to estimate although they are held by default (p3).
-        model: the lens model, a key of ``camera.models.MODELS``.
+        model: the lens model, a key of ``camera.models.MODELS``; the method's own by default, which
+            is the paper's for the paper's method.
         report: a function that is called with each iteration; it stops the solve by returning
             False.
         board_shape: the model of the board's deviations from its drawing, which are estimated
@@ -115,7 +121,7 @@ def calibrate(
         max_iterations: the largest number of iterations of a solve; corners with covariances take
             a few solves.
         names: names of the views for messages; numbers by default.
-        method: the method of calibration, a key of ``methods.METHODS``.
+        method: the method of calibration, a key of ``methods.METHODS`` or one made like those.
 
     Raises:
         CalibrationError: if a view cannot be used (the message names it), or if an argument does
@@ -141,7 +147,10 @@ def calibrate(
         True
     """
     cost = parse_choice(Cost, cost, "cost")
-    model = "lucchese-pixels" if cost is Cost.PAPER else resolve_model_id(model)
+    steps = find_method(method)
+    model = (
+        "lucchese-pixels" if cost is Cost.PAPER else resolve_model_id(model or steps.lens_models[0])
+    )
     if isinstance(board_shape, BoardShape):
         held_shape, shape_model = board_shape, board_shape.model
     else:
@@ -152,23 +161,33 @@ def calibrate(
             f"The cost {cost.value!r} registers the views on a flat board as it is drawn.",
             "Use the cost 'image' with another board shape.",
         )
+    if not (as_drawn or steps.is_weighted):
+        raise CalibrationError(
+            f"The method {steps.name!r} takes the board as it is drawn.",
+            f"Use the method {DEFAULT_METHOD!r} with another board shape.",
+        )
     size, names = check_image_size(size), names or name_views(len(views))
     observations = pack_observations(views, names)
+    if not steps.is_weighted:
+        observations = replace(observations, cov=None)
     _check_size(observations, size, names)
     if model == PREFIX:
         model = choose_knots(observations, size)
     lens, parameters = find_model(model), parameter_names(model)
-    if isinstance(lens, SplinedStereographic) and not as_drawn:
+    if lens.control_points is not None and not as_drawn:
         raise CalibrationError(
             "A splined lens model is not estimated together with the shape of a board.",
             "Choose another lens model, or keep the board as it is drawn.",
         )
-    steps = find_method(method, model, cost)
-    held = resolve_held_parameters(fix, free, model, size)
+    check_method(steps, model, cost)
+    held = resolve_held_parameters(fix, free, model, size, steps.held)
     scale = REFERENCE_PITCH / measure_pitch(observations)
-    registration, start, values = steps.initialise(observations, size, model, scale, held, names)
-    if isinstance(lens, SplinedStereographic):
-        check_knots(start, observations, lens)
+    paper_corners = convert_to_paper_frame(observations, scale, size, names)
+    given = Given(observations, paper_corners, size, model, held)
+    began = time.perf_counter()
+    start, values, remarks = steps.initialise(given)
+    seconds = time.perf_counter() - began
+    check_knots(start, observations, lens)
     settings = {
         "cost": cost.value,
         "model": model,
@@ -178,10 +197,10 @@ def calibrate(
         "plate_held": held_shape is not None,
         "prior_mm": None if prior is None else [prior.in_plane, prior.out_of_plane],
     }
-    if method != DEFAULT_METHOD:  # results of the default are as they were before there were others
-        settings["method"] = method
+    if steps.name != DEFAULT_METHOD:  # results of the default stay as they were without others
+        settings["method"] = steps.name
     options = Options(
-        size, model, cost, scale, parameters, values, registration, held_shape, settings
+        size, model, cost, scale, parameters, values, given.registration, held_shape, settings
     )
     if held_shape is not None:
         observations = place_on_board_shape(observations, held_shape)
@@ -193,15 +212,29 @@ def calibrate(
         unheld = [name for name in PINHOLE if name not in held]
         lost = unheld if len(unheld) > 2 else ()
         _raise_if_undetermined(observations, originals, options, start, lost)
+    began = time.perf_counter()
     observations, solution = steps.refine(observations, start, options, report, max_iterations)
-    misfits = [names[k] for k in find_misfits(registration.rms).tolist()]
+    seconds += time.perf_counter() - began
+    misfits = [names[k] for k in find_misfits(given.registration.rms).tolist()]
     precision = _measure_precision(solution, observations, originals, options, misfits)
     estimate = make_estimate(solution, observations, precision)
-    if cost is Cost.IMAGE:
+    if not steps.is_minimum:
+        run = partial(_rerun_method, steps, given, options)
+        estimate = simulate_covariances(estimate, options, run)
+    elif cost is Cost.IMAGE:
         estimate = _add_model_errors(estimate, observations, options, prior, report)
-    return assemble_calibration(
+    calibration = assemble_calibration(
         estimate, options, precision.undetermined, _compute_digest(observations, settings)
     )
+    return replace(calibration, warnings=remarks, seconds=seconds)
+
+
+def _rerun_method(
+    method: Method, given: Given, options: Options, observations: Observations
+) -> State:
+    """Return what a method finds in other corners of the same views."""
+    start = method.initialise(replace(given, observations=observations)).state
+    return method.refine(observations, start, options, None, 0).solution.state
 
 
 def _measure_precision(
@@ -247,7 +280,7 @@ def _add_model_errors(
     Nothing is added for a splined lens: it has enough coefficients to follow what a board's shape
     or a single view does to the image, and the tests that tell these apart know few parameters.
     """
-    if isinstance(find_model(options.model), SplinedStereographic):
+    if find_model(options.model).control_points is not None:
         return estimate
     shape, lens_error = BoardShapeModel(options.settings["plate"]), 0.0
     if options.board_shape is None:

@@ -51,14 +51,16 @@ def resolve_held_parameters(
     free: Iterable[str] | str,
     model: str,
     size: Size,
+    default: tuple[str, ...] | None = None,
 ) -> dict[str, float | None]:
     """Find the parameters to hold, with the values wanted, None for the default value.
 
     Args:
         fix: names of parameters to hold, with or without values.
-        free: names of parameters to estimate although the lens model holds them by default.
+        free: names of parameters to estimate although they are held by default.
         model: the lens model, a key of ``camera.models.MODELS``.
         size: width and height of the images, px.
+        default: names of the parameters that are held by default; None for those of the lens model.
 
     Raises:
         CalibrationError: if a parameter does not exist, is both held and freed, or is held at a
@@ -81,8 +83,8 @@ def resolve_held_parameters(
         raise CalibrationError(
             f"{', '.join(sorted(both))} cannot be both held and freed.", "Name it once."
         )
-    default = dict.fromkeys(name for name in find_model(model).held if name not in freed)
-    return default | wanted
+    usual = find_model(model).held if default is None else default
+    return dict.fromkeys(name for name in usual if name not in freed) | wanted
 
 
 def _check_value(name: str, value: float, size: Size) -> None:

@@ -210,6 +210,9 @@ class Calibration:
     settings: Mapping[str, Any] = field(default_factory=dict)
     digest: str = ""
     """SHA-256 of the observations and settings of the calibration."""
+    seconds: float = float("nan")
+    """Time that the method's initialisation and refinement took, s, without what is examined
+    afterwards; NaN if it is not known, as in older results."""
 
     def __post_init__(self) -> None:
         freeze(self, "sigma", "covariance", "sigma_by_noise", "pose_covariances")

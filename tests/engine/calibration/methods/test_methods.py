@@ -9,9 +9,16 @@ import pytest
 
 from calibgui.engine.calibration import methods
 from calibgui.engine.calibration.calibrate import calibrate
-from calibgui.engine.calibration.methods import DEFAULT_METHOD, METHODS, find_method
+from calibgui.engine.calibration.methods import (
+    DEFAULT_METHOD,
+    METHODS,
+    check_method,
+    find_method,
+)
+from calibgui.engine.calibration.methods.method import Given, Initialisation, Refinement
 from calibgui.engine.calibration.problem import recover_arguments
 from calibgui.engine.calibration.result import Cost
+from calibgui.engine.camera.models import MODELS
 from calibgui.engine.errors import CalibrationError
 from tests.engine.scenes import VGA, barrel, scene
 
@@ -23,8 +30,16 @@ def test_every_method_is_described() -> None:
         assert method.name == name
         assert method.title
         assert method.source
-        assert method.lens_models
+        assert method.limits.endswith(".")
+        assert set(method.lens_models) <= set(MODELS)
         assert method.costs
+
+
+def test_every_method_calibrates_its_own_lens_model_by_default() -> None:
+    for method in (METHODS["bouguet"], METHODS[DEFAULT_METHOD]):
+        found = calibrate(VIEWS, VGA, method=method.name)
+        assert found.camera.model == method.lens_models[0]
+        assert found.seconds > 0
 
 
 def test_an_unknown_method_is_refused_with_the_choices() -> None:
@@ -47,11 +62,11 @@ def test_a_further_method_is_used_and_recorded(monkeypatch: pytest.MonkeyPatch) 
     ran: list[str] = []
     own = METHODS[DEFAULT_METHOD]
 
-    def initialise(*args: object) -> methods.Initialisation:
+    def initialise(given: Given) -> Initialisation:
         ran.append("initialise")
-        return own.initialise(*args)  # type: ignore[arg-type]
+        return own.initialise(given)
 
-    def refine(*args: object) -> methods.Refinement:
+    def refine(*args: object) -> Refinement:
         ran.append("refine")
         return own.refine(*args)  # type: ignore[arg-type]
 
@@ -69,7 +84,21 @@ def test_a_further_method_is_used_and_recorded(monkeypatch: pytest.MonkeyPatch) 
     assert found.settings["method"] == "trial"
     assert recover_arguments(found)["method"] == "trial"
     assert found.digest != calibrate(VIEWS, VGA).digest
+    assert find_method("trial") is trial
+    made = calibrate(VIEWS, VGA, method=trial)
+    assert made.digest == found.digest, "a method may be given by itself"
     with pytest.raises(CalibrationError, match="cannot estimate the lens model 'opencv'"):
-        find_method("trial", "opencv", Cost.IMAGE)
+        check_method(trial, "opencv", Cost.IMAGE)
     with pytest.raises(CalibrationError, match="cannot minimise the cost 'reference'"):
-        find_method("trial", "lucchese", Cost.REFERENCE)
+        check_method(trial, "lucchese", Cost.REFERENCE)
+    check_method(own, "splined-stereographic-6x5-70", Cost.IMAGE)
+
+
+def test_a_method_without_weights_ignores_covariances_and_refuses_board_shapes() -> None:
+    noise = np.broadcast_to(np.diag([0.01, 0.04]), (len(VIEWS[0].uv), 2, 2))
+    weighted = [view._replace(cov=noise) for view in VIEWS]
+    found, plain = (calibrate(views, VGA, method="bouguet") for views in (weighted, VIEWS))
+    np.testing.assert_array_equal(found.camera.params, plain.camera.params)
+    with pytest.raises(CalibrationError, match="'bouguet' takes the board as it is drawn") as told:
+        calibrate(VIEWS, VGA, method="bouguet", board_shape="free")
+    assert DEFAULT_METHOD in told.value.hint

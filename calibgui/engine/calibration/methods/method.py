@@ -1,0 +1,242 @@
+"""The contract of a calibration method, and what methods share.
+
+Every method takes the same two steps. Its initialisation turns corners into a camera and poses; its
+refinement moves them, mostly to the minimum of a cost. All else (checks of the views, covariances,
+the diagnosis of degenerate views, the board's shape) is the same for all methods and lies in
+``calibrate.py``.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, replace
+from functools import cached_property, partial
+from typing import NamedTuple
+
+import numpy as np
+
+from calibgui.engine.arrays import Array, Size
+from calibgui.engine.calibration.initialisation.stage_one import (
+    StageOneRegistration,
+    register_views,
+)
+from calibgui.engine.calibration.observations import Observations
+from calibgui.engine.calibration.options import Options
+from calibgui.engine.calibration.refinement.bundle_adjustment import solve_stage_two
+from calibgui.engine.calibration.refinement.levenberg_marquardt import (
+    Solution,
+    StartError,
+    minimise,
+)
+from calibgui.engine.calibration.refinement.residuals import State, build_stage_two
+from calibgui.engine.calibration.refinement.schur import NormalEquations, solve_normal_equations
+from calibgui.engine.calibration.result import Calibration, Cost, Report, Status
+from calibgui.engine.camera.models import parameter_names
+from calibgui.engine.errors import CalibrationError
+from calibgui.engine.geometry.rotations import vector_from_rotation
+
+
+@dataclass(frozen=True, eq=False)
+class Given:
+    """What an initialisation starts from."""
+
+    observations: Observations
+    """The views."""
+    paper_corners: tuple[Array, Array, Array]
+    """The views in the paper's frame: the arguments of Stage I."""
+    size: Size
+    """Width and height of the images, px."""
+    model: str
+    """The lens model."""
+    held: Mapping[str, float | None]
+    """Parameters to hold, with a value or None for the method's default."""
+
+    @cached_property
+    def registration(self) -> StageOneRegistration:
+        """Stage I of every view, by which outliers are told and reports drawn."""
+        return register_views(*self.paper_corners)
+
+
+class Initialisation(NamedTuple):
+    """The start of a refinement."""
+
+    state: State
+    """Camera and poses."""
+    held: dict[str, float]
+    """Values of the parameters that are held."""
+    remarks: tuple[str, ...] = ()
+    """Sentences on the views that the camera and the poses do not say; the result repeats them."""
+
+
+class Refinement(NamedTuple):
+    """The end of a method."""
+
+    observations: Observations
+    """The views with the weights that the solution was found with."""
+    solution: Solution
+
+
+def list_no_remarks(calibration: Calibration) -> tuple[str, ...]:  # noqa: ARG001 - of the contract
+    """Return no remarks."""
+    return ()
+
+
+@dataclass(frozen=True, kw_only=True)
+class Description:
+    """What a user is told of a method."""
+
+    name: str
+    """Key in the table of methods, as arguments and files name it."""
+    title: str
+    """Name that a user reads."""
+    source: str
+    """Publication that describes the method."""
+    limits: str
+    """Sentence on what the method assumes or cannot estimate."""
+
+
+@dataclass(frozen=True, kw_only=True)
+class Method(Description):
+    """A method that calibrates a camera, as data and two functions."""
+
+    lens_models: tuple[str, ...]
+    """Keys of ``camera.models.MODELS`` that the method can estimate; the first is its own."""
+    initialise: Callable[[Given], Initialisation]
+    """Guess camera and poses.
+
+    Raises:
+        StartError: if the views allow no guess.
+    """
+    refine: Callable[[Observations, State, Options, Report | None, int], Refinement]
+    """Move a guess to the method's estimate.
+
+    Arguments: the views, whitened if they have covariances; the guess; the options; the function to
+    report iterations to; the largest number of iterations of a solve.
+    """
+    held: tuple[str, ...] | None = None
+    """Names of the parameters that are held unless the user frees them; None for those of the lens
+    model."""
+    costs: tuple[Cost, ...] = (Cost.IMAGE,)
+    """Costs that the refinement can minimise."""
+    is_weighted: bool = False
+    """True if the method weights corners by their covariances; others take all as equally good."""
+    is_minimum: bool = True
+    """True if the estimate is the minimum of the cost, whose normal equations tell its covariance.
+    The covariance of any other is simulated (``scatter.py``)."""
+    list_remarks: Callable[[Calibration], tuple[str, ...]] = list_no_remarks
+    """Return sentences on a result of this method that its figures do not say."""
+
+
+def hold_parameters(
+    state: State, model: str, held: Mapping[str, float | None], defaults: Mapping[str, float]
+) -> Initialisation:
+    """Return a start whose held parameters have the wanted values, or else their defaults.
+
+    Args:
+        state: camera and poses; its camera's parameters are changed.
+        model: the lens model.
+        held: parameters to hold, with a value or None for the default.
+        defaults: defaults; the state's own value where there is none.
+    """
+    names = parameter_names(model)
+    values: dict[str, float] = {}
+    for name, wanted in held.items():
+        index = names.index(name)
+        default = defaults.get(name, float(state.params[index]))
+        state.params[index] = values[name] = default if wanted is None else float(wanted)
+    return Initialisation(state, values)
+
+
+def check_ideal_lens(given: Given, method: str, coefficients: tuple[str, ...]) -> None:
+    """Check that nobody wants distortion of a method that knows none.
+
+    Args:
+        given: what the initialisation starts from.
+        method: what the message calls the method.
+        coefficients: names of the coefficients, which must all be held at 0.
+
+    Raises:
+        CalibrationError: if one is to be estimated, or is held at another value.
+    """
+    for name in coefficients:
+        if name not in given.held or given.held[name] not in (None, 0.0):
+            raise CalibrationError(
+                f"{method} knows no distortion: {name} is 0 in it.",
+                f"Hold {name} at 0, or choose the method 'zhang'.",
+            )
+
+
+def bind_solver(
+    options: Options, report: Report | None, max_iterations: int
+) -> Callable[..., Solution]:
+    """Return `solve_stage_two` with everything but the views and the state to begin from."""
+    return partial(
+        solve_stage_two,
+        model=options.model,
+        cost=options.cost,
+        scale=options.scale,
+        free=options.free,
+        report=report,
+        max_iterations=max_iterations,
+    )
+
+
+def refine_by_bundle_adjustment(
+    observations: Observations,
+    start: State,
+    options: Options,
+    report: Report | None,
+    max_iterations: int,
+) -> Refinement:
+    """Minimise the cost over the free parameters and all poses."""
+    solve = bind_solver(options, report, max_iterations)
+    return Refinement(observations, solve(observations, start))
+
+
+def keep_start(
+    observations: Observations,
+    start: State,
+    options: Options,
+    report: Report | None,
+    max_iterations: int,  # noqa: ARG001 - of the contract
+) -> Refinement:
+    """Take the start for the estimate: the refinement of a method in closed form."""
+    return Refinement(observations, evaluate_state(observations, start, options, report))
+
+
+def evaluate_state(
+    observations: Observations, state: State, options: Options, report: Report | None = None
+) -> Solution:
+    """Evaluate the cost and its normal equations at a state that no solver of ours has found.
+
+    The history is this evaluation, whose step and damping are 0.
+
+    Raises:
+        StartError: if the camera does not image all corners.
+    """
+    problem = build_stage_two(
+        observations, options.model, options.cost, options.scale, options.free
+    )
+    try:
+        found = minimise(problem, state, options.free, observations.count, 0.0, max_iterations=0)
+    except StartError as error:
+        raise StartError(
+            "The estimated camera does not image all corners.",
+            "Choose another method, or leave out views that are hard to see.",
+        ) from error
+    iteration = replace(found.history[0], damping=0.0)
+    if report is not None:
+        report(iteration)
+    return found._replace(history=(iteration,), status=Status.CONVERGED)
+
+
+def predict_decrease(normal: NormalEquations) -> float:
+    """Return the decrease of the cost that an undamped step of all unknowns predicts."""
+    by_shared, by_pose = solve_normal_equations(normal, 0.0)
+    return -float(by_shared @ normal.shared + np.sum(by_pose * normal.pose))
+
+
+def subtract_states(a: State, b: State) -> tuple[Array, Array]:
+    """Return the step from state b to a: (P,) parameters, and (K, 6) small motions (w, tau)."""
+    w = vector_from_rotation(a.R @ np.swapaxes(b.R, 1, 2))
+    return a.params - b.params, np.hstack([w, a.T - b.T])
