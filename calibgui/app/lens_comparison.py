@@ -5,7 +5,7 @@ from __future__ import annotations
 from calibgui.app.calibration import disable_copies, shorten_names
 from calibgui.dataset import CornerSet, Result
 from calibgui.engine.assessment import LensChoice, choose_lens
-from calibgui.engine.calibration import Cost, recover_arguments
+from calibgui.engine.calibration import METHODS, Cost, recover_arguments
 from calibgui.engine.camera import PINHOLE, find_model
 from calibgui.engine.errors import Progress
 from calibgui.engine.threads import limit_blas_threads
@@ -29,15 +29,16 @@ def compare_lenses_again(result: Result, progress: Progress | None = None) -> Le
     """Try all lens models on the views of a result, calibrated as it was but for the lens.
 
     Focal lengths and centre are held where the user held them. The cost "paper", which has a lens
-    model of its own, gives way to the error in the image.
+    model of its own, gives way to the error in the image, and a method that has one lens model to
+    the default method.
 
     Raises:
         CalibrationError, Cancelled: as ``engine.assessment.choose_lens``.
     """
     settings = recover_arguments(result.calibration)
-    model = settings.pop("model")
+    method, model = METHODS[settings.pop("method")], settings.pop("model")
     del settings["free"]
-    by_choice = set(PINHOLE) - set(find_model(model).held)
+    by_choice = set(PINHOLE) - set(find_model(model).held if method.held is None else method.held)
     settings["fix"] = {name: v for name, v in settings["fix"].items() if name in by_choice}
     if settings["cost"] is Cost.PAPER:
         settings["cost"] = Cost.IMAGE

@@ -7,7 +7,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 
 from calibgui.engine.boards import BoardShape, BoardShapeModel, BoardShapePrior
-from calibgui.engine.calibration import DEFAULT_METHOD, METHODS, Cost
+from calibgui.engine.calibration import DEFAULT_METHOD, METHODS, Cost, check_method
 from calibgui.engine.camera import MODELS, PINHOLE, parameter_names, resolve_model_id
 from calibgui.engine.errors import CalibrationError
 
@@ -76,9 +76,10 @@ def check_settings(settings: Settings) -> None:
     """Refuse settings that do not go together.
 
     Raises:
-        CalibrationError: for a lens model or a method that cannot be chosen, a lens model that the
-            cost "paper" does not take, a parameter that the model does not have or that is both
-            held and freed, or weighing of views with a cost that knows no weights.
+        CalibrationError: for a lens model or a method that cannot be chosen, a lens model, cost,
+            board shape or weighing that the method does not take, a lens model that the cost
+            "paper" does not take, a parameter that the model does not have or that is both held and
+            freed, or weighing of views with a cost that knows no weights.
     """
     if settings.model is not None:
         resolve_model_choice(settings.model)
@@ -93,6 +94,7 @@ def check_settings(settings: Settings) -> None:
             f"{settings.model or AUTO_MODEL!r}.",
             "Choose the cost 'image' for this lens model.",
         )
+    _check_method(settings)
     for name in (*settings.fixed, *settings.freed):
         check_parameter(name, settings.model)
     if both := settings.fixed.keys() & set(settings.freed):
@@ -104,6 +106,39 @@ def check_settings(settings: Settings) -> None:
             f"The cost {settings.cost.value!r} weighs all corners alike.",
             "Weigh views by their noise with the cost 'image'.",
         )
+
+
+def _check_method(settings: Settings) -> None:
+    """Refuse what the method of the settings does not take.
+
+    Raises:
+        CalibrationError: naming the method.
+    """
+    method = METHODS[settings.method]
+    if settings.model is not None:
+        check_method(method, settings.model, settings.cost)
+    elif method.name != DEFAULT_METHOD:
+        raise CalibrationError(
+            f"The lens model is not chosen automatically for the method {method.name!r}.",
+            f"Choose from {', '.join(method.lens_models)}.",
+        )
+    if method.is_weighted:
+        return
+    if settings.board_shape is not BoardShapeModel.NOMINAL:
+        raise CalibrationError(
+            f"The method {method.name!r} takes the board as it is drawn.",
+            f"Use the method {DEFAULT_METHOD!r} with another board shape.",
+        )
+    if settings.weigh_views:
+        raise CalibrationError(
+            f"The method {method.name!r} takes all corners as equally good.",
+            f"Weigh views by their noise with the method {DEFAULT_METHOD!r}.",
+        )
+
+
+def get_own_model(method: str) -> str:
+    """Return the name of the lens model that a method, by its name, was published with."""
+    return METHODS[method].lens_models[0]
 
 
 def list_parameters(model: str | None) -> tuple[str, ...]:

@@ -17,7 +17,7 @@ from calibgui.engine.boards import CHECKERBOARD, Pattern
 from calibgui.engine.detection import METHODS, MIN_LINES
 from calibgui.engine.errors import CalibrationError
 from calibgui.engine.kernels import FINDER_SECONDS
-from calibgui.formats import find_exporter
+from calibgui.formats import EXPORTERS, find_exporter
 
 
 def parse_grid_size(text: str) -> GridSize:
@@ -42,18 +42,6 @@ def parse_positive(text: str) -> float:
     if not 0 < value < float("inf"):
         raise argparse.ArgumentTypeError(f"{text!r} is not a number above 0")
     return value
-
-
-def parse_export(text: str) -> tuple[str, Path]:
-    """Read the name of a format and a file such as "ros=camera.yaml"."""
-    name, equals, file = text.partition("=")
-    if not equals:
-        raise argparse.ArgumentTypeError(f"{text!r} is not FORMAT=FILE")
-    try:
-        find_exporter(name, file)
-    except CalibrationError as error:
-        raise argparse.ArgumentTypeError(str(error)) from error
-    return name, Path(file)
 
 
 def add_image_paths(parser: argparse.ArgumentParser, nargs: str = "+") -> None:
@@ -117,6 +105,21 @@ def add_map_options(parser: argparse.ArgumentParser, points: str) -> None:
     )
 
 
+def add_export_option(parser: argparse.ArgumentParser, purpose: str) -> None:
+    """Add the option on files of other formats, whose help begins with its `purpose`.
+
+    Its value is a list of pairs of a format's name and a file.
+    """
+    parser.add_argument(
+        "--export",
+        type=_parse_export,
+        action="append",
+        default=[],
+        metavar="FORMAT=FILE",
+        help=f"{purpose}, may be repeated: {', '.join(EXPORTERS)}",
+    )
+
+
 def search_images(
     console: Console,
     paths: Iterable[str],
@@ -144,3 +147,15 @@ def search_images(
                 f"Preparing the corner finder for its first use (once, about {FINDER_SECONDS} s)…"
             ),
         )
+
+
+def _parse_export(text: str) -> tuple[str, Path]:
+    """Read the name of a format and a file such as "ros=camera.yaml"."""
+    name, equals, file = text.partition("=")
+    if not equals:
+        raise argparse.ArgumentTypeError(f"{text!r} is not FORMAT=FILE")
+    try:
+        find_exporter(name, file)
+    except CalibrationError as error:
+        raise argparse.ArgumentTypeError(str(error)) from error
+    return name, Path(file)

@@ -18,14 +18,15 @@ from calibgui.app.settings import (
     MODEL_CHOICES,
     Settings,
     check_settings,
+    get_own_model,
     parse_fixed,
     parse_names,
     resolve_model_choice,
 )
 from calibgui.cli.arguments import (
+    add_export_option,
     is_corners_file,
     list_input_files,
-    parse_export,
     parse_positive,
 )
 from calibgui.cli.console import Advance, Console
@@ -55,16 +56,17 @@ def configure(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--model",
         type=_parse_model,
-        default=DEFAULT_MODEL,
+        default=argparse.SUPPRESS,  # None is the automatic choice
         metavar="NAME",
-        help=f"the lens model to estimate: {_describe_models()}",
+        help=f"the lens model to estimate, the method's own if left out: {_describe_models()}",
     )
     parser.add_argument(
         "--method",
         choices=METHODS,
         default=DEFAULT_METHOD,
-        help="the method of calibration: "
-        + "; ".join(f"{name}, {method.title}" for name, method in METHODS.items()),
+        metavar="NAME",
+        help=f"the method of calibration (calibgui compare shows all side by side): "
+        f"{_describe_methods()}",
     )
     parser.add_argument(
         "--fix",
@@ -121,14 +123,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
         help="write the estimated board shape, for later calibrations with the same board",
     )
     parser.add_argument("-o", "--output", type=Path, metavar="FILE", help="write result.json")
-    parser.add_argument(
-        "--export",
-        type=parse_export,
-        action="append",
-        default=[],
-        metavar="FORMAT=FILE",
-        help=f"write another format as well, may be repeated: {', '.join(EXPORTERS)}",
-    )
+    add_export_option(parser, "write another format as well")
 
 
 def run(options: argparse.Namespace, console: Console) -> None:
@@ -209,7 +204,7 @@ def _write_files(
 
 def _read_settings(options: argparse.Namespace) -> Settings:
     """Return the settings that the options state, or end the program if they are impossible."""
-    model = options.model
+    model = options.model if "model" in options else get_own_model(options.method)
     try:
         settings = Settings(
             cost=Cost(options.cost),
@@ -263,6 +258,16 @@ def _describe_models() -> str:
         f"all); {'; '.join(models)}; or splined with other numbers, such as "
         "splined-stereographic-40x30-120 for 40 x 30 control points over 120 degrees"
     )
+
+
+def _describe_methods() -> str:
+    """List the methods with their titles and the lens models that they estimate."""
+    methods = (
+        f"{name}{' (default)' if name == DEFAULT_METHOD else ''}, {method.title}"
+        + ("" if name == DEFAULT_METHOD else f" ({', '.join(method.lens_models)})")
+        for name, method in METHODS.items()
+    )
+    return "; ".join(methods)
 
 
 def _describe_parameters() -> str:

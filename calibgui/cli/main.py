@@ -27,6 +27,7 @@ COMMANDS = {
     "undistort": "write photographs without lens distortion",
     "rectify": "write photographs of the board as seen from straight above",
     "models": "compare lens models on photographs, and recommend one",
+    "compare": "compare methods of calibration on photographs, side by side",
     "uncertainty": "show how far a calibration can be trusted",
     "diff": "compare two calibrations of a camera",
     "check": "check with a few pictures whether a stored calibration is still good",

@@ -1,4 +1,8 @@
-"""Reproduce the paper from its 25 images: tables 1 to 3, figures 4 to 16, one page to compare."""
+"""Reproduce the paper from its 25 images: tables 1 to 3, figures 4 to 16, one page to compare.
+
+The images are searched twice, as Table 1 sets corners that are located by saddle points (the
+paper's) beside those located by edges. All else is made from those that `--corners` names.
+"""
 
 from __future__ import annotations
 
@@ -12,18 +16,24 @@ from calibgui.app.settings import Settings
 from calibgui.app.synthetic import run_synthetic_check
 from calibgui.cli.arguments import add_corner_method, search_images
 from calibgui.cli.console import Console
-from calibgui.dataset import Result
+from calibgui.dataset import CornerSet
 from calibgui.engine.calibration import Cost
+from calibgui.engine.detection import METHODS
+from calibgui.engine.errors import CalibrationError
 from calibgui.engine.files import write_atomically
 from calibgui.formats.result_json import encode_result, write_result
 from calibgui.report import tables
+from calibgui.report.figures import LOCATED_BY
 from calibgui.report.paper_figures import draw_paper_figures
 from calibgui.report.paper_page import make_paper_page
+from calibgui.report.paper_tables import Reproduction
 
 _GRID_SIZE = (12, 13)
 """Rows and columns of inner corners of the paper's board."""
 _SQUARE_MM = 30.0
 """Side of a square of the paper's board, mm."""
+_IMAGES = tuple(f"Image{number}" for number in range(1, 26))
+"""Names of the images without their endings, in the order of Table 1."""
 
 
 def configure(parser: argparse.ArgumentParser) -> None:
@@ -41,34 +51,48 @@ def run(options: argparse.Namespace, console: Console) -> None:
     """Calibrate the photographs and their renderings; write results, figures and the page."""
     out: Path = options.output
     make_folder(out)
-    real, image_cost = _calibrate_both(options, console)
-    with console.show_progress("synthetic views") as advance:
-        check = run_synthetic_check(real, progress=advance)
+    reproduction = _reproduce(options.folder, options.corners, console)
+    real, synthetic = reproduction.real, reproduction.synthetic
     write_result(real, out / "real.json")
-    write_result(image_cost, out / "image-cost.json")
-    write_result(check.synthetic, out / "synthetic.json")
+    write_result(reproduction.image_cost, out / "image-cost.json")
+    write_result(synthetic, out / "synthetic.json")
     pictures = {}
-    for caption, figure in draw_paper_figures(
-        real, check.synthetic, check.extrinsic_errors
-    ).items():
+    figures = draw_paper_figures(real, synthetic, reproduction.extrinsic_errors)
+    for caption, figure in figures.items():
         pictures[caption] = f"{re.sub(' ', '-', caption.split(':')[0].lower())}.png"
         save_figure(figure, out / pictures[caption])
-    page = make_paper_page(
-        real.calibration,
-        check.synthetic.calibration,
-        image_cost.calibration,
-        check.extrinsic_errors,
-        pictures,
-    )
-    write_atomically(out / "index.html", page.encode())
+    write_atomically(out / "index.html", make_paper_page(reproduction, pictures).encode())
     console.print_json(encode_result(real))
     console.print_text(tables.format_report(real))
     console.print_text(f"\nWrote tables, figures and results to {out}; open {out / 'index.html'}.")
 
 
-def _calibrate_both(options: argparse.Namespace, console: Console) -> tuple[Result, Result]:
-    """Calibrate the images Image<number> in the paper's formulation and in the default one."""
-    images = [str(options.folder / "Image[0-9]*")]
-    detection = search_images(console, images, _GRID_SIZE, corners=options.corners)
-    corner_set = detection.corner_set(_SQUARE_MM)
-    return calibrate_views(corner_set, Settings(cost=Cost.PAPER)), calibrate_views(corner_set)
+def _reproduce(folder: Path, method: str, console: Console) -> Reproduction:
+    """Calibrate from corners located by each method; do all else with those of `method`."""
+    found = {name: _search(folder, name, console) for name in METHODS}
+    papers = Settings(cost=Cost.PAPER)
+    by_method = {name: calibrate_views(corners, papers) for name, corners in found.items()}
+    with console.show_progress("synthetic views") as advance:
+        check = run_synthetic_check(by_method[method], progress=advance)
+    return Reproduction(
+        by_method, method, calibrate_views(found[method]), check.synthetic, check.extrinsic_errors
+    )
+
+
+def _search(folder: Path, method: str, console: Console) -> CornerSet:
+    """Find the corners of all of the paper's images.
+
+    Raises:
+        CalibrationError: if one is missing, is there twice, or shows no board that is found.
+    """
+    console.print_notice(f"Corners located by {LOCATED_BY[method]}:")
+    images = [str(folder / "Image[0-9]*")]
+    detection = search_images(console, images, _GRID_SIZE, corners=method)
+    names = [Path(view.image).stem for view in detection.views if view.usable]
+    doubtful = [name for name in _IMAGES if names.count(name) != 1]
+    if doubtful:
+        raise CalibrationError(
+            f"Missing, there twice, or without a board that is found: {', '.join(doubtful)}.",
+            "The views are compared with the paper's one by one: name the folder of its 25 images.",
+        )
+    return detection.corner_set(_SQUARE_MM)

@@ -5,7 +5,7 @@ Each function returns a Figure and saves nothing. The numbers of figures are the
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 
 import numpy as np
 import numpy.typing as npt
@@ -33,6 +33,10 @@ Picture = npt.NDArray[np.generic]
 
 _WIDTH_INCHES = 6.4
 """Width of a figure of one plot."""
+LOCATED_BY = {"edges": "edges", "saddle": "saddle points", "ellipses": "ellipses"}
+"""What corners are located by, as a title says it, by the method of locating them."""
+EXTRINSIC_NAMES = ("ω", "φ", "θ", "tX", "tY", "tZ")
+"""Names of the external parameters in the order of `PaperPose.vector`."""
 _SEARCHED_ASPECTS = np.linspace(0.6, 1.4, 801)
 """Aspect ratios over which the cosines' equation is drawn."""
 
@@ -84,7 +88,7 @@ def draw_corners(image: Picture, found: Corners) -> Figure:
         figure.subplots(1, 2),
         (found.estimate, found.uv),
         ("red", "yellow"),
-        ("(a) first estimates", "(b) saddle points"),
+        ("(a) first estimates", f"(b) located by {LOCATED_BY[found.method]}"),
         strict=True,
     ):
         _show_image(axes, image)
@@ -183,11 +187,28 @@ def draw_residual_histograms(calibration: Calibration, on_reference: bool = True
     return figure
 
 
-def draw_extrinsic_errors(errors: Array) -> Figure:
-    """Draw figure 14: relative errors of the external parameters (eq. 51), given as a fraction."""
-    figure, axes = _make_single_axes()
-    axes.hist(100 * errors, bins=50, color="0.7")
-    axes.set(xlabel="relative error of an external parameter, %", ylabel="count")
+def draw_extrinsic_errors(
+    errors: Array, views: Sequence[int], bounds: Mapping[str, float]
+) -> Figure:
+    """Draw figure 14: relative errors of the external parameters (eq. 51), on a logarithmic axis.
+
+    Args:
+        errors: (K, 6) fractions, in the order of `EXTRINSIC_NAMES`.
+        views: (K,) numbers of the views.
+        bounds: fractions to draw as lines, by what is written at them.
+    """
+    figure, axes = _make_single_axes(4.8)
+    for marker, name, column in zip("osD^v+", EXTRINSIC_NAMES, errors.T, strict=True):
+        axes.semilogy(views, 100 * column, marker, label=name, markersize=4)
+    for text, bound in bounds.items():
+        axes.axhline(100 * bound, color="0.4", linewidth=0.8, linestyle="--")
+        beside = axes.get_yaxis_transform()
+        axes.text(1.01, 100 * bound, text, transform=beside, va="center", fontsize="small")
+    axes.set(xlabel="view", ylabel="relative error of an external parameter, %")
+    axes.xaxis.set_major_locator(MaxNLocator(integer=True))
+    axes.yaxis.set_major_formatter(lambda x, _: f"{x:.9f}".rstrip("0").rstrip("."))
+    axes.grid(alpha=0.3)
+    figure.legend(loc="outside upper center", ncols=len(EXTRINSIC_NAMES))
     return figure
 
 

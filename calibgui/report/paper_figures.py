@@ -14,9 +14,14 @@ from calibgui.engine.images import (
     undistort_image,
 )
 from calibgui.report import figures
-from calibgui.report.printed_values import SHOWN_VIEW
+from calibgui.report.printed_values import EXTRINSIC_ERROR, SHOWN_VIEW
 
 _UNIT = "reference px"
+_PRINTED_BOUNDS = {
+    f"paper: {100 * bound:g} %\n{word}": bound
+    for word, bound in zip(("at most", "mostly"), EXTRINSIC_ERROR, strict=True)
+}
+"""What the paper says of the errors in figure 14, fractions."""
 
 
 def draw_paper_figures(real: Result, synthetic: Result, errors: Array) -> dict[str, Figure]:
@@ -63,7 +68,11 @@ def draw_paper_figures(real: Result, synthetic: Result, errors: Array) -> dict[s
             figures.superpose_images(photograph, rendered),
             ("(a) synthetic", "(b) real (green) over synthetic (magenta)"),
         ),
-        "Figure 14: relative errors of the extrinsics": figures.draw_extrinsic_errors(errors),
+        "Figure 14: relative errors of the extrinsics": figures.draw_extrinsic_errors(
+            errors,
+            [k for k, view in enumerate(synthetic.views, start=1) if view.usable],
+            _PRINTED_BOUNDS,
+        ),
         "Figure 15: rectification residuals, synthetic images": figures.draw_residual_scatter(b),
         "Figure 16: their histograms": figures.draw_residual_histograms(b),
     }

@@ -58,5 +58,14 @@ SYNTHETIC_RESIDUAL = (0.01, 0.005)
 """Mean and standard deviation of e', reference px, synthetic images (figure 16c)."""
 EXTRINSIC_ERROR = (0.003, 0.0005)
 """Largest relative error of the extrinsics, and the bound that most stay below (figure 14)."""
+
+BOUGUET = {"xp": (-17.03, 0.58), "yp": (-2.50, 0.55), "fx": (657.25, 0.28), "fy": (657.68, 0.29)}
+"""Bouguet's principal point and focal lengths with what section 5.1 calls their SDs, px: three
+standard deviations, as his toolbox prints them."""
+BOUGUET_SHIFT = {"xp": 0.5, "yp": -0.5}
+"""What takes his principal point from the origin at u = W/2, v = H/2, from which the paper gives
+it, to the centre of the array, px."""
+BOUGUET_SIGMA = (0.119, 0.116)
+"""Standard deviations of his reprojection errors x, y, px."""
 SHOWN_VIEW = 13
 """Number of the view in figures 4, 6, 9 and 13, counted from 1."""

@@ -10,12 +10,14 @@ import pytest
 from calibgui.app.calibration import calibrate_views, recall_lens_choice, shorten_names
 from calibgui.app.detection import find_views
 from calibgui.app.resources import find_resource, find_sample_square
-from calibgui.app.settings import Settings, check_settings
+from calibgui.app.settings import DEFAULT_MODEL, Settings, check_settings, get_own_model
 from calibgui.dataset import CornerSet, View, ViewStatus
 from calibgui.engine.arrays import Array
 from calibgui.engine.assessment import lens_choice
 from calibgui.engine.assessment.noise_test import check_residuals
+from calibgui.engine.boards.shape import BoardShapeModel
 from calibgui.engine.calibration.calibrate import calibrate
+from calibgui.engine.calibration.methods import DEFAULT_METHOD
 from calibgui.engine.calibration.observations import Observation
 from calibgui.engine.calibration.result import Cost, Iteration, Status
 from calibgui.engine.camera.camera import Camera
@@ -297,6 +299,23 @@ def test_what_all_lens_models_have_can_be_held() -> None:
             check_settings(wrong)
     with pytest.raises(CalibrationError, match="combined with 'auto'"):
         check_settings(replace(AUTO, cost=Cost.PAPER))
+
+
+def test_a_method_takes_its_own_lens_models_costs_boards_and_weights() -> None:
+    own = Settings(method="bouguet", model=get_own_model("bouguet"))
+    check_settings(own)
+    assert get_own_model(DEFAULT_METHOD) == DEFAULT_MODEL
+    for changes, message in (
+        ({"model": "rational"}, "'bouguet' cannot estimate the lens model 'rational'"),
+        ({"model": None}, "not chosen automatically for the method 'bouguet'"),
+        ({"cost": Cost.REFERENCE}, "'bouguet' cannot minimise the cost 'reference'"),
+        ({"board_shape": BoardShapeModel.FREE}, "'bouguet' takes the board as it is drawn"),
+        ({"board_shape": None}, "'bouguet' takes the board as it is drawn"),
+        ({"weigh_views": True}, "'bouguet' takes all corners as equally good"),
+    ):
+        with pytest.raises(CalibrationError, match=message) as told:
+            check_settings(replace(own, **changes))
+        assert told.value.hint
 
 
 def test_splined_models_of_any_numbers_can_be_named() -> None:

@@ -68,8 +68,10 @@ def test_every_setting_has_its_option(corners_file: Path, monkeypatch: pytest.Mo
     ]
     main(["calibrate", str(corners_file), *options])
     main(["calibrate", str(corners_file), "--cost", "reference", "--plate", "free"])
-    main(["calibrate", str(corners_file), "--model", "brown-conrady", "--method", "lucchese"])
-    changed, other, forward = asked
+    main(["calibrate", str(corners_file), "--model", "brown-conrady"])
+    main(["calibrate", str(corners_file), "--method", "bouguet"])
+    main(["calibrate", str(corners_file), "--model", "auto", "--method", "lucchese"])
+    changed, other, forward, toolbox, automatic = asked
     assert other.cost is Cost.REFERENCE
     assert other.board_shape is BoardShapeModel.FREE  # by the older name of the option
     assert forward.model == "brown-conrady"
@@ -82,7 +84,9 @@ def test_every_setting_has_its_option(corners_file: Path, monkeypatch: pytest.Mo
         weigh_views=True,
         once=True,
     )
-    # There is one method to choose from.
+    assert (toolbox.method, toolbox.model) == ("bouguet", "brown-conrady-4")
+    assert (automatic.method, automatic.model) == ("lucchese", None)
+    # Those that take all corners as equally good take few of these settings.
     names = {field.name for field in fields(Settings)} - {"cost", "model", "method"}
     assert all(getattr(changed, name) != getattr(Settings(), name) for name in names)
 
@@ -320,6 +324,10 @@ def test_outputs_are_checked_before_the_work(
         ["a.png", "--square", "30", "--model", "brown-conrady", "--fix", "p3"],
         ["a.png", "--square", "30", "--model", "brown-conrady", "--free", "p3"],
         ["a.png", "--square", "30", "--method", "none"],
+        ["a.png", "--square", "30", "--method", "bouguet", "--model", "auto"],
+        ["a.png", "--square", "30", "--method", "bouguet", "--model", "rational"],
+        ["a.png", "--square", "30", "--method", "bouguet", "--plate", "free"],
+        ["a.png", "--square", "30", "--method", "bouguet", "--weigh-views"],
         ["a.png", "--square", "30", "--weigh-views", "--cost", "paper"],
         ["a.png", "--square", "30", "--save-board-shape", "a.json"],
         ["a.png", "--square", "30", "--board-shape", "free", "--prior", "0.1"],
