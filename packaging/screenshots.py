@@ -27,6 +27,7 @@ from calibgui.engine.boards import BoardShapeModel
 from calibgui.gui.panels.analysis import PANELS
 from calibgui.gui.panels.board_shape import BoardShapePanel
 from calibgui.gui.panels.lens_models import LensModelsPanel
+from calibgui.gui.panels.methods import MethodsPanel
 from calibgui.gui.panels.poses import PosesPanel
 from calibgui.gui.panels.synthetic import SyntheticPanel
 from calibgui.gui.widgets import theme
@@ -83,6 +84,10 @@ class Photographer:
             if isinstance(panel, LensModelsPanel):
                 panel.run.click()
                 wait(partial(getattr, panel, "choice"))
+            if isinstance(panel, MethodsPanel):
+                panel.run.click()
+                wait(partial(getattr, panel, "comparison"))
+                panel.tables.errors.selectRow(2)  # the first differs from none: it has no map
             self.take(kind.__name__.removesuffix("Panel").lower())
         self.marking()
 

@@ -33,6 +33,7 @@ from calibgui.app.document import Document
 from calibgui.app.settings import MODEL_CHOICES
 from calibgui.engine.assessment.noise_test import NoiseReport
 from calibgui.engine.boards.board import Board
+from calibgui.engine.calibration.methods import METHODS
 from calibgui.engine.images.reading import Image
 from calibgui.formats import EXPORTERS
 from calibgui.gui import app
@@ -161,10 +162,15 @@ def test_no_text_of_the_window_is_left_in_english(
         for model in MODEL_CHOICES
         for text in (get_lens_title(model), f"{model}. {describe_lens_model(model)}")
     }
+    methods = {
+        text
+        for name, method in METHODS.items()
+        for text in (method.title, f"{method.title} ({name}). {method.limits}\n{method.source}")
+    }
     undistort = analysis.show_panel(UndistortPanel)
     assert isinstance(undistort, UndistortPanel)
     told = {undistort.lost.text()}  # by the engine, as the sentences of the summary are
-    assert left <= NAMES | OTHERS | formats | lenses | told
+    assert left <= NAMES | OTHERS | formats | lenses | methods | told
     assert OPEN in help_dialog.text.toPlainText()
 
 

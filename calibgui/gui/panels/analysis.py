@@ -27,6 +27,7 @@ from calibgui.gui.panels.coverage import CoveragePanel
 from calibgui.gui.panels.distortion import DistortionPanel
 from calibgui.gui.panels.histograms import HistogramsPanel
 from calibgui.gui.panels.lens_models import LensModelsPanel
+from calibgui.gui.panels.methods import MethodsPanel
 from calibgui.gui.panels.panel import Panel
 from calibgui.gui.panels.poses import PosesPanel
 from calibgui.gui.panels.residuals import ResidualsPanel
@@ -51,6 +52,7 @@ PANELS: tuple[type[Panel], ...] = (
     CoveragePanel,
     UncertaintyPanel,
     LensModelsPanel,
+    MethodsPanel,
     BoardShapePanel,
     SyntheticPanel,
 )
@@ -71,6 +73,8 @@ class Analysis(QWidget):
     """See `Panel.save_wanted`."""
     lens_wanted = Signal(str, tuple)
     """See `Panel.lens_wanted`."""
+    method_wanted = Signal(str, object)
+    """See `Panel.method_wanted`."""
     rename_wanted = Signal(str)
     delete_wanted = Signal(str)
 
@@ -115,6 +119,7 @@ class Analysis(QWidget):
             panel.exclude_wanted.connect(self._exclude)
             panel.save_wanted.connect(self.save_wanted)
             panel.lens_wanted.connect(self.lens_wanted)
+            panel.method_wanted.connect(self.method_wanted)
             panel.failed.connect(self._session.failed)
             panel.show_result(self._shown)
             panel.select(self._place(self._session.image), self._session.corner)

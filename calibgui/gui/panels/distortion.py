@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-
 import numpy as np
 import pyqtgraph as pg
 import scipy
@@ -16,7 +14,7 @@ from calibgui.engine.camera import Displacement, DisplacementPart, compute_displ
 from calibgui.engine.geometry import centre_of_array
 from calibgui.engine.images import make_mesh
 from calibgui.gui.panels.arrows import trace_arrows
-from calibgui.gui.panels.contours import Contours
+from calibgui.gui.panels.contours import Contours, choose_levels
 from calibgui.gui.panels.heat import HeatMap, image_rectangle
 from calibgui.gui.panels.panel import Panel
 from calibgui.gui.panels.services import Services
@@ -25,7 +23,6 @@ _CELLS = 240
 """Values along the image's longer side."""
 _ARROWS = 14
 """Arrows along the image's longer side."""
-_CONTOURS = 8
 
 
 class DistortionPanel(Panel):
@@ -84,7 +81,7 @@ class DistortionPanel(Panel):
         d = np.where(self._shown(make_mesh(u, v), result), d, np.nan)
         self.plot.show_values(d, image_rectangle(camera.size))
         self.plot.fit(camera.size)
-        self.contours.show(u, v, d, _levels(float(np.nanmax(d, initial=0.0))))
+        self.contours.show(u, v, d, choose_levels(float(np.nanmax(d, initial=0.0))))
         at = make_mesh(*_cells(camera.size, _ARROWS)).reshape(-1, 2)
         at = at[self._shown(at, result)]
         gradient = self.displacement(at).gradient
@@ -129,15 +126,3 @@ def _cells(size: Size, count: int) -> tuple[Array, Array]:
     side = max(size) / count
     u, v = ((np.arange(max(1, round(n / side))) + 0.5) for n in size)
     return u * size[0] / len(u) - 0.5, v * size[1] / len(v) - 0.5
-
-
-def _levels(top: float) -> Iterator[float]:
-    """Round numbers between 0 and `top`."""
-    if top <= 0:
-        return
-    power = 10.0 ** np.floor(np.log10(top / _CONTOURS))
-    step = next(m * power for m in (1, 2, 5, 10) if top / (m * power) <= _CONTOURS)
-    n = 1
-    while n * step < top:
-        yield float(n * step)
-        n += 1

@@ -15,6 +15,12 @@ def image_rectangle(size: Size) -> QRectF:
     return QRectF(-0.5, -0.5, *size)
 
 
+def surround_places(u: Array, v: Array) -> QRectF:
+    """The area of cells around evenly spaced columns u (n,) and rows v (m,)."""
+    du, dv = u[1] - u[0], v[1] - v[0]
+    return QRectF(u[0] - du / 2, v[0] - dv / 2, len(u) * du, len(v) * dv)
+
+
 class HeatMap(Plot):
     """Values over the pixel array; NaN is left blank. Axes and colour bar end where it ends.
 

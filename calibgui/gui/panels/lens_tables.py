@@ -5,43 +5,25 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 
-from PySide6.QtCore import Signal
-from PySide6.QtWidgets import QTabWidget
-
-from calibgui.gui.widgets.tables import Column, Table, with_decimals
+from calibgui.gui.panels.linked_tables import LinkedTables
+from calibgui.gui.widgets.tables import Column, with_decimals
 from calibgui.report.lens_choice import LensRow, format_px
 from calibgui.report.lens_models import get_short_lens_title
 
 
-class LensTables(QTabWidget):
+class LensTables(LinkedTables):
     """The same lens models in both tables; a row of one is selected in the other as well."""
-
-    picked = Signal(int)
-    """The lens model that the user chose, counted as in the rows."""
 
     def __init__(self) -> None:
         super().__init__()
-        self.setDocumentMode(True)
-        self.errors, self.image = Table(), Table()
-        self.addTab(self.errors, self.tr("Errors"))
-        self.addTab(self.image, self.tr("Image"))
-        for table in (self.errors, self.image):
-            table.picked.connect(self._pick)
+        self.errors = self.add_table(self.tr("Errors"))
+        self.image = self.add_table(self.tr("Image"))
 
     def show_rows(self, rows: Sequence[LensRow]) -> None:
         """Show lens models; those that something speaks against stand out."""
         marked = {k: "; ".join(row.remarks) for k, row in enumerate(rows) if not row.is_eligible}
         self.errors.show_columns(self._make_error_columns(rows), marked)
         self.image.show_columns(self._make_image_columns(rows), marked)
-
-    def select(self, row: int) -> None:
-        """Highlight a lens model without announcing it."""
-        for table in (self.errors, self.image):
-            table.select(row)
-
-    def _pick(self, row: int) -> None:
-        self.select(row)
-        self.picked.emit(row)
 
     def _make_error_columns(self, rows: Sequence[LensRow]) -> list[Column]:
         px = with_decimals(3)

@@ -30,6 +30,8 @@ class Panel(QWidget):
     None for images rectified to the board."""
     lens_wanted = Signal(str, tuple)
     """Lens model that the user wants the camera calibrated with, and its coefficients to hold."""
+    method_wanted = Signal(str, object)
+    """Method that the user wants the camera calibrated with, and the `Cost` that it minimises."""
     failed = Signal(Exception)
     """Something that the user asked for could not be done."""
 

@@ -6,13 +6,13 @@ import math
 
 import numpy as np
 import pyqtgraph as pg
-from PySide6.QtCore import QT_TRANSLATE_NOOP, QPointF, QRectF
+from PySide6.QtCore import QT_TRANSLATE_NOOP, QPointF
 from PySide6.QtWidgets import QDoubleSpinBox, QHBoxLayout, QLabel, QVBoxLayout
 
 from calibgui.dataset import Result
 from calibgui.engine.uncertainty import ProjectionUncertainty, estimate_projection_uncertainty
 from calibgui.gui.panels.contours import Contours
-from calibgui.gui.panels.heat import HeatMap
+from calibgui.gui.panels.heat import HeatMap, surround_places
 from calibgui.gui.panels.latest import Latest
 from calibgui.gui.panels.panel import Panel
 from calibgui.gui.panels.services import Services
@@ -98,9 +98,7 @@ class UncertaintyPanel(Panel):
     def _show(self, found: ProjectionUncertainty) -> None:
         self.found = found
         u, v, sigma = found.u, found.v, found.worst_direction
-        du, dv = u[1] - u[0], v[1] - v[0]
-        area = QRectF(u[0] - du / 2, v[0] - dv / 2, len(u) * du, len(v) * dv)
-        self.plot.show_values(sigma, area, min(found.worst, _TOP * found.median))
+        self.plot.show_values(sigma, surround_places(u, v), min(found.worst, _TOP * found.median))
         self.plot.fit(found.size)
         self._draw_limit()
         self._hover(None)

@@ -1,4 +1,4 @@
-"""How to calibrate: the lens model, what is minimised, what is estimated, and the board's shape."""
+"""How to calibrate: method, lens model, what is minimised and estimated, and the board's shape."""
 
 from __future__ import annotations
 
@@ -19,16 +19,25 @@ from PySide6.QtWidgets import (
 from calibgui.app.settings import (
     DEFAULT_MODEL,
     MODEL_CHOICES,
+    NEW_PROJECT_SETTINGS,
     Settings,
     list_parameters,
     parse_fixed,
 )
 from calibgui.engine.boards import BoardShapeModel
-from calibgui.engine.calibration import Cost
-from calibgui.engine.camera import PINHOLE, find_model
+from calibgui.engine.calibration import DEFAULT_METHOD, METHODS, Cost
+from calibgui.engine.camera import PINHOLE
 from calibgui.engine.errors import CalibrationError
 from calibgui.gui.session.session import Session
 from calibgui.gui.settings.board_shape_choice import BoardShapeChoice
+from calibgui.gui.settings.cost_choice import CostChoice
+from calibgui.gui.settings.method_choice import (
+    MethodChoice,
+    change_method,
+    list_held,
+    list_unestimated,
+    takes_weights,
+)
 from calibgui.gui.widgets import theme
 from calibgui.gui.widgets.narrow_combo import NarrowCombo
 from calibgui.report.lens_models import describe_lens_model, get_lens_title
@@ -42,16 +51,17 @@ _MAX_BOXES = 20
 class SettingsPanel(QWidget):
     """Edits the calibration settings of the project: one widget for each of them.
 
-    The panel has the cost, the lens model, the board's shape, what to do about poor views, and a
-    box for every parameter of the lens model: a parameter without its tick is held. The hundreds
-    of coefficients of a splined model have none, nor have those of a model that is yet to be
-    chosen.
+    The panel has the method, the cost, the lens model, the board's shape, what to do about poor
+    views, and a box for every parameter of the lens model: a parameter without its tick is held.
+    The hundreds of coefficients of a splined model have none, nor have those of a model that is
+    yet to be chosen.
     """
 
     def __init__(self, session: Session) -> None:
         super().__init__()
         self._session = session
-        self.cost = self._make_cost()
+        self.method = MethodChoice()
+        self.cost = CostChoice()
         self.model = self._make_model()
         self.board_shape = BoardShapeChoice()
         self.robust = QCheckBox(self.tr("&Leave outliers out"))
@@ -62,12 +72,6 @@ class SettingsPanel(QWidget):
             )
         )
         self.weigh = QCheckBox(self.tr("&Weigh views by their noise"))
-        self.weigh.setToolTip(
-            self.tr(
-                "Poor views then spoil less. Best with an estimated shape of the board, which "
-                "would else pass for noise."
-            )
-        )
         self.again = QCheckBox(self.tr("Search a&gain with the camera"))
         self.again.setToolTip(
             self.tr(
@@ -90,40 +94,11 @@ class SettingsPanel(QWidget):
             *clicks,
         ):
             edited.connect(lambda: self._edit())
+        self.method.activated.connect(self._choose_listed_method)
         self.board_shape.slid.connect(lambda: self._edit(sliding=True))
         self.board_shape.failed.connect(session.failed)
         session.changed.connect(self._refresh)
         self._refresh()
-
-    def _make_cost(self) -> NarrowCombo:
-        choice = NarrowCombo()
-        for cost, text, tip in (
-            (
-                Cost.IMAGE,
-                self.tr("error in the image"),
-                self.tr(
-                    "Distance between measured and predicted corners, px. The noise is in the "
-                    "image: this gives the smallest standard deviations."
-                ),
-            ),
-            (
-                Cost.REFERENCE,
-                self.tr("error on the reference plane"),
-                self.tr(
-                    "Distance between the corners registered on the board and where they should "
-                    "be. Far and tilted views weigh more."
-                ),
-            ),
-            (
-                Cost.PAPER,
-                self.tr("as printed in the paper"),
-                self.tr("The formulation of the paper to the letter, to reproduce its tables."),
-            ),
-        ):
-            choice.addItem(text, cost)
-            choice.setItemData(choice.count() - 1, tip, Qt.ItemDataRole.ToolTipRole)
-        choice.setAccessibleName(self.tr("Minimise"))
-        return choice
 
     def _make_model(self) -> NarrowCombo:
         choice = NarrowCombo()
@@ -161,14 +136,11 @@ class SettingsPanel(QWidget):
         # In line with the labels of the board's shape, which follow.
         label.setMinimumWidth(self.board_shape.known.sizeHint().width())
         first = QFormLayout()
+        first.addRow(self.tr("Method"), self.method)
         first.addRow(label, self.cost)
         first.addRow(self.tr("Lens model"), self.model)
         self._grid = QGridLayout()
         self._grid.setHorizontalSpacing(theme.SPACING)
-        for name, box in self.boxes.items():
-            box.setToolTip(
-                self.tr("Estimate {0}; otherwise it is held, coefficients at 0.").format(name)
-            )
         last = QFormLayout()
         last.addRow(self.tr("Held at"), self.values)
         layout = QVBoxLayout(self)
@@ -192,53 +164,115 @@ class SettingsPanel(QWidget):
 
     def _refresh(self) -> None:
         settings = self._session.project.settings
-        self.cost.setCurrentIndex(self.cost.findData(settings.cost))
+        self._refresh_method(settings)
         self._refresh_model(settings)
         self.board_shape.show_choice(settings.board_shape, settings.prior)
-        self.board_shape.setEnabled(settings.cost is Cost.IMAGE)
-        self.board_shape.setToolTip(
-            ""
-            if self.board_shape.isEnabled()
-            else self.tr("The error in the image takes any board.")
-        )
         self.robust.setChecked(settings.robust)
         self.weigh.setChecked(settings.weigh_views)
-        self.weigh.setEnabled(settings.cost is Cost.IMAGE)
         self.again.setChecked(not settings.once)
         stated = {name: value for name, value in settings.fixed.items() if value is not None}
         self.values.setText(", ".join(f"{name}={value:.12g}" for name, value in stated.items()))
+
+    def _refresh_method(self, settings: Settings) -> None:
+        """Show method and cost, and offer what the two take."""
+        self.method.setCurrentIndex(self.method.findData(settings.method))
+        self.cost.setCurrentIndex(self.cost.findData(settings.cost))
+        has_costs = len(METHODS[settings.method].costs) > 1
+        self.cost.setEnabled(has_costs)
+        self.cost.setToolTip(
+            "" if has_costs else self.tr("The chosen method has nothing else to minimise.")
+        )
+        in_image, weighted = settings.cost is Cost.IMAGE, takes_weights(settings)
+        for widget in (self.board_shape, self.weigh):
+            widget.setEnabled(weighted)
+        self.board_shape.setToolTip(
+            self.tr("The error in the image takes any board.")
+            if not in_image
+            else ""
+            if weighted
+            else self.tr("The chosen method takes every board as it is drawn.")
+        )
+        self.weigh.setToolTip(
+            self.tr("Only the error in the image takes weights.")
+            if not in_image
+            else self.tr(
+                "Poor views then spoil less. Best with an estimated shape of the board, which "
+                "would else pass for noise."
+            )
+            if weighted
+            else self.tr("The chosen method takes all corners as equally good.")
+        )
 
     def _refresh_model(self, settings: Settings) -> None:
         if self.model.findData(settings.model) < 0 and settings.model is not None:
             _add_model(self.model, settings.model)  # splined, with numbers of its own
         self.model.setCurrentIndex(self.model.findData(settings.model))
-        is_paper = settings.cost is Cost.PAPER
-        self.model.setEnabled(not is_paper)
+        is_paper, has_own = settings.cost is Cost.PAPER, settings.method != DEFAULT_METHOD
+        self.model.setEnabled(not (is_paper or has_own))
         self.model.setToolTip(
-            self.tr("The formulation of the paper has its own lens model, with a radius in pixels.")
+            self.tr("The chosen method has its own lens model: what its authors corrected.")
+            if has_own
+            else self.tr(
+                "The formulation of the paper has its own lens model, with a radius in pixels."
+            )
             if is_paper
             else self.tr("How the lens bends what a pinhole would image; the result is of it.")
         )
-        names, held = _list_boxes(settings.model), _list_held(settings.model)
+        self._refresh_boxes(settings)
+
+    def _refresh_boxes(self, settings: Settings) -> None:
+        names, held = _list_boxes(settings.model), list_held(settings)
         if names != self._arranged:
             self._arranged = names
             self._arrange_boxes(names)
+        unestimated = list_unestimated(settings)
         for name in names:
+            box = self.boxes[name]
             is_free = name not in settings.fixed and (name not in held or name in settings.freed)
-            self.boxes[name].setChecked(is_free)
+            box.setChecked(is_free)
+            box.setEnabled(name not in unestimated)
+            box.setToolTip(
+                self.tr("Estimate {0}; otherwise it is held, coefficients at 0.").format(name)
+                if box.isEnabled()
+                else self.tr("The chosen method cannot estimate {0}.").format(name)
+            )
+
+    def choose_method(self, name: str, cost: Cost) -> None:
+        """Calibrate with another method and its own lens model.
+
+        Args:
+            name: key of the method in ``calibration.METHODS``.
+            cost: what it is to minimise.
+        """
+        self._edit_method(change_method(self._session.project.settings, name, cost))
+
+    def _choose_listed_method(self) -> None:
+        before, name = self._session.project.settings, self.method.currentData()
+        if name == before.method:
+            return
+        settings = change_method(before, name)
+        if name == DEFAULT_METHOD:
+            settings = replace(settings, model=NEW_PROJECT_SETTINGS.model)
+        self._edit_method(settings)
+
+    def _edit_method(self, settings: Settings) -> None:
+        if settings != self._session.project.settings:
+            self._session.edit(self.tr("Method"), lambda p: replace(p, settings=settings))
 
     def choose_model(self, model: str, held: Iterable[str]) -> None:
-        """Estimate another lens model, with the error in the image if the cost has its own.
+        """Estimate another lens model, by the default method and cost if those have their own.
 
         Args:
             model: name of the lens model.
             held: its coefficients to hold at 0; no others are held that the user may hold.
         """
         before = self._session.project.settings
+        has_own = model not in METHODS[before.method].lens_models
         fixed = {name: value for name, value in before.fixed.items() if name in PINHOLE}
         settings = replace(
             before,
             cost=Cost.IMAGE if before.cost is Cost.PAPER else before.cost,
+            method=DEFAULT_METHOD if has_own else before.method,
             model=model,
             fixed={**fixed, **dict.fromkeys(held)},
             freed=(),
@@ -277,18 +311,17 @@ class SettingsPanel(QWidget):
             fixed, freed = self._read_boxes(before.fixed if values is None else values)
         else:
             fixed, freed = _carry_over(before, model)
-        # Only the error in the image takes another board than the one that was drawn.
-        in_image = cost is Cost.IMAGE
+        weighted = takes_weights(replace(before, cost=cost))
         settings = replace(
             before,
             cost=cost,
             model=model,
             fixed=fixed,
             freed=freed,
-            board_shape=self.board_shape.board_shape if in_image else BoardShapeModel.NOMINAL,
-            prior=self.board_shape.prior if in_image else None,
+            board_shape=self.board_shape.board_shape if weighted else BoardShapeModel.NOMINAL,
+            prior=self.board_shape.prior if weighted else None,
             robust=self.robust.isChecked(),
-            weigh_views=self.weigh.isChecked() and in_image,
+            weigh_views=self.weigh.isChecked() and weighted,
             once=not self.again.isChecked(),
         )
         if settings != before:
@@ -302,8 +335,8 @@ class SettingsPanel(QWidget):
         self, values: Mapping[str, float | None]
     ) -> tuple[dict[str, float | None], tuple[str, ...]]:
         """Return what is held, at which of `values`, and what is freed, as the boxes show it."""
-        model = self._session.project.settings.model
-        names, held_by_default = _list_boxes(model), _list_held(model)
+        settings = self._session.project.settings
+        names, held_by_default = _list_boxes(settings.model), list_held(settings)
         held = [name for name in names if not self.boxes[name].isChecked()]
         stated = {name: values.get(name) for name in held}
         fixed = {n: v for n, v in stated.items() if n not in held_by_default or v is not None}
@@ -324,11 +357,6 @@ def _list_boxes(model: str | None) -> tuple[str, ...]:
     return names if len(names) <= _MAX_BOXES else PINHOLE
 
 
-def _list_held(model: str | None) -> tuple[str, ...]:
-    """List the parameters that a lens model holds by default; None is one yet to be chosen."""
-    return () if model is None else find_model(model).held
-
-
 def _carry_over(
     settings: Settings, model: str | None
 ) -> tuple[dict[str, float | None], tuple[str, ...]]:
@@ -336,7 +364,7 @@ def _carry_over(
 
     A coefficient that both models have stays held, but not at its value, which means another lens.
     """
-    names, held = list_parameters(model), _list_held(model)
+    names, held = list_parameters(model), list_held(replace(settings, model=model))
     fixed = {
         name: value if name in PINHOLE else None
         for name, value in settings.fixed.items()

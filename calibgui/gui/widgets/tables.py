@@ -56,6 +56,8 @@ class Column:
     """Whether it is left out where there is no room for all."""
     heading: str = ""
     """What stands over the texts, if not the title: with the unit that only they are in."""
+    tips: Sequence[str] = ()
+    """What there is to know of each value; the column's `tip` where it is empty."""
 
 
 def with_digits(digits: int) -> Callable[[float], str]:
@@ -107,7 +109,8 @@ class _Model(QAbstractTableModel):
         if role == Qt.ItemDataRole.BackgroundRole and index.row() in self.marked:
             return QColor(theme.current().bad_base)
         if role == Qt.ItemDataRole.ToolTipRole:
-            return self.marked.get(index.row()) or column.tip or None
+            own = column.tips[index.row()] if column.tips else ""
+            return self.marked.get(index.row()) or own or column.tip or None
         return None
 
     def headerData(  # noqa: N802 - Qt's name

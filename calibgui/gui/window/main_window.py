@@ -20,6 +20,7 @@ from PySide6.QtWidgets import (
 
 from calibgui.app.recent import list_recent_projects
 from calibgui.dataset import Result
+from calibgui.engine.calibration import Cost
 from calibgui.engine.errors import CalibrationError
 from calibgui.engine.kernels import COMPILED
 from calibgui.gui.canvas.image_page import ImagePage
@@ -164,7 +165,8 @@ class MainWindow(QMainWindow):
             self.analysis = Analysis(self.session)
             self.analysis.exclude_wanted.connect(self.images.exclude)
             self.analysis.save_wanted.connect(self.files.save_changed_images)
-            self.analysis.lens_wanted.connect(self._calibrate_with)
+            self.analysis.lens_wanted.connect(self._calibrate_with_lens)
+            self.analysis.method_wanted.connect(self._calibrate_with_method)
             self.analysis.rename_wanted.connect(self.files.rename_result)
             self.analysis.delete_wanted.connect(self.files.delete_result)
             self.analysis_dock.setWidget(self.analysis)
@@ -255,9 +257,17 @@ class MainWindow(QMainWindow):
         else:
             self.calibrator.calibrate()
 
-    def _calibrate_with(self, model: str, held: tuple[str, ...]) -> None:
+    def _calibrate_with_lens(self, model: str, held: tuple[str, ...]) -> None:
         """Calibrate with another lens model, some of its coefficients held."""
         self.settings.choose_model(model, held)
+        self._calibrate_anew()
+
+    def _calibrate_with_method(self, method: str, cost: Cost) -> None:
+        """Calibrate with another method, which minimises a cost."""
+        self.settings.choose_method(method, cost)
+        self._calibrate_anew()
+
+    def _calibrate_anew(self) -> None:
         if not self.calibrator.running:
             self.calibrator.calibrate()
 

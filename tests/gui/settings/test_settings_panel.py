@@ -16,9 +16,12 @@ from PySide6.QtWidgets import (
 )
 from pytestqt.qtbot import QtBot
 
+from calibgui.app.calibration import calibrate_views
 from calibgui.app.project import change_views
 from calibgui.app.settings import MODEL_CHOICES, Settings, check_settings
+from calibgui.dataset import CornerSet
 from calibgui.engine.boards.shape import BoardShape, BoardShapeModel, BoardShapePrior
+from calibgui.engine.calibration.methods import METHODS, check_method
 from calibgui.engine.calibration.result import Cost
 from calibgui.engine.camera.models import PINHOLE, find_model, parameter_names
 from calibgui.formats.board_shape_json import write_board_shape
@@ -334,3 +337,79 @@ def test_a_model_of_the_comparison_is_taken_as_it_was_compared(full: MainWindow)
     assert not panel.boxes["k6"].isChecked() and panel.boxes["k1"].isChecked()
     session.document.undo()
     assert session.project.settings is before
+
+
+def test_a_method_brings_its_own_lens_model_and_takes_back_what_it_does_not_take(
+    full: MainWindow, qtbot: QtBot
+) -> None:
+    panel, session = full.settings, full.session
+    before = replace(
+        session.project.settings,
+        board_shape=BoardShapeModel.FREE,
+        prior=BoardShapePrior(0.1, 0.3),
+        weigh_views=True,
+    )
+    session.edit("Settings", lambda p: replace(p, settings=before))
+    assert panel.method.currentData() == "lucchese" and panel.weigh.isEnabled()
+    choose_item(panel.method, "bouguet", qtbot)
+    assert session.project.settings == Settings(method="bouguet", model="brown-conrady-4")
+    for widget, reason in (
+        (panel.model, "own lens model"),
+        (panel.cost, "nothing else to minimise"),
+        (panel.board_shape, "as it is drawn"),
+        (panel.weigh, "equally good"),
+    ):
+        assert not widget.isEnabled()
+        assert reason in widget.toolTip()
+    assert panel.robust.isEnabled() and panel.again.isEnabled()
+    panel.robust.click()
+    assert session.project.settings.method == "bouguet", "what else is chosen leaves it alone"
+    choose_item(panel.method, "lucchese", qtbot)
+    assert session.project.settings == Settings(model=None, robust=True)
+    for widget in (panel.model, panel.cost, panel.board_shape, panel.weigh):
+        assert widget.isEnabled()
+    session.document.undo()
+    session.document.undo()
+    session.document.undo()
+    assert session.project.settings is before
+
+
+def test_boxes_are_ticked_as_the_method_holds_parameters(full: MainWindow) -> None:
+    panel, session = full.settings, full.session
+    panel.choose_method("bouguet", Cost.IMAGE)
+    assert not panel.boxes["skew"].isChecked() and panel.boxes["skew"].isEnabled()
+    panel.boxes["skew"].click()
+    assert session.project.settings.freed == ("skew",)
+    project = session.project
+    assert project.size is not None
+    corner_set = CornerSet(project.size, project.views, project.board)
+    assert calibrate_views(corner_set, project.settings).calibration.fixed == ()
+    panel.choose_method("zhang-closed-form", Cost.IMAGE)
+    assert panel.boxes["skew"].isChecked() and not panel.boxes["k1"].isChecked()
+    assert not panel.boxes["k1"].isEnabled(), "a closed form has no equation for it"
+    assert "cannot estimate k1" in panel.boxes["k1"].toolTip()
+    panel.choose_method("lucchese", Cost.PAPER)
+    assert session.project.settings == Settings(Cost.PAPER)
+    assert panel.boxes["k1"].isEnabled()
+
+
+def test_every_method_can_be_chosen_and_is_described(full: MainWindow, qtbot: QtBot) -> None:
+    panel, session = full.settings, full.session
+    assert [panel.method.itemData(k) for k in range(panel.method.count())] == list(METHODS)
+    for name, method in METHODS.items():
+        choose_item(panel.method, name, qtbot)
+        settings = session.project.settings
+        assert settings.method == name
+        check_settings(settings)
+        check_method(method, settings.model or "lucchese", settings.cost)
+        for text in (method.title, method.limits, method.source):
+            assert text in panel.method.toolTip()
+
+
+def test_a_lens_model_that_the_method_does_not_have_is_estimated_by_the_default(
+    full: MainWindow,
+) -> None:
+    panel, session = full.settings, full.session
+    panel.choose_method("bouguet", Cost.IMAGE)
+    panel.choose_model("kannala-brandt", ())
+    assert session.project.settings == Settings(model="kannala-brandt")

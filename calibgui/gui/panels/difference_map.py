@@ -1,0 +1,120 @@
+"""The difference of a camera from the chosen one, as a map over the image."""
+
+from __future__ import annotations
+
+from typing import Protocol
+
+import numpy as np
+import pyqtgraph as pg
+from PySide6.QtCore import QPointF, Qt
+from PySide6.QtWidgets import QLabel, QStackedWidget, QVBoxLayout, QWidget
+
+from calibgui.engine.arrays import Array, BoolArray, Size
+from calibgui.gui.panels.contours import Contours, choose_levels
+from calibgui.gui.panels.heat import HeatMap, surround_places
+from calibgui.gui.widgets import theme
+
+_LEVELS = 4
+"""Contour lines, at most: the map is small."""
+_LEAST_PX = 1e-3
+"""Largest difference that is drawn, at least: what is below it is rounding."""
+
+
+class Difference(Protocol):
+    """What is drawn."""
+
+    @property
+    def u(self) -> Array:
+        """(n,) columns, px."""
+
+    @property
+    def v(self) -> Array:
+        """(m,) rows, px."""
+
+    @property
+    def length(self) -> Array:
+        """(m, n) length of the difference, px; NaN where there is none."""
+
+    @property
+    def region(self) -> BoolArray:
+        """(m, n) true where corners cover the image."""
+
+
+class DifferenceMap(QWidget):
+    """Lengths as colours, which end at the largest where corners were seen, and lines there."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self._difference: Difference | None = None
+        self._size: Size = (0, 0)
+        self.plot = HeatMap(self.tr("difference [px]"))
+        self.plot.setToolTip(
+            self.tr(
+                "Distance between a point's images by this method and by the chosen calibration,\n"
+                "after the rotation that brings the two closest where corners (dots) were seen."
+            )
+        )
+        self.plot.scene().sigMouseMoved.connect(self._hover)
+        self.contours = Contours(self.plot, pg.mkPen("#ffffffc8"))
+        self.corners = pg.ScatterPlotItem(size=2, pen=None, brush=(255, 255, 255, 110))
+        self.plot.addItem(self.corners)
+        self.under_cursor = QLabel()
+        self.reason = QLabel()
+        self.reason.setAlignment(Qt.AlignmentFlag.AlignCenter)
+        self.reason.setWordWrap(True)
+        self.reason.setMargin(theme.SPACING)
+        drawn = QWidget()
+        layout = QVBoxLayout(drawn)
+        layout.setContentsMargins(0, 0, 0, 0)
+        layout.addWidget(self.plot, 1)
+        layout.addWidget(self.under_cursor)
+        self._stack = QStackedWidget()
+        self._stack.addWidget(drawn)
+        self._stack.addWidget(self.reason)
+        whole = QVBoxLayout(self)
+        whole.setContentsMargins(0, 0, 0, 0)
+        whole.addWidget(self._stack)
+
+    def show_difference(self, difference: Difference, size: Size, corners: Array) -> None:
+        """Draw a difference over an image, with the corners (n, 2) that were seen."""
+        u, v, length = difference.u, difference.v, difference.length
+        top = float(np.nanmax(length[difference.region], initial=0.0))
+        if top < _LEAST_PX:
+            self.show_reason(
+                self.tr("It does not differ from the chosen calibration (below {0:g} px).").format(
+                    _LEAST_PX
+                )
+            )
+            return
+        self._difference, self._size = difference, size
+        self.plot.show_values(length, surround_places(u, v), top)
+        self.plot.fit(size)
+        seen = np.where(difference.region, length, np.nan)
+        self.contours.show(u, v, seen, choose_levels(top, _LEVELS))
+        self.corners.setData(*corners.T)
+        self._stack.setCurrentIndex(0)
+        self._hover(None)
+
+    def show_reason(self, text: str) -> None:
+        """Say why there is no map."""
+        self._difference = None
+        self.reason.setText(text)
+        self._stack.setCurrentIndex(1)
+
+    def _hover(self, position: QPointF | None) -> None:
+        """Say the difference under the cursor, or the largest where there is none."""
+        found = self._difference
+        if found is None:
+            return
+        uv = self.plot.pixel_at(position, self._size)
+        if uv is None:
+            self.under_cursor.setText(
+                self.tr("At most {0:.3f} px where corners were seen: point to read it").format(
+                    float(np.nanmax(found.length[found.region], initial=0.0))
+                )
+            )
+            return
+        column, row = np.abs(found.u - uv[0]).argmin(), np.abs(found.v - uv[1]).argmin()
+        self.under_cursor.setText(
+            self.tr("u {0:.0f}, v {1:.0f}: {2:.3f} px").format(*uv, found.length[row, column])
+        )

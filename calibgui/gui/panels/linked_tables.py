@@ -1,0 +1,40 @@
+"""The same rows in several tables, one at a time."""
+
+from __future__ import annotations
+
+from PySide6.QtCore import Signal
+from PySide6.QtWidgets import QTabWidget
+
+from calibgui.gui.widgets.tables import Table
+
+
+class LinkedTables(QTabWidget):
+    """Tables with the same rows; a row that is selected in one is selected in the others."""
+
+    picked = Signal(int)
+    """The row that the user chose, counted as in the columns' values."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.setDocumentMode(True)
+        self._tables: list[Table] = []
+        keeping = self.sizePolicy()
+        keeping.setRetainSizeWhenHidden(True)
+        self.setSizePolicy(keeping)
+
+    def add_table(self, name: str) -> Table:
+        """Add an empty table behind those that there are."""
+        table = Table()
+        table.picked.connect(self._pick)
+        self._tables.append(table)
+        self.addTab(table, name)
+        return table
+
+    def select(self, row: int) -> None:
+        """Highlight a row without announcing it."""
+        for table in self._tables:
+            table.select(row)
+
+    def _pick(self, row: int) -> None:
+        self.select(row)
+        self.picked.emit(row)

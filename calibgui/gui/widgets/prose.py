@@ -1,0 +1,42 @@
+"""Sentences that take the room that they need, up to some lines; the rest is scrolled to."""
+
+from __future__ import annotations
+
+import math
+
+from PySide6.QtCore import Qt
+from PySide6.QtGui import QResizeEvent
+from PySide6.QtWidgets import QFrame, QSizePolicy, QTextBrowser
+
+
+class Prose(QTextBrowser):
+    """Text without a frame, that can be selected.
+
+    Args:
+        lines: the most that are shown at once.
+    """
+
+    def __init__(self, lines: int) -> None:
+        super().__init__()
+        self._lines = lines
+        self.setFrameShape(QFrame.Shape.NoFrame)
+        self.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
+        self.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Fixed)
+        self.viewport().setAutoFillBackground(False)
+        self.document().setDocumentMargin(0)
+
+    def show_text(self, text: str) -> None:
+        """Show a text, from its beginning."""
+        if text != self.toPlainText():  # which has plain spaces
+            for unit in (" px", " %"):
+                text = text.replace(unit, unit.replace(" ", "\N{NO-BREAK SPACE}"))
+            self.setPlainText(text)
+            self._fit()
+
+    def resizeEvent(self, event: QResizeEvent) -> None:  # noqa: N802 - Qt's name
+        super().resizeEvent(event)
+        self._fit()
+
+    def _fit(self) -> None:
+        most = self._lines * self.fontMetrics().lineSpacing()
+        self.setFixedHeight(min(math.ceil(self.document().size().height()), most))
