@@ -123,8 +123,8 @@ def _make_result(found: Conversion, note: str) -> Result:
     calibration = Calibration(
         camera=camera,
         sigma=unknown,
-        covariance=np.full((len(unknown), len(unknown)), np.nan),
-        sigma_by_noise=unknown,
+        covariance=(unknown_covariance := np.full((len(unknown), len(unknown)), np.nan)),
+        noise_covariance=unknown_covariance,
         poses=(),
         pose_covariances=np.zeros((0, 6, 6)),
         residuals=(),

@@ -114,7 +114,11 @@ def encode_result(result: Result) -> dict[str, Any]:
         "undetermined": [{"name": u.name, "reason": u.reason} for u in calibration.undetermined],
         "diagnosis": encode_diagnosis(calibration.diagnosis),
         "warnings": calibration.warnings,
-        "covariance": {"parameters": names, "matrix": calibration.covariance},
+        "covariance": {
+            "parameters": names,
+            "matrix": calibration.covariance,
+            "matrix_by_noise": calibration.noise_covariance,
+        },
         "settings": calibration.settings,
         "versions": result.versions,
         "inputs_sha256": calibration.digest,
@@ -208,9 +212,7 @@ def _decode_calibration(node: Node, used: list[Node]) -> Calibration:
         camera=_decode_camera(camera, model, added),
         sigma=_decode_by_name(camera["sigma"], names, added),
         covariance=_decode_covariance(node["covariance"]["matrix"], names, added),
-        sigma_by_noise=_decode_by_name(
-            camera.get("sigma_by_noise") or camera["sigma"], names, added
-        ),
+        noise_covariance=_decode_noise_covariance(node, names, added),
         poses=tuple(map(decode_pose, used)),
         pose_covariances=np.stack(list(map(decode_pose_covariance, used))),
         residuals=tuple(map(decode_residuals, used)),
@@ -287,6 +289,16 @@ def _decode_covariance(node: Node, names: Sequence[str], added: Mapping[str, flo
     covariance = np.zeros((len(names), len(names)))
     covariance[np.ix_(stored, stored)] = node.numbers(len(stored), len(stored), nullable=True)
     return covariance
+
+
+def _decode_noise_covariance(node: Node, names: Sequence[str], added: Mapping[str, float]) -> Array:
+    """Return the covariance (P, P) by noise alone; older results hold its diagonal only."""
+    matrix = node["covariance"].get("matrix_by_noise")
+    if matrix is not None:
+        return _decode_covariance(matrix, names, added)
+    camera = node["camera"]
+    sigma = _decode_by_name(camera.get("sigma_by_noise") or camera["sigma"], names, added)
+    return np.diag(sigma**2)
 
 
 def _decode_iteration(node: Node) -> Iteration:

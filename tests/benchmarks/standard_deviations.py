@@ -34,7 +34,7 @@ def measure_deviation_ratios(model: str, draws: int) -> Array:
     ]
     free = np.array([name not in held for name in camera.names])
     scatter = np.std([result.camera.params[free] for result in found], axis=0, ddof=1)
-    return np.asarray(scatter / np.mean([result.sigma[free] for result in found], axis=0))
+    return np.asarray(scatter / np.mean([result.sigma_by_noise[free] for result in found], axis=0))
 
 
 def main() -> None:

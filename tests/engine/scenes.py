@@ -12,6 +12,7 @@ from scipy.spatial.transform import Rotation
 
 from calibgui.engine.arrays import Array, Size
 from calibgui.engine.boards.board import Board
+from calibgui.engine.boards.shape import BoardShapePrior
 from calibgui.engine.calibration.observations import Observation
 from calibgui.engine.camera.camera import Camera
 from calibgui.engine.camera.projection import pixels_from_rays
@@ -19,6 +20,8 @@ from calibgui.engine.geometry.pose import Pose
 
 VGA: Size = (640, 480)
 BOARD = Board(rows=9, cols=12, square=30.0)
+TRUE_BOARD = BoardShapePrior(1e-6, 1e-6)
+"""A board that is as drawn: uncertainties are then those of the corners' noise alone."""
 
 
 @dataclass(frozen=True, eq=False)

@@ -57,8 +57,8 @@ def holding(result: Result, camera: Camera) -> Result:
         result.calibration,
         camera=camera,
         sigma=np.full(count, 0.5),
-        sigma_by_noise=np.full(count, 0.5),
         covariance=np.eye(count),
+        noise_covariance=0.25 * np.eye(count),
         fixed=(),
         settings={**result.calibration.settings, "fixed": {}},
     )

@@ -5,10 +5,8 @@
 1. The views are checked and brought into arrays (``observations.py``).
 2. The method guesses the camera and the poses, and refines the guess to the minimum of the cost.
 3. Views that do not determine the camera are named, with what they do determine (``partial``).
-4. The board's shape is estimated if that is wanted (``board_shape``); otherwise the residuals tell
-   how much an imperfect board adds to the uncertainties. Where they look like a board that is off,
-   the lens is examined first (``lens_error.py``): what it explains is not the board's.
-5. The views' disagreement beyond their noise widens the uncertainties (``overdispersion.py``).
+4. The board's shape is estimated if that is wanted, and the uncertainties are widened by what the
+   models of board, lens and views miss (``model_errors.py``).
 """
 
 from __future__ import annotations
@@ -24,18 +22,13 @@ import numpy as np
 
 from calibgui.engine.arrays import Array, BoolArray, IntArray, Size
 from calibgui.engine.boards.shape import BoardShape, BoardShapeModel, BoardShapePrior
-from calibgui.engine.calibration.board_shape.estimate import fit_board_shape
 from calibgui.engine.calibration.board_shape.parametrisation import place_on_board_shape
-from calibgui.engine.calibration.board_shape.uncertainty import (
-    add_board_shape_error,
-    suspect_board,
-)
 from calibgui.engine.calibration.initialisation.knots import check_knots, choose_knots
 from calibgui.engine.calibration.initialisation.start import convert_to_paper_frame
-from calibgui.engine.calibration.lens_error import measure_lens_error
 from calibgui.engine.calibration.methods import DEFAULT_METHOD, check_method, find_method
 from calibgui.engine.calibration.methods.method import Given, Method
 from calibgui.engine.calibration.methods.scatter import simulate_covariances
+from calibgui.engine.calibration.model_errors import add_model_errors
 from calibgui.engine.calibration.observations import (
     REFERENCE_PITCH,
     Observation,
@@ -45,7 +38,6 @@ from calibgui.engine.calibration.observations import (
     pack_observations,
 )
 from calibgui.engine.calibration.options import Options, resolve_held_parameters
-from calibgui.engine.calibration.overdispersion import add_overdispersion
 from calibgui.engine.calibration.partial.degeneracy import (
     diagnose_degeneracy,
     find_copies,
@@ -56,7 +48,6 @@ from calibgui.engine.calibration.partial.degeneracy import (
 )
 from calibgui.engine.calibration.partial.partial_calibration import (
     estimate_partially,
-    find_poorly_known,
 )
 from calibgui.engine.calibration.refinement import covariances
 from calibgui.engine.calibration.refinement.levenberg_marquardt import Solution
@@ -64,11 +55,9 @@ from calibgui.engine.calibration.refinement.residuals import State
 from calibgui.engine.calibration.refinement.whitening import whiten_observations
 from calibgui.engine.calibration.result import Calibration, Cost, DegenerateError, Report
 from calibgui.engine.calibration.result_assembly import (
-    Estimate,
     assemble_calibration,
     make_estimate,
 )
-from calibgui.engine.calibration.score_tests import LinearisedFit
 from calibgui.engine.camera.camera import Camera, check_image_size
 from calibgui.engine.camera.models import PINHOLE, find_model, parameter_names, resolve_model_id
 from calibgui.engine.camera.models.splined_stereographic import PREFIX
@@ -116,8 +105,10 @@ def calibrate(
         board_shape: the model of the board's deviations from its drawing, which are estimated
             with the camera; or a shape that was estimated before, which is held. Both need the
             image cost.
-        prior: what is known beforehand of the corners of a `free` board shape; the other models
-            need none.
+        prior: deviations of the board's corners to expect, where more is known of them than that
+            boards are flat and true to some 0.03 % of their size (``board_shape/uncertainty.py``).
+            They count in every uncertainty for a board that is taken as drawn, and regularise a
+            `free` board shape; the other models need none.
         max_iterations: the largest number of iterations of a solve; corners with covariances take
             a few solves.
         names: names of the views for messages; numbers by default.
@@ -218,11 +209,11 @@ def calibrate(
     misfits = [names[k] for k in find_misfits(given.registration.rms).tolist()]
     precision = _measure_precision(solution, observations, originals, options, misfits)
     estimate = make_estimate(solution, observations, precision)
-    if not steps.is_minimum:
+    if steps.is_minimum:
+        estimate = add_model_errors(estimate, observations, options, prior, report)
+    else:
         run = partial(_rerun_method, steps, given, options)
         estimate = simulate_covariances(estimate, options, run)
-    elif cost is Cost.IMAGE:
-        estimate = _add_model_errors(estimate, observations, options, prior, report)
     calibration = assemble_calibration(
         estimate, options, precision.undetermined, _compute_digest(observations, settings)
     )
@@ -266,53 +257,6 @@ def _measure_precision(
     if lost or is_in_one_spot(observations.uv, options.size):  # padding repeats a corner
         _raise_if_undetermined(observations, originals, options, solution.state, lost)
     return precision
-
-
-def _add_model_errors(
-    estimate: Estimate,
-    observations: Observations,
-    options: Options,
-    prior: BoardShapePrior | None,
-    report: Report | None,
-) -> Estimate:
-    """Estimate the board's shape if wanted, and widen the uncertainties by what models miss.
-
-    Nothing is added for a splined lens: it has enough coefficients to follow what a board's shape
-    or a single view does to the image, and the tests that tell these apart know few parameters.
-    """
-    if find_model(options.model).control_points is not None:
-        return estimate
-    shape, lens_error = BoardShapeModel(options.settings["plate"]), 0.0
-    if options.board_shape is None:
-        suspicion = suspect_board(estimate, observations, options.model)
-        if suspicion is not None:  # only then is the lens examined, which takes its time
-            camera = Camera(options.size, estimate.state.params, options.model)
-            fit = LinearisedFit(camera, estimate.state, observations, options.free)
-            lens_error = measure_lens_error(fit, suspicion.explained)
-        if shape is not BoardShapeModel.NOMINAL:
-            solution = estimate.solution
-            estimate = fit_board_shape(
-                solution, observations, options.model, options.free, shape, prior, report
-            )
-            _check_camera_known(estimate, options, shape)
-        elif suspicion is not None:
-            estimate = add_board_shape_error(
-                estimate, observations, options.model, options.free, suspicion
-            )
-    if lens_error > 0:
-        estimate = estimate._replace(lens_error=lens_error, board_shape_error=0.0)
-    return add_overdispersion(estimate, options.model, options.free)
-
-
-def _check_camera_known(estimate: Estimate, options: Options, board_shape: BoardShapeModel) -> None:
-    """Refuse an estimated board shape that stands in for the camera."""
-    if names := find_poorly_known(estimate.state.params, estimate.camera_covariance, options):
-        raise CalibrationError(
-            f"With the board shape {board_shape.value!r} these views leave {', '.join(names)} "
-            "undetermined: what the board does and what the camera does look alike in them.",
-            "Add views with the board tilted by 20 to 45 degrees in different directions and all "
-            "over the image, or keep the board as it is drawn.",
-        )
 
 
 def _raise_if_undetermined(

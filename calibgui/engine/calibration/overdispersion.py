@@ -39,13 +39,17 @@ the same to first order and for noise at most three times the variance. An estim
 a leverage of its own, l = Q / (2N - 6K), about alike in all views: of noise's variance it leaves
 1 - l in X, and the jackknife's residuals are 1 / (1 - l) of those that are left.
 
-Of the two covariances the larger is reported in each direction of the parameters: with C = L L^T
-the model's and L^-1 cov L^-T = sum_i v_i u_i u_i^T, C becomes
-L (1 + sum_i max(v_i - 1, 0) u_i u_i^T) L^T. Poses and board shape follow the camera as they do in
-the model. The cost is one more pass over the views.
+Of the two covariances the larger is taken in each direction of the parameters: with C = L L^T the
+noise's and L^-1 cov L^-T = sum_i v_i u_i u_i^T, it exceeds C by
 
-An error that all views share, such as the board's, does not make them disagree: the board's is
-found by ``board_shape/uncertainty.py``, that of the lens model by no comparison of views.
+    L (sum_i max(v_i - 1, 0) u_i u_i^T) L^T,
+
+which is added to what is reported. Poses and board shape follow the camera as they do in the model.
+The cost is one more pass over the views.
+
+An error that all views share, such as the board's, is not measured by their disagreement: the
+board's is found by ``board_shape/uncertainty.py`` and adds to it, as a bias adds to a scatter; that
+of the lens model is found by no comparison of views.
 """
 
 from __future__ import annotations
@@ -62,11 +66,11 @@ from calibgui.engine.calibration.refinement.residuals import BoardMotion, comput
 from calibgui.engine.calibration.result_assembly import Estimate
 from calibgui.engine.geometry import rotations
 
-_SIGNIFICANCE = 0.05
+_SIGNIFICANCE = 0.01
 """Probability with which noise alone widens the uncertainties."""
 _JACKKNIFE_SHARE = 0.9
 """Share of a view that the jackknife leaves out."""
-_MIN_VIEWS = 6
+_MIN_VIEWS = 3
 """Number of views below which their disagreement is not tested."""
 
 
@@ -83,7 +87,6 @@ def add_overdispersion(estimate: Estimate, model: str, free: IntArray) -> Estima
         return estimate
     try:
         unit = np.linalg.cholesky(estimate.noise_covariance / sigma2)  # T^-1 = unit unit^T
-        reported = np.asarray(np.linalg.cholesky(estimate.camera_covariance), np.float64)
     except np.linalg.LinAlgError:
         return estimate  # a combination of parameters is undetermined, and says so
     A = compute_view_products(
@@ -104,7 +107,7 @@ def add_overdispersion(estimate: Estimate, model: str, free: IntArray) -> Estima
         return estimate
     moved = np.linalg.solve(np.eye(P) - _JACKKNIFE_SHARE * R, h[..., None])[..., 0] @ unit.T
     clustered = moved.T @ moved * (K - 1) / K / (1 - leverage) ** 2
-    added = _compute_excess(clustered, reported)
+    added = _compute_excess(clustered, np.sqrt(sigma2) * np.asarray(unit))
     turn = covariances.differentiate_poses(rotations.vector_from_rotation(estimate.state.R)) @ G
     return estimate._replace(
         camera_covariance=estimate.camera_covariance + added,

@@ -165,9 +165,9 @@ class Calibration:
     """One standard deviation of each of `camera.params`; 0 where held, NaN where undetermined."""
     covariance: Array
     """Covariance of `camera.params`."""
-    sigma_by_noise: Array
-    """`sigma` from the corners' noise alone, as if it were independent from corner to corner and
-    board and lens were as modelled."""
+    noise_covariance: Array
+    """Covariance of `camera.params` from the corners' noise alone, as if it were independent from
+    corner to corner and board and lens were as modelled."""
     poses: tuple[Pose, ...]
     pose_covariances: Array
     """(K, 6, 6) covariance of (rvec, tvec) of each view, rad and mm."""
@@ -215,7 +215,12 @@ class Calibration:
     afterwards; NaN if it is not known, as in older results."""
 
     def __post_init__(self) -> None:
-        freeze(self, "sigma", "covariance", "sigma_by_noise", "pose_covariances")
+        freeze(self, "sigma", "covariance", "noise_covariance", "pose_covariances")
+
+    @property
+    def sigma_by_noise(self) -> Array:
+        """(P,) standard deviations of `camera.params` from the corners' noise alone."""
+        return np.asarray(np.sqrt(np.diag(self.noise_covariance)))
 
 
 class DegenerateError(CalibrationError):

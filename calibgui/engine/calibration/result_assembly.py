@@ -99,7 +99,7 @@ def assemble_calibration(
         camera=Camera(options.size, state.params, options.model),
         sigma=sigma,
         covariance=covariance,
-        sigma_by_noise=with_held_parameters(estimate.noise_covariance)[1],
+        noise_covariance=with_held_parameters(estimate.noise_covariance)[0],
         poses=make_poses(state),
         pose_covariances=estimate.pose_covariances,
         residuals=compute_view_residuals(state, observations, options.model, cost, options.scale),

@@ -17,7 +17,7 @@ from calibgui.engine.calibration.observations import Observation
 from calibgui.engine.calibration.result import Calibration, Cost, Iteration, Status
 from calibgui.engine.errors import CalibrationError, Cancelled
 from calibgui.engine.geometry.rotations import rotation_from_vector
-from tests.engine.scenes import VGA, Scene, barrel, brown, looking, scene, seen
+from tests.engine.scenes import TRUE_BOARD, VGA, Scene, barrel, brown, looking, scene, seen
 
 Views = Sequence[Observation]
 NOISY = scene(barrel(0.9), 8, seed=2).noisy(0.2, np.random.default_rng(0))
@@ -138,9 +138,10 @@ def test_a_board_numbered_with_y_up_is_the_same_board(expected: Calibration) -> 
     )
 
 
-def test_boards_turned_by_180_degrees_agree(expected: Calibration) -> None:
+def test_boards_turned_by_180_degrees_agree() -> None:
     turned = [NOISY[0], Observation(NOISY[1].uv, NOISY[1].xy[::-1]), *NOISY[2:]]
-    same(calibrate(turned, VGA), expected)
+    found = calibrate(turned, VGA, prior=TRUE_BOARD)  # what a bent board does is averaged by turns
+    same(found, calibrate(NOISY, VGA, prior=TRUE_BOARD))
 
 
 MIRRORS: dict[str, Callable[[Array], Array]] = {

@@ -8,7 +8,7 @@ import pytest
 from calibgui.engine.arrays import Array
 from calibgui.engine.calibration.calibrate import calibrate
 from calibgui.engine.geometry.rotations import rotation_from_vector, vector_from_rotation
-from tests.engine.scenes import barrel, brown, scene
+from tests.engine.scenes import TRUE_BOARD, barrel, brown, scene
 
 pytestmark = pytest.mark.slow
 
@@ -22,7 +22,7 @@ def drawn(model: str) -> tuple[Array, Array, Array, Array, Array]:
     errors, sigmas, pose_errors, pose_sigmas, noises = [], [], [], [], []
     for seed in range(DRAWS):
         views = made.noisy(NOISE, np.random.default_rng(seed))
-        found = calibrate(views, made.size, model=model)
+        found = calibrate(views, made.size, model=model, prior=TRUE_BOARD)
         errors.append(found.camera.params - made.camera.params)
         sigmas.append(found.sigma)
         pose_errors.append(
@@ -68,7 +68,9 @@ def test_correlated_parameters_move_together() -> None:
     made = scene(barrel(0.9), 10, seed=6)
     lengths = []
     for seed in range(DRAWS):
-        found = calibrate(made.noisy(NOISE, np.random.default_rng(seed)), made.size)
+        found = calibrate(
+            made.noisy(NOISE, np.random.default_rng(seed)), made.size, prior=TRUE_BOARD
+        )
         error = (found.camera.params - made.camera.params)[:9]
         lengths.append(error @ np.linalg.solve(found.covariance[:9, :9], error))
     # chi^2 with 9 degrees of freedom: its mean over 200 draws is known to 0.3.
@@ -83,7 +85,7 @@ def test_rotation_vectors_scatter_as_reported_beyond_small_angles() -> None:
     errors, sigmas = [], []
     for seed in range(DRAWS // 2):
         views = made.noisy(NOISE, np.random.default_rng(seed))
-        found = calibrate([(v.uv, v.xy * [1, -1]) for v in views], made.size)
+        found = calibrate([(v.uv, v.xy * [1, -1]) for v in views], made.size, prior=TRUE_BOARD)
         rvecs = np.array([p.rvec for p in found.poses])
         # Of the two vectors of a rotation take the one next to the truth's.
         angle = np.linalg.norm(rvecs, axis=1, keepdims=True)

@@ -10,16 +10,16 @@ from calibgui.engine.calibration.problem import find_free_parameters
 from calibgui.engine.calibration.result import Cost
 from calibgui.engine.geometry import rotations
 from calibgui.engine.uncertainty.fisher_information import compute_information
-from tests.engine.scenes import barrel, relative, scene
+from tests.engine.scenes import TRUE_BOARD, barrel, relative, scene
 
 
 @pytest.mark.parametrize("cost", [Cost.IMAGE, Cost.REFERENCE])
 def test_the_views_add_up_to_the_covariance(cost: Cost) -> None:
     views = scene(barrel(), 6).noisy(0.2, np.random.default_rng(1))
-    result = calibrate(views, barrel().size, cost=cost)
+    result = calibrate(views, barrel().size, cost=cost, prior=TRUE_BOARD)
     free = find_free_parameters(result)
     S = compute_information(result, views).camera.sum(axis=0)
-    expected = result.covariance[np.ix_(free, free)]
+    expected = result.noise_covariance[np.ix_(free, free)]
     unit = np.sqrt(np.outer(np.diag(expected), np.diag(expected)))
     assert relative(result.noise**2 * np.linalg.inv(S) / unit, expected / unit) < 1e-6
 
@@ -33,17 +33,17 @@ def test_weights_are_those_of_the_calibration(claimed: float) -> None:
         )
         for view in scene(barrel(), 6).noisy(0.2, rng)
     ]
-    result = calibrate(views, barrel().size)
+    result = calibrate(views, barrel().size, prior=TRUE_BOARD)
     free = find_free_parameters(result)
     S = compute_information(result, views).camera.sum(axis=0)
-    expected = result.covariance[np.ix_(free, free)]
+    expected = result.noise_covariance[np.ix_(free, free)]
     unit = np.sqrt(np.outer(np.diag(expected), np.diag(expected)))
     assert relative(result.noise**2 * np.linalg.inv(S) / unit, expected / unit) < 5e-3
 
 
 def test_motions_of_the_views_have_the_poses_covariances() -> None:
     views = scene(barrel(), 6).noisy(0.2, np.random.default_rng(1))
-    result = calibrate(views, barrel().size)
+    result = calibrate(views, barrel().size, prior=TRUE_BOARD)
     free = find_free_parameters(result)
     says = compute_information(result, views)
     C = result.covariance[np.ix_(free, free)]
@@ -61,7 +61,7 @@ def test_motions_of_the_views_have_the_poses_covariances() -> None:
 
 def test_some_of_the_views() -> None:
     views = scene(barrel(), 5).noisy(0.2, np.random.default_rng(1))
-    result = calibrate(views, barrel().size)
+    result = calibrate(views, barrel().size, prior=TRUE_BOARD)
     all_of_them = compute_information(result, views)
     some = all_of_them.chosen(np.array([3, 1]))
     assert np.array_equal(some.camera, all_of_them.camera[[3, 1]])

@@ -13,14 +13,14 @@ from calibgui.engine.calibration.result import Calibration
 from calibgui.engine.errors import CalibrationError
 from calibgui.engine.uncertainty.number_of_views import QUANTITIES, study_number_of_views
 from calibgui.engine.uncertainty.view_design import build_design
-from tests.engine.scenes import barrel, brown, scene
+from tests.engine.scenes import TRUE_BOARD, barrel, brown, scene
 
 SIZE = barrel().size
 
 
 def _calibrated(count: int, noise: float = 0.2) -> tuple[Calibration, list[Observation]]:
     views = scene(barrel(), count, seed=1).noisy(noise, np.random.default_rng(2))
-    return calibrate(views, SIZE), views
+    return calibrate(views, SIZE, prior=TRUE_BOARD), views
 
 
 def test_study_falls_with_the_number_of_views() -> None:

@@ -22,7 +22,15 @@ from calibgui.engine.uncertainty.projection_uncertainty import (
     estimate_projection_uncertainty,
     make_map_grid,
 )
-from tests.engine.scenes import BOARD, barrel, brown, central_differences, relative, scene
+from tests.engine.scenes import (
+    BOARD,
+    TRUE_BOARD,
+    barrel,
+    brown,
+    central_differences,
+    relative,
+    scene,
+)
 
 DISTANCES = (np.inf, 600.0)
 
@@ -72,12 +80,12 @@ def test_sensitivity_is_the_derivative(distance: float) -> None:
 def test_predicts_the_scatter_of_recalibrations(distance: float) -> None:
     true = scene(barrel(), 8, seed=3)
     size, rng = true.size, np.random.default_rng(5)
-    exact = calibrate(true.views, size)
+    exact = calibrate(true.views, size, prior=TRUE_BOARD)
     uv = np.stack(np.meshgrid(np.linspace(0, 639, 7), np.linspace(0, 479, 5)), axis=-1)
     draws, predicted = [], []
     for _ in range(300):
         views = true.noisy(0.3, rng)
-        again = calibrate(views, size)
+        again = calibrate(views, size, prior=TRUE_BOARD)
         draws.append(_reprojected(exact, again, uv, distance) - uv)
         if len(predicted) < 5:
             predicted.append(_at(again, views, uv, distance))
@@ -145,7 +153,7 @@ def test_agrees_with_mrcal(tmp_path: Path, distance: float) -> None:
     ):
         pytest.skip("mrcal is not installed (Debian: apt-get install python3-mrcal)")
     views = scene(brown(), 10, seed=2).noisy(0.2, np.random.default_rng(4))
-    result = calibrate(views, brown().size, model="brown-conrady")
+    result = calibrate(views, brown().size, model="brown-conrady", prior=TRUE_BOARD)
     ours = estimate_projection_uncertainty(result, views, distance)
     uv = np.stack(np.meshgrid(ours.u, ours.v), axis=-1)
     given, reference = tmp_path / "given.npz", tmp_path / "reference.npz"

@@ -10,14 +10,14 @@ from calibgui.engine.calibration.calibrate import calibrate
 from calibgui.engine.calibration.observations import Observation
 from calibgui.engine.calibration.result import Calibration
 from calibgui.engine.uncertainty.view_design import build_design
-from tests.engine.scenes import barrel, relative, scene
+from tests.engine.scenes import TRUE_BOARD, barrel, relative, scene
 
 SIZE = barrel().size
 
 
 def _calibrated(count: int, noise: float = 0.2) -> tuple[Calibration, list[Observation]]:
     views = scene(barrel(), count, seed=1).noisy(noise, np.random.default_rng(2))
-    return calibrate(views, SIZE), views
+    return calibrate(views, SIZE, prior=TRUE_BOARD), views
 
 
 def test_a_set_is_known_as_well_as_its_calibration_says() -> None:
@@ -25,7 +25,7 @@ def test_a_set_is_known_as_well_as_its_calibration_says() -> None:
     chosen = np.zeros(12)
     chosen[[0, 2, 3, 7, 8, 11]] = 1
     found = build_design(whole, views)
-    part = calibrate([views[k] for k in np.flatnonzero(chosen)], SIZE)
+    part = calibrate([views[k] for k in np.flatnonzero(chosen)], SIZE, prior=TRUE_BOARD)
     predicted = np.sqrt(np.diag(found.compute_covariance(chosen))) / whole.noise
     assert predicted == pytest.approx(part.sigma[found.free] / part.noise, rel=0.05)
     assert found.compute_sigmas(chosen)[0] == pytest.approx(

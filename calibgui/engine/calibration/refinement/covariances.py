@@ -193,10 +193,13 @@ def make_paper_table(calibration: Calibration) -> tuple[Array, Array, Array]:
     """Make the paper's Table 2: ten intrinsics in its units and two kinds of standard deviations.
 
     Returns:
-        Values, standard deviations sigma sqrt(diag((J^T J)^-1)) and the paper's
+        Values, standard deviations as ``Calibration.sigma`` and the paper's
         sqrt(diag((2 J^T J)^-1)), each (10,) in the order of ``frames.PAPER_NAMES``.
     """
     camera = calibration.camera
     values, J = frames.paper_intrinsics(camera.params, camera.size)
-    sigma = np.sqrt(np.diag(J @ calibration.covariance @ J.T))
-    return values, sigma, sigma / (np.sqrt(2) * calibration.noise)
+    sigma, by_noise = (
+        np.sqrt(np.diag(J @ covariance @ J.T))
+        for covariance in (calibration.covariance, calibration.noise_covariance)
+    )
+    return values, sigma, by_noise / (np.sqrt(2) * calibration.noise)

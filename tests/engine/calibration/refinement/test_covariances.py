@@ -16,7 +16,7 @@ from calibgui.engine.calibration.refinement.schur import (
 from calibgui.engine.calibration.result import Calibration
 from calibgui.engine.geometry import rotations
 from tests.engine.calibration.refinement.test_schur import make_falling_apart
-from tests.engine.scenes import barrel, central_differences, imaged, relative, scene
+from tests.engine.scenes import TRUE_BOARD, barrel, central_differences, imaged, relative, scene
 
 MADE = scene(barrel(0.9), 6, seed=4)
 VIEWS = MADE.noisy(0.2, np.random.default_rng(0))
@@ -24,7 +24,7 @@ VIEWS = MADE.noisy(0.2, np.random.default_rng(0))
 
 @pytest.fixture(scope="module")
 def calibration() -> Calibration:
-    return calibrate(VIEWS, MADE.size)
+    return calibrate(VIEWS, MADE.size, prior=TRUE_BOARD)
 
 
 def test_covariances_are_those_of_all_unknowns_together(calibration: Calibration) -> None:

@@ -18,6 +18,7 @@ from tests.engine.calibration.board_shape.test_parametrisation import (
     SIZE,
     photographed,
 )
+from tests.engine.scenes import TRUE_BOARD
 
 
 def covariances(count: int, seed: int) -> Array:
@@ -68,7 +69,7 @@ def test_weights_beat_equal_weights_where_corners_differ() -> None:
     reported = []
     for seed in range(30):
         views = noisy(8, 0.0, seed)
-        result = calibrate(views, SIZE)
+        result = calibrate(views, SIZE, prior=TRUE_BOARD)
         reported.append((result.camera.params - CAMERA.params)[:4] / result.sigma[:4])
         errors["weighted"].append((result.camera.params - CAMERA.params)[:4])
         equal = calibrate([Observation(v.uv, v.xy) for v in views], SIZE)
