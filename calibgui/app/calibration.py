@@ -31,6 +31,7 @@ from calibgui.engine.calibration import (
     find_copies,
 )
 from calibgui.engine.camera import find_model
+from calibgui.engine.detection import find_usable_covariances
 from calibgui.engine.errors import CalibrationError, Cancelled, Progress
 from calibgui.engine.redetection import find_upside_down_views
 from calibgui.engine.threads import limit_blas_threads
@@ -79,7 +80,7 @@ def calibrate_views(
     result's views do not contain them, and its warnings name them. If views are weighed, the
     result's views have the covariances of the last solution. Copies of a view are left out. If the
     views do not determine the camera, the result is partial (``Calibration.diagnosis``), from all
-    corners and unweighed.
+    corners and unweighed. Views whose corners have no usable covariance are left out.
 
     Args:
         corner_set, settings: the views, and how to calibrate from them.
@@ -101,7 +102,7 @@ def calibrate_views(
             "directions, and choose the pattern that it has.",
         )
     check_settings(settings)
-    corner_set = disable_copies(corner_set)
+    corner_set = disable_copies(disable_unweighable_views(corner_set))
     # The matrices are small: threads would cost more than they bring.
     with limit_blas_threads():
         try:
@@ -309,6 +310,31 @@ def disable_copies(corner_set: CornerSet) -> CornerSet:
         if original != k and originals.any():
             reason = f"A copy of {views[original].image}, which counts once."
             views[k] = replace(views[k], enabled=False, reason=reason)
+    return replace(corner_set, views=tuple(views))
+
+
+def disable_unweighable_views(corner_set: CornerSet) -> CornerSet:
+    """Return the set with views disabled of which a corner has no usable covariance.
+
+    Raises:
+        CalibrationError: if no view is left.
+    """
+    views = list(corner_set.views)
+    for k, view in enumerate(views):
+        cov = view.observation(corner_set.board).cov if view.usable else None
+        if cov is None or (usable := find_usable_covariances(cov)).all():
+            continue
+        reason = (
+            f"Left out: {np.count_nonzero(~usable)} of {format_count(len(cov), 'corner')} would "
+            "count with a covariance that is zero, negative, not finite or singular."
+        )
+        views[k] = replace(view, enabled=False, reason=reason)
+    if not any(view.usable for view in views):
+        raise CalibrationError(
+            "No view is left whose corners all have a usable covariance: one that is positive, "
+            "finite and not singular.",
+            "Locate the corners again, or leave the covariances out of the file.",
+        )
     return replace(corner_set, views=tuple(views))
 
 

@@ -114,11 +114,15 @@ def redetect_views(
     ]
     views = list(corner_set.views)
     task = partial(redetect_view, calibration=calibration, grid_size=(board.rows, board.cols))
+    changed = []
     for i, view in _process_views(task, [views[k] for k in chosen], stop):
-        views[chosen[i]] = view
-    changed = [k for k in chosen if views[k] is not corner_set.views[k]]
+        # Views that come back from other processes are never the objects that were sent.
+        if not _have_same_corners(view, views[chosen[i]]):
+            views[chosen[i]] = view
+            changed.append(chosen[i])
     if not changed:
         return corner_set, ()
+    changed.sort()
     before = [corner_set.views[k] for k in changed]
     sentence = _describe_gain(before, [views[k] for k in changed])
     return replace(corner_set, views=tuple(views)), (sentence,)
@@ -163,6 +167,17 @@ def _is_promising(view: View, board: Board, calibration: Calibration, pose: Pose
     return bool(view.corners.relative or shown > len(view.corners))
 
 
+def _have_same_corners(a: View, b: View) -> bool:
+    """Return whether two views of one image have exactly the same corners, or both none."""
+    if a.corners is None or b.corners is None:
+        return a.corners is b.corners
+    return (
+        a.corners.relative == b.corners.relative
+        and np.array_equal(a.corners.grid, b.corners.grid)
+        and np.array_equal(a.corners.uv, b.corners.uv)
+    )
+
+
 def _process_views(
     task: partial[View], items: Sequence[View], stop: Event | None
 ) -> Iterator[tuple[int, View]]:
@@ -187,7 +202,8 @@ def _describe_changes(before: Corners, after: Corners) -> Iterator[str]:
     if more:
         yield f"{format_count(more, 'corner')} more"
     if fewer:
-        yield f"{format_count(fewer, 'corner')} left out, far from where the camera would see it"
+        left_out = f"{format_count(fewer, 'corner')} left out"
+        yield f"{left_out}, unclear or far from where the camera would see it"
 
 
 def _describe_gain(before: Sequence[View], after: Sequence[View]) -> str:
@@ -195,8 +211,8 @@ def _describe_gain(before: Sequence[View], after: Sequence[View]) -> str:
     found = [view for old, view in zip(before, after, strict=True) if old.corners is None]
     corners = sum(len(view.corners or ()) for view in after)
     corners -= sum(len(view.corners or ()) for view in before)
-    text = f"Searched again with the camera known: {format_count(corners, 'corner')} more in "
-    text += format_count(len(after), "image")
+    text = f"Searched again with the camera known: {format_count(abs(corners), 'corner')} "
+    text += f"{'more' if corners >= 0 else 'fewer'} in {format_count(len(after), 'image')}"
     if found:
         text += f", {', '.join(shorten_names(found))} for the first time"
     return text + "."

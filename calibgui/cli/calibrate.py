@@ -112,8 +112,10 @@ def configure(parser: argparse.ArgumentParser) -> None:
         "--prior",
         type=_parse_prior,
         metavar="XY,Z",
-        help="what is known of a free board shape: standard deviations of its corners in the "
-        "plane and out of it, mm, as 0.1,0.3",
+        help="what is known of the board: standard deviations of its corners in the plane (the "
+        "print) and out of it (flatness), mm, as 0.1,0.3; without it some 0.03 %% of the board's "
+        "size, which yields to what the views show. It counts in every ±, and in a free board "
+        "shape",
     )
     parser.add_argument(
         "--save-board-shape",
@@ -230,8 +232,8 @@ def _check_usage(options: argparse.Namespace) -> None:
         options.usage_error(
             "--save-board-shape needs a shape that is estimated: add --board-shape free"
         )
-    if options.prior and options.board_shape not in (BoardShapeModel.FREE, None):
-        options.usage_error("--prior is for a free board shape: add --board-shape free or auto")
+    if options.prior and options.board_shape in (BoardShapeModel.AFFINE, BoardShapeModel.BOW):
+        options.usage_error("--prior is for a board as drawn or of free shape: leave it out")
     check_corner_options(options)
     if options.square is None and not is_corners_file(options.paths):
         options.usage_error("--square MM, side of a square or distance of circles, is needed")

@@ -292,13 +292,18 @@ def _decode_covariance(node: Node, names: Sequence[str], added: Mapping[str, flo
 
 
 def _decode_noise_covariance(node: Node, names: Sequence[str], added: Mapping[str, float]) -> Array:
-    """Return the covariance (P, P) by noise alone; older results hold its diagonal only."""
+    """Return the covariance (P, P) by noise alone.
+
+    Older results hold its diagonal only, and have the correlations of the whole covariance.
+    """
     matrix = node["covariance"].get("matrix_by_noise")
     if matrix is not None:
         return _decode_covariance(matrix, names, added)
-    camera = node["camera"]
+    camera, whole = node["camera"], _decode_covariance(node["covariance"]["matrix"], names, added)
     sigma = _decode_by_name(camera.get("sigma_by_noise") or camera["sigma"], names, added)
-    return np.diag(sigma**2)
+    reported = np.sqrt(np.diag(whole))
+    shrink = np.divide(sigma, reported, out=np.ones_like(sigma), where=reported > 0)
+    return np.asarray(whole * np.outer(shrink, shrink))
 
 
 def _decode_iteration(node: Node) -> Iteration:

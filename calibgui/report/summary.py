@@ -7,7 +7,7 @@ counts if it can be told from zero. The advice on what to photograph is in ``adv
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from enum import StrEnum
 from itertools import combinations
@@ -16,7 +16,10 @@ import numpy as np
 
 from calibgui.dataset import Result
 from calibgui.engine.assessment import (
+    Cause,
     ErrorSources,
+    Finding,
+    list_findings,
     separate_error_sources,
     summarise_residuals,
 )
@@ -36,10 +39,12 @@ _MIN_STRONG_CORRELATION = 0.98
 """Correlation above which two lens coefficients are named as exchangeable."""
 _MAX_RMS_OVER_MEDIAN = 2.5
 """Ratio of a view's RMS to the median of all, above which it is named."""
-_MIN_STRIKING_SCATTER = 1.5
-"""Ratio of the views' disagreement to that of noise, above which it is a caution."""
 _MAX_CHANCE_RATIO = 1.3
 """Ratio of a board's deviation to its sigma, below which it may be none."""
+_MISLEADING = {Cause.WRONG_FRAME, Cause.HELD_VALUE, Cause.MISPLACED_CORNERS}
+"""Causes whose residuals look like those of a lens that is not followed."""
+_UNTRUSTWORTHY = {*_MISLEADING, Cause.LENS, Cause.FEW_VIEWS}
+"""Causes beside which no value is called well determined."""
 
 
 class Tone(StrEnum):
@@ -63,21 +68,20 @@ class Sentence:
 
 def describe_calibration(result: Result) -> tuple[Sentence, ...]:
     """Describe the calibration in words, the most important first."""
-    return tuple(
-        sentence
-        for part in (
-            _describe_basis,
-            _describe_diagnosis,
-            _describe_ending,
-            _describe_sources,
-            _describe_board,
-            _describe_fit,
-            _describe_parameters,
-            _describe_correlations,
-            _describe_outlying_views,
-            _describe_advice,
-        )
-        for sentence in part(result)
+    names = [shorten_name(view.image) for view in result.used]
+    findings = list_findings(result.calibration, result.observations(), names)
+    return (
+        *_describe_basis(result),
+        *_describe_diagnosis(result),
+        *_describe_ending(result),
+        *_describe_findings(findings),
+        *_describe_sources(result, findings),
+        *_describe_board(result, findings),
+        *_describe_fit(result),
+        *_describe_parameters(result, findings),
+        *_describe_correlations(result),
+        *_describe_outlying_views(result, findings),
+        *_describe_advice(result, findings),
     )
 
 
@@ -127,6 +131,14 @@ def _describe_ending(result: Result) -> Iterator[Sentence]:
     for warning in calibration.warnings:
         is_choice = warning == calibration.settings.get("model_reason")
         yield Sentence(Tone.FACT if is_choice else Tone.CAUTION, warning)
+
+
+def _describe_findings(findings: Sequence[Finding]) -> Iterator[Sentence]:
+    """Describe what is wrong and what to do, except for lens and board, which follow."""
+    for finding in findings:
+        if finding.cause not in (Cause.LENS, Cause.BOARD_SHAPE):
+            yield Sentence(Tone.CAUTION, f"{finding.message} {finding.evidence}")
+            yield Sentence(Tone.ADVICE, finding.remedy)
 
 
 def describe_board_shape(board_shape: BoardShape) -> str:
@@ -192,28 +204,33 @@ def describe_view_scatter(scatter: float) -> str:
     )
 
 
-def _describe_sources(result: Result) -> Iterator[Sentence]:
-    """Describe where the residuals come from, and a lens that the lens model does not follow."""
+def _describe_sources(result: Result, findings: Sequence[Finding]) -> Iterator[Sentence]:
+    """Describe where the residuals come from, and a lens that the lens model does not follow.
+
+    Misplaced corners look like anything; the lens is then judged without them, as a finding.
+    """
+    causes = {finding.cause for finding in findings}
     calibration = result.calibration
     if calibration.status is not Status.CONVERGED:
         return
     sources = separate_error_sources(calibration, result.observations())
     yield Sentence(Tone.FACT, describe_error_sources(sources))
-    if sources.is_lens_at_fault:
+    if Cause.LENS in causes or (sources.is_lens_at_fault and not causes & _MISLEADING):
         rms = calibration.lens_error or sources.lens
         yield Sentence(Tone.CAUTION, describe_lens_error(calibration, rms))
 
 
-def _describe_board(result: Result) -> Iterator[Sentence]:
+def _describe_board(result: Result, findings: Sequence[Finding]) -> Iterator[Sentence]:
     """Describe the board's shape, known or suspected, and whether the views agree."""
     board_shape, error = result.calibration.board_shape, result.calibration.board_shape_error
     if error > 0:
-        yield Sentence(Tone.CAUTION, describe_board_shape_error(error))
+        matters = any(finding.cause is Cause.BOARD_SHAPE for finding in findings)
+        tone = Tone.CAUTION if matters else Tone.FACT
+        yield Sentence(tone, describe_board_shape_error(error))
     if board_shape is not None:
         yield Sentence(Tone.FACT, describe_board_shape(board_shape))
     if (scatter := result.calibration.overdispersion) > 0:
-        tone = Tone.CAUTION if scatter > _MIN_STRIKING_SCATTER else Tone.FACT
-        yield Sentence(tone, describe_view_scatter(scatter))
+        yield Sentence(Tone.FACT, describe_view_scatter(scatter))
 
 
 def _describe_fit(result: Result) -> Iterator[Sentence]:
@@ -234,7 +251,7 @@ def _describe_fit(result: Result) -> Iterator[Sentence]:
     )
 
 
-def _describe_parameters(result: Result) -> Iterator[Sentence]:
+def _describe_parameters(result: Result, findings: Sequence[Finding]) -> Iterator[Sentence]:
     """Describe the parameters by how well they are determined."""
     calibration = result.calibration
     camera, sigma = calibration.camera, calibration.sigma
@@ -260,7 +277,10 @@ def _describe_parameters(result: Result) -> Iterator[Sentence]:
         )
     lengths = [n for n in names[:4] if n in free and n not in missing]
     if good := [n for n in lengths if relative[n] < _MAX_GOOD_RELATIVE_SIGMA]:
-        yield Sentence(Tone.GOOD, f"Well determined: {listed(good)} px.")
+        if _UNTRUSTWORTHY & {finding.cause for finding in findings}:
+            yield Sentence(Tone.FACT, f"As far as the above leaves them: {listed(good)} px.")
+        else:
+            yield Sentence(Tone.GOOD, f"Well determined: {listed(good)} px.")
     if poor := [n for n in lengths if relative[n] > _MIN_POOR_RELATIVE_SIGMA]:
         yield Sentence(
             Tone.CAUTION,
@@ -275,7 +295,7 @@ def _describe_parameters(result: Result) -> Iterator[Sentence]:
     away = np.abs(camera.params) / np.where(sigma > 0, sigma, np.inf)
     if vague := [n for n in coefficients if away[names.index(n)] < _MIN_SIGMAS_FROM_ZERO]:
         yield Sentence(
-            Tone.CAUTION,
+            Tone.FACT,
             f"Not told from zero: {listed(vague)}. They may be held at 0; to measure them, "
             + (
                 "estimate the board's shape."
@@ -303,9 +323,12 @@ def _describe_correlations(result: Result) -> Iterator[Sentence]:
         )
 
 
-def _describe_outlying_views(result: Result) -> Iterator[Sentence]:
-    """Name the views that fit much worse than the others."""
+def _describe_outlying_views(result: Result, findings: Sequence[Finding]) -> Iterator[Sentence]:
+    """Name the views that fit much worse than the others, if they are not named already."""
+    named = {k for finding in findings for k in finding.views}
     for k in find_outlying_views(result.calibration):
+        if k in named:
+            continue
         name = shorten_name(result.used[k].image)
         yield Sentence(
             Tone.CAUTION,
@@ -320,13 +343,15 @@ def find_outlying_views(calibration: Calibration) -> tuple[int, ...]:
     return tuple(int(k) for k in np.flatnonzero(rms > _MAX_RMS_OVER_MEDIAN * np.median(rms)))
 
 
-def _describe_advice(result: Result) -> Iterator[Sentence]:
-    """Describe what to photograph to improve the calibration."""
+def _describe_advice(result: Result, findings: Sequence[Finding]) -> Iterator[Sentence]:
+    """Describe what to photograph to improve the calibration, if nothing is to be mended first."""
+    if _UNTRUSTWORTHY & {finding.cause for finding in findings} - {Cause.FEW_VIEWS}:
+        return
     texts = advice.advise_photographs(result)
     for text in texts:
         yield Sentence(Tone.ADVICE, f"To improve it, {text}.")
     calibration = result.calibration
-    if not texts and calibration.board_shape_error == 0 and calibration.lens_error == 0:
+    if not (texts or findings or calibration.board_shape_error > 0):
         yield Sentence(
             Tone.GOOD,
             "The views cover sensor, tilts and distances; four times as many of the same kind "

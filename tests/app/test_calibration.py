@@ -60,6 +60,38 @@ def test_errors_name_the_image() -> None:
         calibrate_views(replace(found, views=tuple(views)))
 
 
+@pytest.mark.parametrize(
+    "cov", [np.zeros((2, 2)), -np.eye(2), np.diag([1.0, np.nan]), np.diag([1.0, 1e-15])], ids=str
+)
+def test_a_view_without_usable_covariances_is_left_out_by_name(cov: Array) -> None:
+    """It does not end the job, which the engine itself does."""
+    views = []
+    for view in noisy().views:
+        points = view.points
+        assert points is not None
+        weights = np.broadcast_to(0.05**2 * np.eye(2), (len(points.uv), 2, 2))
+        views.append(replace(view, points=points._replace(cov=weights.copy())))
+    spoilt = views[3].points
+    assert spoilt is not None and spoilt.cov is not None
+    spoilt.cov[5:7] = cov
+    result = calibrate_views(CornerSet(CAMERA.size, tuple(views)))
+    assert [view.image for view in result.views if not view.usable] == ["3.png"]
+    assert result.views[3].reason.startswith("Left out: 2 of 42 corners would count with")
+    others = CornerSet(CAMERA.size, (*views[:3], *views[4:]))
+    expected = calibrate_views(others).calibration.camera.params
+    np.testing.assert_array_equal(result.calibration.camera.params, expected)
+    if np.linalg.eigvalsh(np.nan_to_num(cov)).min() <= 0:
+        with pytest.raises(CalibrationError, match=r"^3\.png h(as|olds) a corner"):
+            calibrate(
+                [view.observation(None) for view in views],
+                CAMERA.size,
+                names=[view.image for view in views],
+            )
+    alone = CornerSet(CAMERA.size, (views[3],))
+    with pytest.raises(CalibrationError, match="No view is left"):
+        calibrate_views(alone)
+
+
 def test_no_usable_view_is_an_error() -> None:
     blank = View("a.png", ViewStatus.NO_BOARD, "No checkerboard was found.")
     with pytest.raises(CalibrationError, match="None of the images"):

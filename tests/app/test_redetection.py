@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import pickle
+from collections.abc import Iterator
 from dataclasses import replace
 from pathlib import Path
 
@@ -80,6 +82,16 @@ def test_nothing_to_gain_leaves_everything_as_it_was(damaged: CornerSet) -> None
     assert redetect_views(complete, result) == (complete, ())
     registered = calibrate_views(damaged, Settings(cost=Cost.REFERENCE))
     assert redetect_views(damaged, registered) == (damaged, ())
+
+
+def test_what_other_processes_return_unchanged_is_no_gain(
+    damaged: CornerSet, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def copy_views(_: object, items: list[View], __: object) -> Iterator[tuple[int, View]]:
+        yield from enumerate(pickle.loads(pickle.dumps(items)))
+
+    monkeypatch.setattr("calibgui.app.redetection._process_views", copy_views)
+    assert redetect_views(damaged, calibrate_views(damaged)) == (damaged, ())
 
 
 def test_an_image_that_is_gone_stays_as_it_was(damaged: CornerSet, tmp_path: Path) -> None:

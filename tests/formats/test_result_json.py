@@ -286,7 +286,8 @@ def test_a_file_from_before_a_coefficient_was_added_holds_it(
     camera["fixed"].remove("skew")
     assert content["settings"]["fixed"].pop("skew") == 0.0
     assert covariance["parameters"].pop() == "skew"
-    covariance["matrix"] = [row[:-1] for row in covariance["matrix"][:-1]]
+    for name in ("matrix", "matrix_by_noise"):
+        covariance[name] = [row[:-1] for row in covariance[name][:-1]]
     _validator().validate(content)
     (tmp_path / "old.json").write_text(json.dumps(content))
     assert same(read_result(tmp_path / "old.json"), forward_result)

@@ -164,7 +164,7 @@ def test_an_empty_part_of_the_image_is_named() -> None:
 
 def test_missing_tilt_is_named() -> None:
     rng = np.random.default_rng(1)
-    poses = [scenes.looking(CAMERA, rng, tilt=(3.0, 9.0)) for _ in range(9)]
+    poses = [scenes.looking(CAMERA, rng, tilt=(3.0, 9.0), fill=(0.4, 0.7)) for _ in range(9)]
     advice = texts(solved(scenes.seen(CAMERA, poses).views), Tone.ADVICE)
     assert "tilt the board by 30 to 45 degrees" in advice
 
@@ -190,7 +190,9 @@ def test_one_bad_view_is_named() -> None:
     views[7] = Observation(views[7].uv + rng.normal(scale=1.0, size=views[7].uv.shape), views[7].xy)
     result = solved(views)
     assert find_outlying_views(result.calibration) == (7,)
-    assert texts(result, Tone.CAUTION).count("7.png fits much worse") == 1
+    assert texts(result, Tone.CAUTION).count("7.png") == 1
+    assert "Corners are not where the others say, in 7.png" in texts(result, Tone.CAUTION)
+    assert "does not follow" not in texts(result, Tone.CAUTION)
     assert "/7.png" not in texts(result, Tone.CAUTION)  # its name is enough
 
 
@@ -205,12 +207,9 @@ def test_a_coefficient_near_zero_is_named(good: Result) -> None:
     params = calibration.camera.params.copy()
     params[6] = 0.5 * calibration.sigma[6]
     near = replace(calibration, camera=replace(calibration.camera, params=params))
-    assert "Not told from zero: k3 = " in texts(replace(good, calibration=near), Tone.CAUTION)
+    assert "Not told from zero: k3 = " in texts(replace(good, calibration=near), Tone.FACT)
 
 
-@pytest.mark.parametrize(("scatter", "tone"), [(1.2, Tone.FACT), (3.0, Tone.CAUTION)])
-def test_views_that_disagree_are_named_and_stand_out_if_they_do_so_by_much(
-    good: Result, scatter: float, tone: Tone
-) -> None:
-    result = replace(good, calibration=replace(good.calibration, overdispersion=scatter))
-    assert f"disagree about the camera {scatter} times" in texts(result, tone)
+def test_views_that_disagree_are_named(good: Result) -> None:
+    result = replace(good, calibration=replace(good.calibration, overdispersion=3.0))
+    assert "disagree about the camera 3.0 times" in texts(result, Tone.FACT)

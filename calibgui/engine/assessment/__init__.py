@@ -1,5 +1,6 @@
 """Assessment of a calibration: residuals, outliers, errors on unseen views, comparison.
 
+`list_findings` says what is wrong with a calibration and matters, the most harmful first.
 `summarise_residuals` states how well the model fits, `check_residuals` whether what is left is
 noise or has a cause, `separate_error_sources` how many pixels lens, board, single views and noise
 contribute; `screen_outliers` leaves wrong corners out, `calibrate_weighted` weighs views
@@ -32,6 +33,7 @@ from calibgui.engine.assessment.cross_validation import (
     cross_validate,
 )
 from calibgui.engine.assessment.error_sources import ErrorSources, separate_error_sources
+from calibgui.engine.assessment.findings import Cause, Finding, list_findings
 from calibgui.engine.assessment.lens_choice import (
     CANDIDATES,
     SIMPLEST_MODEL,
@@ -69,10 +71,12 @@ __all__ = [
     "Bootstrap",
     "CalibrationCheck",
     "CameraDifference",
+    "Cause",
     "CheckedView",
     "CrossValidation",
     "Distortion",
     "ErrorSources",
+    "Finding",
     "Fold",
     "Histogram",
     "LensChoice",
@@ -97,6 +101,7 @@ __all__ = [
     "compare_cameras",
     "compare_methods",
     "cross_validate",
+    "list_findings",
     "make_component_histogram",
     "make_length_histogram",
     "measure_radial_shift",

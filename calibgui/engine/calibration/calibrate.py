@@ -66,6 +66,9 @@ from calibgui.engine.threads import with_one_blas_thread
 
 _MAX_OUTSIDE = 0.5
 """Distance outside the image beyond which corners are refused, in the image's longer side."""
+_MAX_SHARE_NEGATIVE = 0.15
+"""Share of the corners left of the image or above it, beyond which they are of another frame: of
+one whose origin is in the middle three quarters are."""
 
 
 @with_one_blas_thread
@@ -299,6 +302,13 @@ def _raise_if_undetermined(
 
 def _check_size(observations: Observations, size: Size, names: Sequence[str]) -> None:
     """Refuse corners that an image of this size cannot show."""
+    share = float(np.mean(np.any(observations.uv < -1, axis=2)[observations.mask > 0]))
+    if share > _MAX_SHARE_NEGATIVE:
+        raise CalibrationError(
+            f"{100 * share:.0f} % of the corners lie left of the image or above it.",
+            "Is (0, 0) the centre of the upper left pixel? Corners of a frame whose origin is in "
+            "the middle of the image must be moved there.",
+        )
 
     def outside(size: Size, margin: float) -> BoolArray:
         beyond = (observations.uv < -margin) | (observations.uv > np.array(size) + margin)

@@ -1,11 +1,12 @@
 """Detection: from an image to corners with covariances, whatever board it shows.
 
 `find_corners` finds the board and returns `Corners`: positions, covariances and places on the
-board, with the corners that were rejected and why. `METHODS` names its methods, `MIN_LINES` the
-least number of rows and of columns of a checkerboard, and `check_outline` checks a region of
-interest. The other functions are steps of the checkerboard detector, for those who draw or compare
-them: `find_saddles` and `classify_saddles` find X-junctions in a small image, `refine_saddles`
-moves estimates to saddle points. Detection knows no camera model and no solver.
+board, with the corners that were rejected and why. `find_usable_covariances` tells which
+covariances a corner can be weighed with, whoever located it. `METHODS` names the methods,
+`MIN_LINES` the least number of rows and of columns of a checkerboard, and `check_outline` checks a
+region of interest. The other functions are steps of the checkerboard detector, for those who
+draw or compare them: `find_saddles` and `classify_saddles` find X-junctions in a small image,
+`refine_saddles` moves estimates to saddle points. Detection knows no camera model and no solver.
 """
 
 from __future__ import annotations
@@ -13,7 +14,12 @@ from __future__ import annotations
 from calibgui.engine.detection.checkerboard.find_checkerboard import METHODS
 from calibgui.engine.detection.checkerboard.saddle import refine_saddles
 from calibgui.engine.detection.checkerboard.x_junctions import classify_saddles, find_saddles
-from calibgui.engine.detection.corners import Corners, OtherBoard, RejectedCorner
+from calibgui.engine.detection.corners import (
+    Corners,
+    OtherBoard,
+    RejectedCorner,
+    find_usable_covariances,
+)
 from calibgui.engine.detection.find_corners import find_corners
 from calibgui.engine.detection.lattice import MIN_LINES
 from calibgui.engine.detection.region_of_interest import check_outline
@@ -28,5 +34,6 @@ __all__ = [
     "classify_saddles",
     "find_corners",
     "find_saddles",
+    "find_usable_covariances",
     "refine_saddles",
 ]

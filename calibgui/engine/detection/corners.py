@@ -5,9 +5,17 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import NamedTuple
 
-from calibgui.engine.arrays import Array, GridSize, IntArray, freeze, freeze_ints
+import numpy as np
+
+from calibgui.engine.arrays import Array, BoolArray, GridSize, IntArray, freeze, freeze_ints
 from calibgui.engine.boards.checkerboard import CHECKERBOARD
 from calibgui.engine.boards.pattern import Pattern, Symmetry
+
+_MIN_VARIANCE = 1e-100
+"""Variance of a corner below which its covariance cannot be inverted, px^2."""
+_MAX_VARIANCE_RATIO = 1e12
+"""Ratio of a covariance's variances beyond which its inverse has lost most of its digits. In real
+photographs the ratio is below 20."""
 
 
 class RejectedCorner(NamedTuple):
@@ -28,6 +36,18 @@ class OtherBoard(NamedTuple):
     """Rows and columns of inner corners seen."""
     outline: Array
     """(4, 2) its outermost corners, px."""
+
+
+def find_usable_covariances(cov: Array) -> BoolArray:
+    """Find the covariances (n, 2, 2) px^2 that a corner can be weighed with.
+
+    Returns:
+        A mask (n,), True for those that are finite, positive definite and far from singular.
+    """
+    is_finite = np.ravel(np.isfinite(cov).all(axis=(1, 2)))
+    values = np.linalg.eigvalsh(np.where(is_finite[:, None, None], cov, 0.0))
+    least, largest = values.T
+    return np.asarray(is_finite & (least > _MIN_VARIANCE) & (largest < _MAX_VARIANCE_RATIO * least))
 
 
 @dataclass(frozen=True, eq=False, slots=True)

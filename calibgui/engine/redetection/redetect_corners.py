@@ -8,9 +8,11 @@ by itself, give its pose, and the pose tells where every other corner is (``pred
    saddle point near the prediction looks like the others (``checkerboard/corner_template.py``).
    With it the pose becomes better and further places become certain, until none is left.
 2. All corners are fitted by the X-corner model, with edges that run and bend as predicted.
-3. A corner is dropped if the model does not describe it, or if it lies more than 4.65 standard
-   deviations from the prediction. Corners found before are dropped for gross errors only: a bent
-   board or a lens model too simple moves many.
+3. A corner is dropped if the X-corner model does not describe it, or if it lies more than 4.65
+   standard deviations from the prediction. Corners found before are dropped for gross errors only,
+   and not for those where the residuals show that the models of lens or board are in doubt: these
+   miss true corners by several percent of a square at the edge of a wide image. Then the edges are
+   not taken from the camera either, but from the corners around, as in the first search.
 4. A view in which no board had been found must show as much of one as the detector wants, and
    fit the camera as well as the views that it was calibrated from.
 """
@@ -256,25 +258,40 @@ def _fit_corners(
         grey: (h, w) the image.
         calibration: the calibration of the camera.
         lattice: the corners to fit.
-        kept: (rows, cols) true for corners found before, which are dropped for gross errors only.
+        kept: (rows, cols) true for corners found before. The camera drops them for gross errors
+            only, and not at all if its lens is in doubt.
     """
     view = _resect_lattice(calibration, _drop_inconsistent(calibration, lattice))
     expected, _ = view.predict_corners(_list_places(lattice))
     far = _MAX_GROSS_ERROR * np.fmin(
         *(np.linalg.norm(step, axis=2) for step in estimate_steps(expected))
     )
+    is_doubted = _is_model_in_doubt(calibration)
     for _ in range(_MAX_ROUNDS):
-        fit = x_corner_fit.fit_x_corners(
-            grey, lattice, geometry=view.predict_edges(_list_places(lattice)[lattice.found], 1.0)
-        )
-        good = verification.find_described_corners(fit, lattice, expected)
+        places = _list_places(lattice)[lattice.found]
+        geometry = None if is_doubted else view.predict_edges(places, 1.0)
+        fit = x_corner_fit.fit_x_corners(grey, lattice, geometry=geometry)
+        good = verification.find_described_corners(fit, lattice, None if is_doubted else expected)
         part = _move_corners(lattice, fit, good)
         agreed = _drop_inconsistent(calibration, part, fit.covariance[good]).found
-        agreed |= part.found & kept & (np.linalg.norm(part.uv - expected, axis=2) < far)
+        agreed |= part.found & kept & (is_doubted | (_measure_misses(part, expected) < far))
         if np.array_equal(agreed, lattice.found):
             return RefinedBoard(lattice, (), fit)
         lattice = lattice.select(agreed)
     return None
+
+
+def _is_model_in_doubt(calibration: Calibration) -> bool:
+    """Return whether the residuals show an error of lens or board that the models do not follow.
+
+    Over few views a lens that its model does not follow looks like a board that is off.
+    """
+    return calibration.lens_error > 0 or calibration.board_shape_error > 0
+
+
+def _measure_misses(lattice: Lattice, expected: Array) -> Array:
+    """Measure the distances (rows, cols) of a lattice's corners from where they are expected."""
+    return np.asarray(np.linalg.norm(lattice.uv - expected, axis=2))
 
 
 def _move_corners(lattice: Lattice, fit: XCornerFit, good: BoolArray) -> Lattice:

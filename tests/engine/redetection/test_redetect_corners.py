@@ -14,6 +14,7 @@ from calibgui.engine.boards.board import Board
 from calibgui.engine.calibration.calibrate import calibrate
 from calibgui.engine.calibration.observations import Observation
 from calibgui.engine.calibration.result import Calibration
+from calibgui.engine.camera.camera import Camera
 from calibgui.engine.detection.corners import Corners
 from calibgui.engine.detection.find_corners import find_corners
 from calibgui.engine.errors import NoBoardError
@@ -129,3 +130,56 @@ def test_what_is_not_the_board_is_refused(calibration: Calibration, kind: str) -
     with pytest.raises(NoBoardError) as caught:
         redetect_corners(images[kind](), calibration, SHAPE)
     assert caught.value.hint
+
+
+WIDE = Camera((480, 360), [120.0, 120, 238, 181, 0.02, -0.01, 0, 0], "kannala-brandt")
+"""A lens of 150 degrees."""
+
+
+def calibrate_wide_lens(model: str) -> tuple[Calibration, Pose]:
+    """The wide lens calibrated with a model, and one of the poses, which nearly fills the image."""
+    rng = np.random.default_rng(4)
+    poses = [scenes.looking(WIDE, rng, fill=(0.7, 0.95), board=BOARD) for _ in range(8)]
+    views = scenes.seen(WIDE, poses, BOARD).noisy(0.02, rng)
+    cov = np.broadcast_to(0.02**2 * np.eye(2), (len(views[0].uv), 2, 2))
+    seen = [Observation(view.uv, view.xy, cov) for view in views]
+    return calibrate(seen, WIDE.size, model=model), poses[1]
+
+
+def list_places(corners: Corners) -> set[tuple[int, int]]:
+    return {(row, col) for row, col in corners.grid.tolist()}
+
+
+def test_a_lens_in_doubt_costs_no_corner() -> None:
+    """Brown's four coefficients miss the outer corners of a wide lens by many pixels."""
+    wrong, pose = calibrate_wide_lens("brown-conrady-4")
+    assert wrong.lens_error > 1
+    image = render_view(WIDE, pose, BOARD, blur=0.7, noise=2.0, seed=1)
+    before = find_corners(image, SHAPE)
+    after = redetect_corners(image, wrong, SHAPE, before)
+    assert list_places(after) >= list_places(before)
+    shift = [
+        np.linalg.norm(after.uv[i] - before.uv[k])
+        for i, place in enumerate(after.grid.tolist())
+        for k in np.flatnonzero((before.grid == place).all(axis=1))
+    ]
+    assert max(shift) < 0.02
+    # Believed in, that camera removes several of them.
+    believed = replace(wrong, lens_error=0.0, board_shape_error=0.0)
+    kept = redetect_corners(image, believed, SHAPE, before)
+    assert len(list_places(before) - list_places(kept)) >= 2
+
+
+def test_what_the_fit_rejects_goes_although_the_lens_is_in_doubt() -> None:
+    wrong, pose = calibrate_wide_lens("brown-conrady-4")
+    image = render_view(WIDE, pose, BOARD, blur=0.7, noise=2.0, seed=1)
+    before = find_corners(image, SHAPE)
+    hidden = len(before) // 2
+    v, u = np.indices(image.shape)
+    off = np.hypot(u - before.uv[hidden, 0], v - before.uv[hidden, 1])
+    image[off < 8] = 120
+    after = redetect_corners(image, wrong, SHAPE, before)
+    lost = np.array(sorted(list_places(before) - list_places(after)))
+    away = np.abs(lost - before.grid[hidden]).max(axis=1)
+    assert min(away) == 0
+    assert max(away) <= 1  # the disc hides ends of the neighbours' edges

@@ -189,8 +189,10 @@ def estimate_board_error(
             total, count = (np.bincount(kind, w, len(expected)) for w in (squares, np.ones(Q)))
             variances = (_PRIOR_FREEDOM * expected + total) / (_PRIOR_FREEDOM + count)
     covariance, rvecs = sigma2 * inverse, rotations.vector_from_rotation(estimate.state.R)
-    higher = 3 * len(points) - Q - 7  # degrees beyond the last, as rough as those before
-    square = float(np.sum(by_shared[P:] ** 2)) + max(higher, 0) * float(variances[_ROUGH])
+    squares = by_shared[P:] ** 2
+    # Higher degrees are as rough as most of those before: of noise's squares the median is 0.455.
+    typical = float(np.median(squares[kind == _ROUGH])) / 0.455 if (kind == _ROUGH).any() else 0.0
+    square = float(squares.sum()) + max(3 * len(points) - Q - 7, 0) * typical
     return BoardError(
         covariance[:P, :P],
         covariances.compute_pose_covariances(normal, covariance, rvecs, sigma2),

@@ -29,6 +29,7 @@ from calibgui.engine.detection.checkerboard.corner_template import estimate_temp
 from calibgui.engine.detection.checkerboard.numbering import Sides, turn_lattice
 from calibgui.engine.detection.checkerboard.thresholds import THRESHOLDS
 from calibgui.engine.detection.checkerboard.x_corner_fit import XCornerFit
+from calibgui.engine.detection.corners import find_usable_covariances
 from calibgui.engine.detection.lattice import (
     Lattice,
     add_border,
@@ -182,7 +183,7 @@ def find_described_corners(
         & ~(askew & (fit.residual > limits.suspect_relative_residual * typical))
         & (fit.contrast > limits.min_relative_contrast * np.median(fit.contrast))
         & (fit.residual <= max_residual)
-        & np.isfinite(fit.covariance).all(axis=(1, 2))
+        & find_usable_covariances(fit.covariance)
     )
 
 

@@ -10,7 +10,8 @@ would be if the rest were known, the Cramer-Rao bound
 For the same reason only the odd part of what the model leaves unexplained says how well c is
 known: a blur that is not Gaussian leaves an even one. So noise^2 is half the mean square
 difference of opposite pixels, unless that is more than the mean square itself: in a sharp image
-no two pixels are quite opposite. The covariance is that of the noise alone: it does not contain
+no two pixels are quite opposite. It is at least that of rounded grey levels: a drawn or saturated
+image has no other. The covariance is that of the noise alone: it does not contain
 what the model gets wrong in the same way at every corner.
 
 What is odd too and would not decouple - curvature and the light's gradients gm, ga - comes from
@@ -60,6 +61,7 @@ from calibgui.engine.detection.checkerboard.x_corner_model import (
     XCornerModel,
     accumulate_normal_equations,
 )
+from calibgui.engine.detection.detector_io import estimate_least_noise
 from calibgui.engine.detection.lattice import Lattice
 
 _THRESHOLDS = FIT_THRESHOLDS.edges
@@ -119,7 +121,7 @@ def fit_x_corners(
     model = _update_priors(_take_step(read, products)[0], board)
     products, odd_part = accumulate_normal_equations(image, read, model, odd=True)
     model, inverse, square = _take_step(model, products)
-    noise = _estimate_noise(square, odd_part)
+    noise = np.maximum(_estimate_noise(square, odd_part), estimate_least_noise(image))
     model = _correct_for_light(model)
     return XCornerFit(model, noise[:, None, None] * inverse, np.sqrt(square))
 

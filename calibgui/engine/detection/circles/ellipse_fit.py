@@ -27,6 +27,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from calibgui.engine.arrays import Array, GreyImage
+from calibgui.engine.detection.detector_io import estimate_least_noise
 from calibgui.engine.detection.edge_intensity import compute_edge
 from calibgui.engine.images.sampling import sample_image
 
@@ -183,7 +184,8 @@ def _fit_portion(
     square /= np.maximum(weight.sum(axis=1) - _UNKNOWNS, 1)
     inverse = np.linalg.inv(N)[:, :2, :2] / (scale[:, :2, None] * scale[:, None, :2])
     moved = x + _limit_step(move / scale, x)
-    return moved, square[:, None, None] * inverse, np.sqrt(square)
+    noise = np.maximum(square, estimate_least_noise(image))
+    return moved, noise[:, None, None] * inverse, np.sqrt(square)
 
 
 def _read_bands(

@@ -22,7 +22,7 @@ from calibgui.engine.detection.circles.circle_map import fit_circle_map
 from calibgui.engine.detection.circles.ellipse_fit import EllipseFit
 from calibgui.engine.detection.circles.grid_labelling import label_grid
 from calibgui.engine.detection.circles.thresholds import CIRCLE_THRESHOLDS
-from calibgui.engine.detection.corners import Corners
+from calibgui.engine.detection.corners import Corners, find_usable_covariances
 from calibgui.engine.detection.detector_io import check_grey_levels, list_rejected_corners
 from calibgui.engine.errors import NoBoardError
 from calibgui.engine.images.reading import stretch_levels
@@ -162,7 +162,7 @@ def _verify_circles(fit: EllipseFit, xy: Array, image: GreyImage) -> tuple[BoolA
         NoBoardError: if too many fail.
     """
     limits = CIRCLE_THRESHOLDS
-    if not (np.isfinite(fit.unknowns).all() and np.isfinite(fit.covariance).all()):
+    if not (np.isfinite(fit.unknowns).all() and find_usable_covariances(fit.covariance).all()):
         raise _distrust()
     half = np.sqrt(np.einsum("nii->ni", fit.spread)) + fit.blur[:, None]
     good = ((fit.uv > half) & (fit.uv + half < np.array(image.shape[::-1]) - 1)).all(axis=1)

@@ -171,3 +171,15 @@ def test_real_photographs(data_dir: Path) -> None:
     result = calibrate(views, (1024, 768))
     assert [residual.rms < 0.6 for residual in result.residuals] == 7 * [True]
     assert np.abs(result.camera.focal - 795).max() < 10
+
+
+@pytest.mark.parametrize("square", [30, 50])
+def test_corners_of_a_drawing_have_usable_covariances(square: int) -> None:
+    """OpenCV's own drawing of a board shows no noise, which would be a covariance of 0."""
+    dictionary = cv2.aruco.getPredefinedDictionary(cv2.aruco.DICT_4X4_50)
+    board = cv2.aruco.CharucoBoard((8, 7), 30.0, 22.0, dictionary)
+    image = board.generateImage((8 * square + 40, 7 * square + 40), marginSize=20)
+    corners = find_corners(image, (6, 7), pattern=Charuco("DICT_4X4_50"))
+    assert corners.complete
+    assert corners.cov is not None
+    assert np.linalg.eigvalsh(corners.cov).min() > 1e-9

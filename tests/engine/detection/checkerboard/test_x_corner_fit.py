@@ -8,6 +8,7 @@ from typing import Any
 import numpy as np
 import pytest
 
+from calibgui.engine.detection.corners import find_usable_covariances
 from calibgui.engine.detection.find_corners import find_corners
 from tests.scenes.checkerboards import draw
 from tests.scenes.conditions import Conditions
@@ -68,3 +69,22 @@ def test_the_edge_of_a_shadow_draws_no_corner_aside(dimmed: float) -> None:
     assert np.count_nonzero(far) > 35
     assert np.mean(chi2[far]) < 1.3
     assert np.linalg.norm(error, axis=1).max() < 0.1
+
+
+@pytest.mark.parametrize("levels", [(0, 255), (40, 200)], ids=["saturated", "drawn"])
+@pytest.mark.parametrize("square", [12, 25])
+def test_a_drawing_without_noise_has_that_of_its_rounded_levels(
+    levels: tuple[int, int], square: int
+) -> None:
+    """Opposite pixels are equal there: the residual has no odd part at all."""
+    dark = np.kron(np.indices((7, 8)).sum(axis=0) % 2, np.ones((square, square))) > 0
+    image = np.pad(np.where(dark, *levels), 2 * square, constant_values=levels[1])
+    corners = find_corners(image.astype(np.uint8), (6, 7))
+    assert corners.complete
+    assert corners.cov is not None
+    sigma = np.sqrt(np.linalg.eigvalsh(corners.cov))
+    assert (sigma > 1e-4).all()
+    assert (sigma < 1e-2).all()
+    fractions = find_corners(image / 255, (6, 7))
+    assert fractions.cov is not None
+    assert find_usable_covariances(fractions.cov).all()

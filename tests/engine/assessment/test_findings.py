@@ -1,0 +1,95 @@
+"""What is wrong with a calibration is named by its cause, and nothing where nothing is wrong."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from calibgui.engine.arrays import Array
+from calibgui.engine.assessment.findings import Cause, Finding, find_wrong_frame, list_findings
+from calibgui.engine.calibration.calibrate import calibrate
+from calibgui.engine.calibration.observations import Observation
+from calibgui.engine.camera.camera import Camera
+from calibgui.engine.camera.projection import pixels_from_rays
+from calibgui.engine.errors import CalibrationError
+from calibgui.engine.geometry.rotations import rotation_from_vector
+from tests.engine.scenes import VGA, barrel, scene
+
+CLEAN = scene(barrel(), 10, seed=3).noisy(0.1, np.random.default_rng(1))
+MIDDLE = np.array([319.5, 239.5])
+
+
+def found(views: list[Observation], **settings: object) -> tuple[Finding, ...]:
+    return list_findings(calibrate(views, VGA, **settings), views)  # type: ignore[arg-type]
+
+
+def changed(k: int, uv: Array) -> list[Observation]:
+    """The clean views, one of them with other corners."""
+    return [*CLEAN[:k], Observation(uv, CLEAN[k].xy), *CLEAN[k + 1 :]]
+
+
+def test_nothing_is_found_where_nothing_is_wrong() -> None:
+    assert found(CLEAN) == ()
+
+
+@pytest.mark.parametrize("share", [0.05, 0.2])
+def test_corners_that_are_off_are_named_with_their_view(share: float) -> None:
+    uv = np.array(CLEAN[4].uv)
+    uv[:: round(1 / share)] += [30.0, -20.0]
+    finding = found(changed(4, uv))[0]
+    assert finding.cause is Cause.MISPLACED_CORNERS
+    assert finding.views == (4,)
+    assert "View 5" in finding.message
+    assert "--robust" in finding.remedy
+    assert finding.harm > 1
+
+
+def test_a_wrong_lens_is_named_before_the_board() -> None:
+    findings = found(CLEAN, model="pinhole")
+    assert [finding.cause for finding in findings] == [Cause.LENS]
+    assert "pinhole" in findings[0].message
+
+
+def test_a_held_value_is_named_and_freed() -> None:
+    finding = found(CLEAN, fix={"fx": 600.0})[0]
+    assert finding.cause is Cause.HELD_VALUE
+    assert "fx" in finding.message
+    assert "650" in finding.evidence
+    assert found(CLEAN, fix={"fx": 650.0}) == ()
+
+
+def test_a_bent_board_is_named_if_it_matters() -> None:
+    def bent(height: float) -> list[Observation]:
+        made = scene(barrel(), 10, seed=3)
+        extent = np.ptp(CLEAN[0].xy, axis=0) / 2
+        views = []
+        for pose, view in zip(made.poses, CLEAN, strict=True):
+            x = (view.xy[:, 0] - view.xy[:, 0].mean()) / extent[0]
+            lifted = np.column_stack([view.xy, height * (1 - x**2)])
+            R = rotation_from_vector(np.array(pose.rvec))
+            uv = pixels_from_rays(lifted @ R.T + pose.tvec, barrel())
+            noise = np.random.default_rng(len(views)).normal(0, 0.1, uv.shape)
+            views.append(Observation(uv + noise, view.xy))
+        return views
+
+    finding = found(bent(2.0))[0]
+    assert finding.cause is Cause.BOARD_SHAPE
+    assert "mm" in finding.evidence
+    assert found(bent(0.01)) == ()
+
+
+def test_two_views_are_too_few() -> None:
+    finding = found(CLEAN[:2])[0]
+    assert finding.cause is Cause.FEW_VIEWS
+    assert "2 views" in finding.message
+
+
+def test_another_frame_is_named_or_refused() -> None:
+    centred = [Observation(view.uv - MIDDLE, view.xy) for view in CLEAN]
+    with pytest.raises(CalibrationError, match="left of the image or above it") as caught:
+        calibrate(centred, VGA)
+    assert "upper left pixel" in caught.value.hint
+    finding = find_wrong_frame(Camera((1600, 1200), barrel().params), CLEAN)
+    assert finding is not None
+    assert "upper left quarter" in finding.message
+    assert find_wrong_frame(barrel(), CLEAN) is None

@@ -1,0 +1,140 @@
+"""Injecting a fault, calibrating, and judging what is said of it."""
+
+from __future__ import annotations
+
+import zlib
+from collections import Counter
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass
+from enum import StrEnum
+from typing import Any
+
+import numpy as np
+
+from calibgui.engine.assessment.findings import list_findings
+from calibgui.engine.calibration.calibrate import calibrate
+from calibgui.engine.calibration.result import Calibration
+from calibgui.engine.camera.camera import Camera
+from calibgui.engine.errors import CalibrationError
+from tests.faults.causes import CLEAN, FAULTS, Fault
+from tests.faults.sets import FaultySet
+
+MAX_DEVIATION = 3.0
+"""Distance from the truth, in standard deviations of its own, beyond which an answer is wrong."""
+
+
+class Verdict(StrEnum):
+    """What is said of a fault."""
+
+    RIGHT = "right"
+    """The first finding, or the error, names the fault; of a clean set, there is no finding."""
+    WRONG = "wrong"
+    """Another cause is named first."""
+    HARMLESS = "harmless"
+    """Nothing is said, and every intrinsic is within `MAX_DEVIATION` of the truth."""
+    SILENT = "SILENT"
+    """Nothing is said, and an intrinsic is beyond `MAX_DEVIATION` of the truth."""
+    FALSE_ALARM = "false alarm"
+    """Something is said of a clean set."""
+
+
+@dataclass(frozen=True)
+class Answer:
+    """What one calibration said of the fault in its views."""
+
+    fault: str
+    seed: int
+    verdict: Verdict
+    story: str
+    """What was injected."""
+    said: tuple[str, ...]
+    """The findings, the most harmful first, or the error."""
+    deviation: float
+    """Largest distance of an intrinsic from the truth, in standard deviations; NaN if none."""
+
+
+def examine_fault(name: str, seed: int) -> Answer:
+    """Inject a fault, calibrate, and judge what is said. A seed always makes the same views."""
+    fault = FAULTS[name]
+    made = fault.inject(np.random.default_rng([zlib.crc32(name.encode()), seed]))
+    options: Mapping[str, Any] = made.options
+    try:
+        calibration = calibrate(made.views, made.size, **options)
+        findings = list_findings(calibration, made.views)
+    except CalibrationError as error:
+        verdict = _judge_error(fault, str(error))
+        return Answer(name, seed, verdict, made.story, (f"error: {error}",), float("nan"))
+    deviation = measure_deviation(calibration, made)
+    causes = [finding.cause.value for finding in findings]
+    said = tuple(f"{f.cause.value} ({f.harm:.2g} px): {f.message}" for f in findings)
+    return Answer(name, seed, judge_causes(fault, causes, deviation), made.story, said, deviation)
+
+
+def _judge_error(fault: Fault, text: str) -> Verdict:
+    if fault is FAULTS[CLEAN]:
+        return Verdict.FALSE_ALARM
+    named = any(word in text.lower() for word in fault.words)
+    return Verdict.RIGHT if named else Verdict.WRONG
+
+
+def judge_causes(fault: Fault, causes: list[str], deviation: float) -> Verdict:
+    """Judge the causes that are named, the most harmful first."""
+    if fault is FAULTS[CLEAN] and causes:
+        return Verdict.FALSE_ALARM
+    if causes:
+        return Verdict.RIGHT if causes[0] in fault.causes else Verdict.WRONG
+    if not deviation <= MAX_DEVIATION:
+        return Verdict.SILENT
+    return Verdict.RIGHT if fault is FAULTS[CLEAN] else Verdict.HARMLESS
+
+
+def measure_deviation(calibration: Calibration, made: FaultySet) -> float:
+    """Measure the largest distance of an estimated intrinsic from the truth, in its own sigmas.
+
+    Of a lens of another model only focal lengths and centre compare. Parameters that are held, or
+    reported as undetermined, are left out.
+    """
+    truth: Camera = made.truth
+    camera = calibration.camera
+    count = len(camera.params) if camera.model == truth.model else 4
+    sigma = calibration.sigma[:count]
+    estimated = sigma > 0
+    difference = np.abs(camera.params[:count] - truth.params[:count])[estimated]
+    return float(np.max(difference / sigma[estimated]))
+
+
+def run_campaign(draws: int, names: Iterable[str] = FAULTS) -> list[Answer]:
+    """Examine `draws` draws of each fault."""
+    return [examine_fault(name, seed) for name in names for seed in range(draws)]
+
+
+def count_verdicts(answers: Iterable[Answer]) -> Counter[Verdict]:
+    """Count how often each verdict fell."""
+    return Counter(answer.verdict for answer in answers)
+
+
+def make_table(answers: list[Answer]) -> str:
+    """Make a table in Markdown: a row for each fault, one for all of them, one for clean sets."""
+    lines = [
+        "| cause | draws | right | wrong | silent, harmless | SILENT WRONG | false alarm |",
+        "| --- | --: | --: | --: | --: | --: | --: |",
+    ]
+    names = list(dict.fromkeys(answer.fault for answer in answers))
+    lines += [
+        _make_row(name, [answer for answer in answers if answer.fault == name])
+        for name in names
+        if name != CLEAN
+    ]
+    if faulty := [answer for answer in answers if answer.fault != CLEAN]:
+        lines.append(_make_row("**all causes**", faulty))
+    if clean := [answer for answer in answers if answer.fault == CLEAN]:
+        lines.append(_make_row(CLEAN, clean))
+    return "\n".join(lines)
+
+
+def _make_row(name: str, answers: list[Answer]) -> str:
+    counts = count_verdicts(answers)
+    cells = [
+        f"{counts[verdict] / len(answers):.0%}" if counts[verdict] else "" for verdict in Verdict
+    ]
+    return f"| {' | '.join([name, str(len(answers)), *cells])} |"

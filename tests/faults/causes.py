@@ -1,0 +1,61 @@
+"""The faults of the campaign: how each is injected, and the answers that name it."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import NamedTuple
+
+from tests.faults import faults_of_boards as boards
+from tests.faults import faults_of_cameras as cameras
+from tests.faults import faults_of_corners as corners
+from tests.faults import faults_of_views as views
+from tests.faults.sets import FaultySet, Rng
+
+CLEAN = "clean"
+
+
+class Fault(NamedTuple):
+    """A fault, and the answers that count as right."""
+
+    inject: Callable[[Rng], FaultySet]
+    causes: tuple[str, ...]
+    """Values of `Cause` that name it."""
+    words: tuple[str, ...] = ()
+    """Words of which an error's text has at least one if it names the fault."""
+
+
+_MISPLACED = ("corner", "numbered", "rows")
+_SHAPE = ("board", "square")
+FAULTS = {
+    "wide-lens": Fault(cameras.widen_lens, ("lens",), ("lens",)),
+    "bow": Fault(boards.bow_board, ("board-shape",), _SHAPE),
+    "twist": Fault(boards.twist_board, ("board-shape",), _SHAPE),
+    "affine-print": Fault(boards.print_askew, ("board-shape",), _SHAPE),
+    "wrong-square": Fault(boards.mistake_square, ("board-shape",), _SHAPE),
+    "rough-print": Fault(boards.print_roughly, ("board-shape",), _SHAPE),
+    "mixed-boards": Fault(boards.mix_boards, ("board-shape", "bending-board"), _SHAPE),
+    "row-shifted": Fault(corners.shift_row, ("misplaced-corners",), _MISPLACED),
+    "column-shifted": Fault(corners.shift_column, ("misplaced-corners",), _MISPLACED),
+    "view-misnumbered": Fault(corners.misnumber_view, ("misplaced-corners",), _MISPLACED),
+    "view-turned": Fault(corners.turn_view, ("misplaced-corners",), _MISPLACED),
+    "views-exchanged": Fault(corners.exchange_views, ("misplaced-corners",), _MISPLACED),
+    "5%-of-view-50px": Fault(corners.misplace_few, ("misplaced-corners",), _MISPLACED),
+    "20%-of-view-50px": Fault(corners.misplace_many, ("misplaced-corners",), _MISPLACED),
+    "1%-of-all-5px": Fault(corners.misplace_everywhere, ("misplaced-corners",), _MISPLACED),
+    "rolling-shutter": Fault(cameras.roll_shutter, ("rolling-shutter",), ("shutter",)),
+    "focus-change": Fault(cameras.refocus, ("focus",), ("focus", "zoom")),
+    "zoom-change": Fault(cameras.zoom, ("focus",), ("focus", "zoom")),
+    "mixed-cameras": Fault(cameras.mix_cameras, ("focus",), ("focus", "zoom", "cameras")),
+    "blur": Fault(corners.blur_views, ("blur",), ("blur", "sharp")),
+    "wrong-frame": Fault(corners.move_frame, ("wrong-frame",), ("upper left", "outside")),
+    "wrong-size": Fault(corners.misstate_size, ("wrong-frame",), ("size",)),
+    "held-value": Fault(cameras.hold_value, ("held-value",), ("held",)),
+    "few-views": Fault(views.take_few, ("few-views",), ("views", "photograph")),
+    "one-spot": Fault(
+        views.stay_in_one_spot, ("few-views",), ("one spot", "small part", "part of the image")
+    ),
+    "one-orientation": Fault(
+        views.stay_in_one_orientation, ("few-views",), ("orientation", "parallel", "tilt")
+    ),
+    CLEAN: Fault(views.take_none, ()),
+}

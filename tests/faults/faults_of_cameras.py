@@ -1,0 +1,104 @@
+"""Faults of the camera: its lens, its shutter, and settings that change between photographs."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from calibgui.engine.arrays import Array
+from calibgui.engine.camera.camera import Camera
+from tests.engine.scenes import VGA, barrel
+from tests.faults.sets import (
+    FaultySet,
+    PhotographedSet,
+    Rng,
+    change_camera,
+    draw_log,
+    draw_rendered_set,
+    draw_set,
+    photograph,
+    state_fault,
+)
+
+
+def widen_lens(rng: Rng) -> FaultySet:
+    """Calibrate a fisheye with the default lens model, or a lens with distortion with none."""
+    if rng.random() < 0.5:
+        focal, first = draw_log(rng, 180, 500), rng.uniform(-0.08, 0.02)
+        lens = np.array([focal, focal, 312.0, 246.0, first, 4e-3, -3e-3, 4e-4])
+        photographed = draw_rendered_set(rng, Camera(VGA, lens, "kannala-brandt"))
+        story, model = f"fisheye of fx {focal:.0f}, default model", "lucchese"
+    else:
+        strength = draw_log(rng, 0.01, 1.0)
+        params = barrel().params.copy()
+        params[4:] *= strength
+        photographed = draw_rendered_set(rng, Camera(VGA, params))
+        story, model = f"distortion {strength:.3f} times barrel, pinhole", "pinhole"
+    views = photograph(photographed)
+    return state_fault(photographed, views, story, model=model)
+
+
+def roll_shutter(rng: Rng) -> FaultySet:
+    """Move the camera in another direction in each view while the rows are read."""
+    photographed = draw_set(rng)
+    size, height = draw_log(rng, 0.3, 10.0), photographed.camera.size[1]
+    motion = rng.normal(0, size / np.sqrt(2), (len(photographed.poses), 2))
+
+    def shift(k: int, uv: Array) -> Array:
+        return np.asarray(uv + (uv[:, 1:] / height - 0.5) * motion[k])
+
+    views = photograph(photographed, shift=shift)
+    story = f"rows shift by {size:.1f} px rms from the first to the last"
+    return state_fault(photographed, views, story)
+
+
+def refocus(rng: Rng) -> FaultySet:
+    """Let the focus change the focal length from view to view."""
+    photographed = draw_set(rng)
+    size = draw_log(rng, 5e-4, 3e-2)
+    factors = 1 + rng.normal(0, size, len(photographed.poses))
+    return _photograph_with_focal_lengths(photographed, factors, f"focus changes f by {size:.2%}")
+
+
+def zoom(rng: Rng) -> FaultySet:
+    """Zoom after half of the views; the truth lies in the middle, as neither half is right."""
+    photographed = draw_set(rng)
+    factor, count = 1 + draw_log(rng, 0.002, 0.3), len(photographed.poses)
+    factors = np.where(np.arange(count) < count // 2, 1.0, factor) / np.sqrt(factor)
+    return _photograph_with_focal_lengths(photographed, factors, f"zoom by {factor:.3f} halfway")
+
+
+def _photograph_with_focal_lengths(
+    photographed: PhotographedSet, factors: Array, story: str
+) -> FaultySet:
+    camera = photographed.camera
+    cameras = [change_camera(camera, fx=f, fy=f) for f in factors.tolist()]
+    views = photograph(photographed, cameras)
+    return state_fault(photographed, views, story)
+
+
+def mix_cameras(rng: Rng) -> FaultySet:
+    """Take some views with another camera of the same kind."""
+    photographed = draw_set(rng)
+    camera, size = photographed.camera, draw_log(rng, 0.002, 0.1)
+    fx, fy, cx, cy, k1 = 1 + rng.normal(0, size, 5)
+    other = change_camera(camera, fx=fx, fy=fx * (1 + 0.1 * (fy - 1)), cx=cx, cy=cy, k1=k1)
+    count = len(photographed.poses)
+    odd = rng.choice(count, int(rng.integers(1, count // 2 + 1)), replace=False)
+    cameras = [other if k in odd else camera for k in range(count)]
+    views = photograph(photographed, cameras)
+    story = f"{len(odd)} of {count} views by a camera that differs by {size:.1%}"
+    return state_fault(photographed, views, story)
+
+
+def hold_value(rng: Rng) -> FaultySet:
+    """Hold fx or k1 at a wrong value."""
+    photographed = draw_set(rng)
+    truth = dict(zip(photographed.camera.names, photographed.camera.params.tolist(), strict=True))
+    sign = 1.0 if rng.random() < 0.5 else -1.0
+    if rng.random() < 0.5:
+        held = {"fx": truth["fx"] * (1 + draw_log(rng, 0.003, 0.8)) ** sign}
+    else:
+        held = {"k1": truth["k1"] + sign * draw_log(rng, 0.03, 50.0)}
+    ((name, value),) = held.items()
+    story = f"{name} held at {value:.4g} for {truth[name]:.4g}"
+    return state_fault(photographed, photograph(photographed), story, fix=held)
