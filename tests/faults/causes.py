@@ -44,8 +44,10 @@ FAULTS = {
     "1%-of-all-5px": Fault(corners.misplace_everywhere, ("misplaced-corners",), _MISPLACED),
     "rolling-shutter": Fault(cameras.roll_shutter, ("rolling-shutter",), ("shutter",)),
     "focus-change": Fault(cameras.refocus, ("focus",), ("focus", "zoom")),
-    "zoom-change": Fault(cameras.zoom, ("focus",), ("focus", "zoom")),
-    "mixed-cameras": Fault(cameras.mix_cameras, ("focus",), ("focus", "zoom", "cameras")),
+    "zoom-change": Fault(cameras.zoom, ("focus", "views-disagree"), ("focus", "zoom")),
+    "mixed-cameras": Fault(
+        cameras.mix_cameras, ("focus", "views-disagree"), ("focus", "zoom", "cameras")
+    ),
     "blur": Fault(corners.blur_views, ("blur",), ("blur", "sharp")),
     "wrong-frame": Fault(corners.move_frame, ("wrong-frame",), ("upper left", "outside")),
     "wrong-size": Fault(corners.misstate_size, ("wrong-frame",), ("size",)),
