@@ -14,7 +14,7 @@ from calibgui.engine.boards.shape import BoardShapeModel
 from calibgui.engine.calibration.calibrate import calibrate
 from calibgui.engine.calibration.observations import Observation
 from calibgui.engine.errors import CalibrationError
-from tests.engine.scenes import barrel, scene
+from tests.engine.scenes import TRUE_BOARD, barrel, scene
 
 SIZE = barrel().size
 
@@ -114,7 +114,8 @@ def test_bootstrap_confirms_what_the_views_disagreement_says() -> None:
         Observation(view.uv + 0.4 * rng.normal(size=2) * np.sin(view.xy / 60), view.xy)
         for view in _views(25)
     ]
-    found, reported = bootstrap_views(views, SIZE, draws=60), calibrate(views, SIZE)
+    found = bootstrap_views(views, SIZE, draws=60, prior=TRUE_BOARD)
+    reported = calibrate(views, SIZE, prior=TRUE_BOARD)
     assert 0.7 < np.median(found.ratio[:9]) < 1.3
     assert np.median(found.sigma[:9] / reported.sigma_by_noise[:9]) > 1.3
 
