@@ -33,7 +33,8 @@ FAULTS = {
     "affine-print": Fault(boards.print_askew, ("board-shape",), _SHAPE),
     "wrong-square": Fault(boards.mistake_square, ("board-shape",), _SHAPE),
     "rough-print": Fault(boards.print_roughly, ("board-shape",), _SHAPE),
-    "mixed-boards": Fault(boards.mix_boards, ("board-shape", "bending-board"), _SHAPE),
+    "bending-board": Fault(boards.bend_board, ("bending-board",), _SHAPE),
+    "mixed-boards": Fault(boards.mix_boards, ("mixed-views", "views-disagree"), _SHAPE),
     "row-shifted": Fault(corners.shift_row, ("misplaced-corners",), _MISPLACED),
     "column-shifted": Fault(corners.shift_column, ("misplaced-corners",), _MISPLACED),
     "view-misnumbered": Fault(corners.misnumber_view, ("misplaced-corners",), _MISPLACED),
@@ -44,10 +45,8 @@ FAULTS = {
     "1%-of-all-5px": Fault(corners.misplace_everywhere, ("misplaced-corners",), _MISPLACED),
     "rolling-shutter": Fault(cameras.roll_shutter, ("rolling-shutter",), ("shutter",)),
     "focus-change": Fault(cameras.refocus, ("focus",), ("focus", "zoom")),
-    "zoom-change": Fault(cameras.zoom, ("focus", "views-disagree"), ("focus", "zoom")),
-    "mixed-cameras": Fault(
-        cameras.mix_cameras, ("focus", "views-disagree"), ("focus", "zoom", "cameras")
-    ),
+    "zoom-change": Fault(cameras.zoom, ("mixed-views", "focus", "views-disagree"), ("zoom",)),
+    "mixed-cameras": Fault(cameras.mix_cameras, ("mixed-views", "views-disagree"), ("camera",)),
     "blur": Fault(corners.blur_views, ("blur",), ("blur", "sharp")),
     "wrong-frame": Fault(corners.move_frame, ("wrong-frame",), ("upper left", "outside")),
     "wrong-size": Fault(corners.misstate_size, ("wrong-frame",), ("size",)),

@@ -54,6 +54,23 @@ def twist_board(rng: Rng) -> FaultySet:
     return _displace_all(rng, "twist of rms", twist, size)
 
 
+def bend_board(rng: Rng) -> FaultySet:
+    """Bend the board anew in each view, as paper in the hand does."""
+    photographed = draw_set(rng)
+    board = max(photographed.boards, key=len)
+    middle, half = (board.min(axis=0) + board.max(axis=0)) / 2, np.ptp(board, axis=0) / 2
+    size = draw_log(rng, 0.1, 3.0) * float(half.max()) / 165
+    views, K = [], len(photographed.poses)
+    for k, bend in enumerate(rng.normal(0, size, (K, 3))):
+
+        def displace(xy: Array, bend: Array = bend) -> Array:
+            x, y = ((xy - middle) / half).T
+            return np.column_stack([xy, np.column_stack([x * x, x * y, y * y]) @ bend])
+
+        views += photograph(photographed.select([k]), displace=displace)
+    return state_fault(photographed, views, f"bends by {size:.2f} mm from view to view")
+
+
 def print_askew(rng: Rng) -> FaultySet:
     """Print the board stretched along one axis and sheared."""
     stretch, shear = draw_log(rng, 2e-4, 2e-2), draw_log(rng, 2e-4, 2e-2)

@@ -33,7 +33,8 @@ from calibgui.engine.assessment.cross_validation import (
     cross_validate,
 )
 from calibgui.engine.assessment.error_sources import ErrorSources, separate_error_sources
-from calibgui.engine.assessment.findings import Cause, Finding, list_findings
+from calibgui.engine.assessment.finding import Cause, Finding
+from calibgui.engine.assessment.findings import list_findings
 from calibgui.engine.assessment.lens_choice import (
     CANDIDATES,
     SIMPLEST_MODEL,

@@ -7,7 +7,7 @@ that each view has of its own (``systematic_errors.py``), and last the one that 
 anything,
 
 squares     the board's squares are not as wide as high, or askew
-bow         the board is bowed
+bow         the board is bowed or twisted
 lens        a smooth displacement of the image that all views share
 focus       a focal length of each view's own
 bending     a curved board, each view's own
@@ -54,6 +54,7 @@ from calibgui.engine.calibration.observations import (
 )
 from calibgui.engine.calibration.result import Calibration
 from calibgui.engine.calibration.score_tests import (
+    CURVED,
     LENS,
     Explanation,
     LinearisedFit,
@@ -74,7 +75,7 @@ _MAX_RMS_OVER_MEDIAN = 1.5
 
 _SHARED_CAUSES = {
     "squares": BoardShapeModel.AFFINE,
-    "bow": BoardShapeModel.BOW,
+    "bow": CURVED,
     "lens": LENS,
     "board": BoardShapeModel.FREE,
 }
@@ -89,7 +90,8 @@ _VIEW_CAUSES: dict[str, Callable[[LinearisedFit], Explanation]] = {
 _ADVICE_ON_CAUSES = {
     "squares": "The board's squares are not as wide as high, or askew: measure its sides over many "
     "squares, or estimate the board's shape (affine).",
-    "bow": "The board is bowed: mount it on something stiff, or estimate its shape (bow).",
+    "bow": "The board is bowed or twisted: mount it on something stiff, or estimate its shape "
+    "(free).",
     "lens": "The lens model does not follow this lens: free the coefficients that are held, or use "
     "another model.",
     "focus": "The focal length differs between the views: switch autofocus and stabilisation off, "

@@ -133,7 +133,7 @@ def _calibrate_kept(
 ) -> Calibration:
     """Calibrate from the kept corners of the views that keep any."""
     used = [k for k, good in enumerate(kept) if good.any()]
-    parts = [_select_corners(given[k], kept[k]) for k in used]
+    parts = [select_corners(given[k], kept[k]) for k in used]
     return calibrate(parts, size, names=[names[k] for k in used], **settings)
 
 
@@ -169,6 +169,14 @@ def _estimate_scale(error: Array, observations: Observations) -> Array:
     return np.maximum(np.nanmedian(padded, axis=1) / _RAYLEIGH_MEDIAN, 1e-9)
 
 
+def estimate_coordinate_sigma(lengths: Array) -> float:
+    """Estimate the standard deviation of a residual's coordinate from the lengths (n,).
+
+    It follows from their median, which outliers hardly move.
+    """
+    return float(np.median(lengths)) / _RAYLEIGH_MEDIAN
+
+
 def _screen_by_residual(
     calibration: Calibration, given: Sequence[Observation], kept: list[BoolArray]
 ) -> bool:
@@ -181,7 +189,7 @@ def _screen_by_residual(
     ]
     trusted = np.concatenate([length[kept[k]] for k, length in zip(used, lengths, strict=True)])
     # Perfect data leave rounding only, of which the largest is no outlier.
-    limit = max(_MAX_RESIDUAL_IN_SIGMA * float(np.median(trusted)) / _RAYLEIGH_MEDIAN, 1e-6)
+    limit = max(_MAX_RESIDUAL_IN_SIGMA * estimate_coordinate_sigma(trusted), 1e-6)
     changed = False
     for k, length in zip(used, lengths, strict=True):
         changed |= bool((kept[k] != (length <= limit)).any())
@@ -206,8 +214,8 @@ def _leave_out_poor_views(kept: list[BoolArray], reasons: dict[int, str]) -> Non
             good[:] = False
 
 
-def _select_corners(view: Observation, kept: BoolArray) -> Observation:
-    """Return the view with the kept corners only."""
+def select_corners(view: Observation, kept: BoolArray) -> Observation:
+    """Return the view with the corners only that are `kept` (n,)."""
     cov = None if view.cov is None else view.cov[kept]
     return Observation(view.uv[kept], view.xy[kept], cov)
 

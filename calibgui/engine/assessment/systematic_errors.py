@@ -10,6 +10,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import replace
+from typing import NamedTuple
 
 import numpy as np
 
@@ -30,6 +31,24 @@ _KNOTS = np.arange(-16, 17)
 """Knots along the rows, counted from the board's mean row."""
 _MIN_EIGENVALUE = 1e-9
 """Eigenvalue of normal equations of unit diagonal, below which a direction is undetermined."""
+
+
+class ViewProducts(NamedTuple):
+    """Products of columns that each view has of its own, after its pose is eliminated."""
+
+    N: Array
+    """(K, m, m) products of the columns with each other."""
+    b: Array
+    """(K, m) products of the columns with the residuals."""
+    cost: float
+    """The sum of squares r^T r."""
+    freedom: int
+    """Number of residual coordinates beyond that of the fitted unknowns."""
+
+
+Columns = Callable[[Linearised, Array, slice], Array]
+"""Function that returns the columns (k, N, 2, m) of some views from the fit's derivatives, the
+weights (k, N, 2, 2) and the slice of these views."""
 
 
 def prepare_fit(calibration: Calibration, views: Sequence[Observation]) -> LinearisedFit:
@@ -55,11 +74,7 @@ def weigh_views(fit: LinearisedFit, sigma: Array) -> LinearisedFit:
 
 def explain_by_focus(fit: LinearisedFit) -> Explanation:
     """Explain the residuals by a focal length of each view's own."""
-
-    def columns(_: Linearised, weight: Array, views: slice) -> Array:
-        return np.asarray(weight @ (fit.predict_corners(views) - fit.camera.centre)[..., None])
-
-    return _test_view_columns(fit, columns)
+    return _judge_products(multiply_by_focus(fit))
 
 
 def explain_by_bending(fit: LinearisedFit) -> Explanation:
@@ -73,7 +88,7 @@ def explain_by_bending(fit: LinearisedFit) -> Explanation:
         by_height = linear.by_pose[..., 3:] @ fit.state.R[views, None, :, 2:]
         return by_height * np.stack([x * x, x * y, y * y], axis=-1)[..., None, :]
 
-    return _test_view_columns(fit, columns)
+    return _judge_products(_multiply_view_columns(fit, columns))
 
 
 def explain_by_rows(fit: LinearisedFit) -> Explanation:
@@ -82,7 +97,7 @@ def explain_by_rows(fit: LinearisedFit) -> Explanation:
     def columns(linear: Linearised, _: Array, views: slice) -> Array:
         return linear.by_pose * _measure_rows(fit, views)[..., None, None]
 
-    return _test_view_columns(fit, columns)
+    return _judge_products(_multiply_view_columns(fit, columns))
 
 
 def explain_by_lines(fit: LinearisedFit) -> Explanation:
@@ -93,7 +108,7 @@ def explain_by_lines(fit: LinearisedFit) -> Explanation:
         hats = np.maximum(1 - np.abs(rows / _KNOT_SPACING - _KNOTS), 0.0)
         return np.asarray(weight[..., :1] * hats[..., None, :])
 
-    return _test_view_columns(fit, columns)
+    return _judge_products(_multiply_view_columns(fit, columns))
 
 
 def _measure_rows(fit: LinearisedFit, views: slice) -> Array:
@@ -102,38 +117,62 @@ def _measure_rows(fit: LinearisedFit, views: slice) -> Array:
     return np.asarray(row - row.mean(axis=1, keepdims=True))
 
 
-def _test_view_columns(
-    fit: LinearisedFit, columns: Callable[[Linearised, Array, slice], Array]
-) -> Explanation:
-    """Test columns that each view has of its own.
+def multiply_by_focus(fit: LinearisedFit) -> ViewProducts:
+    """Multiply the column of a focal length of each view's own."""
 
-    Args:
-        fit: the calibration.
-        columns: function that returns the columns (k, N, 2, m) of some views from the fit's
-            derivatives, the weights (k, N, 2, 2) and the slice of these views.
-    """
-    T, rank, cost = 0.0, 0, 0.0
+    def columns(_: Linearised, weight: Array, views: slice) -> Array:
+        return np.asarray(weight @ (fit.predict_corners(views) - fit.camera.centre)[..., None])
+
+    return _multiply_view_columns(fit, columns)
+
+
+def multiply_by_camera(fit: LinearisedFit) -> ViewProducts:
+    """Multiply the columns of a camera (fx, fy, cx, cy) of each view's own."""
+    return _multiply_view_columns(fit, lambda linear, _, __: linear.by_params[..., :4])
+
+
+def multiply_by_board(fit: LinearisedFit) -> ViewProducts:
+    """Multiply the columns of a board of each view's own, with unequal sides and shear."""
+    y = fit.observations.xy[..., 1]
+    y = y / np.abs(y).max()
+
+    def columns(linear: Linearised, _: Array, views: slice) -> Array:
+        by_place = linear.by_pose[..., 3:] @ fit.state.R[views, None, :, :2]
+        return np.asarray(by_place * y[views, :, None, None])
+
+    return _multiply_view_columns(fit, columns)
+
+
+def _judge_products(found: ViewProducts) -> Explanation:
+    """Judge what columns that each view has of its own explain of the residuals."""
+    T, rank = np.sum([_compute_reduction(N, b) for N, b in zip(found.N, found.b, strict=True)], 0)
+    return judge_explanation(float(T), int(rank), found.cost, found.freedom)
+
+
+def _multiply_view_columns(fit: LinearisedFit, columns: Columns) -> ViewProducts:
+    """Multiply columns that each view has of its own, after its pose is eliminated."""
+    N, b, cost = [], [], 0.0
     for views in slice_views(len(fit.state.R)):
         linear = fit.linearise(views)
         k = len(linear.residual)
         X = columns(linear, fit.get_weight(views), views)
         Jp, X = (M.reshape(k, -1, M.shape[-1]) for M in (linear.by_pose, X))
         # Columns that no corner depends on would be divided by 0.
-        Jp, X = (M / np.maximum(np.linalg.norm(M, axis=1, keepdims=True), 1e-12) for M in (Jp, X))
+        Jp = Jp / np.maximum(np.linalg.norm(Jp, axis=1, keepdims=True), 1e-12)
         Q = np.linalg.qr(Jp)[0]
         X = X - Q @ (np.swapaxes(Q, 1, 2) @ X)
-        N, b = np.swapaxes(X, 1, 2) @ X, np.swapaxes(X, 1, 2) @ linear.residual.reshape(k, -1, 1)
-        for T_view, rank_view in map(_compute_reduction, N, b[..., 0]):
-            T, rank = T + T_view, rank + rank_view
+        N.append(np.swapaxes(X, 1, 2) @ X)
+        b.append((np.swapaxes(X, 1, 2) @ linear.residual.reshape(k, -1, 1))[..., 0])
         cost += float(np.sum(linear.residual**2))
-    return judge_explanation(T, rank, cost, fit.degrees_of_freedom)
+    return ViewProducts(np.concatenate(N), np.concatenate(b), cost, fit.degrees_of_freedom)
 
 
 def _compute_reduction(N: Array, b: Array) -> tuple[float, int]:
-    """Return b^T N^+ b and the rank of N."""
-    values, vectors = np.linalg.eigh(N)
+    """Return b^T N^+ b and the rank of N (m, m)."""
+    unit = 1 / np.sqrt(np.maximum(np.diag(N), 1e-24))  # columns may depend on no corner at all
+    values, vectors = np.linalg.eigh(N * np.outer(unit, unit))
     good = values > _MIN_EIGENVALUE
-    return float(np.sum((b @ vectors[:, good]) ** 2 / values[good])), int(good.sum())
+    return float(np.sum(((unit * b) @ vectors[:, good]) ** 2 / values[good])), int(good.sum())
 
 
 def make_smooth_columns(fit: LinearisedFit) -> Array:

@@ -51,8 +51,9 @@ from calibgui.engine.camera.models import find_model
 LENS_CELLS = 8
 """Number of cells, along the image's longer side, of the displacement that a lens may cause. With
 more of them the test would need more corners."""
-LENS = "lens"
-"""Name of the lens among the causes; those of the boards are `BoardShapeModel`'s."""
+LENS, CURVED = "lens", "curved"
+"""Names among the causes of the lens, and of a board that is bowed or twisted; those of other
+boards are `BoardShapeModel`'s."""
 _MIN_PIVOT = 1e-9
 """Part of a column's square that the others leave, below which it is one of their combinations."""
 
@@ -131,7 +132,7 @@ class SharedCauses:
 
     Args:
         fit: the calibration.
-        causes: `LENS`, or models of the board's shape.
+        causes: `LENS`, `CURVED`, or models of the board's shape.
         own: (K, 2N, m) orthonormal columns of each view's own, zero where there are fewer, which
             the poses' are among; those of the poses alone by default.
         cells: number of cells, along the image's longer side, of the lens's displacement.
@@ -151,7 +152,7 @@ class SharedCauses:
             columns = [
                 _make_lens_columns(fit, views, predicted, cells)
                 if cause == LENS
-                else _make_board_columns(fit, views, by_pose, BoardShapeModel(cause), *index)
+                else _make_board_columns(fit, views, by_pose, cause, *index)
                 for cause in causes
             ]
             dense = (by_camera.reshape(-1, len(fit.free)), residual.reshape(-1, 1))
@@ -246,7 +247,7 @@ def _make_board_columns(
     fit: LinearisedFit,
     views: slice,
     by_pose: Array,
-    model: BoardShapeModel,
+    cause: str,
     flat: Array,
     index: IntArray,
 ) -> scipy.sparse.csr_array:
@@ -257,9 +258,19 @@ def _make_board_columns(
     by_corner = (by_pose[..., 3:] @ fit.state.R[views, None]).reshape(-1, 2, 3)
     corner = index[views].reshape(-1, 1)
     columns = _make_sparse(by_corner, 3 * corner + np.arange(3), 3 * len(flat))
-    if model is BoardShapeModel.FREE:
+    if cause == BoardShapeModel.FREE:
         return columns
-    return columns @ scipy.sparse.csr_array(make_basis(model, flat).reshape(3 * len(flat), -1))
+    basis = _curve_board(flat) if cause == CURVED else make_basis(BoardShapeModel(cause), flat)
+    return columns @ scipy.sparse.csr_array(basis.reshape(3 * len(flat), -1))
+
+
+def _curve_board(flat: Array) -> Array:
+    """Make the basis (n, 3, 3) of a board's quadratic deviations out of its plane."""
+    low, high = flat.min(axis=0), flat.max(axis=0)
+    x, y = ((2 * flat - low - high) / (high - low)).T
+    basis = np.zeros((len(flat), 3, 3))
+    basis[:, 2] = np.stack([x * x, x * y, y * y], axis=-1)
+    return basis
 
 
 def _make_lens_columns(

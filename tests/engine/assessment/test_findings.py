@@ -6,7 +6,9 @@ import numpy as np
 import pytest
 
 from calibgui.engine.arrays import Array
-from calibgui.engine.assessment.findings import Cause, Finding, find_wrong_frame, list_findings
+from calibgui.engine.assessment.finding import Cause, Finding
+from calibgui.engine.assessment.findings import list_findings
+from calibgui.engine.assessment.input_errors import find_wrong_frame
 from calibgui.engine.calibration.calibrate import calibrate
 from calibgui.engine.calibration.observations import Observation
 from calibgui.engine.camera.camera import Camera
