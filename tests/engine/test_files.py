@@ -1,14 +1,17 @@
-"""A file is replaced whole or not at all, and nothing but a file is."""
+"""A file is replaced whole or not at all, and nothing but a file is read or replaced."""
 
 from __future__ import annotations
 
 import os
+import stat
+import time
 from pathlib import Path
 
 import pytest
 
+from calibgui.engine import files
 from calibgui.engine.errors import CalibrationError
-from calibgui.engine.files import write_atomically
+from calibgui.engine.files import open_regular, open_replacement, read_regular, write_atomically
 
 posix = pytest.mark.skipif(os.name != "posix", reason="links and pipes of POSIX")
 
@@ -63,3 +66,75 @@ def test_a_pipe_is_not_replaced(tmp_path: Path) -> None:
     with pytest.raises(CalibrationError, match="a device or a pipe"):
         write_atomically(tmp_path / "pipe", b"new")
     assert (tmp_path / "pipe").is_fifo()
+
+
+@posix
+def test_the_mask_is_never_set_and_no_moment_shows_more_than_it_allows(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    before = os.umask(0o027)
+    try:
+        monkeypatch.setattr(os, "umask", lambda _: pytest.fail("the mask of all threads was set"))
+        write_atomically(tmp_path / "new", b"new")
+        assert (tmp_path / "new").stat().st_mode & 0o777 == 0o640
+        (tmp_path / "old").touch(mode=0o600)
+        monkeypatch.setattr(Path, "chmod", lambda *_: None)  # the moment before it
+        with open_replacement(tmp_path / "old") as file:
+            assert os.fstat(file.fileno()).st_mode & 0o777 == 0o600
+    finally:
+        monkeypatch.undo()
+        os.umask(before)
+
+
+@posix
+def test_the_file_and_then_its_folder_are_flushed(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    flushed, fsync = [], os.fsync
+
+    def note(descriptor: int) -> None:
+        is_folder = stat.S_ISDIR(os.fstat(descriptor).st_mode)
+        flushed.append("folder" if is_folder else "file")
+        assert is_folder == (tmp_path / "new").exists()
+        fsync(descriptor)
+
+    monkeypatch.setattr(os, "fsync", note)
+    write_atomically(tmp_path / "new", b"new")
+    assert flushed == ["file", "folder"]
+
+
+def test_what_a_killed_program_left_is_removed_by_the_next(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(files, "_swept", set())
+    names = {
+        ".calibgui.0a1b2c3d.tmp": 7200,  # abandoned
+        ".calibgui.4e5f_678.tmp": 7200,  # abandoned by an earlier version
+        ".calibgui.9a8b7c6d.tmp": 60,  # another program is writing it
+        ".calibgui.json.autosave": 7200,
+        ".other.0a1b2c3d.tmp": 7200,
+        "calibgui.0a1b2c3d.tmp": 7200,
+    }
+    for name, age in names.items():
+        (tmp_path / name).touch()
+        os.utime(tmp_path / name, (time.time() - age,) * 2)
+    write_atomically(tmp_path / "new", b"new")
+    assert {path.name for path in tmp_path.iterdir()} == {"new", *list(names)[2:]}
+
+
+@posix
+def test_only_regular_files_are_read(tmp_path: Path) -> None:
+    os.mkfifo(tmp_path / "pipe")
+    for path in (tmp_path / "pipe", Path("/dev/zero")):
+        with pytest.raises(CalibrationError, match=f"{path} is a device or a pipe"):
+            read_regular(path, 10)
+    with pytest.raises(CalibrationError, match=r"a\\x00b' is no name of a file"):
+        open_regular("a\0b")
+
+
+def test_a_file_that_is_too_large_is_not_read(tmp_path: Path) -> None:
+    file = tmp_path / "large"
+    file.write_bytes(b"12345")
+    assert read_regular(file, 5) == b"12345"
+    with pytest.raises(CalibrationError, match=r"large is too large: more than 0 MB"):
+        read_regular(file, 4)

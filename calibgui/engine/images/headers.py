@@ -24,6 +24,8 @@ from calibgui.engine.images.exif import Exif, read_exif, read_tiff
 Data = bytes | mmap
 
 _NO_EXIF = Exif()
+_ZEROS = bytes(64)
+"""Compressed pixels do not end in so many zeros, unless a copy was interrupted."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -92,7 +94,7 @@ def _parse_png(data: Data) -> Header:
 
 
 def _parse_webp(data: Data) -> Header:
-    stored, exif, at = None, _NO_EXIF, 12
+    stored, exif, at, is_whole = None, _NO_EXIF, 12, True
     while at + 8 <= len(data):
         name, length = struct.unpack_from("<4sI", data, at)
         at += 8
@@ -105,11 +107,13 @@ def _parse_webp(data: Data) -> Header:
             stored = tuple(n & 0x3FFF for n in struct.unpack_from("<HH", data, at + 6))
         elif name == b"EXIF":
             exif = read_exif(data[at : at + length].removeprefix(b"Exif\0\0"))
+        if name in (b"VP8 ", b"VP8L"):  # which the decoder takes for an image all the same
+            is_whole = not data[at : at + length].endswith(_ZEROS)
         at += length + length % 2  # RIFF pads to even lengths
     if stored is None:
         raise ValueError("no picture")
     declared = struct.unpack_from("<I", data, 4)[0] + 8
-    return Header("WebP", (stored[0], stored[1]), exif, len(data) >= declared)
+    return Header("WebP", (stored[0], stored[1]), exif, is_whole and len(data) >= declared)
 
 
 def _parse_bmp(data: Data) -> Header:

@@ -16,6 +16,7 @@ import mmap
 import os
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import numpy.typing as npt
@@ -23,7 +24,7 @@ import numpy.typing as npt
 from calibgui.engine import opencv
 from calibgui.engine.arrays import Size
 from calibgui.engine.errors import CalibrationError
-from calibgui.engine.files import write_atomically
+from calibgui.engine.files import open_regular, read_regular, write_atomically
 from calibgui.engine.images.headers import Header, read_header
 
 Pixels = npt.NDArray[np.uint8] | npt.NDArray[np.uint16]
@@ -35,6 +36,10 @@ _DEEP_FORMATS = (".png", ".tif", ".tiff", ".pgm", ".ppm")
 """Suffixes of the formats that hold 16 bits a sample."""
 MAX_PIXELS = 400_000_000
 """Number of pixels above which an image is refused: no camera has more, a damaged header may."""
+_MAX_FILE_SIZE = 8 * MAX_PIXELS
+"""Size of the largest files that are read, bytes: four samples of 16 bits a pixel."""
+_PAGE = bytes(4096)
+"""The fewest zeros that an interrupted copy leaves at the end of a file: systems write pages."""
 _STRETCH_PERCENTILES = (0.5, 99.5)
 """Percentiles of 16-bit levels that become black and white for display and detection."""
 _FORMAT_HINT = "Use PNG, JPEG, TIFF, BMP, WebP or PGM with 8 or 16 bits."
@@ -50,6 +55,9 @@ class Image:
     """File that was read."""
     orientation: int = 1
     """EXIF orientation that the file states, 1 to 8; `pixels` are upright already."""
+    zero_tail: float = 0.0
+    """Share of the file that is only zeros, at its end: black pixels, or a copy that was
+    interrupted. 0 if it is shorter than a page of memory."""
 
     @property
     def size(self) -> Size:
@@ -67,12 +75,15 @@ class Image:
         return stretch_levels(self.pixels)
 
 
-def stretch_levels(pixels: Pixels) -> npt.NDArray[np.uint8]:
-    """Return `pixels` in 8 bits: 16-bit levels between two percentiles become 0 to 255."""
+def stretch_levels(pixels: npt.NDArray[Any]) -> npt.NDArray[np.uint8]:
+    """Return `pixels` in 8 bits: levels of other types between two percentiles become 0 to 255."""
     if pixels.dtype == np.uint8:
         return np.asarray(pixels, dtype=np.uint8)
     thin = max(1, int(np.sqrt(pixels.size / 1e6)))
     low, high = np.percentile(pixels[::thin, ::thin], _STRETCH_PERCENTILES)
+    if pixels.dtype != np.uint16:
+        levels = (pixels - low) * (255 / (high - low if high > low else 1.0))
+        return np.clip(np.rint(levels), 0, 255).astype(np.uint8)
     levels = (np.arange(1 << 16) - low) * (255 / max(high - low, 1.0))
     return np.clip(np.rint(levels), 0, 255).astype(np.uint8)[pixels]
 
@@ -94,9 +105,9 @@ def read_image(path: PathLike) -> Image:
         >>> image.size, image.depth, int(image.pixels[2, 3])
         ((4, 3), 8, 7)
     """
-    pixels, header = _read_upright(Path(path), colour=False)
+    pixels, header, zero_tail = _read_upright(Path(path), colour=False)
     pixels.flags.writeable = False
-    return Image(pixels, Path(path), header.exif.orientation)
+    return Image(pixels, Path(path), header.exif.orientation, zero_tail)
 
 
 def read_colour(path: PathLike) -> Pixels:
@@ -125,7 +136,7 @@ def read_image_header(path: PathLike) -> Header:
     """
     path = Path(path)
     try:
-        with path.open("rb") as file:
+        with open_regular(path) as file:
             if os.fstat(file.fileno()).st_size == 0:
                 raise _make_empty_error(path)
             with mmap.mmap(file.fileno(), 0, access=mmap.ACCESS_READ) as data:
@@ -155,10 +166,10 @@ def write_image(path: PathLike, pixels: Pixels) -> None:
     write_atomically(path, content)
 
 
-def _read_upright(path: Path, colour: bool) -> tuple[Pixels, Header]:
-    """Read the pixels of the image file `path`, upright, and its header."""
+def _read_upright(path: Path, colour: bool) -> tuple[Pixels, Header, float]:
+    """Read the pixels of the image file `path`, upright, its header, and `Image.zero_tail`."""
     try:
-        data = path.read_bytes()
+        data = read_regular(path, _MAX_FILE_SIZE)
     except OSError as error:
         raise _make_unreadable_error(path, error) from error
     if not data:
@@ -175,7 +186,8 @@ def _read_upright(path: Path, colour: bool) -> tuple[Pixels, Header]:
         raise CalibrationError(f"{path} holds {pixels.dtype} samples.", _FORMAT_HINT)
     if header.format != "TIFF":
         pixels = _turn_upright(pixels, header.exif.orientation)
-    return np.ascontiguousarray(pixels), header
+    zeros = len(data) - len(data.rstrip(b"\0")) if data.endswith(_PAGE) else 0
+    return np.ascontiguousarray(pixels), header, zeros / len(data)
 
 
 def _turn_upright(pixels: Pixels, orientation: int) -> Pixels:

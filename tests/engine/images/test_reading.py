@@ -241,3 +241,48 @@ def test_permissions_are_those_of_any_new_file(tmp_path: Path) -> None:
 def test_a_phone_photograph(data_dir: Path) -> None:
     image = read_image(next((data_dir / "phone_iphonex").glob("*.[jJ]*")))
     assert (image.orientation, image.size) == (6, (3024, 4032))
+
+
+@pytest.mark.parametrize("kind", ["jpg", "png", "tif-lzw", "webp", "webp-lossless"])
+@pytest.mark.parametrize("part", [0.5, 0.9])
+def test_a_compressed_image_whose_tail_is_only_zeros_is_refused(
+    tmp_path: Path, kind: str, part: float
+) -> None:
+    suffix, _, option = kind.partition("-")
+    options = {"lzw": {"compression": "tiff_lzw"}, "lossless": {"lossless": True}}.get(option, {})
+    noise = np.random.default_rng(0).integers(0, 256, (120, 160), np.uint8)
+    path = tmp_path / f"a.{suffix}"
+    Pillow.fromarray(noise).save(path, **options)
+    assert read_image(path).zero_tail == 0
+    content = path.read_bytes()
+    whole = int(part * len(content))
+    path.write_bytes(content[:whole] + bytes(len(content) - whole))
+    with pytest.raises(CalibrationError, match="cut short"):
+        read_image(path)
+
+
+@pytest.mark.parametrize("suffix", ["bmp", "pgm", "tif"])
+def test_zeros_at_the_end_of_uncompressed_pixels_are_measured(tmp_path: Path, suffix: str) -> None:
+    noise = np.random.default_rng(0).integers(1, 256, (120, 160), np.uint8)
+    path = tmp_path / f"a.{suffix}"
+    Pillow.fromarray(noise).save(path)
+    assert read_image(path).zero_tail == 0
+    content = path.read_bytes()
+    path.write_bytes(content[: len(content) // 2] + bytes(len(content) - len(content) // 2))
+    assert read_image(path).zero_tail == pytest.approx(0.5, abs=1e-3)
+
+
+def test_a_file_that_is_larger_than_any_image_is_not_read(tmp_path: Path) -> None:
+    path = tmp_path / "a.png"
+    write_image(path, ramp())
+    os.truncate(path, 1 << 40)  # takes no place on the disk
+    with pytest.raises(CalibrationError, match=r"a\.png is too large"):
+        read_image(path)
+
+
+@pytest.mark.skipif(os.name != "posix", reason="pipes of POSIX")
+def test_a_pipe_is_no_image(tmp_path: Path) -> None:
+    os.mkfifo(tmp_path / "a.png")
+    for read in (read_image, read_colour, read_image_size):
+        with pytest.raises(CalibrationError, match="a device or a pipe"):
+            read(tmp_path / "a.png")
