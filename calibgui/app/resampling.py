@@ -7,15 +7,15 @@ lock, and a thread finishes the file that it is writing when the work is cancell
 from __future__ import annotations
 
 import os
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor, as_completed
 from dataclasses import dataclass
 from pathlib import Path
 from typing import cast
 
-from calibgui.app.outputs import make_folder
-from calibgui.app.paths import make_natural_key
+from calibgui.app.new_images import NewImages
 from calibgui.dataset import Result
+from calibgui.engine import opencv
 from calibgui.engine.arrays import Array, Size
 from calibgui.engine.camera import Camera
 from calibgui.engine.errors import CalibrationError
@@ -36,7 +36,7 @@ from calibgui.formats.resampled_json import write_resampled
 from calibgui.report.coverage import find_shown_extent, measure_natural_scale
 
 GEOMETRY_FILE = "resampled.json"
-"""Name of the file with the geometry of the new images."""
+"""Name of the file with the geometry of the new images, and the record of them."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -87,6 +87,7 @@ def undistort_files(
     folder: Path,
     undistortion: Undistortion | None = None,
     progress: Progress | None = None,
+    overwrite: bool = False,
 ) -> tuple[WrittenImage, ...]:
     """Write every image without distortion into `folder`, with the geometry of the new images.
 
@@ -97,10 +98,11 @@ def undistort_files(
         undistortion: what the new images show, the whole photographs in perspective if None; the
             faces of a cube are written as NAME_front.png and so on.
         progress: see `Progress`.
+        overwrite: whether files in `folder` may be replaced that this program did not make.
 
     Raises:
-        CalibrationError: if `folder` cannot be used, two images would have one name in it, or the
-            lens has no such undistorted image.
+        CalibrationError: as `NewImages`, or if the lens has no such undistorted image.
+        ForeignFilesError: as `NewImages`.
         Cancelled: from `progress`.
     """
     ideals = (undistortion or Undistortion()).choose_cameras(camera)
@@ -108,7 +110,8 @@ def undistort_files(
     def change(_: Path, pixels: Pixels) -> Mapping[str, ResampledImage]:
         return {face: make_ideal_image(pixels, camera, ideal) for face, ideal in ideals.items()}
 
-    return _write_images("undistorted", change, images, folder, progress, ideals)
+    new = NewImages(folder / GEOMETRY_FILE, images, ideals, overwrite)
+    return _write_images("undistorted", change, images, new, progress, ideals)
 
 
 def rectify_files(
@@ -117,6 +120,7 @@ def rectify_files(
     folder: Path,
     pixels_per_mm: float | None = None,
     progress: Progress | None = None,
+    overwrite: bool = False,
 ) -> tuple[WrittenImage, ...]:
     """Write the board of every calibrated image as seen from straight above into `folder`.
 
@@ -126,9 +130,10 @@ def rectify_files(
         folder: to write to, created if missing.
         pixels_per_mm: scale; as in the middle of the boards in the original images if None.
         progress: see `Progress`.
+        overwrite: whether files in `folder` may be replaced that this program did not make.
 
     Raises:
-        CalibrationError: if `folder` cannot be used, or two images would have one name in it.
+        CalibrationError, ForeignFilesError: as `NewImages`.
         Cancelled: from `progress`.
     """
     camera = result.calibration.camera
@@ -145,7 +150,8 @@ def rectify_files(
             )
         return {"": rectify_image(pixels, camera, pose, extent, scale)}
 
-    return _write_images("rectified", change, images, folder, progress)
+    new = NewImages(folder / GEOMETRY_FILE, images, overwrite=overwrite)
+    return _write_images("rectified", change, images, new, progress)
 
 
 def _collect_poses(result: Result) -> dict[str, Pose]:
@@ -160,65 +166,45 @@ def _write_images(
     kind: str,
     change: _Change,
     images: Sequence[Path],
-    folder: Path,
+    new: NewImages,
     progress: Progress | None,
     ideals: Mapping[str, IdealCamera] | None = None,
 ) -> tuple[WrittenImage, ...]:
     """Read, `change` and write every image, under its own name, and the geometry file."""
-    targets = _choose_paths(images, folder)
     outcomes: dict[Path, WrittenImage] = {}
     geometry: _Geometry | None = None
     executor = ThreadPoolExecutor(os.cpu_count())
-    try:
-        jobs = [executor.submit(_write_image, change, path, targets[path]) for path in images]
-        for done, job in enumerate(as_completed(jobs), start=1):
-            outcome, made = job.result()
-            outcomes[outcome.source] = outcome
-            geometry = geometry or made
-            if progress is not None:
-                progress(done, len(images), outcome)
-    finally:
-        executor.shutdown(cancel_futures=True)
+    with opencv.single_thread():  # every processor has an image of its own
+        try:
+            jobs = [executor.submit(_write_image, change, path, new) for path in images]
+            for done, job in enumerate(as_completed(jobs), start=1):
+                outcome, made = job.result()
+                outcomes[outcome.source] = outcome
+                geometry = geometry or made
+                if progress is not None:
+                    progress(done, len(images), outcome)
+        finally:
+            executor.shutdown(cancel_futures=True)
+            new.close()
     written = tuple(outcomes[path] for path in images)
     if geometry is not None:
         names = {path.name: str(w.source) for w in written for path in w.paths.values()}
-        write_resampled(folder / GEOMETRY_FILE, kind, *geometry, names, ideals)
+        write_resampled(new.geometry_file, kind, *geometry, names, new.written, ideals)
     return written
 
 
 def _write_image(
-    change: _Change, source: Path, target: Path
+    change: _Change, source: Path, new: NewImages
 ) -> tuple[WrittenImage, _Geometry | None]:
-    """Write the new images of one photograph; a face's name is added to that of `target`."""
+    """Write the new images of one photograph."""
     try:
         made = change(source, read_colour(source))
-        paths = {face: _name_face(target, face) for face in made}
+        paths = {face: path for face, path in new.name_images(source).items() if face in made}
         for face, path in paths.items():
             write_image(path, cast(Pixels, made[face].image))  # of the source's type
+            new.record(path)
     except CalibrationError as error:
         return WrittenImage(source, {}, str(error)), None
     first = next(iter(made.values()))
     height, width = first.image.shape[:2]
     return WrittenImage(source, paths), ((width, height), first.matrix)
-
-
-def _name_face(path: Path, face: str) -> Path:
-    """Return the path of a cube's face, or `path` itself for an image that has no faces."""
-    return path.with_stem(f"{path.stem}_{face}") if face else path
-
-
-def _choose_paths(images: Iterable[Path], folder: Path) -> dict[Path, Path]:
-    """Return the path of each new image in `folder`, which is created if missing."""
-    make_folder(folder)
-    taken: dict[str, Path] = {}
-    for path in sorted(images, key=make_natural_key):
-        if path.resolve().parent == folder.resolve():
-            raise CalibrationError(
-                f"{path} would be overwritten.", "Choose another folder for the new images."
-            )
-        if (other := taken.setdefault(path.name.casefold(), path)) != path:
-            raise CalibrationError(
-                f"{other} and {path} would have the same name in {folder}.",
-                "Work on one folder after the other.",
-            )
-    return {path: folder / path.name for path in taken.values()}

@@ -6,7 +6,8 @@ back as (n, 2) float64 whatever the version.
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+import contextlib
+from collections.abc import Iterator, Mapping, Sequence
 from typing import Any, NamedTuple
 
 import cv2
@@ -19,6 +20,17 @@ VERSION: str = cv2.__version__
 
 # The caller reports failures and names the file; OpenCV would print them as well.
 cv2.utils.logging.setLogLevel(cv2.utils.logging.LOG_LEVEL_SILENT)
+
+
+@contextlib.contextmanager
+def single_thread() -> Iterator[None]:
+    """Let OpenCV use one thread within, and end those that it has: a fork would lose them."""
+    before = cv2.getNumThreads()
+    cv2.setNumThreads(1)
+    try:
+        yield
+    finally:
+        cv2.setNumThreads(before)
 
 
 def use_threads(count: int) -> None:
@@ -111,15 +123,14 @@ def encode_image(suffix: str, image: GreyImage) -> bytes | None:
     return bytes(data) if ok else None
 
 
-def resample_image(image: GreyImage, uv: FloatImage) -> GreyImage:
-    """Interpolate `image`, (h, w) or (h, w, c), at `uv` (2, H, W) px, in the type of `image`.
+def resample_image(image: GreyImage, uv: FloatImage, out: GreyImage) -> None:
+    """Interpolate `image`, (h, w) or (h, w, c), at `uv` (2, H, W) px, into `out` of its type.
 
-    The interpolation is bilinear, the border replicated.
-
-    No side may exceed `MAX_SIDE` px.
+    The interpolation is bilinear, between pixels that are 0 outside of the image. No side may
+    exceed `MAX_SIDE` px.
     """
     u, v = uv
-    return np.asarray(cv2.remap(image, u, v, cv2.INTER_LINEAR, None, cv2.BORDER_REPLICATE))
+    cv2.remap(image, u, v, cv2.INTER_LINEAR, out, cv2.BORDER_CONSTANT)
 
 
 MAX_SIDE = 32_766

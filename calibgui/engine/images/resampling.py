@@ -19,12 +19,15 @@ from calibgui.engine.arrays import Array, BoolArray, FloatImage, Size
 from calibgui.engine.camera.camera import Camera
 from calibgui.engine.errors import CalibrationError
 from calibgui.engine.images.smooth_map import MAP_TOLERANCE_PX, interpolate_map
+from calibgui.engine.threads import with_one_blas_thread
 
 Pixels = npt.NDArray[np.uint8] | npt.NDArray[np.uint16] | npt.NDArray[np.float32]
 
+_NOWHERE = -2.0
+"""Place, px, beside which no pixel lies: what looks there is 0."""
 _EVERYWHERE = np.array([[-np.inf, -np.inf], [np.inf, np.inf]])
-_PIXELS_PER_BAND = 1 << 20
-"""Number of output pixels made at once."""
+_PIXELS_PER_BAND = 1 << 17
+"""Number of output pixels made at once: their map stays within a processor's cache."""
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -39,6 +42,7 @@ class ResampledImage:
     """(h, w) true where the measured image covers the pixel."""
 
 
+@with_one_blas_thread
 def resample_image(
     image: Pixels,
     size: Size,
@@ -54,23 +58,34 @@ def resample_image(
     measured = (image.shape[1], image.shape[0])
     rows_of = interpolate_map(size, source, np.full(2, -0.5), np.array(measured) - 0.5)
     out = np.empty((height, width, *image.shape[2:]), image.dtype)
-    valid = np.empty((height, width), bool)
-    is_shown_column, is_shown_row = (
-        (np.arange(n) >= low) & (np.arange(n) <= high)
+    valid = np.ones((height, width), bool)
+    is_hidden_column, is_hidden_row = (
+        (np.arange(n) < low) | (np.arange(n) > high)
         for n, low, high in zip(size, *shown, strict=True)
     )
+    last = np.array(measured, np.float32)[:, None] - 1
     rows = max(1, min(_PIXELS_PER_BAND // width, opencv.MAX_SIDE))
     for v in range(0, height, rows):
         band = slice(v, min(v + rows, height))
         uv = rows_of(band)
-        valid[band] = is_inside(np.moveaxis(uv, 0, -1), measured)
-        valid[band][~is_shown_row[band]] = False
-        valid[band][:, ~is_shown_column] = False
-        outside = ~valid[band]
-        uv[:, outside] = 0.0
-        out[band] = opencv.resample_image(image, uv)
-        out[band][outside] = 0
+        uv[:, is_hidden_row[band]] = np.nan
+        uv[:, :, is_hidden_column] = np.nan
+        is_all_inside = ((uv.min(axis=1) >= 0) & (uv.max(axis=1) <= last)).all(axis=0)
+        for columns in _find_runs(~is_all_inside):
+            at_edge = uv[:, :, columns]
+            is_valid = is_inside(np.moveaxis(at_edge, 0, -1), measured)
+            # The outer half of the outermost pixels has the level of their centres.
+            np.clip(at_edge, 0, last[:, None], out=at_edge)
+            np.copyto(at_edge, _NOWHERE, where=~is_valid)
+            valid[band, columns] = is_valid
+        opencv.resample_image(image, uv, out[band])
     return ResampledImage(out, matrix, valid)
+
+
+def _find_runs(is_true: BoolArray) -> list[slice]:
+    """Find the slices of a vector (n,) in which all is true."""
+    changes = np.flatnonzero(np.diff(is_true, prepend=False, append=False))
+    return [slice(*ends) for ends in changes.reshape(-1, 2).tolist()]
 
 
 def is_inside(uv: Array | FloatImage, size: Size) -> BoolArray:

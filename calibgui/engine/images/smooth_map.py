@@ -20,6 +20,7 @@ are many the knots are set closer first.
 from __future__ import annotations
 
 from collections.abc import Callable
+from itertools import pairwise
 from typing import Any
 
 import numpy as np
@@ -114,18 +115,23 @@ class _KnotMap:
         """Return the interpolated map (2, len(v), cells, places), fit or not.
 
         Args:
-            v: rows of pixels.
+            v: rows of pixels, in their order.
             weights: (4, places) of the four knots around a cell, for each place in it; the
                 result has their type.
         """
         i, t = np.divmod(v, self.step)
-        by_row = _compute_weights(t / self.step)[..., None]
+        by_row = _compute_weights(t / self.step).T.astype(weights.dtype)
+        values = self.values[:, i[0] : i[-1] + 4].astype(weights.dtype)
         with np.errstate(invalid="ignore"):  # NaN knots make the cells around them unfit
-            between = sum(by_row[k] * self.values[:, i + k] for k in range(4))
-            around = np.lib.stride_tricks.sliding_window_view(
-                np.asarray(between, dtype=weights.dtype), 4, axis=-1
-            )
-            return np.asarray(around @ weights)
+            around = np.lib.stride_tricks.sliding_window_view(values, 4, axis=-1)
+            along = np.ascontiguousarray(around).reshape(-1, 4) @ weights
+            along = along.reshape(2, values.shape[1], -1)
+            mapped = np.empty((2, len(v), along.shape[-1]), weights.dtype)
+            starts = np.flatnonzero(np.diff(i, prepend=-1))
+            for start, end in pairwise([*starts.tolist(), len(v)]):
+                k = i[start] - i[0]
+                np.matmul(by_row[start:end], along[:, k : k + 4], out=mapped[:, start:end])
+        return mapped.reshape(2, len(v), -1, weights.shape[1])
 
 
 def _may_reach(samples: Array, extent: Array, low: Array, high: Array) -> BoolArray:

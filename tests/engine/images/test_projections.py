@@ -148,6 +148,16 @@ def test_valid_is_what_the_lens_sees(projection: Projection) -> None:
     assert 0.2 < inside.mean()
 
 
+def test_pixels_beyond_the_poles_are_not_valid() -> None:
+    """The lens sees some degrees beyond them, which other pixels of the globe show already."""
+    f = 40.0
+    matrix = [[f, 0, 149.5], [0, f, 79.5], [0, 0, 1]]
+    globe = IdealCamera((300, 160), matrix, Projection.EQUIRECTANGULAR)
+    made = make_ideal_image(np.ones((400, 500), np.uint8), FISHEYE, globe)
+    is_shown = np.abs(np.arange(160) - 79.5) <= f * np.pi / 2
+    np.testing.assert_array_equal(made.valid.any(axis=1), is_shown)
+
+
 def test_straight_lines_stay_straight_in_perspective() -> None:
     made = undistort_image(np.zeros((400, 500), np.uint8), FISHEYE, field_of_view=np.deg2rad(130))
     ideal = IdealCamera(FISHEYE.size, made.matrix)

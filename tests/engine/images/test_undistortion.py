@@ -119,6 +119,8 @@ def test_type_and_channels_are_kept(dtype: type, channels: tuple[int, ...]) -> N
     result = undistort_image(image, barrel())
     assert (result.image.dtype, result.image.shape) == (image.dtype, image.shape)
     assert np.all(result.image[result.valid] == 77)
+    assert np.all(result.image[~result.valid] == 0)
+    assert not result.valid.all()
 
 
 def test_a_lens_that_folds_within_the_image() -> None:
