@@ -7,11 +7,14 @@ same arguments, positional or by name, and returns the same to rounding (``tests
 A kernel that serves some arguments only, such as polynomial lenses, says so with a predicate.
 
 ``COMPILED`` says whether numba is there. Importing this package does not import it, because that
-takes a third of a second; the module of a kernel is loaded at its first call.
+takes a third of a second; the module of a kernel is loaded at its first call. If numba turns out
+to be unusable then, as after an update of NumPy that it does not know yet, a `NumbaWarning` says so
+once, and the readable functions go on.
 """
 
 from __future__ import annotations
 
+import warnings
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from functools import update_wrapper
@@ -20,7 +23,7 @@ from importlib.util import find_spec
 from typing import Any, Generic, ParamSpec, TypeVar
 
 COMPILED = find_spec("numba") is not None
-"""True if numba is installed."""
+"""True if numba is installed, and was not found to be unusable."""
 FINDER_SECONDS, SOLVER_SECONDS = 20, 8
 """Rough times, s, that compiling the kernels of the detection and of the calibration takes, once
 after an installation."""
@@ -48,6 +51,27 @@ COMPILED_LENSES = POLYNOMIAL_LENSES | RAY_LENSES
 
 _P = ParamSpec("_P")
 _T = TypeVar("_T")
+
+
+class NumbaWarning(RuntimeWarning):
+    """A warning that numba is installed, but cannot be used."""
+
+
+def can_compile() -> bool:
+    """Import numba, and return whether it can be used; say so once if it is there and cannot."""
+    global COMPILED
+    if COMPILED:
+        try:
+            import numba  # noqa: F401
+        except Exception as error:  # its versions of NumPy, its compiler's library
+            COMPILED = False
+            warnings.warn(
+                f"numba is installed but cannot be used ({error}). Everything works without it, "
+                "five to ten times slower; pip install --upgrade numba may help.",
+                NumbaWarning,
+                stacklevel=2,
+            )
+    return COMPILED
 
 
 class Kernelled(Generic[_P, _T]):
@@ -83,7 +107,8 @@ class Kernelled(Generic[_P, _T]):
 
     def __call__(self, *args: _P.args, **kwargs: _P.kwargs) -> _T:
         """Call the kernel if numba is installed and it serves the arguments, else the reference."""
-        if COMPILED and (self._serves is None or self._serves(*args, **kwargs)):
+        is_served = COMPILED and (self._serves is None or self._serves(*args, **kwargs))
+        if is_served and (self._kernel is not None or can_compile()):
             return self.kernel(*args, **kwargs)
         return self.reference(*args, **kwargs)
 
@@ -113,7 +138,7 @@ def when_compiling(notify: Callable[[], None]) -> Iterator[None]:
     Kernels are compiled once and then kept on disk. Entering the block imports numba, if it is
     installed.
     """
-    if not COMPILED:
+    if not can_compile():
         yield
         return
     from numba.core import event

@@ -16,6 +16,7 @@ from calibgui.engine.kernels.cameras import CameraTuple, PackedCamera, find_rows
 from calibgui.engine.kernels.common import (
     VIEWS_PER_BLOCK,
     compiled,
+    compiled_part,
     gram,
     make_contiguous,
     run_in_blocks,
@@ -31,8 +32,9 @@ from calibgui.engine.kernels.normal_equations import (
     sum_products,
 )
 
-_VIEWS_TOGETHER = 512
-"""Number of views whose products with the corners are held at once; 11 MB for 156 corners."""
+_CORNERS_TOGETHER = 40_000
+"""Number of the board's corners, in all views, whose products with the poses are held at once;
+6 MB."""
 
 
 class BoardMotion(Protocol):
@@ -44,13 +46,27 @@ class BoardMotion(Protocol):
     def corner(self) -> IntArray: ...
 
 
-@compiled
+@compiled_part
 def _differentiate_by_corner(R: Array, by_pose: Array, C: Array) -> None:
     """Fill C (3, 2N) with derivatives by the corner's place on the board, from by_pose (6, 2N)."""
     for a in range(3):
         r0, r1, r2 = R[0, a], R[1, a], R[2, a]
         for i in range(C.shape[1]):
             C[a, i] = r0 * by_pose[3, i] + r1 * by_pose[4, i] + r2 * by_pose[5, i]
+
+
+@compiled_part
+def _add_products(C: Array, row: Array, out: Array, m: int) -> None:
+    """Add to the rows m of out (3, M, n) the products of those of C (3, 2n) with a row (2n,), those
+    of u and of v together."""
+    n = out.shape[2]
+    # Slices, and not indices, so that the compiler sees what it can vectorise.
+    u, v, out0, out1, out2 = row[:n], row[n:], out[0, m], out[1, m], out[2, m]
+    u0, u1, u2, v0, v1, v2 = C[0, :n], C[1, :n], C[2, :n], C[0, n:], C[1, n:], C[2, n:]
+    for i in range(n):
+        out0[i] += u0[i] * u[i] + v0[i] * v[i]
+        out1[i] += u1[i] * u[i] + v1[i] * v[i]
+        out2[i] += u2[i] * u[i] + v2[i] * v[i]
 
 
 @compiled
@@ -64,12 +80,11 @@ def _sum_corner_views(
     weight: Array,
     whitened: bool,
     rows: IntArray,
-    index: IntArray,
     A: Array,
     D: Array,
     total: Array,
 ) -> None:
-    """Fill A (K, P + 7, P + 7) as in Stage II; add up D (K, n, 3, 6) and total (n, 3, P + 4)."""
+    """Fill A (K, P + 7, P + 7) as in Stage II and D (K, 3, 6, n); add up total (3, P + 4, n)."""
     K, _, N = uv.shape
     P = rows.shape[0]
     work, J, C = make_workspace(N), np.empty((P + 7, 2 * N)), np.empty((3, 2 * N))
@@ -80,17 +95,29 @@ def _sum_corner_views(
         if not good:
             A[view, -1, -1] = np.inf
         _differentiate_by_corner(R[view], J[P : P + 6], C)
-        for i in range(N):
-            corner = index[view, i]
-            for a in range(3):
-                cu, cv = C[a, i], C[a, N + i]
-                for m in range(P):
-                    total[corner, a, m] += cu * J[m, i] + cv * J[m, N + i]
-                total[corner, a, P] += cu * J[P + 6, i] + cv * J[P + 6, N + i]
-                for m in range(3):
-                    total[corner, a, P + 1 + m] += cu * C[m, i] + cv * C[m, N + i]
-                for m in range(6 if D.size else 0):
-                    D[view, corner, a, m] += cu * J[P + m, i] + cv * J[P + m, N + i]
+        for m in range(P):
+            _add_products(C, J[m], total, m)
+        _add_products(C, J[P + 6], total, P)
+        for m in range(3):
+            _add_products(C, C[m], total, P + 1 + m)
+        for m in range(6 if D.size else 0):
+            _add_products(C, J[P + m], D[view], m)
+
+
+def _arrange_by_corner(views: Views, index: IntArray, count: int) -> Views:
+    """Arrange views by the board's corners: (K, ., n), those that a view does not show weigh 0."""
+    K, N = index.shape
+    if N == count and (index == index[0]).all() and len(np.unique(index[0])) == count:
+        order = np.argsort(index[0])
+        return Views(*(np.take(array, order[: array.shape[2]], axis=2) for array in views))
+    uv, xyz = (np.repeat(array[..., :1], count, axis=2) for array in (views.uv, views.xyz))
+    weight, given = np.zeros((K, 4, count)), views.weight
+    if not given.size:
+        given = np.broadcast_to(np.array([1.0, 0, 0, 1])[:, None], (K, 4, N))
+    view, place = np.nonzero((given != 0).any(axis=1))
+    for whole, array in ((uv, views.uv), (xyz, views.xyz), (weight, given)):
+        whole[view, :, index[view, place]] = array[view, :, place]
+    return Views(uv, xyz, weight)
 
 
 def _sum_corner_products(
@@ -121,21 +148,21 @@ def _sum_corner_products(
         themselves, summed over the views.
     """
     K, P = len(R), len(rows)
-    A, D = np.empty((K, P + 7, P + 7)), np.zeros((K if with_poses else 0, count, 3, 6))
-    totals = np.zeros((-(-K // VIEWS_PER_BLOCK), count, 3, P + 4))
+    A, D = np.empty((K, P + 7, P + 7)), np.zeros((K if with_poses else 0, 3, 6, count))
+    totals = np.zeros((-(-K // VIEWS_PER_BLOCK), 3, P + 4, count))
     R, T = make_contiguous(R), make_contiguous(T)
-    uv, xyz, weight = views
+    uv, xyz, weight = _arrange_by_corner(views, index, count)
     whitened = weight.shape[2] > 0
 
     def run(part: slice) -> None:
         _sum_corner_views(
             *lens, R[part], T[part], uv[part], xyz[part], weight[part], whitened, rows,
-            index[part], A[part], D[part if with_poses else slice(0)],
+            A[part], D[part if with_poses else slice(0)],
             totals[part.start // VIEWS_PER_BLOCK],
         )  # fmt: skip
 
     run_in_blocks(K, run)
-    return A, D, totals.sum(axis=0)
+    return A, np.moveaxis(D, -1, 1), np.moveaxis(totals.sum(axis=0), -1, 0)
 
 
 @compiled
@@ -233,9 +260,9 @@ def iterate_corner_products(
 ) -> Iterator[tuple[slice, Array, Array, Array]]:
     """Compute ``calibration.board_shape.parametrisation.iterate_corner_products``."""
     lens, rows = pack_camera(model, state.params), find_rows(model, free)
-    K = len(index)
-    for begin in range(0, K, _VIEWS_TOGETHER):
-        part = slice(begin, min(begin + _VIEWS_TOGETHER, K))
+    K, together = len(index), max(_CORNERS_TOGETHER // count, 1)
+    for begin in range(0, K, together):
+        part = slice(begin, min(begin + together, K))
         views = pack_views(observations.select_views(part))
         yield (
             part,

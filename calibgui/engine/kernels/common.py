@@ -27,6 +27,11 @@ _T = TypeVar("_T")
 
 _FAST_MATHS = {"contract", "nsz", "arcp", "reassoc"}
 """Freedoms that the compiler needs to vectorise sums; infinities and NaN stay as they are."""
+_OPTIONS: dict[str, Any] = {
+    "fastmath": _FAST_MATHS,
+    "error_model": "numpy",
+    "no_cfunc_wrapper": True,  # C never calls them by a pointer
+}
 THREADS = min(os.cpu_count() or 1, 8)
 """Number of threads that kernels share their views among."""
 VIEWS_PER_BLOCK = 64
@@ -37,7 +42,7 @@ _MIN_BLOCKS_FOR_THREADS = 4
 
 def compiled(function: Callable[_P, _T]) -> Callable[_P, _T]:
     """Compile a function, and keep the result for the next start if there is a place to keep it."""
-    options: dict[str, Any] = {"fastmath": _FAST_MATHS, "error_model": "numpy", "nogil": True}
+    options = _OPTIONS | {"nogil": True}
     usual, config.CACHE_DIR = config.CACHE_DIR, _find_cache_folder()
     compiled_function: Callable[_P, _T]
     try:
@@ -47,6 +52,16 @@ def compiled(function: Callable[_P, _T]) -> Callable[_P, _T]:
     finally:
         config.CACHE_DIR = usual
     return compiled_function
+
+
+def compiled_part(function: Callable[_P, _T]) -> Callable[_P, _T]:
+    """Compile a function that only compiled ones call.
+
+    It lacks the code by which Python calls it, which takes as long to compile as a short function,
+    and is kept as a part of those that call it.
+    """
+    part: Callable[_P, _T] = njit(no_cpython_wrapper=True, **_OPTIONS)(function)
+    return part
 
 
 @cache
@@ -84,7 +99,17 @@ def make_contiguous(array: Array) -> Array:
     return np.require(array, np.float64, ["C", "W"])
 
 
-@compiled
+def make_read_only(image: GreyImage) -> GreyImage:
+    """Return a contiguous read-only view of an image, a copy of it if need be.
+
+    Numba would compile a kernel anew for an image that may be written.
+    """
+    view = np.ascontiguousarray(image).view()
+    view.flags.writeable = False
+    return view
+
+
+@compiled_part
 def gram(J: Array, out: Array) -> None:
     """Fill out (M, M) with J J^T for J (M, n), three rows by three; the last row fills up."""
     M, n = J.shape
@@ -114,7 +139,7 @@ def gram(J: Array, out: Array) -> None:
             out[a, b] = out[b, a]
 
 
-@compiled
+@compiled_part
 def bilinear(g: GreyImage, u: float, v: float) -> float:
     """Interpolate g bilinearly at (u, v), the border replicated; NaN where u or v is NaN."""
     height, width = g.shape
@@ -128,7 +153,7 @@ def bilinear(g: GreyImage, u: float, v: float) -> float:
     return value
 
 
-@compiled
+@compiled_part
 def factor(N: Array) -> None:
     """Turn N into L below and D on the diagonal, N = L D L^T."""
     for j in range(N.shape[0]):
@@ -140,7 +165,7 @@ def factor(N: Array) -> None:
             N[i, j] /= N[j, j]
 
 
-@compiled
+@compiled_part
 def substitute(L: Array, b: Array) -> None:
     """Turn b into the solution of N x = b, given the factors of N."""
     n = b.shape[0]

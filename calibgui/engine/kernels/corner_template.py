@@ -5,10 +5,10 @@ from __future__ import annotations
 import numpy as np
 
 from calibgui.engine.arrays import Array, BoolArray, GreyImage
-from calibgui.engine.kernels.common import bilinear, compiled
+from calibgui.engine.kernels.common import bilinear, compiled, compiled_part, make_read_only
 
 
-@compiled
+@compiled_part
 def _sample_row(
     image: GreyImage, u: float, v: float, right: Array, down: Array, places: Array, out: Array
 ) -> None:
@@ -35,7 +35,7 @@ def sample_around(
 ) -> Array:
     """Compute ``sample_around`` of the reference."""
     out = np.empty((len(uv), len(positions)))
-    _fill_samples(image, uv, right, down, positions, out)
+    _fill_samples(make_read_only(image), uv, right, down, positions, out)
     return out
 
 
@@ -85,7 +85,8 @@ def compute_patches(
     The first column of `light` is constant, so that what is left has no mean.
     """
     out = np.empty((len(uv), len(positions)))
-    _fill_patches(image, uv, right, down, dark, positions, np.ascontiguousarray(light.T), out)
+    terms = np.ascontiguousarray(light.T)
+    _fill_patches(make_read_only(image), uv, right, down, dark, positions, terms, out)
     return out
 
 
@@ -131,5 +132,6 @@ def compare_sectors(
 ) -> tuple[Array, Array]:
     """Compute ``_compare_sectors`` of the reference."""
     gap, difference = np.empty((2, len(uv)))
+    image = make_read_only(image)
     _fill_differences(image, uv, right, down, dark, positions, reach, gap, difference)
     return gap, difference

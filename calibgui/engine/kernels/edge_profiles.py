@@ -5,10 +5,16 @@ from __future__ import annotations
 import numpy as np
 
 from calibgui.engine.arrays import Array, GreyImage
-from calibgui.engine.kernels.common import bilinear, compiled
+from calibgui.engine.kernels.common import (
+    bilinear,
+    compiled,
+    compiled_part,
+    make_contiguous,
+    make_read_only,
+)
 
 
-@compiled
+@compiled_part
 def _sample_profile(
     image: GreyImage,
     uv: Array,
@@ -103,6 +109,7 @@ def measure_ends(
 ) -> tuple[Array, Array, Array]:
     """Compute ``_measure_ends`` of the reference."""
     first, last, total = np.zeros((3, len(uv), len(s)))
+    image, (uv, along, across) = make_read_only(image), map(make_contiguous, (uv, along, across))
     _fill_ends(image, uv, along, across, s, reach, samples, ends, first, last, total)
     return first, last, total
 
@@ -121,5 +128,6 @@ def count_between_quartiles(
 ) -> Array:
     """Compute ``_count_between_quartiles`` of the reference."""
     out = np.zeros((len(uv), len(s)))
+    image, (uv, along, across) = make_read_only(image), map(make_contiguous, (uv, along, across))
     _count(image, uv, along, across, s, middle, half, samples, first, rise, out)
     return out

@@ -5,10 +5,10 @@ from __future__ import annotations
 import numpy as np
 
 from calibgui.engine.arrays import Array, GreyImage, IntArray
-from calibgui.engine.kernels.common import compiled
+from calibgui.engine.kernels.common import compiled, compiled_part, make_read_only
 
 
-@compiled
+@compiled_part
 def _cut_tile(image: GreyImage, left: int, top: int, grey: Array) -> None:
     """Fill grey with the pixels from (left, top) on, the border replicated."""
     height, width = image.shape
@@ -18,7 +18,7 @@ def _cut_tile(image: GreyImage, left: int, top: int, grey: Array) -> None:
             grey[j, i] = row[min(max(left + i, 0), width - 1)]
 
 
-@compiled
+@compiled_part
 def _add_row(grey: Array, j: int, weights: Array, sums: Array, products: Array) -> None:
     """Add the products of the slopes in row j of a tile, under each weight, to the sums."""
     side = grey.shape[0]
@@ -65,5 +65,5 @@ def score_positions(image: GreyImage, uv: Array, weights: Array, sensitivity: fl
     """Compute ``_score_positions`` of the reference."""
     out = np.empty((len(uv), weights.shape[1], weights.shape[1]))
     origin = np.rint(uv).astype(np.int64) - weights.shape[2] // 2
-    _fill_scores(image, origin, weights, sensitivity, out)
+    _fill_scores(make_read_only(image), origin, weights, sensitivity, out)
     return out

@@ -5,10 +5,10 @@ from __future__ import annotations
 import numpy as np
 
 from calibgui.engine.arrays import Array
-from calibgui.engine.kernels.common import compiled, make_contiguous, run_in_blocks
+from calibgui.engine.kernels.common import compiled, compiled_part, make_contiguous, run_in_blocks
 
 
-@compiled
+@compiled_part
 def _normalise(points: Array, weight: Array, out: Array, T: Array) -> None:
     """Fill out (2, N) with points (N, 2) moved to zero mean and RMS length sqrt(2), and T (3, 3)
     with the similarity that moves them."""

@@ -5,17 +5,17 @@ from __future__ import annotations
 import numpy as np
 
 from calibgui.engine.arrays import Array
-from calibgui.engine.kernels.common import compiled
+from calibgui.engine.kernels.common import compiled, compiled_part
 
 
-@compiled
+@compiled_part
 def _get_at(uv: Array, row: int, col: int, k: int) -> float:
     """Return coordinate k at a place, NaN outside the lattice."""
     inside = 0 <= row < uv.shape[0] and 0 <= col < uv.shape[1]
     return uv[row, col, k] if inside else np.nan
 
 
-@compiled
+@compiled_part
 def _average_known(values: tuple[float, ...]) -> float:
     """Return the mean of the values that are not NaN, NaN where there are none."""
     total, count = 0.0, 0
@@ -50,14 +50,15 @@ def _estimate_steps_along(uv: Array, dr: int, dc: int, reach: int, out: Array) -
             _spread_steps(out)
 
 
-@compiled
+@compiled_part
 def _spread_steps(steps: Array) -> None:
     """Fill unknown steps from those that were known around them."""
     rows, cols, _ = steps.shape
     # Two rows as they were, with a border on either side: the one above and the one being filled.
     above, here = np.full((cols + 2, 2), np.nan), np.full((cols + 2, 2), np.nan)
     for r in range(rows):
-        here[1:-1] = steps[r]
+        for c in range(cols):
+            here[c + 1, 0], here[c + 1, 1] = steps[r, c, 0], steps[r, c, 1]
         for c in range(cols):
             for k in range(2):
                 if np.isnan(here[c + 1, k]):
@@ -68,7 +69,7 @@ def _spread_steps(steps: Array) -> None:
         above, here = here, above
 
 
-@compiled
+@compiled_part
 def _extrapolate(uv: Array, r: int, c: int, dr: int, dc: int, k: int) -> float:
     """Extrapolate the line that ends one place away in the direction (dr, dc)."""
     p1, p2 = _get_at(uv, r + dr, c + dc, k), _get_at(uv, r + 2 * dr, c + 2 * dc, k)

@@ -9,7 +9,7 @@ from __future__ import annotations
 import numpy as np
 
 from calibgui.engine.arrays import Array, BoolArray, GreyImage, Int32Array, IntArray
-from calibgui.engine.kernels.common import bilinear, compiled
+from calibgui.engine.kernels.common import bilinear, compiled, compiled_part
 
 _JUNCTIONS_PER_CELL = 2.0
 """Number of junctions in a cell, on average."""
@@ -54,7 +54,7 @@ def sort_points(uv: Array) -> tuple[Array, float, Int32Array, Int32Array]:
     return lowest, side, start, member
 
 
-@compiled
+@compiled_part
 def _insert(j: int, squared: float, near: IntArray, distance: Array, count: int) -> int:
     """Insert j into the `count` nearest so far, in order, and return how many there are then."""
     most = near.shape[0]
@@ -70,7 +70,7 @@ def _insert(j: int, squared: float, near: IntArray, distance: Array, count: int)
     return count + 1
 
 
-@compiled
+@compiled_part
 def _find_nearest(
     uv: Array,
     i: int,
@@ -105,7 +105,7 @@ def _find_nearest(
     return count
 
 
-@compiled
+@compiled_part
 def _choose_slot(along: Array, du: float, dv: float) -> tuple[int, float]:
     """Choose the slot that points most along (du, dv); return it and the cosine between them."""
     a = along[0, 0] * du + along[0, 1] * dv
@@ -115,7 +115,7 @@ def _choose_slot(along: Array, du: float, dv: float) -> tuple[int, float]:
     return (1 if b > 0 else 3), abs(b)
 
 
-@compiled
+@compiled_part
 def _compute_cosine(along: Array, k: int, other: Array, k_other: int) -> float:
     """Compute the cosine between slot k of one junction and slot k_other of another."""
     a, b = along[k % 2], other[k_other % 2]
@@ -123,7 +123,7 @@ def _compute_cosine(along: Array, k: int, other: Array, k_other: int) -> float:
     return cosine if k // 2 == k_other // 2 else -cosine
 
 
-@compiled
+@compiled_part
 def _measure_edge_step(
     g: GreyImage, here: Array, du: float, dv: float, distance: float, places: Array, sign: float
 ) -> float:

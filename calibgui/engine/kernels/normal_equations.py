@@ -26,7 +26,13 @@ from calibgui.engine.kernels.cameras import (
     find_rows,
     pack_camera,
 )
-from calibgui.engine.kernels.common import compiled, gram, make_contiguous, run_in_blocks
+from calibgui.engine.kernels.common import (
+    compiled,
+    compiled_part,
+    gram,
+    make_contiguous,
+    run_in_blocks,
+)
 from calibgui.engine.kernels.polynomial_lens import add_skew, distort, invert
 from calibgui.engine.kernels.ray_lenses import find_rays, image_points
 
@@ -35,7 +41,7 @@ Blocks = tuple[Array, Array, Array, Array, Array, Array]
 """U, W, V, the shared gradient, the poses' gradients and the views' costs."""
 
 
-@compiled
+@compiled_part
 def _differentiate_by_params(
     fc: tuple[float, float, float, float, float], base: Array, lead: Array, d: Array, F: Array
 ) -> None:
@@ -45,46 +51,56 @@ def _differentiate_by_params(
     """
     fx, fy, p1, p2, p3 = fc
     n = d.shape[1]
+    # Slices, and not indices, so that the compiler sees what it can vectorise.
+    base0, base1, d0, d1 = base[0], base[1], d[0], d[1]
+    F[0, :n] = d0
+    F[1, n:] = d1
     for i in range(n):
-        x, y = base[0, i], base[1, i]
-        xx, yy, xy = x * x, y * y, x * y
-        r2 = xx + yy
-        q = 1 + p3 * r2
-        c, e = fx * lead[0, i], fx * lead[1, i]
-        g, h = fy * lead[2, i], fy * lead[3, i]
-        F[0, i], F[1, n + i] = d[0, i], d[1, i]
-        b0, b1 = r2 * (c * x + e * y), r2 * (g * x + h * y)
-        F[4, i], F[4, n + i] = b0, b1
-        F[5, i], F[5, n + i] = r2 * b0, r2 * b1
-        F[6, i], F[6, n + i] = r2 * r2 * b0, r2 * r2 * b1
-        g0, g1, g2 = q * (r2 + 2 * xx), 2 * q * xy, q * (r2 + 2 * yy)
-        F[7, i], F[7, n + i] = c * g0 + e * g1, g * g0 + h * g1
-        F[8, i], F[8, n + i] = c * g1 + e * g2, g * g1 + h * g2
-        lx = r2 * (p1 * (r2 + 2 * xx) + 2 * p2 * xy)
-        ly = r2 * (2 * p1 * xy + p2 * (r2 + 2 * yy))
-        F[9, i], F[9, n + i] = c * lx + e * ly, g * lx + h * ly
-        F[10, i] = fx * d[1, i]
+        F[10, i] = fx * d1[i]
+    for row in range(2):
+        f, lead0, lead1 = (fx if row == 0 else fy), lead[2 * row], lead[2 * row + 1]
+        half = slice(0, n) if row == 0 else slice(n, 2 * n)
+        F4, F5, F6 = F[4, half], F[5, half], F[6, half]
+        F7, F8, F9 = F[7, half], F[8, half], F[9, half]
+        for i in range(n):
+            x, y = base0[i], base1[i]
+            xx, yy, xy = x * x, y * y, x * y
+            r2 = xx + yy
+            q = 1 + p3 * r2
+            c, e = f * lead0[i], f * lead1[i]
+            b = r2 * (c * x + e * y)
+            F4[i], F5[i], F6[i] = b, r2 * b, r2 * r2 * b
+            g0, g1, g2 = q * (r2 + 2 * xx), 2 * q * xy, q * (r2 + 2 * yy)
+            F7[i], F8[i] = c * g0 + e * g1, c * g1 + e * g2
+            lx = r2 * (p1 * (r2 + 2 * xx) + 2 * p2 * xy)
+            ly = r2 * (2 * p1 * xy + p2 * (r2 + 2 * yy))
+            F9[i] = c * lx + e * ly
 
 
-@compiled
+@compiled_part
 def _differentiate_by_pose(
     fx: float, fy: float, rotated: Array, n: Array, M: Array, inverse_depth: Array, J: Array
 ) -> None:
     """Fill the rows of J (6, 2N) with derivatives by (w, tau): by w they are the cross product of
     R X and d(u, v)/dX_cam."""
     N = n.shape[1]
-    for i in range(N):
-        a0, a1, a2 = rotated[0, i], rotated[1, i], rotated[2, i]
-        for row in range(2):
-            f = (fx if row == 0 else fy) * inverse_depth[i]
-            c0, c1 = f * M[2 * row, i], f * M[2 * row + 1, i]
-            c2 = -(c0 * n[0, i] + c1 * n[1, i])
-            j = i + row * N
-            J[0, j], J[1, j], J[2, j] = a1 * c2 - a2 * c1, a2 * c0 - a0 * c2, a0 * c1 - a1 * c0
-            J[3, j], J[4, j], J[5, j] = c0, c1, c2
+    n0, n1 = n[0], n[1]
+    rotated0, rotated1, rotated2 = rotated[0], rotated[1], rotated[2]
+    for row in range(2):
+        scale, M0, M1 = (fx if row == 0 else fy), M[2 * row], M[2 * row + 1]
+        half = slice(0, N) if row == 0 else slice(N, 2 * N)
+        J0, J1, J2 = J[0, half], J[1, half], J[2, half]
+        J3, J4, J5 = J[3, half], J[4, half], J[5, half]
+        for i in range(N):
+            a0, a1, a2 = rotated0[i], rotated1[i], rotated2[i]
+            f = scale * inverse_depth[i]
+            c0, c1 = f * M0[i], f * M1[i]
+            c2 = -(c0 * n0[i] + c1 * n1[i])
+            J0[i], J1[i], J2[i] = a1 * c2 - a2 * c1, a2 * c0 - a0 * c2, a0 * c1 - a1 * c0
+            J3[i], J4[i], J5[i] = c0, c1, c2
 
 
-@compiled
+@compiled_part
 def _turn_ray_slopes(fx: float, fy: float, rotated: Array, G: Array, J: Array) -> None:
     """Fill the rows of J (6, 2N) as `_differentiate_by_pose`, from G (6, N) = dd/dX_cam."""
     N = G.shape[1]
@@ -98,18 +114,20 @@ def _turn_ray_slopes(fx: float, fy: float, rotated: Array, G: Array, J: Array) -
             J[3, j], J[4, j], J[5, j] = c0, c1, c2
 
 
-@compiled
+@compiled_part
 def _whiten(weight: Array, J: Array) -> None:
     """Multiply J (M, 2N) with the corners' whitening (4, N): w00, w01, w10, w11."""
     N = weight.shape[1]
+    w0, w1, w2, w3 = weight[0], weight[1], weight[2], weight[3]
     for m in range(J.shape[0]):
+        Ju, Jv = J[m, :N], J[m, N:]
         for i in range(N):
-            u, v = J[m, i], J[m, N + i]
-            J[m, i] = weight[0, i] * u + weight[1, i] * v
-            J[m, N + i] = weight[2, i] * u + weight[3, i] * v
+            u, v = Ju[i], Jv[i]
+            Ju[i] = w0[i] * u + w1[i] * v
+            Jv[i] = w2[i] * u + w3[i] * v
 
 
-@compiled
+@compiled_part
 def make_workspace(N: int) -> Workspace:
     """Return the arrays of one view that later calls fill: R X, 1 / depth, n, d, M, lead, F,
     X_cam and dd/dX_cam."""
@@ -122,7 +140,7 @@ def make_workspace(N: int) -> Workspace:
     return rotated, inverse_depth, n, d, M, lead, F, np.empty((3, N)), np.empty((6, N))
 
 
-@compiled
+@compiled_part
 def project_view(
     camera: CameraTuple,
     kind: int,
@@ -164,7 +182,7 @@ def project_view(
     return not behind
 
 
-@compiled
+@compiled_part
 def fill_jacobian(
     camera: CameraTuple,
     kind: int,
@@ -197,9 +215,10 @@ def fill_jacobian(
         row = rows[j]
         for i in range(2 * N):
             J[j, i] = F[row, i]
+    ru, rv = J[P + 6, :N], J[P + 6, N:]
     for i in range(N):
-        J[P + 6, i] = cx + fx * d[0, i] - uv[0, i]
-        J[P + 6, N + i] = cy + fy * d[1, i] - uv[1, i]
+        ru[i] = cx + fx * d[0, i] - uv[0, i]
+        rv[i] = cy + fy * d[1, i] - uv[1, i]
     if whitened:
         _whiten(weight, J)
 
@@ -254,7 +273,9 @@ def _compute_residuals(
             goal[0, i] = (uv[view, 0, i] - cx) / fx
             goal[1, i] = (uv[view, 1, i] - cy) / fy
         if kind in (KANNALA_BRANDT, UNIFIED):
-            ray[:] = point
+            for row in range(3):
+                for i in range(N):
+                    ray[row, i] = point[row, i]
             good &= find_rays(kind, camera, goal, ray, d, G, M, F)
         elif kind == BACKWARD:
             distort(goal, camera[4:10], ray, M)

@@ -9,13 +9,13 @@ ideal points; Brown and Conrady's are it from ideal to measured ones, with a ske
 from __future__ import annotations
 
 from calibgui.engine.arrays import Array
-from calibgui.engine.kernels.common import compiled
+from calibgui.engine.kernels.common import compiled_part
 
 Coefficients = tuple[float, float, float, float, float, float]
 """k1, k2, k3, p1, p2, p3 of eq. 10."""
 
 
-@compiled
+@compiled_part
 def eq10(
     x: float,
     y: float,
@@ -45,7 +45,7 @@ def eq10(
     )
 
 
-@compiled
+@compiled_part
 def distort(n: Array, k: Coefficients, d: Array, M: Array) -> None:
     """Fill d (2, N) with eq10(n) and M (4, N) with dd/dn, for n (2, N)."""
     k1, k2, k3, p1, p2, p3 = k
@@ -55,7 +55,7 @@ def distort(n: Array, k: Coefficients, d: Array, M: Array) -> None:
         )
 
 
-@compiled
+@compiled_part
 def add_skew(skew: float, d: Array, M: Array) -> None:
     """Turn measured points d (2, N) without skew, and M (4, N) = dd/dn, into those with it."""
     if skew != 0:
@@ -65,7 +65,7 @@ def add_skew(skew: float, d: Array, M: Array) -> None:
             M[1, i] += skew * M[3, i]
 
 
-@compiled
+@compiled_part
 def invert(n: Array, k: Coefficients, d: Array, M: Array) -> bool:
     """Solve eq10(d) = n from the given d, fill M with dd/dn; return whether all points converged.
 

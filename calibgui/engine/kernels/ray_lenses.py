@@ -21,7 +21,7 @@ import numpy as np
 
 from calibgui.engine.arrays import Array
 from calibgui.engine.kernels.cameras import UNIFIED, CameraTuple
-from calibgui.engine.kernels.common import compiled
+from calibgui.engine.kernels.common import compiled_part
 
 _TINY = 1e-200
 """Square of a distance from the axis, mm^2, that counts as 0 and may be divided by."""
@@ -40,7 +40,7 @@ _ARCTANGENT = tuple(
 exact to rounding."""
 
 
-@compiled
+@compiled_part
 def compute_angle(R: float, Z: float) -> float:
     """Compute atan2(R, Z) for R > 0 without a branch, which the compiler can vectorise.
 
@@ -64,7 +64,7 @@ def compute_angle(R: float, Z: float) -> float:
     return pi - angle if Z < 0 else angle
 
 
-@compiled
+@compiled_part
 def image_kannala_brandt(
     camera: CameraTuple, P: Array, d: Array, G: Array, base: Array, F: Array
 ) -> bool:
@@ -126,7 +126,7 @@ def image_kannala_brandt(
     return missing == 0
 
 
-@compiled
+@compiled_part
 def image_unified(camera: CameraTuple, P: Array, d: Array, G: Array, base: Array, F: Array) -> bool:
     """Fill in the images of points by the unified models.
 
@@ -171,7 +171,7 @@ def image_unified(camera: CameraTuple, P: Array, d: Array, G: Array, base: Array
     return (missing == 0) & (beta > 0)
 
 
-@compiled
+@compiled_part
 def image_points(
     kind: int, camera: CameraTuple, P: Array, d: Array, G: Array, base: Array, F: Array
 ) -> bool:
@@ -181,7 +181,7 @@ def image_points(
     return image_kannala_brandt(camera, P, d, G, base, F)
 
 
-@compiled
+@compiled_part
 def find_rays(
     kind: int, camera: CameraTuple, goal: Array, P: Array, d: Array, G: Array, base: Array, F: Array
 ) -> bool:

@@ -5,12 +5,18 @@ from __future__ import annotations
 import numpy as np
 
 from calibgui.engine.arrays import Array, BoolArray, GreyImage
-from calibgui.engine.kernels.common import compiled, factor, substitute
+from calibgui.engine.kernels.common import (
+    compiled,
+    compiled_part,
+    factor,
+    make_read_only,
+    substitute,
+)
 
 _POWERS = np.array([(0, 0), (1, 0), (0, 1), (2, 0), (1, 1), (0, 2)])
 
 
-@compiled
+@compiled_part
 def _sum_moments(
     centre: float, origin: int, extent: int, sigma: float, weighted: Array, moments: Array
 ) -> None:
@@ -27,7 +33,7 @@ def _sum_moments(
             w *= x
 
 
-@compiled
+@compiled_part
 def _compute_step(
     image: GreyImage, u: float, v: float, sigma: float, work: tuple[Array, ...]
 ) -> tuple[float, float, bool]:
@@ -77,14 +83,14 @@ def _iterate(
     image: GreyImage,
     start: Array,
     sigma: Array,
+    side: int,
     limit: Array,
     tolerance: float,
     most: int,
     uv: Array,
     good: BoolArray,
 ) -> None:
-    """Fill in positions (n, 2), and True where one was found."""
-    side = 2 * int(np.ceil(3 * sigma.max() + 0.5)) + 1
+    """Fill in positions (n, 2), and True where one was found; weights reach over `side` pixels."""
     work = (
         np.empty((3, side)),
         np.empty((3, side)),
@@ -112,5 +118,6 @@ def iterate(
 ) -> tuple[Array, BoolArray]:
     """Compute ``_iterate`` of the reference."""
     uv, good = start.copy(), np.zeros(len(start), dtype=np.bool_)
-    _iterate(image, start, sigma, limit, tolerance, most, uv, good)
+    side = 2 * int(np.ceil(3 * sigma.max(initial=0.0) + 0.5)) + 1
+    _iterate(make_read_only(image), start, sigma, side, limit, tolerance, most, uv, good)
     return uv, good

@@ -12,10 +12,10 @@ from __future__ import annotations
 import numpy as np
 
 from calibgui.engine.arrays import Array, IntArray
-from calibgui.engine.kernels.common import compiled, make_contiguous
+from calibgui.engine.kernels.common import compiled, compiled_part, make_contiguous
 
 
-@compiled
+@compiled_part
 def _find_touched(W: Array, touched: IntArray) -> int:
     """Fill in the numbers of the rows of W (P, 6) that are not 0; return how many there are."""
     count = 0
@@ -29,7 +29,7 @@ def _find_touched(W: Array, touched: IntArray) -> int:
     return count
 
 
-@compiled
+@compiled_part
 def _multiply_roots(root: Array, W: Array, touched: IntArray, Y: Array) -> None:
     """Fill in Y (6, m), L^-1 Wk^T for the m rows of W (P, 6) that are touched."""
     for n in range(len(touched)):

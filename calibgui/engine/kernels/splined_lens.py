@@ -22,6 +22,7 @@ from calibgui.engine.arrays import Array, IntArray
 from calibgui.engine.kernels.common import (
     VIEWS_PER_BLOCK,
     compiled,
+    compiled_part,
     make_contiguous,
     run_in_blocks,
 )
@@ -48,7 +49,7 @@ class SplinedLens(Protocol):
     def edge(self) -> Array: ...
 
 
-@compiled
+@compiled_part
 def _weigh_neighbours(x: float, values: Array, slopes: Array) -> None:
     """Fill in the weights (4,) of a cubic B-spline at x, from 0 to 1, and their slopes."""
     y = 1 - x
@@ -60,7 +61,7 @@ def _weigh_neighbours(x: float, values: Array, slopes: Array) -> None:
     slopes[2] = (4 * y - 3 * y * y) / 2
 
 
-@compiled
+@compiled_part
 def _evaluate_surface(
     ux: float, uy: float, control: Array, grid: Array, spline: Array, weights: Array, surface: Array
 ) -> int:
@@ -95,7 +96,7 @@ def _evaluate_surface(
     return (iy - 1) * Nx + ix - 1
 
 
-@compiled
+@compiled_part
 def _project_corner(
     p: Array,
     control: Array,
@@ -139,7 +140,7 @@ def _evaluate_surfaces(control: Array, grid: Array, u: Array, surface: Array) ->
             at[:] = np.nan
 
 
-@compiled
+@compiled_part
 def _measure_miss(
     u: Array, d: Array, control: Array, grid: Array, spline: Array, weights: Array, found: Array
 ) -> float:
@@ -207,7 +208,7 @@ def iterate_newton(
     return u, found[:, :2], found[:, 2:].reshape(-1, 2, 2)
 
 
-@compiled
+@compiled_part
 def _differentiate_by_pose(rotated: Array, fx: float, fy: float, J: Array, by_pose: Array) -> None:
     """Fill in by_pose (2, 6), derivatives of the pixel by (w, tau), from J (2, 3) by the ray."""
     for row in range(2):
@@ -219,7 +220,7 @@ def _differentiate_by_pose(rotated: Array, fx: float, fy: float, J: Array, by_po
         by_pose[row, 3], by_pose[row, 4], by_pose[row, 5] = c0, c1, c2
 
 
-@compiled
+@compiled_part
 def _add_neighbours(
     first: int, Nx: int, weights: Array, m00: float, m01: float, m11: float, near: Array
 ) -> None:
@@ -235,7 +236,7 @@ def _add_neighbours(
                 near[point, below, 2, offset + j] += m11 * product
 
 
-@compiled
+@compiled_part
 def _add_control_points(
     first: int,
     Nx: int,
@@ -264,7 +265,7 @@ def _add_control_points(
             shared[jv] += w * by_v[6]
 
 
-@compiled
+@compiled_part
 def _add_core(
     first: int,
     Nx: int,

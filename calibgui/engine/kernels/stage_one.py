@@ -8,38 +8,64 @@ from __future__ import annotations
 import numpy as np
 
 from calibgui.engine.arrays import Array, BoolArray, IntArray
-from calibgui.engine.kernels.common import compiled, gram, make_contiguous, run_in_blocks
+from calibgui.engine.kernels.common import (
+    compiled,
+    compiled_part,
+    gram,
+    make_contiguous,
+    run_in_blocks,
+)
+
+_COLUMNS = np.array([[0, 1, 2, 3, 5, 7, 9, 10, 11], [0, 1, 2, 4, 6, 8, 9, 10, 11]])
+"""Places in z_r of the unknowns on which xi1 depends, and xi2, and last the residual's place."""
 
 
-@compiled
-def _linearise(z: Array, x: Array, goal: Array, weight: Array, J: Array) -> None:
-    """Fill J (12, 2N) with weighted derivatives of xi1 (first N) and xi2 by z_r, and residuals."""
+@compiled_part
+def _linearise(z: Array, row: int, x: Array, goal: Array, weight: Array, J: Array) -> None:
+    """Fill J (9, N) with weighted derivatives of xi1 (row 0) or xi2 by the unknowns on which it
+    depends, and residuals."""
     xp, yp, k1, a11, a21, a12, a22, d1, d2, c1, c2 = z
-    N = weight.shape[0]
-    for i in range(N):
-        dx, dy = x[0, i] - xp, x[1, i] - yp
+    a1, a2, d = (a11, a12, d1) if row == 0 else (a21, a22, d2)
+    # Rows by name, so that the compiler sees what it can vectorise.
+    x1, x2, goals = x[0], x[1], goal[row]
+    J0, J1, J2, J3, J4, J5, J6, J7, J8 = J[0], J[1], J[2], J[3], J[4], J[5], J[6], J[7], J[8]
+    for i in range(weight.shape[0]):
+        dx, dy = x1[i] - xp, x2[i] - yp
         r2 = dx * dx + dy * dy
-        psi1, psi2 = x[0, i] + k1 * r2 * dx, x[1, i] + k1 * r2 * dy
+        psi1, psi2 = x1[i] + k1 * r2 * dx, x2[i] + k1 * r2 * dy
         A = 1 / (c1 * (psi1 - xp) + c2 * (psi2 - yp) + 1)
         w = weight[i] * A
         px, py, cross = -k1 * (r2 + 2 * dx * dx), -k1 * (r2 + 2 * dy * dy), -2 * k1 * dx * dy
-        for row in range(2):
-            a1, a2, d = (a11, a12, d1) if row == 0 else (a21, a22, d2)
-            xi = (a1 * psi1 + a2 * psi2 + d) * A
-            b1, b2 = a1 - xi * c1, a2 - xi * c2
-            j = i + row * N
-            J[0, j] = w * (b1 * px + b2 * cross + xi * c1)
-            J[1, j] = w * (b1 * cross + b2 * py + xi * c2)
-            J[2, j] = w * r2 * (b1 * dx + b2 * dy)
-            J[9, j] = -w * xi * (psi1 - xp)
-            J[10, j] = -w * xi * (psi2 - yp)
-            J[11, j] = weight[i] * (xi - goal[row, i])
-        J[3, i] = J[4, N + i] = w * psi1
-        J[5, i] = J[6, N + i] = w * psi2
-        J[7, i] = J[8, N + i] = w
+        xi = (a1 * psi1 + a2 * psi2 + d) * A
+        b1, b2 = a1 - xi * c1, a2 - xi * c2
+        J0[i] = w * (b1 * px + b2 * cross + xi * c1)
+        J1[i] = w * (b1 * cross + b2 * py + xi * c2)
+        J2[i] = w * r2 * (b1 * dx + b2 * dy)
+        J3[i] = w * psi1
+        J4[i] = w * psi2
+        J5[i] = w
+        J6[i] = -w * xi * (psi1 - xp)
+        J7[i] = -w * xi * (psi2 - yp)
+        J8[i] = weight[i] * (xi - goals[i])
 
 
-@compiled
+@compiled_part
+def _sum_products(
+    z: Array, x: Array, goal: Array, weight: Array, J: Array, part: Array, out: Array
+) -> None:
+    """Fill out (12, 12) with the products of the columns [J r] of a view; J (9, N) and part (9, 9)
+    are work space."""
+    out[:] = 0.0
+    for row in range(2):
+        places = _COLUMNS[row]
+        _linearise(z, row, x, goal, weight, J)
+        gram(J, part)
+        for i in range(9):
+            for j in range(9):
+                out[places[i], places[j]] += part[i, j]
+
+
+@compiled_part
 def _solve_step(products: Array, damping: float, L: Array, step: Array) -> float:
     """Fill step (11,) by Cholesky's factorisation L; return the decrease that it predicts."""
     n = step.shape[0]
@@ -82,15 +108,14 @@ def _minimise_views(
 ) -> None:
     """Minimise the cost of one view after another, from z (K, 11)."""
     K, N = weight.shape
-    J, new, L = np.zeros((12, 2 * N)), np.empty((12, 12)), np.empty((11, 11))
+    J, part, new, L = np.empty((9, N)), np.empty((9, 9)), np.empty((12, 12)), np.empty((11, 11))
     step, trial = np.empty(11), np.empty(11)
     for view in range(K):
         damping, cost = 1e-3, np.inf
         for i in range(11):
             trial[i] = z[view, i]
         for count in range(max_iterations + 1):
-            _linearise(trial, x[view], goal[view], weight[view], J)
-            gram(J, new)
+            _sum_products(trial, x[view], goal[view], weight[view], J, part, new)
             iterations[view] = count
             if new[11, 11] < cost:
                 cost = new[11, 11]

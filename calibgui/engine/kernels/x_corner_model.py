@@ -19,7 +19,13 @@ import numpy as np
 import numpy.typing as npt
 
 from calibgui.engine.arrays import Array, GreyImage
-from calibgui.engine.kernels.common import compiled, factor, substitute
+from calibgui.engine.kernels.common import (
+    compiled,
+    compiled_part,
+    factor,
+    make_read_only,
+    substitute,
+)
 
 _Floats = npt.NDArray[np.floating[Any]]
 """Arrays of float32."""
@@ -115,7 +121,7 @@ def _bound_offsets(bands: Array) -> int:
     return int(along.max() + across.max())
 
 
-@compiled
+@compiled_part
 def _orient_band(band: Array, flat: bool, width: float) -> _OrientedBand:
     """Return one edge's numbers but with that width, u and v exchanged if it is not flat."""
     bend, arm = band[4] / 2, band[5]
@@ -124,7 +130,7 @@ def _orient_band(band: Array, flat: bool, width: float) -> _OrientedBand:
     return band[1], band[0], band[3], band[2], bend, arm, width
 
 
-@compiled
+@compiled_part
 def _contains(x: float, y: float, edge: _OrientedBand) -> bool:
     """Return whether the offset (x, y) from a corner lies in the band of an edge."""
     tx, ty, nx, ny, bend, arm, width = edge
@@ -133,7 +139,7 @@ def _contains(x: float, y: float, edge: _OrientedBand) -> bool:
     return abs(d) <= width and abs(s) <= arm
 
 
-@compiled
+@compiled_part
 def _read_band(
     image: GreyImage,
     cx: float,
@@ -163,7 +169,7 @@ def _read_band(
     return count
 
 
-@compiled
+@compiled_part
 def _read(image: GreyImage, uv: Array, bands: Array, offset: _Ints, grey: _Floats) -> int:
     """Fill offset (2, room), counted from the pixel at the corner uv (2,), and grey (room,) with
     the pixels of its bands (2, 7), each once; return their number. A band is an edge's tangent,
@@ -182,7 +188,7 @@ def _read(image: GreyImage, uv: Array, bands: Array, offset: _Ints, grey: _Float
     return begin
 
 
-@compiled
+@compiled_part
 def _bell(x: _Single) -> _Single:
     """Compute exp(-x^2)."""
     e = min(x * x, _FAR) * _PART
@@ -195,7 +201,7 @@ def _bell(x: _Single) -> _Single:
     return b * b
 
 
-@compiled
+@compiled_part
 def _erf(x: _Single, bell: _Single) -> _Single:
     """Compute erf(x), given exp(-x^2), as ``edge_intensity``."""
     t = _ONE / (_ONE + _P * abs(x))
@@ -203,7 +209,7 @@ def _erf(x: _Single, bell: _Single) -> _Single:
     return value if x >= _ZERO else -value
 
 
-@compiled
+@compiled_part
 def _fill_geometry(
     w: _Floats,
     u: _Floats,
@@ -231,7 +237,7 @@ def _fill_geometry(
         w[_W2 + p] = growth * (size[1] + size[4] * u[p] + size[5] * v[p])
 
 
-@compiled
+@compiled_part
 def _fill_edge(
     distance: _Floats,
     turn: _Single,
@@ -269,7 +275,7 @@ def _fill_edge(
         to[2 * _BLOCK + p] = fall * (_ROOT2_PI * over * s / g)
 
 
-@compiled
+@compiled_part
 def _fill_crossing(w: _Floats, rho: _Single, box: _Floats, m: int) -> None:
     """Fill rows G as ``compute_crossing``."""
     _fill_edge(w[_D1:], _ONE, w[_W1:], _ZERO, w[_B1:], box[0], w[_E1:], m)
@@ -287,7 +293,7 @@ def _fill_crossing(w: _Floats, rho: _Single, box: _Floats, m: int) -> None:
         w[_G + 5 * _BLOCK + p] = by_rho
 
 
-@compiled
+@compiled_part
 def _fill_spread_crossing(w: _Floats, rho: _Single, box: _Floats, mirror: _Single, m: int) -> None:
     """Fill rows G as ``compute_spread_crossing``, for spreads w of the sign of mirror."""
     _fill_edge(w[_D1:], _ONE, w[_W1:], -mirror, w[_B1:], box[0], w[_E1:], m)
@@ -312,7 +318,7 @@ def _fill_spread_crossing(w: _Floats, rho: _Single, box: _Floats, mirror: _Singl
         w[_G + 4 * _BLOCK + p] = half * (be2 * (e1 + _ONE) + bf2 * (f1 - _ONE))
 
 
-@compiled
+@compiled_part
 def _fill_columns(
     w: _Floats,
     u: _Floats,
@@ -345,7 +351,7 @@ def _fill_columns(
         w[_J + 8 * _BLOCK + p] = a * w[_G + 5 * _BLOCK + p]
 
 
-@compiled
+@compiled_part
 def _add_products(w: _Floats, m: int, out: Array) -> None:
     """Add the products of the rows J to the lower triangle of out (10, 10)."""
     for a in range(_COLUMNS):
@@ -358,7 +364,7 @@ def _add_products(w: _Floats, m: int, out: Array) -> None:
             out[a, b] += total
 
 
-@compiled
+@compiled_part
 def _add_corner(
     offset: _Ints,
     grey: _Floats,
@@ -393,7 +399,7 @@ def _add_corner(
             out[b, a] = out[a, b]
 
 
-@compiled
+@compiled_part
 def _measure_odd_part(
     offset: _Ints, residual: _Floats, mu: int, mv: int, square: _Floats, out: Array
 ) -> None:
@@ -451,6 +457,7 @@ def accumulate_normal_equations(
     out, odd_part = np.zeros((n, _COLUMNS, _COLUMNS)), np.zeros((n if odd else 0, 2))
     square = np.full((side, side), np.nan, dtype=_F)
     room = _bound_pixels(bands)
+    image = make_read_only(image)
     _accumulate(image, uv, bands, room, centre, near.astype(_F), square, out, odd_part)
     return out, odd_part
 
@@ -495,7 +502,9 @@ def _pack_model(model: _Model) -> Array:
 def _solve(N: Array, damping: float, step: Array, inverse: Array) -> None:
     L, unit = np.empty((N.shape[1], N.shape[2])), np.empty(N.shape[1])
     for n in range(N.shape[0]):
-        L[:] = N[n]
+        for i in range(L.shape[0]):
+            for j in range(L.shape[0]):
+                L[i, j] = N[n, i, j]
         largest = 1e-300
         for k in range(L.shape[0]):
             largest = max(largest, L[k, k])
@@ -507,7 +516,7 @@ def _solve(N: Array, damping: float, step: Array, inverse: Array) -> None:
             unit[:] = 0
             unit[axis] = 1
             substitute(L, unit)
-            inverse[n, axis] = unit[:2]
+            inverse[n, axis, 0], inverse[n, axis, 1] = unit[0], unit[1]
 
 
 def solve_normal_equations(N: Array, g: Array, damping: float) -> tuple[Array, Array]:

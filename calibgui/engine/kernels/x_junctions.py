@@ -9,13 +9,13 @@ from __future__ import annotations
 import numpy as np
 
 from calibgui.engine.arrays import Array, BoolArray, FloatImage, GreyImage, IntArray
-from calibgui.engine.kernels.common import bilinear, compiled
+from calibgui.engine.kernels.common import bilinear, compiled, compiled_part
 
 _F = np.float32
 _QUARTER, _TWO = _F(0.25), _F(2)
 
 
-@compiled
+@compiled_part
 def _compute_determinants(g: GreyImage, v: int, row: FloatImage) -> None:
     """Fill `row` with R of row v of the image g, but for its ends."""
     above, here, below = g[v - 1], g[v], g[v + 1]
@@ -28,7 +28,7 @@ def _compute_determinants(g: GreyImage, v: int, row: FloatImage) -> None:
         row[u] = xy * xy - xx * yy
 
 
-@compiled
+@compiled_part
 def _is_first(R: FloatImage, v: int, u: int) -> bool:
     """Return whether a peak equals none of the values before it in its surroundings."""
     here = R[v % 5, u]
@@ -94,7 +94,7 @@ def find_peaks(smooth: GreyImage, min_determinant: float, max_count: int) -> Int
     return where
 
 
-@compiled
+@compiled_part
 def _compute_newton_step(g: GreyImage, u: float, v: float) -> tuple[float, float]:
     """Compute the step from (u, v) towards the point of zero gradient."""
     left, here, right = bilinear(g, u - 1, v), bilinear(g, u, v), bilinear(g, u + 1, v)
@@ -133,7 +133,7 @@ def refine_stationary(
     return uv, is_near
 
 
-@compiled
+@compiled_part
 def _check_circle(
     g: GreyImage,
     u: float,

@@ -52,8 +52,8 @@ def test_a_change_to_what_a_kernel_calls_in_another_file_is_noticed(tmp_path: Pa
     )
     for answer in ("1", "22"):
         (folder / "knows.py").write_text(
-            "from calibgui.engine.kernels.common import compiled\n"
-            "@compiled\n"
+            "from calibgui.engine.kernels.common import compiled_part\n"
+            "@compiled_part\n"
             "def answer():\n"
             f"    return {answer}\n",
             encoding="utf-8",

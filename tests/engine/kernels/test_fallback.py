@@ -54,3 +54,32 @@ def test_kernels_compile_where_nothing_can_be_kept(monkeypatch: pytest.MonkeyPat
         return 2 * x
 
     assert common.compiled(doubled)(1.5) == 3.0
+
+
+def test_a_numba_that_cannot_be_imported_is_said_once_and_done_without(tmp_path: Path) -> None:
+    """As numba after an update of NumPy: it is installed, and raises ImportError."""
+    (tmp_path / "numba.py").write_text(
+        "raise ImportError('Numba needs NumPy 2.3 or less')", encoding="utf-8"
+    )
+    script = (
+        "import numpy as np, warnings\n"
+        "from pathlib import Path\n"
+        "from calibgui.app.detection import find_views\n"
+        "from calibgui.engine import kernels\n"
+        "sample = Path('resources/sample')\n"
+        "assert kernels.COMPILED\n"
+        "views = find_views(sorted(sample.glob('*.png'))[:3]).views\n"
+        "assert not kernels.COMPILED\n"
+        "print(*(view.status.value for view in views))\n"
+    )
+    done = subprocess.run(
+        [sys.executable, "-c", script],
+        cwd=ROOT,
+        env=os.environ | {"PYTHONPATH": os.pathsep.join([str(tmp_path), str(ROOT)])},
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    assert done.returncode == 0, done.stderr
+    assert set(done.stdout.split()) == {"found"}
+    assert done.stderr.count("needs NumPy 2.3 or less") == 1

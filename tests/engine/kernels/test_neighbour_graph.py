@@ -12,6 +12,7 @@ from calibgui.engine.arrays import GreyImage, Int32Array
 from calibgui.engine.detection.checkerboard import neighbour_graph, x_junctions
 from calibgui.engine.detection.checkerboard.thresholds import THRESHOLDS
 from calibgui.engine.kernels import neighbour_graph as kernel
+from tests.engine.kernels.conftest import make_callable
 from tests.scenes.checkerboards import draw
 from tests.scenes.conditions import Conditions
 
@@ -58,7 +59,8 @@ def test_the_same_neighbours_in_noise() -> None:
 
 
 def test_only_edges_that_are_seen_from_both_ends_link() -> None:
-    ends = neighbour_graph._link_neighbours(*draw_noise(), THRESHOLDS.junctions.crossing).ravel()
+    crossing, places = THRESHOLDS.junctions.crossing, np.array([0.3, 0.5, 0.7])
+    ends = neighbour_graph._link_neighbours(*draw_noise(), crossing, places).ravel()
     linked = np.flatnonzero(ends >= 0)
     assert 20 < len(linked) < np.count_nonzero(choose(neighbour_graph._choose_neighbours) >= 0)
     np.testing.assert_array_equal(ends[ends[linked]], linked)
@@ -75,8 +77,9 @@ def test_the_same_junctions_are_nearest(n: int, crowd: float, extent: tuple[floa
     np.fill_diagonal(distance, np.inf)
     lowest, side, start, member = kernel.sort_points(uv)
     near, squared = np.empty(12, dtype=np.int64), np.empty(12)
+    find_nearest = make_callable(kernel._find_nearest)
     for i in range(n):
-        count = kernel._find_nearest(uv, i, lowest, side, start, member, near, squared)
+        count = find_nearest(uv, i, lowest, side, start, member, near, squared)
         assert count == min(n - 1, 12)
         assert i not in near[:count]
         np.testing.assert_allclose(np.sqrt(squared[:count]), np.sort(distance[i])[:count])

@@ -27,11 +27,13 @@ from tests.engine.kernels.test_normal_equations import RAY_CAMERAS
 
 pytest.importorskip("numba", reason="numba is not installed")
 
+from calibgui.engine.kernels import ray_lenses
 from calibgui.engine.kernels.cameras import find_rows, pack_camera
-from calibgui.engine.kernels.ray_lenses import (
-    compute_angle,
-    image_kannala_brandt,
-    image_unified,
+from tests.engine.kernels.conftest import make_callable
+
+compute_angle, image_kannala_brandt, image_unified = map(
+    make_callable,
+    (ray_lenses.compute_angle, ray_lenses.image_kannala_brandt, ray_lenses.image_unified),
 )
 
 

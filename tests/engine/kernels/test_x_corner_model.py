@@ -12,6 +12,7 @@ from calibgui.engine import kernels
 from calibgui.engine.detection.checkerboard import x_corner_fit
 from calibgui.engine.detection.checkerboard.x_corner_model import EdgeSupport
 from calibgui.engine.detection.find_corners import find_corners
+from tests.engine.kernels.conftest import make_callable
 from tests.scenes.checkerboards import draw
 from tests.scenes.conditions import Conditions
 
@@ -83,7 +84,7 @@ def test_support_holds_every_pixel_once_and_within_its_bounds(bent: float, longe
     )
     image = rng.integers(0, 256, (300, 300), dtype=np.uint8)
     compiled = import_module("calibgui.engine.kernels.x_corner_model")
-    packed = compiled.pack_support(support)
+    packed, read = compiled.pack_support(support), make_callable(compiled._read)
     readable, _, counts = support.read(image)
     for i in range(n):
         most, farthest = (
@@ -91,7 +92,7 @@ def test_support_holds_every_pixel_once_and_within_its_bounds(bent: float, longe
             compiled._bound_offsets(packed[i : i + 1]),
         )
         offset, grey = np.zeros((2, most), np.int32), np.zeros(most, np.float32)
-        number = compiled._read(image, support.uv[i], packed[i], offset, grey)
+        number = read(image, support.uv[i], packed[i], offset, grey)
         assert number <= most
         assert abs(offset).max() <= farthest
         pixels = offset[:, :number].T + np.rint(support.uv[i]).astype(np.int64)
