@@ -46,7 +46,11 @@ MARKER_LAYOUTS = tuple(MarkerLayout(cols, dark) for cols in range(2, 65) for dar
 
 @dataclass(frozen=True, slots=True)
 class Charuco:
-    """The pattern of a ChArUco board; a field that is None is to be inferred from the images."""
+    """The pattern of a ChArUco board; a field that is None is to be inferred from the images.
+
+    Lengths are ratios to the pitch, as in every pattern: markers of 30 mm in squares of 40 mm are
+    ``Charuco(marker=30 / 40)``, on a ``Board`` with ``square=40``.
+    """
 
     dictionary: str | None = None
     """Name of one of OpenCV's predefined dictionaries, such as DICT_4X4_50."""
@@ -61,7 +65,9 @@ class Charuco:
             raise CalibrationError(f"There is no dictionary {self.dictionary}.", f"Known: {known}.")
         if self.marker is not None and not 0 < self.marker < 1:
             raise CalibrationError(
-                "A marker must be smaller than its square.", "State the sides of both in mm."
+                f"The side of a marker is {self.marker:.4g} of the side of its square, and must be "
+                "above 0 and below 1.",
+                "Measure both in mm. In Python their ratio is stated, as marker=30 / 40.",
             )
 
     @property

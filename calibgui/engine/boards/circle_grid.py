@@ -25,7 +25,11 @@ from calibgui.engine.errors import CalibrationError
 
 @dataclass(frozen=True, slots=True)
 class Circles:
-    """The pattern of a grid of circles."""
+    """The pattern of a grid of circles.
+
+    Lengths are ratios to the pitch, as in every pattern: circles of 12 mm whose rows are 20 mm
+    apart are ``Circles(diameter=12 / 20)``, on a ``Board`` with ``square=20``.
+    """
 
     asymmetric: bool = False
     """True if every second row is shifted by half the distance of its circles."""
@@ -36,9 +40,9 @@ class Circles:
     def __post_init__(self) -> None:
         if self.diameter is not None and not 0 < self.diameter < 2 * self.half_distance:
             raise CalibrationError(
-                f"Circles of {self.diameter:.2f} of their distance would touch.",
-                f"It must be below {2 * self.half_distance:.2f}:"
-                " state diameter and distance in mm.",
+                f"The circles' diameter is {self.diameter:.4g} of the distance of their rows, and "
+                f"must be above 0 and below {2 * self.half_distance:.2f}, where they touch.",
+                "Measure both in mm. In Python their ratio is stated, as diameter=12 / 20.",
             )
 
     @property

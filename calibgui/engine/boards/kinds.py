@@ -5,15 +5,26 @@ from __future__ import annotations
 from collections.abc import Mapping
 from types import MappingProxyType
 
+from calibgui.engine.boards.april_grid import AprilGrid
 from calibgui.engine.boards.charuco import Charuco
 from calibgui.engine.boards.checkerboard import CHECKERBOARD
 from calibgui.engine.boards.circle_grid import Circles
 from calibgui.engine.boards.pattern import Pattern
+from calibgui.engine.boards.puzzleboard import PuzzleBoard
+from calibgui.engine.boards.tagged_checkerboard import TaggedCheckerboard
 
 KINDS: Mapping[str, Pattern] = MappingProxyType(
     {
         pattern.kind: pattern
-        for pattern in (CHECKERBOARD, Charuco(), Circles(), Circles(asymmetric=True))
+        for pattern in (
+            CHECKERBOARD,
+            Charuco(),
+            Circles(),
+            Circles(asymmetric=True),
+            AprilGrid(),
+            TaggedCheckerboard(),
+            PuzzleBoard(),
+        )
     }
 )
 """One pattern of each kind, by its name in files and on the command line; every field that can be

@@ -23,7 +23,7 @@ from typing import Protocol
 import numpy as np
 import scipy
 
-from calibgui.engine.arrays import Array, BoolArray
+from calibgui.engine.arrays import Array, BoolArray, IntArray
 
 Extent = tuple[float, float, float, float]
 """Left, top, right and bottom, pitches."""
@@ -116,13 +116,48 @@ class PrintedDiscs:
 
     def compute_ink_share(self, XY: Array, gradient: Array) -> tuple[Array, BoolArray]:
         """See ``PrintedPattern``."""
-        nearest = np.asarray(scipy.spatial.cKDTree(self.centres).query(XY)[1])
-        out = XY - self.centres[nearest]
-        distance = np.linalg.norm(out, axis=-1)
-        normal = out / np.maximum(distance, 1e-12)[..., None]
-        A, B = np.moveaxis(np.abs((normal[..., None, :] @ gradient)[..., 0, :]) + 1e-12, -1, 0)
-        inside = self.radius - distance
-        return average_unit_step(inside, A, B), np.abs(inside) < (A + B) / 2
+        _, inside, widths = _measure_discs(self.centres, self.radius, XY, gradient)
+        return average_unit_step(inside, *widths), np.abs(inside) < sum(widths) / 2
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class PrintedSquaresAndDots:
+    """A print of rectangles with dots of ink and of paper over them, which do not touch."""
+
+    rectangles: PrintedRectangles
+    centres: Array
+    """(n, 2) of the dots, pitches."""
+    radius: float
+    """Of the dots, pitches."""
+    dark: BoolArray
+    """(n,) True for the dots that are ink."""
+
+    @property
+    def extent(self) -> Extent:
+        return self.rectangles.extent
+
+    def compute_ink_share(self, XY: Array, gradient: Array) -> tuple[Array, BoolArray]:
+        """See ``PrintedPattern``."""
+        share, crossed = self.rectangles.compute_ink_share(XY, gradient)
+        if not len(self.centres):
+            return share, crossed
+        nearest, inside, widths = _measure_discs(self.centres, self.radius, XY, gradient)
+        covered = average_unit_step(inside, *widths)
+        cut = np.abs(inside) < sum(widths) / 2
+        return share + covered * (self.dark[nearest] - share), np.asarray(crossed | cut)
+
+
+def _measure_discs(
+    centres: Array, radius: float, XY: Array, gradient: Array
+) -> tuple[IntArray, Array, tuple[Array, Array]]:
+    """Find the nearest of the discs to each of XY (..., 2), how far that lies within it, and the
+    widths A and B of the pixel across its circumference, all (...)."""
+    nearest = np.asarray(scipy.spatial.cKDTree(centres).query(XY)[1])
+    out = XY - centres[nearest]
+    distance = np.linalg.norm(out, axis=-1)
+    normal = out / np.maximum(distance, 1e-12)[..., None]
+    A, B = np.moveaxis(np.abs((normal[..., None, :] @ gradient)[..., 0, :]) + 1e-12, -1, 0)
+    return nearest, radius - distance, (A, B)
 
 
 def average_unit_step(X: Array, A: Array, B: Array) -> Array:

@@ -1,0 +1,187 @@
+"""AprilGrids: rows of AprilTags with small black squares between their corners.
+
+The board of Kalibr (Furgale, Rehder and Siegwart, IROS 2013), also of EuRoC, TUM-VI and MATLAB. The
+points are the corners of the tags, two rows and two columns of them for every row and column of
+tags; the small squares make each a crossing of two edges, like a corner of a checkerboard. The
+pitch is the side of a tag, and the gap between tags is a fraction s of it, so that point
+(row, column) lies at
+
+    X = (1 + s) floor(column / 2) + column mod 2,
+
+and Y likewise. Kalibr numbers the tags from the lower left one along the rows, the lowest first.
+"""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import NamedTuple
+
+import numpy as np
+
+from calibgui.engine.arrays import Array, GridSize, IntArray
+from calibgui.engine.boards.apriltags import FAMILIES, draw_tag, load_family
+from calibgui.engine.boards.pattern import Pattern, Symmetry
+from calibgui.engine.boards.printed_pattern import PrintedPattern, PrintedRectangles
+from calibgui.engine.errors import CalibrationError
+
+MAX_BORDER = 2
+"""Greatest width of a tag's border, cells."""
+
+
+class TagLayout(NamedTuple):
+    """The order in which tags are numbered: along rows, from the left."""
+
+    cols: int
+    """Number of tags in a row."""
+    from_top: bool
+    """True if the first row is the top one, False if it is the bottom one."""
+
+    def locate_squares(self, numbers: IntArray) -> IntArray:
+        """Return row and column (n, 2) of the tags `numbers` (n,), counted from tag 0; rows above
+        it are negative."""
+        row, col = np.divmod(numbers, self.cols)
+        return np.column_stack([row if self.from_top else -row, col])
+
+
+@dataclass(frozen=True, slots=True)
+class AprilGrid:
+    """The pattern of an AprilGrid; a field that is None is to be inferred from the images."""
+
+    family: str | None = None
+    """Family of the tags, one of ``apriltags.FAMILIES``, such as t36h11."""
+    spacing: float | None = None
+    """s, ratio of the gap between tags to the side of a tag (the pitch), no length."""
+    border: int | None = None
+    """Width of the black border of a tag, cells: 2 on the boards of Kalibr."""
+    from_top: bool | None = None
+    """True if the tags are numbered from the top row down, False if from the bottom row up."""
+
+    def __post_init__(self) -> None:
+        check_tags(self.family, self.border)
+        if self.spacing is not None and not 0 < self.spacing <= 1:
+            raise CalibrationError(
+                f"The gap between tags cannot be {self.spacing:g} of their side.",
+                "State the gap over the side of a tag: above 0, at most 1; usually 0.3.",
+            )
+
+    @property
+    def kind(self) -> str:
+        return "aprilgrid"
+
+    @property
+    def identifies_points(self) -> bool:
+        return True
+
+    @property
+    def has_squares(self) -> bool:
+        return True
+
+    def locate_points(self, grid: Array) -> Array:
+        """See ``Pattern``.
+
+        Raises:
+            CalibrationError: if the gap between tags is not known.
+        """
+        if self.spacing is None:
+            raise CalibrationError(
+                "The gap between the tags of the board is not known.",
+                "State it as a fraction of a tag's side, or read it from photographs.",
+            )
+        tag, corner = np.divmod(grid[:, ::-1], 2)
+        return np.asarray((1 + self.spacing) * tag + corner)
+
+    def symmetry(self, grid_size: GridSize) -> Symmetry:  # noqa: ARG002 - at any size
+        """See ``Pattern``."""
+        return Symmetry.NONE
+
+    def complete_from(self, seen: Sequence[Pattern]) -> AprilGrid:
+        """See ``Pattern``: the gap is the median of those seen, the rest what was seen most."""
+        boards = [pattern for pattern in seen if isinstance(pattern, AprilGrid)]
+        if not boards:
+            return self
+        most = Counter((board.family, board.border, board.from_top) for board in boards)
+        family, border, from_top = most.most_common(1)[0][0]
+        gaps = [board.spacing for board in boards if board.spacing]
+        return AprilGrid(
+            self.family or family,
+            self.spacing or (round(float(np.median(gaps)), 3) if gaps else None),
+            self.border or border,
+            from_top if self.from_top is None else self.from_top,
+        )
+
+    def draw(self, grid_size: GridSize) -> PrintedPattern:
+        """See ``Pattern``.
+
+        Raises:
+            CalibrationError: if family or gap are unknown, the numbers of points are odd, or the
+                family holds too few tags for the board.
+        """
+        if self.family is None or self.spacing is None:
+            raise CalibrationError(
+                "The tags of the board are not known.", "State their family and their gap."
+            )
+        rows, cols = count_tags(grid_size)
+        check_number_of_tags(self.family, rows * cols)
+        border = self.border or MAX_BORDER
+        n = load_family(self.family).side + 2 * border
+        dark = np.zeros((rows * (n + 1) + 1, cols * (n + 1) + 1), dtype=np.bool_)
+        dark[:: n + 1, :: n + 1] = True
+        layout = TagLayout(cols, bool(self.from_top))
+        for number, (row, col) in enumerate(layout.locate_squares(np.arange(rows * cols)).tolist()):
+            top = (row if self.from_top else row + rows - 1) * (n + 1) + 1
+            left = col * (n + 1) + 1
+            dark[top : top + n, left : left + n] = draw_tag(self.family, number, border)
+        within = np.linspace(0, 1, n + 1)
+        x, y = (
+            np.append(((1 + self.spacing) * np.arange(count)[:, None] + within).ravel(), 0.0)
+            for count in (cols, rows)
+        )
+        x[-1], y[-1] = x[-2] + self.spacing, y[-2] + self.spacing
+        return PrintedRectangles(np.append(-self.spacing, x), np.append(-self.spacing, y), dark)
+
+
+def count_tags(grid_size: GridSize) -> GridSize:
+    """Return the rows and columns of tags of an AprilGrid with rows x columns corners.
+
+    Raises:
+        CalibrationError: if a number of corners is odd.
+    """
+    rows, cols = grid_size
+    if rows % 2 or cols % 2:
+        raise CalibrationError(
+            f"An AprilGrid cannot have {rows} x {cols} corners: there are two for each tag.",
+            "State twice its rows of tags x twice its columns of tags.",
+        )
+    return rows // 2, cols // 2
+
+
+def check_tags(family: str | None, border: int | None) -> None:
+    """Check what is stated of a board's tags.
+
+    Raises:
+        CalibrationError: if there is no such family, or no such border.
+    """
+    if family is not None and family not in FAMILIES:
+        raise CalibrationError(
+            f"There is no tag family {family}.", f"Known: {', '.join(FAMILIES)}."
+        )
+    if border is not None and border not in range(1, MAX_BORDER + 1):
+        raise CalibrationError(
+            f"The border of a tag cannot be {border} cells wide.", "It is 1 or 2 cells wide."
+        )
+
+
+def check_number_of_tags(family: str, count: int) -> None:
+    """Check that a family has `count` tags.
+
+    Raises:
+        CalibrationError: if it has fewer.
+    """
+    available = len(load_family(family).cells)
+    if count > available:
+        raise CalibrationError(
+            f"The family {family} has {available} tags, and the board needs {count}.",
+            "Choose a larger family, such as t36h11, or a smaller board.",
+        )
