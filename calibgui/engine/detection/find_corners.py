@@ -17,10 +17,15 @@ import numpy.typing as npt
 from calibgui.engine.arrays import GridSize
 from calibgui.engine.boards.checkerboard import CHECKERBOARD
 from calibgui.engine.boards.pattern import Pattern
+from calibgui.engine.detection.apriltags.find_april_grid import find_april_grid
+from calibgui.engine.detection.apriltags.find_tagged_checkerboard import (
+    find_tagged_checkerboard,
+)
 from calibgui.engine.detection.charuco.find_charuco import find_charuco
 from calibgui.engine.detection.checkerboard.find_checkerboard import find_checkerboard
 from calibgui.engine.detection.circles.find_circles import find_circles
 from calibgui.engine.detection.corners import Corners
+from calibgui.engine.detection.puzzleboard.find_puzzleboard import find_puzzleboard
 
 
 class Detector(Protocol):
@@ -42,6 +47,9 @@ DETECTORS: Mapping[str, Detector] = MappingProxyType(
         "charuco": find_charuco,
         "circles": find_circles,
         "asymmetric-circles": find_circles,
+        "aprilgrid": find_april_grid,
+        "tagged-checkerboard": find_tagged_checkerboard,
+        "puzzleboard": find_puzzleboard,
     }
 )
 """The detector for each kind of pattern."""

@@ -293,8 +293,11 @@ class GridMap:
 
 def fit_grid_map(lattice: Lattice) -> GridMap:
     """Fit the map to the corners of `lattice`."""
-    cells = np.argwhere(lattice.found).astype(np.float64)
-    uv = lattice.uv[lattice.found]
+    return fit_cells(np.argwhere(lattice.found).astype(np.float64), lattice.uv[lattice.found])
+
+
+def fit_cells(cells: Array, uv: Array) -> GridMap:
+    """Fit the map to the cells (n, 2) = (row, col), whole or not, seen at `uv` (n, 2) px."""
     flat = fit_radial_homography(cells[:, ::-1], uv)
     carried = _MIN_POINTS_OF_DEGREE[_MIN_POINTS_OF_DEGREE[:, 1] <= len(cells), 0]
     degree = int(carried.max(initial=0))

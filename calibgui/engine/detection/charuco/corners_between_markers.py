@@ -16,6 +16,7 @@ import numpy as np
 import scipy
 
 from calibgui.engine.arrays import GreyImage, GridSize
+from calibgui.engine.boards.charuco import MarkerLayout
 from calibgui.engine.detection.charuco.markers import Markers
 from calibgui.engine.detection.charuco.thresholds import CHARUCO_THRESHOLDS
 from calibgui.engine.detection.checkerboard import saddle, verification, x_corner_fit
@@ -32,7 +33,9 @@ _MAX_FITS = 4
 """Number of times that corners may be rejected and the rest fitted again."""
 
 
-def predict_corners(markers: Markers, grid_size: GridSize, image: GreyImage) -> Lattice:
+def predict_corners(
+    markers: Markers[MarkerLayout], grid_size: GridSize, image: GreyImage
+) -> Lattice:
     """Place the inner corners beside markers where the nearest markers predict them.
 
     Args:
@@ -133,6 +136,6 @@ def require_enough_corners(lattice: Lattice) -> None:
 def _distrust() -> NoBoardError:
     """Return the error for a board of which too few corners pass."""
     return NoBoardError(
-        "Markers of a ChArUco board were read, but too few corners of its squares can be trusted.",
+        "Markers of the board were read, but too few corners beside them can be trusted.",
         "Take the picture again: sharp, evenly lit, and more of the board in view.",
     )

@@ -13,7 +13,7 @@ from functools import partial
 
 from calibgui.engine import opencv
 from calibgui.engine.arrays import Array, GreyImage, IntArray
-from calibgui.engine.boards.charuco import MarkerLayout, dictionary_family
+from calibgui.engine.boards.charuco import MARKER_LAYOUTS, MarkerLayout, dictionary_family
 from calibgui.engine.detection import region_of_interest as region
 from calibgui.engine.detection.charuco.marker_candidates import MarkerCandidates
 from calibgui.engine.detection.charuco.markers import Markers, identify_board
@@ -31,7 +31,7 @@ _COMMON_FAMILIES = (
 """Families of dictionaries that are tried where none is stated; others would take longer."""
 
 
-ReadBoard = tuple[str, Markers]
+ReadBoard = tuple[str, Markers[MarkerLayout]]
 """The name of a dictionary and the board's markers."""
 
 
@@ -85,7 +85,7 @@ class MarkerReader:
         depth of the pyramid."""
         for depth in reversed(range(len(self._levels))):
             for name in names(depth):
-                markers = identify_board(*self._read_markers(depth, name), layouts)
+                markers = identify_board(*self._read_markers(depth, name), layouts, MARKER_LAYOUTS)
                 if markers is not None:
                     return name, markers
         return None

@@ -18,20 +18,30 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Collection
 from dataclasses import dataclass
+from typing import Generic, Protocol, TypeVar
 
 import numpy as np
 import scipy
 
 from calibgui.engine.arrays import Array, BoolArray, IntArray
-from calibgui.engine.boards.charuco import MARKER_LAYOUTS, MarkerLayout
 from calibgui.engine.detection.charuco.thresholds import CHARUCO_THRESHOLDS
 
 
+class SquareLayout(Protocol):
+    """An order of markers on a board; equal layouts are the same."""
+
+    def locate_squares(self, numbers: IntArray) -> IntArray:
+        """Return row and column (n, 2) of the squares that hold the markers `numbers` (n,)."""
+
+
+Layout = TypeVar("Layout", bound=SquareLayout)
+
+
 @dataclass(frozen=True, eq=False, slots=True)
-class Markers:
+class Markers(Generic[Layout]):
     """Markers that lie on one board."""
 
-    layout: MarkerLayout
+    layout: Layout
     squares: IntArray
     """(n, 2) row and column of the square of each."""
     numbers: IntArray
@@ -49,14 +59,18 @@ class Markers:
 
 
 def identify_board(
-    numbers: IntArray, corners: Array, allowed: Collection[MarkerLayout]
-) -> Markers | None:
+    numbers: IntArray,
+    corners: Array,
+    allowed: Collection[Layout],
+    known: Collection[Layout],
+) -> Markers[Layout] | None:
     """Find the largest set of markers that agree on a board.
 
     Args:
         numbers: (n,) as read.
         corners: (n, 4, 2) px.
         allowed: layouts that the board may have.
+        known: all layouts of such boards, with which those allowed are compared.
 
     Returns:
         None if too few markers agree, or more pairs on a layout that is not allowed, or as many on
@@ -66,8 +80,8 @@ def identify_board(
     if len(numbers) < least:
         return None
     i, j, displacement = _measure_displacements(corners)
-    sets: dict[MarkerLayout, tuple[BoolArray, float]] = {}
-    for layout in {**dict.fromkeys(MARKER_LAYOUTS), **dict.fromkeys(allowed)}:
+    sets: dict[Layout, tuple[BoolArray, float]] = {}
+    for layout in {**dict.fromkeys(known), **dict.fromkeys(allowed)}:
         squares = layout.locate_squares(numbers)
         sets[layout] = _find_agreeing_pairs((squares[j] - squares[i])[:, ::-1], displacement)
     most = max(agree.sum() for agree, _ in sets.values())

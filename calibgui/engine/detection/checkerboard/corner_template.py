@@ -149,8 +149,12 @@ def estimate_template(lattice: Lattice, image: GreyImage, plain: float = 0.5) ->
         image: (h, w) grey levels.
         plain: how far from their edges the squares are of one colour, squares.
     """
-    corners = orient_corners(lattice).subsample(_THRESHOLDS.max_template_corners)
-    corners = corners.shorten_steps(plain)
+    return estimate_template_of(orient_corners(lattice).shorten_steps(plain), image)
+
+
+def estimate_template_of(corners: OrientedCorners, image: GreyImage) -> CornerTemplate:
+    """Estimate the typical one of `corners`, half of whose steps squares are of one colour over."""
+    corners = corners.subsample(_THRESHOLDS.max_template_corners)
     _, contrast = compare_sectors(image, *corners)
     patches = _compute_patches(image, *corners, PATCH_POSITIONS, _LINEAR_LIGHT)
     patch = _compute_median_patch(patches)

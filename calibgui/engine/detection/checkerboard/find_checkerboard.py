@@ -176,7 +176,9 @@ def _verify_candidate(grey: GreyImage, candidate: Candidate, method: str) -> Ref
     return None
 
 
-def refine_board(grey: GreyImage, lattice: Lattice, method: str) -> RefinedBoard | None:
+def refine_board(
+    grey: GreyImage, lattice: Lattice, method: str, plain: float = 0.5
+) -> RefinedBoard | None:
     """Refine a lattice at full resolution and verify it.
 
     Its gaps are tried again, as long as that finds more. A corner whose squares overlap or part by
@@ -186,16 +188,18 @@ def refine_board(grey: GreyImage, lattice: Lattice, method: str) -> RefinedBoard
         grey: (h, w) grey levels.
         lattice: corners good to 2 px.
         method: one of `METHODS`.
+        plain: how far from the corners nothing is printed in the squares and on their edges.
 
     Returns:
         The board without the corners that fail, None if the lattice is no board.
     """
     seen = lattice
     for _ in range(_MAX_ROUNDS):
-        refined, at_saddle = refine_lattice(grey, verification.fill_gaps(seen, grey.shape))
+        filled = verification.fill_gaps(seen, grey.shape)
+        refined, at_saddle = refine_lattice(grey, filled, plain=plain)
         if method == "saddle":
             refined = refined.select(at_saddle)
-        good = verification.find_sound_corners(refined, grey)
+        good = verification.find_sound_corners(refined, grey, plain)
         if np.count_nonzero(good) <= len(seen):
             break
         seen = refined.select(good)
@@ -207,11 +211,15 @@ def refine_board(grey: GreyImage, lattice: Lattice, method: str) -> RefinedBoard
         *list_rejected_corners(lattice.uv[without_saddle], "no saddle point"),
         *list_rejected_corners(lattice.uv[unsound], "off place or colours"),
     ]
-    return _fit_board(grey, drop_isolated_and_crop(refined.select(good)), rejected, method)
+    return _fit_board(grey, drop_isolated_and_crop(refined.select(good)), rejected, method, plain)
 
 
 def _fit_board(
-    grey: GreyImage, lattice: Lattice, rejected: list[RejectedCorner], method: str
+    grey: GreyImage,
+    lattice: Lattice,
+    rejected: list[RejectedCorner],
+    method: str,
+    plain: float,
 ) -> RefinedBoard | None:
     """Verify a refined lattice as a whole and, unless the method is "saddle", fit the edge model.
 
@@ -223,6 +231,7 @@ def _fit_board(
         lattice: refined corners.
         rejected: corners rejected so far, to which those rejected here are added.
         method: one of `METHODS`.
+        plain: how far from the corners nothing is printed.
 
     Returns:
         The board, None if the lattice is none.
@@ -231,11 +240,11 @@ def _fit_board(
     for _ in range(_MAX_ROUNDS):
         if is_large_enough(lattice):
             lattice = verification.drop_broken_lines(lattice, grey)
-        if not (is_large_enough(lattice) and is_plausible(lattice, grey)):
+        if not (is_large_enough(lattice) and is_plausible(lattice, grey, plain=plain)):
             break
         if method == "saddle":
             return RefinedBoard(lattice, tuple(rejected), None)
-        fit = x_corner_fit.fit_x_corners(grey, lattice)
+        fit = x_corner_fit.fit_x_corners(grey, lattice, bare_edge=plain)
         described = verification.find_described_corners(fit, lattice)
         displaced = described & verification.find_displaced_corners(fit, lattice)
         good = described & ~displaced

@@ -86,6 +86,8 @@ class EdgeFitThresholds:
     total_arm: float = 4000.0
     """... and sum of the longest arms of a board's corners, px: fewer corners may have longer
     ones."""
+    min_arm: float = 8.0
+    """Length up to which arms are read even where something was printed on them, px."""
     max_first_arm: float = 9.0
     """Longest arm that is read for the first approximation, px."""
     min_ink_spread: float = 0.002

@@ -36,6 +36,8 @@ from calibgui.engine.images.sampling import sample_image
 
 _EDGE_SAMPLES = np.array([0.3, 0.5, 0.7])
 """Places on the line to a neighbour at which the edge must show, over the distance."""
+_EDGE_SAMPLES_BESIDE_MARKS = np.array([0.2, 0.8])
+"""Such places where something is printed on the middle of the edges."""
 _SIDE_OFFSET, _MIN_SIDE_OFFSET = 0.15, 1.0
 """Distance of the samples on either side of an edge from it, over the distance of the neighbours,
 and the least such distance, px."""
@@ -48,6 +50,7 @@ def find_lattices(
     junctions: Junctions,
     max_count: int,
     tolerance: JunctionTolerance = THRESHOLDS.junctions.crossing,
+    plain: float = 0.5,
 ) -> list[Lattice]:
     """Find the lattices of at least one full cell in one image.
 
@@ -56,22 +59,25 @@ def find_lattices(
         junctions: X-junctions among them.
         max_count: greatest number of lattices; those of the largest components are kept.
         tolerance: angles tolerated between an edge and the neighbours that it joins.
+        plain: how far from the corners nothing is printed on the edges, squares.
 
     Returns:
         The lattices, that of the most corners first.
     """
     if len(junctions) < _MIN_JUNCTIONS:
         return []
-    ends = _link_neighbours(saddles.smooth, junctions, tolerance)
+    places = _EDGE_SAMPLES if plain >= 0.5 else _EDGE_SAMPLES_BESIDE_MARKS
+    ends = _link_neighbours(saddles.smooth, junctions, tolerance, places)
     arranged = (_arrange_lattice(junctions.uv, *part) for part in _split_components(ends))
     lattices = islice((lattice for lattice in arranged if lattice is not None), max_count)
     return sorted(lattices, key=len, reverse=True)
 
 
 def _link_neighbours(
-    smooth: GreyImage, junctions: Junctions, tolerance: JunctionTolerance
+    smooth: GreyImage, junctions: Junctions, tolerance: JunctionTolerance, places: Array
 ) -> Int32Array:
-    """Return the graph's `ends` (n, 4), with the edges that both of their junctions choose."""
+    """Return the graph's `ends` (n, 4), with the edges that both of their junctions choose and that
+    show at `places` (k,), see `_choose_neighbours`."""
     limits = THRESHOLDS.graph
     ends = _choose_neighbours(
         smooth,
@@ -79,7 +85,7 @@ def _link_neighbours(
         _compute_directions(junctions),
         junctions.contrast,
         limits.max_neighbours,
-        _EDGE_SAMPLES,
+        places,
         (
             float(np.cos(tolerance.along)),
             float(np.cos(tolerance.parallel)),

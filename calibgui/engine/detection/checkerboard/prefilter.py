@@ -33,12 +33,16 @@ from calibgui.engine.detection.checkerboard.verification import does_pattern_con
 from calibgui.engine.detection.lattice import MIN_CORNERS, Lattice
 
 
-def is_hopeless(lattice: Lattice, image: GreyImage) -> bool:
-    """Return whether a lattice that may still grow is large enough to tell that it is no board."""
-    return len(lattice) >= MIN_CORNERS and not is_plausible(lattice, image, is_grown=False)
+def is_hopeless(lattice: Lattice, image: GreyImage, plain: float = 0.5) -> bool:
+    """Return whether a lattice that may still grow is large enough to tell that it is no board;
+    `plain` as in `is_plausible`."""
+    enough = len(lattice) >= MIN_CORNERS
+    return enough and not is_plausible(lattice, image, is_grown=False, plain=plain)
 
 
-def is_plausible(lattice: Lattice, image: GreyImage, is_grown: bool = True) -> bool:
+def is_plausible(
+    lattice: Lattice, image: GreyImage, is_grown: bool = True, plain: float = 0.5
+) -> bool:
     """Return whether a lattice could be a board's: see the head of this module.
 
     Args:
@@ -46,6 +50,7 @@ def is_plausible(lattice: Lattice, image: GreyImage, is_grown: bool = True) -> b
         image: (h, w) grey levels.
         is_grown: whether the lattice has grown as far as it can, so that a pattern that goes on
             around it counts against it.
+        plain: how far from the corners nothing is printed in the squares and on their edges.
     """
     limits = THRESHOLDS.prefilter
     corners = orient_corners(lattice)
@@ -53,8 +58,8 @@ def is_plausible(lattice: Lattice, image: GreyImage, is_grown: bool = True) -> b
     if not len(corners.uv):
         return False
     is_crossing, is_bare = check_crossing(corners, image)
-    edges = _measure_narrow_edges(corners, image) if is_crossing else []
-    if not edges or not is_bare:
+    edges = _measure_narrow_edges(corners, image, plain) if is_crossing else []
+    if not edges or not is_bare or plain < 0.5:
         return bool(edges)
     if any(abs(_compute_known_median(edge.bulge)) > limits.max_bulge for edge in edges):
         return False
@@ -71,7 +76,9 @@ def _compute_areas(corners: OrientedCorners) -> Array:
     return np.asarray(abs(right[:, 0] * down[:, 1] - right[:, 1] * down[:, 0]))
 
 
-def _measure_narrow_edges(corners: OrientedCorners, image: GreyImage) -> list[EdgeProfiles]:
+def _measure_narrow_edges(
+    corners: OrientedCorners, image: GreyImage, plain: float
+) -> list[EdgeProfiles]:
     """Measure profiles across the corners' edges in both directions; return none if those in one
     are wider than a board's."""
     uv, right, down, dark = corners
@@ -79,7 +86,7 @@ def _measure_narrow_edges(corners: OrientedCorners, image: GreyImage) -> list[Ed
     profiles = []
     for along, across in ((right, down), (down, right)):
         size = area / np.linalg.norm(along, axis=1)
-        edge = edge_profiles.measure_edge_profiles(image, uv, along, across, size, sign)
+        edge = edge_profiles.measure_edge_profiles(image, uv, along, across, size, sign, plain)
         if np.median(edge.blur / size) > THRESHOLDS.verification.max_edge_blur:
             return []
         profiles.append(edge)

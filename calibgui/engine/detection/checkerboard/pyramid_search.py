@@ -64,12 +64,15 @@ class _LevelContent:
     """The saddles that are X-junctions."""
     lattices: list[Lattice]
     """The junctions' lattices that could be boards, largest first."""
+    plain: float
+    """How far from the corners nothing is printed, squares: see `find_candidates`."""
 
 
 def find_candidates(
     image: GreyImage,
     outline: Array | None = None,
     is_sufficient: Callable[[Lattice], bool] = is_large_enough,
+    plain: float = 0.5,
 ) -> Iterator[list[Candidate]]:
     """Find all lattices that may be boards, in full resolution but not yet verified.
 
@@ -77,6 +80,7 @@ def find_candidates(
         image: (h, w) grey levels, uint8, uint16 or float32.
         outline: (m, 2) convex outline, px, that the corners must not leave.
         is_sufficient: test of whether a lattice is large enough to be kept.
+        plain: how far from the corners nothing is printed in the squares and on their edges.
 
     Yields:
         The candidates, that of the most corners first: once when a finer level could hardly add to
@@ -94,7 +98,7 @@ def find_candidates(
     waiting: list[tuple[int, list[Lattice]]] = []
     for depth in reversed(range(len(levels))):
         found, too_small = _search_level(
-            levels[depth], min_contrast, outlines[depth], is_sufficient, is_finest=not depth
+            levels[depth], min_contrast, outlines[depth], is_sufficient, not depth, plain
         )
         if too_small:
             waiting.append((depth, too_small))
@@ -104,9 +108,8 @@ def find_candidates(
         if is_sure or not depth:
             for k, lattices in waiting:
                 if missed := _select_missed(lattices, k, candidates):
-                    found = _grow_lattices(
-                        _analyse_level(levels[k], min_contrast, outlines[k]), missed, is_sufficient
-                    )
+                    content = _analyse_level(levels[k], min_contrast, outlines[k], plain)
+                    found = _grow_lattices(content, missed, is_sufficient)
                     candidates = _drop_parts(
                         candidates + [_carry_down(new, levels[:k]) for new in found]
                     )
@@ -118,6 +121,7 @@ def find_candidates(
             levels[depth],
             min_contrast,
             _scale_to_level(outline, depth),
+            plain,
             THRESHOLDS.junctions.parted,
         )
         if found := _grow_lattices(content, content.lattices, is_sufficient):
@@ -153,6 +157,7 @@ def _search_level(
     outline: Array | None,
     is_sufficient: Callable[[Lattice], bool],
     is_finest: bool,
+    plain: float,
 ) -> tuple[list[Candidate], list[Lattice]]:
     """Search one level for candidates.
 
@@ -161,7 +166,7 @@ def _search_level(
         the level to show all and it is not the finest, no candidates and the lattices that are of
         use only if the finer levels show less.
     """
-    content = _analyse_level(image, min_contrast, outline)
+    content = _analyse_level(image, min_contrast, outline, plain)
     if content.lattices and not is_finest and not _is_resolved(content.lattices[0]):
         return [], content.lattices
     return _grow_lattices(content, content.lattices, is_sufficient), []
@@ -171,6 +176,7 @@ def _analyse_level(
     image: GreyImage,
     min_contrast: float,
     outline: Array | None,
+    plain: float,
     tolerance: JunctionTolerance = THRESHOLDS.junctions.crossing,
 ) -> _LevelContent:
     """Find the junctions and the lattices of one level.
@@ -179,22 +185,24 @@ def _analyse_level(
         image: (h, w) grey levels.
         min_contrast: least contrast of a junction, grey levels.
         outline: (m, 2) convex outline, px, that junctions must not leave.
+        plain: how far from the corners nothing is printed, squares.
         tolerance: what is tolerated in junctions and between them.
     """
     saddles = find_saddles(image, min_contrast)
     if outline is not None:
         saddles = saddles.select(are_inside(outline, saddles.uv))
     passed, junctions = classify_saddles(saddles, tolerance)
-    lattices = find_lattices(saddles, junctions, THRESHOLDS.search.max_grown_lattices, tolerance)
-    hopeful = [lattice for lattice in lattices if not prefilter.is_hopeless(lattice, image)]
-    return _LevelContent(image, saddles, saddles.select(passed), hopeful)
+    most = THRESHOLDS.search.max_grown_lattices
+    lattices = find_lattices(saddles, junctions, most, tolerance, plain)
+    hopeful = [lattice for lattice in lattices if not prefilter.is_hopeless(lattice, image, plain)]
+    return _LevelContent(image, saddles, saddles.select(passed), hopeful, plain)
 
 
 def _grow_lattices(
     content: _LevelContent, seeds: list[Lattice], is_sufficient: Callable[[Lattice], bool]
 ) -> list[Candidate]:
     """Grow lattices of one level; return those that are sufficient, largest first."""
-    is_hopeless = partial(prefilter.is_hopeless, image=content.image)
+    is_hopeless = partial(prefilter.is_hopeless, image=content.image, plain=content.plain)
     smooth, junctions = content.saddles.smooth, len(content.junctions.uv)
     nearby, beyond = (
         PointIndex(smooth, points.uv) for points in (content.saddles, content.junctions)

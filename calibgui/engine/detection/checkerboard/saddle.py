@@ -142,7 +142,7 @@ def _compute_step(image: GreyImage, uv: Array, sigma: Array) -> tuple[Array, Boo
 
 
 def refine_lattice(
-    image: GreyImage, lattice: Lattice, farthest: float = np.inf
+    image: GreyImage, lattice: Lattice, farthest: float = np.inf, plain: float = 0.5
 ) -> tuple[Lattice, BoolArray]:
     """Move the corners of a lattice to their saddle points.
 
@@ -150,6 +150,7 @@ def refine_lattice(
         image: (h, w) grey levels.
         lattice: the corners.
         farthest: longest way that one may move, px; never more than a quarter of a step.
+        plain: how far from the corners nothing is printed in the squares and on their edges.
 
     Returns:
         The lattice, and a mask (rows, cols) of the corners that have a saddle point; the others
@@ -158,7 +159,8 @@ def refine_lattice(
     corners = orient_corners(lattice)
     spacing = np.fmin(np.linalg.norm(corners.right, axis=1), np.linalg.norm(corners.down, axis=1))
     limit = np.minimum(spacing / 4, farthest)
-    moved, good = refine_saddles(image, corners.uv, choose_weight_sigma(spacing), limit)
+    sigma = choose_weight_sigma(2 * plain * spacing)
+    moved, good = refine_saddles(image, corners.uv, sigma, limit)
     good &= not _do_squares_overlap_or_part(image, corners)
     at_saddle = lattice.found
     at_saddle[at_saddle] = good

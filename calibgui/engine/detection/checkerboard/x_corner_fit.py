@@ -99,7 +99,9 @@ def fit_x_corners(
     image: GreyImage,
     lattice: Lattice,
     plain: float = 0.5,
+    bare_edge: float = 0.5,
     geometry: tuple[Array, Array] | None = None,
+    priors: BoardPriors | None = None,
 ) -> XCornerFit:
     """Fit the model at every corner of `lattice`, whose positions are the start.
 
@@ -107,12 +109,16 @@ def fit_x_corners(
         image: (h, w) grey levels.
         lattice: the corners.
         plain: how far from their edges the squares are of one colour, squares.
+        bare_edge: how far from the corners edges are read, squares, unless that is too short.
         geometry: steps and curvatures of the edges, if a known camera predicts them better than
             the corners found; see ``BoardPriors.estimate_geometry``.
+        priors: what is taken from the board as a whole, where its lines are not evenly spaced.
     """
     found = lattice.found
-    board = BoardPriors(found) if geometry is None else PredictedBoardPriors(found, geometry)
-    model = _estimate_start(image, lattice, board, plain)
+    board = priors or (
+        BoardPriors(found) if geometry is None else PredictedBoardPriors(found, geometry)
+    )
+    model = _estimate_start(image, lattice, board, plain, bare_edge)
     near = replace(model, arm=np.minimum(model.arm, _THRESHOLDS.max_first_arm))
     products, _ = accumulate_normal_equations(image, near, near, odd=False)
     first = _take_step(near, products)[0]
@@ -127,7 +133,7 @@ def fit_x_corners(
 
 
 def _estimate_start(
-    image: GreyImage, lattice: Lattice, board: BoardPriors, plain: float
+    image: GreyImage, lattice: Lattice, board: BoardPriors, plain: float, bare_edge: float
 ) -> XCornerModel:
     """Estimate the model from the lattice and from profiles across the edges."""
     found = lattice.found
@@ -136,6 +142,7 @@ def _estimate_start(
     steps, curvature = board.estimate_geometry(lattice.uv[found])
     length = np.linalg.norm(steps, axis=2)
     height = _compute_heights(steps)
+    longest = np.minimum(np.maximum(bare_edge * length, _THRESHOLDS.min_arm), length / 2)
     unknowns = np.zeros((n, UNKNOWNS))
     unknowns[C] = lattice.uv[found]
     unknowns[THETA] = np.arctan2(steps[..., 1], steps[..., 0])
@@ -143,7 +150,7 @@ def _estimate_start(
         unknowns=unknowns,
         sign=np.where(lattice.dark ^ (cells.sum(axis=1) % 2 == 1), -1.0, 1.0),
         square_height=height,
-        arm=np.minimum(length / 2, max(_THRESHOLDS.max_arm, _THRESHOLDS.total_arm / n)),
+        arm=np.minimum(longest, max(_THRESHOLDS.max_arm, _THRESHOLDS.total_arm / n)),
         plain_width=plain * height,
         curvature=curvature,
         ink_spread=np.zeros(n),

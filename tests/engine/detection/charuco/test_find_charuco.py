@@ -141,7 +141,7 @@ def test_cannot_be_drawn(pattern: Charuco, grid_size: tuple[int, int]) -> None:
 def test_bad_statements() -> None:
     with pytest.raises(CalibrationError, match="DICT_3X3"):
         Charuco("DICT_3X3")
-    with pytest.raises(CalibrationError, match="smaller"):
+    with pytest.raises(CalibrationError, match="must be above 0 and below 1"):
         Charuco(marker=1.5)
 
 

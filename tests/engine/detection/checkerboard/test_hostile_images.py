@@ -65,8 +65,8 @@ def test_work_is_bounded(name: str, monkeypatch: pytest.MonkeyPatch) -> None:
     def counted(module: Any, function: str, note: Callable[[Any, Any], None]) -> None:
         original = getattr(module, function)
 
-        def wrapper(*args: Any) -> Any:
-            result = original(*args)
+        def wrapper(*args: Any, **options: Any) -> Any:
+            result = original(*args, **options)
             note(args, result)
             return result
 

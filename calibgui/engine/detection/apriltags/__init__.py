@@ -1,0 +1,1 @@
+"""The detectors of boards with AprilTags: AprilGrids, and checkerboards with tags in squares."""

@@ -1,0 +1,285 @@
+"""The detector of AprilGrids: the tags tell which corner is which.
+
+1. The tags are read and placed on the board (`grid_tags`); what is not stated of family, border,
+   order and size shows in them.
+2. The corners of all tags are predicted from the nearest ones that were read, and moved to their
+   saddle points.
+3. A corner has to look like the others, to lie where the map of all corners expects it, and to be
+   described by two crossing edges. Around it a border of the tag, a part of the gap and the small
+   black square are plain: nothing beyond them is looked at.
+
+The gap s between tags shows in four corners in a row, at 0, 1, 1 + s and 2 + s on the board: their
+cross-ratio (1 + s)^2 / (s (2 + s)) is the same from every side.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+import numpy.typing as npt
+import scipy
+
+from calibgui.engine.arrays import Array, BoolArray, GreyImage, GridSize, IntArray
+from calibgui.engine.boards.april_grid import AprilGrid
+from calibgui.engine.detection import grid_map
+from calibgui.engine.detection import region_of_interest as region
+from calibgui.engine.detection.apriltags.assembly import assemble_corners, invert_levels
+from calibgui.engine.detection.apriltags.grid_tags import GridTags, find_grid_tags
+from calibgui.engine.detection.apriltags.near_priors import NearPriors
+from calibgui.engine.detection.charuco.corners_between_markers import require_enough_corners
+from calibgui.engine.detection.checkerboard import saddle, verification, x_corner_fit
+from calibgui.engine.detection.checkerboard.corner_template import (
+    OrientedCorners,
+    estimate_template_of,
+)
+from calibgui.engine.detection.checkerboard.x_corner_fit import XCornerFit
+from calibgui.engine.detection.corners import Corners, RejectedCorner
+from calibgui.engine.detection.detector_io import check_grey_levels, list_rejected_corners
+from calibgui.engine.detection.lattice import MAX_DEVIATION, Lattice
+from calibgui.engine.errors import NoBoardError
+from calibgui.engine.geometry import homography
+from calibgui.engine.images.reading import stretch_levels
+
+_TAGS_PER_CORNER = 4
+"""Number of the nearest tags whose corners place a corner."""
+_MAX_PLACING_DISTANCE = 1.6
+"""Greatest distance of a corner from the centre of the nearest tag that was read, sides of a tag:
+that of the corners of its neighbours."""
+_MAX_SPACING_DIFFERENCE = 0.05
+"""Greatest difference of the measured gap from the stated one, sides of a tag."""
+_MAX_SHIFT = 1 / 3
+"""Greatest distance of a corner from where it is predicted, sides of the plain square around it."""
+
+
+def find_april_grid(
+    image: npt.ArrayLike,
+    pattern: AprilGrid,
+    grid_size: GridSize | None = None,
+    roi: npt.ArrayLike | None = None,
+    method: str = "edges",
+) -> Corners:
+    """Locate the corners of the tags of an AprilGrid in an image; see ``find_corners``."""
+    grey = check_grey_levels(image)
+    outline = None if roi is None else region.check_outline(roi)
+    searched = None if outline is None else region.enlarge_outline(outline)
+    levels = stretch_levels(grey)
+    read = find_grid_tags(levels, pattern, grid_size, searched)
+    is_inverted = read is None
+    read = read or find_grid_tags(invert_levels(levels), pattern, grid_size, searched)
+    if read is None:
+        raise _explain_missing_board(levels, grid_size, searched)
+    return _locate_corners(grey, read, is_inverted, pattern, grid_size, outline, method)
+
+
+def _explain_missing_board(
+    levels: GreyImage, grid_size: GridSize | None, outline: Array | None
+) -> NoBoardError:
+    """Return the error that says what the image shows instead of the stated board."""
+    read = find_grid_tags(levels, AprilGrid(), None, outline)
+    if read is None:
+        return NoBoardError(
+            "No AprilGrid was found.",
+            "Take the picture again: sharp, evenly lit and near enough for its tags to be read.",
+        )
+    tag_print, tags = read
+    cols, rows = tags.layout.cols, _count_rows(tags.squares)
+    order = "top row down" if tags.layout.from_top else "bottom row up"
+    stated = "" if grid_size is None else f", not {grid_size[0]} x {grid_size[1]} corners"
+    return NoBoardError(
+        f"This is an AprilGrid of {tag_print.family} with borders of {tag_print.border} cells,"
+        f" numbered from the {order}, of at least {rows} rows and exactly {cols} columns of tags,"
+        f" two corners each{stated}.",
+        "State the board like this, or leave out what can be read.",
+    )
+
+
+def _count_rows(squares: IntArray) -> int:
+    """Return the least number of rows of tags of a board that shows those at `squares` (n, 2)."""
+    return int(np.abs(squares[:, 0]).max()) + 1
+
+
+def _locate_corners(
+    grey: GreyImage,
+    read: GridTags,
+    is_inverted: bool,
+    stated: AprilGrid,
+    grid_size: GridSize | None,
+    outline: Array | None,
+    method: str,
+) -> Corners:
+    """Locate the corners of a board whose tags were read."""
+    tag_print, tags = read
+    rows, cols = _count_rows(tags.squares), tags.layout.cols
+    if grid_size is not None:
+        if 2 * rows > grid_size[0]:
+            raise _explain_missing_board(stretch_levels(grey), grid_size, None)
+        rows = grid_size[0] // 2
+    first = 0 if tags.layout.from_top else rows - 1
+    on_board = tags.squares + np.array([first, 0])
+    gap = 1 / tags.side - 1
+    lattice = _predict_corners(grey, tags.corners, on_board, (2 * rows, 2 * cols), gap, is_inverted)
+    border = tag_print.border / tag_print.side
+    lattice = _refine_corners(grey, lattice, gap, border)
+    gap = _measure_gap(lattice, gap)
+    if stated.spacing is not None and abs(gap - stated.spacing) > _MAX_SPACING_DIFFERENCE:
+        raise NoBoardError(
+            f"The gap between the tags is {gap:.3f} of their side, not {stated.spacing:g}.",
+            "State gap and side as measured, or leave the gap out.",
+        )
+    unit = 2 * min(border, gap / 2)
+    lattice, rejected = _verify_corners(grey, lattice, gap, unit)
+    fit = None
+    if method == "edges":
+        lattice, fit, failing = _fit_corners(grey, lattice, gap, unit)
+        rejected += failing
+    require_enough_corners(lattice)
+    seen = AprilGrid(tag_print.family, round(gap, 4), tag_print.border, tags.layout.from_top)
+    return assemble_corners(grey, lattice, fit, outline, rejected, seen)
+
+
+def _locate_places(lattice: Lattice, gap: float) -> Array:
+    """Return (X, Y) (n, 2) on the board of the corners of a lattice, sides of a tag."""
+    return AprilGrid(spacing=gap).locate_points(np.argwhere(lattice.found).astype(np.float64))
+
+
+def _predict_corners(
+    image: GreyImage,
+    corners: Array,
+    squares: IntArray,
+    grid_size: GridSize,
+    gap: float,
+    is_inverted: bool,
+) -> Lattice:
+    """Place the corners of all tags where the nearest ones that were read predict them.
+
+    Args:
+        image: (h, w) grey levels; corners outside of it are left out.
+        corners: (n, 4, 2) px, of the tags that were read.
+        squares: (n, 2) rows and columns of these.
+        grid_size: rows and columns of corners.
+        gap: between tags, sides of a tag.
+        is_inverted: True if the tags are bright on dark.
+    """
+    grid = np.indices(grid_size).reshape(2, -1).T.astype(np.float64)
+    places = AprilGrid(spacing=gap).locate_points(grid)
+    around = np.array([(0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0)])
+    on_board = (1 + gap) * squares[:, None, ::-1] + around
+    count = min(_TAGS_PER_CORNER, len(on_board))
+    nearest = scipy.spatial.cKDTree(on_board.mean(axis=1)).query(places, np.arange(1, count + 1))
+    distance, which = np.asarray(nearest[0]), np.asarray(nearest[1])
+    # Coordinates are counted from the corner, the place that the homography is evaluated at.
+    source = (on_board[which] - places[:, None, None]).reshape(len(places), -1, 2)
+    target = corners[which].reshape(len(places), -1, 2)
+    H = homography.fit_homography(source, target, np.ones(source.shape[:2]))
+    uv = homography.apply_homography(H, np.zeros((len(places), 1, 2)))[:, 0]
+    seen = (distance[:, 0] < _MAX_PLACING_DISTANCE) & verification.are_in_image(uv, image.shape)
+    uv[~seen] = np.nan
+    uv = uv.reshape(*grid_size, 2)
+    for (row, col), quad in zip(squares.tolist(), corners, strict=True):
+        block = uv[2 * row : 2 * row + 2, 2 * col : 2 * col + 2]
+        block[...] = quad[[0, 1, 3, 2]].reshape(2, 2, 2)
+    return Lattice(uv, dark=not is_inverted)
+
+
+def _refine_corners(image: GreyImage, predicted: Lattice, gap: float, border: float) -> Lattice:
+    """Move corners to their saddle points; those that have none are left out."""
+    found = predicted.found
+    side = NearPriors(_locate_places(predicted, gap), 2 * min(border, gap / 2))
+    steps, _ = side.estimate_geometry(predicted.uv[found])
+    length = np.linalg.norm(steps, axis=2).min(axis=1)
+    uv, good = saddle.refine_saddles(
+        image, predicted.uv[found], saddle.choose_weight_sigma(length), _MAX_SHIFT * length
+    )
+    refined = predicted.uv.copy()
+    refined[found] = np.where(good[:, None], uv, np.nan)
+    lattice = Lattice(refined, predicted.dark)
+    require_enough_corners(lattice)
+    return lattice
+
+
+def _measure_gap(lattice: Lattice, gap: float) -> float:
+    """Measure the gap between tags, sides of a tag, where four corners in a row show it."""
+    ratios = []
+    for uv in (lattice.uv, lattice.uv.transpose(1, 0, 2)):
+        a, b, c, d = (uv[:, k : uv.shape[1] - 2 + k : 2] for k in (0, 1, 2, 3))
+        a, b = a[:, : d.shape[1]], b[:, : d.shape[1]]
+        c = c[:, : d.shape[1]]
+        ac, bd, bc, ad = (
+            np.linalg.norm(p - q, axis=2) for p, q in ((a, c), (b, d), (b, c), (a, d))
+        )
+        ratios.append((ac * bd / (bc * ad)).ravel())
+    ratio = np.concatenate(ratios)
+    ratio = ratio[np.isfinite(ratio) & (ratio > 1)]
+    if not len(ratio):
+        return gap
+    cross = float(np.median(ratio))
+    return float(np.sqrt(cross / (cross - 1))) - 1
+
+
+def _verify_corners(
+    image: GreyImage, lattice: Lattice, gap: float, unit: float
+) -> tuple[Lattice, list[RejectedCorner]]:
+    """Verify that corners look like the others and lie where the map of all expects them.
+
+    Returns:
+        The corners that pass, and those that do not.
+    """
+    found = lattice.found
+    places, uv = _locate_places(lattice, gap), lattice.uv[found]
+    steps, _ = NearPriors(places, unit).estimate_geometry(uv)
+    parity = np.argwhere(found).sum(axis=1) % 2 == 1
+    corners = OrientedCorners(uv, steps[:, 0], steps[:, 1], lattice.dark ^ parity)
+    good, _ = estimate_template_of(corners, image).match(image, *corners)
+    length = np.linalg.norm(steps, axis=2).min(axis=1)
+    good &= _find_regular_corners(places, uv, length, good)
+    rejected = list_rejected_corners(uv[~good], "off place or colours")
+    found[found] = good
+    lattice = lattice.select(found)
+    require_enough_corners(lattice)
+    return lattice, rejected
+
+
+def _find_regular_corners(places: Array, uv: Array, length: Array, good: BoolArray) -> BoolArray:
+    """Find the corners that lie where the map of all good ones expects them.
+
+    The worst is left out and the map fitted again until all are near.
+
+    Args:
+        places: (n, 2) on the board.
+        uv: (n, 2) px.
+        length: (n,) px, side of the plain square around each.
+        good: (n,) those that may be.
+    """
+    good = good.copy()
+    while np.count_nonzero(good) > _TAGS_PER_CORNER:
+        expected = grid_map.fit_cells(places[good][:, ::-1], uv[good]).locate(places[:, ::-1])
+        off = np.linalg.norm(uv - expected, axis=1) / length
+        worst = int(np.argmax(np.where(good, off, 0.0)))
+        if off[worst] <= MAX_DEVIATION:
+            break
+        good[worst] = False
+    return good
+
+
+def _fit_corners(
+    image: GreyImage, lattice: Lattice, gap: float, unit: float
+) -> tuple[Lattice, XCornerFit, list[RejectedCorner]]:
+    """Fit the model of two crossing edges, leaving out the corners that it does not describe.
+
+    Returns:
+        The corners that the model describes, their fit, and the others.
+
+    Raises:
+        NoBoardError: if too few corners are left.
+    """
+    rejected: list[RejectedCorner] = []
+    while True:
+        require_enough_corners(lattice)
+        found = lattice.found
+        priors = NearPriors(_locate_places(lattice, gap), unit)
+        fit = x_corner_fit.fit_x_corners(image, lattice, priors=priors)
+        good = verification.find_described_corners(fit, lattice)
+        if good.all():
+            return lattice, fit, rejected
+        rejected += list_rejected_corners(lattice.uv[found][~good], "not two crossing edges")
+        found[found] = good
+        lattice = lattice.select(found)

@@ -1,0 +1,178 @@
+"""The detector of checkerboards with AprilTags in some of their dark squares.
+
+1. The search for checkerboards (`pyramid_search`) finds lattices that may be boards.
+2. The dark squares of a lattice are read as tags (`tag_reader`). Those that stand where their
+   numbers say (`tag_places`) place the lattice on the board: no pattern stands there by chance, and
+   the tests by which a plain checkerboard is told from a texture are not asked.
+3. The corners are refined, verified and fitted (`tagged_corners`).
+"""
+
+from __future__ import annotations
+
+import numpy as np
+import numpy.typing as npt
+
+from calibgui.engine.arrays import Array, GreyImage, GridSize, IntArray
+from calibgui.engine.boards.tagged_checkerboard import TaggedCheckerboard, count_tagged_squares
+from calibgui.engine.detection import region_of_interest as region
+from calibgui.engine.detection.apriltags.assembly import assemble_corners, invert_levels
+from calibgui.engine.detection.apriltags.tag_places import PlacedTags, place_tags
+from calibgui.engine.detection.apriltags.tag_reader import TagPrint, TagReader, list_prints
+from calibgui.engine.detection.apriltags.tagged_corners import (
+    fit_tagged_corners,
+    refine_tagged_corners,
+)
+from calibgui.engine.detection.checkerboard.numbering import turn_lattice
+from calibgui.engine.detection.checkerboard.pyramid_search import find_candidates
+from calibgui.engine.detection.corners import Corners
+from calibgui.engine.detection.detector_io import check_grey_levels
+from calibgui.engine.detection.lattice import Lattice
+from calibgui.engine.errors import NoBoardError
+
+
+def find_tagged_checkerboard(
+    image: npt.ArrayLike,
+    pattern: TaggedCheckerboard,
+    grid_size: GridSize | None = None,
+    roi: npt.ArrayLike | None = None,
+    method: str = "edges",
+) -> Corners:
+    """Locate the inner corners of a checkerboard with tags in an image; see ``find_corners``."""
+    grey = check_grey_levels(image)
+    outline = None if roi is None else region.check_outline(roi)
+    searched = None if outline is None else region.enlarge_outline(outline)
+    is_checkerboard = False
+    for candidates in find_candidates(grey, searched):
+        for candidate in candidates:
+            is_checkerboard = True
+            board = _identify_board(grey, candidate.lattice, pattern, grid_size)
+            if board is not None:
+                return _locate_corners(grey, *board, outline, method)
+    if is_checkerboard:
+        raise NoBoardError(
+            "A checkerboard was found, but no tags in its dark squares that tell its corners.",
+            "State target, tag family and size as printed, or leave them out; for tags to be read,"
+            " take the picture from nearer.",
+        )
+    raise NoBoardError(
+        "No checkerboard with tags was found.",
+        "Take the picture again: sharp, evenly lit, and more of the board in view.",
+    )
+
+
+def _identify_board(
+    grey: GreyImage,
+    lattice: Lattice,
+    pattern: TaggedCheckerboard,
+    grid_size: GridSize | None,
+) -> tuple[Lattice, TaggedCheckerboard] | None:
+    """Identify a lattice by the tags in its dark squares, or in its bright ones, printed inversely.
+
+    Returns:
+        The lattice as the whole board, its first corner in row and column 0, and the pattern;
+        None if it does not show such a board.
+    """
+    for image, seen in ((grey, lattice), (invert_levels(grey), _exchange_colours(lattice))):
+        squares, quads = _list_dark_squares(seen)
+        reader = TagReader(image, quads)
+        for tag_print in list_prints(pattern.family, pattern.border):
+            tags = reader.read(tag_print)
+            for turn in np.unique(tags.turns).tolist():
+                upright = tags.select(tags.turns == turn)
+                turned = turn_squares(squares[upright.which], seen.shape, turn)
+                cols = _count_tags_in_row(pattern, grid_size)
+                placed = place_tags(upright.numbers, turned, cols, pattern.from_top, pattern.step)
+                if placed is not None and (
+                    board := _place_lattice(
+                        turn_lattice(lattice, turn), upright.numbers, placed, grid_size
+                    )
+                ):
+                    return board, _describe_pattern(tag_print, placed)
+    return None
+
+
+def _exchange_colours(lattice: Lattice) -> Lattice:
+    """Return the lattice with dark squares for bright ones."""
+    return Lattice(lattice.uv, not lattice.dark)
+
+
+def _list_dark_squares(lattice: Lattice) -> tuple[IntArray, Array]:
+    """List row and column (n, 2) of the dark squares between four corners of a lattice, and these
+    corners (n, 4, 2) px, from the upper left one in the sense from u to v."""
+    uv = lattice.uv
+    quads = np.stack([uv[:-1, :-1], uv[:-1, 1:], uv[1:, 1:], uv[1:, :-1]], axis=2)
+    parity = np.indices(quads.shape[:2]).sum(axis=0) % 2 == 1
+    chosen = np.isfinite(quads).all(axis=(2, 3)) & (lattice.dark ^ parity)
+    return np.argwhere(chosen), quads[chosen]
+
+
+def turn_squares(squares: IntArray, shape: GridSize, quarters: int) -> IntArray:
+    """Return row and column (n, 2) of squares after their lattice of rows x columns corners is
+    turned by quarters counter-clockwise."""
+    rows, cols = shape[0] - 1, shape[1] - 1
+    for _ in range(quarters):
+        squares = np.column_stack([cols - 1 - squares[:, 1], squares[:, 0]])
+        rows, cols = cols, rows
+    return squares
+
+
+def _count_tags_in_row(pattern: TaggedCheckerboard, grid_size: GridSize | None) -> int | None:
+    """Return how many tags a row of the board has, None if that is not stated."""
+    if grid_size is None or pattern.step is None:
+        return None
+    return count_tagged_squares(grid_size, pattern.step)[1]
+
+
+def _place_lattice(
+    lattice: Lattice, numbers: IntArray, placed: PlacedTags, grid_size: GridSize | None
+) -> Lattice | None:
+    """Place a lattice whose tags stand upright on the whole board.
+
+    Without a stated size the board is as large as the tags and the corners seen require.
+
+    Returns:
+        None if a tag that was read lies outside of the stated size.
+    """
+    layout, step, (row, col) = placed.layout, placed.step, placed.origin.tolist()
+    tag_rows = int(np.max(numbers[placed.agree] // layout.cols)) + 1
+    rows = max(step * (tag_rows - 1) + 2, lattice.shape[0] - row if layout.from_top else row + 2)
+    cols = max(step * (layout.cols - 1) + 2, lattice.shape[1] - col)
+    if grid_size is not None:
+        if step * (tag_rows - 1) + 2 > grid_size[0]:
+            return None
+        if layout.cols != count_tagged_squares(grid_size, step)[1]:
+            return None
+        rows, cols = grid_size
+    # Corner (0, 0) of the board in rows and columns of the lattice.
+    top, left = (row if layout.from_top else row + 2 - rows), col
+    uv = np.full((rows, cols, 2), np.nan)
+    cells = np.argwhere(lattice.found)
+    at = cells - (top, left)
+    inside = ((at >= 0) & (at < (rows, cols))).all(axis=1)
+    uv[tuple(at[inside].T)] = lattice.uv[tuple(cells[inside].T)]
+    return Lattice(uv, lattice.dark ^ bool((top + left) % 2))
+
+
+def _describe_pattern(tag_print: TagPrint, placed: PlacedTags) -> TaggedCheckerboard:
+    """Return the pattern that was read."""
+    return TaggedCheckerboard(
+        tag_print.family, tag_print.border, placed.step, placed.layout.from_top
+    )
+
+
+def _locate_corners(
+    grey: GreyImage,
+    board: Lattice,
+    pattern: TaggedCheckerboard,
+    outline: Array | None,
+    method: str,
+) -> Corners:
+    """Refine, verify and fit the corners of an identified board, and those beside them."""
+    tag_print = TagPrint(str(pattern.family), pattern.border or 1)
+    plain = tag_print.border / tag_print.side
+    lattice, rejected = refine_tagged_corners(grey, board, plain)
+    fit = None
+    if method == "edges":
+        lattice, fit, failing = fit_tagged_corners(grey, lattice, plain)
+        rejected += failing
+    return assemble_corners(grey, lattice, fit, outline, rejected, pattern)

@@ -1,0 +1,156 @@
+"""The tags of an AprilGrid: found in an image, read, and placed on the board.
+
+Tags are looked for among the dark quadrilaterals of the image, of its coarsest size first. The
+small black squares touch the corners of the tags, and blur may join them; so the image is also
+searched after each pixel took the brightest level around it, which parts them.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from calibgui.engine import opencv
+from calibgui.engine.arrays import Array, GreyImage, GridSize, IntArray
+from calibgui.engine.boards.april_grid import AprilGrid, TagLayout
+from calibgui.engine.boards.apriltags import load_family
+from calibgui.engine.detection.apriltags.tag_places import MAX_COLS, list_layouts
+from calibgui.engine.detection.apriltags.tag_reader import TagPrint, TagReader, list_prints
+from calibgui.engine.detection.charuco.markers import Markers, identify_board
+from calibgui.engine.detection.checkerboard import saddle
+from calibgui.engine.detection.region_of_interest import are_inside
+
+_MAX_COARSE_SIDE = 1600
+"""Longer side of the image in which tags are looked for first, px."""
+_MIN_SIDE = 0.5
+"""Least side of a tag over the distance of two: the gap of an AprilGrid is at most as wide."""
+_REFINING_SIGMA, _SIGMA_LIMITS = 0.06, (0.8, 6.0)
+"""Standard deviation of the weights with which the corners of a tag are refined, sides of the tag,
+and its limits, px."""
+_MAX_REFINING_SHIFT = 0.12
+"""Greatest distance by which the corners of a tag are refined, sides of the tag: less than that to
+any other crossing of edges."""
+_PARTED_BY = 1.0
+"""Width by which a tag becomes narrower on every side as each pixel takes the brightest level
+around it, px."""
+_MIN_SURE_DISTANCE = 9
+"""Distance of a family from which on tags that agree on a board are not mistaken for others'."""
+_NEIGHBOUR_DISTANCE = 2.2
+"""Greatest distance of neighbours in a column, sides of a tag: the gap is at most as wide as it."""
+_MIN_READ_SHARE = 0.8
+"""Least share of the tags within the rows and columns seen that makes a further search needless."""
+
+GridTags = tuple[TagPrint, Markers[TagLayout]]
+"""The print of the tags of a board, and the tags that were read on it."""
+
+
+def find_grid_tags(
+    image: GreyImage, pattern: AprilGrid, grid_size: GridSize | None, outline: Array | None
+) -> GridTags | None:
+    """Find the tags of an AprilGrid in an 8-bit image (h, w), dark on bright.
+
+    Args:
+        image: grey levels.
+        pattern: what is stated of the board.
+        grid_size: rows and columns of corners, if stated.
+        outline: (m, 2) px, outline that the tags must not leave, if there is one.
+
+    Returns:
+        None if there is no such board.
+    """
+    levels = [image]
+    while max(levels[-1].shape) > _MAX_COARSE_SIDE:
+        levels.append(opencv.halve_image(levels[-1]))
+    for depth in reversed(range(len(levels))):
+        parted = opencv.dilate_image(levels[depth], np.ones((3, 3), dtype=np.bool_))
+        quads = np.zeros((0, 4, 2))
+        board = None
+        for level, more in ((np.asarray(parted, dtype=np.uint8), _PARTED_BY), (levels[depth], 0)):
+            found = _widen(opencv.detect_dark_quads(level), more)
+            found = _refine_quads(image, (found + 0.5) * 2**depth - 0.5)
+            if outline is not None:
+                found = found[are_inside(outline, found.mean(axis=1))]
+            quads = np.concatenate([quads, found])
+            board = _read_board(TagReader(image, quads), quads, pattern, grid_size)
+            if board is not None and _is_mostly_read(board[1]):
+                break
+        if board is not None:
+            return board
+    return None
+
+
+def _read_board(
+    reader: TagReader, quads: Array, pattern: AprilGrid, grid_size: GridSize | None
+) -> GridTags | None:
+    """Read the tags of a board: the first of a family whose tags are hardly mistaken, else that of
+    most tags; None if there is none."""
+    cols = None if grid_size is None else grid_size[1] // 2
+    boards: list[GridTags] = []
+    for tag_print in list_prints(pattern.family, pattern.border):
+        tags = reader.read(tag_print)
+        turned = (np.arange(4) + tags.turns[:, None]) % 4
+        numbers, corners = _drop_repeated(tags.numbers, quads[tags.which[:, None], turned])
+        known = _list_likely_layouts(numbers, corners)
+        allowed = [
+            layout
+            for layout in (known if cols is None else list_layouts(cols, None))
+            if pattern.from_top in (None, layout.from_top)
+        ]
+        markers = identify_board(numbers, corners, allowed, known) if allowed else None
+        if markers is not None and markers.side > _MIN_SIDE:
+            boards.append((tag_print, markers))
+            if load_family(tag_print.family).distance >= _MIN_SURE_DISTANCE:
+                break
+    return max(boards, key=lambda board: len(board[1].numbers), default=None)
+
+
+def _list_likely_layouts(numbers: IntArray, corners: Array) -> list[TagLayout]:
+    """List the layouts by which tags may be neighbours in one column that lie side by side; numbers
+    (n,), corners (n, 4, 2) px."""
+    centre = corners.mean(axis=1)
+    side = np.linalg.norm(corners - np.roll(corners, 1, axis=1), axis=2).max(axis=1)
+    near = np.linalg.norm(centre - centre[:, None], axis=2) < _NEIGHBOUR_DISTANCE * side
+    between = np.unique(np.abs(np.subtract.outer(numbers, numbers))[near])
+    return [
+        layout
+        for cols in between.tolist()
+        if 0 < cols <= MAX_COLS
+        for layout in list_layouts(cols, None)
+    ]
+
+
+def _is_mostly_read(tags: Markers[TagLayout]) -> bool:
+    """Return whether most tags were read within the rows and columns of those that were."""
+    rows, cols = np.ptp(tags.squares, axis=0) + 1
+    return bool(len(tags.numbers) > _MIN_READ_SHARE * rows * cols)
+
+
+def _refine_quads(image: GreyImage, quads: Array) -> Array:
+    """Move the corners (n, 4, 2) px of quadrilaterals to the saddle points beside them, if all four
+    have one."""
+    side = np.repeat(np.linalg.norm(quads - np.roll(quads, 1, axis=1), axis=2).min(axis=1), 4)
+    uv, good = saddle.refine_saddles(
+        image,
+        quads.reshape(-1, 2),
+        np.clip(_REFINING_SIGMA * side, *_SIGMA_LIMITS),
+        _MAX_REFINING_SHIFT * side,
+    )
+    refined = np.asarray(good.reshape(-1, 4).all(axis=1))
+    return np.where(refined[:, None, None], uv.reshape(-1, 4, 2), quads)
+
+
+def _widen(quads: Array, by: float) -> Array:
+    """Move the sides of quadrilaterals (n, 4, 2) outwards by `by` px."""
+    centre = quads.mean(axis=1, keepdims=True)
+    side = np.linalg.norm(quads - np.roll(quads, 1, axis=1), axis=2).mean(axis=1)
+    return centre + (quads - centre) * (1 + 2 * by / side)[:, None, None]
+
+
+def _drop_repeated(numbers: IntArray, corners: Array) -> tuple[IntArray, Array]:
+    """Drop all but the first of the tags of one number at one place; numbers (n,), corners
+    (n, 4, 2) px."""
+    centre = corners.mean(axis=1)
+    side = np.linalg.norm(corners[:, 0] - corners[:, 1], axis=1)
+    near = np.asarray(np.linalg.norm(centre - centre[:, None], axis=2) < side[:, None] / 2)
+    same = near & (np.subtract.outer(numbers, numbers) == 0)
+    first = np.flatnonzero(~np.tril(same, -1).any(axis=1))
+    return numbers[first], corners[first]

@@ -1,0 +1,1 @@
+"""The detector of PuzzleBoards: a checkerboard's corners, then the dots that tell their place."""

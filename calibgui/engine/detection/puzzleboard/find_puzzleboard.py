@@ -1,0 +1,175 @@
+"""The detector of PuzzleBoards: a checkerboard, numbered by the dots on its edges.
+
+The corners are found, refined and verified as those of a checkerboard, by what lies nearer to them
+than the dots. These then tell which part of the pattern is seen (`dot_levels`, `place_decoding`). A
+lattice whose dots leave that open is refused rather than numbered by guess.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy.typing as npt
+
+from calibgui.engine.arrays import Array, GreyImage, GridSize
+from calibgui.engine.boards.pattern import Symmetry
+from calibgui.engine.boards.puzzleboard import PuzzleBoard
+from calibgui.engine.detection import region_of_interest as region
+from calibgui.engine.detection.checkerboard import a_contrario
+from calibgui.engine.detection.checkerboard.find_checkerboard import (
+    METHODS,
+    RefinedBoard,
+    assemble_corners,
+    refine_board,
+)
+from calibgui.engine.detection.checkerboard.numbering import Numbering, turn_lattice
+from calibgui.engine.detection.checkerboard.pyramid_search import Candidate, find_candidates
+from calibgui.engine.detection.checkerboard.saddle import refine_lattice
+from calibgui.engine.detection.corners import Corners
+from calibgui.engine.detection.detector_io import check_grey_levels
+from calibgui.engine.detection.puzzleboard.dot_levels import measure_dots
+from calibgui.engine.detection.puzzleboard.dot_removal import PLAIN, remove_blurred_dots
+from calibgui.engine.detection.puzzleboard.place_decoding import (
+    Place,
+    StatedBoard,
+    find_place,
+    is_certain,
+)
+from calibgui.engine.errors import NoBoardError
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class _PlacedBoard:
+    """A verified board and the likeliest place of its corners on the pattern."""
+
+    board: RefinedBoard
+    place: Place
+    is_mirrored: bool
+    """True if only the mirror image of the dots has a place."""
+
+
+def find_puzzleboard(
+    image: npt.ArrayLike,
+    pattern: PuzzleBoard,
+    grid_size: GridSize | None = None,
+    roi: npt.ArrayLike | None = None,
+    method: str = "edges",
+) -> Corners:
+    """Locate the corners of a PuzzleBoard in an image; see ``find_corners``.
+
+    Without `grid_size` a board from the pattern's origin to the last row and column seen is
+    returned.
+    """
+    if method not in METHODS:
+        raise ValueError(f"method {method!r} is none of {', '.join(METHODS)}")
+    grey = check_grey_levels(image)
+    outline = None if roi is None else region.check_outline(roi)
+    stated = None if grid_size is None else StatedBoard(pattern.origin, grid_size)
+    placed = _find_boards(grey, outline, method, stated)
+    readable = [each for each in placed if is_certain(each.place) and not each.is_mirrored]
+    if not readable:
+        raise _explain_missing_board(placed)
+    wanted = max(readable, key=lambda each: each.board.edge_length)
+    others = [each.board for each in placed if each is not wanted]
+    return _number_corners(grey, wanted, pattern, grid_size, outline, others)
+
+
+def _find_boards(
+    grey: GreyImage, outline: Array | None, method: str, stated: StatedBoard | None
+) -> list[_PlacedBoard]:
+    """Find the boards in an image and their places, until one can be read.
+
+    Args:
+        grey: (h, w) grey levels.
+        outline: (4, 2) px, the region to search, None for all of the image.
+        method: one of `METHODS`.
+        stated: the part of the pattern that is expected, None if that is open.
+    """
+    searched = None if outline is None else region.enlarge_outline(outline)
+    tried: dict[Candidate, _PlacedBoard | None] = {}
+    placed: list[_PlacedBoard] = []
+    for candidates in find_candidates(grey, searched, plain=PLAIN):
+        for candidate in candidates:
+            if candidate not in tried:
+                tried[candidate] = _verify_candidate(grey, candidate, method, stated)
+        placed = [each for candidate in candidates if (each := tried[candidate])]
+        if any(is_certain(each.place) for each in placed):
+            break
+    return placed
+
+
+def _verify_candidate(
+    grey: GreyImage, candidate: Candidate, method: str, stated: StatedBoard | None
+) -> _PlacedBoard | None:
+    """Return the board that a candidate is, None if it is none or may be one by chance."""
+    lattice, _ = refine_lattice(grey, candidate.lattice, plain=PLAIN)
+    board = refine_board(remove_blurred_dots(grey, lattice), lattice, method, PLAIN)
+    if board is None or not a_contrario.is_meaningful(board.lattice.found, candidate.others):
+        return None
+    return _place_board(grey, board, stated)
+
+
+def _place_board(grey: GreyImage, board: RefinedBoard, stated: StatedBoard | None) -> _PlacedBoard:
+    """Find the place of a board by its dots, which an inverted print or a mirror may show."""
+    dots = measure_dots(grey, board.lattice)
+    place = find_place(dots, stated)
+    if is_certain(place):
+        return _PlacedBoard(board, place, is_mirrored=False)
+    for other, is_mirrored in ((dots.invert(), False), (dots.mirror(), True)):
+        if is_certain(found := find_place(other, stated)):
+            return _PlacedBoard(board, found, is_mirrored)
+    return _PlacedBoard(board, place, is_mirrored=False)
+
+
+def _explain_missing_board(placed: list[_PlacedBoard]) -> NoBoardError:
+    """Return the error that says what an image shows instead of a PuzzleBoard that can be read."""
+    if not placed:
+        return NoBoardError(
+            "No PuzzleBoard was found.",
+            "Take the picture again: sharp, evenly lit, and squares of at least 8 pixels.",
+        )
+    if any(each.is_mirrored for each in placed):
+        return NoBoardError(
+            "This picture shows the PuzzleBoard mirrored.",
+            "Switch off the mirroring in the camera's settings, and take the picture again.",
+        )
+    rows, cols = max(placed, key=lambda each: each.board.edge_length).board.lattice.shape
+    return NoBoardError(
+        f"The dots of the {rows} x {cols} corners seen do not tell which part of a PuzzleBoard"
+        " they are.",
+        "Show at least 5 x 5 corners, sharp; for a checkerboard without dots, state that target.",
+    )
+
+
+def _number_corners(
+    grey: GreyImage,
+    wanted: _PlacedBoard,
+    pattern: PuzzleBoard,
+    grid_size: GridSize | None,
+    outline: Array | None,
+    others: list[RefinedBoard],
+) -> Corners:
+    """Return the corners of a board with their places on the stated board.
+
+    Raises:
+        NoBoardError: if some lie outside of that.
+    """
+    lattice = turn_lattice(wanted.board.lattice, wanted.place.quarters)
+    (row, col), (origin_row, origin_col) = wanted.place.first, pattern.origin
+    offset = row - origin_row, col - origin_col
+    ends = offset[0] + lattice.shape[0], offset[1] + lattice.shape[1]
+    size = grid_size or ends
+    if min(offset) < 0 or ends[0] > size[0] or ends[1] > size[1]:
+        rows, cols = (
+            f"{first} to {first + lines - 1}"
+            for first, lines in zip((row, col), lattice.shape, strict=True)
+        )
+        board = f" and has {size[0]} x {size[1]}" if grid_size else ""
+        raise NoBoardError(
+            f"This part of a PuzzleBoard has rows {rows} and columns {cols} of the pattern; the"
+            f" stated board begins at row {origin_row}, column {origin_col}{board}.",
+            "State the board's first row and column and its size, or leave them out.",
+        )
+    numbering = Numbering(lattice, wanted.place.quarters, size, offset)
+    corners = assemble_corners(grey, wanted.board, [numbering], outline, others)
+    return replace(corners, ambiguity=Symmetry.NONE, relative=False, pattern=pattern)

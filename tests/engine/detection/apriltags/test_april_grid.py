@@ -1,0 +1,132 @@
+"""AprilGrids against rendered truth."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from calibgui.engine.boards.april_grid import AprilGrid
+from calibgui.engine.boards.board import Board
+from calibgui.engine.boards.checkerboard import CHECKERBOARD
+from calibgui.engine.camera.camera import Camera
+from calibgui.engine.detection.corners import Corners
+from calibgui.engine.detection.find_corners import find_corners
+from calibgui.engine.errors import NoBoardError
+from tests.engine.detection.conftest import Scene
+
+CAMERA = Camera((640, 480), [560.0, 562.0, 322.0, 238.0, 0.1, 0.02, 0.0, 1e-4, 0.0, 0.0])
+KALIBR = Scene(
+    Board(8, 10, 20.0, AprilGrid("t36h11", 0.3, 2, False)), camera=CAMERA, distance=300.0
+)
+OTHERS = [
+    Board(6, 8, 25.0, AprilGrid("t25h9", 0.25, 2, True)),
+    Board(8, 6, 25.0, AprilGrid("t16h5", 0.3, 1, False)),
+    Board(8, 8, 22.0, AprilGrid("t25h7", 0.2, 2, False)),
+]
+
+
+def assert_at_bound(scene: Scene, corners: Corners, chi2: tuple[float, float]) -> None:
+    """Check corners against the truth: none wrong, their covariances honest."""
+    error = scene.error(corners)
+    assert corners.cov is not None
+    sigma = np.sqrt(corners.cov[:, [0, 1], [0, 1]])
+    assert np.abs(error / sigma).max() < 6
+    found = np.einsum("ni,nij,nj->n", error, np.linalg.inv(corners.cov), error).mean() / 2
+    assert chi2[0] < found < chi2[1]
+
+
+@pytest.mark.parametrize("inverted", [False, True], ids=["", "inverted"])
+def test_all_is_inferred(inverted: bool) -> None:
+    image = KALIBR.image()
+    corners = find_corners(255 - image if inverted else image, pattern=AprilGrid())
+    assert corners.shape == (8, 10)
+    assert corners.complete
+    assert np.sqrt(np.mean(KALIBR.error(corners) ** 2)) < 0.008
+    assert_at_bound(KALIBR, corners, (0.8, 1.3))
+    seen = corners.pattern
+    assert isinstance(seen, AprilGrid)
+    assert (seen.family, seen.border, seen.from_top) == ("t36h11", 2, False)
+    assert seen.spacing == pytest.approx(0.3, abs=0.001)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("board", OTHERS, ids=["25h9", "16h5", "25h7"])
+def test_other_families_orders_and_gaps(board: Board) -> None:
+    scene = Scene(board, camera=CAMERA, distance=300.0)
+    corners = find_corners(scene.image(), pattern=AprilGrid())
+    assert corners.shape == board.grid_size
+    assert corners.complete
+    assert_at_bound(scene, corners, (0.7, 1.4))
+    seen, stated = corners.pattern, board.pattern
+    assert isinstance(seen, AprilGrid)
+    assert isinstance(stated, AprilGrid)
+    assert seen.spacing == pytest.approx(stated.spacing, abs=0.001)
+    assert replace(seen, spacing=stated.spacing) == stated
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(
+    ("scene", "blur", "noise", "least"),
+    [
+        (KALIBR, 1.6, 2.0, 70),
+        (KALIBR, 0.7, 15.0, 78),
+        (replace(KALIBR, rvec=(1.05, 0.1, 0.3)), 0.7, 2.0, 74),
+        (replace(KALIBR, distance=500.0), 0.7, 2.0, 78),
+    ],
+    ids=["blurred", "noisy", "tilted", "far"],
+)
+def test_hard_conditions(scene: Scene, blur: float, noise: float, least: int) -> None:
+    corners = find_corners(scene.image(blur, noise), pattern=AprilGrid())
+    assert len(corners) >= least
+    assert_at_bound(scene, corners, (0.7, 1.4))
+
+
+def test_parts_have_the_ids_of_the_whole() -> None:
+    """The lower left tags are the first, so that a part without them shows where it belongs once
+    the size is known."""
+    scene = replace(KALIBR, rvec=(0.3, -0.2, 2.6), distance=230.0, aside=(60.0, 40.0))
+    image = scene.image()
+    image[200:280, 300:400] = 128
+    corners = find_corners(image, (8, 10), pattern=AprilGrid())
+    assert 20 < len(corners) < 80
+    assert_at_bound(scene, corners, (0.7, 1.4))
+
+
+@pytest.mark.parametrize(
+    ("stated", "grid_size", "says"),
+    [
+        (AprilGrid("t25h9"), None, "AprilGrid of t36h11"),
+        (AprilGrid(border=1), None, "borders of 2|too few corners"),
+        (AprilGrid(from_top=True), None, "bottom row up"),
+        (AprilGrid(spacing=0.2), None, "0.300 of their side"),
+        (AprilGrid(), (8, 8), "exactly 5 columns"),
+        (AprilGrid(), (6, 10), "at least 4 rows"),
+    ],
+)
+def test_what_is_wrongly_stated_is_told(
+    stated: AprilGrid, grid_size: tuple[int, int] | None, says: str
+) -> None:
+    with pytest.raises(NoBoardError, match=says):
+        find_corners(KALIBR.image(), grid_size, pattern=stated)
+
+
+def test_no_grid() -> None:
+    noise = np.random.default_rng(0).integers(0, 255, (300, 400)).astype(np.uint8)
+    checkerboard = Scene(Board(5, 8, 20.0), camera=CAMERA).image()
+    for image in (noise, np.full((100, 100), 9, np.uint8), checkerboard):
+        with pytest.raises(NoBoardError, match="No AprilGrid"):
+            find_corners(image, pattern=AprilGrid())
+
+
+def test_a_grid_is_no_checkerboard() -> None:
+    with pytest.raises(NoBoardError):
+        find_corners(KALIBR.image(), pattern=CHECKERBOARD)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("kind", [np.uint16, np.float32])
+def test_other_levels(kind: type) -> None:
+    corners = find_corners(KALIBR.image().astype(kind) * 3, pattern=AprilGrid())
+    assert corners.complete

@@ -1,0 +1,113 @@
+"""Checkerboards with AprilTags in dark squares: rendered truth, and photographs of a fisheye."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from calibgui.engine.boards.board import Board
+from calibgui.engine.boards.tagged_checkerboard import TaggedCheckerboard
+from calibgui.engine.detection.find_corners import find_corners
+from calibgui.engine.errors import NoBoardError
+from calibgui.engine.images.reading import read_image
+from tests.engine.detection.apriltags.test_april_grid import CAMERA, assert_at_bound
+from tests.engine.detection.conftest import Scene
+
+BOARD = Scene(
+    Board(10, 14, 16.0, TaggedCheckerboard("t25h7", 2, 4, False)), camera=CAMERA, distance=300.0
+)
+FROM_TOP = Scene(
+    Board(6, 9, 24.0, TaggedCheckerboard("t36h11", 1, 2, True)), camera=CAMERA, distance=260.0
+)
+
+
+@pytest.mark.parametrize("inverted", [False, True], ids=["", "inverted"])
+@pytest.mark.parametrize("scene", [BOARD, FROM_TOP], ids=["25h7", "36h11"])
+def test_all_is_inferred(scene: Scene, inverted: bool) -> None:
+    image = scene.image()
+    corners = find_corners(255 - image if inverted else image, pattern=TaggedCheckerboard())
+    assert corners.pattern == scene.board.pattern
+    assert corners.shape == scene.board.grid_size
+    assert len(corners) >= 0.98 * scene.board.rows * scene.board.cols
+    assert_at_bound(scene, corners, (0.8, 1.3))
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize(
+    ("scene", "blur", "noise"),
+    [
+        (BOARD, 1.2, 2.0),
+        (BOARD, 0.7, 15.0),
+        (replace(BOARD, rvec=(1.05, 0.1, 0.3)), 0.7, 2.0),
+    ],
+    ids=["blurred", "noisy", "tilted"],
+)
+def test_hard_conditions(scene: Scene, blur: float, noise: float) -> None:
+    corners = find_corners(scene.image(blur, noise), pattern=TaggedCheckerboard())
+    assert len(corners) >= 135
+    assert_at_bound(scene, corners, (0.7, 1.4))
+
+
+def test_parts_have_the_ids_of_the_whole() -> None:
+    scene = replace(BOARD, rvec=(0.3, -0.2, 2.6), distance=230.0, aside=(60.0, 40.0))
+    image = scene.image()
+    image[200:260, 300:380] = 128
+    corners = find_corners(image, (10, 14), pattern=TaggedCheckerboard())
+    assert 40 < len(corners) < 140
+    assert_at_bound(scene, corners, (0.7, 1.4))
+
+
+@pytest.mark.parametrize(
+    ("stated", "grid_size"),
+    [
+        (TaggedCheckerboard("t36h11"), None),
+        (TaggedCheckerboard(from_top=True), None),
+        (TaggedCheckerboard(), (10, 22)),
+        (TaggedCheckerboard(), (5, 14)),
+    ],
+)
+def test_another_board_is_refused(
+    stated: TaggedCheckerboard, grid_size: tuple[int, int] | None
+) -> None:
+    with pytest.raises(NoBoardError, match="no tags"):
+        find_corners(BOARD.image(), grid_size, pattern=stated)
+
+
+def test_a_plain_checkerboard_is_refused() -> None:
+    with pytest.raises(NoBoardError, match="no tags"):
+        find_corners(Scene(Board(5, 8, 20.0), camera=CAMERA).image(), pattern=TaggedCheckerboard())
+
+
+@pytest.mark.data
+def test_photographs_of_a_fisheye(data_dir: Path) -> None:
+    """BabelCalib's: corners found by Deltille, numbered row by row from the upper left one.
+
+    Beyond the outermost corners a frame begins within a third of a square and draws Deltille's
+    corners aside by up to a pixel, visibly: only those inside are compared.
+    """
+    stored_count = located = compared = near = 0
+    for file in sorted((data_dir / "babelcalib_ov_plane" / "corners" / "test").glob("*.orpc")):
+        corners = find_corners(
+            read_image(file.with_suffix(".png")).pixels, pattern=TaggedCheckerboard()
+        )
+        assert corners.pattern == TaggedCheckerboard("t25h7", 2, 4, False)
+        assert corners.shape == (22, 22)
+        rows = [line.split(",") for line in file.read_text().splitlines() if line[0].isdigit()]
+        stored = np.full((22, 22, 2), np.nan)
+        stored.reshape(-1, 2)[[int(row[1]) for row in rows]] = [
+            (float(row[3]), float(row[4])) for row in rows
+        ]
+        mine = np.full((22, 22, 2), np.nan)
+        mine[tuple(corners.grid.T)] = corners.uv
+        off = np.linalg.norm(mine - stored, axis=2)
+        assert np.nanmax(off) < 3
+        stored_count += np.count_nonzero(np.isfinite(stored[..., 0]))
+        located += np.count_nonzero(np.isfinite(off))
+        inside = off[1:-1, 1:-1]
+        compared += np.count_nonzero(np.isfinite(inside))
+        near += np.count_nonzero(inside < 0.3)
+    assert located > 0.97 * stored_count
+    assert near > 0.96 * compared

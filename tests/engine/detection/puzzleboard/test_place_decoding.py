@@ -1,0 +1,109 @@
+"""Places on the PuzzleBoard pattern from dots of which the truth is known."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from calibgui.engine.boards.puzzleboard import CODE_LINES, PuzzleBoard
+from calibgui.engine.detection.puzzleboard.place_decoding import (
+    Dots,
+    StatedBoard,
+    find_place,
+    is_certain,
+    measure_dot_noise,
+)
+
+_CONTRAST = 0.8
+
+
+def _see_dots(
+    origin: tuple[int, int],
+    size: tuple[int, int],
+    quarters: int,
+    wrong: float,
+    sigma: float,
+    rng: np.random.Generator,
+) -> Dots:
+    """The levels of a board's dots, turned clockwise, a share of them wrong and all with noise."""
+    right, down = (np.where(each, 1.0, -1.0) for each in PuzzleBoard(origin).read_dots(size))
+    level = np.concatenate([right.ravel(), down.ravel()])
+    level[rng.choice(level.size, round(wrong * level.size), replace=False)] *= -1
+    level = _CONTRAST * level + sigma * rng.standard_normal(level.size)
+    dots = Dots(level[: right.size].reshape(right.shape), level[right.size :].reshape(down.shape))
+    for _ in range(quarters):
+        dots = Dots(np.rot90(dots.down, -1), np.rot90(dots.right, -1))
+    return dots
+
+
+def _count(
+    size: tuple[int, int], wrong: float, sigma: float, count: int, stated: bool
+) -> tuple[int, int]:
+    """Number of boards whose place was found, and of those given a wrong one."""
+    rng = np.random.default_rng(5)
+    right = false = 0
+    for k in range(count):
+        row, col = (int(rng.integers(CODE_LINES + 1 - lines)) for lines in size)
+        dots = _see_dots((row, col), size, k % 4, wrong, sigma, rng)
+        place = find_place(dots, StatedBoard((row, col), size) if stated else None)
+        if is_certain(place):
+            true = (place.quarters, place.first) == (k % 4, (row, col))
+            right, false = right + true, false + (not true)
+    return right, false
+
+
+@pytest.mark.parametrize(
+    ("size", "wrong", "sigma", "stated", "least"),
+    [
+        ((5, 5), 0.0, 0.1, False, 39),
+        ((5, 5), 0.0, 0.2, False, 39),
+        ((8, 8), 0.10, 0.1, False, 35),
+        ((12, 16), 0.2, 0.1, False, 40),
+        ((4, 4), 0.0, 0.1, True, 40),
+        ((8, 8), 0.30, 0.1, True, 38),
+    ],
+)
+def test_places_are_found_and_none_is_wrong(
+    size: tuple[int, int], wrong: float, sigma: float, stated: bool, least: int
+) -> None:
+    right, false = _count(size, wrong, sigma, 40, stated)
+    assert right >= least
+    assert false == 0
+
+
+@pytest.mark.parametrize("size", [(4, 4), (6, 7), (12, 12)])
+@pytest.mark.parametrize("stated", [False, True])
+def test_dots_at_random_have_no_place(size: tuple[int, int], stated: bool) -> None:
+    rng = np.random.default_rng(6)
+    for _ in range(15):
+        rows, cols = size
+        dots = Dots(
+            rng.choice([-1.0, 1.0], (rows, cols - 1)), rng.choice([-1.0, 1.0], (rows - 1, cols))
+        )
+        board = StatedBoard((100, 200), (30, 30)) if stated else None
+        assert not is_certain(find_place(dots, board))
+
+
+def test_another_part_than_the_stated_one_is_told() -> None:
+    dots = _see_dots((50, 100), (7, 8), 0, 0.0, 0.1, np.random.default_rng(7))
+    place = find_place(dots, StatedBoard((0, 0), (7, 8)))
+    assert is_certain(place)
+    assert place.first == (50, 100)
+
+
+def test_missing_dots_do_not_matter() -> None:
+    dots = _see_dots((3, 4), (8, 9), 0, 0.0, 0.1, np.random.default_rng(8))
+    right, down = dots.right.copy(), dots.down.copy()
+    right[2:5, 3:5] = down[:3, 6:] = np.nan
+    place = find_place(Dots(right, down))
+    assert is_certain(place)
+    assert place.first == (3, 4)
+    nothing = Dots(np.full((5, 4), np.nan), np.full((4, 5), np.nan))
+    assert not is_certain(find_place(nothing))
+
+
+def test_the_noise_of_the_dots() -> None:
+    dots = _see_dots((0, 0), (20, 20), 0, 0.0, 0.3, np.random.default_rng(9))
+    mean, sigma = measure_dot_noise(dots)
+    assert mean == pytest.approx(_CONTRAST, abs=0.03)
+    assert sigma == pytest.approx(0.3, abs=0.03)
