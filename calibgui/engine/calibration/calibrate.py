@@ -23,11 +23,12 @@ import numpy as np
 from calibgui.engine.arrays import Array, BoolArray, IntArray, Size
 from calibgui.engine.boards.shape import BoardShape, BoardShapeModel, BoardShapePrior
 from calibgui.engine.calibration.board_shape.parametrisation import place_on_board_shape
+from calibgui.engine.calibration.held_values import blame_held_values
 from calibgui.engine.calibration.initialisation.knots import check_knots, choose_knots
 from calibgui.engine.calibration.initialisation.start import convert_to_paper_frame
 from calibgui.engine.calibration.methods import DEFAULT_METHOD, check_method, find_method
 from calibgui.engine.calibration.methods.method import Given, Method
-from calibgui.engine.calibration.methods.scatter import simulate_covariances
+from calibgui.engine.calibration.methods.simulated_covariance import simulate_covariances
 from calibgui.engine.calibration.model_errors import add_model_errors
 from calibgui.engine.calibration.observations import (
     REFERENCE_PITCH,
@@ -72,6 +73,7 @@ one whose origin is in the middle three quarters are."""
 
 
 @with_one_blas_thread
+@blame_held_values
 def calibrate(
     views: Sequence[Observation | tuple[Array, Array]],
     size: Size,
@@ -302,7 +304,8 @@ def _raise_if_undetermined(
 
 def _check_size(observations: Observations, size: Size, names: Sequence[str]) -> None:
     """Refuse corners that an image of this size cannot show."""
-    share = float(np.mean(np.any(observations.uv < -1, axis=2)[observations.mask > 0]))
+    u, v = observations.uv[..., 0], observations.uv[..., 1]
+    share = float(np.mean(((u < -1) | (v < -1))[observations.mask > 0]))
     if share > _MAX_SHARE_NEGATIVE:
         raise CalibrationError(
             f"{100 * share:.0f} % of the corners lie left of the image or above it.",
@@ -311,11 +314,12 @@ def _check_size(observations: Observations, size: Size, names: Sequence[str]) ->
         )
 
     def outside(size: Size, margin: float) -> BoolArray:
-        beyond = (observations.uv < -margin) | (observations.uv > np.array(size) + margin)
-        return np.asarray(beyond.any(axis=(1, 2)))
+        beyond = (np.minimum(u, v) < -margin) | (u > size[0] + margin) | (v > size[1] + margin)
+        return np.asarray(beyond.any(axis=1))
 
     far, swapped = outside(size, _MAX_OUTSIDE * max(size)), outside(size, 0.0)
-    swapped &= not outside(size[::-1], 0.0).any()
+    if swapped.any():
+        swapped &= not outside(size[::-1], 0.0).any()
     if (wrong := far | swapped).any():
         raise CalibrationError(
             f"{names[int(np.argmax(wrong))]} has corners {'far ' if far.any() else ''}outside an "
@@ -331,8 +335,8 @@ def _compute_tolerated_deviations(camera: Camera, observations: Observations) ->
     value that moves the outermost corner by its whole distance from the centre.
     """
     f, lens = camera.focal, find_model(camera.model)
-    d = (observations.uv - camera.centre) / f
-    outermost = np.sqrt(np.max(d[..., 0] ** 2 + d[..., 1] ** 2))
+    x, y = ((observations.uv[..., i] - camera.centre[i]) / f[i] for i in range(2))
+    outermost = np.sqrt(np.max(x**2 + y**2))
     return np.concatenate([0.1 * f, 0.1 * f, outermost ** -np.array(lens.powers, float)])
 
 

@@ -1,4 +1,4 @@
-"""The contract of a calibration method, and what methods share.
+"""The contract of a calibration method, and functions that methods share.
 
 Every method takes the same two steps. Its initialisation turns corners into a camera and poses; its
 refinement moves them, mostly to the minimum of a cost. All else (checks of the views, covariances,
@@ -38,7 +38,7 @@ from calibgui.engine.geometry.rotations import vector_from_rotation
 
 @dataclass(frozen=True, eq=False)
 class Given:
-    """What an initialisation starts from."""
+    """The views and wishes that an initialisation starts from."""
 
     observations: Observations
     """The views."""
@@ -58,7 +58,7 @@ class Given:
 
 
 class Initialisation(NamedTuple):
-    """The start of a refinement."""
+    """The state that a refinement starts from."""
 
     state: State
     """Camera and poses."""
@@ -83,7 +83,7 @@ def list_no_remarks(calibration: Calibration) -> tuple[str, ...]:  # noqa: ARG00
 
 @dataclass(frozen=True, kw_only=True)
 class Description:
-    """What a user is told of a method."""
+    """The texts that tell a user about a method."""
 
     name: str
     """Key in the table of methods, as arguments and files name it."""
@@ -122,7 +122,7 @@ class Method(Description):
     """True if the method weights corners by their covariances; others take all as equally good."""
     is_minimum: bool = True
     """True if the estimate is the minimum of the cost, whose normal equations tell its covariance.
-    The covariance of any other is simulated (``scatter.py``)."""
+    The covariance of any other is simulated (``simulated_covariance.py``)."""
     list_remarks: Callable[[Calibration], tuple[str, ...]] = list_no_remarks
     """Return sentences on a result of this method that its figures do not say."""
 

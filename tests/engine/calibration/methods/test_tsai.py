@@ -80,10 +80,11 @@ def test_stage_one_needs_neither_focal_length_nor_distortion(turn: float) -> Non
     radius = np.linalg.norm(ideal, axis=1, keepdims=True)
     found, Tx, Ty = solve_stage_one(BOARD.points(), 777.0 * ideal * (1 - 0.3 * radius**3))
     # f and Tz alone tell a board from its mirror image in depth: R up to r3, r6, r7, r8's signs.
-    assert np.abs(np.abs(found) - np.abs(R)).max() < 1e-9
+    # r3 is the root of what rounding leaves of 1 - r1^2 - r2^2.
+    assert np.abs(np.abs(found) - np.abs(R)).max() < 1e-7
     assert np.abs(found[:2, :2] - R[:2, :2]).max() < 1e-9
     assert (Tx, Ty) == pytest.approx((20.0, 30.0))
-    assert np.abs(found @ found.T - np.eye(3)).max() < 1e-9
+    assert np.abs(found @ found.T - np.eye(3)).max() < 1e-7
 
 
 def test_the_board_s_origin_may_lie_on_the_middle_row() -> None:
