@@ -24,10 +24,22 @@ GridSize = tuple[int, int]
 
 
 def freeze_array(values: npt.ArrayLike) -> Array:
-    """Return a read-only float64 copy of `values`."""
+    """Return `values` as a read-only float64 array: a copy, unless nothing can change them."""
+    if isinstance(values, np.ndarray) and _is_frozen(values):
+        return values
     array = np.array(values, dtype=np.float64, order="C")
     array.flags.writeable = False
     return array
+
+
+def _is_frozen(array: npt.NDArray[Any]) -> bool:
+    """Return whether a float64 array, or part of one, is read-only with all that it is part of."""
+    if array.dtype != np.float64 or not array.flags.c_contiguous:
+        return False
+    whole: Any = array
+    while isinstance(whole, np.ndarray) and not whole.flags.writeable:
+        whole = whole.base
+    return whole is None
 
 
 def freeze_ints(values: npt.ArrayLike) -> IntArray:
@@ -43,8 +55,9 @@ def freeze(record: object, *names: str) -> None:
     The record's ``__post_init__`` calls it.
     """
     for name in names:
-        if (values := getattr(record, name)) is not None:
-            object.__setattr__(record, name, freeze_array(values))
+        values = getattr(record, name)
+        if values is not None and (frozen := freeze_array(values)) is not values:
+            object.__setattr__(record, name, frozen)
 
 
 GreyImage = npt.NDArray[Any]

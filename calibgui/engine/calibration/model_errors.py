@@ -16,8 +16,10 @@ from calibgui.engine.arrays import Array
 from calibgui.engine.boards.shape import BoardShapeModel, BoardShapePrior
 from calibgui.engine.calibration.board_shape.estimate import fit_board_shape
 from calibgui.engine.calibration.board_shape.uncertainty import (
+    LinearisedBoard,
     add_board_error,
     estimate_board_error,
+    linearise_board,
     suspect_board,
 )
 from calibgui.engine.calibration.lens_error import measure_lens_error
@@ -61,9 +63,11 @@ def add_model_errors(
         return _add_errors_by_way_of_image_cost(estimate, observations, options, prior)
     if options.board_shape is not None:
         return add_overdispersion(estimate, options.model, options.free)
-    lens_error, is_suspect = _examine_lens(estimate, observations, options)
+    board = linearise_board(estimate, observations, options.model, options.free)
+    lens_error, is_suspect = _examine_lens(board, estimate, observations, options)
+    views = None
     if shape is BoardShapeModel.NOMINAL:
-        error = estimate_board_error(estimate, observations, options.model, options.free, prior)
+        error, views = estimate_board_error(board, estimate, observations.count, prior), board.views
         estimate = add_board_error(estimate, error)
         if is_suspect:
             estimate = estimate._replace(board_shape_error=error.deviation)
@@ -74,17 +78,17 @@ def add_model_errors(
         _check_camera_known(estimate, options, shape)
     if lens_error > 0:
         estimate = estimate._replace(lens_error=lens_error, board_shape_error=0.0)
-    return add_overdispersion(estimate, options.model, options.free)
+    return add_overdispersion(estimate, options.model, options.free, views)
 
 
 def _examine_lens(
-    estimate: Estimate, observations: Observations, options: Options
+    board: LinearisedBoard, estimate: Estimate, observations: Observations, options: Options
 ) -> tuple[float, bool]:
     """Measure the error of the lens model, px, and tell whether the residuals look like a board's.
 
     The lens is examined only if they do, since that takes its time.
     """
-    explained = suspect_board(estimate, observations, options.model)
+    explained = suspect_board(board, estimate.sigma2)
     if explained == 0:
         return 0.0, False
     camera = Camera(options.size, estimate.state.params, options.model)
@@ -112,13 +116,16 @@ def _add_errors_by_way_of_image_cost(
         weighted,
         covariances.measure_precision(solution.normal, tuple(names), weighted.count, any_sigma),
     )
-    lens_error, is_suspect = _examine_lens(image, weighted, by_image)
-    error = estimate_board_error(image, weighted, options.model, free, prior)
+    board = linearise_board(image, weighted, options.model, free)
+    lens_error, is_suspect = _examine_lens(board, image, weighted, by_image)
+    error = estimate_board_error(board, image, weighted.count, prior)
     offset = (
         estimate.state.params[free] - image.state.params[free],
         _measure_pose_steps(image.state, estimate.state),
     )
-    widened = add_overdispersion(add_board_error(image, error, offset), options.model, free)
+    widened = add_overdispersion(
+        add_board_error(image, error, offset), options.model, free, board.views
+    )
     return estimate._replace(
         camera_covariance=widened.camera_covariance,
         pose_covariances=widened.pose_covariances,

@@ -172,8 +172,8 @@ def measure_pitch(observations: Observations) -> float:
     precision, and the least is taken, because a partly seen board can lack neighbours.
     """
     chosen = np.unique(np.linspace(0, len(observations.xy) - 1, _MAX_PITCH_VIEWS).astype(int))
-    places = [observations.xy[k, observations.corners_of(k), :2] for k in chosen.tolist()]
-    unlike = {xy.tobytes(): xy for xy in places}.values()
+    part = observations.select_views(chosen)
+    unlike = [part.xy[k, part.corners_of(k), :2] for k in group_equal_boards(part)[0].tolist()]
     nearest = [np.asarray(scipy.spatial.cKDTree(xy).query(xy, k=2)[0])[:, 1] for xy in unlike]
     return float(min(np.median(distance) for distance in nearest))
 
@@ -215,20 +215,21 @@ def _check_images(part: Observations, names: Sequence[str]) -> None:
         if not good.all():
             raise CalibrationError(f"{names[int(np.argmin(good))]}{what}", hint)
 
-    arrays = [part.uv, part.xy] if part.cov is None else [part.uv, part.xy, part.cov]
-    finite = [np.isfinite(array).reshape(len(array), -1).all(axis=1) for array in arrays]
+    uv, xy = part.uv.reshape(len(part.uv), -1), part.xy.reshape(len(part.uv), -1)
+    arrays = [uv, xy] if part.cov is None else [uv, xy, part.cov.reshape(len(uv), -1)]
+    finite = [np.isfinite(array).all(axis=1) for array in arrays]
     require(
         np.logical_and.reduce(finite),
         " holds a corner that is not a finite number.",
         "Remove that corner or the view.",
     )
     require(
-        np.abs(part.uv).max(axis=(1, 2)) < _MAX_UV,
+        np.abs(uv).max(axis=1) < _MAX_UV,
         f" has a corner farther than {_MAX_UV:.0e} px from the image's origin.",
         "Remove that corner or the view.",
     )
     require(
-        np.abs(part.xy).max(axis=(1, 2)) < _MAX_XY,
+        np.abs(xy).max(axis=1) < _MAX_XY,
         f" names a board point farther than {_MAX_XY:.0e} mm from the board's origin.",
         "Give places on the board in mm.",
     )
@@ -269,8 +270,8 @@ def _are_in_general_position(points: Array, mask: Array) -> BoolArray:
 
     Without them there is no homography.
     """
-    tolerance = 1e-6 * np.ptp(points, axis=1).max(axis=1)
     x, y = np.array(np.moveaxis(points, -1, 0), order="C")
+    tolerance = 1e-6 * np.maximum(np.ptp(x, axis=1), np.ptp(y, axis=1))
     good = np.ones(len(points), dtype=bool)
     # A line that holds all points but one holds two of the first three.
     for i, j in ((0, 1), (0, 2), (1, 2)):

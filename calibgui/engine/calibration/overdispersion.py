@@ -45,7 +45,6 @@ noise's and L^-1 cov L^-T = sum_i v_i u_i u_i^T, it exceeds C by
     L (sum_i max(v_i - 1, 0) u_i u_i^T) L^T,
 
 which is added to what is reported. Poses and board shape follow the camera as they do in the model.
-The cost is one more pass over the views.
 
 An error that all views share, such as the board's, is not measured by their disagreement: the
 board's is found by ``board_shape/uncertainty.py`` and adds to it, as a bias adds to a scatter; that
@@ -74,13 +73,17 @@ _MIN_VIEWS = 3
 """Number of views below which their disagreement is not tested."""
 
 
-def add_overdispersion(estimate: Estimate, model: str, free: IntArray) -> Estimate:
+def add_overdispersion(
+    estimate: Estimate, model: str, free: IntArray, views: Array | None = None
+) -> Estimate:
     """Widen an estimate by the uncertainty that a significant disagreement of the views shows.
 
     Args:
         estimate: the estimate with the image cost, on a board of any shape.
         model: the lens model, a key of ``camera.models.MODELS``.
         free: (P,) indices of the camera's parameters that may move.
+        views: (K, P + 7, P + 7) products of each view's columns [camera, pose, r]; computed if
+            None.
     """
     K, P, sigma2 = len(estimate.pose_covariances), len(free), estimate.sigma2
     if K < _MIN_VIEWS or P == 0 or not sigma2 > 0:
@@ -89,10 +92,11 @@ def add_overdispersion(estimate: Estimate, model: str, free: IntArray) -> Estima
         unit = np.linalg.cholesky(estimate.noise_covariance / sigma2)  # T^-1 = unit unit^T
     except np.linalg.LinAlgError:
         return estimate  # a combination of parameters is undetermined, and says so
-    A = compute_view_products(
-        estimate.state, estimate.observations, model, free, estimate.board_motion
-    )
-    R, h, G = _eliminate_poses(A, P)
+    if views is None:
+        views = compute_view_products(
+            estimate.state, estimate.observations, model, free, estimate.board_motion
+        )
+    R, h, G = _eliminate_poses(views, P)
     R, h = unit.T @ R @ unit, (h - h.mean(axis=0)) @ unit
     corners = estimate.observations.count
     leverage = estimate.shape_unknowns / (2 * corners - 6 * K)

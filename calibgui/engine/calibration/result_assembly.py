@@ -11,7 +11,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from calibgui.engine.arrays import Array
+from calibgui.engine.arrays import Array, freeze_array
 from calibgui.engine.boards.shape import BoardShape
 from calibgui.engine.calibration.initialisation import single_view_pose
 from calibgui.engine.calibration.initialisation.stage_one import StageOneRegistration
@@ -123,8 +123,8 @@ def assemble_calibration(
 
 def make_poses(state: State) -> tuple[Pose, ...]:
     """Return the poses of all views."""
-    rvecs = rotations.vector_from_rotation(state.R)
-    return tuple(Pose(rvec, T) for rvec, T in zip(rvecs, state.T, strict=True))
+    rvecs, tvecs = freeze_array(rotations.vector_from_rotation(state.R)), freeze_array(state.T)
+    return tuple(Pose(rvec, tvec) for rvec, tvec in zip(rvecs, tvecs, strict=True))
 
 
 def compute_view_residuals(
@@ -139,11 +139,10 @@ def compute_view_residuals(
         cost: the cost that was minimised.
         scale: reference px per mm.
     """
-    image, registered = residuals.compute_residuals(state, observations, model, cost)
+    seen, registered = residuals.compute_residuals(state, observations, model, cost)
+    image, reference = freeze_array(seen), freeze_array(scale * registered)
     counts = observations.mask.sum(axis=1).astype(int).tolist()
-    return tuple(
-        ViewResiduals(image[k, :n], scale * registered[k, :n]) for k, n in enumerate(counts)
-    )
+    return tuple(ViewResiduals(image[k, :n], reference[k, :n]) for k, n in enumerate(counts))
 
 
 def tabulate_stage_one(registration: StageOneRegistration, literal: bool) -> tuple[StageOne, ...]:
@@ -153,7 +152,7 @@ def tabulate_stage_one(registration: StageOneRegistration, literal: bool) -> tup
         registration: Stage I of the views.
         literal: whether the reference grid is the paper's, equal in pixels along both axes.
     """
-    backward = homography.invert_homography(registration.forward)
+    backward = freeze_array(homography.invert_homography(registration.forward))
     geometry = single_view_pose.estimate_view_geometry(backward, literal)
     columns = (
         *registration.centre.T.tolist(),

@@ -54,6 +54,10 @@ more of them the test would need more corners."""
 LENS, CURVED = "lens", "curved"
 """Names among the causes of the lens, and of a board that is bowed or twisted; those of other
 boards are `BoardShapeModel`'s."""
+MAX_FREE_CORNERS = 600
+"""Number of corners of a board up to which each moves by itself. The matrix of the products of n
+free corners takes 72 n^2 bytes, several times over; a board with more of them, as screens have, is
+tested for a shape that is smooth over as many nodes."""
 _MIN_PIVOT = 1e-9
 """Part of a column's square that the others leave, below which it is one of their combinations."""
 
@@ -259,9 +263,20 @@ def _make_board_columns(
     corner = index[views].reshape(-1, 1)
     columns = _make_sparse(by_corner, 3 * corner + np.arange(3), 3 * len(flat))
     if cause == BoardShapeModel.FREE:
-        return columns
+        return columns if len(flat) <= MAX_FREE_CORNERS else columns @ _join_corners(flat)
     basis = _curve_board(flat) if cause == CURVED else make_basis(BoardShapeModel(cause), flat)
     return columns @ scipy.sparse.csr_array(basis.reshape(3 * len(flat), -1))
+
+
+def _join_corners(flat: Array) -> scipy.sparse.csr_array:
+    """Make a basis (3n, 3M) of smooth deviations: hats at M nodes over the board, for each axis."""
+    low, high = flat.min(axis=0), flat.max(axis=0)
+    cells = int(np.sqrt(MAX_FREE_CORNERS)) - 1
+    nodes, values, M = _evaluate_hats(flat - low, high - low + 1, cells)
+    hats = scipy.sparse.csr_array(
+        (values.ravel(), nodes.ravel(), 4 * np.arange(len(flat) + 1)), shape=(len(flat), M)
+    )
+    return scipy.sparse.csr_array(scipy.sparse.kron(hats, np.eye(3)))
 
 
 def _curve_board(flat: Array) -> Array:
@@ -294,7 +309,7 @@ def _make_sparse(entries: Array, places: IntArray, count: int) -> scipy.sparse.c
     return matrix
 
 
-def _evaluate_hats(uv: Array, size: Size, along_longer: int) -> tuple[IntArray, Array, int]:
+def _evaluate_hats(uv: Array, size: Size | Array, along_longer: int) -> tuple[IntArray, Array, int]:
     """Evaluate bilinear hats at pixels (n, 2), on a mesh of so many cells along the longer side.
 
     Returns:
@@ -302,7 +317,7 @@ def _evaluate_hats(uv: Array, size: Size, along_longer: int) -> tuple[IntArray, 
         number of all nodes.
     """
     cells = np.array([max(1, round(along_longer * n / max(size))) for n in size])
-    place = np.clip(uv / (np.array(size) - 1), 0, 1) * cells
+    place = np.clip(np.nan_to_num(uv) / (np.array(size) - 1), 0, 1) * cells  # NaN beyond the lens
     first = np.minimum(place.astype(np.int64), cells - 1)
     far = place - first
     x, y = np.moveaxis(first[..., None] + np.arange(2), 1, 0)

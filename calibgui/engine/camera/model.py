@@ -81,8 +81,9 @@ class Lens(ABC):
     """The coefficient along which the cost of a calibration has several minima, because others do
     nearly the same, with values between and beside these; None if one start is enough."""
     conversion_starts: Trials | None = None
-    """The same for a fit to the rays of another camera, which begins with other coefficients at
-    their defaults; None if one start is enough."""
+    """The coefficient along which the cost of a fit to the rays of another camera has several
+    minima, with values between and beside these; None if one start is enough. Such a fit begins
+    with the other coefficients at their defaults."""
     held_at_start: tuple[str, ...] = ()
     """Names of the coefficients that a start leaves at their defaults, although they are free in
     the solve: the rays of a start are not good enough to tell them from the others."""

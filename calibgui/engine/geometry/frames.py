@@ -46,7 +46,8 @@ def centre_of_array(size: Size) -> Array:
 
 def paper_from_array(uv: Array, size: Size) -> Array:
     """Convert image points (..., 2) from the array frame to the paper's."""
-    return (uv - centre_of_array(size)) * _FLIP[:2]
+    u, v = centre_of_array(size)
+    return np.stack([uv[..., 0] - u, v - uv[..., 1]], axis=-1)  # a coordinate at a time is fast
 
 
 def array_from_paper(xy: Array, size: Size) -> Array:

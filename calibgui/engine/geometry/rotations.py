@@ -32,6 +32,10 @@ def vector_from_rotation(R: Array) -> Array:
     sine = np.linalg.norm(skew, axis=-1) / 2
     cosine = (np.trace(R, axis1=-2, axis2=-1) - 1) / 2
     angle = np.arctan2(sine, cosine)[..., None]
+    usual = skew / (2 * np.sinc(angle / np.pi))
+    is_usual = cosine > -0.9
+    if is_usual.all():
+        return np.asarray(usual)
     # Near a half turn the skew part vanishes: take the axis from the symmetric part
     # R + R^T = 2 cos I + 2 (1 - cos) n n^T, and its sign from the skew part.
     nn = (R + turned) / 2 - cosine[..., None, None] * np.eye(3)
@@ -40,16 +44,14 @@ def vector_from_rotation(R: Array) -> Array:
     sign = np.where(np.sum(axis * skew, axis=-1, keepdims=True) >= 0, 1.0, -1.0)
     with np.errstate(invalid="ignore", divide="ignore"):
         half_turn = sign * angle * axis / np.linalg.norm(axis, axis=-1, keepdims=True)
-        usual = skew / (2 * np.sinc(angle / np.pi))
-    return np.asarray(np.where(cosine[..., None] > -0.9, usual, half_turn))
+    return np.asarray(np.where(is_usual[..., None], usual, half_turn))
 
 
 def cross_matrix(w: Array) -> Array:
     """Return the matrices [w]x (..., 3, 3) with [w]x a = w x a, for w (..., 3)."""
-    zero = np.zeros(w.shape[:-1])
-    x, y, z = w[..., 0], w[..., 1], w[..., 2]
-    rows = [[zero, -z, y], [z, zero, -x], [-y, x, zero]]
-    return np.stack([np.stack(row, axis=-1) for row in rows], axis=-2)
+    W = np.zeros((*w.shape, 3))
+    W[..., 2, 1], W[..., 0, 2], W[..., 1, 0] = w[..., 0], w[..., 1], w[..., 2]
+    return W - np.swapaxes(W, -1, -2)
 
 
 def inverse_left_jacobian(rvec: Array) -> Array:

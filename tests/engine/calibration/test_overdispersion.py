@@ -10,10 +10,15 @@ from calibgui.engine.calibration.calibrate import calibrate
 from calibgui.engine.calibration.observations import Observation
 from calibgui.engine.camera.projection import pixels_from_rays
 from calibgui.engine.geometry.rotations import rotation_from_vector
-from tests.engine.calibration.board_shape.test_parametrisation import CAMERA, CENTRE, NOMINAL, SIZE
+from tests.engine.calibration.board_shape.test_parametrisation import (
+    ACROSS,
+    CAMERA,
+    CENTRE,
+    NOMINAL,
+    SIZE,
+)
 
 FLAT = np.column_stack([NOMINAL, np.zeros(len(NOMINAL))])
-ACROSS = (NOMINAL - CENTRE) / np.abs(NOMINAL - CENTRE).max(axis=0)
 NOISE = 0.05
 FAULTS = ["bending", "rolling", "jitter", "lens"]
 

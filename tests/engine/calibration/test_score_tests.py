@@ -9,13 +9,14 @@ import pytest
 
 from calibgui.engine.arrays import Array
 from calibgui.engine.assessment.systematic_errors import prepare_fit
+from calibgui.engine.boards.board import Board
 from calibgui.engine.boards.shape import BoardShapeModel
 from calibgui.engine.calibration import score_tests
 from calibgui.engine.calibration.calibrate import calibrate
 from calibgui.engine.calibration.observations import Observation
 from calibgui.engine.calibration.result import Calibration
 from calibgui.engine.calibration.score_tests import LENS, LinearisedFit, SharedCauses
-from tests.engine.scenes import BOARD, barrel, scene, uneven
+from tests.engine.scenes import BOARD, barrel, looking, scene, seen, uneven
 
 SIZE = barrel().size
 FREE = BoardShapeModel.FREE
@@ -155,3 +156,20 @@ def test_probabilities_are_uniform_on_noise() -> None:
     p: Array = np.array(found)
     assert ((p < 0.05).mean(axis=0) <= 0.15).all()  # 0.05 + 3.5 standard errors
     assert (np.abs((p < 0.5).mean(axis=0) - 0.5) < 0.23).all()
+
+
+@pytest.mark.parametrize("error", [0.0, 0.15])
+def test_a_board_of_many_corners_takes_bounded_memory(error: float) -> None:
+    """Its shape is then smooth, which explains all but noise of a print that is off smoothly."""
+    board, rng = Board(30, 40, 7.0), np.random.default_rng(2)
+    poses = [looking(barrel(), rng, board=board) for _ in range(5)]
+    views = seen(barrel(), poses, board).noisy(0.1, rng)
+    printed = views[0].xy + error * np.sin(views[0].xy[:, ::-1] / 30)
+    views = [Observation(view.uv, printed) for view in views]
+    fit = prepare_fit(calibrate(views, SIZE), views)
+    causes = SharedCauses(fit, [FREE])
+    assert causes.reduce_cost(FREE)[1] < 3 * score_tests.MAX_FREE_CORNERS < 3 * 30 * 40
+    found = causes.explain(FREE)
+    noise = 0.1**2 * causes.freedom / causes.cost
+    assert found.share == pytest.approx(1 - noise, abs=0.03)
+    assert (found.probability < 1e-9) == (error > 0)

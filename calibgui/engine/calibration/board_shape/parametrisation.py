@@ -56,9 +56,11 @@ def index_board_points(observations: Observations) -> tuple[Array, IntArray]:
         (n, 2) corners, mm, ascending by x and then y; and (K, N) their indices.
     """
     first, group = group_equal_boards(observations)
-    flat = np.round(observations.xy[first, :, :2].reshape(-1, 2), 9)
-    points, index = np.unique(flat, axis=0, return_inverse=True)
-    return points, index.reshape(len(first), -1)[group].astype(np.int64)
+    flat = np.ascontiguousarray(observations.xy[first, :, :2].reshape(-1, 2)).round(9)
+    # Complex numbers are ordered as wanted, and sorted much faster than rows.
+    points, index = np.unique(flat.view(np.complex128)[:, 0], return_inverse=True)
+    index = index.reshape(len(first), -1)[group].astype(np.int64)
+    return points.view(np.float64).reshape(-1, 2), index
 
 
 def make_basis(model: BoardShapeModel, points: Array) -> Array:

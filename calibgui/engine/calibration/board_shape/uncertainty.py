@@ -23,7 +23,10 @@ expected coefficients, their variances included,
     s^2 <- (nu s0^2 + A) / (nu + m),
 
 which stays at s0^2 where the views say nothing of the coefficients, and is what they say where they
-say much.
+say much. Few coefficients that are determined draw the variance of the others down slowly, by a
+tenth of the way in a step: Anderson's (1965) mixing of the last steps, in the logarithms of
+sigma^2 / s^2, leads to the end. The camera is eliminated first, after the poses, so that a step
+factorises a matrix of the coefficients alone.
 
 One linear step from the nominal board's solution, with stiffness sigma^2 / s^2 on q, leads to the
 joint estimate of camera, poses and board. It moves camera and poses by b, and leaves them with the
@@ -47,21 +50,22 @@ residuals' size and smoothness, fixed to the board, moves them: without it, they
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from typing import NamedTuple
 
 import numpy as np
+import scipy
 
 from calibgui.engine.arrays import Array, IntArray
 from calibgui.engine.boards.shape import BoardShapePrior
+from calibgui.engine.calibration.board_shape.deviations import ROUGH, Deviations, make_deviations
 from calibgui.engine.calibration.board_shape.parametrisation import (
     index_board_points,
     iterate_corner_products,
-    make_board_shape_problem,
-    make_gauge,
 )
 from calibgui.engine.calibration.observations import Observations
 from calibgui.engine.calibration.refinement import covariances
-from calibgui.engine.calibration.refinement.schur import eliminate_poses, solve_reduced
+from calibgui.engine.calibration.refinement.schur import NormalEquations, eliminate_poses, sum_costs
 from calibgui.engine.calibration.result_assembly import Estimate
 from calibgui.engine.geometry import rotations
 
@@ -70,24 +74,43 @@ DEFAULT_FLATNESS = 3e-4
 0.1 mm of a board that is 0.33 m long."""
 _ROUGHNESS = 0.5
 """Ratio of the expected coefficient of a rough deviation to `DEFAULT_FLATNESS`."""
-_MAX_DEGREE, _SMOOTH_DEGREE = 7, 2
-"""Degrees of the polynomials in all, and of those of flatness and print."""
 _PRIOR_FREEDOM = 0.3
 """Degrees of freedom nu of the prior: it yields to one well-determined coefficient. With it, and
-these degrees, 92 % and more of the intrinsics lie within two standard deviations of the truth on
-boards that are bowed, twisted, stretched or rough by 0.05 to 1 mm, in 3 to 25 views
+the degrees of ``deviations.py``, 92 % and more of the intrinsics lie within two standard deviations
+of the truth on boards that are bowed, twisted, stretched or rough by 0.05 to 1 mm, in 3 to 25 views
 (``tests/benchmarks/standard_deviations.py``)."""
-_ITERATIONS = 20
-"""Number of steps of expectation-maximisation: few coefficients that are determined draw the
-variance of the others down slowly."""
+_MAX_ITERATIONS = 50
+"""Number of steps of expectation-maximisation, at most."""
+_MAX_CHANGE = 1e-4
+"""Relative change of every variance by a step below which they have settled."""
+_MAX_MIXING = 3.0
+"""Change of a variance's logarithm by mixing, at most: changes that are nearly alike lead far."""
+_ROUNDING = 1e-12
+"""Stiffness, relative to the information of the views, that rounding errors leave meaningful."""
 _MIN_VIEWS_OF_CORNER = 3
 """Number of views that must show a corner for it to enter the test."""
 _MIN_EXCESS = 5.0
 """Excess of chi^2, in its standard deviations, from which the board counts as imperfect."""
-_MIN_DIAGONAL = 1e-6
-"""Part of a polynomial that is new beside those before it, below which it is left out."""
-_FLATNESS, _PRINT, _ROUGH = 0, 1, 2
-"""The kinds of deviation."""
+
+
+class LinearisedBoard(NamedTuple):
+    """A calibration for the board as drawn, linearised in camera, poses and the board's corners."""
+
+    points: Array
+    """(n, 2) the board's corners, mm."""
+    deviations: Deviations
+    """The deviations that a prior is stated for."""
+    views: Array
+    """(K, P + 7, P + 7) products of each view's columns [camera, pose, r]."""
+    normal: NormalEquations
+    """The normal equations of the camera's P parameters followed by the Q coefficients of the
+    deviations, and of the poses."""
+    g: Array
+    """(n, 3) see above."""
+    H: Array
+    """(n, 3, 3) see above."""
+    seen: IntArray
+    """(n,) number of views that show each corner."""
 
 
 class BoardError(NamedTuple):
@@ -105,101 +128,187 @@ class BoardError(NamedTuple):
     """Deviation of the board's corners, mm rms, of the joint estimate."""
 
 
-def suspect_board(estimate: Estimate, observations: Observations, model: str) -> float:
+def linearise_board(
+    estimate: Estimate, observations: Observations, model: str, free: IntArray
+) -> LinearisedBoard:
+    """Linearise an estimate with the image cost for the board as it is drawn.
+
+    Args:
+        estimate: the estimate.
+        observations: the views.
+        model: the lens model, a key of ``camera.models.MODELS``.
+        free: (P,) indices of the camera's parameters that may move.
+    """
+    points, index = index_board_points(observations)
+    deviations = make_deviations(points)
+    K, P, n = len(index), len(free), len(points)
+    views, total = np.empty((K, P + 7, P + 7)), np.zeros((n, 3, P + 4))
+    by_pose = np.empty((K, 6, P + len(deviations.kind)))  # W^T: products with it are the faster
+    for part, A, D, each in iterate_corner_products(
+        estimate.state, observations, model, free, index, n
+    ):
+        views[part] = A
+        total += each
+        by_pose[part, :, :P] = A[:, P:-1, :P]
+        by_pose[part, :, P:] = np.swapaxes(deviations.contract(D), 1, 2)
+    A, sums, H = views.sum(axis=0), deviations.contract(total[..., : P + 1]), total[..., P + 1 :]
+    by_camera = sums[:, :P]
+    normal = NormalEquations(
+        np.block([[A[:P, :P], by_camera.T], [by_camera, deviations.contract_twice(H)]]),
+        np.swapaxes(by_pose, 1, 2),
+        views[:, P:-1, P:-1],
+        np.append(A[:P, -1], sums[:, P]),
+        views[:, P:-1, -1],
+        *sum_costs(views[:, -1, -1]),
+    )
+    seen = np.bincount(index[observations.mask > 0], minlength=n).astype(np.int64)
+    return LinearisedBoard(points, deviations, views, normal, total[..., P], H, seen)
+
+
+def suspect_board(board: LinearisedBoard, sigma2: float) -> float:
     """Test whether the residuals look as if the board's corners were off.
 
     Args:
-        estimate: the estimate with the image cost for the board as it is drawn.
-        observations: the views.
-        model: the lens model, a key of ``camera.models.MODELS``.
+        board: the estimate for the board as it is drawn.
+        sigma2: variance of one residual coordinate.
 
     Returns:
         Part of the squared residuals that the board's corners explain at least, beyond noise; 0 if
         the residuals do not look so.
     """
-    points, index = index_board_points(observations)
-    g, H, seen = _sum_scores(estimate, observations, model, index, len(points))
-    tested = seen >= _MIN_VIEWS_OF_CORNER
-    if not tested.any() or not estimate.sigma2 > 0:
+    tested = board.seen >= _MIN_VIEWS_OF_CORNER
+    if not tested.any() or not sigma2 > 0:
         return 0.0
-    terms = np.einsum("ia,ia->i", g[tested], np.linalg.solve(H[tested], g[tested, :, None])[..., 0])
+    g = board.g[tested]
+    terms = g * np.linalg.solve(board.H[tested], g[..., None])[..., 0]
     expected = 3 * int(tested.sum())
-    excess = float(terms.sum()) / estimate.sigma2 - expected
+    excess = float(terms.sum()) / sigma2 - expected
     if excess < _MIN_EXCESS * np.sqrt(2 * expected):
         return 0.0
-    return excess * estimate.sigma2
+    return excess * sigma2
 
 
-def _sum_scores(
-    estimate: Estimate, observations: Observations, model: str, index: IntArray, count: int
-) -> tuple[Array, Array, IntArray]:
-    """Sum g (n, 3), H (n, 3, 3) and the number of views of every corner of the board."""
-    g, H = np.zeros((count, 3)), np.zeros((count, 3, 3))
-    none_free = np.zeros(0, dtype=np.int64)
-    products = iterate_corner_products(
-        estimate.state, observations, model, none_free, index, count, False
-    )
-    for _, _, _, total in products:
-        g += total[..., 0]
-        H += total[..., 1:]
-    seen = np.bincount(index[observations.mask > 0], minlength=count)
-    return g, H, seen.astype(np.int64)
+class _Coefficients(NamedTuple):
+    """What the views tell of the coefficients q of the deviations, given their variances."""
+
+    q: Array
+    """(Q,) expected coefficients, mm."""
+    root: Array
+    """(Q, Q) R, where sigma^2 R R^T is their covariance."""
+    sigma2: float
+    """Variance of one residual coordinate."""
 
 
 def estimate_board_error(
-    estimate: Estimate,
-    observations: Observations,
-    model: str,
-    free: IntArray,
-    prior: BoardShapePrior | None = None,
+    board: LinearisedBoard, estimate: Estimate, count: int, prior: BoardShapePrior | None = None
 ) -> BoardError:
     """Estimate what the board's deviations do to a calibration that takes it for the drawing.
 
     Args:
+        board: the estimate, linearised.
         estimate: the estimate with the image cost for the board as it is drawn.
-        observations: the views.
-        model: the lens model, a key of ``camera.models.MODELS``.
-        free: (P,) indices of the camera's parameters that may move.
+        count: number of corners in all views.
         prior: deviations to expect; `DEFAULT_FLATNESS` if None.
     """
-    points, index = index_board_points(observations)
-    B, kind = make_deviations(points)
-    P, Q = len(free), B.shape[2]
-    expected = _expect_variances(points, kind, prior)
-    state = estimate.state._replace(params=np.append(estimate.state.params, np.zeros(Q)))
-    normal = make_board_shape_problem(
-        observations, model, free, points, index, B, np.zeros((Q, Q))
-    )(state)
-    reduced = eliminate_poses(normal)
-    variances, sigma2 = expected, estimate.sigma2
-    stiffness = np.zeros_like(normal.U)
-    for _ in range(_ITERATIONS):
-        stiffness[range(P, P + Q), range(P, P + Q)] = sigma2 / variances[kind]
-        stiffened = reduced.add_stiffness(stiffness)
-        by_shared, by_pose = solve_reduced(normal, stiffened)
-        inverse, _ = covariances.invert_information(stiffened)
-        known = Q - float(np.sum(np.diag(inverse * stiffness)))  # coefficients that views determine
-        gained = -float(by_shared @ normal.shared + np.sum(by_pose * normal.pose))
+    normal, kind = board.normal, board.deviations.kind
+    P, n = len(normal.U) - len(kind), len(board.points)
+    joint = eliminate_poses(normal)
+    right, S = joint.reduce_gradient(normal.shared, normal.pose), joint.S
+    camera = covariances.invert_information(joint._replace(S=S[:P, :P], unit=joint.unit[:P]))[0]
+    follow = -camera @ S[:P, P:]  # of the camera, by each coefficient
+
+    def estimate_sigma2(gained: float, known: float) -> float:
         left = covariances.estimate_variance(
-            normal.cost - gained, observations.count, P + normal.pose.size + known
+            normal.cost - gained, count, P + normal.pose.size + known
         )
-        sigma2 = left if left > 0 else sigma2
-        if prior is None:  # what the user knows is not learnt from the views
-            squares = by_shared[P:] ** 2 + sigma2 * np.diag(inverse)[P:]
-            total, count = (np.bincount(kind, w, len(expected)) for w in (squares, np.ones(Q)))
-            variances = (_PRIOR_FREEDOM * expected + total) / (_PRIOR_FREEDOM + count)
-    covariance, rvecs = sigma2 * inverse, rotations.vector_from_rotation(estimate.state.R)
-    squares = by_shared[P:] ** 2
+        return left if left > 0 else estimate.sigma2
+
+    q, root, sigma2 = _estimate_coefficients(
+        S[P:, P:] + S[P:, :P] @ follow,
+        right[P:] + right[:P] @ follow,
+        kind,
+        _expect_variances(board.points, kind, prior),
+        prior is None,
+        estimate_sigma2,
+    )
+    shift, root = follow @ q - camera @ right[:P], np.concatenate([follow @ root, root])
     # Higher degrees are as rough as most of those before: of noise's squares the median is 0.455.
-    typical = float(np.median(squares[kind == _ROUGH])) / 0.455 if (kind == _ROUGH).any() else 0.0
-    square = float(squares.sum()) + max(3 * len(points) - Q - 7, 0) * typical
+    rough = q[kind == ROUGH] ** 2
+    typical = float(np.median(rough)) / 0.455 if rough.size else 0.0
+    square = float(q @ q) + max(3 * n - len(q) - 7, 0) * typical
+    covariance = sigma2 * (root @ root.T)
+    covariance[:P, :P] += sigma2 * camera
+    rvecs = rotations.vector_from_rotation(estimate.state.R)
+    by_pose = joint.solve_poses(-normal.pose, np.append(shift, q))
     return BoardError(
         covariance[:P, :P],
         covariances.compute_pose_covariances(normal, covariance, rvecs, sigma2),
-        by_shared[:P],
+        shift,
         (covariances.differentiate_poses(rvecs) @ by_pose[..., None])[..., 0],
-        float(np.sqrt(square / len(points))),
+        float(np.sqrt(square / n)),
     )
+
+
+def _estimate_coefficients(
+    S: Array,
+    right: Array,
+    kind: IntArray,
+    expected: Array,
+    is_learnt: bool,
+    estimate_sigma2: Callable[[float, float], float],
+) -> _Coefficients:
+    """Estimate the coefficients of the deviations together with their variances.
+
+    Args:
+        S: (Q, Q) information of the views on them.
+        right: (Q,) gradient of half the cost by them, at 0.
+        kind: (Q,) kinds of the deviations.
+        expected: (3,) variances of a coefficient of each kind that the prior expects, mm^2.
+        is_learnt: false to keep these variances: what the user knows is not learnt from the views.
+        estimate_sigma2: a function from the decrease of the cost and the number of coefficients
+            that the views determine to the variance of one residual coordinate.
+    """
+    diagonal, counts = np.diag_indices(len(S)), np.bincount(kind, minlength=3)
+    least = _ROUNDING * float(S[diagonal].max(initial=0.0))
+
+    def take_step(logarithms: Array) -> tuple[Array, _Coefficients]:
+        stiffness, stiffened = np.exp(logarithms)[kind], S.copy()
+        stiffened[diagonal] += stiffness
+        factor, _ = scipy.linalg.lapack.dpotrf(stiffened)
+        root, _ = scipy.linalg.lapack.dtrtri(factor)
+        inverse, q = np.sum(root * root, axis=1), -root @ (right @ root)
+        sigma2 = estimate_sigma2(-float(right @ q), len(S) - float(stiffness @ inverse))
+        variances = expected
+        if is_learnt:
+            total = np.bincount(kind, q * q + sigma2 * inverse, 3)
+            variances = (_PRIOR_FREEDOM * expected + total) / (_PRIOR_FREEDOM + counts)
+        return np.log(np.fmax(sigma2 / variances, least)), _Coefficients(q, root, sigma2)
+
+    return _mix_steps(take_step, np.log(np.fmax(estimate_sigma2(0.0, 0.0) / expected, least)))
+
+
+def _mix_steps(
+    take_step: Callable[[Array], tuple[Array, _Coefficients]], x: Array
+) -> _Coefficients:
+    """Return what a step finds at its fixed point, by Anderson's mixing of the last steps.
+
+    Args:
+        take_step: a function from a point (m,) to the next one and what it finds there.
+        x: (m,) the point to start from.
+    """
+    points: list[Array] = []
+    changes: list[Array] = []
+    for _ in range(_MAX_ITERATIONS):
+        after, found = take_step(x)
+        points, changes = [*points[-len(x) :], x], [*changes[-len(x) :], after - x]
+        if np.abs(changes[-1]).max() < _MAX_CHANGE:
+            break
+        x = after
+        if len(points) > 1:
+            by_point, by_change = np.diff(points, axis=0), np.diff(changes, axis=0)
+            weights = scipy.linalg.lapack.dgelss(by_change.T, changes[-1])[1][: len(by_change)]
+            x = after - np.clip(weights @ (by_point + by_change), -_MAX_MIXING, _MAX_MIXING)
+    return found
 
 
 def add_board_error(
@@ -220,36 +329,6 @@ def add_board_error(
         camera_covariance=error.covariance + np.outer(camera, camera),
         pose_covariances=error.pose_covariances + poses[:, :, None] * poses[:, None, :],
     )
-
-
-def make_deviations(points: Array) -> tuple[Array, IntArray]:
-    """Make the deviations of a board that a prior is stated for.
-
-    Args:
-        points: (n, 2) the board's corners, mm.
-
-    Returns:
-        B (n, 3, Q), orthonormal over the corners and free of the gauge, and the kind (Q,) of each:
-        `_FLATNESS`, `_PRINT` or `_ROUGH`.
-    """
-    low, high = points.min(axis=0), points.max(axis=0)
-    x, y = ((2 * points - low - high) / np.maximum(high - low, np.finfo(float).tiny)).T
-    columns, kinds, n = [make_gauge(points)], [], len(points)
-    for degree in range(1, _MAX_DEGREE + 1):
-        powers = [x ** (degree - j) * y**j for j in range(degree + 1)]
-        for axis in (2, 0, 1):
-            block = np.zeros((n, 3, degree + 1))
-            block[:, axis] = np.transpose(powers)
-            columns.append(block.reshape(3 * n, -1))
-            smooth = _FLATNESS if axis == 2 else _PRINT
-            kinds += [smooth if degree <= _SMOOTH_DEGREE else _ROUGH] * (degree + 1)
-    stacked = np.concatenate(columns, axis=1)
-    stacked /= np.linalg.norm(stacked, axis=0)
-    # Columns that depend on those before them would take a direction away from those behind.
-    new = np.abs(np.diag(np.linalg.qr(stacked, mode="r"))) > _MIN_DIAGONAL
-    new = np.append(new, np.zeros(stacked.shape[1] - len(new), dtype=bool))
-    q = np.linalg.qr(stacked[:, new])[0][:, 7:]
-    return q.reshape(n, 3, -1), np.array(kinds, dtype=np.int64)[new[7:]]
 
 
 def _expect_variances(points: Array, kind: IntArray, prior: BoardShapePrior | None) -> Array:

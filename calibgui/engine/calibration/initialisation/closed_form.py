@@ -61,8 +61,9 @@ def fit_homographies(observations: Observations, centre: Array, k1: float) -> Ar
         centre: (2,) principal point, array frame, px.
         k1: first coefficient of the correction, px^-2.
     """
-    d = observations.uv - centre
-    corrected = d * (1 + k1 * np.sum(d**2, axis=-1, keepdims=True))
+    x, y = observations.uv[..., 0] - centre[0], observations.uv[..., 1] - centre[1]
+    stretch = 1 + k1 * (x * x + y * y)
+    corrected = np.stack([x * stretch, y * stretch], axis=-1)
     return homography.fit_homography(observations.xy, corrected, observations.mask)
 
 

@@ -42,6 +42,9 @@ from calibgui.engine.geometry.planar_pose import poses_from_homographies
 _CENTRE = ((0, "cx"), (1, "cy"))
 _MAX_CORNERS = 500
 """Number of corners, spread evenly over all, that the coefficients of a start are fitted to."""
+_MAX_SLOPES = 100
+"""Number of corners, spread evenly over all, at which a model's first coefficient is compared with
+k1: to first order most models do the same with it at every corner."""
 _MAX_START_MISS = 0.003
 """Root mean squared miss of the corners at the start, in image widths, from which another start is
 tried."""
@@ -90,9 +93,8 @@ def compute_reference_points(observations: Observations, scale: float, sign: Arr
     """
     # Padding repeats a corner and moves no limit.
     x, y = observations.xy[..., 0], observations.xy[..., 1]
-    centre = np.array([x.min() + x.max(), y.min() + y.max()]) / 2
-    up = np.stack([np.ones_like(sign), -sign], axis=1)
-    return (observations.xy - centre) * (scale * up[:, None])
+    right, up = x - (x.min() + x.max()) / 2, (y.min() + y.max()) / 2 - y
+    return np.stack([scale * right, (scale * sign)[:, None] * up], axis=-1)
 
 
 class _ClosedForm(NamedTuple):
@@ -271,10 +273,10 @@ def _find_known(held: Mapping[str, float | None], name: str, size: Size) -> floa
 
 def find_facing(observations: Observations) -> Array:
     """Return (K,) +1 if the board's Y runs down in the image as v does, -1 if it runs up."""
-    weight = observations.mask[:, None] / observations.mask.sum(axis=1)[:, None, None]
-    board, image = observations.xy[..., :2], observations.uv
-    moments = np.swapaxes(board * np.swapaxes(weight, 1, 2), 1, 2) @ image
-    covariance = moments - np.swapaxes(weight @ board, 1, 2) * (weight @ image)
+    weight = observations.mask / observations.mask.sum(axis=1, keepdims=True)
+    board = np.stack([weight * observations.xy[..., i] for i in range(2)], axis=1)
+    middle = weight[:, None] @ observations.uv
+    covariance = board @ observations.uv - board.sum(axis=2, keepdims=True) * middle
     # A camera turns all triangles of corners alike, and by Cauchy and Binet's formula the
     # determinant is the sum over all of them of the product of both areas.
     return np.asarray(np.sign(np.linalg.det(covariance)))
@@ -290,7 +292,7 @@ def _fit_first_coefficient(lens: PlaneLens, d: Array, k1: float) -> Array:
     if not k.size:
         return k
     d = d.reshape(-1, 2)
-    d = d[:: max(1, len(d) // _MAX_CORNERS)]
+    d = d[:: max(1, len(d) // _MAX_SLOPES)]
     radial = np.sum(d**2, axis=1, keepdims=True) * d
     slope = lens.correct(d, k).by_coefficients[..., 0]
     k[0] = k1 * np.sum(slope * radial) / np.sum(slope**2)

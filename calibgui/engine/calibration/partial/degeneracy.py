@@ -230,7 +230,7 @@ def diagnose_degeneracy(
 
 def _measure_extent(uv: Array, size: Size) -> Array:
     """Return (2,) width and height over which corners (..., 2) lie, as shares of the image's."""
-    return np.asarray(np.ptp(uv.reshape(-1, 2), axis=0) / np.array(size))
+    return np.array([np.ptp(uv[..., i]) / size[i] for i in range(2)])
 
 
 def _is_in_one_place(observations: Observations, state: State) -> bool:

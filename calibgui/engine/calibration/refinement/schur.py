@@ -113,10 +113,15 @@ class Reduced(NamedTuple):
         scaled *= unit[:, None]
         return scaled
 
-    def add_stiffness(self, stiffness: Array) -> Reduced:
-        """Return these equations with (P, P) `stiffness` added to U."""
-        unit = 1 / np.sqrt(self.unit**-2 + np.diag(stiffness))
-        return self._replace(S=self.S + stiffness, unit=unit)
+    def reduce_gradient(self, shared: Array, pose: Array) -> Array:
+        """Return what is left of the gradient by the shared parameters (P,), `shared` and `pose`
+        (K, 6) being those of all unknowns."""
+        return np.asarray(shared - (self.W @ _solve_poses(self.roots, pose))[..., 0].sum(axis=0))
+
+    def solve_poses(self, pose: Array, by_shared: Array) -> Array:
+        """Return the poses' part (K, 6) of (J^T J)^-1 times a vector, from its poses' part (K, 6)
+        and the shared parameters' part (P,) of the product."""
+        return np.asarray(_solve_poses(self.roots, pose - by_shared @ self.W)[..., 0])
 
 
 class FactorisedSystem(NamedTuple):
@@ -129,11 +134,8 @@ class FactorisedSystem(NamedTuple):
 
     def solve(self, shared: Array, pose: Array) -> tuple[Array, Array]:
         """Multiply (J^T J)^-1 by a vector of all unknowns, (P,) shared and (K, 6) poses."""
-        W, roots = self.reduced.W, self.reduced.roots
-        right = shared - (W @ _solve_poses(roots, pose))[..., 0].sum(axis=0)
-        by_shared = self.inverse(right)
-        by_pose = _solve_poses(roots, pose - by_shared @ W)
-        return by_shared, by_pose[..., 0]
+        by_shared = self.inverse(self.reduced.reduce_gradient(shared, pose))
+        return by_shared, self.reduced.solve_poses(pose, by_shared)
 
 
 class Pairs(NamedTuple):
@@ -171,7 +173,7 @@ def eliminate_poses(normal: NormalEquations, damping: float = 0.0) -> Reduced:
 
     With Vk = L L^T, Wk Vk^-1 Wk^T is the square of L^-1 Wk^T.
     """
-    V = normal.V * (1 + damping * np.eye(6))
+    V = normal.V if damping == 0 else normal.V * (1 + damping * np.eye(6))
     try:
         roots = np.asarray(np.linalg.inv(np.linalg.cholesky(V)))
     except np.linalg.LinAlgError:  # a view leaves its pose open, such as far out of a poor camera

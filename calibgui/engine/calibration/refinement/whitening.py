@@ -16,10 +16,14 @@ from __future__ import annotations
 from dataclasses import replace
 
 import numpy as np
-import scipy
 
 from calibgui.engine.arrays import Array
 from calibgui.engine.calibration.observations import Observations
+
+_RELATIVE_TOLERANCE = 1e-6
+"""Relative change of tau^2 at which its estimate ends."""
+_MAX_STEPS = 100
+"""Number of steps that the estimate of tau^2 never needs: far off, each nearly doubles it."""
 
 
 def whiten_observations(observations: Observations, tau2: float = 0.0) -> Observations:
@@ -55,9 +59,12 @@ def estimate_model_variance(observations: Observations, residual: Array, unknown
     values, axes = np.linalg.eigh(C)
     along = (np.swapaxes(axes, -1, -2) @ r[..., None])[..., 0] ** 2
 
-    def excess(tau2: float) -> float:
-        return float(np.sum(along / (values + tau2))) - freedom
-
-    if excess(0.0) <= 0:
-        return 0.0
-    return float(scipy.optimize.brentq(excess, 0.0, float(along.sum()) / freedom, rtol=1e-6))
+    # A sum of hyperbolas is convex: Newton's steps from below the root never pass it.
+    tau2 = max(0.0, float(along.sum() / freedom - values.max()))
+    for _ in range(_MAX_STEPS):
+        terms = along / (values + tau2)
+        step = (terms.sum() - freedom) / (terms / (values + tau2)).sum()
+        if not step > _RELATIVE_TOLERANCE * tau2:
+            break
+        tau2 += float(step)
+    return tau2

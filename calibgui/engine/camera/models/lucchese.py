@@ -93,4 +93,7 @@ class Lucchese(PlaneLens):
 
     def distort(self, n: Array, k: Array) -> Mapped:
         """Map ideal to measured points, the inverse of eq. 9, by Newton's method."""
+        if not k.any():  # the identity: to first order in k its inverse does the opposite
+            points, by_point, by_k = self.correct(n, k)
+            return Mapped(points, by_point, -by_k)
         return invert_map(lambda d: self.correct(d, k), n, make_polynomial_curve(k[:3]))

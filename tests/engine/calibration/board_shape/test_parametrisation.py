@@ -22,6 +22,8 @@ CAMERA = Camera((640, 480), [657, 655, 305, 243, 0.25, 0.06, -0.05, 1e-4, 3e-4, 
 NOMINAL = np.unique(Board(6, 8, 30.0).points(), axis=0)
 """The corners in the order in which the engine numbers a board's."""
 CENTRE = NOMINAL.mean(axis=0)
+ACROSS = (NOMINAL - CENTRE) / np.abs(NOMINAL - CENTRE).max(axis=0)
+"""The corners' places on the board, from -1 to 1 along either side."""
 SIZE = CAMERA.size
 
 

