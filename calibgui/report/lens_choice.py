@@ -53,13 +53,13 @@ class LensRow:
     sigma_x: float
     """Standard deviation of these residuals across the image."""
     sigma_y: float
-    """The same down the image."""
+    """Standard deviation of these residuals down the image."""
     unseen_rms: float
     """RMS length of the residuals of views that the calibration has not seen."""
     unseen_median: float
-    """Median length of them."""
+    """Median length of the residuals of unseen views."""
     unseen_p95: float
-    """Length that 95 % of them do not exceed."""
+    """Length that 95 % of the residuals of unseen views do not exceed."""
     bic: float
     """Bayesian information criterion, less that of the candidate where it is least."""
     field_of_view: tuple[float, float, float]
@@ -72,7 +72,7 @@ class LensRow:
     valid_share: float
     """Share of the image where the map is one-to-one."""
     held: tuple[str, ...]
-    """Coefficients that were held at 0 because the views leave them open."""
+    """Coefficients that were held at 0."""
     is_eligible: bool
     """True if it could be recommended: it is sound, and was tried on unseen views."""
     remarks: tuple[str, ...]
@@ -113,8 +113,16 @@ def _make_row(choice: LensChoice, trial: LensTrial, least_bic: float, least_rms:
 
 
 def _list_held(trial: LensTrial) -> list[str]:
-    """Name the coefficients, if any, that were held because the views leave them open."""
-    return [f"{', '.join(trial.fixed)} held at 0: left open by these views"] if trial.fixed else []
+    """Name the coefficients, if any, that were held at 0, with the reason."""
+    remarks = []
+    if left_open := [name for name in trial.fixed if name not in trial.spared]:
+        remarks.append(f"{', '.join(left_open)} held at 0: left open by these views")
+    if trial.fuller is not None:
+        remarks.append(
+            f"{', '.join(trial.spared)} held at 0: not told from 0, and unseen views are predicted "
+            f"better without ({trial.held_out:.3f} instead of {trial.fuller.held_out:.3f} px RMS)"
+        )
+    return remarks
 
 
 def _list_remarks(trial: LensTrial, least_rms: float) -> list[str]:
@@ -137,6 +145,9 @@ def describe_lens_choice(choice: LensChoice) -> str:
     """Describe the recommended lens model and the reason in one to three sentences."""
     chosen = choice.chosen
     error = f"it predicts unseen views with {chosen.held_out:.3f} px RMS"
+    if chosen.fuller is not None:
+        names = ", ".join(chosen.spared)
+        error += f" ({chosen.fuller.held_out:.3f} px with {names} estimated)"
     name = (
         f"{chosen.model}, with {', '.join(chosen.fixed)} held at 0"
         if chosen.fixed
@@ -155,6 +166,12 @@ def describe_lens_choice(choice: LensChoice) -> str:
         faults = _list_remarks(chosen, min(trial.rms for trial in choice.trials.values()))
         text += f" No model is without reservations; of this one: {'; '.join(faults)}."
     return text
+
+
+def format_lens_options(choice: LensChoice) -> str:
+    """Format the options of `calibgui calibrate` that name the recommended lens model."""
+    fixed = ",".join(f"{name}={value:g}" for name, value in choice.chosen.fixed.items())
+    return f"--model {choice.model}" + (f" --fix {fixed}" if fixed else "")
 
 
 def _describe_refusal(choice: LensChoice) -> list[str]:
@@ -203,6 +220,7 @@ def tabulate_lens_choice(choice: LensChoice) -> str:
     corners = format_count(rows[0].corners, "corner")
     notes = [
         describe_lens_choice(choice),
+        f"To calibrate with it: {format_lens_options(choice)}",
         *(f"{row.model}: {'; '.join(row.remarks)}." for row in rows if row.remarks),
         *(f"{model}: cannot be calibrated. {why}" for model, why in choice.refused.items()),
         *_LEGEND,

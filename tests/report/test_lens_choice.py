@@ -8,12 +8,14 @@ import numpy as np
 import pytest
 from scipy.optimize import brentq
 
-from calibgui.engine.assessment.lens_choice import LensChoice, LensTrial, choose_lens
+from calibgui.engine.assessment.lens_choice import LensChoice, choose_lens
+from calibgui.engine.assessment.lens_trial import LensTrial
 from calibgui.engine.calibration.observations import Observation
 from calibgui.engine.camera.camera import Camera
 from calibgui.engine.camera.models import MODELS
 from calibgui.report.lens_choice import (
     describe_lens_choice,
+    format_lens_options,
     list_lens_rows,
     tabulate_lens_choice,
 )
@@ -134,6 +136,33 @@ def test_coefficients_that_the_views_leave_open_are_named(kept: LensChoice) -> N
     assert row.held == ("k3", "k2") and row.is_eligible
     assert row.remarks == ("k3, k2 held at 0: left open by these views",)
     assert "- lucchese: k3, k2 held at 0" in tabulate_lens_choice(held)
+
+
+def test_coefficients_that_harm_are_named_with_what_they_cost(kept: LensChoice) -> None:
+    whole = replace(kept.trials["lucchese"], fixed={"k3": 0.0})
+    assert whole.validation is not None
+    worse = replace(whole, validation=replace(whole.validation, held_out=0.345))
+    held = change(kept, "lucchese", fixed={"k3": 0.0, "p1": 0.0, "p2": 0.0}, fuller=worse)
+    error = held.chosen.held_out
+    assert describe_lens_choice(held).startswith(
+        "The paper's model (lucchese, with k3, p1, p2 held at 0) is kept: it predicts unseen views "
+        f"with {error:.3f} px RMS (0.345 px with p1, p2 estimated), and no other "
+    )
+    row = next(row for row in list_lens_rows(held) if row.model == "lucchese")
+    assert row.held == ("k3", "p1", "p2") and row.is_eligible
+    assert row.remarks == (
+        "k3 held at 0: left open by these views",
+        "p1, p2 held at 0: not told from 0, and unseen views are predicted better without "
+        f"({error:.3f} instead of 0.345 px RMS)",
+    )
+
+
+def test_the_recommended_model_is_given_as_options_of_calibrate(kept: LensChoice) -> None:
+    assert format_lens_options(kept) == "--model lucchese"
+    held = change(kept, "lucchese", fixed={"k3": 0.0, "p1": 0.0})
+    assert format_lens_options(held) == "--model lucchese --fix k3=0,p1=0"
+    line = "- To calibrate with it: --model lucchese --fix k3=0,p1=0"
+    assert line in tabulate_lens_choice(held).splitlines()
 
 
 def test_there_is_a_reason_for_another_model(fisheye: LensChoice) -> None:

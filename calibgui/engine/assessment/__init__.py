@@ -39,10 +39,10 @@ from calibgui.engine.assessment.lens_choice import (
     CANDIDATES,
     SIMPLEST_MODEL,
     LensChoice,
-    LensTrial,
     choose_lens,
     choose_lens_stepwise,
 )
+from calibgui.engine.assessment.lens_trial import LensTrial
 from calibgui.engine.assessment.method_comparison import (
     Distortion,
     LineTrial,

@@ -21,12 +21,20 @@ Of a model with coefficients that the views leave open, such as the numerator an
 rational one, those of the highest powers are held at 0 one by one until the others are determined.
 
 The paper's model counts as the simplest; the others follow by their number of free parameters.
+
+A coefficient that is not told from 0 does harm where few views extrapolate: what noise makes of it
+grows with a power of the radius. Of the recommended model, the coefficient of the highest power,
+and those that make a lens asymmetric, all of them together, are therefore held at 0 (backward
+elimination), the more harmful first, if they lie within two of their own sigmas of 0 and unseen
+views are predicted better by more than 1 % without them. For less than that they stay: the gain
+would be chance, and the standard deviations of the others would no longer allow for them. With its
+new figures the recommendation is made again, until it stands.
 """
 
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -35,18 +43,14 @@ from calibgui.engine.arrays import Array, Size
 from calibgui.engine.assessment.comparison import compare_cameras, find_covered_pixels
 from calibgui.engine.assessment.cross_validation import (
     DEFAULT_FOLDS,
-    CrossValidation,
     cross_validate,
     predicts_better,
 )
-from calibgui.engine.assessment.residual_statistics import summarise_residuals
+from calibgui.engine.assessment.lens_trial import LensTrial, assess_trial
 from calibgui.engine.calibration.calibrate import calibrate
 from calibgui.engine.calibration.observations import Observation
-from calibgui.engine.calibration.problem import find_free_parameters
-from calibgui.engine.calibration.refinement.covariances import compute_correlations
 from calibgui.engine.calibration.result import Calibration
 from calibgui.engine.camera.models import find_model
-from calibgui.engine.camera.validity import find_valid_pixels, measure_angles
 from calibgui.engine.errors import CalibrationError, Progress
 from calibgui.engine.images.sampling import make_mesh
 from calibgui.engine.uncertainty.projection_uncertainty import estimate_projection_uncertainty
@@ -77,62 +81,11 @@ _MAX_LOSS = 0.01
 """Error on unseen views beyond that of the best candidate, relative to it, that is no loss."""
 _MAX_RESIDUAL_RATIO = 1.5
 """Residuals over those of the best candidate, above which unseen views need not be asked."""
-_MIN_STRONG_CORRELATION = 0.98
-"""Correlation from which on two coefficients are exchangeable."""
+_MIN_TOLD = 2.0
+"""Ratio of a coefficient to its sigma from which on it is told from 0."""
 _MAX_FILLING_DIAGONAL = np.deg2rad(160.0)
 """Diagonal field of view up to which a lens is taken to fill the image; the image circle of wider
 ones mostly ends inside it, and what a model does beyond is nobody's concern."""
-_GRID_SAMPLES = 41
-"""Number of pixels along either side of the image at which a map is examined."""
-
-
-@dataclass(frozen=True, eq=False, slots=True)
-class LensTrial:
-    """A lens model tried on the views."""
-
-    calibration: Calibration
-    """Calibration from all views."""
-    fixed: dict[str, float]
-    """Coefficients that were held at 0 because the views leave them open."""
-    validation: CrossValidation | None
-    """Its error on unseen views; None if its residuals rule it out without."""
-    bic: float
-    """Bayesian information criterion, less for a better model: n ln(r^T r / n) + P ln n."""
-    largest_angle: float
-    """Largest angle off the axis at which a corner was seen, rad; NaN if one has no ray."""
-    field_of_view: Array
-    """(3,) horizontal, vertical and diagonal angle that the image spans, rad; NaN if undefined."""
-    is_valid_at_corners: bool
-    """True if the map is one-to-one within the circle, about the centre, through all corners."""
-    valid_share: float
-    """Share of the image where the map is one-to-one."""
-    exchangeable: tuple[tuple[str, str], ...]
-    """Pairs of coefficients of which the views determine only a combination."""
-
-    @property
-    def model(self) -> str:
-        """Id of the lens model."""
-        return self.calibration.camera.model
-
-    @property
-    def rms(self) -> float:
-        """RMS length of the residuals of all views, px."""
-        return _measure_rms(self.calibration)
-
-    @property
-    def parameters(self) -> int:
-        """Number of estimated parameters of the camera."""
-        return len(find_free_parameters(self.calibration))
-
-    @property
-    def is_sound(self) -> bool:
-        """True if all parameters are determined, and the map is one-to-one at the corners."""
-        return self.is_valid_at_corners and not self.calibration.undetermined
-
-    @property
-    def held_out(self) -> float:
-        """RMS length of the residuals of unseen views, px; infinite if they were not asked."""
-        return np.inf if self.validation is None else self.validation.held_out
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -176,14 +129,14 @@ def choose_lens(
             of parameters that all models have.
         candidates: ids of the models to try.
         folds: number of folds of the cross-validation, at most one a view.
-        progress: a function that is told how many models are done, and of how many.
+        progress: a function that is told how many steps are done, and of how many.
 
     Raises:
         CalibrationError: if there are fewer than three views, or no candidate can be calibrated.
         Cancelled: from `progress`.
     """
-    attempt = _Attempt([Observation(*view) for view in views], size, folds, settings)
-    attempt.try_lenses(candidates, progress)
+    attempt = _Attempt(views, size, folds, progress, settings)
+    attempt.try_lenses(candidates)
     return attempt.recommend()
 
 
@@ -198,11 +151,12 @@ def choose_lens_stepwise(
 
     Args, raises: as for `choose_lens`, without `candidates`.
     """
-    attempt = _Attempt([Observation(*view) for view in views], size, folds, settings)
-    attempt.try_lenses(_FIRST_CANDIDATES, progress)
-    if len(attempt.validations) > 1 and (choice := attempt.recommend()).model == SIMPLEST_MODEL:
+    attempt = _Attempt(views, size, folds, progress, settings)
+    attempt.try_lenses(_FIRST_CANDIDATES)
+    validated = [trial for trial in attempt.trials.values() if trial.validation is not None]
+    if len(validated) > 1 and (choice := attempt.recommend()).model == SIMPLEST_MODEL:
         return choice
-    attempt.try_lenses(CANDIDATES, progress)
+    attempt.try_lenses(CANDIDATES)
     return attempt.recommend()
 
 
@@ -210,165 +164,146 @@ class _Attempt:
     """Lens models tried on the same views; what was tried before is not tried again."""
 
     def __init__(
-        self, views: Sequence[Observation], size: Size, folds: int, settings: dict[str, Any]
+        self,
+        views: Sequence[Observation | tuple[Array, Array]],
+        size: Size,
+        folds: int,
+        progress: Progress | None,
+        settings: dict[str, Any],
     ) -> None:
-        """Take the views, and the arguments of ``cross_validate``."""
+        """Take the arguments of `choose_lens`."""
         if len(views) < _MIN_VIEWS:
             raise CalibrationError(
                 f"{len(views)} views are too few to compare lens models: none can be left out.",
                 "Add views, or name the lens model.",
             )
-        self.views, self.size = views, size
+        self.views, self.size = [Observation(*view) for view in views], size
         self.settings = {name: value for name, value in settings.items() if name != "fix"}
         self.held: dict[str, float | None] = dict(settings.get("fix", {}))
         self.folds = min(folds, len(views))
-        self.calibrations: dict[str, Calibration] = {}
-        self.fixed: dict[str, dict[str, float]] = {}
-        self.validations: dict[str, CrossValidation] = {}
+        self.trials: dict[str, LensTrial] = {}
         self.refused: dict[str, str] = {}
+        self.reduced: set[str] = set()
+        """Models whose coefficients were tried one by one."""
+        self.progress = progress
+        self.done = self.total = 0
 
-    def try_lenses(self, candidates: Sequence[str], progress: Progress | None) -> None:
+    def try_lenses(self, candidates: Sequence[str]) -> None:
         """Calibrate the candidates, and cross-validate those that follow the corners."""
-        done, total = 0, 2 * len(candidates)
-
-        def advance() -> None:
-            nonlocal done
-            if progress is not None:
-                progress(done, total)
-            done += 1
-
+        self.done, self.total = 0, 2 * len(candidates)
         for model in candidates:
-            advance()
-            if model not in self.calibrations and model not in self.refused:
+            self._advance()
+            if model not in self.trials and model not in self.refused:
                 self._calibrate(model)
         for model in candidates:
-            advance()
-            if self._is_close(model) and model not in self.validations:
+            self._advance()
+            if self._is_close(model) and self.trials[model].validation is None:
                 self._validate(model)
+
+    def _advance(self) -> None:
+        """Tell that one more step begins."""
+        if self.progress is not None:
+            self.progress(self.done, self.total)
+        self.done += 1
 
     def _calibrate(self, model: str) -> None:
         """Calibrate a candidate, with the coefficients that the views leave open held at 0."""
         fixed: dict[str, float] = {}
         try:
             while True:
-                fix = self.held | fixed
-                calibration = calibrate(
-                    self.views, self.size, model=model, fix=fix, **self.settings
-                )
-                name = _find_open_coefficient(calibration)
+                trial = self._try(model, fixed)
+                name = _find_open_coefficient(trial.calibration)
                 if name is None:
                     break
-                fixed[name] = 0.0
+                fixed = {**fixed, name: 0.0}
         except CalibrationError as error:
             self.refused[model] = error.message
             return
-        self.calibrations[model], self.fixed[model] = calibration, fixed
+        self.trials[model] = trial
 
     def _validate(self, model: str) -> None:
+        """Cross-validate a candidate."""
         try:
-            self.validations[model] = cross_validate(
-                self.views,
-                self.size,
-                self.folds,
-                model=model,
-                fix=self.held | self.fixed[model],
-                **self.settings,
-            )
+            self.trials[model] = self._predict(self.trials[model])
         except CalibrationError as error:
             self.refused[model] = error.message
-            del self.calibrations[model]
+            del self.trials[model]
+
+    def _try(self, model: str, fixed: dict[str, float]) -> LensTrial:
+        """Calibrate a lens model with some of its coefficients held."""
+        fix = self.held | fixed
+        calibration = calibrate(self.views, self.size, model=model, fix=fix, **self.settings)
+        return assess_trial(calibration, fixed, self.views)
+
+    def _predict(self, trial: LensTrial) -> LensTrial:
+        """Return a trial with its error on unseen views."""
+        how = {"model": trial.model, "fix": self.held | trial.fixed, **self.settings}
+        return replace(trial, validation=cross_validate(self.views, self.size, self.folds, **how))
 
     def _is_close(self, model: str) -> bool:
         """Return whether a model's residuals are of the size of the best one's."""
-        if model not in self.calibrations:
+        if model not in self.trials:
             return False
-        least = min(map(_measure_rms, self.calibrations.values()))
-        return _measure_rms(self.calibrations[model]) <= _MAX_RESIDUAL_RATIO * least
+        least = min(trial.rms for trial in self.trials.values())
+        return self.trials[model].rms <= _MAX_RESIDUAL_RATIO * least
 
     def recommend(self) -> LensChoice:
-        """Recommend one of the models."""
-        trials = {
-            model: _assess(calibration, self.fixed[model], self.validations.get(model), self.views)
-            for model, calibration in self.calibrations.items()
-        }
-        return _recommend(trials, self.refused, self.views)
+        """Recommend one of the models, without the coefficients that harm its predictions."""
+        while True:
+            choice = _recommend(self.trials, self.refused, self.views)
+            if choice.model in self.reduced:
+                return choice
+            self.reduced.add(choice.model)
+            self.trials[choice.model] = self._reduce(choice.chosen)
+
+    def _reduce(self, whole: LensTrial) -> LensTrial:
+        """Hold coefficients at 0 as long as unseen views are predicted better without them."""
+        best = whole
+        while True:
+            nested = [self._spare(best, names) for names in _list_dispensable(best)]
+            sound = [trial for trial in nested if trial is not None and trial.is_sound]
+            least = min(sound, key=lambda trial: trial.held_out, default=best)
+            if best.held_out <= (1 + _MAX_LOSS) * least.held_out:
+                return best
+            best = replace(least, fuller=whole)
+
+    def _spare(self, trial: LensTrial, names: Sequence[str]) -> LensTrial | None:
+        """Try a lens model with further coefficients held at 0; None if that fails."""
+        self.total += 1
+        self._advance()
+        try:
+            return self._predict(self._try(trial.model, trial.fixed | dict.fromkeys(names, 0.0)))
+        except CalibrationError:
+            return None
 
 
 def _find_open_coefficient(calibration: Calibration) -> str | None:
     """Find the coefficient of the highest power of those that the views leave open, if any."""
-    lens = find_model(calibration.camera.model)
+    return _find_highest(calibration.camera.model, [u.name for u in calibration.undetermined])
+
+
+def _find_highest(model: str, names: Sequence[str]) -> str | None:
+    """Find the coefficient of the highest power among parameters of a lens model, if any."""
+    lens = find_model(model)
     powers = dict(zip(lens.names, lens.powers, strict=True))
-    names = [u.name for u in calibration.undetermined if powers.get(u.name, 0) > 0]
-    return max(reversed(names), key=powers.__getitem__, default=None)
+    coefficients = [name for name in lens.names if name in names and powers[name] > 0]
+    return max(reversed(coefficients), key=powers.__getitem__, default=None)
 
 
-def _measure_rms(calibration: Calibration) -> float:
-    """Measure the root mean square length of the residuals, px."""
-    return summarise_residuals(calibration.residuals).rms
+def _list_dispensable(trial: LensTrial) -> list[tuple[str, ...]]:
+    """List what a lens model may do without next, as far as the views do not tell it from 0.
 
-
-def _assess(
-    calibration: Calibration,
-    fixed: dict[str, float],
-    validation: CrossValidation | None,
-    views: Sequence[Observation],
-) -> LensTrial:
-    """Assess a calibration as a candidate."""
-    camera = calibration.camera
-    residuals = np.concatenate([view.image for view in calibration.residuals])
-    n, P = residuals.size, len(find_free_parameters(calibration))
-    w, h = camera.size
-    seen = np.concatenate([view.uv for view in views])
-    radius = np.linalg.norm(seen - camera.centre, axis=1).max()
-    grid = make_mesh(np.linspace(0, w - 1, _GRID_SAMPLES), np.linspace(0, h - 1, _GRID_SAMPLES))
-    is_valid = find_valid_pixels(grid, camera)
-    is_within = np.linalg.norm(grid - camera.centre, axis=-1) <= radius
-    return LensTrial(
-        calibration,
-        fixed,
-        validation,
-        bic=float(n * np.log(np.sum(residuals**2) / n) + P * np.log(n)),
-        largest_angle=float(measure_angles(seen, camera).max()),
-        field_of_view=_measure_field_of_view(calibration),
-        is_valid_at_corners=bool(
-            is_valid[is_within].all() and find_valid_pixels(seen, camera).all()
-        ),
-        valid_share=float(is_valid.mean()),
-        exchangeable=_find_exchangeable(calibration),
-    )
-
-
-def _measure_field_of_view(calibration: Calibration) -> Array:
-    """Measure the horizontal, vertical and diagonal field of view (3,), rad."""
-    camera = calibration.camera
-    w, h = camera.size
-    u, v = camera.centre
-    ends = np.array(
-        [
-            [[-0.5, v], [w - 0.5, v]],
-            [[u, -0.5], [u, h - 0.5]],
-            [[-0.5, -0.5], [w - 0.5, h - 0.5]],
-        ]
-    )
-    angles = measure_angles(ends, camera)
-    return np.asarray(np.where(find_valid_pixels(ends, camera), angles, np.nan).sum(axis=1))
-
-
-def _find_exchangeable(calibration: Calibration) -> tuple[tuple[str, str], ...]:
-    """Find pairs of coefficients of which the views determine only a combination.
-
-    Consecutive coefficients of a polynomial are always correlated, and do no harm; those that shape
-    the projection as a whole are not.
+    It is the coefficient of the highest power, and all that make the lens asymmetric together.
     """
-    lens, names = find_model(calibration.camera.model), calibration.camera.names
-    shaping = [4 + i for i, power in enumerate(lens.powers) if power == 0]
-    matrix = compute_correlations(calibration.covariance)
-    return tuple(
-        (names[i], names[j])
-        for a, i in enumerate(shaping)
-        for j in shaping[a + 1 :]
-        if abs(matrix[i, j]) > _MIN_STRONG_CORRELATION
-    )
+    calibration = trial.calibration
+    camera, lens = calibration.camera, find_model(trial.model)
+    free = [name for name in lens.names if name not in calibration.fixed]
+    asymmetric = tuple(name for name in free if name in lens.asymmetric)
+    highest = _find_highest(trial.model, [name for name in free if name not in asymmetric])
+    near = np.abs(camera.params) < _MIN_TOLD * calibration.sigma
+    not_told = {name for name, is_near in zip(camera.names, near.tolist(), strict=True) if is_near}
+    groups = [asymmetric, () if highest is None else (highest,)]
+    return [group for group in groups if group and not_told.issuperset(group)]
 
 
 def _recommend(

@@ -2,12 +2,16 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
+from calibgui.engine.assessment.cross_validation import resect_views
 from calibgui.engine.assessment.lens_choice import (
     SIMPLEST_MODEL,
     LensChoice,
+    _list_dispensable,
     choose_lens,
     choose_lens_stepwise,
 )
@@ -89,6 +93,43 @@ def test_coefficients_that_the_views_leave_open_are_held() -> None:
     assert trial.fixed
     assert set(trial.fixed) <= set(trial.calibration.fixed)
     assert not trial.calibration.undetermined
+
+
+def predict_elsewhere(choice: LensChoice, camera: Camera) -> float:
+    """Return the RMS distance of a camera's image of unseen views from the truth, px."""
+    residuals = resect_views(choice.chosen.calibration, scene(camera, 12, seed=99).views)
+    return float(np.sqrt(np.mean([np.mean(np.sum(v.image**2, axis=1)) for v in residuals])))
+
+
+def test_coefficients_that_harm_predictions_are_held() -> None:
+    """Four noisy views of a lens that has k1 only tell nothing of k3, and little of p1 and p2."""
+    camera = Camera(VGA, [650, 650, 318, 243, 0.2, 0, 0, 0, 0, 0])
+    views = scene(camera, 4, seed=0).noisy(0.4, np.random.default_rng(0))
+    choice = choose_lens(views, VGA, (SIMPLEST_MODEL,))
+    trial, whole = choice.chosen, choice.chosen.fuller
+    assert whole is not None and not whole.fixed
+    assert trial.spared == tuple(trial.fixed)
+    assert trial.held_out < 0.99 * whole.held_out
+    camera_of_all, sigma = whole.calibration.camera, whole.calibration.sigma
+    spared = [camera_of_all.names.index(name) for name in trial.spared]
+    assert np.all(np.abs(camera_of_all.params[spared]) < 2 * sigma[spared])
+    assert set(trial.fixed) <= set(trial.calibration.fixed)
+    reduced = predict_elsewhere(choice, camera)
+    fuller = predict_elsewhere(replace(choice, trials={SIMPLEST_MODEL: whole}), camera)
+    assert reduced < fuller
+
+
+def test_coefficients_that_the_views_tell_from_0_stay() -> None:
+    views = scene(barrel(), 10, seed=4).noisy(0.05, np.random.default_rng(4))
+    choice = choose_lens(views, VGA, (SIMPLEST_MODEL,))
+    trial, calibration = choice.chosen, choice.chosen.calibration
+    assert trial.fuller is None and not trial.fixed
+    away = np.abs(calibration.camera.params[[6, 7, 8]]) / calibration.sigma[[6, 7, 8]]
+    assert np.round(away).tolist() == [5, 4, 8], "k3, p1 and p2 are told from 0"
+    assert _list_dispensable(trial) == []
+    for times, groups in ((3, [("k3",)]), (10, [("p1", "p2"), ("k3",)])):
+        vaguer = replace(calibration, sigma=times * calibration.sigma)
+        assert _list_dispensable(replace(trial, calibration=vaguer)) == groups
 
 
 def test_too_few_views_are_refused() -> None:
