@@ -44,6 +44,7 @@ from calibgui.engine.calibration.score_tests import (
     SharedCauses,
     judge_explanation,
 )
+from calibgui.engine.threads import with_one_blas_thread
 
 
 @dataclass(frozen=True, slots=True)
@@ -59,6 +60,7 @@ class ErrorSources:
     """True if the lens model does not follow the lens, as far as the residuals tell."""
 
 
+@with_one_blas_thread
 def separate_error_sources(calibration: Calibration, views: Sequence[Observation]) -> ErrorSources:
     """Separate what lens, board, single views and noise contribute to a calibration's residuals.
 

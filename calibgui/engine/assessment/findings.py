@@ -9,8 +9,8 @@ without those behind it, and what one explains is taken out before the next is a
    follows is asked of what is left.
 2. **Number of views.** Two or three views show nothing but that they are too few.
 3. **Lens or board**, which all views share: the lens if ``calibration/lens_error.py`` says so, or
-   whichever explains at least half of what any cause does (``noise_test.py``). What a board or a
-   lens explains, causes that differ from view to view explain as well, since they have unknowns of
+   whichever explains most of what any cause does (``noise_test.py``). What a board or a lens
+   explains, causes that differ from view to view explain as well, since they have unknowns of
    their own in each view.
 4. **Two kinds of views** (``mixed_views.py``), which have twice the unknowns of one.
 5. **Focus, bending, motion**, which differ from view to view; then **blur**, which moves nothing.
@@ -43,10 +43,8 @@ from calibgui.engine.assessment.residual_statistics import summarise_residuals
 from calibgui.engine.assessment.systematic_errors import prepare_fit
 from calibgui.engine.calibration.observations import Observation, name_views
 from calibgui.engine.calibration.result import Calibration
-from calibgui.engine.uncertainty.projection_uncertainty import (
-    ProjectionUncertainty,
-    estimate_projection_uncertainty,
-)
+from calibgui.engine.threads import with_one_blas_thread
+from calibgui.engine.uncertainty.projection_uncertainty import estimate_projection_uncertainty
 
 _MIN_HARM_PX, _MIN_HARM_OF_VIEWS_PX = 0.5, 0.2
 """Uncertainty of a pixel at the image's edge from which its cause is a finding, px; and of causes
@@ -62,6 +60,8 @@ _MIN_DISAGREEMENT = 3.0
 """Ratio of the views' disagreement to what noise explains, from which it is a finding by itself."""
 _MIN_REJECTED, _MAX_REJECTED = 0.2, 0.4
 """Shares of all corners beyond which those that do not fit may be missed by the model, and are."""
+_MIN_TOUCHED = 1 / 3
+"""Share of the views with such corners beyond which the model may miss them."""
 _MIN_SHARE_OF_ALL = 0.5
 """Share of the squared residuals that one cause explains, from which they are."""
 _MIN_SHARE, _MIN_SHARE_SUSPECT = 0.03, 0.01
@@ -110,16 +110,17 @@ class _Case(NamedTuple):
     calibration: Calibration
     views: Sequence[Observation]
     names: Sequence[str]
-    known: ProjectionUncertainty
+    numbers: Sequence[int]
+    """Their indices among the views of the user."""
+    sigma: float
+    """One standard deviation of a pixel, median over the image, px."""
+    harm: float
+    """The same where it is largest; the image's size where nothing is known of pixels, px."""
     rms: float
     """Root mean square residual, px."""
 
-    @property
-    def harm(self) -> float:
-        """One standard deviation of a pixel where it is largest over the image, px."""
-        return float(self.known.worst)
 
-
+@with_one_blas_thread
 def list_findings(
     calibration: Calibration, views: Sequence[Observation], names: Sequence[str] | None = None
 ) -> tuple[Finding, ...]:
@@ -168,16 +169,21 @@ def _find(
 def _prepare_case(
     calibration: Calibration, views: Sequence[Observation], names: Sequence[str]
 ) -> _Case:
-    known = estimate_projection_uncertainty(calibration, views)
+    over_image = estimate_projection_uncertainty(calibration, views).worst_direction
+    known = over_image[np.isfinite(over_image)]  # a lens may image nothing in the corners
+    if not known.size:
+        known = np.array(calibration.camera.size)
     rms = summarise_residuals(calibration.residuals).rms
-    return _Case(calibration, views, names, known, rms)
+    sigma, harm = float(np.median(known)), float(known.max())
+    return _Case(calibration, views, names, range(len(views)), sigma, harm, rms)
 
 
 def _leave_out(screening: Screening, views: Sequence[Observation], names: Sequence[str]) -> _Case:
     """Prepare what is left without the corners that were rejected."""
     used = [k for k, kept in enumerate(screening.kept) if kept.any()]
     left = [select_corners(views[k], screening.kept[k]) for k in used]
-    return _prepare_case(screening.calibration, left, [names[k] for k in used])
+    case = _prepare_case(screening.calibration, left, [names[k] for k in used])
+    return case._replace(numbers=used)
 
 
 def _misses_views(case: _Case, screening: Screening, left: _Case) -> bool:
@@ -187,7 +193,10 @@ def _misses_views(case: _Case, screening: Screening, left: _Case) -> bool:
     does so by chance at most; but then they are fewer, and without them only noise is left.
     """
     rejected = float(np.mean(~np.concatenate(screening.kept)))
-    if rejected <= _MIN_REJECTED or _explain_most(case) <= _MIN_SHARE_OF_ALL:
+    touched = np.mean([not kept.all() for kept in screening.kept])
+    if rejected <= _MIN_REJECTED and touched <= _MIN_TOUCHED:
+        return False
+    if _explain_most(case) <= _MIN_SHARE_OF_ALL:
         return False
     return rejected > _MAX_REJECTED or _explain_most(left) > _MIN_SHARE
 
@@ -207,13 +216,15 @@ def _find_systematic_cause(case: _Case) -> Finding | None:
         return _describe_check(case, check)
     if case.harm < _MIN_HARM_OF_VIEWS_PX:
         return None
+    split = None
     if len(case.views) >= _MIN_VIEWS_TO_JUDGE:
         split = find_two_kinds(prepare_fit(case.calibration, case.views))
-        if split is not None:
-            is_certain = split.is_certain
-            return _describe_two_kinds(case, split) if is_certain else _describe_disagreement(case)
+        if split is not None and split.is_certain:
+            return _describe_two_kinds(case, split)
     check = _choose_cause_of_views(failed)
-    return None if check is None else _describe_check(case, check)
+    if check is not None:
+        return _describe_check(case, check)
+    return None if split is None else _describe_disagreement(case)
 
 
 def _choose_shared_cause(
@@ -252,18 +263,18 @@ def _choose_cause_of_views(failed: dict[str, NoiseCheck]) -> NoiseCheck | None:
 
 
 def _describe_two_kinds(case: _Case, split: Split) -> Finding:
-    odd = tuple(np.flatnonzero(split.is_odd).tolist())
+    odd = np.flatnonzero(split.is_odd).tolist()
     left = case.rms * float(np.sqrt(1 - split.share))
     return Finding(
         Cause.MIXED_VIEWS,
         f"The photographs are of two kinds: {', '.join(case.names[k] for k in odd)} disagree with "
-        "the others about camera or board.",
+        f"the others about the {split.what}.",
         f"If each kind had its own, {left:.2g} px would be left of {case.rms:.2g} px RMS; pixels "
         f"at the image's edge are known to {case.harm:.2g} px.",
         "Look for another camera, zoom, focus or board in these photographs, and calibrate each "
         "kind by itself.",
         case.harm,
-        odd,
+        tuple(case.numbers[k] for k in odd),
     )
 
 
@@ -306,14 +317,14 @@ def _describe_check(case: _Case, check: NoiseCheck) -> Finding | None:
 
 def _find_lack_of_views(case: _Case) -> Finding | None:
     """Find out whether the views are too few, or too much alike; None if they are not."""
-    count, median = len(case.views), float(case.known.median)
+    count = len(case.views)
     few = count < _MIN_VIEWS_TO_JUDGE
-    if not (median > _MAX_POOR_PX or (few and case.harm > _MIN_HARM_PX)):
+    if not (case.sigma > _MAX_POOR_PX or (few and case.harm > _MIN_HARM_PX)):
         return None
     return Finding(
         Cause.FEW_VIEWS,
         f"{count} views are too few." if few else "The views are too few, or too much alike.",
-        f"A pixel is known to {median:.2g} px in the median over the image, and to "
+        f"A pixel is known to {case.sigma:.2g} px in the median over the image, and to "
         f"{case.harm:.2g} px at its edge.",
         "Add views with the board tilted by 20 to 45 degrees in different directions and all over "
         "the image; six good ones are enough.",

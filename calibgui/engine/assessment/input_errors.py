@@ -39,10 +39,10 @@ shows any: as if the image were half as large as stated."""
 _MIN_VIEWS_OF_QUARTER, _MIN_EXTENT_OF_QUARTER = 5, 0.3
 """Number of views, and extent of their corners in the image's size, from which that is no accident.
 """
-_MIN_SIGMAS_MOVED = 5.0
-"""Move of a freed parameter, in its standard deviations by noise, from which its value is wrong."""
-_MIN_FALL = 0.05
-"""Part by which the residuals shrink when a wrong value is freed."""
+_MIN_SIGMAS_MOVED = 4.0
+"""Move of a freed parameter, in its standard deviations, from which its value is wrong."""
+_MIN_HARM_OF_VALUE_PX = 0.2
+"""Largest move of the camera's pixels by the freed parameters, px, from which that matters."""
 _MIN_OUTLYING = 6.0
 """Length of the largest residual, in sigma of the median one, from which outliers are looked for:
 of a thousand sets of 4,000 good corners one has such a residual."""
@@ -102,8 +102,8 @@ def _measure_excess(uv: Array, camera: Camera) -> float:
 def find_wrong_values(calibration: Calibration, views: Sequence[Observation]) -> Iterator[Finding]:
     """Find parameters that the user holds at values that the views contradict.
 
-    Each such parameter is freed; it is at fault if the residuals shrink and it moves by many of its
-    standard deviations.
+    All such parameters are freed; one is at fault if it moves by many of its standard deviations,
+    which include what board and views may do, and if that moves the camera's pixels.
     """
     camera = calibration.camera
     usual = find_model(camera.model).held
@@ -115,24 +115,25 @@ def find_wrong_values(calibration: Calibration, views: Sequence[Observation]) ->
     settings["free"] = [*settings["free"], *by_choice]
     try:
         free = calibrate(views, camera.size, **settings)
+        harm = compare_cameras(free.camera, camera, views=views).worst
     except CalibrationError:  # that is why it is held
         return
-    before, after = (summarise_residuals(c.residuals).rms for c in (calibration, free))
-    if after > (1 - _MIN_FALL) * before:
+    if harm < _MIN_HARM_OF_VALUE_PX:
         return
+    before, after = (summarise_residuals(c.residuals).rms for c in (calibration, free))
     for name in by_choice:
         i = camera.names.index(name)
         moved = free.camera.params[i] - camera.params[i]
-        sigmas = abs(moved) / free.sigma_by_noise[i] if free.sigma_by_noise[i] > 0 else 0.0
+        sigmas = abs(moved) / free.sigma[i] if free.sigma[i] > 0 else 0.0
         if sigmas > _MIN_SIGMAS_MOVED:
             yield Finding(
                 Cause.HELD_VALUE,
                 f"The views contradict the value at which {name} is held.",
                 f"Held at {camera.params[i]:.6g}, it leaves {before:.3g} px RMS; free it is "
                 f"{free.camera.params[i]:.6g}, {sigmas:.0f} of its standard deviations from there, "
-                f"and {after:.3g} px are left.",
+                f"{after:.3g} px are left, and the camera's pixels move by up to {harm:.2g} px.",
                 f"Free {name}, or check where its value comes from.",
-                before,
+                harm,
             )
 
 
@@ -172,7 +173,8 @@ def screen_misplaced_corners(
     is_gross = off > max(_MIN_GROSS_SIGMAS * sigma, _MIN_GROSS_PX)
     if not is_gross.any():
         return None
-    if len({r.view for r in screening.rejected}) == 1:  # the image's edge is in many views
+    of_view = np.concatenate([np.full(len(r.corners), r.view) for r in screening.rejected])
+    if len(np.unique(of_view[is_gross])) == 1:  # the image's edge is in many views
         return screening
     centre = found.camera.centre
     radius = np.linalg.norm(np.concatenate([view.uv for view in views]) - centre, axis=1)

@@ -1,4 +1,4 @@
-"""Methods of calibration side by side, on the same corners.
+"""The comparison of methods of calibration on the same corners.
 
 Every method of ``calibration.methods`` calibrates from all views, and is cross-validated
 as in ``cross_validation.py``: only the poses of views that it has not seen are fitted. Methods that
@@ -61,7 +61,7 @@ _STEP_SIGMAS = 0.01
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Distortion:
-    """Shift of points by the distortion, along the radius, where the outermost corner lies."""
+    """How far the distortion shifts points along the radius where the outermost corner lies."""
 
     radius: float
     """Distance from the centre of distortion at which the shift is stated, px."""
@@ -73,23 +73,24 @@ class Distortion:
 
 @dataclass(frozen=True, eq=False, slots=True)
 class MethodTrial:
-    """A method that calibrates a camera, tried on the views."""
+    """What a method that calibrates a camera makes of the views."""
 
     name: str
-    """Its name in the comparison."""
+    """Name of the method in the comparison."""
     method: Description
-    """What the method is."""
+    """Title, source and limits of the method."""
     settings: Mapping[str, Any]
-    """Arguments of ``calibrate`` that repeat it."""
+    """Arguments of ``calibrate`` that repeat the calibration."""
     calibration: Calibration
-    """From all views."""
+    """The calibration from all views."""
     held_out: float
-    """RMS length of the residuals of unseen views, px; NaN if it fails without some views."""
+    """RMS length of the residuals of unseen views, px; NaN if the method fails without some of the
+    views."""
     distortion: Distortion
     """Shift of the outermost corners."""
     difference: CameraDifference | None
-    """Difference of its camera from the chosen one over the image; None where they have too little
-    in common."""
+    """Difference of the method's camera from the chosen one over the image; None if they have too
+    little in common."""
     remarks: tuple[str, ...]
     """Sentences on the result."""
 
@@ -101,16 +102,17 @@ class MethodTrial:
 
 @dataclass(frozen=True, eq=False, slots=True)
 class LineTrial:
-    """A method that knows no lengths, tried on the views."""
+    """What a method that knows no lengths makes of the views."""
 
     name: str
-    """Its name in the comparison."""
+    """Name of the method in the comparison."""
     method: LineMethod
-    """What the method is."""
+    """Title, source and limits of the method, and its estimate."""
     lines: PlumbLine
-    """From all views."""
+    """The correction of the distortion that is estimated from all views."""
     held_out: float
-    """RMS distance of corners of unseen views from straight lines, px; NaN if it fails."""
+    """RMS distance of corners of unseen views from straight lines, px; NaN if the method fails
+    without some of the views."""
     distortion: Distortion
     """Shift of the outermost corners."""
     u: Array
@@ -118,13 +120,13 @@ class LineTrial:
     v: Array
     """(m,) rows of the map, px."""
     vector: Array
-    """(m, n, 2) difference of its correction from the chosen camera's, up to a homography, px."""
+    """(m, n, 2) difference of the correction from the chosen camera's, up to a homography, px."""
     region: BoolArray
     """(m, n) true where the corners cover the image and statistics of `vector` are taken."""
     remarks: tuple[str, ...]
     """Sentences on the result."""
     seconds: float
-    """Time that it took, s."""
+    """Time that the estimate from all views took, s."""
 
     def __post_init__(self) -> None:
         freeze(self, "u", "v", "vector")
@@ -152,7 +154,7 @@ class LineTrial:
 
 @dataclass(frozen=True, eq=False, slots=True)
 class MethodComparison:
-    """All methods on the same views."""
+    """What all methods make of the same views."""
 
     chosen: Camera
     """Camera that the others are compared with."""

@@ -42,8 +42,9 @@ from calibgui.engine.calibration.observations import (
     pack_observations,
 )
 from calibgui.engine.calibration.result import Calibration
-from calibgui.engine.camera.distortion import project_points
+from calibgui.engine.camera.projection import pixels_from_rays
 from calibgui.engine.geometry.frames import paper_from_array
+from calibgui.engine.geometry.rotations import rotation_from_vector
 
 _CAUCHY_SCALE = 2.0
 """Scale c of the Cauchy weights, in units of s."""
@@ -182,10 +183,15 @@ def _screen_by_residual(
 ) -> bool:
     """Keep the corners within the noise of the prediction, and return whether that changed any."""
     used = [k for k, good in enumerate(kept) if good.any()]
-    lengths = [
-        np.linalg.norm(given[k].uv - project_points(given[k].xy, calibration.camera, pose), axis=1)
-        / _predict_sigma(given[k], calibration.model_error)
+    placed = [
+        given[k].xy @ rotation_from_vector(pose.rvec)[:, :2].T + pose.tvec
         for k, pose in zip(used, calibration.poses, strict=True)
+    ]
+    predicted = pixels_from_rays(np.concatenate(placed), calibration.camera)
+    ends = np.cumsum([len(points) for points in placed])[:-1]
+    lengths = [
+        np.linalg.norm(given[k].uv - uv, axis=1) / _predict_sigma(given[k], calibration.model_error)
+        for k, uv in zip(used, np.split(predicted, ends), strict=True)
     ]
     trusted = np.concatenate([length[kept[k]] for k, length in zip(used, lengths, strict=True)])
     # Perfect data leave rounding only, of which the largest is no outlier.

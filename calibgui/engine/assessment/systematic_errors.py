@@ -40,6 +40,12 @@ class ViewProducts(NamedTuple):
     """(K, m, m) products of the columns with each other."""
     b: Array
     """(K, m) products of the columns with the residuals."""
+    shared: Array
+    """(K, P, P) products of the camera's free columns with each other."""
+    between: Array
+    """(K, P, m) products of the camera's columns with those of the view's own."""
+    gradient: Array
+    """(K, P) products of the camera's columns with the residuals."""
     cost: float
     """The sum of squares r^T r."""
     freedom: int
@@ -150,21 +156,26 @@ def _judge_products(found: ViewProducts) -> Explanation:
 
 
 def _multiply_view_columns(fit: LinearisedFit, columns: Columns) -> ViewProducts:
-    """Multiply columns that each view has of its own, after its pose is eliminated."""
-    N, b, cost = [], [], 0.0
+    """Multiply columns that each view has of its own, and the camera's, without the view's pose."""
+    parts, cost, P = [], 0.0, len(fit.free)
     for views in slice_views(len(fit.state.R)):
         linear = fit.linearise(views)
         k = len(linear.residual)
         X = columns(linear, fit.get_weight(views), views)
-        Jp, X = (M.reshape(k, -1, M.shape[-1]) for M in (linear.by_pose, X))
+        stacked = (linear.by_params[..., fit.free], X, linear.residual[..., None])
+        X = np.concatenate(stacked, axis=-1).reshape(k, -1, P + X.shape[-1] + 1)
         # Columns that no corner depends on would be divided by 0.
+        Jp = linear.by_pose.reshape(k, -1, 6)
         Jp = Jp / np.maximum(np.linalg.norm(Jp, axis=1, keepdims=True), 1e-12)
         Q = np.linalg.qr(Jp)[0]
-        X = X - Q @ (np.swapaxes(Q, 1, 2) @ X)
-        N.append(np.swapaxes(X, 1, 2) @ X)
-        b.append((np.swapaxes(X, 1, 2) @ linear.residual.reshape(k, -1, 1))[..., 0])
+        left = X - Q @ (np.swapaxes(Q, 1, 2) @ X)
+        parts.append(np.swapaxes(left[..., :-1], 1, 2) @ left)
         cost += float(np.sum(linear.residual**2))
-    return ViewProducts(np.concatenate(N), np.concatenate(b), cost, fit.degrees_of_freedom)
+    G = np.concatenate(parts)
+    return ViewProducts(
+        G[:, P:, P:-1], G[:, P:, -1], G[:, :P, :P], G[:, :P, P:-1], G[:, :P, -1], cost,
+        fit.degrees_of_freedom,
+    )  # fmt: skip
 
 
 def _compute_reduction(N: Array, b: Array) -> tuple[float, int]:

@@ -59,7 +59,8 @@ from calibgui.engine.geometry.rotations import rotation_from_vector
 _MIN_EVIDENCE = 25.0
 """Difference of E to the next best label, in powers of e, from which a label is certain."""
 _MIN_EVIDENCE_UPSIDE_DOWN = 3.0
-"""The same difference for a view that shows the board upside down, which is evidence as well."""
+"""Difference of E to the next best label, in powers of e, from which a label is certain for a view
+that shows the board upside down, which is evidence as well."""
 _MAX_SWEEPS = 10
 """Number of sweeps over the views after which the search for the highest E ends."""
 _MAX_MISS = 1e-3
