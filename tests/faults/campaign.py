@@ -54,9 +54,8 @@ class Answer:
 
 
 def examine_fault(name: str, seed: int) -> Answer:
-    """Inject a fault, calibrate, and judge what is said. A seed always makes the same views."""
-    fault = FAULTS[name]
-    made = fault.inject(np.random.default_rng([zlib.crc32(name.encode()), seed]))
+    """Inject a fault, calibrate, and judge what is said."""
+    fault, made = FAULTS[name], inject_fault(name, seed)
     options: Mapping[str, Any] = made.options
     try:
         calibration = calibrate(made.views, made.size, **options)
@@ -68,6 +67,11 @@ def examine_fault(name: str, seed: int) -> Answer:
     causes = [finding.cause.value for finding in findings]
     said = tuple(f"{f.cause.value} ({f.harm:.2g} px): {f.message}" for f in findings)
     return Answer(name, seed, judge_causes(fault, causes, deviation), made.story, said, deviation)
+
+
+def inject_fault(name: str, seed: int) -> FaultySet:
+    """Inject a fault. A seed always makes the same views."""
+    return FAULTS[name].inject(np.random.default_rng([zlib.crc32(name.encode()), seed]))
 
 
 def _judge_error(fault: Fault, text: str) -> Verdict:
@@ -113,28 +117,35 @@ def count_verdicts(answers: Iterable[Answer]) -> Counter[Verdict]:
     return Counter(answer.verdict for answer in answers)
 
 
-def make_table(answers: list[Answer]) -> str:
-    """Make a table in Markdown: a row for each fault, one for all of them, one for clean sets."""
-    lines = [
-        "| cause | draws | right | wrong | silent, harmless | SILENT WRONG | false alarm |",
-        "| --- | --: | --: | --: | --: | --: | --: |",
-    ]
+def make_table(
+    answers: list[Answer], peers: Mapping[str, tuple[float, float]] | None = None
+) -> str:
+    """Make a table in Markdown: a row for each fault, one for all of them, one for clean sets.
+
+    Args:
+        answers: the answers.
+        peers: for each fault the shares of wrong answers of OpenCV and mrcal.
+    """
+    head = ["cause", "draws", "right", "wrong", "silent, harmless", "SILENT WRONG", "false alarm"]
+    head += [] if peers is None else ["OpenCV wrong", "mrcal wrong"]
+    rows = [head, ["---", *["--:"] * (len(head) - 1)]]
     names = list(dict.fromkeys(answer.fault for answer in answers))
-    lines += [
-        _make_row(name, [answer for answer in answers if answer.fault == name])
-        for name in names
-        if name != CLEAN
-    ]
-    if faulty := [answer for answer in answers if answer.fault != CLEAN]:
-        lines.append(_make_row("**all causes**", faulty))
-    if clean := [answer for answer in answers if answer.fault == CLEAN]:
-        lines.append(_make_row(CLEAN, clean))
-    return "\n".join(lines)
+    faults = [name for name in names if name != CLEAN]
+    for title, chosen in [
+        *((name, [name]) for name in faults),
+        ("**all causes**", faults),
+        *((name, [name]) for name in names if name == CLEAN),
+    ]:
+        row = _make_row(title, [answer for answer in answers if answer.fault in chosen])
+        if peers is not None:
+            row += [f"{share:.0%}" for share in np.mean([peers[name] for name in chosen], axis=0)]
+        rows.append(row)
+    return "\n".join(f"| {' | '.join(row)} |" for row in rows)
 
 
-def _make_row(name: str, answers: list[Answer]) -> str:
+def _make_row(name: str, answers: list[Answer]) -> list[str]:
     counts = count_verdicts(answers)
     cells = [
         f"{counts[verdict] / len(answers):.0%}" if counts[verdict] else "" for verdict in Verdict
     ]
-    return f"| {' | '.join([name, str(len(answers)), *cells])} |"
+    return [name, str(len(answers)), *cells]
