@@ -26,12 +26,15 @@ Five views of a board are rendered here in place of photographs.
 from __future__ import annotations
 
 from calibgui.engine.assessment.residual_statistics import ResidualSummary, summarise_residuals
+from calibgui.engine.boards.april_grid import AprilGrid
 from calibgui.engine.boards.board import Board
 from calibgui.engine.boards.charuco import Charuco
 from calibgui.engine.boards.checkerboard import Checkerboard
 from calibgui.engine.boards.circle_grid import Circles
 from calibgui.engine.boards.pattern import Symmetry
+from calibgui.engine.boards.puzzleboard import PuzzleBoard
 from calibgui.engine.boards.shape import BoardShape, BoardShapeModel, BoardShapePrior
+from calibgui.engine.boards.tagged_checkerboard import TaggedCheckerboard
 from calibgui.engine.calibration.calibrate import calibrate
 from calibgui.engine.calibration.observations import Observation
 from calibgui.engine.calibration.refit import Refit, refit
@@ -62,6 +65,7 @@ from calibgui.engine.images.undistortion import FieldOfView, undistort_image
 
 __all__ = [
     "Appearance",
+    "AprilGrid",
     "Assumption",
     "Board",
     "BoardShape",
@@ -85,12 +89,14 @@ __all__ = [
     "NoBoardError",
     "Observation",
     "Pose",
+    "PuzzleBoard",
     "Refit",
     "ResampledImage",
     "ResidualSummary",
     "StageOne",
     "Status",
     "Symmetry",
+    "TaggedCheckerboard",
     "Undetermined",
     "ViewResiduals",
     "calibrate",

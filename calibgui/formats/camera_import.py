@@ -7,10 +7,10 @@ ROS's and Kalibr's, ".json" ours, Basalt's and OpenCV's, ".txt" anybody's.
 from __future__ import annotations
 
 import os
-from pathlib import Path
 
 from calibgui.engine.arrays import Size
 from calibgui.engine.errors import CalibrationError
+from calibgui.engine.files import read_regular
 from calibgui.formats import (
     basalt_json,
     colmap_cameras,
@@ -80,17 +80,11 @@ def _read_text(path: str | os.PathLike[str]) -> str:
     """
     file = os.fspath(path)
     try:
-        with Path(path).open("rb") as opened:
-            content = opened.read(MAX_FILE_SIZE + 1)
+        content = read_regular(path, MAX_FILE_SIZE)
     except OSError as error:
         raise CalibrationError(
             f"{file} cannot be read: {error.strerror or error}.", "Check its name and permissions."
         ) from error
-    if len(content) > MAX_FILE_SIZE:
-        raise CalibrationError(
-            f"{file} is too large for a camera file: more than {MAX_FILE_SIZE >> 20} MB.",
-            "Choose another file.",
-        )
     try:
         return content.decode("utf-8-sig")
     except UnicodeDecodeError as error:

@@ -24,6 +24,7 @@ from calibgui.engine.camera import Camera, find_model, pixels_from_rays, rays_fr
 from calibgui.engine.errors import CalibrationError
 from calibgui.engine.files import write_atomically
 from calibgui.formats.exporter import Exporter, ExportReport
+from calibgui.formats.origin import make_mark
 
 MAX_REFIT_ERROR = 2.0
 """Error of a refitted camera where corners were seen, px, from which on no file is written."""
@@ -55,7 +56,8 @@ def write_in_models(
     expressed = express_in_format(result, exporter)
     check_refit(result, expressed, path)
     note = describe_refit(result, expressed)
-    write_atomically(path, make_text(expressed.calibration, note).encode())
+    marked = f"{make_mark(exporter.name)} {note}"
+    write_atomically(path, make_text(expressed.calibration, marked).encode())
     return ExportReport(path, note, expressed.largest_error)
 
 

@@ -24,9 +24,11 @@ from calibgui.engine.boards import Board
 from calibgui.engine.calibration import Observation
 from calibgui.engine.camera import MODELS
 from calibgui.engine.errors import CalibrationError
-from calibgui.engine.files import write_atomically
+from calibgui.engine.files import read_regular, write_atomically
 from calibgui.formats.exporter import Exporter, ExportReport
 
+MAX_FILE_SIZE = 256 << 20
+"""Size of the largest files that are read, bytes: a million corners have 150 MB."""
 _POINT_COLUMNS = ("u_px", "v_px", "x_mm", "y_mm")
 _COVARIANCE_COLUMNS = ("cov_uu", "cov_uv", "cov_vv")
 _COLUMNS = ("image", "row", "col", *_POINT_COLUMNS)
@@ -69,7 +71,8 @@ def read_corners_csv(path: str | os.PathLike[str]) -> tuple[View, ...]:
     """
     file = Path(path)
     try:
-        rows = list(csv.DictReader(io.StringIO(file.read_text(encoding="utf-8-sig"), newline="")))
+        text = read_regular(file, MAX_FILE_SIZE).decode("utf-8-sig")
+        rows = list(csv.DictReader(io.StringIO(text, newline="")))
     except OSError as error:
         raise CalibrationError(
             f"{file} cannot be read: {error.strerror or error}.", "Check its name and permissions."
@@ -84,6 +87,11 @@ def read_corners_csv(path: str | os.PathLike[str]) -> tuple[View, ...]:
         )
     views: dict[str, list[list[float]]] = {}
     for line, row in enumerate(rows, start=2):
+        if "\0" in row["image"]:
+            raise CalibrationError(
+                f"{file}: the image of corner {line - 1} is no name of a file: it holds a NUL.",
+                "Correct or remove that line.",
+            )
         names = (
             _POINT_COLUMNS + _COVARIANCE_COLUMNS
             if row.get(_COVARIANCE_COLUMNS[0])

@@ -4,9 +4,9 @@
 
 Reader: `read_corners`, and any JSON reader. Positions are pixels in the array frame (0-based,
 integer at pixel centres, v down), `board` millimetres on the board, `cov` (optional) 2 x 2
-covariances in px^2. This program adds the board as `target` (``pattern_json.py``) and to each view
-the members that ``views_json.py`` lists; a reader may ignore these. Views without corners have
-empty lists.
+covariances in px^2. This program adds a sentence on where the file comes from as `origin`
+(``origin.py``), the board as `target` (``pattern_json.py``), and to each view the members that
+``views_json.py`` lists; a reader may ignore these. Views without corners have empty lists.
 Cannot hold: a calibration (see ``result_json.py``).
 """
 
@@ -22,6 +22,7 @@ from calibgui.engine.camera import MODELS
 from calibgui.engine.errors import CalibrationError
 from calibgui.formats.exporter import Exporter, ExportReport
 from calibgui.formats.json_document import Node, read_json, write_json
+from calibgui.formats.origin import CORNERS, make_mark
 from calibgui.formats.pattern_json import decode_board, encode_board
 from calibgui.formats.views_json import decode_views, encode_view
 
@@ -40,7 +41,7 @@ def write_corners(corner_set: CornerSet, path: str | os.PathLike[str]) -> None:
 
 def encode_corners(corner_set: CornerSet) -> dict[str, Any]:
     """Return the content of corners.json."""
-    record: dict[str, Any] = {"size": corner_set.size}
+    record: dict[str, Any] = {"origin": make_mark(CORNERS), "size": corner_set.size}
     if corner_set.board is not None:
         record["target"] = encode_board(corner_set.board)
     return record | {"views": [encode_view(view, corner_set.board) for view in corner_set.views]}

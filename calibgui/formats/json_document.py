@@ -24,17 +24,18 @@ import sys
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from itertools import chain
-from pathlib import Path
 from typing import Any, NoReturn
 
 import numpy as np
 
 from calibgui.engine.arrays import Array, IntArray, freeze_array, freeze_ints
 from calibgui.engine.errors import CalibrationError
-from calibgui.engine.files import open_replacement
+from calibgui.engine.files import open_replacement, read_regular
 
 _CUT_OFF = re.compile(r"(-|\.|[eE][-+]?|tr?u?|fa?l?s?|nu?l?)?\s*")
 """The rest of a file that is cut within a number or word."""
+MAX_JSON_SIZE = 512 << 20
+"""Size of the largest JSON files that are read, bytes: results of a million corners have 400 MB."""
 _MAX_LINE_LENGTH = 100
 """Largest length of a list of lists on one line, in characters."""
 
@@ -150,10 +151,12 @@ class Node:
         """Return the same value with another description of its place."""
         return Node(self.value, where, self.file)
 
-    def items(self) -> list[Node]:
-        """Return the entries of this list."""
+    def items(self, count: int | None = None) -> list[Node]:
+        """Return the entries of this list, of which there must be `count` if that is given."""
         if not isinstance(values := _get_plain(self.value), list):
             self.fail("a list")
+        if count not in (None, len(values)):
+            self.fail(f"a list of {count} entries (it has {len(values)})")
         return [Node(v, f"{self.where}[{i}]", self.file) for i, v in enumerate(values)]
 
     def members(self) -> dict[str, Node]:
@@ -167,6 +170,12 @@ class Node:
         if not isinstance(self.value, str):
             self.fail("text")
         return self.value
+
+    def file_name(self) -> str:
+        """Return this text, which no file has for a name if it holds a NUL."""
+        if "\0" in self.text():
+            self.fail("the name of a file: it holds a NUL")
+        return self.text()
 
     def flag(self) -> bool:
         """Return this truth value."""
@@ -257,11 +266,12 @@ def read_json(path: str | os.PathLike[str]) -> Node:
     """Read the JSON file `path`.
 
     Raises:
-        CalibrationError: if it cannot be read, is cut short or is not JSON.
+        CalibrationError: if it cannot be read, is no regular file or too large, is cut short or is
+            not JSON.
     """
     file = os.fspath(path)
     try:
-        text = Path(path).read_text(encoding="utf-8-sig")
+        text = read_regular(path, MAX_JSON_SIZE).decode("utf-8-sig")
     except OSError as error:
         raise CalibrationError(
             f"{file} cannot be read: {error.strerror or error}.", "Check its name and permissions."

@@ -1,11 +1,15 @@
 """A board and its pattern as JSON objects, the same in every file that holds them.
 
 rows, cols      of inner corners, or of circles
-square_mm       side of a square, distance of circles (of rows of an asymmetric grid)
+square_mm       side of a square or tag, distance of circles (of rows of an asymmetric grid)
 pattern         left out for a checkerboard; else its `kind` and its known properties:
   charuco             dictionary (OpenCV's name), marker (over the square), legacy (layout)
   circles             diameter (over the distance)
   asymmetric-circles  diameter (over the distance of the rows)
+  aprilgrid           family and border (cells) of the tags, spacing (gap over a tag's side),
+                      from_top (the order of the tags)
+  tagged-checkerboard family, border, from_top, step (squares from one tag to the next)
+  puzzleboard         origin (row and column of its first corner on the whole pattern)
 """
 
 from __future__ import annotations
@@ -14,6 +18,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import fields, replace
 from typing import Any
 
+from calibgui.engine.arrays import GridSize
 from calibgui.engine.boards import CHECKERBOARD, KINDS, Board, Pattern
 from calibgui.engine.errors import CalibrationError
 from calibgui.formats.json_document import Node
@@ -44,12 +49,23 @@ def decode_pattern(node: Node | None) -> Pattern:
     return pattern
 
 
-_FIELD_READERS: Mapping[str, Callable[[Node], str | float | bool]] = {
+def _read_grid_index(node: Node) -> GridSize:
+    row, col = node.integers(2).tolist()
+    return row, col
+
+
+_FIELD_READERS: Mapping[str, Callable[[Node], str | float | bool | GridSize]] = {
     "dictionary": Node.text,
     "marker": Node.number,
     "legacy": Node.flag,
     "diameter": Node.number,
     "asymmetric": Node.flag,
+    "family": Node.text,
+    "spacing": Node.number,
+    "border": Node.integer,
+    "step": Node.integer,
+    "from_top": Node.flag,
+    "origin": _read_grid_index,
 }
 """Functions that read a pattern's field, by its name."""
 

@@ -27,7 +27,7 @@ import numpy as np
 
 from calibgui.dataset import Result
 from calibgui.engine.arrays import Array
-from calibgui.engine.assessment import summarise_residuals
+from calibgui.engine.assessment import Finding, list_findings, summarise_residuals
 from calibgui.engine.boards import BoardShape
 from calibgui.engine.calibration import (
     Calibration,
@@ -77,11 +77,32 @@ def write_result(result: Result, path: str | os.PathLike[str]) -> None:
     Raises:
         CalibrationError: if the file cannot be written.
     """
-    write_json(path, encode_result(result))
+    write_json(path, encode_result_with_findings(result))
+
+
+def encode_result_with_findings(result: Result) -> dict[str, Any]:
+    """Return the content of result.json, with what is wrong with the calibration.
+
+    Findings follow from the rest, which takes its time; they are not read back.
+    """
+    names = [view.image for view in result.used]
+    found = list_findings(result.calibration, result.observations(), names)
+    return encode_result(result) | {"findings": [_encode_finding(f, names) for f in found]}
+
+
+def _encode_finding(finding: Finding, names: Sequence[str]) -> dict[str, Any]:
+    return {
+        "cause": finding.cause,
+        "message": finding.message,
+        "evidence": finding.evidence,
+        "remedy": finding.remedy,
+        "harm_px": finding.harm,
+        "views": [names[k] for k in finding.views],
+    }
 
 
 def encode_result(result: Result) -> dict[str, Any]:
-    """Return the content of result.json."""
+    """Return what a result is read from."""
     calibration = result.calibration
     names = calibration.camera.names
     summary = summarise_residuals(calibration.residuals)
@@ -219,7 +240,7 @@ def _decode_calibration(node: Node, used: list[Node]) -> Calibration:
         noise=residuals["noise"].number(nullable=True),
         model_error=error.number() if (error := residuals.get("model_error_px")) else 0.0,
         reference_scale=residuals["reference_px_per_mm"].number(),
-        stage_one=tuple(map(decode_stage_one, node["stage_one"].items())),
+        stage_one=tuple(map(decode_stage_one, node["stage_one"].items(len(used)))),
         history=tuple(map(_decode_iteration, node["history"].items())),
         status=Status(node["status"].choice(list(Status))),
         cost=Cost(node["settings"]["cost"].choice(list(Cost))),

@@ -78,7 +78,7 @@ def decode_views(node: Node, board: Board | None) -> tuple[View, ...]:
 
 
 def _decode_view(node: Node, k: int, board: Board | None) -> View:
-    image = node.named(f"view {k + 1}")["image"].text()
+    image = node.named(f"view {k + 1}")["image"].file_name()
     node = node.named(f"view {k + 1} ({image})")
     uv = node["uv"].numbers(None, 2)
     xy = node["board"].numbers(len(uv), 2)

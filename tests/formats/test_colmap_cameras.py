@@ -13,6 +13,7 @@ from calibgui.engine.errors import CalibrationError
 from calibgui.formats import read_camera
 from calibgui.formats.camera_refit import express_in_format
 from calibgui.formats.colmap_cameras import EXPORTER, write_colmap
+from calibgui.formats.origin import make_mark
 from tests.formats.cameras import PERSPECTIVE, WIDE_RAYS, example, holding
 from tests.formats.readers import RAYS, in_other_python
 
@@ -39,7 +40,7 @@ def test_half_a_pixel_is_added(tmp_path: Path, result: Result) -> None:
     """Whoever reads it: the first pixel's corner is COLMAP's origin."""
     report = write_colmap(result, tmp_path / "cameras.txt")
     first, *_, last = (tmp_path / "cameras.txt").read_text().splitlines()
-    assert first == f"# {report.note}"
+    assert first == f"# {make_mark('colmap')} {report.note}"
     number, model, width, height, *values = last.split()
     camera = express_in_format(result, EXPORTER).calibration.camera
     assert (number, model, int(width), int(height)) == ("1", "FULL_OPENCV", *camera.size)

@@ -102,3 +102,10 @@ def test_a_name_that_is_not_unicode_is_written_for_every_reader(
     file = tmp_path / "corners.csv"
     write_corners_csv([replace(first, image="bad\udcff.png")], result.board, file)
     assert {view.image for view in read_corners_csv(file)} == {"bad\\udcff.png"}
+
+
+def test_a_name_that_no_file_has_is_refused(tmp_path: Path) -> None:
+    path = tmp_path / "corners.csv"
+    path.write_text("image,row,col,u_px,v_px,x_mm,y_mm\na\0b.png,0,0,1,2,3,4\n")
+    with pytest.raises(CalibrationError, match=r"image of corner 1 is no name of a file"):
+        read_corners_csv(path)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 import math
+import os
 from pathlib import Path
 
 import numpy as np
@@ -12,7 +13,14 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from calibgui.engine.errors import CalibrationError
-from calibgui.formats.json_document import Node, are_same_values, check_format, dumps, read_json
+from calibgui.formats.json_document import (
+    MAX_JSON_SIZE,
+    Node,
+    are_same_values,
+    check_format,
+    dumps,
+    read_json,
+)
 
 _SCALARS = (
     st.none()
@@ -195,3 +203,11 @@ def test_other_formats_and_newer_versions_are_refused(content: object, message: 
     with pytest.raises(CalibrationError, match=message):
         check_format(Node(content, "", "a.json"), "x", 2)
     check_format(Node({"format": "x", "version": 2}, "", "a.json"), "x", 2)
+
+
+def test_a_file_too_large_for_memory_is_not_read(tmp_path: Path) -> None:
+    path = tmp_path / "large.json"
+    path.touch()
+    os.truncate(path, MAX_JSON_SIZE + 1)  # takes no place on the disk
+    with pytest.raises(CalibrationError, match=r"large\.json is too large: more than 512 MB"):
+        read_json(path)

@@ -48,7 +48,7 @@ def test_kalibrs_formulas_project_to_our_pixels(tmp_path: Path, result: Result, 
     camera = example(model)
     report = write_kalibr(holding(result, camera), tmp_path / "camchain.yaml")
     text = report.path.read_text()
-    assert f"# {report.note}\n" in text
+    assert f" {report.note}\n" in text
     read = yaml.safe_load(text)["cam0"]
     assert tuple(read["resolution"]) == camera.size
     assert isinstance(read["rostopic"], str) and read["cam_overlaps"] == []

@@ -38,7 +38,7 @@ print(json.dumps({
 def test_mrcal_projects_what_it_reads_to_our_pixels(tmp_path: Path, result: Result) -> None:
     file = tmp_path / "left.cameramodel"
     report = write_mrcal(result, file)
-    assert f"# {report.note}\n" in file.read_text()
+    assert f" {report.note}\n" in file.read_text()
     read = in_other_python(_MRCAL, file, RAYS.tolist(), needs="import mrcal")
     camera = express_in_format(result, EXPORTER).calibration.camera
     assert tuple(read["size"]) == camera.size

@@ -8,11 +8,14 @@ from typing import Any
 
 import pytest
 
+from calibgui.engine.boards.april_grid import AprilGrid
 from calibgui.engine.boards.board import Board
 from calibgui.engine.boards.charuco import Charuco
 from calibgui.engine.boards.circle_grid import Circles
 from calibgui.engine.boards.kinds import KINDS
 from calibgui.engine.boards.pattern import Pattern
+from calibgui.engine.boards.puzzleboard import PuzzleBoard
+from calibgui.engine.boards.tagged_checkerboard import TaggedCheckerboard
 from calibgui.engine.errors import CalibrationError
 from calibgui.formats.json_document import dumps, read_json
 from calibgui.formats.pattern_json import decode_board, encode_board, encode_pattern
@@ -23,6 +26,9 @@ PATTERNS = [
     Charuco(legacy=False),
     Circles(True, 0.8),
     Circles(False, 0.25),
+    PuzzleBoard((50, 100)),
+    AprilGrid("t25h9", 0.25, 1, True),
+    TaggedCheckerboard("t25h7", 2, 4, False),
 ]
 
 
@@ -41,6 +47,11 @@ def test_read_back(tmp_path: Path, pattern: Pattern) -> None:
         {"kind": "charuco", "marker": "big"},
         {"kind": "charuco", "marker": 1.2},
         {"kind": "circles", "diameter": 0},
+        {"kind": "puzzleboard", "origin": [501, 0]},
+        {"kind": "aprilgrid", "family": "t30h3"},
+        {"kind": "aprilgrid", "border": 1.5},
+        {"kind": "tagged-checkerboard", "step": 3},
+        {"kind": "puzzleboard", "origin": [1.5, 0]},
         {},
     ],
 )

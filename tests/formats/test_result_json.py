@@ -18,6 +18,7 @@ from hypothesis import strategies as st
 from calibgui import engine
 from calibgui.dataset import Result, View, ViewStatus
 from calibgui.engine.calibration.calibrate import calibrate
+from calibgui.engine.calibration.observations import Observation
 from calibgui.engine.calibration.result import Cost, DegenerateError, Undetermined
 from calibgui.engine.errors import CalibrationError
 from calibgui.formats import export
@@ -89,6 +90,24 @@ def test_what_is_undetermined_reads_back_as_such(tmp_path: Path, result: Result)
     write_result(partly, tmp_path / "result.json")
     assert same(read_result(tmp_path / "result.json"), partly)
     _validator().validate(_content(partly))
+
+
+def test_findings_are_written_with_the_names_of_their_images(tmp_path: Path) -> None:
+    made = scenes.scene(scenes.barrel(), 10, seed=3)
+    views = made.noisy(0.1, np.random.default_rng(1))
+    moved = views[2].uv.copy()
+    moved[:6] += 30.0
+    views[2] = Observation(moved, views[2].xy)
+    points = [View(f"{k}.png", ViewStatus.FOUND, points=view) for k, view in enumerate(views)]
+    wrong = Result(calibrate(views, made.size), tuple(points), None)
+    write_result(wrong, tmp_path / "result.json")
+    content = json.loads((tmp_path / "result.json").read_text())
+    _validator().validate(content)
+    finding = content["findings"][0]
+    assert finding["cause"] == "misplaced-corners"
+    assert finding["views"] == ["2.png"]
+    assert "2.png" in finding["message"]
+    assert same(read_result(tmp_path / "result.json"), wrong)
 
 
 def test_a_lens_error_is_kept_and_0_where_a_file_has_none(tmp_path: Path, result: Result) -> None:
@@ -316,3 +335,18 @@ def test_no_damage_ends_in_anything_but_a_named_error(
         read_result(file)
     except CalibrationError as error:
         assert str(file) in error.message
+
+
+def test_a_missing_row_of_stage_one_and_an_impossible_name_are_refused(
+    tmp_path: Path, result: Result
+) -> None:
+    path, whole = tmp_path / "result.json", _content(result)
+    rows = len(whole["stage_one"])
+    path.write_text(json.dumps(whole | {"stage_one": whole["stage_one"][1:]}))
+    wanted = rf"result\.json: stage_one is not a list of {rows} entries \(it has {rows - 1}\)"
+    with pytest.raises(CalibrationError, match=wanted):
+        read_result(path)
+    whole["views"][1]["image"] = "a\0b.png"
+    path.write_text(json.dumps(whole))
+    with pytest.raises(CalibrationError, match=r"view 2\.image is not the name of a file: .* NUL"):
+        read_result(path)

@@ -35,7 +35,7 @@ def test_every_float_is_a_number_to_every_reader(value: float) -> None:
 def test_a_yaml_reader_gets_the_refitted_camera(tmp_path: Path, result: Result) -> None:
     report = write_ros(result, tmp_path / "left cam-1.yaml")
     text = (tmp_path / "left cam-1.yaml").read_text()
-    assert f"# {report.note}\n" in text
+    assert f" {report.note}\n" in text
     info = yaml.safe_load(text)
     camera = express_in_format(result, EXPORTER).calibration.camera
     assert (info["image_width"], info["image_height"]) == camera.size

@@ -1,0 +1,49 @@
+"""Marks by which the files that this program wrote are known, and so may be replaced by their like.
+
+A mark stands near the beginning of a file, or near the end of a figure. Files that somebody else
+made have none, and those that hold something else have another one.
+"""
+
+from __future__ import annotations
+
+import os
+import re
+from collections.abc import Mapping
+
+from calibgui.engine.files import open_regular
+
+RESULT, CORNERS, CORNERS_CSV, BOARD_SHAPE = "result", "corners", "corners-csv", "board-shape"
+FIGURE, LENS_COMPARISON, METHOD_COMPARISON = "figure", "lens-comparison", "method-comparison"
+PAPER_PAGE = "paper-page"
+"""Kinds of files; those of exporters are the exporters' names."""
+_LENGTH = 4096
+"""Number of bytes at either end of a file in which its mark is."""
+_OWN_WORDS: Mapping[str, re.Pattern[bytes]] = {
+    RESULT: re.compile(rb'\A\s*\{\s*"format"\s*:\s*"calibgui-result"'),
+    BOARD_SHAPE: re.compile(rb'\A\s*\{\s*"format"\s*:\s*"calibgui-plate"'),
+    CORNERS_CSV: re.compile(rb"\Aimage,row,col,u_px,v_px,x_mm,y_mm"),
+}
+"""Patterns of the files that say in words of their own what they are."""
+
+
+def make_mark(kind: str) -> str:
+    """Return the sentence that marks a file of a kind, for a comment or a note in it."""
+    return f"Written by calibgui as {kind}."
+
+
+def is_own(path: str | os.PathLike[str], kind: str) -> bool:
+    """Return whether this program wrote the file `path`, as a file of a kind.
+
+    An empty file, which holds nothing that could be lost, counts as its own.
+
+    Raises:
+        CalibrationError: if `path` is a device or a pipe.
+        OSError: if it cannot be read.
+    """
+    with open_regular(path) as file:
+        size = os.fstat(file.fileno()).st_size
+        ends = file.read(_LENGTH)
+        file.seek(max(size - _LENGTH, 0))
+        ends += file.read(_LENGTH)
+    mark = _OWN_WORDS.get(kind) or re.compile(re.escape(make_mark(kind).encode()))
+    return size == 0 or mark.search(ends) is not None
