@@ -59,7 +59,7 @@ class ChosenLens(NamedTuple):
     reason: str
     """The reason in words."""
     fixed: Mapping[str, float] = MappingProxyType({})
-    """Coefficients that are held at 0 because the views leave them open."""
+    """Coefficients that are held at 0 with it."""
 
     def apply_to(self, settings: Settings) -> Settings:
         """Return the settings with this lens model in place of the automatic choice."""

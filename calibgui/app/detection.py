@@ -16,14 +16,19 @@ from functools import partial
 from pathlib import Path
 from threading import Event
 
+from calibgui.app.preparation import prepare_finder
 from calibgui.app.workers import Crashed, map_in_processes
 from calibgui.dataset import CornerSet, View, ViewStatus
 from calibgui.engine.arrays import Array, GridSize, Size
 from calibgui.engine.boards import CHECKERBOARD, KINDS, Board, Pattern
 from calibgui.engine.detection import METHODS, Corners, find_corners
 from calibgui.engine.errors import CalibrationError, NoBoardError
-from calibgui.engine.images import read_image, read_image_size
+from calibgui.engine.images import Image, read_image, read_image_size
 
+_MARKED_CHECKERBOARDS = ("tagged-checkerboard", "puzzleboard")
+"""Kinds of boards that a search for plain checkerboards may find as well."""
+_SAMPLES = 2
+"""Number of images in which other boards are looked for, which takes seconds in each."""
 Progress = Callable[[int, int, View], None]
 """Function that is called with the number of finished images, of all images, and the last view."""
 
@@ -45,12 +50,21 @@ class Detection:
         """Return the views for a calibration, on a board of squares of side `square` mm.
 
         Raises:
-            CalibrationError: if no image could be read.
+            CalibrationError: if no image could be read, or the size of the board that was found is
+                neither given nor seen.
         """
         if self.size is None:
             raise CalibrationError(
                 "None of the files can be read as an image.",
                 f"The first: {self.views[0].reason}",
+            )
+        seen = [view.corners for view in self.views if view.corners is not None]
+        if self.grid_size is None and (largest := measure_largest_part(seen)) is not None:
+            rows, cols = largest
+            raise CalibrationError(
+                "No picture shows the whole board, so its size is not known: the largest part seen"
+                f" has {rows} x {cols} inner corners.",
+                "State the size of the board, rows x columns of inner corners.",
             )
         board = None if self.grid_size is None else Board(*self.grid_size, square, self.pattern)
         return CornerSet(self.size, self.views, board)
@@ -95,6 +109,7 @@ def find_views(
             items,
             stop,
             preparing,
+            prepare_finder,
         )
         for done, (i, view) in enumerate(results, start=before + 1):
             views[which[i]] = _record_crash(items[i]) if isinstance(view, Crashed) else view
@@ -120,14 +135,55 @@ def search_view(
 ) -> View:
     """Return the view with the corners found in its image, or the reason why there are none."""
     try:
-        pixels = read_image(view.image).pixels
+        image = read_image(view.image)
     except CalibrationError as error:
         return _clear_corners(view, ViewStatus.UNREADABLE, str(error))
+    doubt = _describe_zero_tail(image)
     try:
-        corners = find_corners(pixels, grid_size, view.roi, method, pattern=pattern)
+        corners = find_corners(image.pixels, grid_size, view.roi, method, pattern=pattern)
     except NoBoardError as error:
-        return _clear_corners(view, ViewStatus.NO_BOARD, str(error))
-    return replace(view, status=ViewStatus.FOUND, reason="", corners=corners)
+        return _clear_corners(view, ViewStatus.NO_BOARD, f"{error} {doubt}".rstrip())
+    return replace(view, status=ViewStatus.FOUND, reason="", note=doubt, corners=corners)
+
+
+def _describe_zero_tail(image: Image) -> str:
+    """Say that an image may have been copied in part; an empty text if it does not look so."""
+    if not image.zero_tail:
+        return ""
+    return (
+        f"The last {100 * image.zero_tail:.2g} % of the file are zeros: if the photograph is not "
+        "black there, copy it from the camera again."
+    )
+
+
+def choose_samples(views: Iterable[View]) -> list[str]:
+    """Return the images in which other boards are looked for where the stated one is in none."""
+    searched = (ViewStatus.FOUND, ViewStatus.NO_BOARD)
+    return [view.image for view in views if view.status in searched][:_SAMPLES]
+
+
+def find_grid_size(images: Sequence[str], pattern: Pattern) -> GridSize | None:
+    """Return the size of the board that some of the `images` show, None if that is none."""
+    found = map_in_processes(partial(search_view, pattern=pattern), [View(i) for i in images])
+    return infer_grid_size(view for _, view in found if isinstance(view, View))
+
+
+def recognise_pattern(views: Sequence[View]) -> Pattern | None:
+    """Return the pattern that photographs show in which a plain checkerboard was looked for.
+
+    Where one was found it may bear marks; where none was found, all other kinds are tried.
+
+    Returns:
+        None if it is a plain checkerboard, or nothing that can be found.
+    """
+    found = [view for view in views if view.corners is not None]
+    if not found:
+        return find_other_pattern(choose_samples(views), CHECKERBOARD)
+    best = max(found, key=lambda view: 0 if view.corners is None else len(view.corners))
+    marked = [KINDS[kind] for kind in _MARKED_CHECKERBOARDS]
+    tries = (search_view(View(best.image), pattern=pattern) for pattern in marked)
+    kinds = (view.corners.pattern.kind for view in tries if view.corners is not None)
+    return next((KINDS[kind] for kind in kinds), None)
 
 
 def find_other_pattern(

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 
 from calibgui.engine.errors import CalibrationError
 from calibgui.engine.files import describe_write_error, refuse_special_file, write_atomically
+from calibgui.formats.origin import FIGURE, is_own, make_mark
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure  # slow to import, and not needed to check
@@ -19,18 +20,31 @@ FIGURE_SUFFIXES = (".png", ".svg", ".pdf")
 """Suffixes of the files that `save_figure` writes."""
 
 
-def check_figure(path: Path) -> None:
-    """Refuse the file of a figure that could not be written.
+def check_figures(
+    paths: Iterable[Path], inputs: Iterable[str | Path], overwrite: bool = False
+) -> None:
+    """Refuse files of figures that could not be written, or would replace what must be kept.
 
     Raises:
-        CalibrationError: if its format is unknown, or as `check_writable`.
+        CalibrationError: if a format is unknown, or as `check_outputs`.
+    """
+    figures = list(paths)
+    for path in figures:
+        check_figure_name(path)
+    check_outputs([(path, FIGURE) for path in figures], inputs, overwrite)
+
+
+def check_figure_name(path: Path) -> None:
+    """Refuse a name that does not tell the format of a figure.
+
+    Raises:
+        CalibrationError: with the suffixes that do.
     """
     if path.suffix.lower() not in FIGURE_SUFFIXES:
         raise CalibrationError(
             f"{path} is not named as a figure.",
             f"Give it the suffix {' or '.join(FIGURE_SUFFIXES)}.",
         )
-    check_writable(path)
 
 
 def check_writable(path: Path) -> None:
@@ -55,19 +69,60 @@ def check_writable(path: Path) -> None:
         )
 
 
-def check_outputs(outputs: Iterable[Path], inputs: Iterable[str | Path]) -> None:
-    """Refuse output files that could not be written, or would replace an input or one another.
+def check_outputs(
+    outputs: Iterable[tuple[Path, str]], inputs: Iterable[str | Path], overwrite: bool = False
+) -> None:
+    """Refuse output files that could not be written, or would replace what must be kept.
+
+    That is the files to read, by whatever name or link, one another, and files that this program
+    did not write or wrote as something else.
+
+    Args:
+        outputs: the files, each with its kind (``formats.origin``).
+        inputs: the files that will be read.
+        overwrite: whether the user allows to replace any other file.
 
     Raises:
         CalibrationError: naming the first.
     """
-    taken = {os.path.realpath(path): "is one of the files to read" for path in inputs}
-    for path in outputs:
+    read = {identify_file(path) for path in inputs} - {None}
+    taken: set[str] = set()
+    for path, kind in outputs:
         check_writable(path)
         place = os.path.realpath(path)
         if place in taken:
-            raise CalibrationError(f"{path} {taken[place]}.", "Choose another name to write to.")
-        taken[place] = "would be written twice"
+            raise CalibrationError(
+                f"{path} would be written twice.", "Choose another name to write to."
+            )
+        taken.add(place)
+        if identify_file(path) in read:
+            raise CalibrationError(
+                f"{path} is one of the files to read.", "Choose another name to write to."
+            )
+        if not overwrite and path.exists():
+            _refuse_foreign(path, kind)
+
+
+def identify_file(path: str | Path) -> tuple[int, int] | None:
+    """Return what is the same for all names of a file; None if there is no such file."""
+    try:
+        state = os.stat(path)  # noqa: PTH116 - takes text as well
+    except OSError:
+        return None
+    return state.st_dev, state.st_ino
+
+
+def _refuse_foreign(path: Path, kind: str) -> None:
+    """Refuse a file that this program did not write as a file of a kind."""
+    try:
+        if is_own(path, kind):
+            return
+    except OSError as error:
+        raise describe_write_error(path, error) from error
+    raise CalibrationError(
+        f"{path} exists, and calibgui did not write it as {kind}.",
+        "Choose another name, or add --overwrite to replace it.",
+    )
 
 
 def make_folder(path: Path) -> None:
@@ -93,5 +148,7 @@ def save_figure(figure: Figure, path: Path) -> None:
         CalibrationError: if it cannot be written.
     """
     content = io.BytesIO()
-    figure.savefig(content, format=path.suffix.removeprefix("."), dpi=110)
+    suffix = path.suffix.lower().removeprefix(".")
+    key = "Software" if suffix == "png" else "Creator"
+    figure.savefig(content, format=suffix, dpi=110, metadata={key: make_mark(FIGURE)})
     write_atomically(path, content.getvalue())

@@ -1,8 +1,8 @@
 """A board to print, as PDF or SVG in true size, with a scale bar to check the print.
 
-The board has one square more each way than inner corners. Its first square is dark, and it has at
-least half a square of white around it, which the corner finder needs. Printers often scale pages:
-the user measures the scale bar with a ruler.
+A checkerboard has one square more each way than inner corners. Its first square is dark. A board
+has at least half a square of white around it, which the corner finder needs. Printers often scale
+pages: the user measures the scale bar with a ruler.
 """
 
 from __future__ import annotations
@@ -13,7 +13,17 @@ from pathlib import Path
 
 from calibgui.engine import opencv
 from calibgui.engine.arrays import GridSize
-from calibgui.engine.boards import Board, Charuco, Circles, Pattern, PrintedDiscs, PrintedRectangles
+from calibgui.engine.boards import (
+    AprilGrid,
+    Board,
+    Charuco,
+    Circles,
+    Pattern,
+    PrintedDiscs,
+    PrintedRectangles,
+    PrintedSquaresAndDots,
+    TaggedCheckerboard,
+)
 from calibgui.engine.errors import CalibrationError
 from calibgui.engine.files import write_atomically
 from calibgui.report.boards import describe_board
@@ -56,6 +66,8 @@ class Page:
     """Width and height of the page, mm."""
     rectangles: tuple[Rectangle, ...]
     discs: tuple[Disc, ...]
+    white_discs: tuple[Disc, ...]
+    """Discs of paper over the rectangles."""
     bar: float
     """Length of the scale bar, mm."""
     text: str
@@ -72,12 +84,16 @@ class Page:
         shapes += "".join(
             f'<circle cx="{x:.4f}" cy="{y:.4f}" r="{r:.4f}"/>\n' for x, y, r in self.discs
         )
+        blanks = "".join(
+            f'<circle cx="{x:.4f}" cy="{y:.4f}" r="{r:.4f}"/>\n' for x, y, r in self.white_discs
+        )
         x, y = self.text_at
         return (
             f'<svg xmlns="http://www.w3.org/2000/svg" width="{width}mm" height="{height}mm" '
             f'viewBox="0 0 {width} {height}">\n'
             f'<rect width="{width}" height="{height}" fill="white"/>\n'
             f'<g fill="black" shape-rendering="crispEdges">\n{shapes}</g>\n'
+            f'<g fill="white">\n{blanks}</g>\n'
             f'<text x="{x:.4f}" y="{y:.4f}" font-family="Helvetica, Arial, sans-serif" '
             f'font-size="{_TEXT_HEIGHT_MM}">{escape(self.text)}</text>\n</svg>\n'
         )
@@ -89,10 +105,12 @@ class Page:
             f"{x:.4f} {height - y - h:.4f} {w:.4f} {h:.4f} re\n" for x, y, w, h in self.rectangles
         )
         squares += "".join(_draw_disc(x, height - y, r) for x, y, r in self.discs)
+        blanks = "".join(_draw_disc(x, height - y, r) for x, y, r in self.white_discs)
+        over = f"1 g\n{blanks}f\n0 g\n" if blanks else ""
         x, y = self.text_at
         text = self.text.replace("\\", "\\\\").replace("(", "\\(").replace(")", "\\)")
         drawing = (
-            f"{_POINTS_PER_MM:.8f} 0 0 {_POINTS_PER_MM:.8f} 0 0 cm\n{squares}f\n"
+            f"{_POINTS_PER_MM:.8f} 0 0 {_POINTS_PER_MM:.8f} 0 0 cm\n{squares}f\n{over}"
             f"BT /F1 {_TEXT_HEIGHT_MM} Tf {x:.4f} {height - y:.4f} Td ({text}) Tj ET\n"
         ).encode("cp1252")
         box = f"[0 0 {width * _POINTS_PER_MM:.4f} {height * _POINTS_PER_MM:.4f}]"
@@ -119,7 +137,39 @@ def complete_pattern(pattern: Pattern, grid_size: GridSize) -> Pattern:
         )
     if isinstance(pattern, Circles):
         return replace(pattern, diameter=pattern.diameter or pattern.half_distance)
+    if isinstance(pattern, AprilGrid):
+        return AprilGrid(
+            pattern.family or "t36h11",
+            pattern.spacing or 0.3,
+            pattern.border or 2,
+            bool(pattern.from_top),
+        )
+    if isinstance(pattern, TaggedCheckerboard):
+        return TaggedCheckerboard(
+            pattern.family or "t36h11",
+            pattern.border or 2,
+            pattern.step or 4,
+            bool(pattern.from_top),
+        )
     return pattern
+
+
+def count_printed(pattern: Pattern, grid_size: GridSize) -> GridSize:
+    """Return the rows and columns of what is printed of a board with rows x columns points: its
+    squares, tags or circles."""
+    rows, cols = grid_size
+    if isinstance(pattern, AprilGrid):
+        return rows // 2, cols // 2
+    return (rows + 1, cols + 1) if pattern.has_squares else grid_size
+
+
+def count_points(pattern: Pattern, printed: GridSize) -> GridSize:
+    """Return the rows and columns of points of a board of which rows x columns squares, tags or
+    circles are printed."""
+    rows, cols = printed
+    if isinstance(pattern, AprilGrid):
+        return 2 * rows, 2 * cols
+    return (rows - 1, cols - 1) if pattern.has_squares else printed
 
 
 def choose_paper(board: Board) -> str:
@@ -160,6 +210,12 @@ def lay_out_page(board: Board, paper: str) -> Page:
     y0 = (height - _FOOT_HEIGHT_MM - down * side) / 2 - top * side
     rectangles: list[Rectangle] = []
     discs: list[Disc] = []
+    white_discs: list[Disc] = []
+    if isinstance(ink, PrintedSquaresAndDots):
+        dots = [(x0 + u, y0 + v, side * ink.radius) for u, v in (side * ink.centres).tolist()]
+        discs = [dot for dot, dark in zip(dots, ink.dark.tolist(), strict=True) if dark]
+        white_discs = [dot for dot, dark in zip(dots, ink.dark.tolist(), strict=True) if not dark]
+        ink = ink.rectangles
     if isinstance(ink, PrintedRectangles):
         for u, v, w, z in (side * ink.list_rectangles()).tolist():
             rectangles.append((x0 + u, y0 + v, w - u, z - v))
@@ -170,6 +226,8 @@ def lay_out_page(board: Board, paper: str) -> Page:
     step = bar / 10
     ruler = [(x + 2 * k * step, y, step, 2.0) for k in range(5)] + [(x, y + 2.0, bar, 0.3)]
     unit = "squares" if board.pattern.has_squares else "distance"
+    if isinstance(board.pattern, AprilGrid):
+        unit = "tags"
     text = (
         f"{bar:g} mm. Print without scaling and measure the bar. "
         f"{describe_board(board)}, {unit} of {side:g} mm."
@@ -178,7 +236,15 @@ def lay_out_page(board: Board, paper: str) -> Page:
         min(x, width - _MARGIN_MM - _TEXT_ADVANCE_RATIO * _TEXT_HEIGHT_MM * len(text)),
         y + 2.3 + 1.4 * _TEXT_HEIGHT_MM,
     )
-    return Page((width, height), (*rectangles, *ruler), tuple(discs), bar, text, text_at)
+    return Page(
+        (width, height),
+        (*rectangles, *ruler),
+        tuple(discs),
+        tuple(white_discs),
+        bar,
+        text,
+        text_at,
+    )
 
 
 def _draw_disc(x: float, y: float, r: float) -> str:

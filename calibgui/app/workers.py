@@ -2,8 +2,11 @@
 
 The workers are processes, not threads: the corner search is many short numpy calls that hold the
 interpreter's lock, so that two threads take as long as one; a process can be killed in the middle
-of an image; and a crash costs only the image that was worked on. Workers are spawned, not forked,
-because the threads of the window must not be copied.
+of an image; and a crash costs only the image that was worked on.
+
+A process with one thread on Linux is forked: its workers have every library and kernel that it has
+loaded. Elsewhere they are spawned and load all anew: the threads of the window must not be copied,
+and the libraries of other systems do not stand it.
 """
 
 from __future__ import annotations
@@ -12,17 +15,20 @@ import contextlib
 import multiprocessing
 import os
 import signal
+import sys
+import threading
 import traceback
+import warnings
 from collections.abc import Callable, Generator, Iterator, Sequence
 from multiprocessing import resource_tracker
 from multiprocessing.connection import Connection, wait
-from multiprocessing.context import SpawnProcess
+from multiprocessing.process import BaseProcess
 from threading import Event
 from typing import Any, TypeVar, cast
 
 from calibgui.engine import opencv
 from calibgui.engine.errors import Cancelled
-from calibgui.engine.kernels import when_compiling
+from calibgui.engine.kernels import NumbaWarning, when_compiling
 from calibgui.engine.threads import limit_blas_threads
 
 T = TypeVar("T")
@@ -30,7 +36,8 @@ R = TypeVar("R")
 
 _POLL_SECONDS = 0.05
 """Time between two checks of `stop`, s."""
-_CONTEXT = multiprocessing.get_context("spawn")
+_prepared: set[Callable[[], None]] = set()
+"""What need not be prepared again in this process."""
 
 
 class Crashed(Exception):  # noqa: N818 - a value, never raised
@@ -46,6 +53,7 @@ def map_in_processes(
     items: Sequence[T],
     stop: Event | None = None,
     preparing: Callable[[], None] | None = None,
+    prepare: Callable[[], None] | None = None,
 ) -> Generator[tuple[int, R | Crashed], None, None]:
     """Yield the index and task(item) of each item, in the order of completion.
 
@@ -56,18 +64,31 @@ def map_in_processes(
         items: arguments of the task.
         stop: ends the work at once when set.
         preparing: called once if kernels have to be compiled first.
+        prepare: a function of a module that loads or compiles the kernels of the task. It is called
+            once before the work is shared, so that no two processes compile the same.
 
     Raises:
         Cancelled: if `stop` was set.
         Exception: any that `task` raised, with the traceback in the worker as a note.
     """
     waiting = list(enumerate(items))[::-1]
-    team = [_start_worker(task) for _ in range(min(len(items), os.cpu_count() or 1))]
+    if prepare in _prepared or not items:
+        prepare = None
+    if prepare is not None and _can_fork():
+        _prepare_here(prepare, preparing)
+        prepare = None
+    team = [
+        _start_worker(task, None if k else prepare)
+        for k in range(min(len(items), os.cpu_count() or 1))
+    ]
     # The index of the item that each worker is busy with; None until it has started.
     busy: dict[Connection, int | None] = {connection: None for connection, _ in team}
+    is_prepared = prepare is None
     try:
         while busy:
-            ready = cast(list[Connection], wait(list(busy), _POLL_SECONDS))
+            # The others' messages wait until the first worker has prepared what all of them load.
+            heard = list(busy) if is_prepared else [team[0][0]]
+            ready = cast(list[Connection], wait(heard, _POLL_SECONDS))
             if stop is not None and stop.is_set():
                 raise Cancelled
             for connection in ready:
@@ -81,6 +102,9 @@ def map_in_processes(
                     continue
                 if lost and index is None:
                     raise RuntimeError("A worker process could not be started.")
+                if prepare is not None:
+                    _prepared.add(prepare)
+                    is_prepared = True
                 if lost and waiting:
                     team.append(_start_worker(task))
                     busy[team[-1][0]] = None
@@ -98,12 +122,37 @@ def map_in_processes(
             connection.close()
 
 
-def _start_worker(task: Callable[[Any], Any]) -> tuple[Connection, SpawnProcess]:
-    """Start a worker; return it with the connection for items and results."""
-    ours, theirs = _CONTEXT.Pipe()
-    process = _CONTEXT.Process(target=_run_worker, args=(task, theirs), daemon=True)
-    with _block_interrupts():
-        process.start()
+def _can_fork() -> bool:
+    """Return whether this process can be copied: it has one thread, and no window library's."""
+    has_window = any(name.startswith("PySide6") for name in sys.modules)
+    return sys.platform == "linux" and threading.active_count() == 1 and not has_window
+
+
+def _prepare_here(prepare: Callable[[], None], preparing: Callable[[], None] | None) -> None:
+    """Prepare in this process what workers are then forked with."""
+    with opencv.single_thread(), when_compiling(preparing or (lambda: None)):
+        prepare()
+    _prepared.add(prepare)
+
+
+def _start_worker(
+    task: Callable[[Any], Any], prepare: Callable[[], None] | None = None
+) -> tuple[Connection, BaseProcess]:
+    """Start a worker, which calls `prepare` first; return it with the connection for items and
+    results."""
+    forks = _can_fork()
+    context: Any = multiprocessing.get_context("fork" if forks else "spawn")
+    ours, theirs = context.Pipe()
+    process = context.Process(target=_run_worker, args=(task, theirs, prepare), daemon=True)
+    if forks:
+        with opencv.single_thread(), _block_interrupts(), warnings.catch_warnings():
+            # Python counts the threads of BLAS, which stops them itself before a fork.
+            warnings.filterwarnings("ignore", ".*multi-threaded.*fork", DeprecationWarning)
+            process.start()
+    else:
+        resource_tracker.ensure_running()  # it unblocks interrupts, and would be started within
+        with _block_interrupts():
+            process.start()
     theirs.close()
     return ours, process
 
@@ -119,14 +168,23 @@ def _receive_result(connection: Connection) -> tuple[Any, bool]:
     return result, False
 
 
-def _run_worker(task: Callable[[Any], Any], connection: Connection) -> None:
-    """Report that the worker has started, then do `task` until the connection is closed."""
+def _run_worker(
+    task: Callable[[Any], Any], connection: Connection, prepare: Callable[[], None] | None
+) -> None:
+    """Prepare and report that the worker has started, then do `task` until the connection is
+    closed."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)
     opencv.use_threads(1)
-    with limit_blas_threads(), contextlib.suppress(EOFError, ConnectionError):
+    warnings.simplefilter("ignore", NumbaWarning)  # the parent process says so, once
+    with (
+        limit_blas_threads(),
+        contextlib.suppress(EOFError, ConnectionError),
+        when_compiling(lambda: connection.send((None, _Compiling()))),
+    ):
+        if prepare is not None:
+            prepare()
         connection.send((None, None))
-        with when_compiling(lambda: connection.send((None, _Compiling()))):
-            _serve_items(task, connection)
+        _serve_items(task, connection)
 
 
 def _serve_items(task: Callable[[Any], Any], connection: Connection) -> None:
@@ -147,7 +205,6 @@ def _block_interrupts() -> Iterator[None]:
     if not hasattr(signal, "pthread_sigmask"):  # Windows
         yield
         return
-    resource_tracker.ensure_running()  # which unblocks it, and would be started within
     before = signal.pthread_sigmask(signal.SIG_BLOCK, {signal.SIGINT})
     try:
         yield

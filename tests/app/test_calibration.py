@@ -245,7 +245,7 @@ def test_the_papers_lens_model_is_kept_where_it_is_enough() -> None:
     assert calibration.camera.model == calibration.settings["model"] == "lucchese"
     assert calibration.warnings[0] == calibration.settings["model_reason"]
     assert calibration.warnings[0].startswith("The paper's model (lucchese) is kept: it predicts")
-    assert progress == [(0, 4), (1, 4), (2, 4), (3, 4), (1, 1)]
+    assert progress == [(0, 4), (1, 4), (2, 4), (3, 4), (4, 5), (1, 1)]
     by_name = calibrate_views(noisy(), Settings()).calibration
     np.testing.assert_array_equal(calibration.camera.params, by_name.camera.params)
     assert "model_reason" not in by_name.settings

@@ -14,6 +14,7 @@ from calibgui.app.detection import Detection, find_views, infer_grid_size, searc
 from calibgui.app.paths import find_images
 from calibgui.dataset import View, ViewStatus
 from calibgui.engine.arrays import freeze_array
+from calibgui.engine.boards.board import Board
 from calibgui.engine.boards.pattern import Symmetry
 from calibgui.engine.camera.distortion import project_points
 from calibgui.engine.detection.corners import Corners
@@ -165,3 +166,30 @@ def test_no_readable_image_is_an_error(tmp_path: Path) -> None:
     found = find_views(find_images([str(tmp_path)]))
     with pytest.raises(CalibrationError, match="None of the files"):
         found.corner_set(30.0)
+
+
+def test_a_file_that_ends_in_zeros_is_pointed_out(photographs: Path, tmp_path: Path) -> None:
+    """The board may be seen all the same, in what was copied."""
+    pixels = read_image(photographs / "view1.png").pixels
+    black = np.zeros((240, pixels.shape[1]), np.uint8)
+    write_image(tmp_path / "seen.pgm", np.concatenate([pixels, black]))
+    write_image(tmp_path / "cut.pgm", np.concatenate([pixels[:10], black, black]))
+    seen = search_view(View(str(tmp_path / "seen.pgm")))
+    assert seen.status is ViewStatus.FOUND
+    assert seen.note.startswith("The last 50 % of the file are zeros: if the photograph is not")
+    cut = search_view(View(str(tmp_path / "cut.pgm")))
+    assert cut.status is ViewStatus.NO_BOARD
+    assert "The last 98 % of the file are zeros" in cut.reason
+
+
+def test_parts_alone_do_not_tell_the_size() -> None:
+    """Two pictures that each show a part of the board."""
+    views = []
+    for rows, cols in ((4, 7), (5, 6)):
+        grid = np.argwhere(np.ones((rows, cols), dtype=np.bool_))[1:]
+        uv = 20.0 * grid[:, ::-1] + 50
+        corners = Corners((rows, cols), grid, uv, uv)
+        views.append(View(f"{rows}.png", ViewStatus.FOUND, corners=corners))
+    with pytest.raises(CalibrationError, match="largest part seen has 5 x 7 inner corners"):
+        Detection(tuple(views), (640, 480), None).corner_set(30.0)
+    assert Detection(tuple(views), (640, 480), (5, 7)).corner_set(30.0).board == Board(5, 7, 30.0)

@@ -8,7 +8,14 @@ from pathlib import Path
 import pytest
 from matplotlib.figure import Figure
 
-from calibgui.app.outputs import check_outputs, check_writable, make_folder, save_figure
+from calibgui.app.outputs import (
+    FIGURE_SUFFIXES,
+    check_figures,
+    check_outputs,
+    check_writable,
+    make_folder,
+    save_figure,
+)
 from calibgui.engine.errors import CalibrationError
 from calibgui.engine.images.reading import read_image_size
 
@@ -52,12 +59,61 @@ def test_a_figure_is_written_whole_or_not_at_all(tmp_path: Path) -> None:
 
 
 def test_an_output_takes_no_other_files_place(tmp_path: Path) -> None:
+    photograph, result = tmp_path / "a.png", (tmp_path / "r.json", "result")
+    photograph.write_bytes(b"a photograph")
+    check_outputs([result, (tmp_path / "r.yaml", "ros")], [photograph])
+    for overwrite in (False, True):
+        with pytest.raises(CalibrationError, match=r"a\.png is one of the files to read"):
+            again = tmp_path / ".." / tmp_path.name / "a.png"
+            check_outputs([(again, "figure")], [photograph], overwrite)
+        with pytest.raises(CalibrationError, match=r"r\.json would be written twice"):
+            check_outputs([result, (tmp_path / "." / "r.json", "result")], [], overwrite)
+
+
+@pytest.mark.skipif(os.name != "posix", reason="links of POSIX")
+def test_no_input_is_written_to_through_a_link(tmp_path: Path) -> None:
     photograph = tmp_path / "a.png"
-    check_outputs([tmp_path / "r.json", tmp_path / "r.yaml"], [photograph])
-    with pytest.raises(CalibrationError, match=r"a\.png is one of the files to read"):
-        check_outputs([tmp_path / ".." / tmp_path.name / "a.png"], [photograph])
-    with pytest.raises(CalibrationError, match=r"r\.json would be written twice"):
-        check_outputs([tmp_path / "r.json", tmp_path / "." / "r.json"], [])
+    photograph.write_bytes(b"a photograph")
+    (tmp_path / "soft.json").symlink_to(photograph)
+    (tmp_path / "hard.json").hardlink_to(photograph)
+    for name in ("soft.json", "hard.json"):
+        with pytest.raises(CalibrationError, match=f"{name} is one of the files to read"):
+            check_outputs([(tmp_path / name, "result")], [photograph], overwrite=True)
+
+
+def test_only_files_of_the_same_kind_are_replaced(tmp_path: Path) -> None:
+    file = tmp_path / "a"
+    for content, is_replaced in (
+        (b"", True),  # as mktemp makes it
+        (b'{"format": "calibgui-result", "version": 1}', True),
+        (
+            b'{\n "format": "calibgui-project", "results": {"a": {"format": "calibgui-result"}}}',
+            False,
+        ),
+        (b'{"format": "calibgui-plate"}', False),
+        (b'{"origin": "Written by calibgui as corners."}', False),
+        (b"\x89PNG a photograph", False),
+    ):
+        file.write_bytes(content)
+        if is_replaced:
+            check_outputs([(file, "result")], [])
+        else:
+            with pytest.raises(CalibrationError, match=r"did not write it as result.*--overwrite"):
+                check_outputs([(file, "result")], [])
+        check_outputs([(file, "result")], [], overwrite=True)
+        assert file.read_bytes() == content
+
+
+@pytest.mark.parametrize("suffix", FIGURE_SUFFIXES)
+def test_a_figure_says_that_it_is_one_of_ours(tmp_path: Path, suffix: str) -> None:
+    path = tmp_path / f"figure{suffix.upper()}"
+    save_figure(Figure(figsize=(2, 1)), path)
+    check_figures([path], [])
+    with pytest.raises(CalibrationError, match="did not write it as result"):
+        check_outputs([(path, "result")], [])
+    Figure(figsize=(2, 1)).savefig(path, format=suffix[1:])
+    with pytest.raises(CalibrationError, match="did not write it as figure"):
+        check_figures([path], [])
 
 
 @pytest.mark.skipif(os.name != "posix", reason="devices of POSIX")

@@ -92,11 +92,21 @@ def test_everything_is_on_the_sheet_with_white_around(paper: str) -> None:
     assert content.bar in (20, 50, 100, 200, 500, 1000)
 
 
-@pytest.mark.parametrize("kind", ["charuco", "circles", "asymmetric-circles"])
-def test_other_patterns_are_found_on_their_sheet(kind: str, tmp_path: Path) -> None:
-    grid_size = (9, 4)
-    board = Board(*grid_size, 15.0, complete_pattern(KINDS[kind], grid_size))
-    content = lay_out_page(board, "A4")
+@pytest.mark.parametrize(
+    ("kind", "grid_size", "side"),
+    [
+        ("charuco", (9, 4), 15.0),
+        ("circles", (9, 4), 15.0),
+        ("asymmetric-circles", (9, 4), 15.0),
+        ("aprilgrid", (8, 6), 40.0),
+        ("tagged-checkerboard", (10, 6), 20.0),
+    ],
+)
+def test_other_patterns_are_found_on_their_sheet(
+    kind: str, grid_size: tuple[int, int], side: float, tmp_path: Path
+) -> None:
+    board = Board(*grid_size, side, complete_pattern(KINDS[kind], grid_size))
+    content = lay_out_page(board, choose_paper(board))
     seen = gaussian_filter(rasterised(content), 1.5)
     corners = find_corners(seen, grid_size, pattern=KINDS[kind])
     assert corners.complete

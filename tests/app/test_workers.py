@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import multiprocessing
+import os
 import signal
 import subprocess
 import sys
@@ -11,11 +12,30 @@ from functools import partial
 from pathlib import Path
 from threading import Event
 from types import ModuleType
+from typing import cast
 
 import pytest
 
+from calibgui.app import workers
 from calibgui.app.workers import Crashed, map_in_processes
 from calibgui.engine.errors import Cancelled
+
+
+@pytest.fixture(params=["forked", "spawned"], autouse=True)
+def _start(request: pytest.FixtureRequest, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Workers are started in both ways, whatever threads the tests themselves have."""
+    forks = request.param == "forked"
+    if forks and sys.platform != "linux":
+        pytest.skip("processes are forked on Linux only")
+    monkeypatch.setattr(workers, "_can_fork", lambda: forks)
+
+
+def _note_process() -> None:
+    """Leave a trace of the process that prepares."""
+    prepared_in.append(os.getpid())
+
+
+prepared_in: list[int] = []
 
 
 def test_every_item_is_done_and_told_with_its_index() -> None:
@@ -81,7 +101,26 @@ def test_an_exception_comes_through_with_its_traceback() -> None:
     assert "Traceback" in "".join(caught.value.__notes__)
 
 
+def test_what_is_prepared_is_prepared_once_before_the_work(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    """Where workers are forked, this process prepares, and they have what it left."""
+    monkeypatch.setattr(workers, "_prepared", set())
+    prepared_in.clear()
+    asked = ["__import__('tests.app.test_workers').app.test_workers.prepared_in"] * 4
+    found = [here for _, here in map_in_processes(eval, asked, prepare=_note_process)]
+    if workers._can_fork():
+        assert found == [[os.getpid()]] * 4
+    else:
+        assert not prepared_in
+        assert len({number for here in found for number in cast(list[int], here)}) == 1
+    again = [here for _, here in map_in_processes(eval, asked, prepare=_note_process)]
+    assert all(here == prepared_in for here in again)
+
+
 def test_workers_that_cannot_start_are_an_error(monkeypatch: pytest.MonkeyPatch) -> None:
+    if workers._can_fork():
+        pytest.skip("a fork has the modules of its parent")
     only_here = ModuleType("only_here")
     exec("def task(item):\n    return item\n", only_here.__dict__)
     monkeypatch.setitem(sys.modules, "only_here", only_here)
