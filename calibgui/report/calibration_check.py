@@ -119,4 +119,4 @@ def _format_change(check: CalibrationCheck) -> str:
 
 
 def _format_percent(check: CalibrationCheck) -> str:
-    return f"{100 * check.scale:+.3f} ± {100 * check.scale_sigma:.3f}"
+    return f"{100 * check.scale:+z.3f} ± {100 * check.scale_sigma:.3f}"

@@ -1,4 +1,4 @@
-"""One picture of the methods of calibration side by side, drawn with matplotlib."""
+"""The figure of a comparison of methods of calibration, drawn with matplotlib."""
 
 from __future__ import annotations
 
@@ -19,21 +19,22 @@ from calibgui.report.methods import MethodRow, format_length, list_method_rows
 _COLUMNS = 5
 """Number of maps side by side."""
 _MAP_INCHES = 2.1
-"""Width of a map."""
+"""Width of a map, inches."""
 _BAR_INCHES = 0.24
-"""Height of a bar with the space around it."""
+"""Height of a bar with the space around it, inches."""
 _SCALE_PX = (1e-3, 10.0)
 """Least and largest difference that colours tell apart, px; the scale is narrowed to what there
 is."""
 _MAX_BAR = 2.5
-"""Length at which a bar is cut, in those of the median method."""
+"""Length at which a bar is cut, as a multiple of the median method's."""
 _CAMERA_COLOUR, _LINES_COLOUR = "tab:blue", "tab:orange"
 
 
 class _Map(NamedTuple):
-    """Lengths of the difference of a method from the chosen camera."""
+    """How long the difference of a method from the chosen camera is over the image."""
 
     row: MethodRow
+    """The method."""
     u: Array
     """(n,) columns, px."""
     v: Array

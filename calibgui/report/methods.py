@@ -1,11 +1,11 @@
-"""Words and tables about the methods of calibration side by side.
+"""Words and tables on a comparison of methods of calibration.
 
-A row a method: what it says of the camera, how well it predicts views that it has not seen, and how
-far its camera is from the chosen one. What is compared means the same for all methods: pixels of
-the array frame, each value with one standard deviation by the corners' noise alone. What a method
-does not estimate is a dash, never a zero. Coefficients of different lens models mean different
-things even where they share a name; they are listed with their model, and what the tables compare
-is how far the distortion moves the outermost corners.
+The tables have a row for each method: what it says of the camera, how well it predicts views that
+it has not seen, and how far its camera is from the chosen one. What is compared means the same for
+all methods: pixels of the array frame, each value with one standard deviation by the corners' noise
+alone. What a method does not estimate is a dash, never a zero. Coefficients of different lens
+models mean different things even where they share a name; they are listed with their model, and
+what the tables compare is how far the distortion moves the outermost corners.
 """
 
 from __future__ import annotations
@@ -35,10 +35,10 @@ _LINE_UNITS = {"k1": " px^-2", "k2": " px^-4"}
 """Units of the coefficients of methods without lengths."""
 _LEGEND = (
     "Each value has one standard deviation by the corners' noise below it; - is not estimated. "
-    "skew: fx times the coefficient, px per px of height. shift: how far the distortion moves "
-    "points that are measured {radius:.0f} px from the principal point, the outermost corner's "
-    "distance; negative towards it. cx and cy of methods marked * are the centre of the "
-    "distortion.",
+    "skew: fx times the coefficient, the shift across the image over a length of fy down it. "
+    "shift: how far the distortion moves points that are measured {radius:.0f} px from the "
+    "principal point, the outermost corner's distance; negative towards it. cx and cy of methods "
+    "marked * are the centre of the distortion.",
     "RMS: residuals of a calibration from all views, with the poses as the method leaves them. "
     "unseen: RMS of the residuals of views that were left out of the calibration in turn, with "
     "only their poses fitted, which may be less than the RMS of a method that fits no pose. Of "
@@ -57,42 +57,47 @@ class MethodRow:
     """A method as a table shows it. Lengths are in px; NaN if unknown."""
 
     name: str
-    """Its name in the comparison."""
+    """Name of the method in the comparison."""
     title: str
     """Name that a user reads."""
     source: str
-    """Publication that describes it."""
+    """Publication that describes the method."""
     limits: str
-    """Sentence on what it assumes or cannot estimate."""
+    """Sentence on what the method assumes or cannot estimate."""
     kind: str
-    """ "camera"; "lines" if it knows no lengths and gives a distortion only; "refused"."""
+    """Kind of the outcome: "camera"; "lines" if the method knows no lengths and gives a distortion
+    only; "refused" if it gives nothing."""
     values: Mapping[str, tuple[float, float]]
-    """Those of `QUANTITIES` that it estimates, with one standard deviation by the corners' noise,
-    NaN where that is not known. The centre of a method of the kind "lines" is the distortion's."""
+    """Those of `QUANTITIES` that the method estimates, with one standard deviation by the corners'
+    noise, NaN where that is not known. The centre of a method of the kind "lines" is that of the
+    distortion."""
     shift: tuple[float, float] | None
     """Shift of the outermost corners by the distortion along the radius, with its standard
-    deviation; None if it estimates no distortion, or none that holds so far out."""
+    deviation; None if the method estimates no distortion, or none that holds so far out."""
     radius: float
     """Measured distance from the centre at which the shift is stated."""
     coefficients: str
-    """Coefficients of its own lens model, as "k1 = 0.2512 ± 0.0003, k2 = ..."; may be empty."""
+    """Coefficients of the method's own lens model, as "k1 = 0.2512 ± 0.0003, k2 = ..."; may be
+    empty."""
     rms: float
-    """RMS length of the residuals from all views; of lines, of the distances from them."""
+    """RMS length of the residuals of a calibration from all views; of a method of the kind "lines"
+    the RMS distance of corners from straight lines."""
     unseen: float
-    """The same of views that it has not seen."""
+    """RMS length of the residuals, or the RMS distance, of views that the method has not seen."""
     seconds: float
     """Time of initialisation and refinement, s."""
     iterations: int | None
-    """Number of iterations; None if there are none, or it is not known."""
+    """Number of iterations; None if there are none, or their number is not known."""
     difference_rms: float
     """RMS distance between a point's images by this method and by the chosen camera, where corners
     were seen."""
     difference_worst: float
-    """Largest such distance."""
+    """Largest distance between a point's images by this method and by the chosen camera, where
+    corners were seen."""
     remarks: tuple[str, ...]
     """Sentences on the result; of a refused method, the reason."""
     is_usable: bool
-    """True if it gives a camera that can be taken over."""
+    """True if the method gives a camera that can be taken over."""
 
 
 def list_method_rows(comparison: MethodComparison) -> list[MethodRow]:

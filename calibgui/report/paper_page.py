@@ -7,6 +7,7 @@ from html import escape
 
 import numpy as np
 
+from calibgui.formats.origin import PAPER_PAGE, make_mark
 from calibgui.report import paper_tables, printed_values
 from calibgui.report.figures import LOCATED_BY
 from calibgui.report.paper_stage_one import StageOneEvidence, examine_stage_one
@@ -79,6 +80,7 @@ def make_paper_page(reproduction: Reproduction, figures: Mapping[str, str]) -> s
     ]
     return (
         '<!DOCTYPE html>\n<html lang="en"><head><meta charset="utf-8">'
+        f'<meta name="generator" content="{make_mark(PAPER_PAGE)}">'
         f"<title>Lucchese 2005 reproduced</title><style>{_STYLE}</style></head>\n<body>\n"
         + "\n".join(parts)
         + "\n</body></html>\n"

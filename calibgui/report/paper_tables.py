@@ -85,9 +85,9 @@ def stack_stage_one(result: Result) -> Array:
 
 def _list_stage_one(values: Sequence[Array], sd: Array | None = None) -> list[str]:
     """List xp, then yp, then k1 of each source; the second one's with `sd` (3,)."""
-    cells = [[f"{value:.4f}" for value in source] for source in values]
+    cells = [[f"{value:z.4f}" for value in source] for source in values]
     if sd is not None:
-        cells[1] = [f"{v:.4f} ± {s:.2f}" for v, s in zip(values[1], sd, strict=True)]
+        cells[1] = [f"{v:z.4f} ± {s:.2f}" for v, s in zip(values[1], sd, strict=True)]
     return [cell for parameter in zip(*cells, strict=True) for cell in parameter]
 
 
@@ -106,7 +106,7 @@ def make_intrinsics_table(
             f"{name}, {unit}",
             f"{t:.6g}",
             f"{v:.6g}",
-            f"{(v - t) / ts:+.2f}",
+            f"{(v - t) / ts:+z.2f}",
             f"{ts:.3g}",
             f"{s:.3g}",
             f"{h:.3g}",

@@ -142,10 +142,10 @@ def tabulate_camera_difference(found: CameraDifference, expected: float | None) 
     ]
     title = f"Difference in where points {describe_distance(found.distance)} are imaged, px"
     turn = np.degrees(found.turn)
-    motion = f"B is turned against A by ({turn[0]:+.3f}, {turn[1]:+.3f}, {turn[2]:+.3f}) degrees"
+    motion = f"B is turned against A by ({turn[0]:+z.3f}, {turn[1]:+z.3f}, {turn[2]:+z.3f}) degrees"
     if math.isfinite(found.distance):
         x, y, z = found.shift
-        motion += f" and shifted by ({x:+.2f}, {y:+.2f}, {z:+.2f}) mm"
+        motion += f" and shifted by ({x:+z.2f}, {y:+z.2f}, {z:+z.2f}) mm"
     remarks = [f"{motion}, which is taken out.", _describe_agreement(found.median, expected)]
     return "\n".join([title, align_columns(rows, left=(0,)), *map(format_bullet, remarks)])
 

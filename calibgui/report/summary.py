@@ -67,22 +67,45 @@ class Sentence:
 
 
 def describe_calibration(result: Result) -> tuple[Sentence, ...]:
-    """Describe the calibration in words, the most important first."""
+    """Describe the calibration in words: first a verdict, then the most important."""
     names = [shorten_name(view.image) for view in result.used]
     findings = list_findings(result.calibration, result.observations(), names)
-    return (
-        *_describe_basis(result),
-        *_describe_diagnosis(result),
-        *_describe_ending(result),
-        *_describe_findings(findings),
-        *_describe_sources(result, findings),
-        *_describe_board(result, findings),
-        *_describe_fit(result),
-        *_describe_parameters(result, findings),
-        *_describe_correlations(result),
-        *_describe_outlying_views(result, findings),
-        *_describe_advice(result, findings),
-    )
+    sentences = tuple(_describe_in_detail(result, findings))
+    return _describe_verdict(result, findings, sentences), *sentences
+
+
+def _describe_verdict(
+    result: Result, findings: Sequence[Finding], sentences: Sequence[Sentence]
+) -> Sentence:
+    """Describe in a sentence whether something is wrong."""
+    if result.calibration.diagnosis is not None:
+        text = "The views do not determine the camera."
+    elif len(findings) == 1:
+        text = "One thing is wrong."
+    elif findings:
+        text = f"{len(findings)} things are wrong."
+    elif result.calibration.status is not Status.CONVERGED:
+        text = "The calibration is not finished."
+    elif any(sentence.tone is Tone.CAUTION for sentence in sentences):
+        text = "Nothing is wrong with the whole, but mind what follows."
+    else:
+        return Sentence(Tone.GOOD, "Nothing is wrong that the photographs show.")
+    return Sentence(Tone.CAUTION, text)
+
+
+def _describe_in_detail(result: Result, findings: Sequence[Finding]) -> Iterator[Sentence]:
+    """Describe all that is known of the calibration, the most important first."""
+    yield from _describe_basis(result)
+    yield from _describe_diagnosis(result)
+    yield from _describe_ending(result)
+    yield from _describe_findings(findings)
+    yield from _describe_sources(result, findings)
+    yield from _describe_board(result, findings)
+    yield from _describe_fit(result)
+    yield from _describe_parameters(result, findings)
+    yield from _describe_correlations(result)
+    yield from _describe_outlying_views(result, findings)
+    yield from _describe_advice(result, findings)
 
 
 def _describe_basis(result: Result) -> Iterator[Sentence]:
@@ -163,7 +186,7 @@ def describe_lens_error(calibration: Calibration, rms: float) -> str:
     )
     if calibration.board_shape is not None:
         text += " The board's estimated shape stands in for the lens: do not rely on it."
-    return f"{text} Calibrate with --model auto, or compare the lens models."
+    return f"{text} Compare the lens models and take the one that is recommended (--model auto)."
 
 
 def describe_error_sources(sources: ErrorSources) -> str:
@@ -311,7 +334,7 @@ def _describe_correlations(result: Result) -> Iterator[Sentence]:
     names = calibration.camera.names
     matrix = compute_correlations(calibration.covariance)
     pairs = [
-        f"{names[i]} and {names[j]} ({matrix[i, j]:+.3f})"
+        f"{names[i]} and {names[j]} ({matrix[i, j]:+z.3f})"
         for i, j in combinations(range(4, len(names)), 2)
         if abs(matrix[i, j]) > _MIN_STRONG_CORRELATION
     ]

@@ -9,6 +9,7 @@ from __future__ import annotations
 import math
 import textwrap
 from collections.abc import Iterable, Mapping, Sequence
+from itertools import zip_longest
 from pathlib import PurePath
 
 import numpy as np
@@ -22,13 +23,19 @@ from calibgui.engine.geometry import PAPER_NAMES
 from calibgui.report.coverage import measure_attitudes
 from calibgui.report.names import make_printable, shorten_name
 from calibgui.report.numbers import format_count, format_with_sigma
-from calibgui.report.summary import describe_calibration
+from calibgui.report.summary import Tone, describe_calibration
 
 WIDTH_CHARACTERS = 80
 """Number of characters in a line."""
 
 _UNITS = {"fx": "px", "fy": "px", "cx": "px", "cy": "px"}
 _PAPER_UNITS = ("px", "px", "px^-2", "px^-4", "px^-6", "px^-1", "px^-1", "px^-2", "px", "px")
+_URGENT = (Tone.CAUTION, Tone.ADVICE)
+"""Purposes of the sentences that are said before the camera."""
+_MAX_COEFFICIENTS = 14
+"""Number of parameters of a lens model up to which they stand beside the focal lengths."""
+_MAX_NAMES = 6
+"""Number of images that are named, of those that are left out for the same reason."""
 _COSTS = {
     Cost.IMAGE: "reprojection error in the image",
     Cost.REFERENCE: "registration error on the reference plane",
@@ -36,18 +43,51 @@ _COSTS = {
 }
 
 
-def format_report(result: Result) -> str:
-    """Format all tables, the most important at the end, where a terminal shows it."""
+def format_report(result: Result, *, verbose: bool = False) -> str:
+    """Format the verdict, what is wrong, the camera and its RMS; all that is known if `verbose`."""
     calibration = result.calibration
+    verdict, *sentences = describe_calibration(result)
+    urgent = [s for s in sentences if s.tone in _URGENT]
     sections = [
-        tabulate_stage_one(result),
-        tabulate_views(result),
+        "\n".join([verdict.text, *(format_bullet(s.text) for s in urgent)]),
         list_unused_views(result.views),
+    ]
+    if not verbose:
+        sections += [tabulate_camera(calibration), _fill_lines(describe_rms(result), "", "  ")]
+        return "\n\n".join(filter(None, sections))
+    notes = [
+        *(s.text for s in sentences if s not in urgent),
+        *describe_symmetry(result.used),
+        *(f"{PurePath(view.image).name}: {view.note}" for view in result.used if view.note),
+    ]
+    sections += [
         tabulate_intrinsics(calibration),
         describe_residuals(calibration),
-        describe_notes(result),
+        "\n".join(map(format_bullet, notes)),
+        tabulate_views(result),
+        tabulate_stage_one(result),
     ]
-    return "\n\n".join(section for section in sections if section)
+    return "\n\n".join(filter(None, sections))
+
+
+def summarise_in_a_line(result: Result) -> str:
+    """Summarise the calibration in a line: verdict, what is most wrong, focal length and RMS."""
+    calibration = result.calibration
+    verdict, *sentences = describe_calibration(result)
+    cautions = [s.text for s in sentences if s.tone is Tone.CAUTION]
+    name, value, sigma = (
+        calibration.camera.names[0],
+        calibration.camera.params[0],
+        calibration.sigma[0],
+    )
+    return " ".join(
+        [
+            verdict.text,
+            *cautions[:1],
+            f"{name} = {_format_parameter(calibration, name, value, sigma)} px, RMS "
+            f"{summarise_residuals(calibration.residuals).rms:.4f} px, {_count_used(result)}.",
+        ]
+    )
 
 
 def tabulate_stage_one(result: Result) -> str:
@@ -105,11 +145,48 @@ def tabulate_views(result: Result) -> str:
 
 
 def list_unused_views(all_views: Iterable[View]) -> str:
-    """List the images that were left out, each with the reason; empty if there are none."""
+    """List the images that were left out by the reason; empty if there are none."""
+    names: dict[str, list[str]] = {}
+    for view in all_views:
+        if not view.usable:
+            reason = view.reason or "Left out by choice."
+            # Reading errors name the file already.
+            named = reason.startswith(view.image)
+            names.setdefault(reason, []).extend([] if named else [PurePath(view.image).name])
     lines = [
-        _fill_lines(_describe_unused(view), "  ", "    ") for view in all_views if not view.usable
+        _fill_lines(_join_names(images) + make_printable(reason), "  ", "    ")
+        for reason, images in names.items()
     ]
     return "\n".join(["Left out", *lines]) if lines else ""
+
+
+def _join_names(names: Sequence[str]) -> str:
+    """Join the names of images that have something in common, before what that is."""
+    if not names:
+        return ""
+    more = [f"and {len(names) - _MAX_NAMES} more"] if len(names) > _MAX_NAMES else []
+    return f"{', '.join([*map(make_printable, names[:_MAX_NAMES]), *more])}: "
+
+
+def tabulate_camera(calibration: Calibration) -> str:
+    """Tabulate the camera in the array frame, in few lines."""
+    camera = calibration.camera
+    rows = [
+        [name, _format_parameter(calibration, name, value, sigma), _UNITS.get(name, "")]
+        for name, value, sigma in zip(camera.names, camera.params, calibration.sigma, strict=True)
+    ]
+    lens = rows[4:]
+    if len(lens) > _MAX_COEFFICIENTS:
+        lens = [["", f"and {len(lens)} parameters of the lens model {camera.model}", ""]]
+    columns = zip_longest(rows[:4], lens, fillvalue=["", "", ""])
+    chosen = calibration.settings.get("model_reason")
+    return "\n".join(
+        [
+            _make_camera_title(calibration),
+            align_columns([[*a, " ", *b] for a, b in columns], left=range(7)),
+            *([format_bullet(str(chosen))] if chosen else []),
+        ]
+    )
 
 
 def tabulate_intrinsics(calibration: Calibration) -> str:
@@ -120,8 +197,7 @@ def tabulate_intrinsics(calibration: Calibration) -> str:
         [name, _format_parameter(calibration, name, value, sigma), _UNITS.get(name, "")]
         for name, value, sigma in zip(names, camera.params, calibration.sigma, strict=True)
     ]
-    size = f"{camera.size[0]} x {camera.size[1]} px"
-    title = f"Camera, {size}, each value ± one standard deviation"
+    title = _make_camera_title(calibration)
     if not isinstance(find_model(camera.model), Lucchese):
         return f"{title}\n" + align_columns([["", "array frame", ""], *left], left=(0, 1, 2))
     # The paper's values beside those of the same meaning.
@@ -144,6 +220,25 @@ def tabulate_intrinsics(calibration: Calibration) -> str:
     return f"{title}\n" + align_columns([head, *rows], left=range(8))
 
 
+def _make_camera_title(calibration: Calibration) -> str:
+    width, height = calibration.camera.size
+    return f"Camera, {width} x {height} px, each value ± one standard deviation"
+
+
+def describe_rms(result: Result) -> str:
+    """Describe in a line how well the camera fits, and to how much."""
+    fit = summarise_residuals(result.calibration.residuals)
+    return (
+        f"RMS {fit.rms:.4f} px, sigma_x {fit.sigma_x:.4f}, sigma_y {fit.sigma_y:.4f} px; "
+        f"{format_count(fit.count, 'corner')}, {_count_used(result)}"
+    )
+
+
+def _count_used(result: Result) -> str:
+    """Describe how many of the images were used."""
+    return f"{len(result.used)} of {format_count(len(result.views), 'image')}"
+
+
 def describe_residuals(calibration: Calibration) -> str:
     """Describe the residuals of the calibration, and how the solve ended."""
     fit = summarise_residuals(calibration.residuals)
@@ -161,16 +256,6 @@ def describe_residuals(calibration: Calibration) -> str:
         f"  the {_COSTS[calibration.cost]}",
     ]
     return "\n".join(lines)
-
-
-def describe_notes(result: Result) -> str:
-    """Describe what is determined and what is not, with warnings and advice."""
-    texts = [
-        *(sentence.text for sentence in describe_calibration(result)),
-        *describe_symmetry(result.used),
-    ]
-    texts += [f"{PurePath(view.image).name}: {view.note}" for view in result.used if view.note]
-    return "\n".join(map(format_bullet, texts))
 
 
 def describe_symmetry(found: Iterable[View]) -> list[str]:
@@ -195,10 +280,10 @@ def tabulate_errors(calibration: Calibration, truth: Mapping[str, float]) -> str
         rows.append(
             [
                 name,
-                f"{truth[name]:.6g}",
+                f"{truth[name]:z.6g}",
                 _format_parameter(calibration, name, value, sigma),
-                f"{error:+.2g}",
-                f"{error / sigma:+.1f}" if sigma > 0 else "",
+                f"{error:+z.2g}",
+                f"{error / sigma:+z.1f}" if sigma > 0 else "",
             ]
         )
     head = ["", "true", "found", "error", "in sigmas"]
@@ -219,11 +304,17 @@ def tabulate_detection(all_views: Sequence[View]) -> str:
     ]
     head = ["view", "image", "status", "corners", "board"]
     parts = ["Images\n" + align_columns([head, *rows], left=(1, 2)), list_unused_views(all_views)]
-    found = sum(view.status is ViewStatus.FOUND for view in all_views)
-    remarks = [f"The board was found in {found} of {format_count(len(all_views), 'image')}."]
+    remarks = [count_boards(all_views)]
+    remarks += [f"{PurePath(view.image).name}: {view.note}" for view in all_views if view.note]
     remarks += [*map(_describe_other_boards, all_views), *describe_symmetry(all_views)]
     parts.append("\n".join(map(format_bullet, filter(None, remarks))))
     return "\n\n".join(part for part in parts if part)
+
+
+def count_boards(all_views: Sequence[View]) -> str:
+    """Describe in how many of the images the board was found."""
+    found = sum(view.status is ViewStatus.FOUND for view in all_views)
+    return f"The board was found in {found} of {format_count(len(all_views), 'image')}."
 
 
 def _describe_other_boards(view: View) -> str:
@@ -231,7 +322,7 @@ def _describe_other_boards(view: View) -> str:
     if view.corners is None or not view.corners.others:
         return ""
     boards = [
-        f"{rows} x {cols} inner corners around ({u:.0f}, {v:.0f})"
+        f"{rows} x {cols} inner corners around ({u:z.0f}, {v:z.0f})"
         for (rows, cols), (u, v) in (
             (other.shape, other.outline.mean(axis=0)) for other in view.corners.others
         )
@@ -244,18 +335,10 @@ def _list_view_numbers(result: Result) -> list[int]:
     return [number for number, view in enumerate(result.views, start=1) if view.usable]
 
 
-def _describe_unused(view: View) -> str:
-    """Describe why a view does not take part."""
-    reason = view.reason or "Left out by choice."
-    # Reading errors name the file already.
-    named = reason.startswith(view.image)
-    return make_printable(reason if named else f"{PurePath(view.image).name}: {reason}")
-
-
 def _format_parameter(calibration: Calibration, name: str, value: float, sigma: float) -> str:
     """Format a camera parameter: its value ± sigma, or why it has none."""
     if name in calibration.fixed:
-        return f"{value:.6g} (held)"
+        return f"{value:z.6g} (held)"
     if name in {u.name for u in calibration.undetermined}:
         return "not determined"
     diagnosis = calibration.diagnosis
@@ -265,7 +348,7 @@ def _format_parameter(calibration: Calibration, name: str, value: float, sigma: 
 
 def _format_decimals(value: float, decimals: int) -> str:
     """Format a number with fixed decimals, or "-" if it is not finite."""
-    return f"{value:.{decimals}f}" if math.isfinite(value) else "-"
+    return f"{value:z.{decimals}f}" if math.isfinite(value) else "-"
 
 
 def format_bullet(text: str) -> str:

@@ -22,6 +22,9 @@ from calibgui.report.numbers import format_count, format_with_sigma
         (999.97, 0.0996, "999.97 ± 0.10"),
         (3.0, 0.0, "3"),
         (3.0, math.nan, "3"),
+        (-0.001, 0.1, "0.00 ± 0.10"),
+        (-1e-9, 0.1, "(0.0 ± 1.0)e-1"),
+        (-0.0, 0.0, "0"),
     ],
 )
 def test_digits_follow_sigma(value: float, sigma: float, text: str) -> None:

@@ -127,6 +127,18 @@ def test_corners_in_one_spot_are_named() -> None:
     assert "All corners lie in one spot" in texts(result, Tone.CAUTION)
 
 
+def test_the_verdict_comes_first(good: Result) -> None:
+    def verdict(result: Result) -> tuple[Tone, str]:
+        first = describe_calibration(result)[0]
+        return first.tone, first.text
+
+    assert verdict(good) == (Tone.GOOD, "Nothing is wrong that the photographs show.")
+    wrong = solved(everywhere(), model="pinhole")
+    assert verdict(wrong) == (Tone.CAUTION, "One thing is wrong.")
+    stopped = replace(good, calibration=replace(good.calibration, status=Status.STOPPED))
+    assert verdict(stopped) == (Tone.CAUTION, "The calibration is not finished.")
+
+
 def test_good_views_ask_for_nothing(good: Result) -> None:
     assert not texts(good, Tone.ADVICE)
     assert "would halve" in texts(good, Tone.GOOD)

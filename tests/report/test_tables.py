@@ -16,6 +16,7 @@ from calibgui.engine.boards.pattern import Symmetry
 from calibgui.engine.calibration.result import Cost, Undetermined
 from calibgui.engine.detection.corners import Corners, OtherBoard
 from calibgui.report import tables
+from calibgui.report.summary import describe_calibration
 from tests.engine import scenes
 
 BOARD = Board(rows=8, cols=11, square=30.0)
@@ -50,7 +51,7 @@ def lines(table: str) -> list[str]:
 
 @pytest.mark.parametrize("cost", list(Cost))
 def test_everything_fits_the_terminal(cost: Cost) -> None:
-    report = tables.format_report(calibrated(cost=cost))
+    report = tables.format_report(calibrated(cost=cost), verbose=True)
     assert max(map(len, report.splitlines())) <= tables.WIDTH_CHARACTERS
     assert ("its own SD" in report) == (cost is Cost.PAPER)
 
@@ -96,6 +97,50 @@ def test_every_image_left_out_has_its_reason(result: Result) -> None:
     assert "view2.png: Left out by choice." in text
     assert "blank.png: No checkerboard was found. No checkerboard" in text
     assert tables.list_unused_views([view for view in result.views if view.usable]) == ""
+
+
+def test_images_left_out_for_the_same_reason_share_it() -> None:
+    reason = "This board has 7 x 10 inner corners, not 6 x 9."
+    views = [View(f"a/{k}.png", ViewStatus.NO_BOARD, reason) for k in range(14)]
+    views.append(View("a/dark.png", ViewStatus.NO_BOARD, "Too dark."))
+    assert lines(tables.list_unused_views(views)) == [
+        "Left out",
+        "  0.png, 1.png, 2.png, 3.png, 4.png, 5.png, and 8 more: This board has 7 x 10",
+        "    inner corners, not 6 x 9.",
+        "  dark.png: Too dark.",
+    ]
+
+
+def test_the_report_is_short_and_begins_with_the_verdict(result: Result) -> None:
+    report = lines(tables.format_report(result))
+    verdict = describe_calibration(result)[0].text
+    assert report[0] == verdict
+    camera = report.index(next(line for line in report if line.startswith("Camera, ")))
+    rms = report.index(next(line for line in report if line.startswith("RMS 0.")))
+    assert camera < rms == len(report) - 1 <= 25
+    names = ["fx", "fy", "cx", "cy"]
+    assert [line.split()[0] for line in report[camera + 1 : camera + 5]] == names
+    assert "88" not in report[rms] and "616 corners, 7 of 9 images" in report[rms]
+    long = tables.format_report(result, verbose=True)
+    assert long.startswith(verdict)
+    for title in ("Views\n", "Stage I, each view", "Residuals of", "paper's frame"):
+        assert title in long and title not in "\n".join(report)
+
+
+def test_the_hundreds_of_parameters_of_a_spline_are_counted(
+    result: Result, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    assert "k2  " in tables.tabulate_camera(result.calibration)
+    monkeypatch.setattr(tables, "_MAX_COEFFICIENTS", 5)
+    table = tables.tabulate_camera(result.calibration)
+    assert "fx  " in table and "and 6 parameters of the lens model lucchese" in table
+    assert "k2  " not in table
+
+
+def test_no_number_is_minus_zero(result: Result) -> None:
+    rows = [replace(row, xp=-1e-9) for row in result.calibration.stage_one]
+    calibration = replace(result.calibration, stage_one=tuple(rows))
+    assert "-0.0000" not in tables.tabulate_stage_one(replace(result, calibration=calibration))
 
 
 def test_a_long_path_can_be_copied() -> None:
