@@ -3,21 +3,35 @@
 from __future__ import annotations
 
 import argparse
+import contextlib
 import math
 import re
-from collections.abc import Iterable, Sequence
+import shutil
+import sys
+import tempfile
+from collections.abc import Iterable, Iterator, Sequence
 from pathlib import Path
 
-from calibgui.app.detection import Detection, find_views
+from calibgui.app.detection import (
+    Detection,
+    choose_samples,
+    find_grid_size,
+    find_other_pattern,
+    find_views,
+    recognise_pattern,
+)
 from calibgui.app.paths import find_images
 from calibgui.app.regions import read_regions
 from calibgui.cli.console import Console
+from calibgui.dataset import ViewStatus
 from calibgui.engine.arrays import GridSize
 from calibgui.engine.boards import CHECKERBOARD, Pattern
 from calibgui.engine.detection import METHODS, MIN_LINES
 from calibgui.engine.errors import CalibrationError
 from calibgui.engine.kernels import FINDER_SECONDS
 from calibgui.formats import EXPORTERS, find_exporter
+from calibgui.report.boards import name_kind
+from calibgui.report.tables import list_unused_views
 
 
 def parse_grid_size(text: str) -> GridSize:
@@ -53,7 +67,20 @@ def add_image_paths(parser: argparse.ArgumentParser, nargs: str = "+") -> None:
 
 def is_corners_file(paths: Sequence[str]) -> bool:
     """Return whether the paths name a file of corners to read, not photographs to search."""
-    return [Path(path).suffix.lower() for path in paths] == [".json"]
+    return list(paths) == ["-"] or [Path(path).suffix.lower() for path in paths] == [".json"]
+
+
+@contextlib.contextmanager
+def open_input(path: str | Path) -> Iterator[Path]:
+    """Give the file to read; for "-" a temporary one with what comes on standard input."""
+    if str(path) != "-":
+        yield Path(path)
+        return
+    with tempfile.TemporaryDirectory(prefix="calibgui-") as folder:
+        file = Path(folder) / "standard-input"
+        with file.open("wb") as copy:
+            shutil.copyfileobj(sys.stdin.buffer, copy)
+        yield file
 
 
 def list_input_files(paths: Sequence[str]) -> Sequence[str | Path]:
@@ -126,27 +153,88 @@ def search_images(
     grid_size: GridSize | None = None,
     roi: Path | None = None,
     corners: str = METHODS[0],
-    pattern: Pattern = CHECKERBOARD,
+    pattern: Pattern | None = CHECKERBOARD,
 ) -> Detection:
     """Find the images that `paths` name and search them for the board, showing progress.
+
+    Without a `pattern` they are searched for a checkerboard, and if they show another board than a
+    plain one, for that.
 
     Raises:
         CalibrationError: if a path names no image, or the regions in `roi` cannot be used.
     """
     images = find_images(paths)
     rois = read_regions(roi, images) if roi else {}
-    with console.show_progress("searching") as advance:
-        return find_views(
-            images,
-            grid_size,
-            rois,
-            lambda done, total, _: advance(done, total),
-            method=corners,
-            pattern=pattern,
-            preparing=lambda: console.print_notice(
-                f"Preparing the corner finder for its first use (once, about {FINDER_SECONDS} s)…"
-            ),
+
+    def search(pattern: Pattern) -> Detection:
+        with console.show_progress("searching") as advance:
+            return find_views(
+                images,
+                grid_size,
+                rois,
+                lambda done, total, _: advance(done, total),
+                method=corners,
+                pattern=pattern,
+                preparing=lambda: console.print_problem(
+                    "Preparing the corner finder for its first use "
+                    f"(once, about {FINDER_SECONDS} s)…"
+                ),
+            )
+
+    detection = search(pattern or CHECKERBOARD)
+    if pattern is None and (other := recognise_pattern(detection.views)) is not None:
+        return search(other)
+    return detection
+
+
+def require_board(
+    detection: Detection,
+    pattern: Pattern,
+    grid_size: GridSize | None,
+    console: Console,
+    is_any_looked_for: bool = False,
+) -> None:
+    """Refuse photographs none of which shows the board, and say what they show instead.
+
+    Args:
+        detection: what was found.
+        pattern: of the board that was looked for.
+        grid_size: of that board, if stated.
+        console: takes the list of images with other faults.
+        is_any_looked_for: True if boards of all other patterns were looked for as well.
+
+    Raises:
+        CalibrationError: if there are such, after a list of the images that have other faults.
+    """
+    views = detection.views
+    if any(view.usable for view in views) or detection.size is None:
+        return
+    samples = choose_samples(views)
+    size = None if grid_size is None else find_grid_size(samples, pattern)
+    other = None if size or is_any_looked_for else find_other_pattern(samples, pattern)
+    if grid_size is not None and size is not None:
+        problem = (
+            f"The images show a board of {_format_size(size)}, not of {_format_size(grid_size)}."
         )
+        hint = f"State --board {_format_size(size)}, or leave --board out."
+    elif other is not None:
+        problem = f"The images show {name_kind(other)}, not {name_kind(pattern)}."
+        hint = f"State --target {other.kind}; if another board is meant, --roi says where it is."
+    else:
+        problem = "The board was found in none of the images."
+        hint = (
+            "Photograph the whole board, sharp and evenly lit; state what is printed on it with "
+            "--target, or mark its corners with --roi."
+        )
+    is_explained = size is not None or other is not None
+    other_faults = [v for v in views if not (is_explained and v.status is ViewStatus.NO_BOARD)]
+    if unused := list_unused_views(other_faults):
+        console.print_problem(unused)
+    raise CalibrationError(problem, hint)
+
+
+def _format_size(size: GridSize) -> str:
+    return f"{size[0]}x{size[1]}"
 
 
 def _parse_export(text: str) -> tuple[str, Path]:

@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 import argparse
+import re
 from dataclasses import replace
 from typing import Any
 
 from calibgui.cli.arguments import parse_positive
-from calibgui.engine.boards import KINDS, Pattern
+from calibgui.engine.arrays import GridSize
+from calibgui.engine.boards import CHECKERBOARD, FAMILIES, KINDS, Pattern
 from calibgui.engine.errors import CalibrationError
 
 _PATTERN_OPTIONS = {
@@ -15,6 +17,12 @@ _PATTERN_OPTIONS = {
     "marker": "charuco",
     "legacy": "charuco",
     "diameter": "circles",
+    "family": "aprilgrid or tagged-checkerboard",
+    "border": "aprilgrid or tagged-checkerboard",
+    "from_top": "aprilgrid or tagged-checkerboard",
+    "spacing": "aprilgrid",
+    "step": "tagged-checkerboard",
+    "origin": "puzzleboard",
 }
 """Options that describe a pattern, each with the kind of pattern that it is for."""
 _LENGTH_OPTIONS = ("marker", "diameter")
@@ -25,16 +33,17 @@ def add_board_options(parser: argparse.ArgumentParser) -> None:
     """Add the options that describe the board."""
     parser.set_defaults(usage_error=parser.error)
     group = parser.add_argument_group(
-        "board", "Properties of a ChArUco board that are not given are read from the photographs."
+        "board",
+        "Properties of markers and tags that are not given are read from the photographs.",
     )
     group.add_argument(
         "--target",
         choices=list(KINDS),
-        default="checkerboard",
         metavar="KIND",
-        help=f"the printed pattern, one of {', '.join(KINDS)}; --board counts inner corners or "
-        "circles, and --square is the side of a square, the distance of circles, or the distance "
-        "of the rows of an asymmetric grid",
+        help=f"the printed pattern, one of {', '.join(KINDS)}; found out if neither this nor "
+        "--board is given, else checkerboard; --board counts inner corners or circles, of an "
+        "AprilGrid two for each tag; --square is the side of a square or tag, the distance of "
+        "circles, or the distance of the rows of an asymmetric grid",
     )
     group.add_argument(
         "--dictionary",
@@ -58,6 +67,49 @@ def add_board_options(parser: argparse.ArgumentParser) -> None:
         metavar="MM",
         help="diameter of a circle; measured if left out",
     )
+    group.add_argument(
+        "--family", choices=list(FAMILIES), metavar="NAME", help="family of AprilTags, as t36h11"
+    )
+    group.add_argument(
+        "--spacing",
+        type=parse_positive,
+        metavar="RATIO",
+        help="gap between the tags of an AprilGrid over the side of a tag, Kalibr's tagSpacing; "
+        "measured if left out",
+    )
+    group.add_argument(
+        "--border",
+        type=int,
+        choices=(1, 2),
+        metavar="CELLS",
+        help="width of the black border of a tag: 2 on Kalibr's boards, else 1",
+    )
+    group.add_argument(
+        "--step",
+        type=int,
+        metavar="SQUARES",
+        help="squares from one tag to the next in a row of a checkerboard with tags",
+    )
+    group.add_argument(
+        "--from-top",
+        action="store_true",
+        default=None,
+        help="the tags are numbered from the top row, not from the bottom one as Kalibr's",
+    )
+    group.add_argument(
+        "--origin",
+        type=_parse_origin,
+        metavar="ROWxCOL",
+        help="row and column of a PuzzleBoard's first corner on the whole pattern; 0x0 if left out",
+    )
+
+
+def _parse_origin(text: str) -> GridSize:
+    """Read the row and column of a corner, such as "50x100"."""
+    match = re.fullmatch(r"(\d+)[x×*,](\d+)", text.strip())
+    if match is None:
+        raise argparse.ArgumentTypeError(f"{text!r} is not ROWxCOL, as 50x100")
+    return int(match[1]), int(match[2])
 
 
 def read_pattern_options(options: argparse.Namespace) -> Pattern:
@@ -65,7 +117,8 @@ def read_pattern_options(options: argparse.Namespace) -> Pattern:
 
     The program ends with a usage error if they do not go together.
     """
-    usual: Any = KINDS[options.target]
+    target = options.target or CHECKERBOARD.kind
+    usual: Any = KINDS[target]
     stated = {
         name: getattr(options, name)
         for name in _PATTERN_OPTIONS
@@ -74,7 +127,8 @@ def read_pattern_options(options: argparse.Namespace) -> Pattern:
     for name in stated:
         if not hasattr(usual, name):
             options.usage_error(
-                f"--{name} is for --target {_PATTERN_OPTIONS[name]}, not for {options.target}"
+                f"--{name.replace('_', '-')} is for --target {_PATTERN_OPTIONS[name]}, "
+                f"not for {target}"
             )
         if name in _LENGTH_OPTIONS:
             if options.square is None:
@@ -87,3 +141,9 @@ def read_pattern_options(options: argparse.Namespace) -> Pattern:
     except CalibrationError as error:
         options.usage_error(str(error))
     return pattern
+
+
+def is_pattern_open(options: argparse.Namespace) -> bool:
+    """Return whether nothing is stated of the board, so that the photographs are to tell its
+    pattern."""
+    return options.target is None and options.board is None and options.roi is None

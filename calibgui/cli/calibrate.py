@@ -10,7 +10,6 @@ import argparse
 import contextlib
 from pathlib import Path
 
-from calibgui.app.outputs import check_outputs
 from calibgui.app.redetection import calibrate_twice
 from calibgui.app.settings import (
     AUTO_MODEL,
@@ -26,20 +25,21 @@ from calibgui.app.settings import (
 from calibgui.cli.arguments import (
     add_export_option,
     is_corners_file,
-    list_input_files,
     parse_positive,
 )
 from calibgui.cli.console import Advance, Console
 from calibgui.cli.corners import add_corner_options, check_corner_options, read_or_search
+from calibgui.cli.outputs import add_overwrite_option, check_corner_outputs
+from calibgui.cli.solving import explain_solve
 from calibgui.dataset import Result
 from calibgui.engine.boards import BoardShape, BoardShapeModel, BoardShapePrior
 from calibgui.engine.calibration import DEFAULT_METHOD, METHODS, Cost, DegenerateError
 from calibgui.engine.camera import MODELS, PINHOLE, SplinedStereographic
 from calibgui.engine.errors import CalibrationError
-from calibgui.engine.kernels import SOLVER_SECONDS, when_compiling
 from calibgui.formats import EXPORTERS, export
 from calibgui.formats.board_shape_json import read_board_shape, write_board_shape
-from calibgui.formats.result_json import encode_result, write_result
+from calibgui.formats.origin import BOARD_SHAPE, RESULT
+from calibgui.formats.result_json import encode_result_with_findings, write_result
 from calibgui.report import tables
 
 
@@ -124,36 +124,35 @@ def configure(parser: argparse.ArgumentParser) -> None:
         metavar="FILE",
         help="write the estimated board shape, for later calibrations with the same board",
     )
-    parser.add_argument("-o", "--output", type=Path, metavar="FILE", help="write result.json")
+    parser.add_argument(
+        "-o", "--output", type=Path, metavar="FILE", help="write result.json; - for standard output"
+    )
     add_export_option(parser, "write another format as well")
+    add_overwrite_option(parser)
+    parser.add_argument(
+        "-v",
+        "--verbose",
+        "--stage-one",
+        action="store_true",
+        help="print all that is known: each view by itself (the paper's Stage I), its residuals "
+        "and pose, the camera in the paper's units, and how far each value is determined",
+    )
 
 
 def run(options: argparse.Namespace, console: Console) -> None:
     """Search, calibrate, write and print."""
     settings = _read_settings(options)
     _check_usage(options)
-    outputs = filter(None, [options.output, options.save_board_shape])
-    check_outputs(
-        [*outputs, *(path for _, path in options.export)], list_input_files(options.paths)
-    )
+    options.output = console.take_output(options.output)
+    outputs = [(options.output, RESULT), (options.save_board_shape, BOARD_SHAPE)]
+    exported = [(path, name) for name, path in options.export]
+    check_corner_outputs(options, [*(pair for pair in outputs if pair[0]), *exported])
     corner_set = read_or_search(options, console)
-    try:
-        preparing = f"Preparing the solver for its first use (once, about {SOLVER_SECONDS} s)…"
-        with when_compiling(lambda: console.print_notice(preparing)):
-            search = not is_corners_file(options.paths)
-            with _show_comparison(settings, console) as advance:
-                result = calibrate_twice(corner_set, settings, search=search, progress=advance)
-    except CalibrationError:
-        if unused := tables.list_unused_views(corner_set.views):
-            console.print_problem(unused)
-        raise
+    search = not is_corners_file(options.paths)
+    with explain_solve(console, corner_set), _show_comparison(settings, console) as advance:
+        result = calibrate_twice(corner_set, settings, search=search, progress=advance)
     messages, errors = _write_files(result, options)
-    console.print_json(encode_result(result))
-    console.print_text(
-        tables.format_report(result), otherwise=tables.list_unused_views(result.views)
-    )
-    if messages:
-        console.print_text("\n" + "\n".join(map(tables.format_bullet, messages)))
+    _print_report(result, messages, options, console)
     diagnosis = result.calibration.diagnosis
     if diagnosis is not None:  # the user wanted a whole calibration
         errors.append(DegenerateError(diagnosis.message, diagnosis.hint, result.calibration))
@@ -161,6 +160,25 @@ def run(options: argparse.Namespace, console: Console) -> None:
         console.print_problem(f"calibgui: {error}")
     if errors:
         raise errors[-1]
+
+
+def _print_report(
+    result: Result, messages: list[str], options: argparse.Namespace, console: Console
+) -> None:
+    """Print the verdict, the camera and the files that were written; with --quiet one line."""
+    if console.json:
+        console.print_json(encode_result_with_findings(result))
+        return
+    if console.quiet:
+        console.print_line(tables.summarise_in_a_line(result))
+        if unused := tables.list_unused_views(result.views):
+            console.print_problem(unused)
+        return
+    console.print_text(tables.format_report(result, verbose=options.verbose))
+    if messages:
+        console.print_text("\n" + "\n".join(map(tables.format_bullet, messages)))
+    if not options.verbose:
+        console.print_text("\n-v shows Stage I, every view, and all that is known of each value.")
 
 
 def _show_comparison(

@@ -93,10 +93,8 @@ def run(options: argparse.Namespace, console: Console) -> int:
     console.print_text(describe_check(check, names), otherwise=unused)
     if unused:
         console.print_text(unused)
-    is_good = check.verdict is Verdict.STILL_GOOD
-    if console.quiet and not (is_good or console.json):
-        console.print_problem(describe_verdict(check))
-    return 0 if is_good else _NOT_GOOD
+    console.print_line(describe_verdict(check))
+    return 0 if check.verdict is Verdict.STILL_GOOD else _NOT_GOOD
 
 
 def _read_overdispersion(path: Path, stored: ImportedCamera) -> float:

@@ -13,16 +13,17 @@ from pathlib import Path
 from typing import Any
 
 from calibgui.app.method_comparison import compare_methods
-from calibgui.app.outputs import check_figure, check_outputs, save_figure
+from calibgui.app.outputs import check_figure_name, save_figure
 from calibgui.app.project import DEFAULT_SQUARE
-from calibgui.cli.arguments import is_corners_file, list_input_files
+from calibgui.cli.arguments import is_corners_file
 from calibgui.cli.console import Console
 from calibgui.cli.corners import add_corner_options, check_corner_options, read_or_search
+from calibgui.cli.outputs import add_overwrite_option, check_corner_outputs
+from calibgui.cli.solving import explain_solve
 from calibgui.engine.assessment import MethodComparison
-from calibgui.engine.errors import CalibrationError
-from calibgui.engine.kernels import SOLVER_SECONDS, when_compiling
 from calibgui.formats.board_poses_json import read_board_poses
 from calibgui.formats.json_document import write_json
+from calibgui.formats.origin import FIGURE, METHOD_COMPARISON, make_mark
 from calibgui.report import tables
 from calibgui.report.methods import (
     QUANTITIES,
@@ -46,6 +47,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "-o", "--output", type=Path, metavar="FILE", help="write the comparison as JSON"
     )
+    add_overwrite_option(parser)
     parser.add_argument(
         "--figure",
         type=Path,
@@ -59,27 +61,22 @@ def run(options: argparse.Namespace, console: Console) -> None:
     check_corner_options(options)
     if options.board_poses and options.square is None and not is_corners_file(options.paths):
         options.usage_error("--board-poses are in mm: add --square MM")
-    inputs = [*list_input_files(options.paths), *filter(None, [options.board_poses])]
+    outputs = [(options.output, METHOD_COMPARISON)] if options.output else []
     if options.figure:
-        check_figure(options.figure)
-    check_outputs(filter(None, [options.output, options.figure]), inputs)
+        check_figure_name(options.figure)
+        outputs.append((options.figure, FIGURE))
+    check_corner_outputs(options, outputs, filter(None, [options.board_poses]))
     poses = read_board_poses(options.board_poses) if options.board_poses else None
     corner_set = read_or_search(options, console, DEFAULT_SQUARE)
-    preparing = f"Preparing the solver for its first use (once, about {SOLVER_SECONDS} s)…"
-    try:
-        with (
-            when_compiling(lambda: console.print_notice(preparing)),
-            console.show_progress("comparing methods", "method") as advance,
-        ):
-            comparison = compare_methods(corner_set, poses, advance)
-    except CalibrationError:
-        if unused := tables.list_unused_views(corner_set.views):
-            console.print_problem(unused)
-        raise
+    with (
+        explain_solve(console, corner_set),
+        console.show_progress("comparing methods", "method") as advance,
+    ):
+        comparison = compare_methods(corner_set, poses, advance)
     answer = _encode_comparison(comparison)
     text = tabulate_methods(comparison)
     if options.output:
-        write_json(options.output, answer)
+        write_json(options.output, {"origin": make_mark(METHOD_COMPARISON), **answer})
         text += f"\n\nWrote {options.output}."
     if options.figure:
         from calibgui.report import method_figures  # matplotlib takes a while to import
@@ -87,6 +84,7 @@ def run(options: argparse.Namespace, console: Console) -> None:
         save_figure(method_figures.draw_method_comparison(comparison), options.figure)
         text += f"\n\nWrote {options.figure}."
     console.print_json(answer)
+    console.print_line(describe_method_comparison(comparison))
     console.print_text(text, otherwise=tables.list_unused_views(corner_set.views))
 
 

@@ -7,6 +7,7 @@ import contextlib
 import os
 import sys
 from collections.abc import Callable, Iterator
+from pathlib import Path
 from typing import Any
 
 from tqdm import tqdm
@@ -15,13 +16,16 @@ from calibgui.engine.errors import CalibrationError
 from calibgui.formats.json_document import dumps
 from calibgui.report.names import make_printable
 
+tqdm.monitor_interval = 0  # its thread would keep workers from being forked (app.workers)
 Advance = Callable[[int, int], None]
 """Function that is called with the number of finished items and the number of all."""
 
 
 def configure(parser: argparse.ArgumentParser) -> None:
     """Add the options that all subcommands have."""
-    parser.add_argument("-q", "--quiet", action="store_true", help="print problems only")
+    parser.add_argument(
+        "-q", "--quiet", action="store_true", help="print problems, and at most one line else"
+    )
     parser.add_argument(
         "--json", action="store_true", help="print the result as JSON, and nothing else, on stdout"
     )
@@ -40,6 +44,18 @@ class Console:
             _print(escape_controls(text))
         elif otherwise and not self.json:
             self.print_problem(otherwise)
+
+    def print_line(self, text: str) -> None:
+        """Print with --quiet, in place of all text, the one line that matters."""
+        if self.quiet and not self.json:
+            _print(make_printable(text))
+
+    def take_output(self, path: Path | None) -> Path | None:
+        """Return the file to write the result to; for "-" print it as with --json instead."""
+        if path != Path("-"):
+            return path
+        self.json = True
+        return None
 
     def print_json(self, value: Any) -> None:
         """Print the result for programs, with --json only."""

@@ -19,6 +19,7 @@ from calibgui.app.outputs import check_outputs
 from calibgui.cli.arguments import add_export_option, parse_positive
 from calibgui.cli.camera import CAMERA_FILE, add_camera_options, read_camera_and_warn
 from calibgui.cli.console import Console
+from calibgui.cli.outputs import add_overwrite_option
 from calibgui.dataset import Result
 from calibgui.engine.calibration import refit
 from calibgui.engine.camera import Camera, resolve_model_id
@@ -60,13 +61,15 @@ def configure(parser: argparse.ArgumentParser) -> None:
         "corners; the whole image if left out",
     )
     add_export_option(parser, "the file to write")
+    add_overwrite_option(parser)
 
 
 def run(options: argparse.Namespace, console: Console) -> None:
     """Read, convert, write and print."""
     if not (options.model or options.export):
         options.usage_error("say what to convert to: --model NAME, --export FORMAT=FILE or both")
-    check_outputs([path for _, path in options.export], [options.file])
+    outputs = [(path, name) for name, path in options.export]
+    check_outputs(outputs, [options.file], options.overwrite)
     found = read_camera_and_warn(options.file, console, options.camera, options.size)
     with limit_blas_threads():
         if found.title == EXPORTERS["result"].title:

@@ -9,10 +9,12 @@ from calibgui.cli.arguments import (
     add_image_paths,
     add_search_options,
     is_corners_file,
+    open_input,
     parse_positive,
+    require_board,
     search_images,
 )
-from calibgui.cli.boards import add_board_options, read_pattern_options
+from calibgui.cli.boards import add_board_options, is_pattern_open, read_pattern_options
 from calibgui.cli.console import Console
 from calibgui.dataset import CornerSet
 from calibgui.engine.errors import CalibrationError
@@ -38,7 +40,7 @@ def add_corner_options(parser: argparse.ArgumentParser, need: str) -> None:
 def check_corner_options(options: argparse.Namespace) -> None:
     """End the program if the options on board and search do not fit the paths."""
     if is_corners_file(options.paths):
-        if options.board or options.roi or options.target != "checkerboard":
+        if options.board or options.roi or options.target:
             options.usage_error(
                 "--board, --roi and --target are for photographs, not for a corners file"
             )
@@ -63,8 +65,14 @@ def read_or_search(
         return _read_corners_file(options)
     pattern = read_pattern_options(options)
     detection = search_images(
-        console, options.paths, options.board, options.roi, options.corners, pattern
+        console,
+        options.paths,
+        options.board,
+        options.roi,
+        options.corners,
+        None if is_pattern_open(options) else pattern,
     )
+    require_board(detection, pattern, options.board, console, is_pattern_open(options))
     side = square if options.square is None else options.square
     assert side is not None, "a command that has no side of its own checks that one is given"
     corner_set = detection.corner_set(side)
@@ -75,7 +83,8 @@ def read_or_search(
 
 def _read_corners_file(options: argparse.Namespace) -> CornerSet:
     """Return the views of a corners.json; --square replaces the side of the board's squares."""
-    corner_set = read_corners(options.paths[0])
+    with open_input(options.paths[0]) as file:
+        corner_set = read_corners(file)
     if options.square is None:
         return corner_set
     if corner_set.board is None:

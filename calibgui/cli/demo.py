@@ -8,14 +8,16 @@ from pathlib import Path
 from matplotlib.figure import Figure
 
 from calibgui.app.calibration import calibrate_views
-from calibgui.app.outputs import make_folder, save_figure
+from calibgui.app.outputs import check_outputs, make_folder, save_figure
 from calibgui.app.resources import find_resource, read_sample_truth
 from calibgui.cli.arguments import search_images
 from calibgui.cli.console import Console
+from calibgui.cli.outputs import add_overwrite_option
 from calibgui.dataset import Result
 from calibgui.engine.images import compute_board_extent, read_image, rectify_image, undistort_image
 from calibgui.formats import export
-from calibgui.formats.result_json import encode_result
+from calibgui.formats.origin import FIGURE
+from calibgui.formats.result_json import encode_result_with_findings
 from calibgui.report import figures, tables
 
 _EXPORT_FILES = {
@@ -25,6 +27,15 @@ _EXPORT_FILES = {
     "corners": "corners.json",
     "corners-csv": "corners.csv",
 }
+
+_FIGURE_FILES = (
+    "convergence.png",
+    "corners.png",
+    "distortion.png",
+    "residuals.png",
+    "histograms.png",
+    "undistorted.png",
+)
 
 
 def configure(parser: argparse.ArgumentParser) -> None:
@@ -37,12 +48,16 @@ def configure(parser: argparse.ArgumentParser) -> None:
         metavar="DIR",
         help="folder to write to (default ./calibgui-demo)",
     )
+    add_overwrite_option(parser)
 
 
 def run(options: argparse.Namespace, console: Console) -> None:
     """Search, calibrate, compare, write and print."""
     out: Path = options.output
     make_folder(out)
+    outputs = [(out / file, name) for name, file in _EXPORT_FILES.items()]
+    outputs += [(out / file, FIGURE) for file in _FIGURE_FILES]
+    check_outputs(outputs, [], options.overwrite)
     sample = find_resource("sample")
     truth = read_sample_truth()
     square = truth["target"]["square_mm"].number()
@@ -53,7 +68,9 @@ def run(options: argparse.Namespace, console: Console) -> None:
         save_figure(figure, out / file)
     params = truth["camera"]["params"]
     names = result.calibration.camera.names
-    console.print_json(encode_result(result))
+    if console.json:
+        console.print_json(encode_result_with_findings(result))
+        return
     console.print_text(tables.format_report(result))
     console.print_text(
         "\n"
@@ -66,22 +83,21 @@ def run(options: argparse.Namespace, console: Console) -> None:
 
 def _draw_figures(result: Result) -> dict[str, Figure]:
     """Draw the figures, by the names of their files."""
-    calibration, view = result.calibration, result.used[0]
+    calibration, view, board = result.calibration, result.used[0], result.board
+    assert view.corners is not None and board is not None, "they have been searched"
     camera, pose = calibration.camera, calibration.poses[0]
     photograph = read_image(view.image).pixels
-    drawn = {
-        "convergence.png": figures.draw_convergence(calibration.history, "px"),
-        "distortion.png": figures.draw_distortion(camera),
-        "residuals.png": figures.draw_residual_scatter(calibration, on_reference=False),
-        "histograms.png": figures.draw_residual_histograms(calibration, on_reference=False),
-    }
-    if view.corners is not None:
-        drawn["corners.png"] = figures.draw_corners(photograph, view.corners)
-    if result.board is not None:
-        extent, scale = compute_board_extent(result.board), calibration.reference_scale
-        drawn["undistorted.png"] = figures.draw_image_pair(
+    extent, scale = compute_board_extent(board), calibration.reference_scale
+    drawn = (
+        figures.draw_convergence(calibration.history, "px"),
+        figures.draw_corners(photograph, view.corners),
+        figures.draw_distortion(camera),
+        figures.draw_residual_scatter(calibration, on_reference=False),
+        figures.draw_residual_histograms(calibration, on_reference=False),
+        figures.draw_image_pair(
             undistort_image(photograph, camera).image,
             rectify_image(photograph, camera, pose, extent, scale).image,
             ("undistorted", "rectified"),
-        )
-    return drawn
+        ),
+    )
+    return dict(zip(_FIGURE_FILES, drawn, strict=True))

@@ -5,18 +5,18 @@ from __future__ import annotations
 import argparse
 from pathlib import Path
 
-from calibgui.app.outputs import check_outputs
-from calibgui.app.paths import find_images
 from calibgui.cli.arguments import (
     add_image_paths,
     add_search_options,
     parse_positive,
+    require_board,
     search_images,
 )
-from calibgui.cli.boards import add_board_options, read_pattern_options
+from calibgui.cli.boards import add_board_options, is_pattern_open, read_pattern_options
 from calibgui.cli.console import Console
-from calibgui.engine.errors import CalibrationError
+from calibgui.cli.outputs import add_overwrite_option, check_corner_outputs
 from calibgui.formats.corners_json import encode_corners, write_corners
+from calibgui.formats.origin import CORNERS
 from calibgui.report import tables
 from calibgui.report.boards import describe_recognised_board
 
@@ -33,25 +33,34 @@ def configure(parser: argparse.ArgumentParser) -> None:
         help="side of a square, or distance of circles, mm; 1 if left out: then give it to "
         "'calibgui calibrate'",
     )
-    parser.add_argument("-o", "--output", type=Path, metavar="FILE", help="write corners.json")
+    parser.add_argument(
+        "-o",
+        "--output",
+        type=Path,
+        metavar="FILE",
+        help="write corners.json; - for standard output",
+    )
+    add_overwrite_option(parser)
 
 
 def run(options: argparse.Namespace, console: Console) -> None:
     """Search, write and print."""
     pattern = read_pattern_options(options)
+    options.output = console.take_output(options.output)
     if options.output:
-        check_outputs([options.output], find_images(options.paths))
+        check_corner_outputs(options, [(options.output, CORNERS)])
     detection = search_images(
-        console, options.paths, options.board, options.roi, options.corners, pattern
+        console,
+        options.paths,
+        options.board,
+        options.roi,
+        options.corners,
+        None if is_pattern_open(options) else pattern,
     )
+    require_board(detection, pattern, options.board, console, is_pattern_open(options))
     corner_set = detection.corner_set(options.square or 1.0)
-    if not any(view.usable for view in corner_set.views):
-        console.print_problem(tables.list_unused_views(corner_set.views))
-        raise CalibrationError(
-            "The board was found in none of the images.",
-            "Photograph the whole board, sharp and evenly lit, or mark its corners with --roi.",
-        )
     console.print_json(encode_corners(corner_set))
+    console.print_line(tables.count_boards(corner_set.views))
     console.print_text(
         tables.tabulate_detection(corner_set.views),
         otherwise=tables.list_unused_views(corner_set.views),

@@ -12,10 +12,11 @@ from pathlib import Path
 
 import numpy as np
 
-from calibgui.app.outputs import check_figure, save_figure
+from calibgui.app.outputs import check_figures, save_figure
 from calibgui.cli.arguments import add_map_options
 from calibgui.cli.camera import CAMERA_FILE, add_size_option, read_camera_and_warn
 from calibgui.cli.console import Console
+from calibgui.cli.outputs import add_overwrite_option
 from calibgui.dataset import Result
 from calibgui.engine.assessment import CameraDifference, compare_cameras
 from calibgui.engine.uncertainty import estimate_projection_uncertainty
@@ -39,6 +40,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
             help=f"the camera to read from {name.upper()}, if it holds several",
         )
     add_size_option(parser)
+    add_overwrite_option(parser)
     add_map_options(parser, "are compared")
     parser.add_argument(
         "--covered",
@@ -50,7 +52,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
 def run(options: argparse.Namespace, console: Console) -> None:
     """Read both, compare, draw and print."""
     if options.output:
-        check_figure(options.output)
+        check_figures([options.output], [options.a, options.b], options.overwrite)
     a = read_camera_and_warn(options.a, console, options.camera_a, options.size)
     b = read_camera_and_warn(options.b, console, options.camera_b, options.size)
     results = [

@@ -5,39 +5,24 @@ failed; 2 wrong usage; 70 a bug; 130 interrupted (Ctrl-C, SIGTERM); 141 the prog
 output has ended.
 
 To add a subcommand, write a module in this folder with `configure(parser)` and
-`run(options, console)`, which may return an exit code, and name it in `COMMANDS`.
+`run(options, console)`, which may return an exit code, and name it in `COMMANDS` of ``parser``.
 """
 
 from __future__ import annotations
 
-import argparse
 import contextlib
 import os
+import shlex
 import signal
 import sys
 import traceback
 from collections.abc import Sequence
 from importlib import import_module
 
-from calibgui import __version__
+from calibgui.cli.parser import COMMANDS, build_parser, configure, describe_misuse
 
-COMMANDS = {
-    "calibrate": "calibrate a camera from photographs of a checkerboard or another board",
-    "detect": "locate the corners of the board in photographs",
-    "undistort": "write photographs without lens distortion",
-    "rectify": "write photographs of the board as seen from straight above",
-    "models": "compare lens models on photographs, and recommend one",
-    "compare": "compare methods of calibration on photographs, side by side",
-    "uncertainty": "show how far a calibration can be trusted",
-    "diff": "compare two calibrations of a camera",
-    "check": "check with a few pictures whether a stored calibration is still good",
-    "convert": "convert a camera file to another lens model or format",
-    "views": "study how many views are enough, and where to hold the board next",
-    "demo": "calibrate the bundled sample and write all results and figures",
-    "paper": "reproduce the paper from its 25 images, with its printed numbers beside ours",
-}
-"""Subcommands, which are also the names of their modules, and their help texts."""
-
+_WINDOW_PACKAGES = ("PySide6", "shiboken6", "pyqtgraph", "contourpy")
+"""Packages that the window alone needs: the extra "gui"."""
 _CANNOT, _USAGE, _BUG, _INTERRUPTED, _NO_READER = 1, 2, 70, 130, 141
 
 
@@ -69,47 +54,71 @@ def main(argv: Sequence[str] | None = None) -> int:
 
 
 def _run(arguments: list[str]) -> int:
-    parser = argparse.ArgumentParser(
-        prog="calibgui",
-        description="Geometric camera calibration from photographs of a flat board.",
-        epilog="calibgui COMMAND --help describes a command. Without one, calibgui [FOLDER | "
-        "IMAGES | PROJECT] opens the window.",
-    )
-    parser.add_argument("--version", action="version", version=f"calibgui {__version__}")
-    choices = parser.add_subparsers(title="commands", metavar="COMMAND", dest="command")
-    parsers = {name: choices.add_parser(name, help=text) for name, text in COMMANDS.items()}
-    chosen = next((name for name in arguments[:1] if name in COMMANDS), None)
-    if chosen is None:
-        if _should_open_window(arguments):
-            return int(import_module("calibgui.gui.app").run(arguments))
-        parser.parse_args(arguments)
-        parser.print_help()
-        return _USAGE
+    parser, parsers = build_parser()
+    chosen = arguments[0] if arguments else ""
+    if chosen not in COMMANDS:
+        if chosen.startswith("-"):
+            parser.parse_args(arguments[:1])
+        if not all(os.path.exists(name) for name in arguments):  # noqa: PTH110 - no import
+            parser.error(describe_misuse(arguments))
+        if not _has_display():
+            if not arguments:
+                parser.print_help()
+            return _print_missing_display(arguments)
+        return _open_window(arguments)
 
-    command = import_module(f"calibgui.cli.{chosen}")
-    console = import_module("calibgui.cli.console")
+    # One thread is the fastest on small matrices; OpenBLAS reads this as NumPy is imported.
+    os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
+    command = configure(chosen, parsers[chosen])
+    options = parsers[chosen].parse_args(arguments[1:])
+    console = import_module("calibgui.cli.console").Console(options.quiet, options.json)
     errors = import_module("calibgui.engine.errors")
-    parsers[chosen].description = command.__doc__
-    console.configure(parsers[chosen])
-    command.configure(parsers[chosen])
-    options = parser.parse_args(arguments)
-    output = console.Console(options.quiet, options.json)
     with contextlib.suppress(ValueError):  # only the main thread may
         # SIGTERM ends the program as Ctrl-C does: workers and temporary files are removed.
         signal.signal(signal.SIGTERM, signal.default_int_handler)
     try:
-        return int(command.run(options, output) or 0)
+        return int(command.run(options, console) or 0)
     except errors.CalibrationError as error:
-        output.print_problem(f"calibgui: {error}")
+        console.print_problem(f"calibgui: {error}")
         return _CANNOT
 
 
-def _should_open_window(arguments: list[str]) -> bool:
-    """Return whether only files and folders are named, and there is a screen to show them on."""
-    screen = sys.platform in ("win32", "darwin") or any(
+def open_window() -> int:
+    """Open the window on the files that the command line names; return the exit code."""
+    return _open_window(sys.argv[1:])
+
+
+def _open_window(arguments: list[str]) -> int:
+    try:
+        app = import_module("calibgui.gui.app")
+    except ImportError as error:
+        if (error.name or "").partition(".")[0] not in _WINDOW_PACKAGES:
+            raise
+        if isinstance(error, ModuleNotFoundError):
+            reason = "the window is not installed. Install it: pip install 'calibgui[gui]'"
+        else:
+            reason = f"the window cannot be loaded: {error}. Install the library that is missing."
+        print(f"calibgui: {reason}", file=sys.stderr)
+        return _CANNOT
+    return int(app.run(arguments))
+
+
+def _has_display() -> bool:
+    """Return whether there seems to be a screen to show a window on."""
+    return sys.platform in ("win32", "darwin") or any(
         os.environ.get(name) for name in ("DISPLAY", "WAYLAND_DISPLAY")
     )
-    return screen and all(os.path.exists(name) for name in arguments)  # noqa: PTH110 - no import
+
+
+def _print_missing_display(arguments: list[str]) -> int:
+    """Print that no window can be opened, and what works without one; return the exit code."""
+    paths = " ".join(map(shlex.quote, arguments)) or "PHOTOGRAPHS"
+    print(
+        "calibgui: there is no display: neither DISPLAY nor WAYLAND_DISPLAY is set. Without a "
+        f"window:\n  calibgui calibrate {paths} --square MM",
+        file=sys.stderr,
+    )
+    return _CANNOT if arguments else _USAGE
 
 
 def _report_bug() -> None:

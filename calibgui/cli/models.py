@@ -1,7 +1,8 @@
 """Compare lens models on photographs of a board, or on a corners.json file, and recommend one.
 
 Every model is calibrated from all views, and again without some of them to see how well it predicts
-these. The recommended model is what `calibgui calibrate --model` takes.
+these. The recommended model is what `calibgui calibrate --model` takes, and `--fix` those of its
+coefficients that are better held at 0.
 """
 
 from __future__ import annotations
@@ -11,15 +12,14 @@ from pathlib import Path
 from typing import Any
 
 from calibgui.app.lens_comparison import compare_lenses
-from calibgui.app.outputs import check_outputs
 from calibgui.app.project import DEFAULT_SQUARE
-from calibgui.cli.arguments import list_input_files
 from calibgui.cli.console import Console
 from calibgui.cli.corners import add_corner_options, check_corner_options, read_or_search
+from calibgui.cli.outputs import add_overwrite_option, check_corner_outputs
+from calibgui.cli.solving import explain_solve
 from calibgui.engine.assessment import LensChoice
-from calibgui.engine.errors import CalibrationError
-from calibgui.engine.kernels import SOLVER_SECONDS, when_compiling
 from calibgui.formats.json_document import write_json
+from calibgui.formats.origin import LENS_COMPARISON, make_mark
 from calibgui.report import tables
 from calibgui.report.lens_choice import (
     LensRow,
@@ -35,31 +35,27 @@ def configure(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "-o", "--output", type=Path, metavar="FILE", help="write the comparison as JSON"
     )
+    add_overwrite_option(parser)
 
 
 def run(options: argparse.Namespace, console: Console) -> None:
     """Search, compare, write and print."""
     check_corner_options(options)
     if options.output:
-        check_outputs([options.output], list_input_files(options.paths))
+        check_corner_outputs(options, [(options.output, LENS_COMPARISON)])
     corner_set = read_or_search(options, console, DEFAULT_SQUARE)
-    preparing = f"Preparing the solver for its first use (once, about {SOLVER_SECONDS} s)…"
-    try:
-        with (
-            when_compiling(lambda: console.print_notice(preparing)),
-            console.show_progress("comparing lens models", "model") as advance,
-        ):
-            choice = compare_lenses(corner_set, advance)
-    except CalibrationError:
-        if unused := tables.list_unused_views(corner_set.views):
-            console.print_problem(unused)
-        raise
+    with (
+        explain_solve(console, corner_set),
+        console.show_progress("comparing lens models", "model") as advance,
+    ):
+        choice = compare_lenses(corner_set, advance)
     answer = _encode_choice(choice)
     text = tabulate_lens_choice(choice)
     if options.output:
-        write_json(options.output, answer)
+        write_json(options.output, {"origin": make_mark(LENS_COMPARISON), **answer})
         text += f"\n\nWrote {options.output}."
     console.print_json(answer)
+    console.print_line(describe_lens_choice(choice))
     console.print_text(text, otherwise=tables.list_unused_views(corner_set.views))
 
 
@@ -67,6 +63,7 @@ def _encode_choice(choice: LensChoice) -> dict[str, Any]:
     """Return the comparison for JSON, which writes null for what is not known."""
     return {
         "recommended": choice.model,
+        "fixed": choice.chosen.fixed,
         "reason": describe_lens_choice(choice),
         "reference": choice.reference,
         "adequate": choice.adequate,

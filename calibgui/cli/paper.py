@@ -11,17 +11,19 @@ import re
 from pathlib import Path
 
 from calibgui.app.calibration import calibrate_views
-from calibgui.app.outputs import make_folder, save_figure
+from calibgui.app.outputs import check_figures, check_outputs, make_folder, save_figure
 from calibgui.app.settings import Settings
 from calibgui.app.synthetic import run_synthetic_check
 from calibgui.cli.arguments import add_corner_method, search_images
 from calibgui.cli.console import Console
+from calibgui.cli.outputs import add_overwrite_option
 from calibgui.dataset import CornerSet
 from calibgui.engine.calibration import Cost
 from calibgui.engine.detection import METHODS
 from calibgui.engine.errors import CalibrationError
 from calibgui.engine.files import write_atomically
-from calibgui.formats.result_json import encode_result, write_result
+from calibgui.formats.origin import PAPER_PAGE, RESULT
+from calibgui.formats.result_json import encode_result_with_findings, write_result
 from calibgui.report import tables
 from calibgui.report.figures import LOCATED_BY
 from calibgui.report.paper_figures import draw_paper_figures
@@ -45,26 +47,33 @@ def configure(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "-o", "--output", type=Path, required=True, metavar="OUT", help="folder to write to"
     )
+    add_overwrite_option(parser)
 
 
 def run(options: argparse.Namespace, console: Console) -> None:
     """Calibrate the photographs and their renderings; write results, figures and the page."""
     out: Path = options.output
     make_folder(out)
+    results = {name: out / f"{name}.json" for name in ("real", "image-cost", "synthetic")}
+    page = out / "index.html"
+    outputs = [(page, PAPER_PAGE), *((path, RESULT) for path in results.values())]
+    check_outputs(outputs, [], options.overwrite)
     reproduction = _reproduce(options.folder, options.corners, console)
     real, synthetic = reproduction.real, reproduction.synthetic
-    write_result(real, out / "real.json")
-    write_result(reproduction.image_cost, out / "image-cost.json")
-    write_result(synthetic, out / "synthetic.json")
-    pictures = {}
     figures = draw_paper_figures(real, synthetic, reproduction.extrinsic_errors)
+    pictures = {c: f"{re.sub(' ', '-', c.split(':')[0].lower())}.png" for c in figures}
+    check_figures([out / name for name in pictures.values()], [], options.overwrite)
+    write_result(real, results["real"])
+    write_result(reproduction.image_cost, results["image-cost"])
+    write_result(synthetic, results["synthetic"])
     for caption, figure in figures.items():
-        pictures[caption] = f"{re.sub(' ', '-', caption.split(':')[0].lower())}.png"
         save_figure(figure, out / pictures[caption])
-    write_atomically(out / "index.html", make_paper_page(reproduction, pictures).encode())
-    console.print_json(encode_result(real))
-    console.print_text(tables.format_report(real))
-    console.print_text(f"\nWrote tables, figures and results to {out}; open {out / 'index.html'}.")
+    write_atomically(page, make_paper_page(reproduction, pictures).encode())
+    if console.json:
+        console.print_json(encode_result_with_findings(real))
+        return
+    console.print_text(tables.format_report(real, verbose=True))
+    console.print_text(f"\nWrote tables, figures and results to {out}; open {page}.")
 
 
 def _reproduce(folder: Path, method: str, console: Console) -> Reproduction:

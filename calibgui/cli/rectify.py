@@ -39,5 +39,6 @@ def run(options: argparse.Namespace, console: Console) -> None:
             options.output,
             options.scale,
             progress=lambda done, total, _: advance(done, total),
+            overwrite=options.overwrite,
         )
     report_written(written, options.output, console)

@@ -8,12 +8,13 @@ from pathlib import Path
 
 from calibgui.app.resampling import GEOMETRY_FILE, WrittenImage
 from calibgui.cli.console import Console
+from calibgui.cli.outputs import add_overwrite_option
 from calibgui.engine.errors import CalibrationError
 from calibgui.report.numbers import format_count
 
 
 def add_output_folder(parser: argparse.ArgumentParser) -> None:
-    """Add the option that names the folder of the new images."""
+    """Add the options on the folder of the new images."""
     parser.add_argument(
         "-o",
         "--output",
@@ -22,6 +23,7 @@ def add_output_folder(parser: argparse.ArgumentParser) -> None:
         metavar="DIR",
         help="folder for the new images, created if missing; not that of the photographs",
     )
+    add_overwrite_option(parser)
 
 
 def report_written(

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
+from calibgui.cli.arguments import open_input
 from calibgui.cli.console import Console
 from calibgui.dataset import Result
 from calibgui.engine.errors import CalibrationError
@@ -19,7 +20,8 @@ def read_result_and_warn(path: Path, console: Console) -> Result:
             message says so.
     """
     try:
-        result = read_result(path)
+        with open_input(path) as file:
+            result = read_result(file)
     except CalibrationError as error:
         _refuse_camera_file(path, error)
         raise

@@ -7,9 +7,10 @@ import math
 from pathlib import Path
 
 from calibgui.app.calibration import shorten_names
-from calibgui.app.outputs import check_figure, save_figure
+from calibgui.app.outputs import check_figures, save_figure
 from calibgui.cli.arguments import add_map_options, parse_positive
 from calibgui.cli.console import Console
+from calibgui.cli.outputs import add_overwrite_option
 from calibgui.cli.result import read_result_and_warn
 from calibgui.dataset import Result
 from calibgui.engine.assessment import (
@@ -28,6 +29,7 @@ from calibgui.report import quality
 def configure(parser: argparse.ArgumentParser) -> None:
     """Describe the arguments."""
     parser.add_argument("result", type=Path, metavar="RESULT", help="result.json of the camera")
+    add_overwrite_option(parser)
     add_map_options(parser, "the camera will look at")
     parser.add_argument(
         "--limit",
@@ -47,7 +49,7 @@ def configure(parser: argparse.ArgumentParser) -> None:
 def run(options: argparse.Namespace, console: Console) -> None:
     """Read, propagate, examine, draw and print."""
     if options.output:
-        check_figure(options.output)
+        check_figures([options.output], [options.result], options.overwrite)
     result = read_result_and_warn(options.result, console)
     views = result.observations()
     with limit_blas_threads():

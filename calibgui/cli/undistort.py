@@ -67,5 +67,6 @@ def run(options: argparse.Namespace, console: Console) -> None:
             options.output,
             undistortion,
             progress=lambda done, total, _: advance(done, total),
+            overwrite=options.overwrite,
         )
     report_written(written, options.output, console, shown)

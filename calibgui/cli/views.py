@@ -5,9 +5,10 @@ from __future__ import annotations
 import argparse
 from pathlib import Path
 
-from calibgui.app.outputs import check_figure, save_figure
+from calibgui.app.outputs import check_figures, save_figure
 from calibgui.cli.arguments import parse_positive
 from calibgui.cli.console import Console
+from calibgui.cli.outputs import add_overwrite_option
 from calibgui.cli.result import read_result_and_warn
 from calibgui.engine.threads import limit_blas_threads
 from calibgui.engine.uncertainty import QUANTITIES, propose_views, study_number_of_views
@@ -33,12 +34,12 @@ def configure(parser: argparse.ArgumentParser) -> None:
     parser.add_argument(
         "--next", type=Path, metavar="FILE", help="draw where to hold the board next"
     )
+    add_overwrite_option(parser)
 
 
 def run(options: argparse.Namespace, console: Console) -> None:
     """Read, study, propose, draw and print."""
-    for path in filter(None, [options.output, options.next]):
-        check_figure(path)
+    check_figures(filter(None, [options.output, options.next]), [options.result], options.overwrite)
     result = read_result_and_warn(options.result, console)
     calibration, views = result.calibration, result.observations()
     with limit_blas_threads(), console.show_progress("calibrating", "size") as advance:

@@ -3,13 +3,22 @@
 from __future__ import annotations
 
 import contextlib
+import os
 import signal
 import sys
 from collections.abc import Sequence
 from types import TracebackType
 
 import shiboken6
-from PySide6.QtCore import QLibraryInfo, QLocale, QTimer, QTranslator
+from PySide6.QtCore import (
+    QLibraryInfo,
+    QLocale,
+    QMessageLogContext,
+    QTimer,
+    QtMsgType,
+    QTranslator,
+    qInstallMessageHandler,
+)
 from PySide6.QtGui import QIcon
 from PySide6.QtWidgets import QApplication
 
@@ -21,7 +30,7 @@ from calibgui.gui.window.main_window import MainWindow
 
 def run(arguments: Sequence[str]) -> int:
     """Open the window, with a folder, images or a project if they are named; its exit code."""
-    app = QApplication([sys.argv[0]])
+    app = _create_application()
     app.setApplicationName("calibgui")
     app.setApplicationDisplayName("calibgui")
     app.setOrganizationName("calibgui")
@@ -42,6 +51,32 @@ def run(arguments: Sequence[str]) -> int:
     sys.excepthook = sys.__excepthook__  # the other one holds the window
     shiboken6.delete(window)  # before the application, without which its timers cannot end
     return code
+
+
+def _create_application() -> QApplication:
+    """Return Qt's application; end the program with a plain reason where Qt would abort it."""
+    said: list[str] = []
+
+    def explain(kind: QtMsgType, _: QMessageLogContext, text: str) -> None:
+        if kind is not QtMsgType.QtFatalMsg:
+            said.append(text)
+            return
+        print(
+            f"calibgui: there is no display that Qt can open. {' '.join(said)} calibgui --help "
+            "lists the commands that need none.",
+            file=sys.stderr,
+            flush=True,
+        )
+        os._exit(1)  # Qt aborts when this returns
+
+    usual = qInstallMessageHandler(explain)
+    try:
+        app = QApplication([sys.argv[0]])
+    finally:
+        qInstallMessageHandler(usual)
+    for text in said:
+        print(text, file=sys.stderr)
+    return app
 
 
 def _translate(app: QApplication) -> None:

@@ -11,12 +11,14 @@ import pytest
 
 from calibgui.app.synthetic import run_synthetic_check
 from calibgui.cli.main import main
+from calibgui.engine.boards.april_grid import AprilGrid
 from calibgui.engine.boards.board import Board
 from calibgui.engine.boards.charuco import Charuco
 from calibgui.engine.boards.circle_grid import Circles
 from calibgui.engine.camera.camera import Camera
 from calibgui.engine.images.reading import write_image
 from calibgui.engine.images.rendering import render_view
+from calibgui.formats.corners_json import read_corners
 from calibgui.formats.result_json import read_result
 from tests.engine import scenes
 
@@ -24,6 +26,7 @@ CAMERA = Camera((480, 360), [490.0, 493.0, 236.0, 182.0, 0.15, 0.03, 0.0, 3e-4, 
 BOARDS = {
     "charuco": Board(5, 7, 30.0, Charuco("DICT_4X4_50", 0.7)),
     "asymmetric-circles": Board(9, 4, 15.0, Circles(True, 0.8)),
+    "aprilgrid": Board(8, 8, 30.0, AprilGrid("t36h11", 0.3, 2, False)),
 }
 _SCHEMA = Path(__file__).parents[2] / "resources" / "schema" / "result-1.schema.json"
 
@@ -74,6 +77,19 @@ def test_from_photographs_to_exports(
     np.testing.assert_allclose(drawn[:4], camera.params[:4], atol=0.25)
 
 
+def test_nothing_need_be_said_of_the_board(
+    kind: str, folder: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
+) -> None:
+    out = tmp_path / "corners.json"
+    assert main(["detect", str(folder), "-o", str(out)]) == 0
+    assert "The photographs show:" in capsys.readouterr().out
+    corner_set = read_corners(out)
+    assert corner_set.board is not None
+    assert corner_set.board.pattern.kind == kind
+    assert corner_set.board.grid_size == BOARDS[kind].grid_size
+    assert sum(view.usable for view in corner_set.views) >= 5
+
+
 @pytest.mark.parametrize(
     ("options", "says"),
     [
@@ -81,8 +97,13 @@ def test_from_photographs_to_exports(
         (["--target", "circles", "--board", "5x7", "--marker", "3"], "--marker is for"),
         (["--dictionary", "DICT_4X4_50"], "--dictionary is for --target charuco"),
         (["--target", "charuco", "--marker", "3"], "--marker needs --square"),
-        (["--target", "charuco", "--square", "3", "--marker", "4"], "smaller than its square"),
+        (
+            ["--target", "charuco", "--square", "3", "--marker", "4"],
+            "1.333 of the side of its square",
+        ),
         (["--target", "charuco", "--dictionary", "DICT_3"], "no dictionary DICT_3"),
+        (["--target", "charuco", "--from-top"], "--from-top is for --target aprilgrid or"),
+        (["--target", "tagged-checkerboard", "--step", "3"], "every 3 squares"),
     ],
 )
 def test_what_does_not_go_together(

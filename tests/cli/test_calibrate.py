@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import io
 import json
 import math
 import shutil
@@ -37,8 +38,11 @@ def test_photographs_give_the_camera_that_took_them(
     assert (np.abs(camera.params - CAMERA.params)[free] < 5 * sigma[free]).all()
     printed, problems = capsys.readouterr()
     assert problems == ""
-    for heading in ("Stage I", "Views", "Camera, 320 x 240 px", "Residuals of", "Wrote"):
-        assert heading in printed
+    first = "Nothing is wrong that the photographs show.\n"
+    assert printed.startswith(first) and "\nCamera, 320 x 240 px" in printed
+    assert "\nRMS 0.0" in printed and f"{COUNT} of {COUNT} images" in printed
+    assert "Wrote" in printed and "-v shows Stage I" in printed
+    assert len(printed.splitlines()) <= 25
     # Only the name of a file may be longer than a line.
     assert all(len(line) <= 80 or str(file) in line for line in printed.splitlines())
 
@@ -127,9 +131,58 @@ def test_json_is_all_there_is_on_stdout(corners_file: Path, capsys: Capture) -> 
     assert problems == ""
 
 
-def test_quiet_is_silent(corners_file: Path, capsys: Capture) -> None:
+def test_quiet_is_one_line(corners_file: Path, capsys: Capture) -> None:
     assert main(["calibrate", str(corners_file), "--quiet"]) == 0
-    assert capsys.readouterr() == ("", "")
+    printed, problems = capsys.readouterr()
+    assert printed.startswith("Nothing is wrong that the photographs show. fx = 3")
+    assert printed.endswith(f", {COUNT} of {COUNT} images.\n") and printed.count("\n") == 1
+    assert problems == ""
+
+
+def test_quiet_says_what_is_wrong(corners_file: Path, capsys: Capture) -> None:
+    assert main(["calibrate", str(corners_file), "--fix", "fx=300", "--quiet"]) == 0
+    printed = capsys.readouterr().out
+    assert printed.startswith("One thing is wrong. ") and "fx" in printed.split(". ")[1]
+
+
+def test_the_verdict_and_the_camera_come_first(corners_file: Path, capsys: Capture) -> None:
+    assert main(["calibrate", str(corners_file), "--fix", "fx=300"]) == 0
+    told = capsys.readouterr().out
+    places = [told.index(words) for words in ("One thing is wrong.\n- ", "Camera, ", "RMS ", "-v ")]
+    assert places[0] == 0 and places == sorted(places)
+
+
+def test_verbose_adds_all_that_is_known(corners_file: Path, capsys: Capture) -> None:
+    assert main(["calibrate", str(corners_file)]) == 0
+    verdict = capsys.readouterr().out.splitlines()[0]
+    assert main(["calibrate", str(corners_file), "--stage-one"]) == 0
+    told = capsys.readouterr().out
+    assert told.startswith(verdict)
+    headings = ["Camera, 320 x 240 px", "paper's frame", "Residuals of", "Views\n", "Stage I, each"]
+    places = [told.index(words) for words in headings]
+    assert places == sorted(places)
+    assert max(map(len, told.splitlines())) <= 80
+
+
+def test_corners_and_results_pass_through_the_standard_streams(
+    corners_file: Path, photographs: Path, capsys: Capture, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def read_on(content: str) -> None:
+        monkeypatch.setattr("sys.stdin", io.TextIOWrapper(io.BytesIO(content.encode())))
+
+    assert main(["detect", str(photographs), "--square", "30", "-o", "-"]) == 0
+    printed = capsys.readouterr().out
+    assert json.loads(printed)["views"] == json.loads(corners_file.read_text())["views"]
+    read_on(printed)
+    assert main(["calibrate", "-", "-o", "-"]) == 0
+    printed = capsys.readouterr().out
+    assert json.loads(printed)["residuals"]["count"] == COUNT * 42
+    read_on(printed)
+    assert main(["uncertainty", "-"]) == 0
+    assert "at the image's centre" in capsys.readouterr().out
+    read_on("no JSON")
+    assert main(["calibrate", "-"]) == 1
+    assert "standard-input is not a JSON file" in capsys.readouterr().err
 
 
 def test_parameters_are_held_and_freed(corners_file: Path, tmp_path: Path, capsys: Capture) -> None:
@@ -145,7 +198,7 @@ def test_parameters_are_held_and_freed(corners_file: Path, tmp_path: Path, capsy
 
 @pytest.mark.parametrize("cost", ["reference", "paper"])
 def test_other_costs(corners_file: Path, cost: str, capsys: Capture) -> None:
-    assert main(["calibrate", str(corners_file), "--cost", cost]) == 0
+    assert main(["calibrate", str(corners_file), "--cost", cost, "-v"]) == 0
     printed = capsys.readouterr().out
     assert ("its own SD" in printed) == (cost == "paper")
     assert max(map(len, printed.splitlines())) <= 80
@@ -251,8 +304,10 @@ def test_no_board_anywhere(tmp_path: Path, capsys: Capture) -> None:
     arguments = [str(tmp_path), "--square", "30", "-o", str(tmp_path / "result.json")]
     assert main(["calibrate", *arguments]) == 1
     problems = capsys.readouterr().err
-    assert "blank0.png: No checkerboard" in problems and "blank1.png" in problems
-    refused(arguments, capsys, "None of the images can be used.", "Photograph")
+    assert "blank0.png, blank1.png: No checkerboard" in problems
+    last = problems.splitlines()[-1]
+    for words in ("found in none of the images.", "Photograph", "--roi", "--target"):
+        assert words in last
     assert not (tmp_path / "result.json").exists()
 
 

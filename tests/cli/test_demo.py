@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import re
 from pathlib import Path
 
 import numpy as np
@@ -29,6 +30,9 @@ def test_the_sample_is_calibrated_to_its_truth(
     printed = capsys.readouterr().out
     assert str(out) in printed and "in sigmas" in printed
     assert max(len(line) for line in printed.splitlines() if str(out) not in line) <= 80
+    readme = Path(__file__).resolve().parents[2] / "README.md"
+    (table,) = re.findall(r"^```text\n(Camera, .*?)^```$", readme.read_text("utf-8"), re.M | re.S)
+    assert table in printed
     for name in ("corners", "distortion", "residuals", "histograms", "undistorted", "convergence"):
         assert read_image_size(out / f"{name}.png")[0] > 400
     for name in ("opencv.yaml", "ros.yaml", "corners.json", "corners.csv"):

@@ -3,14 +3,18 @@
 from __future__ import annotations
 
 import json
+import shutil
 from pathlib import Path
 
 import numpy as np
 import pytest
 
 from calibgui.cli.main import main
+from calibgui.engine.boards.board import Board
+from calibgui.engine.boards.charuco import Charuco
 from calibgui.engine.images.reading import write_image
 from calibgui.formats.corners_json import read_corners
+from tests.engine.detection.conftest import Scene
 from tests.photographs import BOARD, CAMERA, COUNT
 
 Capture = pytest.CaptureFixture[str]
@@ -53,6 +57,41 @@ def test_no_board_is_a_failure_with_every_reason(tmp_path: Path, capsys: Capture
     assert printed == "" and not file.exists()
     assert "blank.png: No checkerboard was found." in problems
     assert "found in none of the images" in problems
+
+
+@pytest.mark.parametrize("command", [["detect"], ["calibrate", "--square", "30"]])
+def test_a_board_of_another_size_is_said_once(
+    command: list[str], photographs: Path, tmp_path: Path, capsys: Capture
+) -> None:
+    shutil.copy(photographs / "view1.png", tmp_path)
+    shutil.copy(photographs / "view2.png", tmp_path)
+    (tmp_path / "text.png").write_text("no image")
+    assert main([*command, str(tmp_path), "--board", "5x9"]) == 1
+    printed, problems = capsys.readouterr()
+    assert printed == ""
+    head, unreadable, *_, last = problems.splitlines()
+    assert head == "Left out" and "text.png" in unreadable and "view1.png" not in problems
+    assert last == (
+        "calibgui: The images show a board of 6x7, not of 5x9. State --board 6x7, or leave --board "
+        "out."
+    )
+
+
+def test_a_board_of_another_kind_is_named(tmp_path: Path, capsys: Capture) -> None:
+    scene = Scene(Board(5, 6, 16.0, Charuco("DICT_4X4_50", 0.75)))
+    write_image(tmp_path / "a.png", scene.image(noise=2.0))
+    assert main(["detect", str(tmp_path), "--target", "checkerboard"]) == 1
+    printed, problems = capsys.readouterr()
+    assert printed == ""
+    assert problems == (
+        "calibgui: The images show a ChArUco board, not a checkerboard. State --target charuco; if "
+        "another board is meant, --roi says where it is.\n"
+    )
+
+
+def test_quiet_is_one_line(photographs: Path, capsys: Capture) -> None:
+    assert main(["detect", str(photographs), "-q"]) == 0
+    assert capsys.readouterr() == (f"The board was found in {COUNT} of {COUNT} images.\n", "")
 
 
 def test_no_readable_image_is_a_failure(tmp_path: Path, capsys: Capture) -> None:

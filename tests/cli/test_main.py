@@ -12,13 +12,15 @@ import struct
 import subprocess
 import sys
 from collections.abc import Iterator
+from importlib import import_module
 from pathlib import Path
 
 import pytest
 
 from calibgui import __version__
 from calibgui.cli import detect
-from calibgui.cli.main import COMMANDS, main
+from calibgui.cli.main import main
+from calibgui.cli.parser import COMMANDS
 from tests.photographs import COUNT
 
 Capture = pytest.CaptureFixture[str]
@@ -37,9 +39,10 @@ def test_without_arguments_or_screen_it_shows_its_commands(
     for name in ("DISPLAY", "WAYLAND_DISPLAY"):
         monkeypatch.delenv(name, raising=False)
     assert main([]) == 2
-    printed = capsys.readouterr().out
+    printed, problems = capsys.readouterr()
     for command in COMMANDS:
         assert command in printed
+    assert problems.startswith("calibgui: there is no display: ")
 
 
 def test_its_version(capsys: Capture) -> None:
@@ -59,11 +62,101 @@ def test_every_command_describes_itself(command: str, capsys: Capture) -> None:
     assert max(map(len, printed.splitlines())) <= 80
 
 
-def test_an_unknown_command_is_wrong_usage(capsys: Capture) -> None:
+@pytest.mark.parametrize(
+    ("arguments", "problem"),
+    [
+        ("calibarte", "calibgui: 'calibarte' is neither a command nor a file or folder. Did you "
+         "mean calibgui calibrate?"),
+        ("photos/samle", "calibgui: there is no such file or folder: photos/samle. Did you mean "
+         "photos/sample?"),
+        ("photos/sample nowhere", "calibgui: there is no such file or folder: nowhere."),
+        ("photos/sample --square 30", "calibgui: --square belongs to a command, and none is named. "
+         "Did you mean calibgui calibrate photos/sample --square ...?"),
+        ("--versoin", "calibgui: there is no option --versoin. Did you mean --version?"),
+        ("calibrate photos --sqare=30", "calibgui calibrate: there is no option --sqare. Did you "
+         "mean --square?"),
+        ("calibrate photos -Z", "calibgui calibrate: there is no option -Z."),
+        ("diff a b c", "calibgui diff: 'c' is one argument too many."),
+        ("paper", "calibgui paper: the following arguments are required: DIR, -o/--output"),
+    ],
+)  # fmt: skip
+def test_wrong_usage_is_two_lines_with_what_was_meant(
+    arguments: str,
+    problem: str,
+    tmp_path: Path,
+    monkeypatch: pytest.MonkeyPatch,
+    capsys: Capture,
+) -> None:
+    (tmp_path / "photos/sample").mkdir(parents=True)
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setenv("DISPLAY", ":0")
     with pytest.raises(SystemExit) as ended:
-        main(["calibarte"])
+        main(arguments.split())
     assert ended.value.code == 2
-    assert "calibarte" in capsys.readouterr().err
+    said, usage = capsys.readouterr().err.splitlines()
+    assert said == problem
+    assert usage.startswith("usage: calibgui ") and len(usage) <= 80
+
+
+def test_without_a_display_it_says_so(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: Capture
+) -> None:
+    monkeypatch.setattr(sys, "platform", "linux")
+    for name in ("DISPLAY", "WAYLAND_DISPLAY"):
+        monkeypatch.delenv(name, raising=False)
+    assert main([str(tmp_path)]) == 1
+    problem = capsys.readouterr().err
+    assert problem.startswith("calibgui: there is no display: neither DISPLAY nor WAYLAND_DISPLAY")
+    assert problem.endswith(f"calibgui calibrate {tmp_path} --square MM\n")
+
+
+@pytest.mark.skipif(not sys.platform.startswith("linux"), reason="displays of X11")
+def test_a_display_that_cannot_be_reached_is_said(tmp_path: Path) -> None:
+    environment = {k: v for k, v in os.environ.items() if not k.startswith(("QT_", "WAYLAND"))}
+    done = subprocess.run(
+        program(tmp_path),
+        env=environment | {"DISPLAY": ":4711", "QT_QPA_PLATFORM": "xcb"},
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    assert done.returncode == 1
+    assert done.stderr.startswith("calibgui: there is no display that Qt can open. ")
+    assert done.stderr.endswith("calibgui --help lists the commands that need none.\n")
+
+
+def test_without_qt_it_says_how_to_get_the_window(tmp_path: Path) -> None:
+    lines = (
+        "import sys; sys.modules.update(PySide6=None, shiboken6=None);"
+        "from calibgui.cli.main import main"
+    )
+    done = subprocess.run(
+        [sys.executable, "-c", f"{lines}; sys.exit(main(sys.argv[1:]))", tmp_path],
+        env=os.environ | {"DISPLAY": ":0"},
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    assert done.returncode == 1
+    assert done.stderr == (
+        "calibgui: the window is not installed. Install it: pip install 'calibgui[gui]'\n"
+    )
+
+
+def test_a_library_that_the_window_lacks_is_named(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: Capture
+) -> None:
+    reason = "libEGL.so.1: cannot open shared object file: No such file or directory"
+
+    def fail(name: str) -> object:
+        if name == "calibgui.gui.app":
+            raise ImportError(reason, name="PySide6.QtGui")
+        return import_module(name)
+
+    monkeypatch.setattr("calibgui.cli.main.import_module", fail)
+    monkeypatch.setenv("DISPLAY", ":0")
+    assert main([str(tmp_path)]) == 1
+    assert f"cannot be loaded: {reason}" in capsys.readouterr().err
 
 
 def test_a_bug_shows_traceback_and_versions(
@@ -169,7 +262,9 @@ def test_quiet_still_names_what_was_left_out(
     file = tmp_path / "corners.json"
     file.write_text(json.dumps(content))
     assert main(["calibrate", str(file), "--quiet"]) == 0
-    assert capsys.readouterr() == ("", "Left out\n  dark.png: Too dark.\n")
+    printed, problems = capsys.readouterr()
+    assert printed.count("\n") == 1
+    assert problems == "Left out\n  dark.png: Too dark.\n"
 
 
 @posix
@@ -222,7 +317,7 @@ def test_names_do_not_command_the_terminal(
     content["views"][1] = {"image": "\x1b[2J.png", "uv": [], "board": []}
     file = tmp_path / "corners.json"
     file.write_text(json.dumps(content))
-    assert main(["calibrate", str(file)]) == 0
+    assert main(["calibrate", str(file), "-v"]) == 0
     printed = capsys.readouterr().out
     assert "\x1b" not in printed
     assert r"\x1b[31mred\n.png" in printed

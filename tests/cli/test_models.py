@@ -38,7 +38,8 @@ def test_a_corners_file_is_compared_on(corners_file: Path, tmp_path: Path, capsy
     lines = printed.splitlines()
     assert all(len(line) <= 80 or str(file) in line for line in lines)
     content = json.loads(file.read_text())
-    assert content["recommended"] == "lucchese"
+    assert content["recommended"] == "lucchese" and content["fixed"] == {}
+    assert "- To calibrate with it: --model lucchese\n" in printed
     rows = {row["model"]: row for row in content["models"]}
     assert rows.keys() == set(FEW)
     chosen = rows["lucchese"]
@@ -53,11 +54,13 @@ def test_a_corners_file_is_compared_on(corners_file: Path, tmp_path: Path, capsy
 
 
 @pytest.mark.usefixtures("few_lenses")
-def test_json_stands_alone_and_quiet_is_quiet(corners_file: Path, capsys: Capture) -> None:
+def test_json_stands_alone_and_quiet_is_one_line(corners_file: Path, capsys: Capture) -> None:
     assert main(["models", str(corners_file), "--json"]) == 0
     assert json.loads(capsys.readouterr().out)["recommended"] == "lucchese"
     assert main(["models", str(corners_file), "-q"]) == 0
-    assert capsys.readouterr() == ("", "")
+    printed, problems = capsys.readouterr()
+    assert "lucchese" in printed and printed.count("\n") == 1
+    assert problems == ""
 
 
 @pytest.mark.usefixtures("few_lenses")

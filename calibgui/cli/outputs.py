@@ -1,0 +1,40 @@
+"""What the subcommands share that write files."""
+
+from __future__ import annotations
+
+import argparse
+from collections.abc import Iterable
+from pathlib import Path
+
+from calibgui.app.outputs import check_outputs
+from calibgui.cli.arguments import list_input_files
+
+
+def add_overwrite_option(parser: argparse.ArgumentParser) -> None:
+    """Add the option that lets outputs replace files which this program did not write."""
+    parser.add_argument(
+        "--overwrite",
+        action="store_true",
+        help="replace files that calibgui did not write, or wrote as something else; never files "
+        "that are read",
+    )
+
+
+def check_corner_outputs(
+    options: argparse.Namespace,
+    outputs: Iterable[tuple[Path, str]],
+    others: Iterable[str | Path] = (),
+) -> None:
+    """Refuse outputs of a command that reads photographs or corners, as `check_outputs` does.
+
+    Args:
+        options: those of `add_image_paths`, `add_search_options` and `add_overwrite_option`.
+        outputs: files to write, each with its kind.
+        others: further files that will be read.
+
+    Raises:
+        CalibrationError: as `check_outputs`.
+    """
+    regions = [options.roi] if options.roi else []
+    read = [*list_input_files(options.paths), *regions, *others]
+    check_outputs(outputs, read, options.overwrite)

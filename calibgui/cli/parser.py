@@ -1,0 +1,120 @@
+"""Parsing of the command line: errors of two lines that name what was probably meant."""
+
+from __future__ import annotations
+
+import argparse
+import difflib
+import os
+from collections.abc import Iterable, Sequence
+from importlib import import_module
+from typing import Any, NoReturn
+
+from calibgui import __version__
+
+COMMANDS = {
+    "calibrate": "calibrate a camera from photographs of a checkerboard or another board",
+    "detect": "locate the corners of the board in photographs",
+    "undistort": "write photographs without lens distortion",
+    "rectify": "write photographs of the board as seen from straight above",
+    "models": "compare lens models on photographs, and recommend one",
+    "compare": "compare methods of calibration on photographs, side by side",
+    "uncertainty": "show how far a calibration can be trusted",
+    "diff": "compare two calibrations of a camera",
+    "check": "check with a few pictures whether a stored calibration is still good",
+    "convert": "convert a camera file to another lens model or format",
+    "views": "study how many views are enough, and where to hold the board next",
+    "demo": "calibrate the bundled sample and write all results and figures",
+    "paper": "reproduce the paper from its 25 images, with its printed numbers beside ours",
+    "completion": "print what completes these commands in a shell at the press of the tab key",
+}
+"""Subcommands, which are also the names of their modules, and their help texts."""
+
+
+class Parser(argparse.ArgumentParser):
+    """A parser whose errors are two lines: what is wrong, and the usage in short."""
+
+    def parse_args(self, args: Any = None, namespace: Any = None) -> Any:
+        """Return the parsed arguments, or end the program and suggest what was probably meant."""
+        options, unknown = self.parse_known_args(args, namespace)
+        if unknown:
+            self.error(self._describe_unknown(unknown[0]))
+        return options
+
+    def error(self, message: str) -> NoReturn:
+        """End the program with exit code 2, the reason and a line on the usage."""
+        self.exit(2, f"{self.prog}: {message}\n{self._format_short_usage()}\n")
+
+    def _describe_unknown(self, argument: str) -> str:
+        """Describe an argument that nothing accepts."""
+        name = argument.partition("=")[0]
+        if not name.startswith("-"):
+            return f"{argument!r} is one argument too many."
+        known = [option for action in self._actions for option in action.option_strings]
+        return f"there is no option {name}.{suggest(name, known)}"
+
+    def _format_short_usage(self) -> str:
+        """Format the usage in one line, with what is needed and no more."""
+        needed = [a for a in self._actions if a.required or not a.option_strings]
+        formatter = argparse.HelpFormatter(self.prog, width=1000)
+        formatter.add_usage(None, needed, [])
+        usage = formatter.format_help().strip()
+        return f"{usage} [OPTION ...] (--help explains all)"
+
+
+def suggest(word: str, known: Iterable[str], before: str = "") -> str:
+    """Return a sentence that asks whether the nearest of the `known` words was meant, or nothing.
+
+    The sentence begins with a blank, and names the word after `before`.
+    """
+    near = difflib.get_close_matches(word, list(known), n=1)
+    return f" Did you mean {before}{near[0]}?" if near else ""
+
+
+def build_parser() -> tuple[Parser, dict[str, Parser]]:
+    """Return the program's parser and those of the subcommands, which `configure` describes."""
+    parser = Parser(
+        prog="calibgui",
+        description="Geometric camera calibration from photographs of a flat board.",
+        epilog="calibgui COMMAND --help describes a command. Without one, calibgui [FOLDER | "
+        "IMAGES | PROJECT] opens the window.",
+    )
+    parser.add_argument("--version", action="version", version=f"calibgui {__version__}")
+    choices = parser.add_subparsers(title="commands", metavar="COMMAND", dest="command")
+    return parser, {name: choices.add_parser(name, help=text) for name, text in COMMANDS.items()}
+
+
+def configure(name: str, parser: Parser) -> Any:
+    """Describe the arguments of the subcommand `name` to its parser, and return its module."""
+    command = import_module(f"calibgui.cli.{name}")
+    parser.description = command.__doc__
+    import_module("calibgui.cli.console").configure(parser)
+    command.configure(parser)
+    return command
+
+
+def describe_misuse(arguments: Sequence[str]) -> str:
+    """Describe what is wrong with arguments that name neither a command nor only files."""
+    first = arguments[0]
+    if not os.path.exists(first):  # noqa: PTH110 - no import
+        return _describe_missing(first)
+    option = next((name for name in arguments if name.startswith("-")), None)
+    if option is not None:
+        return (
+            f"{option} belongs to a command, and none is named."
+            f" Did you mean calibgui calibrate {first} {option} ...?"
+        )
+    missing = next(name for name in arguments if not os.path.exists(name))  # noqa: PTH110
+    return _describe_missing(missing)
+
+
+def _describe_missing(name: str) -> str:
+    """Describe a name that is that of no command, file or folder."""
+    if near := suggest(name, COMMANDS, "calibgui "):
+        return f"{name!r} is neither a command nor a file or folder.{near}"
+    folder, base = os.path.split(name.rstrip("/" + os.sep))
+    try:
+        beside = os.listdir(folder or ".")  # noqa: PTH208 - no import
+    except OSError:
+        beside = []
+    near = suggest(base, beside, os.path.join(folder, ""))  # noqa: PTH118 - no import
+    return f"there is no such file or folder: {name}.{near}"
