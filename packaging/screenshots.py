@@ -26,10 +26,9 @@ from calibgui.app.resources import find_resource
 from calibgui.engine.boards import BoardShapeModel
 from calibgui.gui.panels.analysis import PANELS
 from calibgui.gui.panels.board_shape import BoardShapePanel
-from calibgui.gui.panels.lens_models import LensModelsPanel
 from calibgui.gui.panels.methods import MethodsPanel
+from calibgui.gui.panels.on_demand import OnDemandPanel
 from calibgui.gui.panels.poses import PosesPanel
-from calibgui.gui.panels.synthetic import SyntheticPanel
 from calibgui.gui.widgets import theme
 from calibgui.gui.window.main_window import MainWindow
 
@@ -78,15 +77,10 @@ class Photographer:
             if kind is BoardShapePanel:
                 self.estimate_board_shape()
             panel = window.analysis.show_panel(kind)
-            if isinstance(panel, SyntheticPanel):
+            if isinstance(panel, OnDemandPanel):
                 panel.run.click()
-                wait(partial(getattr, panel, "check"))
-            if isinstance(panel, LensModelsPanel):
-                panel.run.click()
-                wait(partial(getattr, panel, "choice"))
+                wait(partial(getattr, panel, "found"))
             if isinstance(panel, MethodsPanel):
-                panel.run.click()
-                wait(partial(getattr, panel, "comparison"))
                 panel.tables.errors.selectRow(2)  # the first differs from none: it has no map
             self.take(kind.__name__.removesuffix("Panel").lower())
         self.marking()

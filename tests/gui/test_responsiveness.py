@@ -78,7 +78,7 @@ def test_while_the_papers_images_are_calibrated_and_checked(
     qtbot.wait(200)
     with heartbeat("the synthetic check"):
         panel.run.click()
-        qtbot.waitUntil(lambda: panel.check is not None, timeout=400_000)
+        qtbot.waitUntil(lambda: panel.found is not None, timeout=400_000)
 
 
 def test_while_a_project_of_200_images_is_opened_and_calibrated(

@@ -11,7 +11,6 @@ from PySide6.QtGui import QGuiApplication
 from PySide6.QtWidgets import (
     QDialog,
     QDialogButtonBox,
-    QFileDialog,
     QFormLayout,
     QHBoxLayout,
     QLabel,
@@ -29,6 +28,7 @@ from calibgui.gui.jobs.job import Job
 from calibgui.gui.jobs.jobs import Jobs
 from calibgui.gui.widgets import theme
 from calibgui.gui.widgets.actions import add_close_button
+from calibgui.gui.widgets.save_names import ask_for_name
 
 _NAME = "camera"
 """The name that a file is given unless the user chooses another."""
@@ -156,16 +156,14 @@ class ExportDialog(QDialog):
     def _save(self) -> None:
         exporter = self.exporter
         pattern = " ".join(f"*{suffix}" for suffix in exporter.suffixes)
-        path, _ = QFileDialog.getSaveFileName(
+        path = ask_for_name(
             self,
             self.tr("Export"),
             f"{_NAME}{exporter.suffixes[0]}",
             f"{exporter.title} ({pattern})",
         )
-        if not path:
+        if path is None:
             return
-        if not Path(path).suffix:
-            path += exporter.suffixes[0]
         self._jobs.start(
             self.tr("Writing {0}").format(path),
             lambda _: export(self._result, exporter.name, path),

@@ -12,10 +12,12 @@ from PySide6.QtWidgets import QFileDialog, QInputDialog, QLineEdit, QMessageBox,
 
 from calibgui.app.document import Document
 from calibgui.app.moved_images import find_moved_images, list_missing_images
+from calibgui.app.new_images import ForeignFilesError
 from calibgui.app.paths import find_images
 from calibgui.app.project import Project, add_images, relocate_images, remove_result, rename_result
 from calibgui.app.resampling import Undistortion, WrittenImage, rectify_files, undistort_files
 from calibgui.app.resources import find_resource, find_sample_square
+from calibgui.dataset import Result
 from calibgui.engine.errors import CalibrationError
 from calibgui.engine.images import FORMATS
 from calibgui.gui.dialogs.print_dialog import PrintDialog
@@ -25,8 +27,11 @@ from calibgui.gui.session.detector import Detector
 from calibgui.gui.session.saver import Saver
 from calibgui.gui.session.session import Session
 from calibgui.gui.widgets.actions import show_dialog
+from calibgui.gui.widgets.save_names import ask_for_name
 
 _PROJECT = "calibgui.json"
+_MAX_LISTED = 8
+"""Number of files, at most, that a question lists."""
 
 
 class Files(QObject):
@@ -120,12 +125,9 @@ class Files(QObject):
         views = self._session.project.views
         beside = Path(views[0].image).parent if views else Path()
         start = self._session.document.path or beside / _PROJECT
-        name, _ = QFileDialog.getSaveFileName(
+        return ask_for_name(
             self._window, self.tr("Save project"), str(start), self.tr("Projects (*.json)")
         )
-        if not name:
-            return None
-        return Path(name) if Path(name).suffix else Path(name).with_suffix(".json")
 
     def may_leave(self) -> bool:
         """Return whether the document can be given up, being saved or not wanted."""
@@ -242,20 +244,38 @@ class Files(QObject):
         folder = QFileDialog.getExistingDirectory(
             self._window, self.tr("Folder for the images"), self._place
         )
-        if result is None or not folder:
-            return
-        images = [Path(result.views[k].image) for k in views]
+        if result is not None and folder:
+            images = [Path(result.views[k].image) for k in views]
+            self._write_images(result, images, Path(folder), undistortion)
+
+    def _write_images(
+        self,
+        result: Result,
+        images: Sequence[Path],
+        folder: Path,
+        undistortion: Undistortion | None,
+        overwrite: bool = False,
+    ) -> None:
+        """Write undistorted or rectified images; ask if they would replace others."""
 
         def work(job: Job) -> int:
             def progress(done: int, total: int, _: WrittenImage) -> None:
                 job.advance(done, total)
 
             if undistortion is None:
-                written = rectify_files(result, images, Path(folder), progress=progress)
+                written = rectify_files(
+                    result, images, folder, progress=progress, overwrite=overwrite
+                )
             else:
                 camera = result.calibration.camera
-                written = undistort_files(camera, images, Path(folder), undistortion, progress)
+                written = undistort_files(camera, images, folder, undistortion, progress, overwrite)
             return sum(len(image.paths) for image in written)
+
+        def failed(error: Exception) -> None:
+            if not isinstance(error, ForeignFilesError):
+                self._session.failed.emit(error)
+            elif self._may_replace(error, folder):
+                self._write_images(result, images, folder, undistortion, overwrite=True)
 
         self._session.jobs.start(
             self.tr("Writing images"),
@@ -267,7 +287,26 @@ class Files(QObject):
                     else self.tr("Wrote {0} image to {1}.")
                 ).format(count, folder)
             ),
+            failed=failed,
         )
+
+    def _may_replace(self, error: ForeignFilesError, folder: Path) -> bool:
+        """Ask whether files may be replaced that this program did not make."""
+        button = QMessageBox.StandardButton
+        listed = error.names[:_MAX_LISTED]
+        names = "\n".join([*listed, "…"] if len(error.names) > len(listed) else listed)
+        answer = QMessageBox.question(
+            self._window,
+            self.tr("Replace files"),
+            self.tr("In {0} there are files of these names, not written by this program:").format(
+                folder
+            )
+            + f"\n\n{names}\n\n"
+            + self.tr("Replace them?"),
+            button.Yes | button.No,
+            button.No,
+        )
+        return answer == button.Yes
 
     def _attempt(self, action: Callable[[], object]) -> bool:
         try:

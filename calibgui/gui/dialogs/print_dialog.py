@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from pathlib import Path
-
 from PySide6.QtCore import QByteArray, QRectF, Qt
 from PySide6.QtGui import QPainter, QPaintEvent
 from PySide6.QtSvg import QSvgRenderer
@@ -12,7 +10,6 @@ from PySide6.QtWidgets import (
     QDialog,
     QDialogButtonBox,
     QDoubleSpinBox,
-    QFileDialog,
     QFormLayout,
     QHBoxLayout,
     QLabel,
@@ -26,14 +23,17 @@ from calibgui.app.printable_board import (
     Page,
     choose_paper,
     complete_pattern,
+    count_points,
+    count_printed,
     lay_out_page,
     write_page,
 )
-from calibgui.engine.boards import Board
+from calibgui.engine.boards import AprilGrid, Board
 from calibgui.engine.errors import CalibrationError
 from calibgui.gui.settings.pattern_choice import PatternChoice
 from calibgui.gui.widgets import theme
 from calibgui.gui.widgets.actions import add_close_button
+from calibgui.gui.widgets.save_names import ask_for_name
 
 _DEFAULT = Board(7, 10, 25.0)
 
@@ -71,9 +71,9 @@ class PrintDialog(QDialog):
         self.setWindowTitle(self.tr("Board to print"))
         board = board or _DEFAULT
         self.rows, self.cols = (QSpinBox(minimum=3, maximum=200) for _ in range(2))
-        squares_more = 1 if board.pattern.has_squares else 0
-        self.rows.setValue(board.rows + squares_more)
-        self.cols.setValue(board.cols + squares_more)
+        rows, cols = count_printed(board.pattern, board.grid_size)
+        self.rows.setValue(rows)
+        self.cols.setValue(cols)
         self.pattern = PatternChoice(self.tr("usual"))
         self.pattern.show_pattern(board.pattern, board.square)
         self.counted, self.side = QLabel(), QLabel()
@@ -121,17 +121,22 @@ class PrintDialog(QDialog):
 
     def make_sheet(self) -> Page:
         """The sheet as chosen. Raises CalibrationError if it does not fit the paper."""
-        pattern, more = self.pattern.pattern, 1 if self.pattern.pattern.has_squares else 0
-        grid_size = (self.rows.value() - more, self.cols.value() - more)
+        pattern = self.pattern.pattern
+        grid_size = count_points(pattern, (self.rows.value(), self.cols.value()))
         board = Board(*grid_size, self.square.value(), complete_pattern(pattern, grid_size))
         return lay_out_page(board, self.paper.currentText())
 
     def _refresh(self) -> None:
         colours = theme.current()
-        circles = not self.pattern.pattern.has_squares
-        self.counted.setText(self.tr("Circles") if circles else self.tr("Squares"))
-        self.side.setText(self.tr("Distance") if circles else self.tr("Side of a square"))
         chosen = self.pattern.pattern
+        if isinstance(chosen, AprilGrid):
+            counted, side = self.tr("Tags"), self.tr("Side of a tag")
+        elif chosen.has_squares:
+            counted, side = self.tr("Squares"), self.tr("Side of a square")
+        else:
+            counted, side = self.tr("Circles"), self.tr("Distance")
+        self.counted.setText(counted)
+        self.side.setText(side)
         self.odd_and_even.setVisible(chosen.has_squares and not chosen.identifies_points)
         self.pattern.show_pattern(self.pattern.pattern, self.square.value())
         try:
@@ -145,17 +150,14 @@ class PrintDialog(QDialog):
         self.save.setEnabled(page is not None)
 
     def _ask_and_save(self) -> None:
-        name, chosen = QFileDialog.getSaveFileName(
+        path = ask_for_name(
             self,
             self.tr("Save board"),
             "board.pdf",
             self.tr("PDF (*.pdf);;SVG drawing (*.svg)"),
         )
-        if not name:
+        if path is None:
             return
-        path = Path(name)
-        if not path.suffix:
-            path = path.with_suffix(".svg" if "svg" in chosen else ".pdf")
         try:
             write_page(self.make_sheet(), path)
             self.accept()

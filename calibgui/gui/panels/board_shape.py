@@ -2,13 +2,11 @@
 
 from __future__ import annotations
 
-from pathlib import Path
-
 import numpy as np
 import pyqtgraph as pg
 import scipy
 from PySide6.QtCore import QT_TRANSLATE_NOOP, QPointF, QRectF
-from PySide6.QtWidgets import QFileDialog, QHBoxLayout, QLabel, QPushButton, QVBoxLayout
+from PySide6.QtWidgets import QHBoxLayout, QLabel, QPushButton, QVBoxLayout
 
 from calibgui.dataset import Result
 from calibgui.engine.arrays import Array
@@ -20,6 +18,7 @@ from calibgui.gui.panels.panel import Panel
 from calibgui.gui.panels.services import Services
 from calibgui.gui.widgets import theme
 from calibgui.gui.widgets.plots import ColourBar, Plot
+from calibgui.gui.widgets.save_names import ask_for_name
 from calibgui.report.summary import (
     describe_board_shape,
     describe_board_shape_error,
@@ -156,14 +155,13 @@ class BoardShapePanel(Panel):
         return k if away[k] < self._pitch / 2 else -1
 
     def _ask_and_save(self) -> None:
-        name, _ = QFileDialog.getSaveFileName(
+        path = ask_for_name(
             self, self.tr("Save the board's shape"), "board-shape.json", self.tr("Shapes (*.json)")
         )
-        if not name:
+        if path is None:
             return
-        path = Path(name)
         try:
-            write_board_shape(self.board_shape, path if path.suffix else path.with_suffix(".json"))
+            write_board_shape(self.board_shape, path)
         except CalibrationError as error:
             self.failed.emit(error)
 

@@ -1,4 +1,4 @@
-"""The difference of a camera from the chosen one, as a map over the image."""
+"""A map over the image of how far a camera differs from the chosen one."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ _LEAST_PX = 1e-3
 
 
 class Difference(Protocol):
-    """What is drawn."""
+    """How far the images of the same points lie apart, over the image: what the map draws."""
 
     @property
     def u(self) -> Array:
@@ -41,7 +41,7 @@ class Difference(Protocol):
 
 
 class DifferenceMap(QWidget):
-    """Lengths as colours, which end at the largest where corners were seen, and lines there."""
+    """Draws lengths as contours and colours, which end at the largest where corners were seen."""
 
     def __init__(self) -> None:
         super().__init__()

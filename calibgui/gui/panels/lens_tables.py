@@ -1,4 +1,4 @@
-"""Lens models in two tables: what they leave on the views, and what they say of the image."""
+"""Two tables of lens models: what they leave on the views, and what they say of the image."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ from calibgui.report.lens_models import get_short_lens_title
 
 
 class LensTables(LinkedTables):
-    """The same lens models in both tables; a row of one is selected in the other as well."""
+    """Shows lens models; a row that is selected in one table is selected in the other as well."""
 
     def __init__(self) -> None:
         super().__init__()
@@ -36,21 +36,24 @@ class LensTables(LinkedTables):
                 self.tr("RMS"),
                 [row.rms for row in rows],
                 px,
-                self.tr("Residuals of a calibration from all views, px"),
+                self.tr("Residuals of a calibration from all views"),
+                unit="px",
             ),
             Column(
                 self.tr("σx"),
                 [row.sigma_x for row in rows],
                 px,
-                self.tr("Standard deviation of these residuals across the image, px"),
+                self.tr("Standard deviation of these residuals across the image"),
                 optional=True,
+                unit="px",
             ),
             Column(
                 self.tr("σy"),
                 [row.sigma_y for row in rows],
                 px,
-                self.tr("Standard deviation of these residuals down the image, px"),
+                self.tr("Standard deviation of these residuals down the image"),
                 optional=True,
+                unit="px",
             ),
             Column(
                 self.tr("Unseen"),
@@ -58,21 +61,24 @@ class LensTables(LinkedTables):
                 px,
                 self.tr(
                     "RMS of the residuals of views that were left out of the calibration in turn,\n"
-                    "with only their poses fitted, px"
+                    "with only their poses fitted"
                 ),
+                unit="px",
             ),
             Column(
                 self.tr("Median"),
                 [row.unseen_median for row in rows],
                 px,
-                self.tr("Median length of the residuals of unseen views, px"),
+                self.tr("Median length of the residuals of unseen views"),
                 optional=True,
+                unit="px",
             ),
             Column(
                 self.tr("95 %"),
                 [row.unseen_p95 for row in rows],
                 px,
-                self.tr("Length that 95 % of the residuals of unseen views do not exceed, px"),
+                self.tr("Length that 95 % of the residuals of unseen views do not exceed"),
+                unit="px",
             ),
             Column(self.tr("Remarks"), ["; ".join(row.remarks) for row in rows], hidden=True),
         ]
@@ -115,8 +121,9 @@ class LensTables(LinkedTables):
                 [row.difference for row in rows],
                 format_px,
                 self.tr(
-                    "Largest distance from the recommended model's map where corners were seen, px"
+                    "Largest distance from the recommended model's map where corners were seen"
                 ),
+                unit="px",
             ),
             Column(
                 self.tr("Valid"),
@@ -131,5 +138,5 @@ class LensTables(LinkedTables):
 
 
 def _format_degrees(angle: float) -> str:
-    """Text of an angle in whole degrees; a dash where there is none."""
+    """Format an angle in whole degrees; a dash where there is none."""
     return f"{angle:.0f}°" if math.isfinite(angle) else "–"

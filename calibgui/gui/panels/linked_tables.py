@@ -1,4 +1,4 @@
-"""The same rows in several tables, one at a time."""
+"""Several tables of the same rows, one of which is in front."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from calibgui.gui.widgets.tables import Table
 
 
 class LinkedTables(QTabWidget):
-    """Tables with the same rows; a row that is selected in one is selected in the others."""
+    """Shows tables of the same rows; a row that is selected in one is selected in the others."""
 
     picked = Signal(int)
     """The row that the user chose, counted as in the columns' values."""
@@ -18,9 +18,6 @@ class LinkedTables(QTabWidget):
         super().__init__()
         self.setDocumentMode(True)
         self._tables: list[Table] = []
-        keeping = self.sizePolicy()
-        keeping.setRetainSizeWhenHidden(True)
-        self.setSizePolicy(keeping)
 
     def add_table(self, name: str) -> Table:
         """Add an empty table behind those that there are."""

@@ -1,4 +1,4 @@
-"""Methods of calibration in two tables: how well they predict, and what they say of the camera."""
+"""Two tables of methods of calibration: how well they predict, and what they say of the camera."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ _NAN = math.nan
 
 
 class MethodTables(LinkedTables):
-    """The same methods in both tables; a dash says by its tooltip why there is no value."""
+    """Shows methods; the tooltip of a dash says why there is no value."""
 
     def __init__(self) -> None:
         super().__init__()
@@ -22,7 +22,7 @@ class MethodTables(LinkedTables):
         self.camera = self.add_table(self.tr("Camera"))
 
     def show_rows(self, rows: Sequence[MethodRow]) -> None:
-        """Show methods; those that gave nothing stand out, with the reason."""
+        """Show methods; those that gave nothing stand out, with the reason as their tooltip."""
         marked = {k: " ".join(row.remarks) for k, row in enumerate(rows) if row.kind == "refused"}
         self.errors.show_columns(self._make_error_columns(rows), marked)
         self.camera.show_columns(self._make_camera_columns(rows), marked)
@@ -39,8 +39,9 @@ class MethodTables(LinkedTables):
                 self.tr("RMS"),
                 [row.rms for row in rows],
                 _format_length,
-                self.tr("Residuals of a calibration from all views, px"),
+                self.tr("Residuals of a calibration from all views"),
                 tips=tips,
+                unit="px",
             ),
             Column(
                 self.tr("Unseen"),
@@ -48,9 +49,10 @@ class MethodTables(LinkedTables):
                 _format_length,
                 self.tr(
                     "RMS of the residuals of views that were left out of the calibration in turn,\n"
-                    "with only their poses fitted, px"
+                    "with only their poses fitted"
                 ),
                 tips=tips,
+                unit="px",
             ),
             Column(
                 self.tr("Differs"),
@@ -58,21 +60,24 @@ class MethodTables(LinkedTables):
                 _format_length,
                 self.tr(
                     "Largest distance between a point's images by this method and by the chosen\n"
-                    "calibration, where corners were seen, px"
+                    "calibration, where corners were seen"
                 ),
+                unit="px",
             ),
             Column(
                 self.tr("in RMS"),
                 [row.difference_rms for row in rows],
                 _format_length,
-                self.tr("Root mean square of these distances, px"),
+                self.tr("Root mean square of these distances"),
                 optional=True,
+                unit="px",
             ),
             Column(
-                self.tr("Time"),
+                self.tr("Time [s]"),
                 [row.seconds for row in rows],
                 _format_seconds,
                 self.tr("Time of initialisation and refinement from all views"),
+                heading=self.tr("Time"),
             ),
             Column(
                 self.tr("Steps"),
@@ -88,17 +93,17 @@ class MethodTables(LinkedTables):
         px = with_decimals(2)
         unknown = (_NAN, _NAN)
         radius = next((row.radius for row in rows if math.isfinite(row.radius)), _NAN)
-        centre = self.tr("Principal point, px; of methods marked * the distortion's centre")
+        centre = self.tr("Principal point; of methods marked * the distortion's centre")
         columns = [self._make_name_column(rows)]
         for name, text, tip in (
-            ("fx", px, self.tr("Focal length across the image, px")),
-            ("fy", px, self.tr("Focal length down the image, px")),
+            ("fx", px, self.tr("Focal length across the image")),
+            ("fy", px, self.tr("Focal length down the image")),
             ("cx", px, centre),
             ("cy", px, centre),
             (
                 "skew",
                 with_decimals(3),
-                self.tr("Shift across the image for a px down it, px"),
+                self.tr("Shift across the image over a length of fy down it"),
             ),
         ):
             estimates = [row.values.get(name, unknown) for row in rows]
@@ -106,7 +111,7 @@ class MethodTables(LinkedTables):
         shifts = [row.shift or unknown for row in rows]
         moves = self.tr(
             "How far the distortion moves points that are measured {0:.0f} px from the centre,\n"
-            "where the outermost corner lies, px; negative towards it"
+            "where the outermost corner lies; negative towards it"
         ).format(radius)
         columns += self._make_estimate_columns(self.tr("Shift"), rows, shifts, px, moves)
         coefficients = [row.coefficients for row in rows]
@@ -122,7 +127,7 @@ class MethodTables(LinkedTables):
     ) -> list[Column]:
         """Make a column of values, and one of their standard deviations, shown if there is room."""
         tips = [
-            self.tr("{0} ± {1:.2g} (1σ by the corners' noise)").format(tip, sigma)
+            self.tr("{0} ± {1:.2g} px (1σ by the corners' noise)").format(tip, sigma)
             if math.isfinite(value)
             else self.tr("It does not estimate this. {0}").format(row.limits)
             for row, (value, sigma) in zip(rows, estimates, strict=True)
@@ -130,7 +135,7 @@ class MethodTables(LinkedTables):
         values, sigmas = ([pair[k] for pair in estimates] for k in (0, 1))
         deviation = self.tr("One standard deviation of {0} by the corners' noise").format(name)
         return [
-            Column(name, values, text, tip, tips=tips),
+            Column(name, values, text, tip, tips=tips, unit="px"),
             Column(
                 self.tr("σ of {0}").format(name),
                 sigmas,
@@ -138,6 +143,7 @@ class MethodTables(LinkedTables):
                 deviation,
                 optional=True,
                 heading=f"± {name}",
+                unit="px",
             ),
         ]
 
@@ -152,12 +158,12 @@ class MethodTables(LinkedTables):
 
 
 def _format_length(length: float) -> str:
-    """Text of a length in px; a dash where it is not known."""
+    """Format a length in px; a dash where it is not known."""
     return format_px(length) if math.isfinite(length) else "–"
 
 
 def _format_seconds(seconds: float) -> str:
-    """Text of a time; a dash where it is not known."""
+    """Format a time with its unit; a dash where it is not known."""
     if not math.isfinite(seconds):
         return "–"
     if seconds < 1:

@@ -5,56 +5,41 @@ from __future__ import annotations
 from collections.abc import Callable
 
 from PySide6.QtCore import QT_TRANSLATE_NOOP
-from PySide6.QtWidgets import (
-    QHBoxLayout,
-    QLabel,
-    QPushButton,
-    QTabWidget,
-    QVBoxLayout,
-    QWidget,
-)
+from PySide6.QtWidgets import QTabWidget, QWidget
 
 from calibgui.app.calibration import shorten_names
 from calibgui.app.synthetic import BLUR_PX, SyntheticCheck, run_synthetic_check
 from calibgui.dataset import Result
 from calibgui.engine.assessment import summarise_residuals
+from calibgui.engine.errors import Progress
 from calibgui.engine.images import Image, render_view
-from calibgui.gui.jobs.job import Job
 from calibgui.gui.panels.before_after import BeforeAfter, Grey
 from calibgui.gui.panels.latest import Latest
-from calibgui.gui.panels.panel import Panel
+from calibgui.gui.panels.on_demand import OnDemandPanel
 from calibgui.gui.panels.services import Services
 from calibgui.gui.panels.synthetic_figures import Histograms, ParameterTable, PoseErrors, Scatters
 
 
-class SyntheticPanel(Panel):
-    """Renders the views from the result, calibrates them again and compares.
-
-    Args:
-        jobs: that do the work.
-        read: the image of a path, called in a worker.
-    """
+class SyntheticPanel(OnDemandPanel[SyntheticCheck]):
+    """Renders the views from the result, calibrates them again and compares."""
 
     title = str(QT_TRANSLATE_NOOP("SyntheticPanel", "Synthetic check"))
 
     def __init__(self, services: Services) -> None:
-        super().__init__(services)
-        self._jobs, self._read_image = services.jobs, services.read_image
-        self._job: Job | None = None
+        super().__init__(
+            services,
+            button=self.tr("&Render and calibrate"),
+            tip=self.tr(
+                "Renders every view from the result, finds the corners again and calibrates:\n"
+                "what comes back is known exactly, so it shows the error of the method itself."
+            ),
+            label=self.tr("Synthetic check"),
+            working=self.tr("Rendering the views and searching them…"),
+        )
+        self._read_image = services.read_image
         self._pictures = Latest(services.jobs, self)
         self._drawn: set[QWidget] = set()
         """Tabs that show the check already."""
-        self.check: SyntheticCheck | None = None
-        self.run = QPushButton(self.tr("&Render and calibrate"))
-        self.run.setToolTip(
-            self.tr(
-                "Renders every view from the result, finds the corners again and calibrates:\n"
-                "what comes back is known exactly, so it shows the error of the method itself."
-            )
-        )
-        self.run.clicked.connect(self._run)
-        self.words = QLabel()
-        self.words.setWordWrap(True)
         self.table = ParameterTable()
         self.images = BeforeAfter(self.tr("real"), self.tr("synthetic"))
         self.errors = PoseErrors()
@@ -62,7 +47,7 @@ class SyntheticPanel(Panel):
         self.histograms = Histograms()
         self.tabs = QTabWidget(documentMode=True)
         self._draw: dict[QWidget, Callable[[SyntheticCheck], None]] = {}
-        """How each tab is drawn."""
+        """Function that draws each tab."""
         for widget, name, draw in (
             (self.table, self.tr("Table 3"), self.table.show_check),
             (self.images, self.tr("Images"), self._render),
@@ -73,70 +58,32 @@ class SyntheticPanel(Panel):
             self.tabs.addTab(widget, name)
             self._draw[widget] = draw
         self.tabs.currentChanged.connect(self._draw_tab)
-        keeping = self.tabs.sizePolicy()
-        keeping.setRetainSizeWhenHidden(True)
-        self.tabs.setSizePolicy(keeping)
-        bar = QHBoxLayout()
-        bar.addWidget(self.run)
-        bar.addWidget(self.words, 1)
-        layout = QVBoxLayout(self.body)
-        layout.addLayout(bar)
-        layout.addWidget(self.tabs, 1)
+        self._lay_out(self.tabs)
 
-    def show_result(self, result: Result | None) -> None:
-        """Forget the check of another result."""
-        self.check = None
-        if self._job is not None:
-            self._job.cancel()
-        super().show_result(result)
+    def _missing(self, result: Result) -> str:
+        if result.board is not None:
+            return ""
+        return self.tr("The board's pattern is not known, so its views cannot be rendered.")
 
-    def _run(self) -> None:
-        result = self._result
-        assert result is not None
-        if self._job is not None:
-            self._job.cancel()
-            return
-        self.run.setText(self.tr("&Cancel"))
-        self.words.setText(self.tr("Rendering the views and searching them…"))
-        self._job = self._jobs.start(
-            self.tr("Synthetic check"),
-            lambda job: run_synthetic_check(result, progress=job.advance),
-            self._done,
-            failed=lambda error: self.words.setText(str(error)),
-            ended=self._ended,
-        )
+    def _invite(self, result: Result) -> str:  # noqa: ARG002 - the same for all
+        return self.tr("Would the method find this camera again, if it were just so?")
 
-    def _done(self, check: SyntheticCheck) -> None:
-        if check.real is self._result:
-            self.check = check
-            self._refresh_now()
+    def _find(self, result: Result, progress: Progress) -> SyntheticCheck:
+        return run_synthetic_check(result, progress=progress)
 
-    def _ended(self) -> None:
-        self._job = None
-        self.run.setText(self.tr("&Render and calibrate"))
-        if self.check is None and self._result is not None:
-            self._refresh_now()
-
-    def _refresh(self, result: Result) -> None:
-        check = self.check
-        self.tabs.setVisible(check is not None)
-        self.run.setEnabled(result.board is not None)
-        if check is None:
-            if self._job is None:
-                self.words.setText(self._invitation(result))
-            return
+    def _show_found(self, result: Result, found: SyntheticCheck) -> None:  # noqa: ARG002 - holds it
         self._drawn.clear()
         self._draw_tab()
         real, made = (
-            summarise_residuals(r.calibration.residuals) for r in (check.real, check.synthetic)
+            summarise_residuals(r.calibration.residuals) for r in (found.real, found.synthetic)
         )
-        self.words.setText(
+        self.words.show_text(
             self.tr(
                 "{0} of {1} views found again. e′ = {2:.4f} ± {3:.4f} reference px, "
                 "real images {4:.3f} ± {5:.3f}."
             ).format(
-                len(check.synthetic.used),
-                len(check.synthetic.views),
+                len(found.synthetic.used),
+                len(found.synthetic.views),
                 made.reference_mean,
                 made.reference_sd,
                 real.reference_mean,
@@ -144,24 +91,19 @@ class SyntheticPanel(Panel):
             )
         )
 
-    def _invitation(self, result: Result) -> str:
-        if result.board is None:
-            return self.tr("The board's pattern is not known, so its views cannot be rendered.")
-        return self.tr("Would the method find this camera again, if it were just so?")
-
     def _draw_tab(self) -> None:
         """Draw the tab in front, unless it is up to date; the others can wait."""
-        tab, check = self.tabs.currentWidget(), self.check
+        tab, check = self.tabs.currentWidget(), self.found
         if check is None or tab in self._drawn:
             return
         self._drawn.add(tab)
         self._draw[tab](check)
 
     def _select(self, k: int, corner: int) -> None:
-        if self.check is None:
+        if self.found is None:
             return
         if self.scatters in self._drawn:
-            self.scatters.select(self.check, k, corner)
+            self.scatters.select(self.found, k, corner)
         self._drawn.discard(self.images)
         self._draw_tab()
 
@@ -176,7 +118,7 @@ class SyntheticPanel(Panel):
             self.tr("Rendering {0}").format(shorten_names(result.used)[view]),
             lambda _: render_pair(result, view, self._read_image),
             lambda images: self.images.show_images(*images),
-            lambda error: self.words.setText(str(error)),
+            lambda error: self.words.show_text(str(error)),
         )
 
 

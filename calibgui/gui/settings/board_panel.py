@@ -19,6 +19,7 @@ from PySide6.QtWidgets import (
 
 from calibgui.app.project import Project, Unit, set_method, set_pattern, set_square
 from calibgui.dataset import View, ViewStatus
+from calibgui.engine.boards import AprilGrid
 from calibgui.gui.session.session import Session
 from calibgui.gui.settings.pattern_choice import PatternChoice
 from calibgui.gui.widgets import theme
@@ -120,7 +121,8 @@ class BoardPanel(QWidget):
         circles = not project.pattern.has_squares
         self._form.setRowVisible(self.method, not circles)
         self.counted.setText(self.tr("Circles") if circles else self.tr("Inner corners"))
-        self.side.setText(self.tr("Distance") if circles else self.tr("Square"))
+        square = self.tr("Tag") if isinstance(project.pattern, AprilGrid) else self.tr("Square")
+        self.side.setText(self.tr("Distance") if circles else square)
         self.inferred.setChecked(inferred)
         for box, value in (
             (self.rows, board and board.rows),

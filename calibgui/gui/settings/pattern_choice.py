@@ -4,11 +4,29 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from PySide6.QtCore import Signal
-from PySide6.QtWidgets import QComboBox, QDoubleSpinBox, QFormLayout, QLabel, QWidget
+from PySide6.QtCore import QSignalBlocker, Signal
+from PySide6.QtWidgets import (
+    QComboBox,
+    QDoubleSpinBox,
+    QFormLayout,
+    QHBoxLayout,
+    QLabel,
+    QSpinBox,
+    QWidget,
+)
 
 from calibgui.engine import opencv
-from calibgui.engine.boards import KINDS, Charuco, Circles, Pattern
+from calibgui.engine.boards import (
+    CODE_LINES,
+    FAMILIES,
+    KINDS,
+    AprilGrid,
+    Charuco,
+    Circles,
+    Pattern,
+    PuzzleBoard,
+    TaggedCheckerboard,
+)
 from calibgui.engine.errors import CalibrationError
 from calibgui.gui.widgets.pattern_texts import list_pattern_texts
 
@@ -56,6 +74,53 @@ class PatternChoice(QWidget):
         for box in (self.marker, self.diameter):
             box.setSpecialValueText(undecided)
             box.setKeyboardTracking(False)
+        self.family = QComboBox()
+        self.family.setToolTip(self.tr("The family of the AprilTags on the board."))
+        self.family.addItem(undecided, None)
+        for name in FAMILIES:
+            self.family.addItem(name, name)
+        self.spacing = QDoubleSpinBox(decimals=3, minimum=0.0, maximum=1.0, singleStep=0.05)
+        self.spacing.setToolTip(
+            self.tr("The gap between tags over the side of a tag: Kalibr's tagSpacing.")
+        )
+        self.spacing.setSpecialValueText(undecided)
+        self.spacing.setKeyboardTracking(False)
+        self.border = QComboBox()
+        self.border.setToolTip(self.tr("The width of a tag's black border; 2 cells on Kalibr's."))
+        for text, border in (
+            (undecided, None),
+            (self.tr("2 cells"), 2),
+            (self.tr("1 cell"), 1),
+        ):
+            self.border.addItem(text, border)
+        self.order = QComboBox()
+        self.order.setToolTip(self.tr("The row of tags that holds the lowest numbers."))
+        for text, from_top in (
+            (undecided, None),
+            (self.tr("from the bottom, as Kalibr"), False),
+            (self.tr("from the top"), True),
+        ):
+            self.order.addItem(text, from_top)
+        self.step = QSpinBox(minimum=0, maximum=64, singleStep=2)
+        self.step.setToolTip(self.tr("The number of squares from one tag to the next in its row."))
+        self.step.setSpecialValueText(undecided)
+        self.step.setKeyboardTracking(False)
+        self.first_row, self.first_col = (
+            QSpinBox(minimum=0, maximum=CODE_LINES - 1) for _ in range(2)
+        )
+        for line in (self.first_row, self.first_col):
+            line.setKeyboardTracking(False)
+        self.first_row.setAccessibleName(self.tr("Row of the first corner"))
+        self.first_col.setAccessibleName(self.tr("Column of the first corner"))
+        self.origin = QWidget()
+        self.origin.setToolTip(
+            self.tr("Row and column of the board's first corner on the whole PuzzleBoard pattern.")
+        )
+        beside = QHBoxLayout(self.origin)
+        beside.setContentsMargins(0, 0, 0, 0)
+        beside.addWidget(self.first_row, 1)
+        beside.addWidget(QLabel("×"))
+        beside.addWidget(self.first_col, 1)
         self.form = QFormLayout(self)
         self.form.setContentsMargins(0, 0, 0, 0)
         label = QLabel(self.tr("Pattern"))
@@ -65,15 +130,30 @@ class PatternChoice(QWidget):
         self.form.addRow(self.tr("Marker"), self.marker)
         self.form.addRow(self.tr("Layout"), self.layout_used)
         self.form.addRow(self.tr("Diameter"), self.diameter)
+        self.form.addRow(self.tr("Tag family"), self.family)
+        self.form.addRow(self.tr("Gap / side"), self.spacing)
+        self.form.addRow(self.tr("Tag border"), self.border)
+        self.form.addRow(self.tr("Tag step"), self.step)
+        self.form.addRow(self.tr("Numbered"), self.order)
+        self.form.addRow(self.tr("First corner"), self.origin)
         self._pattern: Pattern = KINDS["checkerboard"]
         self._side = 1.0
-        for combo in (self.kind, self.dictionary, self.layout_used):
+        for combo in (
+            self.kind,
+            self.dictionary,
+            self.layout_used,
+            self.family,
+            self.border,
+            self.order,
+        ):
             combo.setSizeAdjustPolicy(
                 QComboBox.SizeAdjustPolicy.AdjustToMinimumContentsLengthWithIcon
             )
             combo.activated.connect(self._edit)
-        for box in (self.marker, self.diameter):
-            box.valueChanged.connect(self._edit)
+        for length in (self.marker, self.diameter, self.spacing):
+            length.valueChanged.connect(self._edit)
+        for count in (self.step, self.first_row, self.first_col):
+            count.valueChanged.connect(self._edit)
         self.show_pattern(self._pattern, 1.0)
 
     @property
@@ -85,11 +165,18 @@ class PatternChoice(QWidget):
         """Show a pattern on squares of `side`, in the unit that lengths are to be in."""
         self._pattern, self._side = pattern, side
         charuco, circles = isinstance(pattern, Charuco), isinstance(pattern, Circles)
+        grid, tagged = isinstance(pattern, AprilGrid), isinstance(pattern, TaggedCheckerboard)
         for field, shown in (
             (self.dictionary, charuco),
             (self.marker, charuco),
             (self.layout_used, charuco),
             (self.diameter, circles),
+            (self.family, grid or tagged),
+            (self.spacing, grid),
+            (self.border, grid or tagged),
+            (self.step, tagged),
+            (self.order, grid or tagged),
+            (self.origin, isinstance(pattern, PuzzleBoard)),
         ):
             self.form.setRowVisible(field, shown)
         self.kind.setCurrentIndex(self.kind.findData(pattern.kind))
@@ -99,6 +186,19 @@ class PatternChoice(QWidget):
             _show(self.marker, (pattern.marker or 0.0) * side)
         if isinstance(pattern, Circles):
             _show(self.diameter, (pattern.diameter or 0.0) * side)
+        if isinstance(pattern, AprilGrid | TaggedCheckerboard):
+            self.family.setCurrentIndex(self.family.findData(pattern.family))
+            self.border.setCurrentIndex(self.border.findData(pattern.border))
+            self.order.setCurrentIndex(self.order.findData(pattern.from_top))
+        if isinstance(pattern, AprilGrid):
+            _show(self.spacing, pattern.spacing or 0.0)
+        if isinstance(pattern, TaggedCheckerboard):
+            with QSignalBlocker(self.step):
+                self.step.setValue(pattern.step or 0)
+        if isinstance(pattern, PuzzleBoard):
+            for line, number in zip((self.first_row, self.first_col), pattern.origin, strict=True):
+                with QSignalBlocker(line):
+                    line.setValue(number)
 
     def _edit(self) -> None:
         pattern = KINDS[self.kind.currentData()]
@@ -110,6 +210,22 @@ class PatternChoice(QWidget):
                 )
             if isinstance(pattern, Circles) and pattern.kind == self._pattern.kind:
                 pattern = replace(pattern, diameter=self.diameter.value() / self._side or None)
+            if isinstance(pattern, AprilGrid) and pattern.kind == self._pattern.kind:
+                pattern = AprilGrid(
+                    self.family.currentData(),
+                    self.spacing.value() or None,
+                    self.border.currentData(),
+                    self.order.currentData(),
+                )
+            if isinstance(pattern, TaggedCheckerboard) and pattern.kind == self._pattern.kind:
+                pattern = TaggedCheckerboard(
+                    self.family.currentData(),
+                    self.border.currentData(),
+                    self.step.value() or None,
+                    self.order.currentData(),
+                )
+            if isinstance(pattern, PuzzleBoard) and pattern.kind == self._pattern.kind:
+                pattern = PuzzleBoard((self.first_row.value(), self.first_col.value()))
         except CalibrationError as error:
             self.show_pattern(self._pattern, self._side)
             self.failed.emit(error)

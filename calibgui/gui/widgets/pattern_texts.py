@@ -45,4 +45,21 @@ def list_pattern_texts() -> dict[str, PatternTexts]:
             ),
             translate("PatternTexts", "&Search for asymmetric circles"),
         ),
+        "aprilgrid": PatternTexts(
+            translate("PatternTexts", "AprilGrid"),
+            translate("PatternTexts", "These look like photographs of an AprilGrid."),
+            translate("PatternTexts", "&Search for an AprilGrid"),
+        ),
+        "tagged-checkerboard": PatternTexts(
+            translate("PatternTexts", "Checkerboard with tags"),
+            translate(
+                "PatternTexts", "These look like photographs of a checkerboard with AprilTags."
+            ),
+            translate("PatternTexts", "&Search for a checkerboard with tags"),
+        ),
+        "puzzleboard": PatternTexts(
+            translate("PatternTexts", "PuzzleBoard"),
+            translate("PatternTexts", "These look like photographs of a PuzzleBoard."),
+            translate("PatternTexts", "&Search for a PuzzleBoard"),
+        ),
     }

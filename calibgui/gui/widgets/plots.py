@@ -16,9 +16,10 @@ from PySide6.QtGui import (
     QPainter,
 )
 from PySide6.QtSvg import QSvgGenerator
-from PySide6.QtWidgets import QFileDialog, QMenu, QWidget
+from PySide6.QtWidgets import QMenu, QWidget
 
 from calibgui.gui.widgets import theme
+from calibgui.gui.widgets.save_names import ask_for_name
 
 pg.setConfigOptions(antialias=True)
 
@@ -207,15 +208,14 @@ def save_picture(widget: QWidget, path: str | Path) -> None:
 def ask_and_save_picture(widget: QWidget) -> None:
     """Let the user choose a file, then `save_picture`."""
     translate = QCoreApplication.translate
-    path, chosen = QFileDialog.getSaveFileName(
+    path = ask_for_name(
         widget,
         translate("plots", "Save plot"),
         "",
         translate("plots", "PNG image (*.png);;SVG drawing (*.svg)"),
     )
-    if path:
-        ending = ".svg" if "svg" in chosen else ".png"
-        save_picture(widget, path if Path(path).suffix else path + ending)
+    if path is not None:
+        save_picture(widget, path)
 
 
 def _render(widget: QWidget, device: QImage | QSvgGenerator) -> None:

@@ -24,7 +24,6 @@ from PySide6.QtCore import (
 from PySide6.QtGui import QAction, QColor, QGuiApplication, QKeySequence, QResizeEvent, QShowEvent
 from PySide6.QtWidgets import (
     QAbstractItemView,
-    QFileDialog,
     QHeaderView,
     QMenu,
     QStyle,
@@ -33,6 +32,7 @@ from PySide6.QtWidgets import (
 )
 
 from calibgui.gui.widgets import theme
+from calibgui.gui.widgets.save_names import ask_for_name
 
 Index = QModelIndex | QPersistentModelIndex
 _SORT_ROLE = Qt.ItemDataRole.UserRole
@@ -58,6 +58,13 @@ class Column:
     """What stands over the texts, if not the title: with the unit that only they are in."""
     tips: Sequence[str] = ()
     """What there is to know of each value; the column's `tip` where it is empty."""
+    unit: str = ""
+    """Unit of the values, which stands below the heading; empty if they have none, or several."""
+
+    @property
+    def full_title(self) -> str:
+        """The title with the unit."""
+        return f"{self.title} [{self.unit}]" if self.unit else self.title
 
 
 def with_digits(digits: int) -> Callable[[float], str]:
@@ -117,10 +124,12 @@ class _Model(QAbstractTableModel):
         self, section: int, orientation: Qt.Orientation, role: int = Qt.ItemDataRole.DisplayRole
     ) -> Any:
         if orientation == Qt.Orientation.Horizontal and section < len(self.columns):
+            column = self.columns[section]
             if role == Qt.ItemDataRole.DisplayRole:
-                return self.columns[section].heading or self.columns[section].title
+                heading = column.heading or column.title
+                return f"{heading}\n[{column.unit}]" if column.unit else heading
             if role == Qt.ItemDataRole.ToolTipRole:
-                return self.columns[section].tip or None
+                return column.tip or None
         return None
 
 
@@ -211,10 +220,10 @@ class Table(QTableView):
             self.scrollTo(index)
 
     def as_csv(self, separator: str = ",") -> str:
-        """The table in the order shown: titles, then values with every digit."""
+        """The table in the order shown: titles with units, then values with every digit."""
         out = io.StringIO()
         writer = csv.writer(out, delimiter=separator, lineterminator="\n")
-        writer.writerow([column.title for column in self._model.columns])
+        writer.writerow([column.full_title for column in self._model.columns])
         for shown in range(self._order.rowCount()):
             row = self._order.mapToSource(self._order.index(shown, 0)).row()
             writer.writerow([column.values[row] for column in self._model.columns])
@@ -230,11 +239,11 @@ class Table(QTableView):
 
     def ask_and_save(self) -> None:
         """Let the user choose a file, then `save`."""
-        path, _ = QFileDialog.getSaveFileName(
+        path = ask_for_name(
             self, self.tr("Save table"), "", self.tr("Comma-separated values (*.csv)")
         )
-        if path:
-            self.save(path if Path(path).suffix else path + ".csv")
+        if path is not None:
+            self.save(path)
 
     def showEvent(self, event: QShowEvent) -> None:  # noqa: N802 - Qt's name
         super().showEvent(event)

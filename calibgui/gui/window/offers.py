@@ -8,7 +8,7 @@ from pathlib import Path
 from PySide6.QtCore import QFileInfo, QLocale, QObject
 
 from calibgui.app.autosave import get_autosave_path
-from calibgui.app.detection import find_other_pattern
+from calibgui.app.detection import choose_samples, find_other_pattern
 from calibgui.app.project import set_pattern
 from calibgui.dataset import ViewStatus
 from calibgui.engine.boards import Pattern
@@ -18,9 +18,6 @@ from calibgui.gui.session.detector import Detector
 from calibgui.gui.session.session import Session
 from calibgui.gui.widgets.pattern_texts import list_pattern_texts
 from calibgui.gui.window.banner import Banner
-
-_LOOKED_AT = 2
-"""Images in which other kinds of boards are looked for, which takes seconds in each."""
 
 
 class Offers(QObject):
@@ -98,7 +95,7 @@ class Offers(QObject):
         searched = [v for v in project.views if v.status in (ViewStatus.FOUND, ViewStatus.NO_BOARD)]
         if not everything or not searched or any(view.usable for view in searched):
             return
-        some = [view.image for view in searched[:_LOOKED_AT]]
+        some = choose_samples(searched)
         self._session.jobs.start(
             self.tr("Looking for another kind of board"),
             lambda job: find_other_pattern(some, project.pattern, job.cancelling),

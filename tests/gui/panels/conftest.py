@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import csv
+import io
 from collections.abc import Callable
 from typing import TypeVar
 
@@ -25,6 +27,7 @@ from calibgui.gui.jobs.jobs import Jobs
 from calibgui.gui.panels.panel import Panel
 from calibgui.gui.panels.services import Services
 from calibgui.gui.widgets.plots import Plot
+from calibgui.gui.widgets.tables import Table
 from tests.engine import scenes
 
 P = TypeVar("P", bound=Panel)
@@ -107,6 +110,20 @@ def click(qtbot: QtBot, plot: Plot, x: float, y: float) -> None:
     """A left click at a plot's coordinates."""
     QApplication.processEvents()
     qtbot.mouseClick(plot.viewport(), Qt.MouseButton.LeftButton, pos=place(plot, x, y))
+
+
+def read_table(table: Table) -> list[dict[str, str]]:
+    """The rows of a table by the titles of its columns, hidden ones included."""
+    return list(csv.DictReader(io.StringIO(table.as_csv())))
+
+
+def click_row(qtbot: QtBot, table: Table, row: int) -> None:
+    """A left click on the first cell of a row."""
+    index = table.model().index(row, 0)
+    table.scrollTo(index)
+    qtbot.mouseClick(
+        table.viewport(), Qt.MouseButton.LeftButton, pos=table.visualRect(index).center()
+    )
 
 
 def place(plot: Plot, x: float, y: float) -> QPoint:

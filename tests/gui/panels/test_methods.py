@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import csv
-import io
 import math
 from collections.abc import Iterator
 from dataclasses import replace
@@ -31,7 +29,7 @@ from calibgui.gui.widgets.tables import Table
 from calibgui.gui.window.main_window import MainWindow
 from calibgui.report.methods import describe_method_comparison, list_method_rows
 from tests.app import examples
-from tests.gui.panels.conftest import Shown, made, place
+from tests.gui.panels.conftest import Shown, click_row, made, place, read_table
 
 LEFT = Qt.MouseButton.LeftButton
 FEW = ("lucchese", AS_PRINTED, "bouguet", "stein")
@@ -76,23 +74,17 @@ def panel(
 ) -> MethodsPanel:
     """The panel with a comparison."""
     panel = shown(MethodsPanel, few_views)
-    panel._compared = few_views
+    panel._asked = few_views
     panel._done(comparison)
     QApplication.processEvents()
     return panel
-
-
-def read_table(table: Table) -> list[dict[str, str]]:
-    return list(csv.DictReader(io.StringIO(table.as_csv())))
 
 
 def pick(qtbot: QtBot, panel: MethodsPanel, name: str) -> None:
     """Click on a method, in the table that is in front."""
     table = panel.tables.currentWidget()
     assert isinstance(table, Table)
-    index = table.model().index([row.name for row in panel._rows].index(name), 0)
-    table.scrollTo(index)
-    qtbot.mouseClick(table.viewport(), LEFT, pos=table.visualRect(index).center())
+    click_row(qtbot, table, [row.name for row in panel._rows].index(name))
 
 
 def tip(table: Table, row: int, title: str) -> str:
@@ -110,20 +102,20 @@ def test_the_button_compares_and_the_tables_hold_the_figures(
     assert not panel.compared.isVisible() and not panel.use.isVisible()
     qtbot.mouseClick(panel.run, LEFT)
     assert "Cancel" in panel.run.text()
-    qtbot.waitUntil(lambda: panel.comparison is not None and panel._job is None, timeout=60_000)
+    qtbot.waitUntil(lambda: panel.found is not None, timeout=60_000)
     assert panel.compared.isVisible() and "ompare" in panel.run.text()
     assert panel.words.toPlainText() == describe_method_comparison(comparison)
     errors, cameras = read_table(panel.tables.errors), read_table(panel.tables.camera)
     for row, error, camera in zip(list_method_rows(comparison), errors, cameras, strict=True):
         assert error["Method"] == camera["Method"] == row.name
-        figures = [float(error[name]) for name in ("RMS", "Unseen", "Differs", "in RMS")]
+        figures = [float(error[f"{name} [px]"]) for name in ("RMS", "Unseen", "Differs", "in RMS")]
         expected = (row.rms, row.unseen, row.difference_worst, row.difference_rms)
         np.testing.assert_allclose(figures, expected, equal_nan=True, atol=1e-9)
         nothing = (math.nan, math.nan)
         for name in ("fx", "fy", "cx", "cy", "skew"):
-            pair = [float(camera[title]) for title in (name, f"σ of {name}")]
+            pair = [float(camera[f"{title} [px]"]) for title in (name, f"σ of {name}")]
             np.testing.assert_allclose(pair, row.values.get(name, nothing), equal_nan=True)
-        shift = [float(camera[title]) for title in ("Shift", "σ of Shift")]
+        shift = [float(camera[f"{title} [px]"]) for title in ("Shift", "σ of Shift")]
         np.testing.assert_allclose(shift, row.shift or nothing, equal_nan=True)
 
 
@@ -189,21 +181,12 @@ def test_a_comparison_holds_for_the_views_that_it_is_of(
     panel.show_result(
         replace(few_views, calibration=replace(few_views.calibration, cost=Cost.PAPER))
     )
-    assert panel.comparison is comparison
+    assert panel.found is comparison
     assert "shown when they were found" in panel.words.toPlainText()
     panel.show_result(few_views)
     assert "shown when they were found" not in panel.words.toPlainText()
     panel.show_result(other)
-    assert panel.comparison is None
-    assert panel.words.toPlainText().startswith("This result is by")
-
-
-def test_it_can_be_cancelled(shown: Shown[MethodsPanel], few_views: Result, qtbot: QtBot) -> None:
-    panel = shown(MethodsPanel, few_views)
-    qtbot.mouseClick(panel.run, LEFT)
-    qtbot.mouseClick(panel.run, LEFT)
-    qtbot.waitUntil(lambda: panel._job is None, timeout=60_000)
-    assert panel.comparison is None and "ompare" in panel.run.text()
+    assert panel.found is None
     assert panel.words.toPlainText().startswith("This result is by")
 
 
@@ -229,9 +212,9 @@ def test_using_a_method_calibrates_with_it_and_is_undone_and_written(
     former = session.result
     panel = window.need_analysis().show_panel(MethodsPanel)
     qtbot.mouseClick(panel.run, LEFT)
-    qtbot.waitUntil(lambda: panel.comparison is not None and panel._job is None, timeout=60_000)
-    assert panel.comparison is not None
-    compared = panel.comparison.trials["bouguet"].calibration.camera
+    qtbot.waitUntil(lambda: panel.found is not None, timeout=60_000)
+    assert panel.found is not None
+    compared = panel.found.trials["bouguet"].calibration.camera
     pick(qtbot, panel, "bouguet")
     qtbot.mouseClick(panel.use, LEFT)
     now = session.project.settings
@@ -244,7 +227,7 @@ def test_using_a_method_calibrates_with_it_and_is_undone_and_written(
     assert result is not None
     assert result.calibration.settings["method"] == "bouguet"
     np.testing.assert_allclose(result.calibration.camera.params, compared.params, rtol=1e-6)
-    assert panel.comparison is not None, "it is on the same views"
+    assert panel.found is not None, "it is on the same views"
 
     dialog = ExportDialog(session.jobs, result, window)
     for name, expected in (

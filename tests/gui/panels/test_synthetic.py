@@ -55,18 +55,9 @@ def test_the_button_runs_the_check(small: Result, jobs: Jobs, qtbot: QtBot) -> N
     assert not panel.tabs.isVisible()
     qtbot.mouseClick(panel.run, Qt.MouseButton.LeftButton)
     assert "Cancel" in panel.run.text()
-    qtbot.waitUntil(lambda: panel.check is not None and not jobs.running, timeout=60_000)
+    qtbot.waitUntil(lambda: panel.found is not None and not jobs.running, timeout=60_000)
     assert panel.tabs.isVisible() and "Cancel" not in panel.run.text()
-    assert panel.words.text().startswith("5 of 5 views found again.")
-
-
-def test_it_can_be_cancelled(small: Result, jobs: Jobs, qtbot: QtBot) -> None:
-    panel = panel_of(small, jobs, qtbot)
-    qtbot.mouseClick(panel.run, Qt.MouseButton.LeftButton)
-    qtbot.mouseClick(panel.run, Qt.MouseButton.LeftButton)
-    qtbot.waitUntil(lambda: not jobs.running, timeout=60_000)
-    assert panel.check is None and panel.run.isEnabled()
-    assert panel.words.text().startswith("Would the method")
+    assert panel.words.toPlainText().startswith("5 of 5 views found again.")
 
 
 def test_tables_and_plots_hold_its_numbers(
@@ -137,23 +128,10 @@ def test_the_selected_view_is_rendered(
     np.testing.assert_array_equal(ring, calibration.residuals[3].reference[11:12])
 
 
-def test_another_result_drops_the_check(
-    small: Result, check: SyntheticCheck, jobs: Jobs, qtbot: QtBot
-) -> None:
-    panel = panel_of(small, jobs, qtbot)
-    panel._done(check)
-    other = replace(small)
-    panel.show_result(other)
-    assert panel.check is None and not panel.tabs.isVisible()
-    panel._done(check)  # a late answer to the question before
-    assert panel.check is None
-    qtbot.waitUntil(lambda: not jobs.running)
-
-
 def test_without_a_pattern_it_says_why_not(small: Result, jobs: Jobs, qtbot: QtBot) -> None:
     views = tuple(
         replace(v, points=v.observation(small.board), corners=None) if v.usable else v
         for v in small.views
     )
     panel = panel_of(Result(small.calibration, views), jobs, qtbot)
-    assert not panel.run.isEnabled() and "pattern is not known" in panel.words.text()
+    assert not panel.run.isVisible() and "pattern is not known" in panel._empty.text()

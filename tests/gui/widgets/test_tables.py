@@ -21,7 +21,7 @@ def example(qtbot: QtBot) -> Table:
     table.show_columns(
         [
             Column("view", ["a", "b", "c"]),
-            Column("RMS [px]", [0.25, math.nan, 1 / 3], with_decimals(2), "of the residual"),
+            Column("RMS", [0.25, math.nan, 1 / 3], with_decimals(2), "of the residual", unit="px"),
         ],
         {2: "far off"},
     )
@@ -57,6 +57,15 @@ def test_copy_and_csv_hold_every_digit(qtbot: QtBot, tmp_path: Path) -> None:
     assert lines == ["view,RMS [px]", "a,0.25", "b,nan", f"c,{1 / 3!r}"]
     table.copy()
     assert f"c\t{1 / 3!r}" in QGuiApplication.clipboard().text()
+
+
+def test_a_unit_stands_below_the_heading(qtbot: QtBot) -> None:
+    table = example(qtbot)
+    table.show()
+    header, role = table.horizontalHeader(), Qt.ItemDataRole.DisplayRole
+    heads = [table.model().headerData(k, Qt.Orientation.Horizontal, role) for k in range(2)]
+    assert heads == ["view", "RMS\n[px]"]
+    assert header.height() >= 2 * header.fontMetrics().height()
 
 
 def test_number_formats() -> None:

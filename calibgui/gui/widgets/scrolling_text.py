@@ -1,4 +1,4 @@
-"""Sentences that take the room that they need, up to some lines; the rest is scrolled to."""
+"""Text that takes the room that it needs, up to some lines; the rest is scrolled to."""
 
 from __future__ import annotations
 
@@ -9,8 +9,8 @@ from PySide6.QtGui import QResizeEvent
 from PySide6.QtWidgets import QFrame, QSizePolicy, QTextBrowser
 
 
-class Prose(QTextBrowser):
-    """Text without a frame, that can be selected.
+class ScrollingText(QTextBrowser):
+    """Shows text without a frame, that can be selected.
 
     Args:
         lines: the most that are shown at once.
