@@ -8,10 +8,16 @@ Everything lands in a virtual environment, `.venv` in the checkout (in the user'
 checkout is read-only, or the folder that CALIBGUI_VENV names); the Python that runs this file is
 left as it is. A second call finds the environment ready and starts at once.
 
-Debian packages that are missing are installed where the user may (root, or sudo without a
-password), otherwise unpacked inside the environment, which needs no rights; where neither can
-be done the command to give is printed. Only this file's syntax must suit older Pythons, so that
-they reach the message that says so.
+Debian packages that are missing are unpacked inside the environment, which needs no rights and
+changes nothing else. Where the user may install them for the whole system (root, or sudo without a
+password) the script asks on a terminal, and does so without asking with `--yes`; where neither can
+be done the command to give is printed.
+
+Python packages come in the versions, and with the SHA-256, of `packaging/constraints`, if there is
+a file for this Python (`packaging/refresh_constraints.py` writes them). A constraint file of the
+user's own (PIP_CONSTRAINT, which may name an empty file) takes its place.
+
+Only this file's syntax must suit older Pythons, so that they reach the message that says so.
 """
 
 from __future__ import annotations
@@ -32,6 +38,9 @@ OLDEST = (3, 11)
 WINDOWS = os.name == "nt"
 LINUX = sys.platform.startswith("linux")
 WINDOW = ROOT / "calibgui" / "gui" / "__main__.py"
+CONSTRAINTS = ROOT / "packaging" / "constraints"
+NEXT_EXTRA = "# What the next extra needs besides:\n"
+"""Line between the parts of a constraint file, one for each of EXTRAS."""
 SYSTEM_CERTIFICATES = Path("/etc/ssl/certs/ca-certificates.crt")
 
 LACKING = """
@@ -42,12 +51,14 @@ for name in sys.argv[1:]:
     except OSError:
         print(name)
 """
+EXTRAS = ("", "gui", "dev")
+"""What can be installed, each with all before it: no extra is the command line alone."""
 COMPLETE = """
 import sys
 from importlib.metadata import requires, version
 from pip._vendor.packaging.requirements import Requirement
 for need in map(Requirement, requires("calibgui")):
-    if need.marker is None or need.marker.evaluate({"extra": sys.argv[1]}):
+    if need.marker is None or any(need.marker.evaluate({"extra": name}) for name in sys.argv[1:]):
         assert need.specifier.contains(version(need.name), prereleases=True)
 """
 PIP_IN_WHEEL = """
@@ -172,12 +183,13 @@ class Environment:
         """Return the digest of what the environment is built from: if it differs, so must that."""
         python = Path(base_python()).resolve()
         digest = hashlib.sha256(f"{sys.version}\n{python}\n{ROOT}\n".encode())
-        for name in ("pyproject.toml", "calibgui/__init__.py"):
-            digest.update((ROOT / name).read_bytes())
+        files = [ROOT / "pyproject.toml", ROOT / "calibgui" / "__init__.py", constraint_file()]
+        for file in filter(None, files):
+            digest.update(file.read_bytes())
         return digest.hexdigest()
 
     def holds(self) -> str | None:
-        """Return what is installed: "dev", "" (the dependencies alone); None if nothing of use."""
+        """Return what is installed, one of EXTRAS; None if nothing of use."""
         try:
             stamp = json.loads(self.stamp.read_text(encoding="utf-8"))
         except (OSError, ValueError):
@@ -185,7 +197,8 @@ class Environment:
         if stamp["source"] != self.source():
             return None
         extra: str = stamp["extra"]
-        complete = succeeds(self.python, "-c", COMPLETE, extra, env=self.variables())
+        extras = EXTRAS[: EXTRAS.index(extra) + 1]
+        complete = succeeds(self.python, "-c", COMPLETE, *extras, env=self.variables())
         return extra if complete else None
 
     def begin(self) -> None:
@@ -224,18 +237,27 @@ class Environment:
 
     def install(self, extra: str) -> None:
         """Install the project, editable, with its dependencies."""
-        say("installing calibgui and what it needs (some 300 MB the first time)")
+        say("installing calibgui and what it needs (700 to 900 MB on the disk)")
         project = f"{ROOT}[{extra}]" if extra else str(ROOT)
-        self.pip("-m", "pip", "install", "--editable", project)
+        options = []
+        if (constraints := constraint_file()) is not None:
+            parts = constraints.read_text(encoding="utf-8").split(NEXT_EXTRA)
+            pinned = self.folder / "requirements.txt"
+            pinned.write_text("".join(parts[: EXTRAS.index(extra) + 1]), encoding="utf-8")
+            hashes = ["--require-hashes", "--no-deps", "--requirement", str(pinned)]
+            self.pip("-m", "pip", "install", *hashes)
+            options = ["--no-build-isolation"]  # what builds the project is among them
+        self.pip("-m", "pip", "install", *options, "--editable", project)
         stamp = {"source": self.source(), "extra": extra}
         self.stamp.write_text(json.dumps(stamp), encoding="utf-8")
 
     def compile(self) -> None:
-        """Calibrate the sample, so that the first calibration need not wait for its kernels.
+        """Compile the kernels, so that the first calibration need not wait for them.
 
         Nothing is lost if that fails: they are compiled when they are needed.
         """
         say("compiling what is slow in Python (half a minute, once)")
+        succeeds(self.python, "-m", "calibgui.app.preparation", env=self.variables())
         sample = ROOT / "resources" / "sample"
         calibrate = ["-m", "calibgui", "calibrate", sample, "--square", "25", "--quiet"]
         succeeds(self.python, *calibrate, env=self.variables())
@@ -257,8 +279,16 @@ class Environment:
             raise SetupError(
                 "pip could not install what is needed; its messages above say why. Without a "
                 "network, point pip at an index that can be reached (PIP_INDEX_URL, or "
-                "PIP_NO_INDEX and PIP_FIND_LINKS for a folder of wheels) and try again."
+                "PIP_NO_INDEX and PIP_FIND_LINKS for a folder of wheels) and try again. If that "
+                "lacks the versions of packaging/constraints, name an empty file in "
+                "PIP_CONSTRAINT, and others are taken."
             )
+
+
+def constraint_file() -> Path | None:
+    """Return the file with the versions for this Python; None for none, or the user's own."""
+    file = CONSTRAINTS / f"python{sys.version_info[0]}.{sys.version_info[1]}.txt"
+    return None if os.environ.get("PIP_CONSTRAINT") or not file.exists() else file
 
 
 # --- Debian packages ------------------------------------------------------------------------------
@@ -282,8 +312,20 @@ def administrator() -> list[str] | None:
     return ["sudo", "-n"] if succeeds("sudo", "-n", "apt-get", "--version") else None
 
 
-def provide(environment: Environment, packages: list[str]) -> None:
-    """Install Debian packages, or unpack them inside the environment."""
+def agrees(packages: list[str], by_hand: str) -> bool:
+    """Ask whether packages may be installed for the whole system; nobody there means no."""
+    if not (sys.stdin and sys.stdin.isatty()):
+        return False
+    say(f"these Debian packages are missing: {' '.join(packages)}")
+    question = f"Install them for the whole system with\n    {by_hand}\n(else they are unpacked in"
+    try:
+        return input(f"{question} the virtual environment)? [y/N] ").strip().lower() in ("y", "yes")
+    except EOFError:
+        return False
+
+
+def provide(environment: Environment, packages: list[str], yes: bool = False) -> None:
+    """Unpack Debian packages inside the environment, or install them if the user agrees."""
     if not packages:
         return
     command = ["apt-get", "install", "-y", "--no-install-recommends", *packages]
@@ -293,7 +335,7 @@ def provide(environment: Environment, packages: list[str]) -> None:
             f"please install your system's counterparts of the Debian packages {packages}"
         )
     prefix = administrator()
-    if prefix is not None:
+    if prefix is not None and (yes or agrees(packages, by_hand)):
         say(f"installing Debian packages: {' '.join(packages)}")
         settings = ["env", "DEBIAN_FRONTEND=noninteractive", "LC_ALL=C.UTF-8"]
         patience = ["-qq", "-o", "DPkg::Lock::Timeout=300"]
@@ -301,7 +343,7 @@ def provide(environment: Environment, packages: list[str]) -> None:
         if succeeds(*prefix, *settings, *command, *patience):
             return
     elif unpack(environment, packages):
-        say(f"unpacked in the environment for want of rights. To install for good:\n    {by_hand}")
+        say(f"unpacked in the environment. To install them for the whole system:\n    {by_hand}")
         return
     raise SetupError(
         f"missing Debian packages. Please give this command, then this one again:\n    {by_hand}"
@@ -315,7 +357,9 @@ def unpack(environment: Environment, packages: list[str]) -> bool:
     for folder in ("lists/partial", "cache/archives/partial"):
         (store / folder).mkdir(parents=True, exist_ok=True)
     private = ["-o", f"Dir::State::Lists={store / 'lists'}", "-o", f"Dir::Cache={store / 'cache'}"]
-    options = [*private, "-o", "Debug::NoLocking=1", "-qq", "-y", "--no-install-recommends"]
+    # As root apt-get would download as another user, who may not write here.
+    private += ["-o", "Debug::NoLocking=1", "-o", "APT::Sandbox::User=root"]
+    options = [*private, "-qq", "-y", "--no-install-recommends"]
     done = (
         succeeds("apt-get", *options, "update")
         and succeeds("apt-get", *options, "--download-only", "install", *packages)
@@ -334,19 +378,22 @@ def unpack(environment: Environment, packages: list[str]) -> bool:
 # --- the commands ---------------------------------------------------------------------------------
 
 
-def set_up(extra: str, purposes: set[str]) -> Environment:
-    """Return the environment with `extra` installed and the libraries for `purposes`."""
+def set_up(extra: str, purposes: set[str], yes: bool) -> Environment:
+    """Return the environment with `extra` installed and the libraries for `purposes`.
+
+    With `yes`, missing Debian packages are installed for the whole system without a question.
+    """
     environment = Environment(place())
     held = environment.holds()
     if held is None:
         environment.begin()
-        provide(environment, venv_package() + missing_libraries(environment, purposes))
+        provide(environment, venv_package() + missing_libraries(environment, purposes), yes)
         environment.create()
         environment.install(extra)
         environment.compile()
         return environment
-    provide(environment, missing_libraries(environment, purposes))
-    if extra and not held:
+    provide(environment, missing_libraries(environment, purposes), yes)
+    if EXTRAS.index(extra) > EXTRAS.index(held):
         environment.install(extra)
     return environment
 
@@ -355,10 +402,10 @@ def has_display() -> bool:
     return not LINUX or bool(os.environ.get("DISPLAY") or os.environ.get("WAYLAND_DISPLAY"))
 
 
-def run() -> int:
+def run(yes: bool) -> int:
     """Open the window on the bundled sample, or calibrate the sample where there is none."""
     window = WINDOW.exists() and has_display()
-    environment = set_up("", {"qt", "window"} if window else set())
+    environment = set_up("gui" if window else "", {"qt", "window"} if window else set(), yes)
     env = environment.variables()
     if window:
         if succeeds(environment.python, "-c", OPENS_WINDOW, env=env):
@@ -370,9 +417,9 @@ def run() -> int:
     return subprocess.call([environment.python, "-m", "calibgui", *demo], env=env)
 
 
-def test(arguments: list[str]) -> int:
+def test(arguments: list[str], yes: bool) -> int:
     """Run the test suite on all processors and return pytest's exit code."""
-    environment = set_up("dev", {"qt"})
+    environment = set_up("dev", {"qt"}, yes)
     env = {"QT_QPA_PLATFORM": "offscreen", **environment.variables()}
     cache = [] if os.access(ROOT, os.W_OK) else ["-p", "no:cacheprovider"]
     parallel = ["-n", "auto", "--maxprocesses", "8", "--dist", "worksteal"]
@@ -384,15 +431,21 @@ def main() -> int:
     hand_over_to_newer_python()
     parser = argparse.ArgumentParser(description=__doc__.partition("\n")[0])
     parser.add_argument("command", choices=["run", "test", "setup"])
+    parser.add_argument(
+        "--yes",
+        action="store_true",
+        help="install missing Debian packages for the whole system without asking, where the user "
+        "may; otherwise they are unpacked in the virtual environment",
+    )
     options, rest = parser.parse_known_args()
     if rest and options.command != "test":
         parser.error(f"{options.command} takes no further arguments")
     try:
         if options.command == "run":
-            return run()
+            return run(options.yes)
         if options.command == "test":
-            return test(rest)
-        set_up("dev", {"qt"})
+            return test(rest, options.yes)
+        set_up("dev", {"qt"}, options.yes)
     except (SetupError, OSError) as reason:
         print(f"calibgui: {reason}", file=sys.stderr)
         return 1

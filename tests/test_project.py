@@ -5,7 +5,9 @@ from __future__ import annotations
 import re
 import subprocess
 import sys
+import tomllib
 import zipfile
+from importlib import import_module
 from importlib.metadata import version
 from pathlib import Path
 
@@ -52,6 +54,18 @@ def test_one_version() -> None:
     assert version("calibgui") == calibgui.__version__
     changes = (ROOT / "CHANGELOG.md").read_text(encoding="utf-8")
     assert f"## [{calibgui.__version__}]" in changes
+
+
+def test_the_engine_installs_without_qt() -> None:
+    project = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["project"]
+    extras = project["optional-dependencies"]
+    window = ("PySide6", "pyqtgraph")
+    assert not [name for name in project["dependencies"] if name.startswith(window)]
+    assert all(any(name.startswith(each) for name in extras["gui"]) for each in window)
+    assert "calibgui[gui]" in extras["dev"]
+    entry = project["gui-scripts"]["calibgui-window"]
+    module, _, function = entry.partition(":")
+    assert callable(getattr(import_module(module), function))
 
 
 def test_readme_gives_the_commands_that_ci_runs() -> None:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import ast
 import importlib.util
+import io
 import json
 import os
 import subprocess
@@ -70,6 +71,58 @@ def test_names_the_package_of_a_library_that_is_missing(
     assert bootstrap.missing_libraries(environment, set()) == []
 
 
+@pytest.fixture
+def calls(monkeypatch: pytest.MonkeyPatch) -> list[str]:
+    """What is done about missing packages on a machine whose user may install them."""
+    done: list[str] = []
+    monkeypatch.setattr(bootstrap, "administrator", list)
+    monkeypatch.setattr(bootstrap, "unpack", lambda *_: done.append("unpack") or True)
+    monkeypatch.setattr(bootstrap, "succeeds", lambda *a, **_: done.append("as root") or bool(a))
+    monkeypatch.setattr(bootstrap.shutil, "which", lambda name: f"/usr/bin/{name}")
+    return done
+
+
+class Terminal(io.StringIO):
+    def isatty(self) -> bool:
+        return True
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="Debian packages")
+@pytest.mark.parametrize(
+    ("answer", "is_installed"), [("y", True), ("YES", True), ("", False), ("n", False)]
+)
+def test_asks_before_it_installs_packages_for_the_whole_system(
+    answer: str,
+    is_installed: bool,
+    calls: list[str],
+    tmp_path: Path,
+    monkeypatch: pytest.MonkeyPatch,
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    monkeypatch.setattr(sys, "stdin", Terminal(answer + "\n"))
+    bootstrap.provide(bootstrap.Environment(tmp_path), ["libgl1"])
+    assert ("as root" in calls) == is_installed
+    assert ("unpack" in calls) != is_installed
+    printed = capsys.readouterr().out
+    assert "sudo apt-get install -y --no-install-recommends libgl1" in printed
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="Debian packages")
+@pytest.mark.parametrize("yes", [False, True])
+def test_installs_nothing_as_root_where_nobody_can_be_asked_unless_told_to(
+    yes: bool,
+    calls: list[str],
+    tmp_path: Path,
+    monkeypatch: pytest.MonkeyPatch,
+    capsys: pytest.CaptureFixture[str],
+) -> None:
+    monkeypatch.setattr(sys, "stdin", io.StringIO())
+    bootstrap.provide(bootstrap.Environment(tmp_path), ["libgl1"], yes)
+    assert set(calls) == ({"as root"} if yes else {"unpack"})
+    if not yes:
+        assert "sudo apt-get install -y --no-install-recommends libgl1" in capsys.readouterr().out
+
+
 @pytest.mark.skipif(sys.platform != "linux", reason="Debian packages")
 def test_prints_the_command_where_packages_cannot_be_had(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
@@ -133,7 +186,41 @@ class TestEnvironment:
         monkeypatch.setattr(bootstrap, "succeeds", lambda *a, **k: ended.append(succeeds(*a, **k)))
         monkeypatch.setattr(environment, "variables", lambda: os.environ | {"PYTHONPATH": PACKAGE})
         environment.compile()
-        assert ended == [True]
+        assert ended == [True, True], "for all kinds of images, and the solver"
+
+    def test_takes_the_pinned_versions_of_what_is_wanted(
+        self, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+    ) -> None:
+        monkeypatch.delenv("PIP_CONSTRAINT", raising=False)
+        monkeypatch.setattr(bootstrap, "CONSTRAINTS", tmp_path)
+        environment = bootstrap.Environment(tmp_path / "venv")
+        environment.folder.mkdir()
+        file = tmp_path / f"python3.{sys.version_info[1]}.txt"
+        before = environment.source()
+        file.write_text(bootstrap.NEXT_EXTRA.join(["base\n", "window\n", "tools\n"]))
+        assert environment.source() != before, "other versions make another environment"
+        steps: list[tuple[str, ...]] = []
+        monkeypatch.setattr(environment, "pip", lambda *arguments: steps.append(arguments))
+        pinned = environment.folder / "requirements.txt"
+        for extra, content in (
+            ("", "base\n"),
+            ("gui", "base\nwindow\n"),
+            ("dev", "base\nwindow\ntools\n"),
+        ):
+            environment.install(extra)
+            assert pinned.read_text() == content
+        assert {"--require-hashes", str(pinned)} <= set(steps[0])
+        assert "--no-build-isolation" in steps[1]
+
+        # The user's own constraints, and a Python without a file, take what pyproject allows.
+        steps.clear()
+        monkeypatch.setenv("PIP_CONSTRAINT", "mine.txt")
+        environment.install("dev")
+        monkeypatch.delenv("PIP_CONSTRAINT")
+        file.unlink()
+        environment.install("dev")
+        expected = ("-m", "pip", "install", "--editable", f"{bootstrap.ROOT}[dev]")
+        assert steps == [expected, expected]
 
     def test_finds_libraries_unpacked_for_it(self, tmp_path: Path) -> None:
         libraries = tmp_path / "debian" / "usr" / "lib" / "x86_64-linux-gnu"
