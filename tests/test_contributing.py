@@ -60,7 +60,7 @@ def test_the_reading_order_is_a_list_of_files() -> None:
         ("calibgui.engine.kernels", "with_kernel"),
         ("calibgui.formats", "EXPORTERS"),
         ("calibgui.formats.camera_import", "IMPORTERS"),
-        ("calibgui.cli.main", "COMMANDS"),
+        ("calibgui.cli.parser", "COMMANDS"),
         ("calibgui.gui.panels.analysis", "PANELS"),
         ("calibgui.gui.panels.panel", "Panel"),
         ("calibgui.gui.panels.latest", "Latest"),
