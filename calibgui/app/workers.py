@@ -37,7 +37,7 @@ R = TypeVar("R")
 _POLL_SECONDS = 0.05
 """Time between two checks of `stop`, s."""
 _prepared: set[Callable[[], None]] = set()
-"""What need not be prepared again in this process."""
+"""The preparations that this process has made, and need not make again."""
 
 
 class Crashed(Exception):  # noqa: N818 - a value, never raised

@@ -1,4 +1,4 @@
-"""What the subcommands share that write files."""
+"""Options and checks of the subcommands that write files."""
 
 from __future__ import annotations
 

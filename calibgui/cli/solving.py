@@ -1,4 +1,4 @@
-"""What every subcommand that calibrates says besides its answer."""
+"""Notices that every subcommand that calibrates gives besides its answer."""
 
 from __future__ import annotations
 

@@ -115,7 +115,7 @@ class _Case(NamedTuple):
     sigma: float
     """One standard deviation of a pixel, median over the image, px."""
     harm: float
-    """The same where it is largest; the image's size where nothing is known of pixels, px."""
+    """One standard deviation of the pixel that is known worst, px; the image's size if none is."""
     rms: float
     """Root mean square residual, px."""
 

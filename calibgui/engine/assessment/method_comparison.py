@@ -61,7 +61,7 @@ _STEP_SIGMAS = 0.01
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Distortion:
-    """How far the distortion shifts points along the radius where the outermost corner lies."""
+    """Shift along the radius that the distortion causes at the outermost corner."""
 
     radius: float
     """Distance from the centre of distortion at which the shift is stated, px."""
@@ -73,7 +73,7 @@ class Distortion:
 
 @dataclass(frozen=True, eq=False, slots=True)
 class MethodTrial:
-    """What a method that calibrates a camera makes of the views."""
+    """The result of a method that calibrates a camera from the views."""
 
     name: str
     """Name of the method in the comparison."""
@@ -102,7 +102,7 @@ class MethodTrial:
 
 @dataclass(frozen=True, eq=False, slots=True)
 class LineTrial:
-    """What a method that knows no lengths makes of the views."""
+    """The result of a method that knows no lengths, from the same views."""
 
     name: str
     """Name of the method in the comparison."""
@@ -154,7 +154,7 @@ class LineTrial:
 
 @dataclass(frozen=True, eq=False, slots=True)
 class MethodComparison:
-    """What all methods make of the same views."""
+    """The results of all methods from the same views."""
 
     chosen: Camera
     """Camera that the others are compared with."""

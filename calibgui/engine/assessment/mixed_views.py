@@ -68,7 +68,7 @@ class Split(NamedTuple):
     share_of_all: float
     """Share that a camera or board of each view's own explains."""
     what: str = "camera or board"
-    """What is not the same in the two kinds, as far as the evidence tells."""
+    """The part of the set-up that differs between the two kinds, as far as the evidence tells."""
 
     @property
     def is_certain(self) -> bool:

@@ -128,7 +128,7 @@ class PrintedSquaresAndDots:
     centres: Array
     """(n, 2) of the dots, pitches."""
     radius: float
-    """Of the dots, pitches."""
+    """Radius of the dots, in pitches."""
     dark: BoolArray
     """(n,) True for the dots that are ink."""
 

@@ -189,7 +189,7 @@ def suspect_board(board: LinearisedBoard, sigma2: float) -> float:
 
 
 class _Coefficients(NamedTuple):
-    """What the views tell of the coefficients q of the deviations, given their variances."""
+    """Estimates of the coefficients q of the deviations from the views, given q's variances."""
 
     q: Array
     """(Q,) expected coefficients, mm."""

@@ -1,4 +1,4 @@
-"""Where on its board a tag stands: numbers and squares of the tags that agree.
+"""Places of tags on their board: the numbers and squares of the tags that agree.
 
 The squares that tags were read in are known up to an offset; on the right layout, with the right
 step, the square of tag 0 is the same for all of them. The layout that most tags agree on is taken,
