@@ -67,7 +67,7 @@ from calibgui.engine.threads import with_one_blas_thread
 
 _MAX_OUTSIDE = 0.5
 """Distance outside the image beyond which corners are refused, in the image's longer side."""
-_MAX_SHARE_NEGATIVE = 0.15
+_MAX_SHARE_NEGATIVE = 0.1
 """Share of the corners left of the image or above it, beyond which they are of another frame: of
 one whose origin is in the middle three quarters are."""
 

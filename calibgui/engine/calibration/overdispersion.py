@@ -46,6 +46,9 @@ noise's and L^-1 cov L^-T = sum_i v_i u_i u_i^T, it exceeds C by
 
 which is added to what is reported. Poses and board shape follow the camera as they do in the model.
 
+Two views cannot be tested: there is a camera between them that suits both. Real views seldom agree
+to their corners' noise, so two are taken to disagree as three of them usually do.
+
 An error that all views share, such as the board's, is not measured by their disagreement: the
 board's is found by ``board_shape/uncertainty.py`` and adds to it, as a bias adds to a scatter; that
 of the lens model is found by no comparison of views.
@@ -71,6 +74,10 @@ _JACKKNIFE_SHARE = 0.9
 """Share of a view that the jackknife leaves out."""
 _MIN_VIEWS = 3
 """Number of views below which their disagreement is not tested."""
+_ASSUMED_DISAGREEMENT = 2.0
+"""Ratio of the standard deviations of views that are too few to be tested to what board and noise
+make of them. With 1, every fifth value that two views of a real set give is beyond 2.5 standard
+deviations, and up to half of one set's (``tests/benchmarks/few_views.py``)."""
 
 
 def add_overdispersion(
@@ -86,8 +93,10 @@ def add_overdispersion(
             None.
     """
     K, P, sigma2 = len(estimate.pose_covariances), len(free), estimate.sigma2
-    if K < _MIN_VIEWS or P == 0 or not sigma2 > 0:
+    if P == 0 or not sigma2 > 0:
         return estimate
+    if K < _MIN_VIEWS:
+        return _assume_disagreement(estimate)
     try:
         unit = np.linalg.cholesky(estimate.noise_covariance / sigma2)  # T^-1 = unit unit^T
     except np.linalg.LinAlgError:
@@ -118,6 +127,17 @@ def add_overdispersion(
         pose_covariances=estimate.pose_covariances + turn @ added @ np.swapaxes(turn, 1, 2),
         board_shape=_widen_board_shape(estimate.board_shape, estimate.board_motion, added),
         overdispersion=float(np.sqrt(X)),
+    )
+
+
+def _assume_disagreement(estimate: Estimate) -> Estimate:
+    """Widen an estimate from views that are too few to show whether they disagree."""
+    ratio = _ASSUMED_DISAGREEMENT**2
+    shape = estimate.board_shape
+    return estimate._replace(
+        camera_covariance=ratio * estimate.camera_covariance,
+        pose_covariances=ratio * estimate.pose_covariances,
+        board_shape=shape and replace(shape, sigma=_ASSUMED_DISAGREEMENT * shape.sigma),
     )
 
 

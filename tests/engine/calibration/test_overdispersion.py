@@ -8,6 +8,7 @@ import pytest
 from calibgui.engine.arrays import Array
 from calibgui.engine.calibration.calibrate import calibrate
 from calibgui.engine.calibration.observations import Observation
+from calibgui.engine.calibration.result import DegenerateError
 from calibgui.engine.camera.projection import pixels_from_rays
 from calibgui.engine.geometry.rotations import rotation_from_vector
 from tests.engine.calibration.board_shape.test_parametrisation import (
@@ -17,6 +18,7 @@ from tests.engine.calibration.board_shape.test_parametrisation import (
     NOMINAL,
     SIZE,
 )
+from tests.engine.scenes import TRUE_BOARD
 
 FLAT = np.column_stack([NOMINAL, np.zeros(len(NOMINAL))])
 NOISE = 0.05
@@ -96,8 +98,24 @@ def test_poses_and_board_shape_follow_the_camera() -> None:
     ) and found.board_shape.sigma.min() > 0
 
 
-def test_two_views_are_not_judged() -> None:
-    assert calibrate(photographed("bending", 2, 3), SIZE).overdispersion == 0
+def test_two_views_are_taken_to_disagree_without_a_test() -> None:
+    found = calibrate(photographed("bending", 2, 3), SIZE, prior=TRUE_BOARD)
+    assert found.overdispersion == 0
+    np.testing.assert_allclose(found.sigma[:9], 2 * found.sigma_by_noise[:9], rtol=0.01)
+
+
+@pytest.mark.slow
+def test_two_views_of_a_bending_board_hold_the_truth() -> None:
+    inside = []
+    for seed in range(60):
+        try:
+            found = calibrate(photographed("bending", 2, seed), SIZE)
+        except DegenerateError:  # named instead
+            continue
+        error = np.abs(found.camera.params - CAMERA.params)[:9]
+        inside.append(error < 2.5 * found.sigma[:9])
+    assert len(inside) >= 40
+    assert np.mean(inside) >= 0.9
 
 
 @pytest.mark.slow

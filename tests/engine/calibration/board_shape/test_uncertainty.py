@@ -226,11 +226,10 @@ def test_learnt_variances_are_their_own_expectation() -> None:
 
 @pytest.mark.data
 @pytest.mark.slow
-@pytest.mark.parametrize(("count", "least"), [(2, 0.8), (3, 0.9), (5, 0.9), (8, 0.9), (12, 0.9)])
+@pytest.mark.parametrize("count", [2, 3, 5, 8, 12])
 def test_subsets_of_the_papers_photographs_hold_the_value_from_all(
-    data_dir: Path, count: int, least: float
+    data_dir: Path, count: int
 ) -> None:
-    """Two views cannot show that they disagree, and are called too few."""
     file = "bouguet_calib_example/corners_and_results/corners_25img__benJephunneh.json"
     views, size = stored(data_dir / file)
     truth = calibrate(views, size, board_shape="free").camera.params[:4]
@@ -239,6 +238,6 @@ def test_subsets_of_the_papers_photographs_hold_the_value_from_all(
         chosen = rng.choice(len(views), count, replace=False)
         found = calibrate([views[k] for k in sorted(chosen)], size)
         z.append(np.abs(found.camera.params[:4] - truth) / found.sigma[:4])
-    assert (np.array(z) < 2.5).mean(axis=0).min() >= least
+    assert (np.array(z) < 2.5).mean(axis=0).min() >= 0.9
     assert 0.2 < np.median(z, axis=0).min()
     assert np.median(z, axis=0).max() < 1.35
