@@ -1,6 +1,9 @@
 """Compare two calibrations: how far apart do both cameras see the same points?
 
-Both are read from result.json or from the files of other programs.
+Both are read from result.json or from the files of other programs. Where both are results, the
+difference is tested against their uncertainties. With --limit the exit code is 3 if the camera has
+drifted: if a pixel of far points has moved by more than the limit, and the uncertainties do not
+explain it.
 """
 
 from __future__ import annotations
@@ -13,19 +16,30 @@ from pathlib import Path
 import numpy as np
 
 from calibgui.app.outputs import check_figures, save_figure
-from calibgui.cli.arguments import add_map_options
+from calibgui.cli.arguments import add_map_options, parse_positive
 from calibgui.cli.camera import CAMERA_FILE, add_size_option, read_camera_and_warn
 from calibgui.cli.console import Console
 from calibgui.cli.outputs import add_overwrite_option
 from calibgui.dataset import Result
-from calibgui.engine.assessment import CameraDifference, compare_cameras
+from calibgui.engine.assessment import (
+    CameraDifference,
+    Drift,
+    UncertainCamera,
+    choose_covariance,
+    compare_cameras,
+    measure_drift,
+)
 from calibgui.engine.uncertainty import estimate_projection_uncertainty
 from calibgui.formats import EXPORTERS
 from calibgui.formats.result_json import read_result
 from calibgui.report import quality
+from calibgui.report.series import describe_drift, has_drifted
+from calibgui.report.tables import format_bullet
 
 _MEDIAN_LENGTH = math.sqrt(2 * math.log(2))
 """Median length of a vector whose two components are independent and of unit variance."""
+_HAS_DRIFTED = 3
+"""Exit code of a camera that has changed by more than the limit."""
 
 
 def configure(parser: argparse.ArgumentParser) -> None:
@@ -47,10 +61,16 @@ def configure(parser: argparse.ArgumentParser) -> None:
         action="store_true",
         help="compare only where A's views have corners, not over the whole image",
     )
+    parser.add_argument(
+        "--limit",
+        type=parse_positive,
+        metavar="PX",
+        help="largest displacement that is allowed: the exit code is 3 if the camera has drifted",
+    )
 
 
-def run(options: argparse.Namespace, console: Console) -> None:
-    """Read both, compare, draw and print."""
+def run(options: argparse.Namespace, console: Console) -> int:
+    """Read both, compare, draw and print; return the exit code."""
     if options.output:
         check_figures([options.output], [options.a, options.b], options.overwrite)
     a = read_camera_and_warn(options.a, console, options.camera_a, options.size)
@@ -64,7 +84,10 @@ def run(options: argparse.Namespace, console: Console) -> None:
     covered = results[0].observations() if options.covered and results[0] else None
     found = compare_cameras(a.camera, b.camera, options.distance, covered)
     expected = _estimate_expected_difference([r for r in results if r is not None], found)
+    drift = _measure_drift([r for r in results if r is not None])
     text = quality.tabulate_camera_difference(found, expected)
+    if drift is not None:
+        text += f"\n{format_bullet(describe_drift(drift, options.limit))}"
     if options.output:
         from calibgui.report import quality_figures  # matplotlib takes a while to import
 
@@ -77,6 +100,7 @@ def run(options: argparse.Namespace, console: Console) -> None:
             "median_px": found.median,
             "worst_px": found.worst,
             "expected_median_px": expected,
+            "probability_unchanged": None if drift is None else drift.probability,
             "rvec_b_from_a": found.turn,
             "tvec_b_from_a_mm": found.shift,
             "u": found.u,
@@ -85,6 +109,22 @@ def run(options: argparse.Namespace, console: Console) -> None:
         }
     )
     console.print_text(text)
+    if options.limit is None:
+        return 0
+    beyond = found.worst > options.limit if drift is None else has_drifted(drift, options.limit)
+    return _HAS_DRIFTED if beyond else 0
+
+
+def _measure_drift(results: Sequence[Result]) -> Drift | None:
+    """Test the difference of two results; None unless both cameras are results."""
+    if len(results) < 2:
+        return None
+    alike = results[0].board is not None and results[0].board == results[1].board
+    known = [
+        UncertainCamera(r.calibration.camera, choose_covariance(r.calibration, alike))
+        for r in results
+    ]
+    return measure_drift(*known)
 
 
 def _estimate_expected_difference(

@@ -7,8 +7,9 @@ contribute; `screen_outliers` leaves wrong corners out, `calibrate_weighted` wei
 by their noise; `cross_validate` and `bootstrap_views` measure errors without trusting the model,
 `choose_board_shape` and `choose_lens` recommend models of board and lens by them; `compare_methods`
 tries all methods of calibration side by side; `compare_cameras` maps the difference of two
-calibrations over the image; `check_calibration` says whether a stored camera is still good for new
-pictures.
+calibrations over the image, `measure_drift` says whether their uncertainties explain it, and
+`fit_series` describes a camera that varies with zoom or temperature; `check_calibration` says
+whether a stored camera is still good for new pictures.
 """
 
 from __future__ import annotations
@@ -31,6 +32,12 @@ from calibgui.engine.assessment.cross_validation import (
     bootstrap_views,
     choose_board_shape,
     cross_validate,
+)
+from calibgui.engine.assessment.drift import (
+    Drift,
+    UncertainCamera,
+    choose_covariance,
+    measure_drift,
 )
 from calibgui.engine.assessment.error_sources import ErrorSources, separate_error_sources
 from calibgui.engine.assessment.finding import Cause, Finding
@@ -61,6 +68,7 @@ from calibgui.engine.assessment.residual_statistics import (
     stack_residuals,
     summarise_residuals,
 )
+from calibgui.engine.assessment.series import SPLINE, Series, Setting, fit_series
 from calibgui.engine.assessment.view_weights import calibrate_weighted
 
 __all__ = [
@@ -68,6 +76,7 @@ __all__ = [
     "CONFIDENCE",
     "DEFAULT_LIMIT",
     "SIMPLEST_MODEL",
+    "SPLINE",
     "BoardShapeChoice",
     "Bootstrap",
     "CalibrationCheck",
@@ -76,6 +85,7 @@ __all__ = [
     "CheckedView",
     "CrossValidation",
     "Distortion",
+    "Drift",
     "ErrorSources",
     "Finding",
     "Fold",
@@ -90,6 +100,9 @@ __all__ = [
     "Rejection",
     "ResidualSummary",
     "Screening",
+    "Series",
+    "Setting",
+    "UncertainCamera",
     "Verdict",
     "Weakness",
     "bootstrap_views",
@@ -97,14 +110,17 @@ __all__ = [
     "check_calibration",
     "check_residuals",
     "choose_board_shape",
+    "choose_covariance",
     "choose_lens",
     "choose_lens_stepwise",
     "compare_cameras",
     "compare_methods",
     "cross_validate",
+    "fit_series",
     "list_findings",
     "make_component_histogram",
     "make_length_histogram",
+    "measure_drift",
     "measure_radial_shift",
     "screen_outliers",
     "separate_error_sources",

@@ -1,0 +1,194 @@
+"""The results of a series and the value of the scalar of each: from a table, or from EXIF."""
+
+from __future__ import annotations
+
+import csv
+import io
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass
+from datetime import datetime
+from enum import StrEnum
+from pathlib import Path
+
+import numpy as np
+
+from calibgui.app.paths import make_natural_key
+from calibgui.dataset import Result
+from calibgui.engine.assessment import Setting, UncertainCamera, choose_covariance
+from calibgui.engine.errors import CalibrationError
+from calibgui.engine.files import read_regular
+from calibgui.engine.images import read_image_header
+from calibgui.formats.result_json import read_result
+
+_MAX_TABLE_SIZE = 16 << 20
+"""Size of the largest table of values that is read, bytes."""
+_SECONDS_OF_DAY = 86400.0
+
+
+class Scalar(StrEnum):
+    """The quantities that a series can vary by."""
+
+    ZOOM = "zoom"
+    FOCUS = "focus"
+    TEMPERATURE = "temperature"
+    DATE = "date"
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class SeriesResult:
+    """One result of a series."""
+
+    path: Path
+    result: Result
+    value: float
+    """Value of the scalar; of a date, days since 1970."""
+
+    def make_setting(self, is_same_board: bool = True) -> Setting:
+        """Return the camera with its uncertainty beside other results."""
+        calibration = self.result.calibration
+        covariance = choose_covariance(calibration, is_same_board)
+        return Setting(self.value, UncertainCamera(calibration.camera, covariance))
+
+
+def find_results(names: Iterable[str]) -> tuple[Path, ...]:
+    """Return the files that `names` mean: files, and all ``*.json`` in folders at any depth.
+
+    Raises:
+        CalibrationError: if a name means no file, or a folder has none.
+    """
+    found: list[Path] = []
+    for name in names:
+        path = Path(name)
+        files = sorted(path.rglob("*.json"), key=make_natural_key) if path.is_dir() else [path]
+        if not files or not files[0].exists():
+            raise CalibrationError(
+                f"{name} holds no results." if files == [] else f"There is no file {name}.",
+                "Name files that calibgui calibrate -o wrote, or their folder.",
+            )
+        found.extend(files)
+    return tuple(dict.fromkeys(found))
+
+
+def read_series(
+    paths: Sequence[Path], scalar: Scalar, values: Path | None = None
+) -> tuple[SeriesResult, ...]:
+    """Read results and the value of the scalar of each, in the order of the values.
+
+    Args:
+        paths: the files.
+        scalar: the quantity that varies.
+        values: a CSV file with the columns ``file`` and ``value``, the former a name or a path as
+            it stands beside the table; None to read focal lengths or dates from the photographs.
+
+    Raises:
+        CalibrationError: if a file is no result, is a partial one or has no value.
+    """
+    table = {} if values is None else _read_values(values, scalar)
+    found = []
+    for path in paths:
+        result = read_result(path)
+        if result.calibration.diagnosis is not None:
+            raise CalibrationError(
+                f"{path} is a partial calibration: a part of its camera is assumed.",
+                "Leave it out, or add photographs to it and calibrate again.",
+            )
+        if values is not None:
+            value = _find_value(table, path, values)
+        else:
+            value = _read_from_photographs(path, result, scalar)
+        found.append(SeriesResult(path, result, value))
+    return tuple(sorted(found, key=lambda one: one.value))
+
+
+def are_boards_alike(results: Sequence[SeriesResult]) -> bool:
+    """Return whether all results are of one board, as far as its layout tells."""
+    boards = [one.result.board for one in results]
+    return boards[0] is not None and all(board == boards[0] for board in boards)
+
+
+def format_value(value: float, scalar: Scalar) -> str:
+    """Format a value of the scalar, with its unit where it has one."""
+    if scalar is Scalar.DATE:
+        return datetime.fromtimestamp(value * _SECONDS_OF_DAY).isoformat(" ", "minutes")
+    return f"{value:g}{' mm' if scalar is Scalar.ZOOM else ''}"
+
+
+def parse_value(text: str, scalar: Scalar) -> float:
+    """Read a value of the scalar: a number, or an ISO date.
+
+    Raises:
+        ValueError: if it is neither, or not finite.
+    """
+    if scalar is Scalar.DATE:
+        return datetime.fromisoformat(text.strip()).timestamp() / _SECONDS_OF_DAY
+    value = float(text)
+    if not np.isfinite(value):
+        raise ValueError(f"{text!r} is not a finite number")
+    return value
+
+
+def _read_values(file: Path, scalar: Scalar) -> dict[Path, float]:
+    """Read the values by the paths of the files."""
+    try:
+        text = read_regular(file, _MAX_TABLE_SIZE).decode("utf-8-sig")
+        rows = list(csv.DictReader(io.StringIO(text, newline="")))
+    except OSError as error:
+        raise CalibrationError(
+            f"{file} cannot be read: {error.strerror or error}.", "Check its name and permissions."
+        ) from error
+    except (ValueError, csv.Error) as error:
+        raise CalibrationError(f"{file} is not a CSV file: {error}.", "Choose another.") from error
+    found = {}
+    for line, row in enumerate(rows, start=2):
+        try:
+            found[Path(row["file"])] = parse_value(row["value"], scalar)
+        except (KeyError, TypeError, ValueError) as error:
+            raise CalibrationError(
+                f"{file}, line {line}: there is no file with its value ({error}).",
+                "The first line names the columns file,value; each further one has both.",
+            ) from error
+    return found
+
+
+def _find_value(table: Mapping[Path, float], path: Path, values: Path) -> float:
+    """Return the value of a file that the table names by its path, or by its name alone."""
+    for name, value in table.items():
+        if (values.parent / name).resolve() == path.resolve():
+            return value
+    alike = {value for name, value in table.items() if name.name == path.name == str(name)}
+    if len(alike) != 1:
+        raise CalibrationError(
+            f"{values} has no value for {path}.", f"Add a line for it: {path.name},VALUE."
+        )
+    return alike.pop()
+
+
+def _read_from_photographs(path: Path, result: Result, scalar: Scalar) -> float:
+    """Return the median of what EXIF says of the photographs that were used."""
+    if scalar not in (Scalar.ZOOM, Scalar.DATE):
+        raise CalibrationError(
+            f"Photographs do not state the {scalar}.",
+            "Give a table of file,value for each result: --values FILE.csv.",
+        )
+    found = []
+    for view in result.used:
+        image = next((p for p in _list_places(path, view.image) if p.is_file()), None)
+        if image is None:
+            continue
+        exif = read_image_header(image).exif
+        if scalar is Scalar.ZOOM and exif.focal_length_mm is not None:
+            found.append(exif.focal_length_mm)
+        elif scalar is Scalar.DATE and exif.date is not None:
+            found.append(exif.date.timestamp() / _SECONDS_OF_DAY)
+    if not found:
+        what = "focal length" if scalar is Scalar.ZOOM else "date"
+        raise CalibrationError(
+            f"No photograph of {path} was found that states its {what}.",
+            "Give a table of file,value for each result: --values FILE.csv.",
+        )
+    return float(np.median(found))
+
+
+def _list_places(path: Path, image: str) -> list[Path]:
+    """List where a photograph that a result names may be."""
+    return [Path(image), path.parent / image, path.parent / Path(image).name]

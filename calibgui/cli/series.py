@@ -1,0 +1,164 @@
+"""Describe a camera whose zoom, focus or temperature varies, from calibrations at some settings.
+
+Every parameter becomes a function of the scalar, chosen by its error on settings that it has not
+seen. Between the settings the camera is known with its uncertainty, and can be exported; whether it
+has changed at all is answered in pixels. Focal lengths (zoom) and dates are read from the
+photographs if these are where they were; focus and temperature need a table.
+"""
+
+from __future__ import annotations
+
+import argparse
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from calibgui.app.outputs import check_figures, check_outputs, save_figure
+from calibgui.app.series import (
+    Scalar,
+    are_boards_alike,
+    find_results,
+    format_value,
+    parse_value,
+    read_series,
+)
+from calibgui.cli.arguments import add_export_option
+from calibgui.cli.console import Console
+from calibgui.cli.outputs import add_overwrite_option
+from calibgui.engine.assessment import (
+    Drift,
+    Series,
+    UncertainCamera,
+    fit_series,
+    measure_drift,
+)
+from calibgui.formats import EXPORTERS
+from calibgui.formats.camera_conversion import export_camera
+from calibgui.formats.origin import SERIES_CSV
+from calibgui.formats.series_csv import write_series_csv
+from calibgui.report import series as words
+
+
+def configure(parser: argparse.ArgumentParser) -> None:
+    """Describe the arguments."""
+    parser.set_defaults(usage_error=parser.error)
+    parser.add_argument(
+        "paths", nargs="+", metavar="RESULT", help="result.json of each setting, or their folder"
+    )
+    parser.add_argument(
+        "--by", type=Scalar, choices=list(Scalar), required=True, help="the quantity that varies"
+    )
+    parser.add_argument(
+        "--values",
+        type=Path,
+        metavar="FILE.csv",
+        help="table of file,value: the quantity of each result, as a number or an ISO date",
+    )
+    parser.add_argument("--at", metavar="VALUE", help="print the camera at this value")
+    add_export_option(parser, "with --at: a file of the camera there")
+    parser.add_argument("--table", type=Path, metavar="FILE.csv", help="write all settings as CSV")
+    parser.add_argument(
+        "-o", "--output", type=Path, metavar="FILE", help="draw the series (.png, .svg, .pdf)"
+    )
+    add_overwrite_option(parser)
+
+
+def run(options: argparse.Namespace, console: Console) -> None:
+    """Read the results, fit, print and write."""
+    at = _read_value(options)
+    paths = find_results(options.paths)
+    _check_files(options, paths)
+    results = read_series(paths, options.by, options.values)
+    alike = are_boards_alike(results)
+    series = fit_series([one.make_setting(alike) for one in results])
+    drifts = _measure_drifts(series) if options.by is not Scalar.ZOOM else []
+    values = [format_value(one.value, options.by) for one in results]
+    texts = [
+        words.tabulate_settings(series, values, drifts, options.by),
+        words.tabulate_functions(series),
+        words.describe_series(series, drifts),
+    ]
+    answer: dict[str, Any] = {
+        "by": options.by,
+        "function": series.function,
+        "errors_px": series.errors,
+        "inflation": series.inflation,
+        "settings": [
+            {"file": str(one.path), "value": one.value} | _encode_camera(setting.known)
+            for one, setting in zip(results, series.settings, strict=True)
+        ],
+        "from_first": [
+            {"rms_px": drift.difference.rms, "probability": drift.probability} for drift in drifts
+        ],
+    }
+    if at is not None:
+        known = series.predict(at)
+        answer["at"] = {"value": at} | _encode_camera(known)
+        texts.append(words.tabulate_camera_at(known, format_value(at, options.by)))
+        for name, path in options.export:
+            note = export_camera(known.camera, EXPORTERS[name], path).note
+            texts.append(f"Wrote {path}. {note}")
+    texts += _write_files(options, series, [str(one.path) for one in results])
+    console.print_json(answer)
+    console.print_text("\n\n".join(texts))
+
+
+def _measure_drifts(series: Series) -> list[Drift]:
+    """Measure the difference of every camera but the first from the first.
+
+    A camera that is zoomed has changed, of course.
+    """
+    first = series.settings[0].known
+    return [measure_drift(first, setting.known) for setting in series.settings[1:]]
+
+
+def _read_value(options: argparse.Namespace) -> float | None:
+    """Return the value of --at, or end the program if it is none or missing."""
+    if options.at is None:
+        if options.export:
+            options.usage_error("--export needs --at VALUE: the camera where?")
+        return None
+    try:
+        return parse_value(options.at, options.by)
+    except ValueError:
+        options.usage_error(f"--at {options.at} is no value of {options.by}")
+    return None
+
+
+def _check_files(options: argparse.Namespace, inputs: tuple[Path, ...]) -> None:
+    """Refuse outputs that could not be written, or would replace what must be kept."""
+    outputs = [(path, name) for name, path in options.export]
+    if options.table:
+        outputs.append((options.table, SERIES_CSV))
+    check_outputs(outputs, inputs, options.overwrite)
+    if options.output:
+        check_figures([options.output], inputs, options.overwrite)
+
+
+def _write_files(options: argparse.Namespace, series: Series, files: list[str]) -> list[str]:
+    """Write table and figure, and return the sentences that say so."""
+    texts = []
+    if options.table:
+        write_series_csv(series.settings, files, options.table)
+        texts.append(f"Wrote {options.table}.")
+    if options.output:
+        from calibgui.report import series_figures  # matplotlib takes a while to import
+
+        unit = ", mm" if options.by is Scalar.ZOOM else ""
+        unit = ", days since 1970" if options.by is Scalar.DATE else unit
+        save_figure(series_figures.draw_series(series, options.by + unit), options.output)
+        texts.append(f"Wrote {options.output}.")
+    return texts
+
+
+def _encode_camera(known: UncertainCamera) -> dict[str, Any]:
+    """Return a camera with its standard deviations for JSON."""
+    camera = known.camera
+    sigma = np.sqrt(np.diag(known.covariance)).tolist()
+    return {
+        "model": camera.model,
+        "size": camera.size,
+        "params": dict(zip(camera.names, camera.params.tolist(), strict=True)),
+        "sigma": dict(zip(camera.names, sigma, strict=True)),
+    }

@@ -1,0 +1,35 @@
+"""The settings of a series as CSV: one row each, every parameter with its standard deviation.
+
+Reader: any reader of CSV. Focal lengths and centre are px in the array frame, coefficients without
+dimension. Cannot hold: correlations, the function between the settings.
+"""
+
+from __future__ import annotations
+
+import csv
+import io
+from collections.abc import Sequence
+from pathlib import Path
+
+import numpy as np
+
+from calibgui.engine.assessment import Setting
+from calibgui.engine.files import write_atomically
+
+
+def write_series_csv(settings: Sequence[Setting], files: Sequence[str], path: Path) -> None:
+    """Write the settings, each with the name of its file.
+
+    Raises:
+        CalibrationError: if the file cannot be written.
+    """
+    text = io.StringIO()
+    writer = csv.writer(text, lineterminator="\n")
+    names = settings[0].known.camera.names
+    writer.writerow(["value", "file", "model", *(n for p in names for n in (p, f"sigma_{p}"))])
+    for setting, file in zip(settings, files, strict=True):
+        known = setting.known
+        sigma = np.sqrt(np.diag(known.covariance))
+        pairs = np.column_stack([known.camera.params, sigma]).ravel().tolist()
+        writer.writerow([setting.value, file, known.camera.model, *pairs])
+    write_atomically(path, text.getvalue().encode(errors="backslashreplace"))
