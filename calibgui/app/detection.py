@@ -21,12 +21,14 @@ from calibgui.app.workers import Crashed, map_in_processes
 from calibgui.dataset import CornerSet, View, ViewStatus
 from calibgui.engine.arrays import Array, GridSize, Size
 from calibgui.engine.boards import CHECKERBOARD, KINDS, Board, Pattern
-from calibgui.engine.detection import METHODS, Corners, find_corners
+from calibgui.engine.detection import METHODS, Corners, find_corners, look_for_marks
 from calibgui.engine.errors import CalibrationError, NoBoardError
 from calibgui.engine.images import Image, read_image, read_image_size
 
-_MARKED_CHECKERBOARDS = ("tagged-checkerboard", "puzzleboard")
-"""Kinds of boards that a search for plain checkerboards may find as well."""
+_KINDS_MARKED_IN_SQUARES = ("charuco", "tagged-checkerboard")
+"""Kinds of boards with marks in their squares that a search for plain checkerboards may find."""
+_KINDS_MARKED_ON_EDGES = ("puzzleboard",)
+"""Kinds of boards with marks on the squares' edges that it may find."""
 _SAMPLES = 2
 """Number of images in which other boards are looked for, which takes seconds in each."""
 Progress = Callable[[int, int, View], None]
@@ -171,17 +173,25 @@ def find_grid_size(images: Sequence[str], pattern: Pattern) -> GridSize | None:
 def recognise_pattern(views: Sequence[View]) -> Pattern | None:
     """Return the pattern that photographs show in which a plain checkerboard was looked for.
 
-    Where one was found it may bear marks; where none was found, all other kinds are tried.
+    Where one was found it may bear marks, which are read if a look at it shows any; where none was
+    found, all other kinds are tried.
 
     Returns:
         None if it is a plain checkerboard, or nothing that can be found.
     """
-    found = [view for view in views if view.corners is not None]
+    found = [(view.image, view.corners) for view in views if view.corners is not None]
     if not found:
         return find_other_pattern(choose_samples(views), CHECKERBOARD)
-    best = max(found, key=lambda view: 0 if view.corners is None else len(view.corners))
-    marked = [KINDS[kind] for kind in _MARKED_CHECKERBOARDS]
-    tries = (search_view(View(best.image), pattern=pattern) for pattern in marked)
+    image, corners = max(found, key=lambda pair: len(pair[1]))
+    try:
+        marks = look_for_marks(read_image(image).pixels, corners)
+    except CalibrationError:  # the file has changed since it was searched
+        return None
+    marked = (
+        *(_KINDS_MARKED_IN_SQUARES if marks.in_squares else ()),
+        *(_KINDS_MARKED_ON_EDGES if marks.on_edges else ()),
+    )
+    tries = (search_view(View(image), pattern=KINDS[kind]) for kind in marked)
     kinds = (view.corners.pattern.kind for view in tries if view.corners is not None)
     return next((KINDS[kind] for kind in kinds), None)
 

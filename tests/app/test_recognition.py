@@ -1,0 +1,54 @@
+"""Which kind of board photographs show, where none is stated."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from calibgui.app import detection
+from calibgui.app.detection import find_views, recognise_pattern
+from calibgui.dataset import View
+from calibgui.engine.boards.board import Board
+from calibgui.engine.boards.charuco import Charuco
+from calibgui.engine.boards.checkerboard import CHECKERBOARD
+from calibgui.engine.boards.pattern import Pattern
+from calibgui.engine.boards.tagged_checkerboard import TaggedCheckerboard
+from calibgui.engine.camera.camera import Camera
+from calibgui.engine.images.reading import write_image
+from tests.engine.detection.conftest import Scene
+
+_CAMERA = Camera((640, 480), [640.0, 642.0, 320.0, 240.0, 0.1, 0.02, 0.0, 1e-4, 0.0, 0.0])
+
+
+def _search_for_checkerboard(pattern: Pattern, folder: Path) -> tuple[View, ...]:
+    """The views of a photograph in which a plain checkerboard was looked for."""
+    scene = Scene(Board(8, 10, 20.0, pattern), _CAMERA, (0.4, 0.25, 0.2), 330.0)
+    write_image(folder / "view.png", scene.image())
+    return find_views([folder / "view.png"]).views
+
+
+def test_a_plain_checkerboard_is_told_by_a_look(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    views = _search_for_checkerboard(CHECKERBOARD, tmp_path)
+    assert views[0].corners is not None
+    monkeypatch.delattr(detection, "search_view")
+    assert recognise_pattern(views) is None
+
+
+@pytest.mark.parametrize(
+    "pattern",
+    [TaggedCheckerboard("t36h11", 1, 2, from_top=True), Charuco("DICT_4X4_50", 0.7, legacy=False)],
+    ids=["tagged", "charuco"],
+)
+def test_marks_are_read(pattern: Pattern, tmp_path: Path) -> None:
+    recognised = recognise_pattern(_search_for_checkerboard(pattern, tmp_path))
+    assert recognised is not None
+    assert recognised.kind == pattern.kind
+
+
+def test_a_file_that_has_gone(tmp_path: Path) -> None:
+    views = _search_for_checkerboard(CHECKERBOARD, tmp_path)
+    (tmp_path / "view.png").unlink()
+    assert recognise_pattern(views) is None
