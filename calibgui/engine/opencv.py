@@ -213,17 +213,18 @@ _MIN_MARKER_SIDE = 10.0
 """Side of the smallest markers that are detected, px."""
 
 
-def label_dark_parts(image: GreyImage, window: int) -> tuple[npt.NDArray[np.int32], int]:
+def label_dark_parts(image: GreyImage, window: int) -> tuple[npt.NDArray[np.int32], IntArray]:
     """Label connected parts of an 8-bit image (h, w) darker than the mean of `window` px around.
 
     Returns:
-        The number (h, w) of each pixel's part, 0 for none, and one more than the highest number.
+        The number (h, w) of each pixel's part, 0 for none, and the area (n,) px of each part, that
+        of all other pixels first.
     """
     dark = cv2.adaptiveThreshold(
         image, 255, cv2.ADAPTIVE_THRESH_MEAN_C, cv2.THRESH_BINARY_INV, 2 * (window // 2) + 1, 8
     )
-    count, labels, *_ = cv2.connectedComponentsWithStats(dark, connectivity=4)
-    return np.asarray(labels, np.int32), int(count)
+    _, labels, stats, _ = cv2.connectedComponentsWithStats(dark, connectivity=4)
+    return np.asarray(labels, np.int32), np.asarray(stats[:, cv2.CC_STAT_AREA], np.int64)
 
 
 class CalibratedCamera(NamedTuple):

@@ -8,13 +8,11 @@ bounded time.
 
 from __future__ import annotations
 
-from typing import Any
-
 import numpy as np
 import numpy.typing as npt
 
 from calibgui.engine import opencv
-from calibgui.engine.arrays import Array, GreyImage
+from calibgui.engine.arrays import Array, BoolArray, GreyImage
 from calibgui.engine.detection.circles.thresholds import CIRCLE_THRESHOLDS
 
 
@@ -24,25 +22,13 @@ def find_blobs(image: GreyImage, window: int, most: int) -> Array:
     A part is darker than the mean of the `window` px around.
     """
     limits = CIRCLE_THRESHOLDS
-    labels, end = opencv.label_dark_parts(image, window)
-    v, u = np.nonzero(labels)
-    part = labels[v, u]
-    area = np.bincount(part, minlength=end).astype(np.float64)
-    large = area >= limits.min_blob_area
-    kept = large[part]
-    part, x, y = part[kept], u[kept] * 1.0, v[kept] * 1.0
-
-    def mean(values: npt.NDArray[np.floating[Any]]) -> Array:
-        return np.asarray(np.bincount(part, values, minlength=end) / np.maximum(area, 1))
-
-    cu, cv = mean(x), mean(y)
-    # A pixel's own variance is 1/12 along each axis.
-    C = (
-        np.stack([mean(x * x) - cu * cu, mean(y * y) - cv * cv, mean(x * y) - cu * cv])
-        + (np.array([1 / 12, 1 / 12, 0.0])[:, None])
-    )
+    labels, areas = opencv.label_dark_parts(image, window)
+    large = areas >= limits.min_blob_area
+    large[0] = False  # all that is in no part
+    area = areas[large].astype(np.float64)
+    (cu, cv), C = _measure_parts(labels, large)
     fill = area / (4 * np.pi * np.sqrt(np.maximum(C[0] * C[1] - C[2] ** 2, 1e-9)))
-    is_round = large & (fill > limits.min_blob_fill) & (fill < limits.max_blob_fill)
+    is_round = (fill > limits.min_blob_fill) & (fill < limits.max_blob_fill)
     candidates = np.flatnonzero(is_round)
     if not len(candidates):
         return np.zeros((0, 2))
@@ -52,3 +38,34 @@ def find_blobs(image: GreyImage, window: int, most: int) -> Array:
     alike = candidates[(area[candidates] >= smallest) & (area[candidates] <= ratio * smallest)]
     best = alike[np.argsort(np.abs(fill[alike] - 1), kind="stable")[:most]]
     return np.column_stack([cu[best], cv[best]])
+
+
+def _measure_parts(labels: npt.NDArray[np.int32], chosen: BoolArray) -> tuple[Array, Array]:
+    """Compute the centres (2, m) and the covariances (3, m) = (uu, vv, uv) of parts, px and px^2.
+
+    The sums are taken over runs, neighbouring pixels in a row that belong to one part: from u on,
+    n pixels have the sums n u + n (n - 1) / 2 and n u^2 + u n (n - 1) + (n - 1) n (2 n - 1) / 6.
+    Sums of whole numbers, they are exact.
+
+    Args:
+        labels: (h, w) the number of each pixel's part.
+        chosen: (n,) mask of the m parts that are measured.
+    """
+    begins = np.empty(labels.shape, dtype=bool)
+    begins[:, 0] = True
+    np.not_equal(labels[:, 1:], labels[:, :-1], out=begins[:, 1:])
+    start = np.flatnonzero(begins)
+    part, length = labels.ravel()[start], np.diff(start, append=labels.size)
+    kept = chosen[part]
+    part, n = (np.cumsum(chosen) - 1)[part[kept]], length[kept].astype(np.float64)
+    v, u = np.divmod(start[kept], labels.shape[1])
+    along = n * u + n * (n - 1) / 2
+    squares = n * u * u + u * n * (n - 1) + (n - 1) * n * (2 * n - 1) / 6
+    m = int(np.count_nonzero(chosen))
+    area = np.bincount(part, n, m)
+    cu, cv, uu, vv, uv = (
+        np.bincount(part, sums, m) / area for sums in (along, n * v, squares, n * v * v, along * v)
+    )
+    # A pixel's own variance is 1/12 along each axis.
+    C = np.stack([uu - cu * cu + 1 / 12, vv - cv * cv + 1 / 12, uv - cu * cv])
+    return np.stack([cu, cv]), C

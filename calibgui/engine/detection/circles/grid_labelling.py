@@ -13,6 +13,7 @@ points fill a rectangle of the pattern.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator
 from itertools import combinations, product
 
@@ -104,44 +105,64 @@ def _grow_lattice(
 ) -> PointsByPlace:
     """Grow a lattice by every point that lies where it predicts one."""
     placed, taken, edge = dict(placed), set(placed.values()), list(placed)
+    # Plain numbers: arrays of two take ten times as long.
+    known = {place: tuple(points[index].tolist()) for place, index in placed.items()}
     while edge:
         beside = {(i + di, j + dj) for i, j in edge for di, dj in _STEPS} - placed.keys()
-        expected = [(place, _predict_point(place, placed, points)) for place in sorted(beside)]
+        guesses = {place: _predict_point(place, known) for place in sorted(beside)}
         # Places with the most predictions come first: a point can be taken only once.
-        expected.sort(key=lambda item: -len(item[1]))
+        expected = sorted(
+            (place for place, found in guesses.items() if found),
+            key=lambda place: -len(guesses[place]),
+        )
+        if not expected:
+            break
+        at = [
+            [sum(values) / len(values) for values in list(zip(*guesses[place], strict=True))[:2]]
+            for place in expected
+        ]
+        distances, indices = (np.asarray(found).tolist() for found in tree.query(np.array(at)))
         edge = []
-        for place, guesses in expected:
-            if not guesses:
-                continue
-            at = np.mean([guess for guess, _ in guesses], axis=0)
-            reach = CIRCLE_THRESHOLDS.max_prediction_error * min(step for _, step in guesses)
-            _, nearest = tree.query(at, distance_upper_bound=reach)
-            if nearest < len(points) and nearest not in taken:
-                placed[place] = int(nearest)
-                taken.add(int(nearest))
+        for place, distance, nearest in zip(expected, distances, indices, strict=True):
+            step = min(step for *_, step in guesses[place])
+            is_near = distance < CIRCLE_THRESHOLDS.max_prediction_error * step
+            if is_near and nearest not in taken:
+                placed[place] = nearest
+                known[place] = tuple(points[nearest].tolist())
+                taken.add(nearest)
                 edge.append(place)
     return placed
 
 
-def _predict_point(place: Place, placed: PointsByPlace, points: Array) -> list[tuple[Array, float]]:
-    """Predict a place's point from its neighbours: positions, and the lengths of their steps."""
+def _predict_point(
+    place: Place, known: dict[Place, tuple[float, float]]
+) -> list[tuple[float, float, float]]:
+    """Predict a place's point (u, v) px from its neighbours, and the lengths of their steps.
+
+    Args:
+        place: the place.
+        known: the points px by place.
+    """
     i, j = place
-
-    def at(di: int, dj: int) -> Array | None:
-        index = placed.get((i + di, j + dj))
-        return None if index is None else points[index]
-
     guesses = []
     for di, dj in _STEPS:
-        next_, second, third = (at(k * di, k * dj) for k in (1, 2, 3))
-        if next_ is not None and second is not None:
-            continued = 2 * next_ - second if third is None else 3 * (next_ - second) + third
-            guesses.append((continued, float(np.linalg.norm(next_ - second))))
+        next_, second = known.get((i + di, j + dj)), known.get((i + 2 * di, j + 2 * dj))
+        if next_ is None or second is None:
+            continue
+        u, v = next_[0] - second[0], next_[1] - second[1]
+        third = known.get((i + 3 * di, j + 3 * dj))
+        if third is None:
+            continued = 2 * next_[0] - second[0], 2 * next_[1] - second[1]
+        else:
+            continued = 3 * u + third[0], 3 * v + third[1]
+        guesses.append((*continued, math.sqrt(u * u + v * v)))
     for di, dj in product((1, -1), (1, -1)):
-        along, across, diagonal = at(di, 0), at(0, dj), at(di, dj)
-        if along is not None and across is not None and diagonal is not None:
-            steps = np.linalg.norm([along - diagonal, across - diagonal], axis=1)
-            guesses.append((along + across - diagonal, float(steps.min())))
+        along, across = known.get((i + di, j)), known.get((i, j + dj))
+        diagonal = known.get((i + di, j + dj))
+        if along is None or across is None or diagonal is None:
+            continue
+        u, v = along[0] + across[0] - diagonal[0], along[1] + across[1] - diagonal[1]
+        guesses.append((u, v, min(math.dist(along, diagonal), math.dist(across, diagonal))))
     return guesses
 
 
