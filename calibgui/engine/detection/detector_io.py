@@ -1,7 +1,8 @@
 """The entry and exit of every detector: its image and the noise of that, the rejected corners.
 
-The detectors of checkerboards, ChArUco boards and grids of circles take grey levels of any of
-three types and list the corners that they saw but do not trust; they share the functions here.
+Detectors take grey levels of any of three types and list the corners that they saw but do not
+trust; they share the functions here. Those that read markers look at 8 bits, and at the negative
+where the print is bright on dark.
 """
 
 from __future__ import annotations
@@ -12,7 +13,11 @@ import numpy.typing as npt
 from calibgui.engine.arrays import Array, GreyImage
 from calibgui.engine.detection.corners import RejectedCorner
 from calibgui.engine.errors import NoBoardError
+from calibgui.engine.images.reading import stretch_levels
 
+_MIN_READABLE_RANGE = 100
+"""Range of 8-bit grey levels from which on markers are read in them as they are: OpenCV looks for
+squares darker than their surroundings by 7 levels or more."""
 _MIN_IMAGE_SIDE = 16
 """Short side of the smallest image that can show a board, px; a smaller one is refused."""
 
@@ -53,6 +58,18 @@ def estimate_least_noise(image: GreyImage) -> float:
     if image.dtype in (np.uint8, np.uint16):
         return 1 / 12
     return float(np.spacing(max(np.abs(image).max(), np.finfo(np.float32).tiny)) ** 2 / 12)
+
+
+def convert_for_reading(image: GreyImage) -> npt.NDArray[np.uint8]:
+    """Return an image (h, w) in 8 bits with contrast enough for markers to be read."""
+    if image.dtype == np.uint8 and np.ptp(image) < _MIN_READABLE_RANGE:
+        return stretch_levels(image.astype(np.float32))
+    return stretch_levels(image)
+
+
+def invert_levels(image: GreyImage) -> GreyImage:
+    """Return an image (h, w) of the same type with dark for bright levels."""
+    return np.asarray(image.max() - image + image.min(), dtype=image.dtype)
 
 
 def list_rejected_corners(uv: Array, reason: str) -> list[RejectedCorner]:

@@ -16,16 +16,18 @@ from __future__ import annotations
 
 import numpy as np
 import numpy.typing as npt
-import scipy
 
 from calibgui.engine.arrays import Array, BoolArray, GreyImage, GridSize, IntArray
 from calibgui.engine.boards.april_grid import AprilGrid
 from calibgui.engine.detection import grid_map
 from calibgui.engine.detection import region_of_interest as region
-from calibgui.engine.detection.apriltags.assembly import assemble_corners, invert_levels
 from calibgui.engine.detection.apriltags.grid_tags import GridTags, find_grid_tags
 from calibgui.engine.detection.apriltags.near_priors import NearPriors
-from calibgui.engine.detection.charuco.corners_between_markers import require_enough_corners
+from calibgui.engine.detection.charuco.assembly import assemble_corners
+from calibgui.engine.detection.charuco.corners_between_markers import (
+    predict_places,
+    require_enough_corners,
+)
 from calibgui.engine.detection.checkerboard import saddle, verification, x_corner_fit
 from calibgui.engine.detection.checkerboard.corner_template import (
     OrientedCorners,
@@ -33,14 +35,17 @@ from calibgui.engine.detection.checkerboard.corner_template import (
 )
 from calibgui.engine.detection.checkerboard.x_corner_fit import XCornerFit
 from calibgui.engine.detection.corners import Corners, RejectedCorner
-from calibgui.engine.detection.detector_io import check_grey_levels, list_rejected_corners
+from calibgui.engine.detection.detector_io import (
+    check_grey_levels,
+    convert_for_reading,
+    invert_levels,
+    list_rejected_corners,
+)
 from calibgui.engine.detection.lattice import MAX_DEVIATION, Lattice
 from calibgui.engine.errors import NoBoardError
-from calibgui.engine.geometry import homography
-from calibgui.engine.images.reading import stretch_levels
 
-_TAGS_PER_CORNER = 4
-"""Number of the nearest tags whose corners place a corner."""
+_MIN_MAPPED_CORNERS = 4
+"""Number of corners up to which none is left out of their map: it follows any four."""
 _MAX_PLACING_DISTANCE = 1.6
 """Greatest distance of a corner from the centre of the nearest tag that was read, sides of a tag:
 that of the corners of its neighbours."""
@@ -61,7 +66,7 @@ def find_april_grid(
     grey = check_grey_levels(image)
     outline = None if roi is None else region.check_outline(roi)
     searched = None if outline is None else region.enlarge_outline(outline)
-    levels = stretch_levels(grey)
+    levels = convert_for_reading(grey)
     read = find_grid_tags(levels, pattern, grid_size, searched)
     is_inverted = read is None
     read = read or find_grid_tags(invert_levels(levels), pattern, grid_size, searched)
@@ -111,7 +116,7 @@ def _locate_corners(
     rows, cols = _count_rows(tags.squares), tags.layout.cols
     if grid_size is not None:
         if 2 * rows > grid_size[0]:
-            raise _explain_missing_board(stretch_levels(grey), grid_size, None)
+            raise _explain_missing_board(convert_for_reading(grey), grid_size, None)
         rows = grid_size[0] // 2
     first = 0 if tags.layout.from_top else rows - 1
     on_board = tags.squares + np.array([first, 0])
@@ -163,15 +168,8 @@ def _predict_corners(
     places = AprilGrid(spacing=gap).locate_points(grid)
     around = np.array([(0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0)])
     on_board = (1 + gap) * squares[:, None, ::-1] + around
-    count = min(_TAGS_PER_CORNER, len(on_board))
-    nearest = scipy.spatial.cKDTree(on_board.mean(axis=1)).query(places, np.arange(1, count + 1))
-    distance, which = np.asarray(nearest[0]), np.asarray(nearest[1])
-    # Coordinates are counted from the corner, the place that the homography is evaluated at.
-    source = (on_board[which] - places[:, None, None]).reshape(len(places), -1, 2)
-    target = corners[which].reshape(len(places), -1, 2)
-    H = homography.fit_homography(source, target, np.ones(source.shape[:2]))
-    uv = homography.apply_homography(H, np.zeros((len(places), 1, 2)))[:, 0]
-    seen = (distance[:, 0] < _MAX_PLACING_DISTANCE) & verification.are_in_image(uv, image.shape)
+    uv, distance = predict_places(places, on_board, corners)
+    seen = (distance < _MAX_PLACING_DISTANCE) & verification.are_in_image(uv, image.shape)
     uv[~seen] = np.nan
     uv = uv.reshape(*grid_size, 2)
     for (row, col), quad in zip(squares.tolist(), corners, strict=True):
@@ -250,7 +248,7 @@ def _find_regular_corners(places: Array, uv: Array, length: Array, good: BoolArr
         good: (n,) those that may be.
     """
     good = good.copy()
-    while np.count_nonzero(good) > _TAGS_PER_CORNER:
+    while np.count_nonzero(good) > _MIN_MAPPED_CORNERS:
         expected = grid_map.fit_cells(places[good][:, ::-1], uv[good]).locate(places[:, ::-1])
         off = np.linalg.norm(uv - expected, axis=1) / length
         worst = int(np.argmax(np.where(good, off, 0.0)))

@@ -15,17 +15,17 @@ import numpy.typing as npt
 from calibgui.engine.arrays import Array, GreyImage, GridSize, IntArray
 from calibgui.engine.boards.tagged_checkerboard import TaggedCheckerboard, count_tagged_squares
 from calibgui.engine.detection import region_of_interest as region
-from calibgui.engine.detection.apriltags.assembly import assemble_corners, invert_levels
 from calibgui.engine.detection.apriltags.tag_places import PlacedTags, place_tags
 from calibgui.engine.detection.apriltags.tag_reader import TagPrint, TagReader, list_prints
 from calibgui.engine.detection.apriltags.tagged_corners import (
     fit_tagged_corners,
     refine_tagged_corners,
 )
+from calibgui.engine.detection.charuco.assembly import assemble_corners
 from calibgui.engine.detection.checkerboard.numbering import turn_lattice
 from calibgui.engine.detection.checkerboard.pyramid_search import find_candidates
 from calibgui.engine.detection.corners import Corners
-from calibgui.engine.detection.detector_io import check_grey_levels
+from calibgui.engine.detection.detector_io import check_grey_levels, invert_levels
 from calibgui.engine.detection.lattice import Lattice
 from calibgui.engine.errors import NoBoardError
 

@@ -95,9 +95,9 @@ def _read_board(
             for layout in (known if cols is None else list_layouts(cols, None))
             if pattern.from_top in (None, layout.from_top)
         ]
-        markers = identify_board(numbers, corners, allowed, known) if allowed else None
-        if markers is not None and markers.side > _MIN_SIDE:
-            boards.append((tag_print, markers))
+        readings = identify_board(numbers, corners, allowed, known) if allowed else []
+        if len(readings) == 1 and readings[0].side > _MIN_SIDE:
+            boards.append((tag_print, readings[0]))
             if load_family(tag_print.family).distance >= _MIN_SURE_DISTANCE:
                 break
     return max(boards, key=lambda board: len(board[1].numbers), default=None)

@@ -15,7 +15,7 @@ from __future__ import annotations
 import numpy as np
 import scipy
 
-from calibgui.engine.arrays import GreyImage, GridSize
+from calibgui.engine.arrays import Array, GreyImage, GridSize
 from calibgui.engine.boards.charuco import MarkerLayout
 from calibgui.engine.detection.charuco.markers import Markers
 from calibgui.engine.detection.charuco.thresholds import CHARUCO_THRESHOLDS
@@ -33,8 +33,29 @@ _MAX_FITS = 4
 """Number of times that corners may be rejected and the rest fitted again."""
 
 
+def predict_places(xy: Array, on_board: Array, corners: Array) -> tuple[Array, Array]:
+    """Place points of a board where the nearest markers predict them.
+
+    Args:
+        xy: (n, 2) points on the board.
+        on_board: (m, 4, 2) corners of the markers, in the same unit.
+        corners: (m, 4, 2) px, where these are seen.
+
+    Returns:
+        Places (n, 2) px, and the distance (n,) of each point from the nearest marker's centre.
+    """
+    count = min(_MARKERS_PER_CORNER, len(on_board))
+    nearest = scipy.spatial.cKDTree(on_board.mean(axis=1)).query(xy, np.arange(1, count + 1))
+    distance, which = np.asarray(nearest[0]), np.asarray(nearest[1])
+    # Coordinates are counted from the point, the place that the homography is evaluated at.
+    source = (on_board[which] - xy[:, None, None]).reshape(len(xy), -1, 2)
+    target = corners[which].reshape(len(xy), -1, 2)
+    H = homography.fit_homography(source, target, np.ones(source.shape[:2]))
+    return homography.apply_homography(H, np.zeros((len(xy), 1, 2)))[:, 0], distance[:, 0]
+
+
 def predict_corners(
-    markers: Markers[MarkerLayout], grid_size: GridSize, image: GreyImage
+    markers: Markers[MarkerLayout], grid_size: GridSize, image: GreyImage, *, is_inverted: bool
 ) -> Lattice:
     """Place the inner corners beside markers where the nearest markers predict them.
 
@@ -42,23 +63,15 @@ def predict_corners(
         markers: those of the board.
         grid_size: the board's rows and columns of inner corners.
         image: (h, w) grey levels; corners outside of it are left out.
+        is_inverted: True if the board is printed bright on dark.
     """
-    grid = np.indices(grid_size).reshape(2, -1).T
-    xy = grid[:, ::-1].astype(np.float64)
-    on_board = markers.board_corners
-    count = min(_MARKERS_PER_CORNER, len(on_board))
-    nearest = scipy.spatial.cKDTree(on_board.mean(axis=1)).query(xy, np.arange(1, count + 1))
-    distance, which = np.asarray(nearest[0]), np.asarray(nearest[1])
-    # Coordinates are counted from the corner, the place that the homography is evaluated at.
-    source = (on_board[which] - xy[:, None, None]).reshape(len(xy), -1, 2)
-    target = markers.corners[which].reshape(len(xy), -1, 2)
-    H = homography.fit_homography(source, target, np.ones(source.shape[:2]))
-    uv = homography.apply_homography(H, np.zeros((len(xy), 1, 2)))[:, 0]
+    xy = np.indices(grid_size).reshape(2, -1).T[:, ::-1].astype(np.float64)
+    uv, distance = predict_places(xy, markers.board_corners, markers.corners)
     limit = np.array(image.shape[::-1]) - 1.0
-    is_near = distance[:, 0] < CHARUCO_THRESHOLDS.max_placing_distance
+    is_near = distance < CHARUCO_THRESHOLDS.max_placing_distance
     seen = is_near & ((uv > 0) & (uv < limit)).all(axis=1)
     uv[~seen] = np.nan
-    return Lattice(uv.reshape(*grid_size, 2), dark=markers.layout.first_dark)
+    return Lattice(uv.reshape(*grid_size, 2), dark=markers.layout.first_dark != is_inverted)
 
 
 def refine_corners(

@@ -1,13 +1,15 @@
 """The detector of ChArUco boards: the markers tell which corner is which.
 
 `MarkerReader` reads the board's markers and thereby finds what is not stated of dictionary, layout
-and size. `corners_between_markers` predicts the inner corners from them and refines and verifies
-each like a corner of a checkerboard.
+and size; a board printed bright on dark shows them in the negative. `corners_between_markers`
+predicts the inner corners from them and refines and verifies each like a corner of a checkerboard.
+Where the markers leave open whether the first square is dark or white, the corners tell: one of the
+two predicts some beyond the end of the board and none where others are seen.
 """
 
 from __future__ import annotations
 
-from dataclasses import replace
+from typing import NamedTuple
 
 import numpy as np
 import numpy.typing as npt
@@ -20,6 +22,7 @@ from calibgui.engine.boards.charuco import (
     dictionary_family,
 )
 from calibgui.engine.detection import region_of_interest as region
+from calibgui.engine.detection.charuco.assembly import assemble_corners
 from calibgui.engine.detection.charuco.corners_between_markers import (
     fit_corners,
     predict_corners,
@@ -27,14 +30,28 @@ from calibgui.engine.detection.charuco.corners_between_markers import (
     require_enough_corners,
 )
 from calibgui.engine.detection.charuco.marker_reader import MarkerReader, ReadBoard
+from calibgui.engine.detection.charuco.markers import Markers
 from calibgui.engine.detection.charuco.thresholds import CHARUCO_THRESHOLDS
-from calibgui.engine.detection.checkerboard import harris
-from calibgui.engine.detection.checkerboard.x_corner_fit import XCornerFit
 from calibgui.engine.detection.corners import Corners, RejectedCorner
-from calibgui.engine.detection.detector_io import check_grey_levels
+from calibgui.engine.detection.detector_io import (
+    check_grey_levels,
+    convert_for_reading,
+    invert_levels,
+)
 from calibgui.engine.detection.lattice import Lattice
 from calibgui.engine.errors import NoBoardError
-from calibgui.engine.images.reading import stretch_levels
+
+
+class _LocatedBoard(NamedTuple):
+    """One reading of a board's markers and the corners found beside them."""
+
+    markers: Markers[MarkerLayout]
+    lattice: Lattice
+    rejected: list[RejectedCorner]
+
+    def rate(self) -> int:
+        """Return how many more of the predicted corners are there than are not."""
+        return len(self.lattice) - len(self.rejected)
 
 
 def find_charuco(
@@ -47,43 +64,112 @@ def find_charuco(
     """Locate the inner corners of a ChArUco board in an image; see ``find_corners``."""
     grey = check_grey_levels(image)
     outline = None if roi is None else region.check_outline(roi)
-    dictionary, markers = _read_board(pattern, stretch_levels(grey), grid_size, outline)
+    read, is_inverted = _read_board(pattern, convert_for_reading(grey), grid_size, outline)
+    board = _choose_reading(grey, read.readings, grid_size, is_inverted=is_inverted)
+    lattice, rejected, fit = board.lattice, board.rejected, None
+    if method == "edges":
+        lattice, fit, more = fit_corners(grey, lattice, _measure_plain_part(board.markers))
+        rejected += more
+    require_enough_corners(lattice)
+    legacy = pattern.legacy if pattern.legacy is not None else not board.markers.layout.first_dark
+    seen = Charuco(read.dictionary, board.markers.side, legacy)
+    return assemble_corners(grey, lattice, fit, outline, rejected, seen)
+
+
+def _locate_corners(
+    grey: GreyImage,
+    markers: Markers[MarkerLayout],
+    grid_size: GridSize | None,
+    *,
+    is_inverted: bool,
+) -> _LocatedBoard:
+    """Locate the corners beside the markers of a board; its size is the least if none is stated.
+
+    Raises:
+        NoBoardError: if there are too few.
+    """
     rows, _ = np.max(markers.squares, axis=0).tolist()
     size = grid_size or (rows, markers.layout.cols - 1)
     # An even number of rows of squares, if the board begins with a white square.
-    legacy = pattern.legacy if pattern.legacy is not None else not markers.layout.first_dark
     if grid_size is None and not markers.layout.first_dark and size[0] % 2 == 0:
         size = (size[0] + 1, size[1])
-    plain = (1 - markers.side) / 2
-    lattice, rejected = refine_corners(grey, predict_corners(markers, size, grey), plain)
-    fit = None
-    if method == "edges":
-        lattice, fit, more = fit_corners(grey, lattice, plain)
-        rejected += more
-    seen = Charuco(dictionary, markers.side, legacy)
-    return _assemble_corners(grey, lattice, fit, outline, rejected, seen)
+    predicted = predict_corners(markers, size, grey, is_inverted=is_inverted)
+    lattice, rejected = refine_corners(grey, predicted, _measure_plain_part(markers))
+    return _LocatedBoard(markers, lattice, rejected)
+
+
+def _measure_plain_part(markers: Markers[MarkerLayout]) -> float:
+    """Return how far from its edges a square with a marker is of one colour, squares."""
+    return (1 - markers.side) / 2
+
+
+def _choose_reading(
+    grey: GreyImage,
+    readings: list[Markers[MarkerLayout]],
+    grid_size: GridSize | None,
+    *,
+    is_inverted: bool,
+) -> _LocatedBoard:
+    """Choose the reading of a board's markers whose corners are there, and locate these.
+
+    Raises:
+        NoBoardError: if there are too few, or they do not tell the readings apart.
+    """
+    boards, failure = [], None
+    for markers in readings:
+        try:
+            boards.append(_locate_corners(grey, markers, grid_size, is_inverted=is_inverted))
+        except NoBoardError as error:
+            failure = error
+    if failure is not None and not boards:
+        raise failure
+    boards.sort(key=_LocatedBoard.rate, reverse=True)
+    if len(boards) > 1:
+        ahead = boards[0].rate() - boards[1].rate()
+        if ahead < CHARUCO_THRESHOLDS.min_deciding_corners:
+            raise NoBoardError(
+                "The markers seen do not tell which part of the board this is.",
+                "State its rows and columns and whether its first square is dark, or show more of"
+                " its left or right border.",
+            )
+    return boards[0]
 
 
 def _read_board(
     pattern: Charuco, image: GreyImage, grid_size: GridSize | None, outline: Array | None
-) -> ReadBoard:
+) -> tuple[ReadBoard, bool]:
     """Read the dictionary and the board's markers in an 8-bit image (h, w).
 
     Only what agrees with the statements in `pattern` and `grid_size` is accepted.
 
+    Returns:
+        The board, and whether it is printed bright on dark.
+
     Raises:
         NoBoardError: if there is no such board; the message names the one that is there instead.
     """
-    reader = MarkerReader(image, outline)
     layouts = _list_layouts(pattern, grid_size)
-    found = (
-        reader.read_dictionary(pattern.dictionary, layouts)
-        if pattern.dictionary
-        else reader.search_dictionaries(layouts)
-    )
-    if found is None:
-        raise _explain_missing_board(pattern, reader, grid_size)
-    dictionary, markers = found
+    readers = [MarkerReader(image, outline), MarkerReader(invert_levels(image), outline)]
+    for is_inverted, reader in enumerate(readers):
+        found = (
+            reader.read_dictionary(pattern.dictionary, layouts)
+            if pattern.dictionary
+            else reader.search_dictionaries(layouts)
+        )
+        if found is not None:
+            _check_board(found.readings[0], pattern, grid_size)
+            return found, bool(is_inverted)
+    raise _explain_missing_board(pattern, readers, grid_size)
+
+
+def _check_board(
+    markers: Markers[MarkerLayout], pattern: Charuco, grid_size: GridSize | None
+) -> None:
+    """Check that the markers read agree with what is stated.
+
+    Raises:
+        NoBoardError: if they do not.
+    """
     if (
         pattern.marker is not None
         and abs(markers.side - pattern.marker) > CHARUCO_THRESHOLDS.max_side_difference
@@ -95,7 +181,6 @@ def _read_board(
     rows, _ = np.max(markers.squares, axis=0).tolist()
     if grid_size is not None and rows > grid_size[0]:
         raise _explain_other_size((rows, markers.layout.cols - 1), grid_size)
-    return dictionary, markers
 
 
 def _list_layouts(pattern: Charuco, grid_size: GridSize | None) -> list[MarkerLayout]:
@@ -111,21 +196,21 @@ def _list_layouts(pattern: Charuco, grid_size: GridSize | None) -> list[MarkerLa
 
 
 def _explain_missing_board(
-    pattern: Charuco, reader: MarkerReader, grid_size: GridSize | None
+    pattern: Charuco, readers: list[MarkerReader], grid_size: GridSize | None
 ) -> NoBoardError:
     """Return the error that says what the image shows instead of the stated board."""
-    nothing = NoBoardError(
-        "No ChArUco board was found.",
-        "Take the picture again: sharp, evenly lit and near enough for its markers to be read;"
-        " state dictionary and size, or leave them out.",
-    )
-    found = (
-        reader.read_dictionary(pattern.dictionary, MARKER_LAYOUTS) if pattern.dictionary else None
-    )
-    found = found or reader.search_dictionaries(MARKER_LAYOUTS)
+    found = None
+    for reader in readers:
+        if pattern.dictionary:
+            found = found or reader.read_dictionary(pattern.dictionary, MARKER_LAYOUTS)
+        found = found or reader.search_dictionaries(MARKER_LAYOUTS)
     if found is None:
-        return nothing
-    dictionary, markers = found
+        return NoBoardError(
+            "No ChArUco board was found.",
+            "Take the picture again: sharp, evenly lit and near enough for its markers to be read;"
+            " state dictionary and size, or leave them out.",
+        )
+    dictionary, markers = found.dictionary, found.readings[0]
     if pattern.dictionary and dictionary_family(dictionary) != dictionary_family(
         pattern.dictionary
     ):
@@ -149,39 +234,4 @@ def _explain_other_size(found: GridSize, stated: GridSize) -> NoBoardError:
         f"This board has at least {found[0]} rows and exactly {found[1]} columns of inner corners, "
         f"not {stated[0]} x {stated[1]}.",
         "State the number of inner corners, rows x columns, or leave it out.",
-    )
-
-
-def _assemble_corners(
-    image: GreyImage,
-    lattice: Lattice,
-    fit: XCornerFit | None,
-    outline: Array | None,
-    rejected: list[RejectedCorner],
-    pattern: Charuco,
-) -> Corners:
-    """Assemble the detector's result: saddle points, or the fitted model where there is one."""
-    require_enough_corners(lattice)
-    found = lattice.found
-    uv = lattice.uv[found]
-    corners = Corners(
-        shape=lattice.shape,
-        grid=np.argwhere(found),
-        uv=uv,
-        estimate=harris.estimate_corners(image, uv, lattice.spacing()[found]),
-        roi=region.find_outline(lattice) if outline is None else outline,
-        method="saddle",
-        rejected=tuple(rejected),
-        pattern=pattern,
-    )
-    if fit is None:
-        return corners
-    return replace(
-        corners,
-        method="edges",
-        uv=fit.uv,
-        cov=fit.covariance,
-        blur=fit.blur,
-        contrast=fit.contrast,
-        residual=fit.residual,
     )

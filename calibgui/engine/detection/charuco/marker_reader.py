@@ -10,6 +10,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Collection, Iterable
 from functools import partial
+from typing import NamedTuple
 
 from calibgui.engine import opencv
 from calibgui.engine.arrays import Array, GreyImage, IntArray
@@ -31,8 +32,18 @@ _COMMON_FAMILIES = (
 """Families of dictionaries that are tried where none is stated; others would take longer."""
 
 
-ReadBoard = tuple[str, Markers[MarkerLayout]]
-"""The name of a dictionary and the board's markers."""
+class ReadBoard(NamedTuple):
+    """A board whose markers were read."""
+
+    dictionary: str
+    """Name of the markers' dictionary."""
+    readings: list[Markers[MarkerLayout]]
+    """The markers on each of the layouts that they agree with equally well: one, or both colours of
+    the first square."""
+
+    def count_markers(self) -> int:
+        """Return the number of markers of the board that were read."""
+        return len(self.readings[0].numbers)
 
 
 class MarkerReader:
@@ -66,17 +77,26 @@ class MarkerReader:
             The smallest dictionary of its family that reads the most markers, and these; None if
             none of the common ones shows such a board.
         """
-        best = None
+        best: ReadBoard | None = None
         for rank in (0, 2):
             best = best or self._read_first(
                 partial(self._select_likely, _list_family_members(rank)), layouts
             )
-        for larger in _list_larger(best[0]) if best is not None else ():
+        if best is None:
+            return None
+        for larger in _list_larger(best.dictionary):
+            if not self._may_show_more(larger, best):
+                break
             found = self.read_dictionary(larger, layouts)
-            if best is None or found is None or len(found[1].numbers) <= len(best[1].numbers):
+            if found is None or found.count_markers() <= best.count_markers():
                 break
             best = found
         return best
+
+    def _may_show_more(self, dictionary: str, board: ReadBoard) -> bool:
+        """Return whether more quadrilaterals may be markers of a dictionary than were read."""
+        seen = self._find_candidates(len(self._levels) - 1)
+        return seen.count_fitting(dictionary) > board.count_markers()
 
     def _read_first(
         self, names: Callable[[int], Iterable[str]], layouts: Collection[MarkerLayout]
@@ -85,18 +105,22 @@ class MarkerReader:
         depth of the pyramid."""
         for depth in reversed(range(len(self._levels))):
             for name in names(depth):
-                markers = identify_board(*self._read_markers(depth, name), layouts, MARKER_LAYOUTS)
-                if markers is not None:
-                    return name, markers
+                readings = identify_board(*self._read_markers(depth, name), layouts, MARKER_LAYOUTS)
+                if _differ_in_colours_only(readings):
+                    return ReadBoard(name, readings)
         return None
 
     def _select_likely(self, names: list[str], depth: int) -> list[str]:
         """Select the dictionaries of which enough quadrilaterals may be markers."""
-        if depth not in self._candidates:
-            self._candidates[depth] = MarkerCandidates(self._levels[depth])
-        seen = self._candidates[depth]
+        seen = self._find_candidates(depth)
         least = CHARUCO_THRESHOLDS.min_markers
         return [name for name in names if seen.count_fitting(name) >= least]
+
+    def _find_candidates(self, depth: int) -> MarkerCandidates:
+        """Find the quadrilaterals of one level of the pyramid, once."""
+        if depth not in self._candidates:
+            self._candidates[depth] = MarkerCandidates(self._levels[depth])
+        return self._candidates[depth]
 
     def _read_markers(self, depth: int, name: str) -> tuple[IntArray, Array]:
         """Read numbers (n,) and corners (n, 4, 2) px of markers in the region of interest, once."""
@@ -108,6 +132,11 @@ class MarkerReader:
                 numbers, corners = numbers[inside], corners[inside]
             self._read[depth, name] = numbers, corners
         return self._read[depth, name]
+
+
+def _differ_in_colours_only(readings: list[Markers[MarkerLayout]]) -> bool:
+    """Return whether there are readings, all with the same number of squares in a row."""
+    return len({reading.layout.cols for reading in readings}) == 1
 
 
 def _list_family(family: str) -> list[str]:

@@ -8,9 +8,14 @@ pairs of neighbours: with the affine frame A_i of marker i (its two sides, px) a
     m_ij = A_i^-1 (c_j - c_i)
 
 is the displacement from i to j in sides of a marker, and on the right board rho m_ij = p_j - p_i.
-Only neighbours up to two squares away are compared, so that no lens matters. The layout that the
-most pairs agree with is taken, if no other has as many; the largest set of markers that such pairs
-connect is the board. A marker that was misread, or is of another board, agrees with nothing.
+Only neighbours up to two squares away are compared, so that no lens matters, and others only if
+these agree with several layouts. The layout that the most pairs agree with is taken; the largest
+set of markers that such pairs connect is the board. A marker that was misread, or is of another
+board, agrees with nothing.
+
+On a board with an odd number of squares a row the colours only shift the markers by a square along
+their rows, and pairs tell them apart only where a row ends. A part of a board may thus agree with
+both colours; the corners beside its markers then decide.
 """
 
 from __future__ import annotations
@@ -63,7 +68,7 @@ def identify_board(
     corners: Array,
     allowed: Collection[Layout],
     known: Collection[Layout],
-) -> Markers[Layout] | None:
+) -> list[Markers[Layout]]:
     """Find the largest set of markers that agree on a board.
 
     Args:
@@ -73,54 +78,68 @@ def identify_board(
         known: all layouts of such boards, with which those allowed are compared.
 
     Returns:
-        None if too few markers agree, or more pairs on a layout that is not allowed, or as many on
-        another that is.
+        The markers on each of the layouts that as many pairs agree with, usually one; none if too
+        few agree, or more on a layout that is not allowed.
     """
     least = CHARUCO_THRESHOLDS.min_markers
     if len(numbers) < least:
-        return None
-    i, j, displacement = _measure_displacements(corners)
-    sets: dict[Layout, tuple[BoolArray, float]] = {}
-    for layout in {**dict.fromkeys(known), **dict.fromkeys(allowed)}:
-        squares = layout.locate_squares(numbers)
-        sets[layout] = _find_agreeing_pairs((squares[j] - squares[i])[:, ::-1], displacement)
-    most = max(agree.sum() for agree, _ in sets.values())
-    best = [layout for layout in allowed if sets[layout][0].sum() == most]
-    if most < least - 1 or len(best) != 1:
-        return None
-    (layout,) = best
-    agree, side = sets[layout]
-    ends = i[agree], j[agree]
-    links = scipy.sparse.coo_array((np.ones(int(most)), ends), shape=(len(numbers),) * 2)
+        return []
+    candidates = [*{**dict.fromkeys(known), **dict.fromkeys(allowed)}]
+    for distance in CHARUCO_THRESHOLDS.max_marker_distances:
+        i, j, displacement = _measure_displacements(corners, distance)
+        sets: dict[Layout, tuple[BoolArray, float]] = {}
+        for layout in candidates:
+            squares = layout.locate_squares(numbers)
+            step = (squares[j] - squares[i])[:, ::-1]
+            sets[layout] = _find_agreeing_pairs(step, displacement, distance)
+        most = max(agree.sum() for agree, _ in sets.values())
+        if most < least - 1:
+            return []
+        candidates = [layout for layout in candidates if sets[layout][0].sum() == most]
+        if len(candidates) == 1:
+            break
+    boards = []
+    for layout in (layout for layout in allowed if layout in candidates):
+        agree, side = sets[layout]
+        kept = _select_largest_part(numbers, i[agree], j[agree])
+        if len(kept) >= least:
+            squares = layout.locate_squares(numbers[kept])
+            boards.append(Markers(layout, squares, numbers[kept], corners[kept], side))
+    return boards
+
+
+def _select_largest_part(numbers: IntArray, i: IntArray, j: IntArray) -> IntArray:
+    """Select the indices of the largest set of markers that pairs i, j (p,) connect, without those
+    whose number was read twice in it."""
+    links = scipy.sparse.coo_array((np.ones(len(i)), (i, j)), shape=(len(numbers),) * 2)
     part = scipy.sparse.csgraph.connected_components(links, directed=False)[1]
     largest = np.flatnonzero(part == np.bincount(part).argmax())
     times_read = Counter(numbers[largest].tolist())
-    kept = largest[[times_read[k] == 1 for k in numbers[largest].tolist()]]
-    if len(kept) < least:
-        return None
-    return Markers(layout, layout.locate_squares(numbers[kept]), numbers[kept], corners[kept], side)
+    return largest[[times_read[k] == 1 for k in numbers[largest].tolist()]]
 
 
-def _measure_displacements(corners: Array) -> tuple[IntArray, IntArray, Array]:
-    """Measure m_ij (p, 2) of pairs i, j (p,) of markers (n, 4, 2) px not far from each other."""
+def _measure_displacements(corners: Array, max_distance: int) -> tuple[IntArray, IntArray, Array]:
+    """Measure m_ij (p, 2) of pairs i, j (p,) of markers (n, 4, 2) px that may be at most
+    `max_distance` squares apart."""
     right = (corners[:, 1] + corners[:, 2] - corners[:, 0] - corners[:, 3]) / 2
     down = (corners[:, 2] + corners[:, 3] - corners[:, 0] - corners[:, 1]) / 2
     A = np.stack([right, down], axis=2)
     A[abs(np.linalg.det(A)) < 1.0] = 1e-9 * np.eye(2)  # without area: everything is far from it
     centre = corners.mean(axis=1)
     m = (np.linalg.inv(A)[:, None] @ (centre - centre[:, None])[..., None])[..., 0]
-    limits = CHARUCO_THRESHOLDS
-    near = np.abs(m).max(axis=2) < limits.max_marker_distance / limits.min_marker_side
+    near = np.abs(m).max(axis=2) < max_distance / CHARUCO_THRESHOLDS.min_marker_side
     i, j = np.nonzero(near & near.T & ~np.eye(len(m), dtype=np.bool_))
     return i, j, m[i, j]
 
 
-def _find_agreeing_pairs(step: IntArray, displacement: Array) -> tuple[BoolArray, float]:
-    """Find the pairs (p,) whose displacements (p, 2) are `step` (p, 2) squares, and the side rho
-    that they agree on."""
+def _find_agreeing_pairs(
+    step: IntArray, displacement: Array, max_distance: int
+) -> tuple[BoolArray, float]:
+    """Find the pairs (p,) whose displacements (p, 2) are `step` (p, 2) squares, at most
+    `max_distance`, and the side rho that they agree on."""
     limits = CHARUCO_THRESHOLDS
     distance = np.abs(step).max(axis=1)
-    near = (distance > 0) & (distance <= limits.max_marker_distance)
+    near = (distance > 0) & (distance <= max_distance)
     sides = np.sum(step * displacement, axis=1)[near] / np.sum(displacement[near] ** 2, axis=1)
     sides = sides[(sides > limits.min_marker_side) & (sides < 1)]
     if not len(sides):

@@ -18,8 +18,9 @@ class CharucoThresholds:
     OpenCV's."""
     min_markers: int = 3
     """Least number of markers that agree on a board."""
-    max_marker_distance: int = 2
-    """Greatest distance along either axis of markers that are compared with each other, squares."""
+    max_marker_distances: tuple[int, ...] = (2, 6)
+    """Greatest distance along either axis of markers that are compared with each other, squares;
+    the second where those within the first agree with several layouts."""
     min_marker_side: float = 0.2
     """Least side of a marker, squares."""
     max_pair_disagreement: float = 0.25
@@ -30,6 +31,9 @@ class CharucoThresholds:
     max_placing_distance: float = 0.8
     """Greatest distance of a corner from the centre of the nearest marker that was read,
     squares."""
+    min_deciding_corners: int = 3
+    """Least number by which the corners of one colour of the first square must outnumber those of
+    the other, where the markers agree with both."""
     min_corners: int = 6
     """Least number of corners of a board, in at least two rows and two columns."""
 

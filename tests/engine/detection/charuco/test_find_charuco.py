@@ -2,17 +2,22 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 
 import cv2
 import numpy as np
 import pytest
 
+from calibgui.engine.arrays import GreyImage
 from calibgui.engine.boards.board import Board
-from calibgui.engine.boards.charuco import Charuco
+from calibgui.engine.boards.charuco import Charuco, MarkerLayout
 from calibgui.engine.boards.pattern import Symmetry
 from calibgui.engine.boards.printed_pattern import PrintedRectangles
 from calibgui.engine.calibration.calibrate import calibrate
+from calibgui.engine.camera.camera import Camera
+from calibgui.engine.detection.charuco.markers import identify_board
+from calibgui.engine.detection.corners import Corners
 from calibgui.engine.detection.find_corners import find_corners
 from calibgui.engine.errors import CalibrationError, NoBoardError
 from calibgui.engine.images.reading import read_image
@@ -47,6 +52,89 @@ def test_located_to_the_bound_and_identified(
     assert str(seen.dictionary).startswith(str(pattern.dictionary)[:9])
     assert seen.legacy == pattern.legacy
     assert seen.marker == pytest.approx(pattern.marker, abs=0.03)
+
+
+_CAMERA = Camera((640, 480), [560.0, 562.0, 322.0, 238.0, 0.1, 0.02, 0.0, 1e-4, 0.0, 0.0])
+_WHITE_FIRST = Scene(
+    Board(5, 8, 30.0, Charuco("DICT_4X4_100", 0.65, True)), _CAMERA, (0.2, -0.2, 0.1), 330.0
+)
+
+
+def _count_by_opencv(image: GreyImage, board: Board) -> int:
+    """The corners that OpenCV finds, told everything of the board."""
+    pattern = board.pattern
+    assert isinstance(pattern, Charuco)
+    assert pattern.dictionary is not None
+    dictionary = cv2.aruco.getPredefinedDictionary(getattr(cv2.aruco, pattern.dictionary))
+    size = board.cols + 1, board.rows + 1
+    drawn = cv2.aruco.CharucoBoard(size, 1.0, float(pattern.marker or 0), dictionary)
+    drawn.setLegacyPattern(bool(pattern.legacy))
+    _, ids, *_ = cv2.aruco.CharucoDetector(drawn).detectBoard(image)
+    return 0 if ids is None else len(ids)
+
+
+def _assert_right(scene: Scene, corners: Corners) -> None:
+    assert corners.shape[1] == scene.board.cols
+    assert np.abs(scene.error(corners)).max() < 0.3
+
+
+@pytest.mark.parametrize("pattern", [BOARDS[0][0], _WHITE_FIRST.board.pattern])
+def test_printed_bright_on_dark(pattern: Charuco) -> None:
+    scene = replace(_WHITE_FIRST, board=Board(5, 8, 30.0, pattern))
+    image = 255 - scene.image()
+    corners = find_corners(image, pattern=Charuco())
+    assert corners.complete
+    assert np.sqrt(np.mean(scene.error(corners) ** 2)) < 0.02
+    stated = find_corners(image, (5, 8), pattern=pattern)
+    np.testing.assert_array_equal(stated.uv, corners.uv)
+    with pytest.raises(NoBoardError, match="DICT_4X4"):
+        find_corners(image, pattern=Charuco("DICT_6X6_50"))
+
+
+@pytest.mark.parametrize(
+    "aside", [(150.0, 0.0), (-150.0, 0.0), (0.0, 110.0), (0.0, -110.0)], ids=str
+)
+def test_cut_by_the_image_with_a_white_square_first(aside: tuple[float, float]) -> None:
+    scene = replace(_WHITE_FIRST, aside=aside)
+    image = scene.image()
+    corners = find_corners(image, pattern=Charuco())
+    assert len(corners) < len(scene.board.points())
+    assert len(corners) >= _count_by_opencv(image, scene.board) >= 15
+    _assert_right(scene, corners)
+
+
+@pytest.mark.parametrize("first_dark", [True, False])
+def test_without_its_sides_a_board_is_not_numbered_by_guess(first_dark: bool) -> None:
+    """With an odd number of squares a row nothing but its ends tells the colours apart."""
+    pattern = replace(BOARDS[0][0], legacy=not first_dark)
+    scene = replace(_WHITE_FIRST, board=Board(5, 8, 30.0, pattern))
+    u = (scene.board.points([(0, 1), (0, 6)])[:, 0] - scene.board.points()[:, 0].mean()) * 1.72
+    image = scene.image()
+    image[:, : round(322 + u[0])] = image[:, round(322 + u[1]) :] = 128
+    with pytest.raises(NoBoardError, match="do not tell which part"):
+        find_corners(image, pattern=Charuco("DICT_4X4_100"))
+    _assert_right(scene, find_corners(image, (5, 8), pattern=pattern))
+
+
+def test_dim_pictures_are_read() -> None:
+    image = _WHITE_FIRST.image(noise=0.0) / 12 + 5
+    image += np.random.default_rng(0).normal(0, 0.7, image.shape)
+    corners = find_corners(np.rint(image).astype(np.uint8), pattern=Charuco())
+    assert corners.complete
+    _assert_right(_WHITE_FIRST, corners)
+
+
+def test_far_markers_tell_layouts_apart_that_near_ones_do_not() -> None:
+    """Marker 22 stands in the first square of row 5 if the first square is dark, in the last of
+    row 4 if it is white; no marker near it was read."""
+    layouts = [MarkerLayout(9, first_dark) for first_dark in (True, False)]
+    numbers = np.array([10, 11, 15, 16, 22])
+    corner = np.array([(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)])
+    centres = 40.0 * layouts[0].locate_squares(numbers)[:, ::-1]
+    corners = centres[:, None] + 13 * corner
+    (board,) = identify_board(numbers, corners, layouts, layouts)
+    assert board.layout == layouts[0]
+    assert len(identify_board(numbers[:4], corners[:4], layouts, layouts)) == 2
 
 
 @pytest.mark.parametrize(("pattern", "grid_size"), BOARDS)

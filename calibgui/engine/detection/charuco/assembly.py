@@ -1,4 +1,4 @@
-"""The record of the corners of a board with tags, and its image with light and dark exchanged."""
+"""The record of the corners of a board with markers or tags."""
 
 from __future__ import annotations
 
@@ -13,11 +13,6 @@ from calibgui.engine.detection.checkerboard import harris
 from calibgui.engine.detection.checkerboard.x_corner_fit import XCornerFit
 from calibgui.engine.detection.corners import Corners, RejectedCorner
 from calibgui.engine.detection.lattice import Lattice
-
-
-def invert_levels(image: GreyImage) -> GreyImage:
-    """Return an image (h, w) of the same type with dark for bright levels."""
-    return np.asarray(image.max() - image + image.min(), dtype=image.dtype)
 
 
 def assemble_corners(
