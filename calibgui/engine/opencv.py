@@ -217,14 +217,15 @@ def label_dark_parts(image: GreyImage, window: int) -> tuple[npt.NDArray[np.int3
     """Label connected parts of an 8-bit image (h, w) darker than the mean of `window` px around.
 
     Returns:
-        The number (h, w) of each pixel's part, 0 for none, and the area (n,) px of each part, that
-        of all other pixels first.
+        The number (h, w) of each pixel's part, 0 for none, and (n, 3) width, height and area of
+        each part, px; those of the number 0 are of all the rest.
     """
     dark = cv2.adaptiveThreshold(
         image, 255, cv2.ADAPTIVE_THRESH_MEAN_C, cv2.THRESH_BINARY_INV, 2 * (window // 2) + 1, 8
     )
     _, labels, stats, _ = cv2.connectedComponentsWithStats(dark, connectivity=4)
-    return np.asarray(labels, np.int32), np.asarray(stats[:, cv2.CC_STAT_AREA], np.int64)
+    columns = [cv2.CC_STAT_WIDTH, cv2.CC_STAT_HEIGHT, cv2.CC_STAT_AREA]
+    return np.asarray(labels, np.int32), np.asarray(stats[:, columns], np.int64)
 
 
 class CalibratedCamera(NamedTuple):

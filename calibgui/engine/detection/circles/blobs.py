@@ -2,8 +2,8 @@
 
 An ellipse filled evenly has the area A = 4 pi sqrt(det C), where C is the covariance of its
 points: whatever its size and axes. Any other shape has less of an area for its spread. Of the
-parts that pass, those are taken whose sizes lie together, and no more than can be searched in
-bounded time.
+parts that pass, those are taken whose sizes lie together, with those larger that may be marks among
+them, and no more than can be searched in bounded time.
 """
 
 from __future__ import annotations
@@ -22,10 +22,13 @@ def find_blobs(image: GreyImage, window: int, most: int) -> Array:
     A part is darker than the mean of the `window` px around.
     """
     limits = CIRCLE_THRESHOLDS
-    labels, areas = opencv.label_dark_parts(image, window)
-    large = areas >= limits.min_blob_area
+    labels, size = opencv.label_dark_parts(image, window)
+    area = size[:, 2].astype(np.float64)
+    large = area >= limits.min_blob_area
+    large &= area > limits.min_box_fill * size[:, 0] * size[:, 1]
+    large &= area < labels.size / limits.min_grid_circles
     large[0] = False  # all that is in no part
-    area = areas[large].astype(np.float64)
+    area = area[large]
     (cu, cv), C = _measure_parts(labels, large)
     fill = area / (4 * np.pi * np.sqrt(np.maximum(C[0] * C[1] - C[2] ** 2, 1e-9)))
     is_round = (fill > limits.min_blob_fill) & (fill < limits.max_blob_fill)
@@ -36,6 +39,8 @@ def find_blobs(image: GreyImage, window: int, most: int) -> Array:
     count = np.searchsorted(sizes, ratio * sizes, side="right") - np.arange(len(sizes))
     smallest = sizes[np.argmax(count)]
     alike = candidates[(area[candidates] >= smallest) & (area[candidates] <= ratio * smallest)]
+    largest = max(ratio * smallest, limits.max_mark_area_ratio * float(np.median(area[alike])))
+    alike = candidates[(area[candidates] >= smallest) & (area[candidates] <= largest)]
     best = alike[np.argsort(np.abs(fill[alike] - 1), kind="stable")[:most]]
     return np.column_stack([cu[best], cv[best]])
 

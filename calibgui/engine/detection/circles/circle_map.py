@@ -71,12 +71,12 @@ class CircleMap:
             axis=2,
         )
 
-    def compute_centre_bias(self, xy: Array, radius: float) -> Array:
+    def compute_centre_bias(self, xy: Array, radii: Array) -> Array:
         """Compute the way from the images of circles' centres to the centres of their ellipses.
 
         Args:
             xy: (n, 2) the circles' centres, pitches.
-            radius: of the circles, pitches.
+            radii: (n,) of the circles, pitches.
 
         Returns:
             (n, 2) px.
@@ -84,7 +84,7 @@ class CircleMap:
         H = self.homography.H
         h1, h2 = H[:, 0], H[:, 1]
         p = np.column_stack([xy, np.ones(len(xy))]) @ H.T
-        r2 = radius**2
+        r2 = radii[:, None] ** 2
         centre = p[:, :2] * p[:, 2:] - r2 * (h1[:2] * h1[2] + h2[:2] * h2[2])
         centre /= p[:, 2:] ** 2 - r2 * (h1[2] ** 2 + h2[2] ** 2)
         e = p[:, :2] / p[:, 2:]

@@ -5,16 +5,23 @@ or not at all. An ellipse is then fitted to the pixels of every circle's edge (`
 the image of the circle's centre follows from the ellipse's (`circle_map`), for the diameter that
 the ellipses show. Numbering is right-handed in the image; among origins that cannot be told apart
 the one that makes the grid upright is taken, or the one nearest to the first of the marked points.
+
+Boards of robot cells mark the origin, or the axes, by circles of another size. Such marks are
+circles like the others, and tell turns of the grid apart: of the numberings that remain that one is
+taken by which they come first, row by row, whatever the picture or the user's points say.
 """
 
 from __future__ import annotations
+
+from dataclasses import dataclass
 
 import numpy as np
 import numpy.typing as npt
 
 from calibgui.engine import opencv
-from calibgui.engine.arrays import Array, BoolArray, GreyImage, GridSize
+from calibgui.engine.arrays import Array, BoolArray, GreyImage, GridSize, IntArray
 from calibgui.engine.boards.circle_grid import Circles, list_grid_indices
+from calibgui.engine.boards.pattern import Symmetry
 from calibgui.engine.detection import region_of_interest as region
 from calibgui.engine.detection.circles import ellipse_fit
 from calibgui.engine.detection.circles.blobs import find_blobs
@@ -56,7 +63,8 @@ def find_circles(
         paper = np.array([(0.5, 0.5), (-0.5, 0.5), (0.5, -0.5), (-0.5, -0.5)])
     steps = start.differentiate(xy)
     fit = ellipse_fit.fit_ellipses(grey, first, steps, pattern.half_distance, paper)
-    good, uv, radius = _verify_circles(fit, xy, grey)
+    verified = _verify_circles(fit, xy, grey)
+    radius = verified.radius
     if (
         pattern.diameter is not None
         and abs(2 * radius - pattern.diameter) > CIRCLE_THRESHOLDS.max_diameter_difference
@@ -65,20 +73,24 @@ def find_circles(
             f"The circles measure {2 * radius:.2f} of their distance, not {pattern.diameter:.2f}.",
             "State diameter and distance as measured, or leave the diameter out.",
         )
-    whole = uv.reshape(*grid_size, 2)
+    order, ambiguity = _number_by_marks(verified, grid_size, pattern.symmetry(grid_size))
+    good = order[verified.good[order]]
+    whole = verified.uv[order].reshape(*grid_size, 2)
     return Corners(
         shape=grid_size,
-        grid=grid[good],
-        uv=uv[good],
+        grid=grid[verified.good[order]],
+        uv=verified.uv[good],
         estimate=first[good],
         cov=fit.covariance[good],
-        ambiguity=pattern.symmetry(grid_size),
+        ambiguity=ambiguity,
         roi=whole[[0, 0, -1, -1], [0, -1, -1, 0]] if outline is None else outline,
         method="ellipses",
         blur=fit.blur[good],
         contrast=fit.contrast[good],
         residual=fit.residual[good],
-        rejected=tuple(list_rejected_corners(fit.uv[~good], "not the image of a circle there")),
+        rejected=tuple(
+            list_rejected_corners(fit.uv[~verified.good], "not the image of a circle there")
+        ),
         pattern=Circles(pattern.asymmetric, 2 * radius),
     )
 
@@ -148,15 +160,46 @@ def _number_circles(pattern: Circles, centres: Array, xy: Array, outline: Array 
     return min(same, key=lambda rate: (rate[1], round(rate[2], 6)))[3]
 
 
-def _verify_circles(fit: EllipseFit, xy: Array, image: GreyImage) -> tuple[BoolArray, Array, float]:
-    """Verify the circles and compute the images of their centres.
+@dataclass(frozen=True, eq=False, slots=True)
+class _VerifiedCircles:
+    """The circles of a grid, n places of it."""
 
-    Every ellipse must lie inside the image, be what a circle of the common radius looks like there,
-    where the others predict it, with a contrast like theirs and no more unexplained.
+    good: BoolArray
+    """(n,) True for those that pass."""
+    uv: Array
+    """(n, 2) px, the images of their centres."""
+    radius: float
+    """Radius of all but the marks, pitches."""
+    are_marks: BoolArray
+    """(n,) True for those that pass and are of another size."""
+
+
+def _number_by_marks(
+    circles: _VerifiedCircles, grid_size: GridSize, symmetry: Symmetry
+) -> tuple[IntArray, Symmetry]:
+    """Choose among the turns of a symmetric grid by its marks.
+
+    A circle that was rejected might be a mark: then nothing is chosen.
 
     Returns:
-        A mask (n,) of the circles that pass, the images of the centres (n, 2) px, and the circles'
-        radius, pitches.
+        The places (n,) in the order of their numbering, and the turns that the marks leave open.
+    """
+    places = np.arange(len(circles.good)).reshape(grid_size)
+    step = {Symmetry.NONE: 4, Symmetry.HALF_TURN: 2, Symmetry.QUARTER_TURN: 1}[symmetry]
+    orders = [np.rot90(places, quarters).ravel() for quarters in range(0, 4, step)]
+    if not circles.good.all():
+        return orders[0], symmetry
+    marks = [tuple(np.flatnonzero(circles.are_marks[order]).tolist()) for order in orders]
+    first = min(marks)
+    left = {1: Symmetry.NONE, 2: Symmetry.HALF_TURN, 4: Symmetry.QUARTER_TURN}[marks.count(first)]
+    return orders[marks.index(first)], left
+
+
+def _verify_circles(fit: EllipseFit, xy: Array, image: GreyImage) -> _VerifiedCircles:
+    """Verify the circles and compute the images of their centres.
+
+    Every ellipse must lie inside the image, be what a circle of the common radius or a mark looks
+    like there, where the others predict it, with a contrast like theirs and no more unexplained.
 
     Raises:
         NoBoardError: if too many fail.
@@ -174,7 +217,7 @@ def _verify_circles(fit: EllipseFit, xy: Array, image: GreyImage) -> tuple[BoolA
         limits.max_residual_over_median * np.median(residual),
         limits.max_relative_residual * contrast,
     )
-    uv = fit.uv
+    uv, are_marks = fit.uv, np.zeros_like(good)
     for _ in range(_CENTRE_ITERATIONS):
         # A circle that fails must not bend the map for the others.
         if np.count_nonzero(~good) > limits.max_rejected_share * len(good):
@@ -182,17 +225,21 @@ def _verify_circles(fit: EllipseFit, xy: Array, image: GreyImage) -> tuple[BoolA
         circle_map = fit_circle_map(xy[good], uv[good])
         J = circle_map.differentiate(xy)
         spread = np.linalg.solve(J, np.linalg.solve(J, fit.spread).transpose(0, 2, 1))
-        radii2 = np.sqrt(np.maximum(np.linalg.det(spread), 0.0))
-        radius = float(np.sqrt(np.median(radii2[good])))
-        uv = fit.uv - circle_map.compute_centre_bias(xy, radius)
+        own = np.sqrt(np.sqrt(np.maximum(np.linalg.det(spread), 0.0)))
+        radius = float(np.median(own[good]))
+        are_marks = abs(own / radius - 1) > limits.min_mark_radius_difference
+        radii = np.where(are_marks, own, radius)
+        uv = fit.uv - circle_map.compute_centre_bias(xy, radii)
         off = np.linalg.solve(J, (uv - circle_map.locate(xy))[..., None])[..., 0]
-        shape = np.abs(spread / radius**2 - np.eye(2)).max(axis=(1, 2))
+        shape = np.abs(spread / radii[:, None, None] ** 2 - np.eye(2)).max(axis=(1, 2))
         good = good & (np.linalg.norm(off, axis=1) < limits.max_misplacement)
         good = good & (shape < limits.max_shape_difference)
     enough = np.count_nonzero(~good) <= limits.max_rejected_share * len(good)
     if not enough or np.median(residual / contrast) > limits.max_relative_residual:
         raise _distrust()
-    return good, uv, radius
+    if np.count_nonzero(are_marks & good) > limits.max_marked_share * len(good):
+        raise _distrust()
+    return _VerifiedCircles(good, uv, radius, are_marks & good)
 
 
 def _distrust() -> NoBoardError:

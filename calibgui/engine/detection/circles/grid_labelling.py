@@ -4,7 +4,10 @@ The places of a grid form a lattice: of a symmetric one (x, y) = (i, j), of an a
 (x, y) = (i - j, i + j). In an image every small part of it is nearly a lattice too. It is grown
 from a point and two of its neighbours: the points found so far predict the next ones, by
 continuing lines and by completing parallelograms, so that perspective and lens may change the
-steps from one end to the other.
+steps from one end to the other. Three points that have no others where their lattice would have its
+next ones are no part of a grid, and are not grown: almost all of those in textures.
+
+Points are complex numbers u + iv there: a lattice is grown place by place.
 
 The nearest points of a tilted grid need not be the neighbours along rows and columns: the lattice
 may have grown along a diagonal. Of the few ways to assign places to it, that is right in which the
@@ -13,7 +16,6 @@ points fill a rectangle of the pattern.
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterator
 from itertools import combinations, product
 
@@ -32,7 +34,14 @@ _MAX_SEEDS = 8
 """Number of points, from the middle outwards, from which the lattice is grown."""
 _NEIGHBOURS = 5
 """Number of nearest points of a seed, two of which are taken as its neighbours on the lattice."""
+PlacesByPoint = dict[int, Place]
+"""Place on a lattice of each of its points, by index."""
+_MIN_AROUND = 4
+"""Least number of the places `_AROUND` that hold a point."""
+_AROUND = np.array([(-1, 0), (0, -1), (1, 1), (-1, -1), (1, -1), (-1, 1)])
+"""(6, 2) coordinates of the places around a seed whose neighbours (1, 0) and (0, 1) are given."""
 _STEPS = ((1, 0), (-1, 0), (0, 1), (0, -1))
+_DIAGONALS = tuple(product((1, -1), (1, -1)))
 _SHEARS = tuple(np.array([[1, a], [b, 1]]) for a, b in ((0, 0), (1, 0), (-1, 0), (0, 1), (0, -1)))
 _TURNS = tuple(np.array([[c, -s], [s, c]]) for c, s in ((1, 0), (0, 1), (-1, 0), (0, -1)))
 """Bases of the lattice that the first neighbours may have been, and turns of it."""
@@ -58,11 +67,15 @@ def label_grid(points: Array, grid_size: GridSize | None, *, asymmetric: bool) -
     if grid_size is not None:
         fewest = min(fewest, grid_size[0] * grid_size[1])
     tree = scipy.spatial.cKDTree(points)
+    tried: list[PlacesByPoint] = []
     for seed in _find_nearest(tree, np.median(points, axis=0), _MAX_SEEDS):
         if seed in best:
             continue
         for start in _start_lattices(seed, points, tree):
+            if any(_is_same_lattice(start, other) for other in tried):
+                continue
             placed = _grow_lattice(start, points, tree)
+            tried.append({point: place for place, point in placed.items()})
             if len(placed) < fewest:
                 continue
             for by_place in _assign_places(placed, asymmetric=asymmetric):
@@ -70,7 +83,8 @@ def label_grid(points: Array, grid_size: GridSize | None, *, asymmetric: bool) -
                     stated = _cut_stated_grid(by_place, grid_size, asymmetric=asymmetric)
                     if stated is not None:
                         return stated
-                best = max(best, _cut_whole_grid(by_place, asymmetric=asymmetric), key=_rank_grid)
+            whole = _cut_whole_grids(placed, asymmetric=asymmetric)
+            best = max([best, *whole], key=_rank_grid)
             if seed in best:
                 break
     return best if best.size else None
@@ -95,9 +109,26 @@ def _start_lattices(
     for i, j in combinations(neighbours, 2):
         a, b = points[i] - points[seed], points[j] - points[seed]
         sine = (a[0] * b[1] - a[1] * b[0]) / (np.linalg.norm(a) * np.linalg.norm(b))
-        if abs(sine) > CIRCLE_THRESHOLDS.min_seed_sine:
+        if abs(sine) > CIRCLE_THRESHOLDS.min_seed_sine and _is_lattice_seen(
+            points[seed], np.stack([a, b]), tree
+        ):
             first, second = (i, j) if sine > 0 else (j, i)
             yield {(0, 0): seed, (1, 0): first, (0, 1): second}
+
+
+def _is_same_lattice(start: PointsByPlace, grown: PlacesByPoint) -> bool:
+    """Return whether a lattice would be one that was grown before, in another basis."""
+    places = [grown.get(start[place]) for place in ((0, 0), (1, 0), (0, 1))]
+    known = np.array([place for place in places if place is not None])
+    return len(known) == 3 and abs(round(np.linalg.det(known[1:] - known[0]))) == 1
+
+
+def _is_lattice_seen(seed: Array, steps: Array, tree: scipy.spatial.cKDTree) -> bool:
+    """Return whether points lie around a seed (2,) px where its `steps` (2, 2) px, one a row, would
+    have the next ones of a lattice."""
+    reach = CIRCLE_THRESHOLDS.max_prediction_error * np.linalg.norm(steps, axis=1).min()
+    distance = np.asarray(tree.query(seed + _AROUND @ steps, distance_upper_bound=reach)[0])
+    return bool(np.count_nonzero(np.isfinite(distance)) >= _MIN_AROUND)
 
 
 def _grow_lattice(
@@ -105,75 +136,69 @@ def _grow_lattice(
 ) -> PointsByPlace:
     """Grow a lattice by every point that lies where it predicts one."""
     placed, taken, edge = dict(placed), set(placed.values()), list(placed)
-    # Plain numbers: arrays of two take ten times as long.
-    known = {place: tuple(points[index].tolist()) for place, index in placed.items()}
+    z: list[complex] = (points[:, 0] + 1j * points[:, 1]).tolist()
     while edge:
         beside = {(i + di, j + dj) for i, j in edge for di, dj in _STEPS} - placed.keys()
-        guesses = {place: _predict_point(place, known) for place in sorted(beside)}
+        expected = [(place, _predict_point(place, placed, z)) for place in sorted(beside)]
         # Places with the most predictions come first: a point can be taken only once.
-        expected = sorted(
-            (place for place, found in guesses.items() if found),
-            key=lambda place: -len(guesses[place]),
-        )
+        expected = sorted((item for item in expected if item[1]), key=lambda item: -len(item[1]))
+        edge = []
         if not expected:
             break
-        at = [
-            [sum(values) / len(values) for values in list(zip(*guesses[place], strict=True))[:2]]
-            for place in expected
-        ]
-        distances, indices = (np.asarray(found).tolist() for found in tree.query(np.array(at)))
-        edge = []
-        for place, distance, nearest in zip(expected, distances, indices, strict=True):
-            step = min(step for *_, step in guesses[place])
-            is_near = distance < CIRCLE_THRESHOLDS.max_prediction_error * step
-            if is_near and nearest not in taken:
-                placed[place] = nearest
-                known[place] = tuple(points[nearest].tolist())
-                taken.add(nearest)
+        means = np.array([sum(at for at, _ in guesses) / len(guesses) for _, guesses in expected])
+        found = tree.query(np.column_stack([means.real, means.imag]))
+        distance, nearest = np.asarray(found[0]), np.asarray(found[1])
+        for (place, guesses), off, point in zip(
+            expected, distance.tolist(), nearest.tolist(), strict=True
+        ):
+            reach = CIRCLE_THRESHOLDS.max_prediction_error * min(step for _, step in guesses)
+            if off < reach and point not in taken:
+                placed[place] = point
+                taken.add(point)
                 edge.append(place)
     return placed
 
 
 def _predict_point(
-    place: Place, known: dict[Place, tuple[float, float]]
-) -> list[tuple[float, float, float]]:
-    """Predict a place's point (u, v) px from its neighbours, and the lengths of their steps.
-
-    Args:
-        place: the place.
-        known: the points px by place.
-    """
+    place: Place, placed: PointsByPlace, z: list[complex]
+) -> list[tuple[complex, float]]:
+    """Predict a place's point from its neighbours: positions, and the lengths of their steps."""
     i, j = place
+
+    def at(di: int, dj: int) -> complex | None:
+        index = placed.get((i + di, j + dj))
+        return None if index is None else z[index]
+
     guesses = []
     for di, dj in _STEPS:
-        next_, second = known.get((i + di, j + dj)), known.get((i + 2 * di, j + 2 * dj))
-        if next_ is None or second is None:
-            continue
-        u, v = next_[0] - second[0], next_[1] - second[1]
-        third = known.get((i + 3 * di, j + 3 * dj))
-        if third is None:
-            continued = 2 * next_[0] - second[0], 2 * next_[1] - second[1]
-        else:
-            continued = 3 * u + third[0], 3 * v + third[1]
-        guesses.append((*continued, math.sqrt(u * u + v * v)))
-    for di, dj in product((1, -1), (1, -1)):
-        along, across = known.get((i + di, j)), known.get((i, j + dj))
-        diagonal = known.get((i + di, j + dj))
-        if along is None or across is None or diagonal is None:
-            continue
-        u, v = along[0] + across[0] - diagonal[0], along[1] + across[1] - diagonal[1]
-        guesses.append((u, v, min(math.dist(along, diagonal), math.dist(across, diagonal))))
+        next_, second = at(di, dj), at(2 * di, 2 * dj)
+        if next_ is not None and second is not None:
+            third = at(3 * di, 3 * dj)
+            continued = 2 * next_ - second if third is None else 3 * (next_ - second) + third
+            guesses.append((continued, abs(next_ - second)))
+    for di, dj in _DIAGONALS:
+        along, across, diagonal = at(di, 0), at(0, dj), at(di, dj)
+        if along is not None and across is not None and diagonal is not None:
+            step = min(abs(along - diagonal), abs(across - diagonal))
+            guesses.append((along + across - diagonal, step))
     return guesses
 
 
 def _assign_places(placed: PointsByPlace, *, asymmetric: bool) -> Iterator[PointsByPlace]:
     """Assign the pattern's places (x, y) to the lattice, in all ways that may be right."""
-    grid, points = np.array(list(placed)), list(placed.values())
-    for shear, turn in product(_SHEARS, _TURNS):
+    points = list(placed.values())
+    for xy in _shear_places(placed, asymmetric=asymmetric):
+        for turn in _TURNS:
+            yield dict(zip(map(tuple, (xy @ turn.T).tolist()), points, strict=True))
+
+
+def _shear_places(placed: PointsByPlace, *, asymmetric: bool) -> Iterator[IntArray]:
+    """List the places (n, 2) = (x, y) of a lattice's points for every basis that it may have grown
+    by, up to turns by quarters."""
+    grid = np.array(list(placed))
+    for shear in _SHEARS:
         i, j = shear @ grid.T
-        xy = np.array([i - j, i + j] if asymmetric else [i, j])
-        x, y = turn @ xy
-        yield dict(zip(zip(x.tolist(), y.tolist(), strict=True), points, strict=True))
+        yield np.column_stack([i - j, i + j] if asymmetric else [i, j])
 
 
 def _list_places(grid_size: GridSize, *, asymmetric: bool) -> list[Place]:
@@ -200,28 +225,50 @@ def _cut_stated_grid(
     return _collect_indices(by_place, starts[0], grid_size, places) if len(starts) == 1 else None
 
 
-def _cut_whole_grid(by_place: PointsByPlace, *, asymmetric: bool) -> IntArray:
-    """Cut the grid that a lattice fills once stray points at its borders are left out; it is empty
-    if they fill none."""
-    xy = np.array(list(by_place))
-    while len(xy) >= CIRCLE_THRESHOLDS.min_grid_circles:
-        low, high = xy.min(axis=0), xy.max(axis=0)
-        size = high - low + 1
+def _cut_whole_grids(placed: PointsByPlace, *, asymmetric: bool) -> list[IntArray]:
+    """Cut the grids that a lattice fills in any basis and turn once stray points at its borders
+    are left out."""
+    points, grids = np.array(list(placed.values())), []
+    for xy in _shear_places(placed, asymmetric=asymmetric):
+        kept = _drop_stray_borders(xy, asymmetric=asymmetric)
+        if len(kept) < CIRCLE_THRESHOLDS.min_grid_circles:
+            continue
+        for turn in _TURNS:
+            grid = _fill_grid(xy[kept] @ turn.T, points[kept], asymmetric=asymmetric)
+            if grid is not None:
+                grids.append(grid)
+    return grids
+
+
+def _drop_stray_borders(xy: IntArray, *, asymmetric: bool) -> IntArray:
+    """Return the indices of the places (n, 2) left once border lines with too few are dropped."""
+    kept = np.arange(len(xy))
+    while len(kept) >= CIRCLE_THRESHOLDS.min_grid_circles:
+        here = xy[kept]
+        low, high = here.min(axis=0), here.max(axis=0)
         # An asymmetric grid has a circle at every second place along a line.
-        full = size[::-1] / (2 if asymmetric else 1)
-        share = np.array([(xy == low).sum(axis=0), (xy == high).sum(axis=0)]) / full
+        full = (high - low + 1)[::-1] / (2 if asymmetric else 1)
+        share = np.array([(here == low).sum(axis=0), (here == high).sum(axis=0)]) / full
         if share.min() >= CIRCLE_THRESHOLDS.min_border_share:
             break
         end, axis = np.unravel_index(np.argmin(share), share.shape)
-        xy = xy[xy[:, axis] != (low, high)[end][axis]]
-    else:
-        return _NO_GRID
-    cols, rows = (size // (2, 1) if asymmetric else size).tolist()
+        kept = kept[here[:, axis] != (low, high)[end][axis]]
+    return kept
+
+
+def _fill_grid(xy: IntArray, points: IntArray, *, asymmetric: bool) -> IntArray | None:
+    """Return the grid (rows, cols) of `points` (n,) at the places `xy` (n, 2), None if they do not
+    fill one."""
+    low = xy.min(axis=0)
+    width, rows = (xy.max(axis=0) - low + 1).tolist()
+    cols = width // 2 if asymmetric else width
+    if rows * cols != len(xy) or min(rows, cols) < CIRCLE_THRESHOLDS.min_grid_lines:
+        return None
     places = _list_places((rows, cols), asymmetric=asymmetric)
-    too_narrow = min(rows, cols) < CIRCLE_THRESHOLDS.min_grid_lines
-    if too_narrow or {(x, y) for x, y in (xy - low).tolist()} != set(places):
-        return _NO_GRID
-    return _collect_indices(by_place, (int(low[0]), int(low[1])), (rows, cols), places)
+    by_place = dict(zip(map(tuple, (xy - low).tolist()), points.tolist(), strict=True))
+    if by_place.keys() != set(places):
+        return None
+    return _collect_indices(by_place, (0, 0), (rows, cols), places)
 
 
 def _collect_indices(

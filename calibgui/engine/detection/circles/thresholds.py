@@ -22,6 +22,12 @@ class CircleThresholds:
     """Greatest such ratio."""
     max_area_ratio: float = 8.0
     """Greatest ratio of two discs' areas in one grid: what tilt and lens may cause."""
+    min_box_fill: float = 0.1
+    """Least share of its upright bounding box that a disc fills: that of an ellipse ten times as
+    long as wide and askew is 0.16."""
+    max_mark_area_ratio: float = 16.0
+    """Greatest ratio of the area of a mark, a larger disc in its place on the grid, to the others'
+    median."""
     max_blobs: int = 400
     """Number of parts examined where the number of circles is not stated."""
     min_grid_circles: int = 12
@@ -46,6 +52,11 @@ class CircleThresholds:
     """Greatest difference of an ellipse from the one predicted by the others, over its size."""
     max_rejected_share: float = 0.25
     """Share of rejected circles beyond which the grid itself is rejected."""
+    min_mark_radius_difference: float = 0.15
+    """Least difference of a mark's radius from the others', over the latter; the radius of a disc
+    is measured to a few per cent in any image that passes."""
+    max_marked_share: float = 0.25
+    """Greatest share of a grid's discs that are of another size."""
     max_diameter_difference: float = 0.05
     """Greatest difference of the measured diameter from the stated one, pitches."""
 

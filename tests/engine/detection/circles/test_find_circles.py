@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
+from calibgui.engine.arrays import GridSize
 from calibgui.engine.boards.board import Board
 from calibgui.engine.boards.circle_grid import Circles
 from calibgui.engine.boards.pattern import Symmetry
@@ -13,6 +14,7 @@ from calibgui.engine.detection.circles.circle_map import fit_circle_map
 from calibgui.engine.detection.find_corners import find_corners
 from calibgui.engine.errors import CalibrationError, NoBoardError
 from tests.engine.detection.conftest import CAMERA, Scene
+from tests.scenes.marked_circles import MarkedCircles
 
 NO_LENS = Camera(CAMERA.size, [*CAMERA.params[:4], *np.zeros(6)])
 BENT = Camera(CAMERA.size, [*CAMERA.params[:4], 0.25, 0.02, 0.0, 0.0, 0.0, 0.0])
@@ -43,7 +45,9 @@ def test_the_bias_of_the_centres_is_corrected(
     assert seen.diameter == pytest.approx(pattern.diameter, abs=0.005)
     # Left as they are, the ellipses' centres are off many times as far.
     xy = pattern.locate_points(corners.grid.astype(float))
-    bias = fit_circle_map(xy, corners.uv).compute_centre_bias(xy, seen.diameter / 2)
+    bias = fit_circle_map(xy, corners.uv).compute_centre_bias(
+        xy, np.full(len(xy), seen.diameter / 2)
+    )
     assert np.sqrt(np.mean((error + bias) ** 2)) > 10 * np.sqrt(np.mean(error**2))
 
 
@@ -176,3 +180,58 @@ def test_images_together_tell_the_diameter() -> None:
     seen = [Circles(False, d) for d in (0.49, 0.5, 0.53)]
     assert Circles().complete_from(seen) == Circles(False, 0.5)
     assert Circles(False, 0.6).complete_from(seen) == Circles(False, 0.6)
+
+
+_SMALL = Camera((640, 480), [560.0, 562.0, 322.0, 238.0, 0.1, 0.02, 0.0, 1e-4, 0.0, 0.0])
+
+
+def _show_marked(
+    marks: set[tuple[int, int]], turn: float, *, mark: float = 0.8, grid_size: GridSize = (7, 7)
+) -> Scene:
+    pattern = MarkedCircles(False, 0.45, frozenset(marks), mark)
+    return Scene(Board(*grid_size, 26.0, pattern), _SMALL, (0.3, -0.2, turn), 400.0)
+
+
+@pytest.mark.parametrize("turn", [0.1, 1.7, 3.3])
+@pytest.mark.parametrize("mark", [0.25, 0.6, 0.95])
+def test_a_circle_of_another_size_marks_the_origin(turn: float, mark: float) -> None:
+    scene = _show_marked({(0, 0)}, turn, mark=mark)
+    corners = find_corners(scene.image(), pattern=Circles())
+    assert corners.complete
+    assert corners.ambiguity is Symmetry.NONE
+    assert np.abs(scene.error(corners)).max() < 0.05
+    assert isinstance(corners.pattern, Circles)
+    assert corners.pattern.diameter == pytest.approx(0.45, abs=0.01)
+
+
+def test_marks_that_a_turn_leaves_in_place_leave_it_open() -> None:
+    image = _show_marked({(0, 0), (6, 6)}, 0.1).image()
+    corners = find_corners(image, (7, 7), pattern=Circles())
+    assert corners.complete
+    assert corners.ambiguity is Symmetry.HALF_TURN
+
+
+def test_marks_number_all_pictures_alike() -> None:
+    """Wherever the marks stand, as in the middle of some robots' boards."""
+    marks = {(3, 3), (3, 4), (3, 5), (4, 3)}
+    offsets = []
+    for turn in (0.1, 1.7, 3.3):
+        scene = _show_marked(marks, turn)
+        corners = find_corners(scene.image(), (7, 7), pattern=Circles())
+        assert corners.ambiguity is Symmetry.NONE
+        truth = corners.uv - scene.error(corners)
+        nearest = np.linalg.norm(corners.uv[:, None] - truth, axis=2).argmin(axis=1)
+        offsets.append(nearest)
+    assert np.array_equal(offsets[0], offsets[1]) and np.array_equal(offsets[0], offsets[2])
+
+
+def test_a_hidden_circle_might_be_a_mark() -> None:
+    scene = _show_marked({(0, 0), (0, 3)}, 0.1)
+    image = scene.image()
+    whole = find_corners(image, (7, 7), pattern=Circles())
+    assert whole.ambiguity is Symmetry.NONE
+    u, v = np.rint(whole.uv[20]).astype(int)
+    image[v - 2 : v + 3, u + 5 : u + 8] = 200  # a scratch at its rim
+    corners = find_corners(image, (7, 7), pattern=Circles())
+    assert len(corners.rejected) == 1
+    assert corners.ambiguity is Symmetry.QUARTER_TURN
