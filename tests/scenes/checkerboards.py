@@ -25,6 +25,7 @@ from numpy.typing import NDArray
 
 from tests.scenes.camera import Camera
 from tests.scenes.conditions import Conditions
+from tests.scenes.marks import marks
 from tests.scenes.occluders import occluder
 
 Array = NDArray[np.float64]
@@ -86,6 +87,8 @@ def draw(conditions: Conditions, seed: int) -> Scene:
     fine_v = (np.arange(height * parts) + 0.5) / parts - 0.5
     x, y = camera.board_from_image(*np.meshgrid(fine_u, fine_v))
     irradiance = _paper(x, y, conditions, rng)
+    if conditions.marks:
+        irradiance[marks(x, y, conditions.grid_size, np.random.default_rng([seed, 2]))] = 0.0
     covered = np.zeros(irradiance.shape, np.bool_)
     if conditions.occluder:
         covered, shade = occluder(conditions, camera, np.random.default_rng([seed, 1]))

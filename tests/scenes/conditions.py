@@ -49,5 +49,7 @@ class Conditions:
     """Of the board, from the image's, before the random shift."""
     occluder: str = ""
     """What covers some of the board: an "object" in its middle, a "hand" at its border."""
+    marks: bool = False
+    """Dots, triangles or letters are printed in the middle of some of the bright squares."""
     parts: int = 4
     """Into which each pixel is divided both ways. One will do where corners are only counted."""
