@@ -298,6 +298,14 @@ def check_crossing(corners: OrientedCorners, image: GreyImage) -> tuple[bool, bo
     return bare or plain <= _THRESHOLDS.max_printed_dissimilarity, bare
 
 
+def is_plain_crossing(corners: OrientedCorners, image: GreyImage) -> bool:
+    """Return whether the typical one of the corners is, nearby, the crossing of two edges in a
+    point, where the squares neither overlap nor part as discs do."""
+    near = _compute_typical_patch(corners.shorten_steps(_PLAIN_IF_PRINTED), image)
+    crossings = _model_crossings(_PLAIN_IF_PRINTED, overlap=False)
+    return _measure_dissimilarity(near, crossings) <= _THRESHOLDS.max_plain_dissimilarity
+
+
 def _compute_typical_patch(corners: OrientedCorners, image: GreyImage) -> Array:
     """Compute the median (k,) of the corners' patches, standardised."""
     return _compute_median_patch(_compute_patches(image, *corners, PATCH_POSITIONS, _LINEAR_LIGHT))

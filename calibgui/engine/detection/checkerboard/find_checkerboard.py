@@ -32,7 +32,7 @@ from calibgui.engine.detection.checkerboard.numbering import (
     list_numberings,
     place_corners,
 )
-from calibgui.engine.detection.checkerboard.prefilter import is_plausible
+from calibgui.engine.detection.checkerboard.prefilter import find_objection
 from calibgui.engine.detection.checkerboard.pyramid_search import Candidate, find_candidates
 from calibgui.engine.detection.checkerboard.saddle import refine_lattice
 from calibgui.engine.detection.checkerboard.x_corner_fit import XCornerFit
@@ -52,11 +52,22 @@ METHODS = ("edges", "saddle")
 _MAX_ROUNDS = 4
 """Number of times that gaps are tried again, and that corners are left out and the rest fitted
 again; a board that has not come to rest by then is none."""
+_TOO_MANY_FAIL = "too many of its corners fail"
 _STATE_SIZE = "State the number of inner corners, rows x columns, or leave it out."
 
 
 class _OtherSizeError(NoBoardError):
     """There are boards, but none of the stated size."""
+
+
+@dataclass(frozen=True, slots=True)
+class Refusal:
+    """Why a lattice is no board."""
+
+    shape: tuple[int, int]
+    """Rows and columns of the lattice."""
+    reason: str
+    """The test that it failed, the end of a sentence."""
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -142,25 +153,23 @@ def _find_wanted_board(
         NoBoardError: there is no board; an `_OtherSizeError` if there are boards of other sizes.
     """
     boards: list[RefinedBoard] = []
-    tried: dict[Candidate, RefinedBoard | None] = {}
+    tried: dict[Candidate, RefinedBoard | Refusal] = {}
     searched = None if outline is None else region.enlarge_outline(outline)
     for candidates in find_candidates(grey, searched):
         for candidate in candidates:
             if candidate not in tried:
                 tried[candidate] = _verify_candidate(grey, candidate, method)
-        boards = [board for candidate in candidates if (board := tried[candidate])]
+        results = (tried[candidate] for candidate in candidates)
+        boards = [board for board in results if isinstance(board, RefinedBoard)]
         boards.sort(key=lambda board: board.edge_length, reverse=True)
         for wanted in boards:
             if grid_size is None or _may_have_size(grey, wanted.lattice, grid_size):
                 return wanted, [board for board in boards if board is not wanted]
     if boards and grid_size is not None:
         raise _describe_other_sizes(grey, boards, grid_size)
-    if tried:
-        raise NoBoardError(
-            "What looks like a checkerboard is not regular enough to be trusted.",
-            "Mark its four outermost corners, or leave this picture out. For a grid of circles,"
-            " state that target; where marks are drawn over the corners, take the original.",
-        )
+    refusals = [each for each in tried.values() if isinstance(each, Refusal)]
+    if refusals:
+        raise _describe_refusal(max(refusals, key=lambda each: each.shape[0] * each.shape[1]))
     raise NoBoardError(
         "No checkerboard was found.",
         "Mark its four outermost corners, or take the picture again: all of the board in"
@@ -168,17 +177,19 @@ def _find_wanted_board(
     )
 
 
-def _verify_candidate(grey: GreyImage, candidate: Candidate, method: str) -> RefinedBoard | None:
-    """Return the board that a candidate is, None if it is none or may be one by chance."""
+def _verify_candidate(grey: GreyImage, candidate: Candidate, method: str) -> RefinedBoard | Refusal:
+    """Return the board that a candidate is, or why it is none."""
     board = refine_board(grey, candidate.lattice, method)
-    if board and a_contrario.is_meaningful(board.lattice.found, candidate.others):
+    if isinstance(board, Refusal) or a_contrario.is_meaningful(
+        board.lattice.found, candidate.others
+    ):
         return board
-    return None
+    return Refusal(board.lattice.shape, "squares at random could have formed it")
 
 
 def refine_board(
     grey: GreyImage, lattice: Lattice, method: str, plain: float = 0.5
-) -> RefinedBoard | None:
+) -> RefinedBoard | Refusal:
     """Refine a lattice at full resolution and verify it.
 
     Its gaps are tried again, as long as that finds more. A corner whose squares overlap or part by
@@ -191,7 +202,7 @@ def refine_board(
         plain: how far from the corners nothing is printed in the squares and on their edges.
 
     Returns:
-        The board without the corners that fail, None if the lattice is no board.
+        The board without the corners that fail, or why the lattice is none.
     """
     seen = lattice
     for _ in range(_MAX_ROUNDS):
@@ -204,7 +215,7 @@ def refine_board(
             break
         seen = refined.select(good)
     if not verification.is_credible(int(np.count_nonzero(lattice.found & ~good)), len(lattice)):
-        return None
+        return Refusal(lattice.shape, _TOO_MANY_FAIL)
     without_saddle = lattice.found & ~refined.found
     unsound = lattice.found & refined.found & ~good
     rejected = [
@@ -220,7 +231,7 @@ def _fit_board(
     rejected: list[RejectedCorner],
     method: str,
     plain: float,
-) -> RefinedBoard | None:
+) -> RefinedBoard | Refusal:
     """Verify a refined lattice as a whole and, unless the method is "saddle", fit the edge model.
 
     Corners that the model does not describe mislead what is taken from the whole board: without
@@ -234,14 +245,17 @@ def _fit_board(
         plain: how far from the corners nothing is printed.
 
     Returns:
-        The board, None if the lattice is none.
+        The board, or why the lattice is none.
     """
-    failed = 0
+    failed, shape = 0, lattice.shape
     for _ in range(_MAX_ROUNDS):
-        if is_large_enough(lattice):
-            lattice = verification.drop_broken_lines(lattice, grey)
-        if not (is_large_enough(lattice) and is_plausible(lattice, grey, plain=plain)):
-            break
+        if not is_large_enough(lattice):
+            return Refusal(shape, "too few of its corners are sound")
+        lattice = verification.drop_broken_lines(lattice, grey)
+        if not is_large_enough(lattice):
+            return Refusal(shape, "its corners do not lie on a smooth grid of squares")
+        if objection := find_objection(lattice, grey, plain=plain):
+            return Refusal(lattice.shape, objection)
         if method == "saddle":
             return RefinedBoard(lattice, tuple(rejected), None)
         fit = x_corner_fit.fit_x_corners(grey, lattice, bare_edge=plain)
@@ -249,8 +263,13 @@ def _fit_board(
         displaced = described & verification.find_displaced_corners(fit, lattice)
         good = described & ~displaced
         if good.all():
-            is_board = verification.has_step_edges(fit)
-            return RefinedBoard(lattice, tuple(rejected), fit) if is_board else None
+            is_board = verification.has_step_edges(fit) or (
+                verification.stands_alone(lattice, grey)
+                and verification.has_step_edges(fit, is_alone=True)
+            )
+            if not is_board:
+                return Refusal(lattice.shape, verification.TOO_BLURRED)
+            return RefinedBoard(lattice, tuple(rejected), fit)
         failed += int(np.count_nonzero(~described))
         if not verification.is_credible(failed, int(np.count_nonzero(described)) + failed):
             break
@@ -260,7 +279,7 @@ def _fit_board(
         keep = lattice.found
         keep[keep] = good
         lattice = drop_isolated_and_crop(lattice.select(keep))
-    return None
+    return Refusal(shape, _TOO_MANY_FAIL)
 
 
 def find_marked_board(
@@ -289,7 +308,7 @@ def find_marked_board(
     if len(lattice) < max(MIN_CORNERS, lattice.found.size // 2):
         return None
     board = refine_board(grey, lattice, method)
-    if board is None:
+    if isinstance(board, Refusal):
         return None
     distance, _ = scipy.spatial.cKDTree(board.lattice.uv[board.lattice.found]).query(missing)
     still_missing = missing[distance > np.nanmedian(board.lattice.spacing()) / 2]
@@ -326,6 +345,17 @@ def _describe_other_sizes(
     rows, cols = sizes[0]
     return _OtherSizeError(
         f"This board has {least}{rows} x {cols} inner corners, {stated}.", _STATE_SIZE
+    )
+
+
+def _describe_refusal(refusal: Refusal) -> NoBoardError:
+    """Return an error that says which test refused what looked like a board."""
+    rows, cols = sorted(refusal.shape)
+    return NoBoardError(
+        f"What looks like a checkerboard of {rows} x {cols} inner corners is not trusted:"
+        f" {refusal.reason}.",
+        "Mark its four outermost corners, or leave this picture out. For a grid of circles,"
+        " state that target; where marks are drawn over the corners, take the original.",
     )
 
 

@@ -14,6 +14,13 @@ across the edges near that (`edge_profiles`). In squares,
   around that the pattern goes on, in dots that are smaller.
 
 Where something is printed in the squares the spread tells nothing.
+
+What these rules expect of edges is a print seen through a good lens. A camera that sharpens to one
+side, beats with a screen's pixels or is far out of focus, and marks in the squares, break them on
+boards whose every corner is sound. So they do not overrule what no texture shows: a full rectangle
+of corners, seen to end on all four sides (`stands_alone` of `verification`). Of that it is only
+asked that two edges cross at its corners, which the discs of a grid of circles do not, and that
+they are narrower than waves.
 """
 
 from __future__ import annotations
@@ -21,15 +28,22 @@ from __future__ import annotations
 import numpy as np
 
 from calibgui.engine.arrays import Array, GreyImage
-from calibgui.engine.detection.checkerboard import edge_profiles
 from calibgui.engine.detection.checkerboard.corner_template import (
     OrientedCorners,
     check_crossing,
+    is_plain_crossing,
     orient_corners,
 )
-from calibgui.engine.detection.checkerboard.edge_profiles import EdgeProfiles
+from calibgui.engine.detection.checkerboard.edge_profiles import (
+    EdgeProfiles,
+    measure_edge_profiles,
+)
 from calibgui.engine.detection.checkerboard.thresholds import THRESHOLDS
-from calibgui.engine.detection.checkerboard.verification import does_pattern_continue
+from calibgui.engine.detection.checkerboard.verification import (
+    TOO_BLURRED,
+    does_pattern_continue,
+    stands_alone,
+)
 from calibgui.engine.detection.lattice import MIN_CORNERS, Lattice
 
 
@@ -43,7 +57,14 @@ def is_hopeless(lattice: Lattice, image: GreyImage, plain: float = 0.5) -> bool:
 def is_plausible(
     lattice: Lattice, image: GreyImage, is_grown: bool = True, plain: float = 0.5
 ) -> bool:
-    """Return whether a lattice could be a board's: see the head of this module.
+    """Return whether a lattice could be a board's: see `find_objection`."""
+    return not find_objection(lattice, image, is_grown, plain)
+
+
+def find_objection(
+    lattice: Lattice, image: GreyImage, is_grown: bool = True, plain: float = 0.5
+) -> str:
+    """Find the rule by which a lattice is no board's: see the head of this module.
 
     Args:
         lattice: corners, refined or not.
@@ -51,23 +72,54 @@ def is_plausible(
         is_grown: whether the lattice has grown as far as it can, so that a pattern that goes on
             around it counts against it.
         plain: how far from the corners nothing is printed in the squares and on their edges.
+
+    Returns:
+        What speaks against it, the end of a sentence; empty if it could be a board's.
     """
-    limits = THRESHOLDS.prefilter
     corners = orient_corners(lattice)
-    corners = corners.select(_compute_areas(corners) > 0).subsample(limits.max_tested_corners)
+    corners = corners.select(_compute_areas(corners) > 0)
+    corners = corners.subsample(THRESHOLDS.prefilter.max_tested_corners)
     if not len(corners.uv):
-        return False
+        return "its squares have no area"
+    objection = _judge_edges(lattice, image, corners, is_grown, plain)
+    if objection and _is_beyond_doubt(lattice, image, corners, plain):
+        return ""
+    return objection
+
+
+def _judge_edges(
+    lattice: Lattice, image: GreyImage, corners: OrientedCorners, is_grown: bool, plain: float
+) -> str:
+    """Find the rule by which the edges at some corners of a lattice are no board's; arguments and
+    result as `find_objection`."""
+    limits = THRESHOLDS.prefilter
     is_crossing, is_bare = check_crossing(corners, image)
-    edges = _measure_narrow_edges(corners, image, plain) if is_crossing else []
-    if not edges or not is_bare or plain < 0.5:
-        return bool(edges)
+    if not is_crossing:
+        return "its corners do not look like two crossing edges"
+    edges = _measure_edges(corners, image, plain)
+    if _measure_width(edges, corners) > THRESHOLDS.verification.max_edge_blur:
+        return TOO_BLURRED
+    if not is_bare or plain < 0.5:
+        return ""
     if any(abs(_compute_known_median(edge.bulge)) > limits.max_bulge for edge in edges):
-        return False
+        return "its edges are not straight, like those of discs"
     spreads = np.column_stack([edge.spread for edge in edges])
     is_uneven = not have_same_spread(spreads, limits.max_spread_inside)
     if is_grown and is_uneven and does_pattern_continue(lattice, image):
+        return "its pattern goes on around it in dots of other sizes"
+    if have_same_spread(spreads, limits.max_spread) or rise_steadily(spreads, corners.uv):
+        return ""
+    return "its squares differ in size like printed dots"
+
+
+def _is_beyond_doubt(
+    lattice: Lattice, image: GreyImage, corners: OrientedCorners, plain: float
+) -> bool:
+    """Return whether a lattice is a board whatever its edges look like away from the corners."""
+    if not stands_alone(lattice, image) or not is_plain_crossing(corners, image):
         return False
-    return have_same_spread(spreads, limits.max_spread) or rise_steadily(spreads, corners.uv)
+    width = _measure_width(_measure_edges(corners, image, plain), corners)
+    return width <= THRESHOLDS.verification.max_edge_blur_alone
 
 
 def _compute_areas(corners: OrientedCorners) -> Array:
@@ -76,21 +128,30 @@ def _compute_areas(corners: OrientedCorners) -> Array:
     return np.asarray(abs(right[:, 0] * down[:, 1] - right[:, 1] * down[:, 0]))
 
 
-def _measure_narrow_edges(
+def _measure_edges(
     corners: OrientedCorners, image: GreyImage, plain: float
-) -> list[EdgeProfiles]:
-    """Measure profiles across the corners' edges in both directions; return none if those in one
-    are wider than a board's."""
+) -> tuple[EdgeProfiles, EdgeProfiles]:
+    """Measure profiles across the corners' edges along either direction."""
     uv, right, down, dark = corners
-    sign, area = np.where(dark, -1.0, 1.0), _compute_areas(corners)
-    profiles = []
-    for along, across in ((right, down), (down, right)):
-        size = area / np.linalg.norm(along, axis=1)
-        edge = edge_profiles.measure_edge_profiles(image, uv, along, across, size, sign, plain)
-        if np.median(edge.blur / size) > THRESHOLDS.verification.max_edge_blur:
-            return []
-        profiles.append(edge)
-    return profiles
+    sign, (over_right, over_down) = np.where(dark, -1.0, 1.0), _compute_heights(corners)
+    return (
+        measure_edge_profiles(image, uv, right, down, over_right, sign, plain),
+        measure_edge_profiles(image, uv, down, right, over_down, sign, plain),
+    )
+
+
+def _measure_width(edges: tuple[EdgeProfiles, EdgeProfiles], corners: OrientedCorners) -> float:
+    """Measure the median blur of the edges in the direction in which they are wider, squares."""
+    heights = _compute_heights(corners)
+    return max(
+        float(np.median(edge.blur / height)) for edge, height in zip(edges, heights, strict=True)
+    )
+
+
+def _compute_heights(corners: OrientedCorners) -> tuple[Array, Array]:
+    """Return the heights (n,) px of the squares over the edges along either direction."""
+    area, (_, right, down, _) = _compute_areas(corners), corners
+    return area / np.linalg.norm(right, axis=1), area / np.linalg.norm(down, axis=1)
 
 
 def have_same_spread(spreads: Array, max_deviation: float) -> bool:

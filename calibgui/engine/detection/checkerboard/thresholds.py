@@ -194,6 +194,8 @@ class VerificationThresholds:
     max_edge_blur: float = 0.18
     """Greatest median blur of a board's edges, squares: that of a sine wave would be 0.25. Fixed by
     the "waves"."""
+    max_edge_blur_alone: float = 0.23
+    """The same of a lattice that stands alone, as no waves do."""
     max_median_misfit: float = 0.25
     """Greatest median residual of the edge fit over the contrast. Fixed by the "waves"."""
 

@@ -36,14 +36,21 @@ from calibgui.engine.detection.lattice import (
     drop_isolated,
     drop_isolated_and_crop,
     estimate_steps,
+    is_large_enough,
     measure_in_steps,
     predict_places,
 )
 from calibgui.engine.images.sampling import sample_image
 
+TOO_BLURRED = "its edges are too blurred to be told from waves"
+"""What speaks against a lattice of wide edges."""
+
 
 def find_sound_corners(lattice: Lattice, image: GreyImage, plain: float = 0.5) -> BoolArray:
-    """Find the corners of a lattice that look like the others and lie where neighbours expect them.
+    """Find the corners of a lattice that look like the others and lie where these expect them.
+
+    Neighbours in a line expect a corner where the line goes on as it did. Where a lens bends the
+    lines so much that they mislead, the smooth grid map through all others decides.
 
     Args:
         lattice: refined corners.
@@ -60,8 +67,18 @@ def find_sound_corners(lattice: Lattice, image: GreyImage, plain: float = 0.5) -
     )
     # What does not look like a corner says nothing about where its neighbours should be.
     uv = lattice.select(good).uv
-    deviation = measure_in_steps(uv - predict_places(uv), *estimate_steps(uv))
-    return np.asarray(good & ~(deviation >= THRESHOLDS.verification.max_deviation))
+    steps = estimate_steps(uv)
+    deviation = measure_in_steps(uv - predict_places(uv), *steps)
+    astray = good & (deviation >= THRESHOLDS.verification.max_deviation)
+    if astray.any() and not astray[good].all():
+        cells = np.argwhere(astray)
+        expected = grid_map.fit_grid_map(lattice.select(good & ~astray)).locate(
+            cells.astype(np.float64)
+        )
+        right, down = (step[astray] for step in steps)
+        off = measure_in_steps(uv[astray] - expected, right, down)
+        astray[astray] = ~(off < THRESHOLDS.verification.max_grid_map_rms)
+    return np.asarray(good & ~astray)
 
 
 def is_credible(failing: int, found: int) -> bool:
@@ -219,13 +236,23 @@ def find_displaced_corners(fit: XCornerFit, lattice: Lattice) -> BoolArray:
     return np.asarray(~good & ~(off <= limit))
 
 
-def has_step_edges(fit: XCornerFit) -> bool:
+def has_step_edges(fit: XCornerFit, is_alone: bool = False) -> bool:
     """Return whether the squares are flat inside and step at their edges: waves cross likewise,
-    only wider, and are not described by steps."""
+    only wider, and are not described by steps. A lattice that `is_alone`, see `stands_alone`, may
+    be blurred more."""
     limits = THRESHOLDS.verification
     blur = np.median(fit.model.unknowns[:, 4:6] / fit.model.square_height, axis=0)
     misfit = np.median(fit.residual / fit.contrast)
-    return bool(blur.max() < limits.max_edge_blur and misfit < limits.max_median_misfit)
+    max_blur = limits.max_edge_blur_alone if is_alone else limits.max_edge_blur
+    return bool(blur.max() < max_blur and misfit < limits.max_median_misfit)
+
+
+def stands_alone(lattice: Lattice, image: GreyImage) -> bool:
+    """Return whether a lattice is a full rectangle, large enough for a board, that the image shows
+    to end on all four sides: patterns that go on, or fade out, do not."""
+    if not is_large_enough(lattice) or not lattice.found.all():
+        return False
+    return all(find_ends(lattice, image))
 
 
 def fill_gaps(lattice: Lattice, shape: tuple[int, ...]) -> Lattice:

@@ -19,6 +19,7 @@ from calibgui.engine.detection.checkerboard import a_contrario
 from calibgui.engine.detection.checkerboard.find_checkerboard import (
     METHODS,
     RefinedBoard,
+    Refusal,
     assemble_corners,
     refine_board,
 )
@@ -104,7 +105,9 @@ def _verify_candidate(
     """Return the board that a candidate is, None if it is none or may be one by chance."""
     lattice, _ = refine_lattice(grey, candidate.lattice, plain=PLAIN)
     board = refine_board(remove_blurred_dots(grey, lattice), lattice, method, PLAIN)
-    if board is None or not a_contrario.is_meaningful(board.lattice.found, candidate.others):
+    if isinstance(board, Refusal) or not a_contrario.is_meaningful(
+        board.lattice.found, candidate.others
+    ):
         return None
     return _place_board(grey, board, stated)
 
