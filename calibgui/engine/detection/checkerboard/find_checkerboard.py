@@ -4,7 +4,7 @@ A wrong corner harms a calibration more than a missing one, so all that is found
 its image proves it. The way of an image, entry first:
 
 1. `find_checkerboard` checks its arguments and asks the search (`pyramid_search`) for candidates,
-   lattices that may be boards.
+   lattices that may be boards. Boards that hang together are taken apart (`board_separation`).
 2. `refine_board` moves a candidate's corners to their saddle points at full resolution, tries its
    gaps again, drops what fails (`verification`) and fits the edge model to the rest
    (`x_corner_fit`). What remains must not be explained by chance (`a_contrario`).
@@ -26,6 +26,7 @@ from calibgui.engine.arrays import Array, GreyImage, GridSize
 from calibgui.engine.boards.checkerboard import CHECKERBOARD, Checkerboard, checkerboard_symmetry
 from calibgui.engine.detection import region_of_interest as region
 from calibgui.engine.detection.checkerboard import a_contrario, harris, verification, x_corner_fit
+from calibgui.engine.detection.checkerboard.board_separation import separate_boards
 from calibgui.engine.detection.checkerboard.numbering import (
     Numbering,
     is_relative,
@@ -153,13 +154,16 @@ def _find_wanted_board(
         NoBoardError: there is no board; an `_OtherSizeError` if there are boards of other sizes.
     """
     boards: list[RefinedBoard] = []
-    tried: dict[Candidate, RefinedBoard | Refusal] = {}
+    tried: dict[Candidate, list[RefinedBoard | Refusal]] = {}
     searched = None if outline is None else region.enlarge_outline(outline)
     for candidates in find_candidates(grey, searched):
         for candidate in candidates:
             if candidate not in tried:
-                tried[candidate] = _verify_candidate(grey, candidate, method)
-        results = (tried[candidate] for candidate in candidates)
+                tried[candidate] = [
+                    _verify_lattice(grey, part, candidate.others, method)
+                    for part in separate_boards(candidate.lattice, grey)
+                ]
+        results = (result for candidate in candidates for result in tried[candidate])
         boards = [board for board in results if isinstance(board, RefinedBoard)]
         boards.sort(key=lambda board: board.edge_length, reverse=True)
         for wanted in boards:
@@ -167,7 +171,7 @@ def _find_wanted_board(
                 return wanted, [board for board in boards if board is not wanted]
     if boards and grid_size is not None:
         raise _describe_other_sizes(grey, boards, grid_size)
-    refusals = [each for each in tried.values() if isinstance(each, Refusal)]
+    refusals = [each for results in tried.values() for each in results if isinstance(each, Refusal)]
     if refusals:
         raise _describe_refusal(max(refusals, key=lambda each: each.shape[0] * each.shape[1]))
     raise NoBoardError(
@@ -177,12 +181,13 @@ def _find_wanted_board(
     )
 
 
-def _verify_candidate(grey: GreyImage, candidate: Candidate, method: str) -> RefinedBoard | Refusal:
-    """Return the board that a candidate is, or why it is none."""
-    board = refine_board(grey, candidate.lattice, method)
-    if isinstance(board, Refusal) or a_contrario.is_meaningful(
-        board.lattice.found, candidate.others
-    ):
+def _verify_lattice(
+    grey: GreyImage, lattice: Lattice, others: int, method: str
+) -> RefinedBoard | Refusal:
+    """Return the board that a lattice is, beside `others` junctions in the image, or why it is
+    none."""
+    board = refine_board(grey, lattice, method)
+    if isinstance(board, Refusal) or a_contrario.is_meaningful(board.lattice.found, others):
         return board
     return Refusal(board.lattice.shape, "squares at random could have formed it")
 

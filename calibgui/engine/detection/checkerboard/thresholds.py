@@ -1,8 +1,8 @@
 """The thresholds by which checkerboards are searched for and verified, in one record.
 
 They are listed in the order in which an image meets them: the levels of the pyramid, the
-X-junctions of one level, the graph of neighbours, the growth of a lattice, the prefilter, and the
-verification of what was refined. Lengths on the board are in squares or, what is the same, in
+X-junctions of one level, the graph of neighbours, the growth of a lattice, the prefilter, taking
+joined boards apart, and the verification of what was refined. Lengths on the board are in squares or, what is the same, in
 steps of the lattice, so that they do not depend on the size of the board in the image.
 
 Unless a field says otherwise its value is a plausibility limit. The benchmark
@@ -148,6 +148,28 @@ class PrefilterThresholds:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
+class SeparationThresholds:
+    """Thresholds of taking joined boards apart (`board_separation`). The troubles "crease" and
+    "screen" of
+
+        python -m tests.benchmarks.corner_troubles
+
+    fixed them: over a crease corners are 0.07 to 0.2 steps off one map and 0.002 to 0.007 off two;
+    of one board they are at most 0.02 off one, and two maps follow it no better than by half."""
+
+    max_joint_misfit: float = 0.03
+    """Rms distance of the corners from one smooth grid map up to which they are left as they are,
+    steps."""
+    max_misfit_ratio: float = 0.15
+    """Greatest rms distance from the maps of two parts, over that from one map, at which a lattice
+    is cut."""
+    max_excess_misfit: float = 1.2
+    """Rms distance of a cut, over that of the best, up to which the number of corners decides."""
+    max_lines: int = 20
+    """Number of lines along the shorter side beyond which no cut is tried: it bounds the time."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
 class VerificationThresholds:
     """Thresholds of a refined board (`verification`, `a_contrario`)."""
 
@@ -224,6 +246,7 @@ class CheckerboardThresholds:
     graph: GraphThresholds = GraphThresholds()
     growth: GrowthThresholds = GrowthThresholds()
     prefilter: PrefilterThresholds = PrefilterThresholds()
+    separation: SeparationThresholds = SeparationThresholds()
     verification: VerificationThresholds = VerificationThresholds()
 
 

@@ -1,0 +1,106 @@
+"""Take apart what the search has joined: boards on two walls, and a board and what surrounds it.
+
+Neighbours hang together wherever edges lead from one to the next: over the crease between two walls
+of a room with a board on each, and from a board into a pattern around it. But only the corners of
+one flat board lie on one smooth grid map. A lattice that does not is cut where two maps follow its
+parts many times better than one follows all: between two lines, or along a line of what looks like
+corners where the squares of both boards meet. If no cut does that, its ragged lines are left out,
+provided that what remains stands alone.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import numpy as np
+
+from calibgui.engine.arrays import GreyImage
+from calibgui.engine.detection import grid_map
+from calibgui.engine.detection.checkerboard.numbering import turn_lattice
+from calibgui.engine.detection.checkerboard.thresholds import THRESHOLDS
+from calibgui.engine.detection.checkerboard.verification import stands_alone
+from calibgui.engine.detection.lattice import (
+    MIN_LINES,
+    Lattice,
+    crop_lattice,
+    drop_isolated_and_crop,
+    is_large_enough,
+)
+
+
+def separate_boards(lattice: Lattice, image: GreyImage) -> list[Lattice]:
+    """Separate a lattice into parts that may be boards; the lattice alone if it may be one itself,
+    or if nothing tells parts.
+
+    Args:
+        lattice: corners good to 2 px.
+        image: (h, w) grey levels in which they were found.
+    """
+    limits = THRESHOLDS.separation
+    misfit = _measure_misfit([lattice])
+    if misfit <= limits.max_joint_misfit:
+        return [lattice]
+    if min(lattice.shape) <= limits.max_lines:
+        if parts := _cut_at_crease(lattice, misfit):
+            return [piece for part in parts for piece in separate_boards(part, image)]
+        core = _drop_ragged_lines(lattice)
+        if core.shape != lattice.shape and stands_alone(core, image):
+            return [core]
+    return [lattice]
+
+
+def _measure_misfit(parts: list[Lattice]) -> float:
+    """Measure the rms distance of corners from the smooth grid maps of their parts, steps."""
+    squares = [
+        (
+            (part.uv[part.found] - grid_map.fit_grid_map(part).locate(np.argwhere(part.found)))
+            / part.spacing()[part.found][:, None]
+        )
+        ** 2
+        for part in parts
+    ]
+    return float(np.sqrt(2 * np.mean(np.concatenate(squares))))
+
+
+def _cut_at_crease(lattice: Lattice, misfit: float) -> tuple[Lattice, Lattice] | None:
+    """Cut a lattice where two smooth maps follow its parts best; None if they do not follow them
+    many times better than one map, by which its corners are `misfit` steps off.
+
+    Of cuts that are about as good the one that leaves out the fewest corners is taken.
+    """
+    limits = THRESHOLDS.separation
+    cuts = [(_measure_misfit(list(parts)), parts) for parts in _list_cuts(lattice)]
+    least = min((off for off, _ in cuts), default=np.inf)
+    if least > limits.max_misfit_ratio * misfit:
+        return None
+    good = [parts for off, parts in cuts if off <= limits.max_excess_misfit * least]
+    return max(good, key=lambda parts: len(parts[0]) + len(parts[1]))
+
+
+def _list_cuts(lattice: Lattice) -> Iterator[tuple[Lattice, Lattice]]:
+    """List the pairs of lattices, large enough for boards, on both sides of a cut between two lines
+    or along one, which is then left out."""
+    for quarters in (0, 1):
+        turned = turn_lattice(lattice, quarters)
+        rows = turned.shape[0]
+        for row in range(MIN_LINES, rows - MIN_LINES + 1):
+            for left_out in (0, 1):
+                start = row + left_out
+                parts = (
+                    drop_isolated_and_crop(Lattice(turned.uv[:row], turned.dark)),
+                    drop_isolated_and_crop(
+                        Lattice(turned.uv[start:], turned.dark ^ bool(start % 2))
+                    ),
+                )
+                if all(map(is_large_enough, parts)):
+                    yield parts
+
+
+def _drop_ragged_lines(lattice: Lattice) -> Lattice:
+    """Drop the border line with the most gaps, over its length, until there are no gaps left."""
+    while len(lattice) and not lattice.found.all():
+        turned = [turn_lattice(lattice, quarters) for quarters in range(4)]
+        gaps = [np.mean(~each.found[0]) for each in turned]
+        worst = turned[int(np.argmax(gaps))]
+        lattice = crop_lattice(Lattice(worst.uv[1:], not worst.dark))
+    return lattice
