@@ -78,11 +78,11 @@ def _plain(settings: dict[str, Any]) -> Callable[[int], Photograph]:
 
 
 def interlaced(seed: int) -> Photograph:
-    """Odd and even rows taken one after the other, 0.3 to 2.5 px apart, mostly sideways. The truth
+    """Odd and even rows taken one after the other, 0.3 to 4 px apart, mostly sideways. The truth
     is in the middle."""
     rng = np.random.default_rng([seed, 23])
     scene = draw(_vary(seed), seed)
-    motion = rng.uniform(0.3, 2.5) * np.array([1.0, rng.uniform(-0.3, 0.3)])
+    motion = rng.uniform(0.3, 4.0) * np.array([1.0, rng.uniform(-0.3, 0.3)])
     image = _shift(scene.clean, motion / 2)
     image[1::2] = _shift(scene.clean, -motion / 2)[1::2]
     return Photograph(_round(_noisy(image, scene.conditions.noise, seed)), (scene.uv,))
@@ -90,11 +90,12 @@ def interlaced(seed: int) -> Photograph:
 
 def halos(seed: int) -> Photograph:
     """A video signal sharpened to one side: behind every edge it overshoots for 1.5 to 3 px, in
-    interlaced frames of motion up to 0.8 px."""
+    interlaced frames of motion up to 2.5 px."""
     rng = np.random.default_rng([seed, 24])
     scene = draw(_vary(seed), seed)
-    image = _shift(scene.clean, np.array([rng.uniform(0.0, 0.4), 0.0]))
-    image[1::2] = _shift(scene.clean, np.array([-rng.uniform(0.0, 0.4), 0.0]))[1::2]
+    motion = np.array([rng.uniform(0.0, 1.25), 0.0])
+    image = _shift(scene.clean, motion)
+    image[1::2] = _shift(scene.clean, -motion)[1::2]
     noisy = _noisy(image, scene.conditions.noise / 2, seed)
     before = _shift(noisy, np.array([rng.uniform(1.5, 3.0), 0.0]))
     return Photograph(_round(noisy + rng.uniform(0.3, 0.8) * (noisy - before)), (scene.uv,))

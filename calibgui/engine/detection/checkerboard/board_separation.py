@@ -5,7 +5,7 @@ of a room with a board on each, and from a board into a pattern around it. But o
 one flat board lie on one smooth grid map. A lattice that does not is cut where two maps follow its
 parts many times better than one follows all: between two lines, or along a line of what looks like
 corners where the squares of both boards meet. If no cut does that, its ragged lines are left out,
-provided that what remains stands alone.
+provided that what remains lies on a smooth map and is seen to end on all four sides.
 """
 
 from __future__ import annotations
@@ -18,7 +18,7 @@ from calibgui.engine.arrays import GreyImage
 from calibgui.engine.detection import grid_map
 from calibgui.engine.detection.checkerboard.numbering import turn_lattice
 from calibgui.engine.detection.checkerboard.thresholds import THRESHOLDS
-from calibgui.engine.detection.checkerboard.verification import stands_alone
+from calibgui.engine.detection.checkerboard.verification import find_ends
 from calibgui.engine.detection.lattice import (
     MIN_LINES,
     Lattice,
@@ -44,7 +44,11 @@ def separate_boards(lattice: Lattice, image: GreyImage) -> list[Lattice]:
         if parts := _cut_at_crease(lattice, misfit):
             return [piece for part in parts for piece in separate_boards(part, image)]
         core = _drop_ragged_lines(lattice)
-        if core.shape != lattice.shape and stands_alone(core, image):
+        if (
+            is_large_enough(core)
+            and _measure_misfit([core]) <= limits.max_joint_misfit
+            and all(find_ends(core, image))
+        ):
             return [core]
     return [lattice]
 
@@ -97,10 +101,13 @@ def _list_cuts(lattice: Lattice) -> Iterator[tuple[Lattice, Lattice]]:
 
 
 def _drop_ragged_lines(lattice: Lattice) -> Lattice:
-    """Drop the border line with the most gaps, over its length, until there are no gaps left."""
-    while len(lattice) and not lattice.found.all():
+    """Drop the border line with the most gaps, over its length, as long as it has too many."""
+    while len(lattice):
         turned = [turn_lattice(lattice, quarters) for quarters in range(4)]
         gaps = [np.mean(~each.found[0]) for each in turned]
-        worst = turned[int(np.argmax(gaps))]
-        lattice = crop_lattice(Lattice(worst.uv[1:], not worst.dark))
+        worst = int(np.argmax(gaps))
+        if gaps[worst] <= THRESHOLDS.separation.max_gaps:
+            break
+        rest = crop_lattice(Lattice(turned[worst].uv[1:], not turned[worst].dark))
+        lattice = turn_lattice(rest, -worst)
     return lattice

@@ -165,6 +165,8 @@ class SeparationThresholds:
     is cut."""
     max_excess_misfit: float = 1.2
     """Rms distance of a cut, over that of the best, up to which the number of corners decides."""
+    max_gaps: float = 1 / 3
+    """Share of a border line's places without a corner, beyond which the line is ragged."""
     max_lines: int = 20
     """Number of lines along the shorter side beyond which no cut is tried: it bounds the time."""
 
@@ -220,6 +222,8 @@ class VerificationThresholds:
     """The same of a lattice that stands alone, as no waves do."""
     max_median_misfit: float = 0.25
     """Greatest median residual of the edge fit over the contrast. Fixed by the "waves"."""
+    max_median_misfit_alone: float = 0.4
+    """The same of a lattice that stands alone."""
 
     image_border: float = 4.0
     """Width of the image's border in which no corner is expected to be found, px."""

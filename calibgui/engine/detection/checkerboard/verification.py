@@ -42,8 +42,11 @@ from calibgui.engine.detection.lattice import (
 )
 from calibgui.engine.images.sampling import sample_image
 
-TOO_BLURRED = "its edges are too blurred to be told from waves"
+TOO_BLURRED = "its edges are too blurred, or too ragged, to be told from waves"
 """What speaks against a lattice of wide edges."""
+
+_PLAIN_IF_MARKED = 0.25
+"""How far from their edges squares that may hold marks are of one colour, squares."""
 
 
 def find_sound_corners(lattice: Lattice, image: GreyImage, plain: float = 0.5) -> BoolArray:
@@ -61,10 +64,10 @@ def find_sound_corners(lattice: Lattice, image: GreyImage, plain: float = 0.5) -
         A mask (rows, cols).
     """
     lattice = drop_isolated(lattice)
-    good = lattice.found
-    good[good], _ = estimate_template(lattice, image, plain).match(
-        image, *orient_corners(lattice).shorten_steps(plain)
-    )
+    good = _match_template(lattice, image, plain)
+    if not good[lattice.found].all() and plain == 0.5 and stands_alone(lattice, image):
+        # Marks in the squares differ; what is near the corners does not.
+        good |= _match_template(lattice, image, _PLAIN_IF_MARKED)
     # What does not look like a corner says nothing about where its neighbours should be.
     uv = lattice.select(good).uv
     steps = estimate_steps(uv)
@@ -79,6 +82,16 @@ def find_sound_corners(lattice: Lattice, image: GreyImage, plain: float = 0.5) -
         off = measure_in_steps(uv[astray] - expected, right, down)
         astray[astray] = ~(off < THRESHOLDS.verification.max_grid_map_rms)
     return np.asarray(good & ~astray)
+
+
+def _match_template(lattice: Lattice, image: GreyImage, plain: float) -> BoolArray:
+    """Return a mask (rows, cols) of the corners that look like the typical one where squares are
+    `plain`."""
+    alike = lattice.found
+    alike[alike], _ = estimate_template(lattice, image, plain).match(
+        image, *orient_corners(lattice).shorten_steps(plain)
+    )
+    return alike
 
 
 def is_credible(failing: int, found: int) -> bool:
@@ -239,12 +252,13 @@ def find_displaced_corners(fit: XCornerFit, lattice: Lattice) -> BoolArray:
 def has_step_edges(fit: XCornerFit, is_alone: bool = False) -> bool:
     """Return whether the squares are flat inside and step at their edges: waves cross likewise,
     only wider, and are not described by steps. A lattice that `is_alone`, see `stands_alone`, may
-    be blurred more."""
+    have edges wider and less like steps."""
     limits = THRESHOLDS.verification
     blur = np.median(fit.model.unknowns[:, 4:6] / fit.model.square_height, axis=0)
     misfit = np.median(fit.residual / fit.contrast)
     max_blur = limits.max_edge_blur_alone if is_alone else limits.max_edge_blur
-    return bool(blur.max() < max_blur and misfit < limits.max_median_misfit)
+    max_misfit = limits.max_median_misfit_alone if is_alone else limits.max_median_misfit
+    return bool(blur.max() < max_blur and misfit < max_misfit)
 
 
 def stands_alone(lattice: Lattice, image: GreyImage) -> bool:
