@@ -21,6 +21,8 @@ from calibgui.engine.errors import CalibrationError
 
 DEFAULT_SQUARE = 30.0
 """Side of a square until the user states it, mm. Only lengths in the poses depend on it."""
+GRID_LINES = range(2, 201)
+"""Numbers of rows, and of columns, that a board can be stated to have."""
 
 
 class Unit(StrEnum):

@@ -29,7 +29,7 @@ from pathlib import Path, PurePath
 from types import MappingProxyType
 from typing import Any
 
-from calibgui.app.project import Project, Unit, relocate_images
+from calibgui.app.project import GRID_LINES, Project, Unit, relocate_images
 from calibgui.app.settings import (
     AUTO_MODEL,
     DEFAULT_MODEL,
@@ -39,6 +39,7 @@ from calibgui.app.settings import (
     resolve_model_choice,
 )
 from calibgui.dataset import Result, View
+from calibgui.engine.arrays import GridSize
 from calibgui.engine.boards import CHECKERBOARD, Board, BoardShape, BoardShapeModel
 from calibgui.engine.calibration import DEFAULT_METHOD, Cost
 from calibgui.engine.calibration import METHODS as CALIBRATION_METHODS
@@ -62,30 +63,35 @@ VERSION = 4
 _AUTO_BOARD_SHAPE = "auto"
 
 
-def _add_board_shape(content: dict[str, Any]) -> dict[str, Any]:
+def _extend(node: Node, added: Mapping[str, Any]) -> dict[str, Any]:
+    """Return the values of an object with others added."""
+    return {**{name: member.value for name, member in node.members().items()}, **added}
+
+
+def _add_board_shape(content: Node) -> dict[str, Any]:
     """Turn version 1, which knew flat boards only and no outliers, into version 2."""
     settings = {"plate": BoardShapeModel.NOMINAL, "prior_mm": None, "robust": False}
-    return content | {"version": 2, "settings": content["settings"] | settings}
+    return {"version": 2, "settings": _extend(content["settings"], settings)}
 
 
-def _add_pattern(content: dict[str, Any]) -> dict[str, Any]:
+def _add_pattern(content: Node) -> dict[str, Any]:
     """Turn version 2, which knew checkerboards only, into version 3."""
     pattern = {"pattern": encode_pattern(CHECKERBOARD)}
-    return content | {"version": 3, "target": content["target"] | pattern}
+    return {"version": 3, "target": _extend(content["target"], pattern)}
 
 
-def _add_model_and_method(content: dict[str, Any]) -> dict[str, Any]:
+def _add_model_and_method(content: Node) -> dict[str, Any]:
     """Turn version 3, in which lens model and method could not be chosen, into version 4."""
     settings = {"model": DEFAULT_MODEL, "method": DEFAULT_METHOD}
-    return content | {"version": 4, "settings": content["settings"] | settings}
+    return {"version": 4, "settings": _extend(content["settings"], settings)}
 
 
-_MIGRATIONS: Mapping[int, Callable[[dict[str, Any]], dict[str, Any]]] = {
+_MIGRATIONS: Mapping[int, Callable[[Node], dict[str, Any]]] = {
     1: _add_board_shape,
     2: _add_pattern,
     3: _add_model_and_method,
 }
-"""Functions that turn the content of a version, the key, into the content of the next one."""
+"""Functions from the content of a version, the key, to the members that the next one has anew."""
 
 
 def write_project(project: Project, path: Path) -> None:
@@ -153,10 +159,9 @@ def read_project(path: Path, folder: Path | None = None) -> Project:
 
 
 def _migrate(node: Node) -> Node:
-    content = node.value
-    for version in range(content["version"], VERSION):
-        content = _MIGRATIONS[version](content)
-    return Node(content, node.where, node.file)
+    for version in range(node["version"].integer(), VERSION):
+        node = Node({**node.value, **_MIGRATIONS[version](node)}, node.where, node.file)
+    return node
 
 
 def _encode_view(view: View, project: Project) -> dict[str, Any]:
@@ -172,7 +177,7 @@ def _make_board(project: Project) -> Board:
 
 def _decode_project(node: Node) -> Project:
     board = node["target"]
-    rows, cols, size = board.get("rows"), board.get("cols"), node.get("size")
+    size = node.get("size")
     if not (square := board["square_mm"]).number() > 0:
         square.fail("a length above 0")
     pattern = decode_pattern(board["pattern"])
@@ -186,7 +191,7 @@ def _decode_project(node: Node) -> Project:
         views=views,
         size=decode_size(size) if size else None,
         pattern=pattern,
-        grid_size=(rows.integer(), cols.integer()) if rows and cols else None,
+        grid_size=_decode_grid_size(board.get("rows"), board.get("cols")),
         method=method.choice(METHODS) if (method := board.get("corners")) else METHODS[0],
         square=square.number(),
         unit=Unit(board["unit"].choice(list(Unit))),
@@ -194,6 +199,16 @@ def _decode_project(node: Node) -> Project:
         results=MappingProxyType(_decode_results(node, views)),
         digests=MappingProxyType(digests),
     )
+
+
+def _decode_grid_size(rows: Node | None, cols: Node | None) -> GridSize | None:
+    """Return the stated rows and columns; None if they are inferred from the images."""
+    if rows is None or cols is None:
+        return None
+    for count in (rows, cols):
+        if count.integer() not in GRID_LINES:
+            count.fail(f"a number from {GRID_LINES.start} to {GRID_LINES[-1]}")
+    return rows.integer(), cols.integer()
 
 
 def _decode_settings(node: Node) -> Settings:
@@ -216,7 +231,7 @@ def _decode_settings(node: Node) -> Settings:
 
 def _decode_model(node: Node) -> str | None:
     """Return the name of the lens model to estimate, None for one that is chosen automatically."""
-    if node.value == AUTO_MODEL:
+    if node.text() == AUTO_MODEL:
         return None
     try:
         return resolve_model_choice(node.text())
@@ -250,19 +265,18 @@ def _decode_results(node: Node, views: tuple[View, ...]) -> dict[str, Result]:
         for view, item in zip(views, node["views"].value, strict=True)
     }
 
-    def shared(view: View, item: dict[str, Any]) -> View:
-        same_image, record = views_here.get(view.image, (view, {}))
-        return (
-            same_image
-            if all(are_same_values(item.get(key), record[key]) for key in record)
-            else view
-        )
+    def share(view: View, item: dict[str, Any]) -> View:
+        here, record = views_here.get(view.image, (view, {}))
+        # The places of found corners may be the board's here, and the view's own in a result.
+        same = (here.points is None) is (view.points is None)
+        same = same and all(are_same_values(item.get(key), record[key]) for key in record)
+        return here if same else view
 
     results = {}
-    for name, record in node["results"].value.items():
-        result = decode_result(node["results"][name])
-        pairs = zip(result.views, record["views"], strict=True)
-        results[name] = replace(result, views=tuple(shared(*pair) for pair in pairs))
+    for name, record in node["results"].members().items():
+        result = decode_result(record)
+        pairs = zip(result.views, record["views"].value, strict=True)
+        results[name] = replace(result, views=tuple(share(*pair) for pair in pairs))
     return results
 
 

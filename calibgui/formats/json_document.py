@@ -36,6 +36,8 @@ _CUT_OFF = re.compile(r"(-|\.|[eE][-+]?|tr?u?|fa?l?s?|nu?l?)?\s*")
 """The rest of a file that is cut within a number or word."""
 MAX_JSON_SIZE = 512 << 20
 """Size of the largest JSON files that are read, bytes: results of a million corners have 400 MB."""
+_MAX_INTEGER = 2**53
+"""Size of the largest integer up to which a float64 holds all."""
 _MAX_LINE_LENGTH = 100
 """Largest length of a list of lists on one line, in characters."""
 
@@ -196,7 +198,7 @@ class Node:
     def integer(self) -> int:
         """Return this integer."""
         number = self.number()
-        if not number.is_integer():
+        if not number.is_integer() or abs(number) > _MAX_INTEGER:
             self.fail("an integer")
         return int(number)
 
@@ -217,7 +219,7 @@ class Node:
     def integers(self, *shape: int | None) -> IntArray:
         """Return this array of integers; `shape` may begin with None for any length."""
         numbers = self.numbers(*shape)
-        if (numbers != np.rint(numbers)).any():
+        if (numbers != np.rint(numbers)).any() or (np.abs(numbers) > _MAX_INTEGER).any():
             self.fail("an array of integers")
         return freeze_ints(numbers)
 

@@ -1,20 +1,24 @@
 from __future__ import annotations
 
+import copy
 import json
 import re
 import shutil
+from collections.abc import Iterator
 from dataclasses import replace
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 import pytest
 
 from calibgui.app import project_file
 from calibgui.app.project import relocate_images
-from calibgui.app.project_file import read_project, write_project
+from calibgui.app.project_file import VERSION, encode_project, read_project, write_project
 from calibgui.app.settings import Settings
 from calibgui.engine.boards.shape import BoardShape, BoardShapeModel, BoardShapePrior
 from calibgui.engine.errors import CalibrationError
+from calibgui.formats.json_document import Node, dumps
 from tests.app import examples
 
 
@@ -109,6 +113,78 @@ def test_what_is_no_project_is_refused_by_name(tmp_path: Path) -> None:
         assert error.value.hint
 
 
+_ODD_VALUES = (None, [], {}, 3.5, -1, 10**30, "x", [[]], True)
+"""Values that some member of a file takes, and others must refuse."""
+
+
+def list_members(value: Any, depth: int, place: tuple = ()) -> Iterator[tuple]:
+    """Yield the places of all members down to a depth; of lists, those of the first entry."""
+    members = value.items() if isinstance(value, dict) else enumerate(value[:1])
+    for key, member in members:
+        yield (*place, key)
+        if depth > 1 and isinstance(member, dict | list):
+            yield from list_members(member, depth - 1, (*place, key))
+
+
+def spoil(content: Any, place: tuple) -> Iterator[Any]:
+    """Yield copies of the content that lack the member at a place, or have an odd one there."""
+    for odd in (*_ODD_VALUES, KeyError):
+        spoilt = copy.deepcopy(content)
+        owner = spoilt
+        for key in place[:-1]:
+            owner = owner[key]
+        owner[place[-1]] = odd
+        if odd is KeyError:
+            del owner[place[-1]]
+        yield spoilt
+
+
+@pytest.mark.slow
+@pytest.mark.filterwarnings("ignore::RuntimeWarning")
+@pytest.mark.parametrize("version", [1, 2, 3, VERSION])
+def test_a_file_with_any_member_lacking_or_odd_is_read_or_refused_by_name(
+    tmp_path: Path, version: int
+) -> None:
+    project = examples.calibrated(tmp_path)
+    results = dict(list(project.results.items())[:1]) if version == VERSION else {}
+    project = replace(project, views=project.views[:1], results=results)
+    content = {**json.loads(dumps(encode_project(project, tmp_path))), "version": version}
+    for place in list_members(content, depth=3):
+        for spoilt in spoil(content, place):
+            try:
+                again = read_project(broken(tmp_path, json.dumps(spoilt)))
+            except CalibrationError as error:
+                assert "broken.json" in error.message, place
+            else:
+                assert again.grid_size is None or max(again.grid_size) <= 200
+                encode_project(again, tmp_path)
+
+
+@pytest.mark.parametrize(
+    ("change", "says"),
+    [
+        ({"results": []}, "results is not an object"),
+        ({"version": 3, "settings": None}, "settings is not an object"),
+        ({"target": {"rows": 0, "cols": 7}}, "target.rows is not a number from 2 to 200"),
+        ({"target": {"rows": 6, "cols": 10**30}}, "target.cols is not an integer"),
+    ],
+)
+def test_what_cannot_be_is_named(tmp_path: Path, change: dict, says: str) -> None:
+    content = json.loads(dumps(encode_project(examples.calibrated(tmp_path), tmp_path)))
+    for name, value in change.items():
+        both = isinstance(value, dict)
+        content[name] = {**content[name], **value} if both else value
+    with pytest.raises(CalibrationError, match=re.escape(says)):
+        read_project(broken(tmp_path, json.dumps(content)))
+
+
+def test_a_version_may_be_written_with_a_point(tmp_path: Path) -> None:
+    text = (Path(__file__).parents[1] / "golden" / "project-3.json").read_text(encoding="utf-8")
+    old = text.replace('"version": 3', '"version": 3.0', 1)
+    assert old != text
+    assert read_project(broken(tmp_path, old)).settings.model == "lucchese"
+
+
 def test_old_versions_are_brought_up_to_date_step_by_step(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -116,13 +192,13 @@ def test_old_versions_are_brought_up_to_date_step_by_step(
     old = json.loads((tmp_path / "project.json").read_text(encoding="utf-8"))
     old["board_mm"] = old["target"].pop("square_mm")
 
-    def second(content: dict) -> dict:
-        square = {"square_mm": content["board_mm"]}
-        return content | {"version": first + 1, "target": content["target"] | square}
+    def second(content: Node) -> dict:
+        square = {"square_mm": content["board_mm"].value}
+        return {"version": first + 1, "target": content["target"].value | square}
 
-    def third(content: dict) -> dict:
-        assert content["version"] == first + 1
-        return content | {"version": first + 2}
+    def third(content: Node) -> dict:
+        assert content["version"].value == first + 1
+        return {"version": first + 2}
 
     first = project_file.VERSION
     monkeypatch.setattr(project_file, "VERSION", first + 2)

@@ -17,7 +17,7 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
-from calibgui.app.project import Project, Unit, set_method, set_pattern, set_square
+from calibgui.app.project import GRID_LINES, Project, Unit, set_method, set_pattern, set_square
 from calibgui.dataset import View, ViewStatus
 from calibgui.engine.boards import AprilGrid
 from calibgui.gui.session.session import Session
@@ -40,7 +40,9 @@ class BoardPanel(QWidget):
         self.inferred.setToolTip(
             self.tr("Take the size that most images show; turn it off to state it.")
         )
-        self.rows, self.cols = (QSpinBox(minimum=2, maximum=200) for _ in range(2))
+        self.rows, self.cols = (
+            QSpinBox(minimum=GRID_LINES.start, maximum=GRID_LINES[-1]) for _ in range(2)
+        )
         self.rows.setAccessibleName(self.tr("rows of inner corners"))
         self.cols.setAccessibleName(self.tr("columns of inner corners"))
         for box in (self.rows, self.cols):
