@@ -164,9 +164,15 @@ def choose_samples(views: Iterable[View]) -> list[str]:
     return [view.image for view in views if view.status in searched][:_SAMPLES]
 
 
-def find_grid_size(images: Sequence[str], pattern: Pattern) -> GridSize | None:
-    """Return the size of the board that some of the `images` show, None if that is none."""
-    found = map_in_processes(partial(search_view, pattern=pattern), [View(i) for i in images])
+def find_grid_size(
+    images: Sequence[str], pattern: Pattern, stop: Event | None = None
+) -> GridSize | None:
+    """Return the size of the board that some of the `images` show, None if that is none.
+
+    Raises:
+        Cancelled: if `stop` was set.
+    """
+    found = map_in_processes(partial(search_view, pattern=pattern), [View(i) for i in images], stop)
     return infer_grid_size(view for _, view in found if isinstance(view, View))
 
 

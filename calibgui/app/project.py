@@ -122,6 +122,19 @@ def set_pattern(project: Project, pattern: Pattern) -> Project:
     )
 
 
+def set_grid_size(project: Project, grid_size: GridSize | None) -> Project:
+    """Return the project with a stated number of rows and columns, None to count them.
+
+    Images whose corners are of another board, or that showed none, are to be searched again.
+    """
+
+    def fits(view: View) -> bool:
+        return view.corners is not None and grid_size in (None, view.corners.shape)
+
+    views = (view if fits(view) else _reset_search(view) for view in project.views)
+    return replace(project, grid_size=grid_size, views=tuple(views))
+
+
 def set_method(project: Project, method: str) -> Project:
     """Return the project with another method of locating corners: images are searched again."""
     return replace(project, method=method, views=_reset_searches(project.views))
@@ -129,14 +142,15 @@ def set_method(project: Project, method: str) -> Project:
 
 def _reset_searches(views: Iterable[View]) -> tuple[View, ...]:
     """Return the views without the outcome of a search."""
+    return tuple(map(_reset_search, views))
 
-    def again(view: View) -> View:
-        searched = view.status in (ViewStatus.FOUND, ViewStatus.NO_BOARD)
-        if view.points is not None or not searched:
-            return view
-        return replace(view, status=ViewStatus.WAITING, reason="", corners=None)
 
-    return tuple(map(again, views))
+def _reset_search(view: View) -> View:
+    """Return a view that is to be searched again, unless another program located its corners."""
+    searched = view.status in (ViewStatus.FOUND, ViewStatus.NO_BOARD)
+    if view.points is not None or not searched:
+        return view
+    return replace(view, status=ViewStatus.WAITING, reason="", corners=None)
 
 
 def add_images(project: Project, images: Iterable[str]) -> Project:

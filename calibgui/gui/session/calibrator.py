@@ -54,9 +54,10 @@ class Calibrator(QObject):
             self._detector.search()
 
     def stop(self) -> None:
-        """End with the best camera so far; without one, end."""
+        """End with the best camera so far; without one, end the search for corners."""
         self._wanted = False
         if self._job is None:
+            self._detector.stop()
             self.ended.emit()
         else:
             self._job.stop()

@@ -11,7 +11,7 @@ from PySide6.QtCore import QObject, Signal
 from calibgui.app.detection import Detection, find_views, infer_grid_size, infer_pattern
 from calibgui.app.project import Project, change_views, remove_digests
 from calibgui.dataset import View, ViewStatus
-from calibgui.engine.arrays import Array
+from calibgui.engine.arrays import Array, GridSize
 from calibgui.engine.boards import Pattern
 from calibgui.engine.detection import Corners
 from calibgui.engine.kernels import FINDER_SECONDS
@@ -38,7 +38,8 @@ class Detector(QObject):
         self._found_in_batch: dict[str, Corners | None] = {}
         """Corners that the batch found in them so far."""
         self._search_key = _find_search_key(session.project)
-        """Pattern and method that the batch searches with."""
+        """What the batch searches for, and how."""
+        session.changed.connect(self._drop_needless)
 
     @property
     def running(self) -> bool:
@@ -49,9 +50,10 @@ class Detector(QObject):
         """Search every enabled image that waits, if that is not being done already."""
         project = self._session.project
         asked = tuple(view for view in project.views if view.status is ViewStatus.WAITING)
-        if self.running:
-            other = _find_search_key(project) != self._search_key
-            self._has_more = other or any(view.image not in self._batch for view in asked)
+        if self._job is not None:
+            if _find_search_key(project) != self._search_key:
+                self._job.cancel()  # nobody asks for its findings any more
+            self._has_more = self._job.cancelled or any(v.image not in self._batch for v in asked)
             return
         if not asked:
             self.finished.emit(True)
@@ -96,6 +98,11 @@ class Detector(QObject):
             ended=self._ended,
         )
 
+    def stop(self) -> None:
+        """End the search; what has been found stays."""
+        if self._job is not None:
+            self._job.cancel()
+
     def search_again(self, images: Iterable[str]) -> None:
         """Forget what was found in `images`, and search them anew."""
 
@@ -109,6 +116,16 @@ class Detector(QObject):
 
         self._session.edit(self.tr("Detect again"), change)
         self.search()
+
+    def _drop_needless(self) -> None:
+        """End a search of images that are no longer in the project."""
+        if self._job is not None and not self._batch_views:
+            self._job.cancel()
+
+    @property
+    def _batch_views(self) -> list[View]:
+        """The views of the batch that are in the project as it is now."""
+        return [view for view in self._session.project.views if view.image in self._batch]
 
     def _learn(self, found: Iterable[View]) -> None:
         """Write findings into every snapshot in which the question is still open."""
@@ -150,11 +167,25 @@ class Detector(QObject):
         again, self._has_more, self._job = self._has_more, False, None
         failed, self._failed = self._failed, False
         if failed or (cancelled and not again):
+            if cancelled:
+                self._tell_what_waits()
             self.finished.emit(False)
         else:
             self.search()  # what was added meanwhile
 
+    def _tell_what_waits(self) -> None:
+        """Say what a search that was stopped has left, unless nobody would miss it."""
+        views = self._batch_views
+        waiting = sum(view.status is ViewStatus.WAITING for view in views)
+        if waiting:
+            self._session.notified.emit(
+                self.tr(
+                    "The search was stopped: {0} of {1} images have been searched. Calibrate "
+                    "searches the others."
+                ).format(len(views) - waiting, len(views))
+            )
 
-def _find_search_key(project: Project) -> tuple[Pattern, str]:
-    """Return the pattern that is searched for, and the method that locates its corners."""
-    return project.pattern, project.method
+
+def _find_search_key(project: Project) -> tuple[Pattern, str, GridSize | None]:
+    """Return the pattern and the size that are searched for, and the method that is used."""
+    return project.pattern, project.method, project.grid_size

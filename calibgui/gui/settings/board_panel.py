@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from functools import partial
 
-from PySide6.QtCore import Qt, Signal
+from PySide6.QtCore import QSignalBlocker, Qt, Signal
 from PySide6.QtWidgets import (
     QCheckBox,
     QComboBox,
@@ -17,13 +18,24 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
-from calibgui.app.project import GRID_LINES, Project, Unit, set_method, set_pattern, set_square
-from calibgui.dataset import View, ViewStatus
+from calibgui.app.project import (
+    GRID_LINES,
+    Project,
+    Unit,
+    set_grid_size,
+    set_method,
+    set_pattern,
+    set_square,
+)
+from calibgui.engine.arrays import GridSize
 from calibgui.engine.boards import AprilGrid
 from calibgui.gui.session.session import Session
 from calibgui.gui.settings.pattern_choice import PatternChoice
 from calibgui.gui.widgets import theme
 from calibgui.gui.widgets.narrow_combo import NarrowCombo
+
+_UNKNOWN = GRID_LINES.start - 1
+"""Value of a box for a number of rows or columns that is not known."""
 
 
 class BoardPanel(QWidget):
@@ -41,8 +53,11 @@ class BoardPanel(QWidget):
             self.tr("Take the size that most images show; turn it off to state it.")
         )
         self.rows, self.cols = (
-            QSpinBox(minimum=GRID_LINES.start, maximum=GRID_LINES[-1]) for _ in range(2)
+            QSpinBox(minimum=_UNKNOWN, maximum=GRID_LINES[-1]) for _ in range(2)
         )
+        self._document = session.document
+        self._typing = False
+        """Whether the boxes show what is being typed in place of the project's board."""
         self.rows.setAccessibleName(self.tr("rows of inner corners"))
         self.cols.setAccessibleName(self.tr("columns of inner corners"))
         for box in (self.rows, self.cols):
@@ -103,21 +118,25 @@ class BoardPanel(QWidget):
 
         self.pattern.changed.connect(self._edit_pattern)
         self.pattern.failed.connect(session.failed)
-        self.inferred.clicked.connect(self._edit_board)
-        for box in (self.rows, self.cols):
-            box.editingFinished.connect(self._edit_board)
+        self.inferred.clicked.connect(self._choose_counting)
+        for box, other in ((self.rows, self.cols), (self.cols, self.rows)):
+            box.valueChanged.connect(self._begin_typing)
+            box.editingFinished.connect(partial(self._leave_box, other))
         self.square.valueChanged.connect(self._edit_square)
         self.square.editingFinished.connect(lambda: session.document.end_sliding_edit())
         self.method.activated.connect(self._edit_method)
         self.unit.activated.connect(self._edit_unit)
         self.print.clicked.connect(self.print_wanted)
-        session.changed.connect(self._refresh)
+        session.changed.connect(self._project_changed)
+        self._refresh()
+
+    def _project_changed(self, before: Project, after: Project) -> None:
+        if self._session.document is not self._document or before.grid_size != after.grid_size:
+            self._document, self._typing = self._session.document, False
         self._refresh()
 
     def _refresh(self) -> None:
         project = self._session.project
-        board = project.board
-        inferred = project.grid_size is None
         self.pattern.show_pattern(project.pattern, project.square / project.unit.mm)
         self.method.setCurrentIndex(self.method.findData(project.method))
         circles = not project.pattern.has_squares
@@ -125,42 +144,62 @@ class BoardPanel(QWidget):
         self.counted.setText(self.tr("Circles") if circles else self.tr("Inner corners"))
         square = self.tr("Tag") if isinstance(project.pattern, AprilGrid) else self.tr("Square")
         self.side.setText(self.tr("Distance") if circles else square)
-        self.inferred.setChecked(inferred)
-        for box, value in (
-            (self.rows, board and board.rows),
-            (self.cols, board and board.cols),
-        ):
-            box.blockSignals(True)
-            box.setValue(value or box.minimum())
-            box.setEnabled(not inferred)
-            box.blockSignals(False)
+        if not self._typing:
+            self._show_board()
         self.square.blockSignals(True)
         if abs(self.square.value() * project.unit.mm - project.square) > 1e-9:
             self.square.setValue(project.square / project.unit.mm)
         self.square.blockSignals(False)
         self.unit.setCurrentText(project.unit)
 
-    def _edit_board(self) -> None:
+    def _show_board(self) -> None:
+        """Show the board as stated or as seen."""
+        project = self._session.project
+        inferred = project.grid_size is None
+        self.inferred.setChecked(inferred)
+        rows, cols = project.board.grid_size if project.board else (_UNKNOWN, _UNKNOWN)
+        for box, value in ((self.rows, rows), (self.cols, cols)):
+            with QSignalBlocker(box):
+                box.setValue(value)
+            box.setEnabled(not inferred)
+
+    def _choose_counting(self) -> None:
+        """Count the corners in the images, or let the user state them."""
+        for box in (self.rows, self.cols):
+            box.setEnabled(not self.inferred.isChecked())
+        self._typing = not self.inferred.isChecked()
+        if self.inferred.isChecked():
+            self._state_board(None)
+        elif _UNKNOWN in (self.rows.value(), self.cols.value()):
+            self.rows.setFocus()
+            self.rows.selectAll()
+        else:
+            self._end_typing()
+
+    def _begin_typing(self) -> None:
+        self._typing = True
+
+    def _leave_box(self, other: QSpinBox) -> None:
+        """Take what was typed, unless the user goes on to the other box."""
+        if not other.hasFocus():
+            self._end_typing()
+
+    def _end_typing(self) -> None:
+        """State the rows and columns that were typed, once both are known."""
+        stated = self.rows.value(), self.cols.value()
+        if self._typing and _UNKNOWN not in stated:
+            self._typing = False
+            self._state_board(stated)
+
+    def _state_board(self, stated: GridSize | None) -> None:
+        """Edit the project: its board has `stated` rows and columns, None if they are counted."""
         project = self._session.project
         seen = project.board
-        stated = None if self.inferred.isChecked() else (self.rows.value(), self.cols.value())
         if stated == project.grid_size:
+            self._show_board()
             return
 
-        def reset_mismatch(view: View) -> View:
-            """Mark a view to be searched anew if its corners are of another board."""
-            fits = view.corners is not None and stated in (None, view.corners.shape)
-            searched = view.status in (ViewStatus.FOUND, ViewStatus.NO_BOARD)
-            if fits or view.points is not None or not searched or stated is None:
-                return view
-            return replace(view, status=ViewStatus.WAITING, reason="", corners=None)
-
-        def change(project: Project) -> Project:
-            return replace(
-                project, grid_size=stated, views=tuple(map(reset_mismatch, project.views))
-            )
-
-        self._session.edit(self.tr("Number of corners"), change)
+        self._session.edit(self.tr("Number of corners"), lambda p: set_grid_size(p, stated))
         if seen is None or stated != (seen.rows, seen.cols):
             self.search_wanted.emit()
 

@@ -2,18 +2,20 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Hashable
 from pathlib import Path
 
 from PySide6.QtCore import QFileInfo, QLocale, QObject
 
 from calibgui.app.autosave import get_autosave_path
-from calibgui.app.detection import choose_samples, find_other_pattern
-from calibgui.app.project import set_pattern
+from calibgui.app.detection import choose_samples, find_grid_size, find_other_pattern
+from calibgui.app.project import set_grid_size, set_pattern
 from calibgui.dataset import ViewStatus
+from calibgui.engine.arrays import GridSize
 from calibgui.engine.boards import Pattern
 from calibgui.gui.dialogs.files import Files
 from calibgui.gui.images.image_list import ImageList
+from calibgui.gui.jobs.job import Job
 from calibgui.gui.session.detector import Detector
 from calibgui.gui.session.session import Session
 from calibgui.gui.widgets.pattern_texts import list_pattern_texts
@@ -37,6 +39,10 @@ class Offers(QObject):
         detector.finished.connect(self._look_for_another)
         self._offered_for, self._offered = session.document, ""
         session.changed.connect(self._withdraw)
+        self._looking: Job | None = None
+        self._looking_for: Hashable = None
+        """What `_looking` depends on."""
+        session.changed.connect(self._drop_look)
 
     def _offer(self, text: str, choice: str, does: Callable[[], None]) -> None:
         """Offer something to do with the project that is open."""
@@ -90,23 +96,66 @@ class Offers(QObject):
         self._thumbnails.read_again(images)
 
     def _look_for_another(self, everything: bool) -> None:
-        """Look for another kind of board after a search that found nothing at all."""
+        """Look for a board of another size or kind after a search that found nothing at all."""
         project = self._session.project
         searched = [v for v in project.views if v.status in (ViewStatus.FOUND, ViewStatus.NO_BOARD)]
         if not everything or not searched or any(view.usable for view in searched):
             return
-        some = choose_samples(searched)
-        self._session.jobs.start(
+        samples, pattern = choose_samples(searched), project.pattern
+
+        def look(job: Job) -> GridSize | Pattern | None:
+            if project.grid_size is not None:
+                grid_size = find_grid_size(samples, pattern, job.cancelling)
+                if grid_size not in (None, project.grid_size):
+                    return grid_size
+            return find_other_pattern(samples, pattern, job.cancelling)
+
+        self._looking_for = self._get_question()
+        self._looking = self._session.jobs.start(
             self.tr("Looking for another kind of board"),
-            lambda job: find_other_pattern(some, project.pattern, job.cancelling),
-            self._offer_pattern,
-            inputs=lambda: (self._session.project.pattern, self._session.project.views),
+            look,
+            self._offer_another,
+            inputs=self._get_question,
+            ended=self._end_look,
             owner=self,
         )
 
-    def _offer_pattern(self, pattern: Pattern | None) -> None:
-        if pattern is None:
-            return
+    def _get_question(self) -> Hashable:
+        """Return what a look for another board depends on."""
+        project = self._session.project
+        return project.pattern, project.grid_size, project.views
+
+    def _drop_look(self) -> None:
+        """End a look for another board whose question is no longer asked."""
+        if self._looking is not None and self._get_question() != self._looking_for:
+            self._looking.cancel()
+
+    def _end_look(self) -> None:
+        self._looking = None
+
+    def _offer_another(self, found: GridSize | Pattern | None) -> None:
+        if isinstance(found, tuple):
+            self._offer_size(found)
+        elif found is not None:
+            self._offer_pattern(found)
+
+    def _offer_size(self, grid_size: GridSize) -> None:
+        stated = self._session.project.grid_size
+        assert stated is not None
+
+        def search() -> None:
+            self._session.edit(self.tr("Number of corners"), lambda p: set_grid_size(p, grid_size))
+            self._files.search()
+
+        self._offer(
+            self.tr(
+                "A board of {0} × {1} inner corners is in no image; the images show {2} × {3}."
+            ).format(*stated, *grid_size),
+            self.tr("&Search for {0} × {1}").format(*grid_size),
+            search,
+        )
+
+    def _offer_pattern(self, pattern: Pattern) -> None:
         texts = list_pattern_texts()[pattern.kind]
 
         def search() -> None:

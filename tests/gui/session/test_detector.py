@@ -15,7 +15,14 @@ from pytestqt.qtbot import QtBot
 
 from calibgui.app.detection import Detection
 from calibgui.app.document import Document
-from calibgui.app.project import Project, add_images, change_views, remove_views, set_method
+from calibgui.app.project import (
+    Project,
+    add_images,
+    change_views,
+    remove_views,
+    set_grid_size,
+    set_method,
+)
 from calibgui.dataset import View, ViewStatus
 from calibgui.engine.errors import Cancelled
 from calibgui.gui.session import detector as detector_module
@@ -31,12 +38,13 @@ class Search:
     def __init__(self) -> None:
         self.asked: list[list[str]] = []
         self.methods: list[str] = []
+        self.grid_sizes: list[tuple[int, int] | None] = []
         self.findings: queue.SimpleQueue[View | None] = queue.SimpleQueue()
 
     def __call__(
         self,
         images: list[Path],
-        _: Any,
+        grid_size: Any,
         __: Any,
         progress: Any,
         stop: Event,
@@ -47,6 +55,7 @@ class Search:
     ) -> Detection:
         self.preparing = preparing
         self.methods.append(method)
+        self.grid_sizes.append(grid_size)
         self.asked.append([image.name for image in images])
         found: dict[str, View] = {}
         while (view := self.findings.get()) is not None:
@@ -204,7 +213,6 @@ def test_another_way_to_locate_corners_is_another_question(
     session.edit("Way", lambda p: set_method(p, "saddle"))
     detector.search()
     search.findings.put(found[0])
-    search.findings.put(None)
     qtbot.waitUntil(lambda: len(search.asked) == 2)
     assert status(session) == [WAITING] * 3
     for view in (*found, None):
@@ -213,6 +221,64 @@ def test_another_way_to_locate_corners_is_another_question(
         pass
     assert search.methods == ["edges", "saddle"]
     assert status(session) == [FOUND] * 3
+
+
+def test_a_size_that_is_stated_during_a_search_is_another_question(
+    qtbot: QtBot, session: Session, search: Search, tmp_path: Path
+) -> None:
+    detector, found = begun(session, tmp_path)
+    search.findings.put(found[0])
+    qtbot.waitUntil(lambda: status(session) == [FOUND, WAITING, WAITING])
+    session.edit("Size", lambda p: set_grid_size(p, (8, 8)))
+    assert status(session) == [WAITING] * 3
+    detector.search()
+    job = session.jobs.running[0]
+    assert job.cancelled, "what it will find is of no use"
+    search.findings.put(found[1])
+    qtbot.waitUntil(lambda: len(search.asked) == 2)
+    assert status(session) == [WAITING] * 3, "a board of the old size is none of the new one"
+    none = [View(view.image, ViewStatus.NO_BOARD, "No board.") for view in found]
+    for answer in (*none, None):
+        search.findings.put(answer)
+    with qtbot.waitSignal(detector.finished) as finished:
+        pass
+    assert finished.args == [True]
+    assert search.grid_sizes == [None, (8, 8)]
+    assert status(session) == [ViewStatus.NO_BOARD] * 3
+    session.document.undo()
+    assert status(session) == [FOUND, WAITING, WAITING], "what was found before it was stated"
+
+
+def test_a_search_ends_when_undo_has_taken_its_images(
+    qtbot: QtBot, session: Session, search: Search, tmp_path: Path
+) -> None:
+    detector, _ = begun(session, tmp_path)
+    told: list[str] = []
+    session.notified.connect(told.append)
+    session.document.undo()
+    assert session.jobs.running[0].cancelled
+    search.findings.put(None)
+    with qtbot.waitSignal(detector.finished):
+        pass
+    assert not told
+
+
+def test_a_search_that_is_stopped_says_what_waits(
+    qtbot: QtBot, session: Session, search: Search, tmp_path: Path
+) -> None:
+    detector, found = begun(session, tmp_path)
+    calibrator = Calibrator(session, detector)
+    calibrator.calibrate()
+    search.findings.put(found[0])
+    qtbot.waitUntil(lambda: status(session)[0] is FOUND)
+    calibrator.stop()
+    search.findings.put(None)
+    with qtbot.waitSignal(session.notified) as told:
+        pass
+    assert told.args == [
+        "The search was stopped: 1 of 3 images have been searched. Calibrate searches the others."
+    ]
+    assert not detector.running and not calibrator.running
 
 
 def test_a_result_of_changed_views_is_dropped(

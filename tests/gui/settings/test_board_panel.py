@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
@@ -11,6 +12,7 @@ from PySide6.QtTest import QSignalSpy, QTest
 from PySide6.QtWidgets import QApplication, QComboBox
 
 from calibgui.app.document import Document
+from calibgui.app.project import change_views, set_grid_size
 from calibgui.app.project_file import read_project, write_project
 from calibgui.dataset import ViewStatus
 from calibgui.engine.boards.board import Board
@@ -88,8 +90,9 @@ def test_the_size_of_another_kind_of_board_does_not_stay(
     assert session.project.pattern == Circles(asymmetric=True)
     assert panel.counted.text() == "Circles"
     panel.inferred.click()
-    panel.rows.setValue(11)
-    assert session.project.grid_size is not None
+    for _ in type_size(panel, "11", "4"):
+        pass
+    assert session.project.grid_size == (11, 4)
     choose(panel.pattern.kind, 0)
     assert session.project.grid_size is None
 
@@ -126,3 +129,70 @@ def test_how_corners_are_located_is_kept_and_undone(
     assert panel.method.currentData() == session.project.method == "edges"
     choose(panel.pattern.kind, 2)
     assert not panel.method.isVisible(), "circles have but one"
+
+
+def type_size(panel: BoardPanel, rows: str, cols: str) -> Iterator[str]:
+    """Type both numbers with Tab between them; what has been done is yielded after each step."""
+    panel.rows.setFocus()
+    panel.rows.selectAll()
+    QTest.keyClicks(panel.rows, rows)
+    yield "rows"
+    QTest.keyClick(panel.rows, Qt.Key.Key_Tab)
+    yield "tab"
+    panel.cols.selectAll()
+    QTest.keyClicks(panel.cols, cols)
+    yield "columns"
+    QTest.keyClick(panel.cols, Qt.Key.Key_Return)
+    yield "return"
+
+
+def test_a_size_is_stated_when_both_numbers_are_typed(
+    session: Session, panel: BoardPanel, tmp_path: Path
+) -> None:
+    session.begin(Document(examples.calibrated(tmp_path)))
+    panel.activateWindow()
+    searched = QSignalSpy(panel.search_wanted)
+    panel.inferred.click()
+    assert session.project.grid_size == (6, 7) and searched.count() == 0
+    first = [session.project.views[0].image]
+    for done in type_size(panel, "8", "9"):
+        if done == "return":
+            break
+        assert session.project.grid_size == (6, 7), f"half a size after {done}"
+        # A finding of the search that runs does not take back what is being typed.
+        session.document.learn(lambda p: change_views(p, first, lambda v: replace(v, note="new")))
+        assert panel.rows.value() == 8
+    assert session.project.grid_size == (8, 9)
+    assert searched.count() == 1
+    assert {view.status for view in session.project.views} == {ViewStatus.WAITING}
+    session.document.undo()
+    assert (panel.rows.value(), panel.cols.value()) == (6, 7)
+
+
+def test_a_size_that_nobody_has_seen_is_not_stated_by_a_click(
+    session: Session, panel: BoardPanel
+) -> None:
+    panel.activateWindow()
+    panel.inferred.click()
+    assert session.project.grid_size is None and panel.rows.text() == "–"
+    assert panel.rows.isEnabled() and panel.rows.hasFocus()
+    for _ in type_size(panel, "2", "5"):
+        pass
+    assert session.project.grid_size == (2, 5)
+    panel.inferred.click()
+    assert session.project.grid_size is None and not panel.rows.isEnabled()
+
+
+def test_counting_again_searches_where_the_stated_size_was_not_found(
+    session: Session, panel: BoardPanel, tmp_path: Path
+) -> None:
+    session.begin(Document(set_grid_size(examples.calibrated(tmp_path), (8, 9))))
+    session.document.learn(
+        lambda p: replace(
+            p, views=tuple(replace(v, status=ViewStatus.NO_BOARD, reason="No.") for v in p.views)
+        )
+    )
+    searched = QSignalSpy(panel.search_wanted)
+    panel.inferred.click()
+    assert {view.status for view in session.project.views} == {ViewStatus.WAITING}
+    assert searched.count() == 1

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
+from threading import Event
 
 import numpy as np
 import pytest
@@ -11,16 +13,17 @@ from pytestqt.qtbot import QtBot
 
 from calibgui.app.detection import find_other_pattern
 from calibgui.app.document import Document
-from calibgui.app.project import add_images
-from calibgui.dataset import ViewStatus
+from calibgui.app.project import add_images, set_grid_size
+from calibgui.dataset import View, ViewStatus
 from calibgui.engine.boards.board import Board
 from calibgui.engine.boards.charuco import Charuco
 from calibgui.engine.boards.checkerboard import CHECKERBOARD
 from calibgui.engine.boards.circle_grid import Circles
 from calibgui.engine.boards.kinds import KINDS
 from calibgui.engine.boards.pattern import Pattern
-from calibgui.engine.errors import CalibrationError
+from calibgui.engine.errors import CalibrationError, Cancelled
 from calibgui.engine.images.reading import write_image
+from calibgui.gui.window import offers
 from calibgui.gui.window.main_window import MainWindow
 from tests.engine.detection.conftest import Scene
 
@@ -83,3 +86,40 @@ def test_circles_are_searched_for_with_one_click(
     window.session.document.undo()
     window.session.document.undo()
     assert window.session.project.pattern == CHECKERBOARD
+
+
+def test_a_wrong_size_is_told_from_the_images(
+    window: MainWindow, qtbot: QtBot, tmp_path: Path
+) -> None:
+    photographs(tmp_path, CHECKERBOARD, (6, 8), count=4)
+    window.session.edit("Size", lambda project: set_grid_size(project, (9, 9)))
+    window.files.open_paths([str(tmp_path)])
+    qtbot.waitUntil(lambda: len(window.banner.buttons) == 1, timeout=60_000)
+    assert window.banner.text.text() == (
+        "A board of 9 × 9 inner corners is in no image; the images show 6 × 8."
+    )
+    qtbot.mouseClick(window.banner.buttons[0], Qt.MouseButton.LeftButton)
+    qtbot.waitUntil(lambda: window.session.result is not None, timeout=60_000)
+    assert {v.status for v in window.session.project.views} == {ViewStatus.FOUND}
+
+
+def test_the_look_for_another_board_ends_with_its_question(
+    window: MainWindow, qtbot: QtBot, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    ended = Event()
+
+    def look(_: object, __: object, stop: Event) -> None:
+        stop.wait(60)
+        ended.set()
+        raise Cancelled
+
+    monkeypatch.setattr(offers, "find_other_pattern", look)
+    blank = [View(str(tmp_path / "blank.png"), ViewStatus.NO_BOARD, "No board.")]
+    window.session.edit("Add", lambda project: replace(project, views=tuple(blank)))
+    window.detector.finished.emit(True)
+    labels = [job.label for job in window.session.jobs.running]
+    assert "Looking for another kind of board" in labels
+    window.session.document.undo()
+    qtbot.waitUntil(ended.is_set, timeout=2_000)
+    qtbot.waitUntil(lambda: not window.session.jobs.running)
+    assert not window.banner.isVisible()
