@@ -210,6 +210,7 @@ def test_another_way_to_locate_corners_is_another_question(
     qtbot: QtBot, session: Session, search: Search, tmp_path: Path
 ) -> None:
     detector, found = begun(session, tmp_path)
+    qtbot.waitUntil(lambda: len(search.asked) == 1)
     session.edit("Way", lambda p: set_method(p, "saddle"))
     detector.search()
     search.findings.put(found[0])
@@ -255,6 +256,7 @@ def test_a_search_ends_when_undo_has_taken_its_images(
     detector, _ = begun(session, tmp_path)
     told: list[str] = []
     session.notified.connect(told.append)
+    qtbot.waitUntil(lambda: len(search.asked) == 1)
     session.document.undo()
     assert session.jobs.running[0].cancelled
     search.findings.put(None)
