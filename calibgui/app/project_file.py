@@ -94,13 +94,18 @@ _MIGRATIONS: Mapping[int, Callable[[Node], dict[str, Any]]] = {
 """Functions from the content of a version, the key, to the members that the next one has anew."""
 
 
-def write_project(project: Project, path: Path) -> None:
+def write_project(project: Project, path: Path, folder: Path | None = None) -> None:
     """Write the project file, completely or not at all.
+
+    Args:
+        project: the project.
+        path: the file.
+        folder: the folder that its paths are relative to; the one that it is in if None.
 
     Raises:
         CalibrationError: if it cannot be written.
     """
-    write_json(path, encode_project(project, path.parent))
+    write_json(path, encode_project(project, folder or path.parent))
 
 
 def encode_project(project: Project, folder: Path) -> dict[str, Any]:

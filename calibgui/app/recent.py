@@ -1,29 +1,16 @@
-"""The program's own notes, which are not the user's files: the projects opened lately."""
+"""The projects that were opened or saved lately."""
 
 from __future__ import annotations
 
 import json
 from pathlib import Path
 
-import platformdirs
-
+from calibgui.app.state_folder import find_state_folder
 from calibgui.engine.errors import CalibrationError
 from calibgui.engine.files import write_atomically
 
 _MAX_PROJECTS = 10
 """Number of projects that are remembered."""
-
-
-def find_state_folder() -> Path:
-    """Return the folder for the program's own notes, made if it is missing.
-
-    It is the place that the operating system provides: ``~/.local/state`` (or XDG_STATE_HOME) on
-    Linux, the local AppData on Windows, ``~/Library/Application Support`` on macOS.
-
-    Raises:
-        OSError: if the folder cannot be made.
-    """
-    return platformdirs.user_state_path("calibgui", appauthor=False, ensure_exists=True)
 
 
 def list_recent_projects() -> list[Path]:

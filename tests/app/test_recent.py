@@ -4,7 +4,8 @@ from pathlib import Path
 
 import pytest
 
-from calibgui.app.recent import find_state_folder, list_recent_projects, remember_project
+from calibgui.app.recent import list_recent_projects, remember_project
+from calibgui.app.state_folder import find_state_folder
 
 
 @pytest.fixture(autouse=True)

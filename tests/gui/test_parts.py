@@ -30,7 +30,7 @@ from calibgui.gui.dialogs.help_dialog import HelpDialog
 from calibgui.gui.dialogs.print_dialog import PrintDialog
 from calibgui.gui.panels.result import ResultPanel
 from calibgui.gui.panels.split import Split
-from calibgui.gui.widgets import theme
+from calibgui.gui.widgets import questions, theme
 from calibgui.gui.window.main_window import MainWindow
 from tests.app import examples
 
@@ -226,9 +226,7 @@ def test_unsaved_work_is_not_left_without_a_question(
 ) -> None:
     path = tmp_path / "p.json"
     full.images.exclude([full.session.image])
-    monkeypatch.setattr(
-        QMessageBox, "question", lambda *_: getattr(QMessageBox.StandardButton, answer)
-    )
+    monkeypatch.setattr(questions, "ask", lambda *_: getattr(QMessageBox.StandardButton, answer))
     monkeypatch.setattr(QFileDialog, "getSaveFileName", lambda *_: (str(path), ""))
     full.files.new()
     assert bool(full.session.project.views) == (answer == "Cancel")

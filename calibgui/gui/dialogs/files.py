@@ -8,8 +8,9 @@ from pathlib import Path
 
 from PySide6.QtCore import QObject, Signal
 from PySide6.QtGui import QGuiApplication
-from PySide6.QtWidgets import QFileDialog, QInputDialog, QLineEdit, QMessageBox, QWidget
+from PySide6.QtWidgets import QFileDialog, QInputDialog, QLineEdit, QWidget
 
+from calibgui.app.autosave import get_discarded_folder
 from calibgui.app.document import Document
 from calibgui.app.moved_images import find_moved_images, list_missing_images
 from calibgui.app.new_images import ForeignFilesError
@@ -26,7 +27,9 @@ from calibgui.gui.session.calibrator import Calibrator
 from calibgui.gui.session.detector import Detector
 from calibgui.gui.session.saver import Saver
 from calibgui.gui.session.session import Session
+from calibgui.gui.widgets import questions
 from calibgui.gui.widgets.actions import show_dialog
+from calibgui.gui.widgets.questions import Answer
 from calibgui.gui.widgets.save_names import ask_for_name
 
 _PROJECT = "calibgui.json"
@@ -113,13 +116,32 @@ class Files(QObject):
 
     def save(self) -> None:
         """Save to the document's file, asking for one if it has none."""
-        if (path := self._session.document.path or self._ask_for_file()) is not None:
+        if (path := self._choose_file()) is not None:
             self.saver.save_beside(path)
 
     def save_as(self) -> None:
         """Save to a file of the user's choice."""
         if (path := self._ask_for_file()) is not None:
             self.saver.save_beside(path)
+
+    def _choose_file(self) -> Path | None:
+        """Return the file to save to: the document's, unless another program has written to it."""
+        path = self._session.document.path
+        if path is None or not self.saver.was_replaced:
+            return path or self._ask_for_file()
+        answer = questions.ask(
+            self._window,
+            self.tr("Replace the project"),
+            self.tr(
+                "{0} has been saved by another window or program since it was opened here. "
+                "Replace what is there now?"
+            ).format(path),
+            Answer.Yes | Answer.SaveAll | Answer.Cancel,
+            Answer.SaveAll,
+        )
+        if answer == Answer.SaveAll:
+            return self._ask_for_file()
+        return path if answer == Answer.Yes else None
 
     def _ask_for_file(self) -> Path | None:
         views = self._session.project.views
@@ -133,18 +155,36 @@ class Files(QObject):
         """Return whether the document can be given up, being saved or not wanted."""
         if self._session.document.saved or not self._session.project.views:
             return True
-        button = QMessageBox.StandardButton
-        answer = QMessageBox.question(
+        answer = questions.ask(
             self._window,
             self.tr("Unsaved changes"),
-            self.tr("Save the changes to this project?"),
-            button.Save | button.Discard | button.Cancel,
-            button.Save,
+            self.tr("Save the changes to this project?")
+            + "\n\n"
+            + self.tr("What you discard is kept for a while in {0}.").format(
+                get_discarded_folder()
+            ),
+            Answer.Save | Answer.Discard | Answer.Cancel,
+            Answer.Save,
         )
-        if answer == button.Save:
-            path = self._session.document.path or self._ask_for_file()
+        if answer == Answer.Save:
+            path = self._choose_file()
             return path is not None and self._attempt(lambda: self.saver.save(path))
-        return answer == button.Discard
+        return answer == Answer.Discard and self._may_give_up()
+
+    def _may_give_up(self) -> bool:
+        """Keep what is given up; ask where that is impossible, as on a full disk."""
+        try:
+            self.saver.give_up()
+        except CalibrationError as error:
+            answer = questions.ask(
+                self._window,
+                self.tr("Unsaved changes"),
+                f"{error.message}\n\n" + self.tr("Discard the changes without a copy?"),
+                Answer.Yes | Answer.No,
+                Answer.No,
+            )
+            return answer == Answer.Yes
+        return True
 
     def export(self) -> None:
         """Offer the shown result in every format."""
@@ -292,10 +332,9 @@ class Files(QObject):
 
     def _may_replace(self, error: ForeignFilesError, folder: Path) -> bool:
         """Ask whether files may be replaced that this program did not make."""
-        button = QMessageBox.StandardButton
         listed = error.names[:_MAX_LISTED]
         names = "\n".join([*listed, "…"] if len(error.names) > len(listed) else listed)
-        answer = QMessageBox.question(
+        answer = questions.ask(
             self._window,
             self.tr("Replace files"),
             self.tr("In {0} there are files of these names, not written by this program:").format(
@@ -303,10 +342,10 @@ class Files(QObject):
             )
             + f"\n\n{names}\n\n"
             + self.tr("Replace them?"),
-            button.Yes | button.No,
-            button.No,
+            Answer.Yes | Answer.No,
+            Answer.No,
         )
-        return answer == button.Yes
+        return answer == Answer.Yes
 
     def _attempt(self, action: Callable[[], object]) -> bool:
         try:

@@ -10,7 +10,10 @@ import re
 from pathlib import Path
 
 from PySide6.QtCore import QCoreApplication
-from PySide6.QtWidgets import QFileDialog, QMessageBox, QWidget
+from PySide6.QtWidgets import QFileDialog, QWidget
+
+from calibgui.gui.widgets import questions
+from calibgui.gui.widgets.questions import Answer
 
 
 def ask_for_name(parent: QWidget, title: str, start: str, kinds: str) -> Path | None:
@@ -38,12 +41,12 @@ def ask_for_name(parent: QWidget, title: str, start: str, kinds: str) -> Path | 
 
 
 def _may_replace(parent: QWidget, path: Path) -> bool:
-    translate, button = QCoreApplication.translate, QMessageBox.StandardButton
-    answer = QMessageBox.question(
+    translate = QCoreApplication.translate
+    answer = questions.ask(
         parent,
         translate("files", "Replace a file"),
         translate("files", "{0} exists. Replace it?").format(path),
-        button.Yes | button.No,
-        button.No,
+        Answer.Yes | Answer.No,
+        Answer.No,
     )
-    return answer == button.Yes
+    return answer == Answer.Yes

@@ -15,7 +15,7 @@ from calibgui.gui.widgets import theme
 class Banner(QFrame):
     """Shown until it is dismissed or the next message comes; a failure until work goes on.
 
-    A question, which has choices, comes back after a message that is none.
+    A question, which has choices, comes back after what covered it, another question too.
     """
 
     def __init__(self, parent: QWidget | None = None) -> None:
@@ -35,7 +35,8 @@ class Banner(QFrame):
         self._row.addWidget(self.text, 1)
         self._row.addWidget(self.dismiss, 0, Qt.AlignmentFlag.AlignTop)
         self._failure = False
-        self._question: tuple[str, Mapping[str, Callable[[], None]]] | None = None
+        self._questions: dict[str, Mapping[str, Callable[[], None]]] = {}
+        """The choices of questions that are open, the latest last."""
         self.hide()
 
     def show_error(self, error: CalibrationError) -> None:
@@ -48,7 +49,8 @@ class Banner(QFrame):
         """Show a message; each choice is a button with its text and what it does."""
         self._show(text, failure=False)
         if choices:
-            self._question = text, choices
+            self._questions.pop(text, None)
+            self._questions[text] = choices
         for name, does in choices.items():
             button = QPushButton(name)
             button.clicked.connect(self._end)
@@ -58,10 +60,8 @@ class Banner(QFrame):
 
     def withdraw(self, text: str) -> None:
         """Take the question `text` back, shown or covered; others stay."""
-        if self._question is not None and self._question[0] == text:
-            self._question = None
-            if self.text.text() == text:
-                self.hide()
+        if self._questions.pop(text, None) is not None and self.text.text() == text:
+            self._show_next()
 
     def hide_failure(self) -> None:
         """Hide a failure, which is past; a question stays."""
@@ -70,12 +70,16 @@ class Banner(QFrame):
 
     def _end(self) -> None:
         """End what is shown; a question that it covered comes back."""
-        answered = bool(self.buttons)
-        question, self._question = self._question, None
-        if question is None or answered:
-            self.hide()
+        if self.buttons:
+            self._questions.pop(self.text.text(), None)
+        self._show_next()
+
+    def _show_next(self) -> None:
+        """Show the latest question that is open, or nothing."""
+        if self._questions:
+            self.show_text(*list(self._questions.items())[-1])
         else:
-            self.show_text(*question)
+            self.hide()
 
     def _show(self, text: str, *, failure: bool) -> None:
         for button in self.buttons:

@@ -7,8 +7,9 @@ from pathlib import Path
 
 from PySide6.QtCore import QFileInfo, QLocale, QObject
 
-from calibgui.app.autosave import get_autosave_path
+from calibgui.app.autosave import find_unsaved_work
 from calibgui.app.detection import choose_samples, find_grid_size, find_other_pattern
+from calibgui.app.document import Document
 from calibgui.app.project import set_grid_size, set_pattern
 from calibgui.dataset import ViewStatus
 from calibgui.engine.arrays import GridSize
@@ -33,11 +34,13 @@ class Offers(QObject):
         self._session, self._detector, self._files = session, detector, files
         self._thumbnails, self._banner = images.thumbnails, banner
         files.recoverable.connect(self._offer_recovery)
+        files.saver.discarded.connect(self._offer_to_bring_back)
         files.images_missing.connect(self._offer_relocation)
         images.thumbnails.found_altered.connect(self._offer_detection)
         images.search_wanted.connect(self._search_again)
         detector.finished.connect(self._look_for_another)
-        self._offered_for, self._offered = session.document, ""
+        self._offered: dict[str, Document] = {}
+        """The documents that offers were made for."""
         session.changed.connect(self._withdraw)
         self._looking: Job | None = None
         self._looking_for: Hashable = None
@@ -47,24 +50,44 @@ class Offers(QObject):
     def _offer(self, text: str, choice: str, does: Callable[[], None]) -> None:
         """Offer something to do with the project that is open."""
         self._banner.show_text(text, {choice: does})
-        self._offered_for, self._offered = self._session.document, text
+        self._offered[text] = self._session.document
 
     def _withdraw(self) -> None:
-        """Withdraw an offer that was made for another project."""
-        if self._offered_for is not self._session.document:
-            self._banner.withdraw(self._offered)
+        """Withdraw offers that were made for another project."""
+        for text, document in list(self._offered.items()):
+            if document is not self._session.document:
+                del self._offered[text]
+                self._banner.withdraw(text)
 
     def _offer_recovery(self, path: Path) -> None:
-        time = QFileInfo(str(get_autosave_path(path))).lastModified()
+        work = find_unsaved_work(path)
+        if work is None:
+            return
+        text = self.tr("The program ended without saving. Its state of {0} has been kept.").format(
+            _describe_time(work)
+        )
+        if path.is_file():
+            text += self.tr(" The project was saved {0}.").format(_describe_time(path))
         self._banner.show_text(
-            self.tr("The program ended without saving. Its state of {0} has been kept.").format(
-                QLocale().toString(time, QLocale.FormatType.ShortFormat)
-            ),
+            text,
             {
                 self.tr("&Recover"): lambda: self._recover(path),
-                self.tr("&Throw away"): lambda: self._files.saver.forget(path),
+                self.tr("Go on &without"): lambda: self._files.saver.forget(path),
             },
         )
+
+    def _offer_to_bring_back(self, path: Path, kept: Path) -> None:
+        """Let the user think better of having given up the unsaved work on `path`."""
+        self._banner.show_text(
+            self.tr("The unsaved state is kept for a while, as {0}.").format(kept),
+            {self.tr("&Bring it back"): lambda: self._bring_back(path, kept)},
+        )
+
+    def _bring_back(self, path: Path, kept: Path) -> None:
+        if self._files.may_leave():
+            self._files.saver.recover(path, kept)
+        else:
+            self._offer_to_bring_back(path, kept)
 
     def _recover(self, path: Path) -> None:
         if self._files.may_leave():
@@ -163,3 +186,9 @@ class Offers(QObject):
             self._files.search()
 
         self._offer(texts.recognised, texts.search, search)
+
+
+def _describe_time(path: Path) -> str:
+    """Return the time when a file was written last, in the user's language."""
+    time = QFileInfo(str(path)).lastModified()
+    return QLocale().toString(time, QLocale.FormatType.ShortFormat)

@@ -12,6 +12,7 @@ from pytestqt.qtbot import QtBot
 from calibgui.app.document import Document
 from calibgui.app.resampling import GEOMETRY_FILE, Undistortion
 from calibgui.engine.images.reading import write_image
+from calibgui.gui.widgets import questions
 from calibgui.gui.window.main_window import MainWindow
 from tests.app import examples
 
@@ -41,7 +42,7 @@ def test_the_window_asks_before_it_replaces_photographs(
         asked.append(str(arguments[2]))
         return getattr(QMessageBox.StandardButton, button)
 
-    monkeypatch.setattr(QMessageBox, "question", question)
+    monkeypatch.setattr(questions, "ask", question)
     k = next(k for k, view in enumerate(result.views) if view.image == str(source))
     window.files.save_changed_images((k,), Undistortion())
     qtbot.waitUntil(lambda: bool(asked))

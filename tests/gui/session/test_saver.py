@@ -7,18 +7,30 @@ import os
 import signal
 import subprocess
 import sys
+import tempfile
 import time
+from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
+from PySide6.QtCore import QEvent
+from PySide6.QtWidgets import QApplication, QFileDialog
 from pytestqt.qtbot import QtBot
 
-from calibgui.app.autosave import AUTOSAVE_DELAY_S, autosave, find_unsaved_work, get_autosave_path
+from calibgui.app.autosave import (
+    AUTOSAVE_DELAY_S,
+    autosave,
+    find_unsaved_work,
+    get_autosave_path,
+    get_discarded_folder,
+)
 from calibgui.app.document import Document
 from calibgui.app.project import Project, add_images
 from calibgui.app.project_file import read_project, write_project
 from calibgui.gui.session.saver import Saver
 from calibgui.gui.session.session import Session
+from calibgui.gui.widgets import questions
+from calibgui.gui.widgets.questions import Answer
 from calibgui.gui.window.main_window import MainWindow
 from tests.app import examples
 
@@ -158,11 +170,161 @@ def test_work_on_a_file_stays_until_it_is_decided_about(
     slot = window.files.saver.file
     assert slot != path and get_autosave_path(path).read_bytes() == kept
     assert len(read_project(get_autosave_path(slot)).views) == 8
-    window.banner.buttons[1].click()  # thrown away: the edit is kept beside the file from now on
-    assert window.files.saver.file == path
+    window.banner.buttons[1].click()  # given up: the edit is kept beside the file from now on
+    qtbot.waitUntil(lambda: window.files.saver.file == path)
     assert not get_autosave_path(slot).exists()
     qtbot.waitUntil(lambda: find_unsaved_work(path) is not None)
     assert "other.png" in read_project(get_autosave_path(path)).views[-1].image
+
+
+def test_work_that_was_given_up_can_be_brought_back(
+    window: MainWindow, qtbot: QtBot, tmp_path: Path
+) -> None:
+    path = tmp_path / "project.json"
+    project = examples.calibrated(tmp_path)
+    write_project(project, path)
+    autosave(add_images(project, [str(tmp_path / "new.png")]), path)
+    window.files.open_project(path)
+    qtbot.waitUntil(lambda: len(window.banner.buttons) == 2)
+    assert "The project was saved" in window.banner.text.text()
+    window.banner.buttons[1].click()
+    qtbot.waitUntil(lambda: "are not where they were" in window.banner.text.text())
+    window.banner.dismiss.click()
+    assert find_unsaved_work(path) is None
+    (kept,) = get_discarded_folder().iterdir()
+    assert str(kept) in window.banner.text.text()
+    window.banner.buttons[0].click()
+    qtbot.waitUntil(lambda: len(window.session.project.views) == 8)
+    assert window.session.document.path == path and window.isWindowModified()
+
+
+def test_an_offer_to_recover_comes_back_until_it_is_decided(
+    window: MainWindow, qtbot: QtBot, tmp_path: Path
+) -> None:
+    path = tmp_path / "project.json"
+    project = examples.calibrated(tmp_path)
+    write_project(project, path)
+    get_autosave_path(path).write_text('{"format": "calibgui-pro', encoding="utf-8")
+    window.files.open_project(path)
+    qtbot.waitUntil(lambda: len(window.banner.buttons) == 2)
+    offer = window.banner.text.text()
+    window.files.images_missing.emit(["gone.png"])
+    window.files.open_paths(["no such folder"])
+    assert "does not exist" in window.banner.text.text()
+    for _ in range(2):
+        window.banner.dismiss.click()
+    assert window.banner.text.text() == offer
+    window.banner.buttons[0].click()
+    qtbot.waitUntil(lambda: "cut short" in window.banner.text.text())
+    window.banner.dismiss.click()
+    assert window.banner.text.text() == offer
+
+
+@pytest.fixture
+def other(qapp: QApplication) -> Iterator[Saver]:
+    """Another window on the same computer, as far as files go."""
+    session = Session(qapp)
+    saver = Saver(session)
+    yield saver
+    session.jobs.close()
+    saver.close()
+    session.deleteLater()
+
+
+def test_two_windows_on_one_project_keep_their_work_apart(
+    window: MainWindow, qtbot: QtBot, tmp_path: Path, other: Saver
+) -> None:
+    path = tmp_path / "project.json"
+    write_project(examples.calibrated(tmp_path), path)
+    theirs = other.parent()
+    assert isinstance(theirs, Session)
+    other.open(path)
+    qtbot.waitUntil(lambda: theirs.document.path == path)
+    theirs.edit("Add", lambda p: add_images(p, [str(tmp_path / "theirs.png")]))
+    other.autosave_now()
+    window.files.open_project(path)
+    qtbot.waitUntil(window.banner.isVisible)
+    assert "open in another window" in window.banner.text.text() and not window.banner.buttons
+    window.session.edit("Add", lambda p: add_images(p, [str(tmp_path / "mine.png")]))
+    window.files.keep_work()
+    assert "theirs.png" in read_project(get_autosave_path(path)).views[-1].image
+    assert window.files.saver.file != path
+    theirs.begin(Document())
+    window.session.begin(Document())
+    window.files.open_project(path)
+    qtbot.waitUntil(lambda: window.session.document.path == path)
+    assert window.files.saver.file != path, "what the other left has to be decided about"
+
+
+@pytest.mark.parametrize("answer", ["Yes", "SaveAll", "Cancel"])
+def test_what_another_program_saved_is_not_replaced_without_a_question(
+    window: MainWindow,
+    qtbot: QtBot,
+    tmp_path: Path,
+    monkeypatch: pytest.MonkeyPatch,
+    answer: str,
+) -> None:
+    path, aside = tmp_path / "project.json", tmp_path / "aside.json"
+    project = examples.calibrated(tmp_path)
+    write_project(project, path)
+    asked: list[str] = []
+
+    def ask(_: object, __: str, text: str, *___: object) -> Answer:
+        asked.append(text)
+        return Answer[answer]
+
+    monkeypatch.setattr(questions, "ask", ask)
+    monkeypatch.setattr(QFileDialog, "getSaveFileName", lambda *_: (str(aside), ""))
+    window.files.open_project(path)
+    qtbot.waitUntil(lambda: window.session.document.path == path)
+    window.session.edit("Add", lambda p: add_images(p, [str(tmp_path / "mine.png")]))
+    path.touch()  # the same content: no reason to ask
+    window.files.save()
+    qtbot.waitUntil(lambda: window.session.document.saved)
+    assert not asked
+    window.session.edit("Add", lambda p: add_images(p, [str(tmp_path / "mine too.png")]))
+    write_project(project, path)
+    theirs = path.read_bytes()
+    window.files.save()
+    qtbot.waitUntil(lambda: not window.session.jobs.running)
+    assert len(asked) == 1 and "another window or program" in asked[0]
+    assert (path.read_bytes() == theirs) is (answer != "Yes")
+    assert aside.exists() is (answer == "SaveAll")
+    assert window.session.document.saved is (answer != "Cancel")
+
+
+def test_what_is_discarded_is_kept(
+    full: MainWindow, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(questions, "ask", lambda *_: Answer.Discard)
+    full.session.edit("Add", lambda p: add_images(p, [str(tmp_path / "new.png")]))
+    full.files.keep_work()
+    slot = full.files.saver.file
+    full.files.new()
+    assert not full.session.project.views
+    assert find_unsaved_work(slot) is None
+    (kept,) = get_discarded_folder().iterdir()
+    assert "new.png" in read_project(kept).views[-1].image
+
+
+def test_the_window_opens_without_a_home_and_says_so(
+    qtbot: QtBot, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    (tmp_path / "file").touch()
+    for name in ("XDG_STATE_HOME", "LOCALAPPDATA", "HOME"):
+        monkeypatch.setenv(name, str(tmp_path / "file" / "home"))
+    monkeypatch.setattr(tempfile, "tempdir", str(tmp_path))
+    window = MainWindow()
+    window.show()
+    qtbot.waitExposed(window)
+    assert "Check HOME" in window.banner.text.text()
+    window.session.edit("Add", lambda p: add_images(p, [str(tmp_path / "new.png")]))
+    window.files.keep_work()
+    assert tmp_path in get_autosave_path(window.files.saver.file).parents
+    window.session.document.undo()
+    window.close()
+    window.deleteLater()
+    QApplication.sendPostedEvents(None, QEvent.Type.DeferredDelete)
 
 
 def test_work_left_without_a_file_is_offered_until_it_is_decided_about(

@@ -8,6 +8,7 @@ import pytest
 from PySide6.QtWidgets import QFileDialog, QMessageBox, QWidget
 from pytestqt.qtbot import QtBot
 
+from calibgui.gui.widgets import questions
 from calibgui.gui.widgets.save_names import ask_for_name
 
 KINDS = "PDF (*.pdf);;SVG drawing (*.svg)"
@@ -31,7 +32,7 @@ def answer(monkeypatch: pytest.MonkeyPatch, button: str) -> list[str]:
         asked.append(text)
         return getattr(QMessageBox.StandardButton, button)
 
-    monkeypatch.setattr(QMessageBox, "question", question)
+    monkeypatch.setattr(questions, "ask", question)
     return asked
 
 
