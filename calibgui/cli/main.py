@@ -97,7 +97,8 @@ def _open_window(arguments: list[str]) -> int:
         if isinstance(error, ModuleNotFoundError):
             reason = "the window is not installed. Install it: pip install 'calibgui[gui]'"
         else:
-            reason = f"the window cannot be loaded: {error}. Install the library that is missing."
+            describe = import_module("calibgui.app.missing_library").describe_missing_library
+            reason = f"the window cannot be loaded. {describe(str(error)) or error}"
         print(f"calibgui: {reason}", file=sys.stderr)
         return _CANNOT
     return int(app.run(arguments))

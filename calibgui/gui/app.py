@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 import contextlib
+import ctypes
 import os
 import signal
 import sys
 from collections.abc import Sequence
+from pathlib import Path
 from types import TracebackType
 
 import shiboken6
@@ -22,6 +24,7 @@ from PySide6.QtCore import (
 from PySide6.QtGui import QIcon
 from PySide6.QtWidgets import QApplication
 
+from calibgui.app.missing_library import describe_missing_library
 from calibgui.app.resources import find_resource
 from calibgui.engine.errors import CalibrationError
 from calibgui.gui.widgets import theme
@@ -61,9 +64,11 @@ def _create_application() -> QApplication:
         if kind is not QtMsgType.QtFatalMsg:
             said.append(text)
             return
+        missing = describe_missing_library(_try_to_load_plugin())
+        reason = missing or f"There is no display that Qt can open: {said[0] if said else text}."
         print(
-            f"calibgui: there is no display that Qt can open. {' '.join(said)} calibgui --help "
-            "lists the commands that need none.",
+            f"calibgui: the window cannot be opened. {reason}\n"
+            "calibgui --help lists the commands that need no window.",
             file=sys.stderr,
             flush=True,
         )
@@ -77,6 +82,18 @@ def _create_application() -> QApplication:
     for text in said:
         print(text, file=sys.stderr)
     return app
+
+
+def _try_to_load_plugin() -> str:
+    """Return why the system cannot load what opens windows on X11; empty if it can, or has none."""
+    folder = Path(QLibraryInfo.path(QLibraryInfo.LibraryPath.PluginsPath), "platforms")
+    plugin = folder / "libqxcb.so"
+    try:
+        if plugin.exists():
+            ctypes.CDLL(str(plugin))
+    except OSError as error:
+        return str(error)
+    return ""
 
 
 def _translate(app: QApplication) -> None:

@@ -18,6 +18,7 @@ from pathlib import Path
 import pytest
 
 from calibgui import __version__
+from calibgui.app.missing_library import describe_missing_library
 from calibgui.cli import detect
 from calibgui.cli.main import main
 from calibgui.cli.parser import COMMANDS
@@ -121,8 +122,43 @@ def test_a_display_that_cannot_be_reached_is_said(tmp_path: Path) -> None:
         check=False,
     )
     assert done.returncode == 1
-    assert done.stderr.startswith("calibgui: there is no display that Qt can open. ")
-    assert done.stderr.endswith("calibgui --help lists the commands that need none.\n")
+    assert done.stderr == (
+        "calibgui: the window cannot be opened. There is no display that Qt can open: could not "
+        "connect to display :4711.\ncalibgui --help lists the commands that need no window.\n"
+    )
+
+
+@pytest.mark.skipif(not sys.platform.startswith("linux"), reason="libraries of X11")
+def test_a_library_that_the_window_needs_is_named_with_its_package(tmp_path: Path) -> None:
+    (tmp_path / "libxcb-cursor.so.0").touch()  # is found first, and is none
+    environment = {k: v for k, v in os.environ.items() if not k.startswith(("QT_", "WAYLAND"))}
+    done = subprocess.run(
+        program(tmp_path),
+        env=environment | {"DISPLAY": ":4711", "LD_LIBRARY_PATH": str(tmp_path)},
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    assert done.returncode == 1
+    assert done.stderr == (
+        "calibgui: the window cannot be opened. The library libxcb-cursor.so.0 is missing. On "
+        "Debian and Ubuntu: apt install libxcb-cursor0\n"
+        "calibgui --help lists the commands that need no window.\n"
+    )
+
+
+@pytest.mark.parametrize(
+    ("problem", "package"),
+    [
+        ("libxkbcommon-x11.so.0: cannot open shared object file", "libxkbcommon-x11-0"),
+        ("libEGL.so.1: cannot open shared object file", "libegl1"),
+        ("/lib/libX11-xcb.so.1: file too short", "libx11-xcb1"),
+    ],
+)
+def test_packages_of_libraries(problem: str, package: str) -> None:
+    assert describe_missing_library(problem).endswith(f"apt install {package}")
+    listed = (Path(__file__).parents[2] / "packaging" / "debian-packages.txt").read_text("utf-8")
+    assert package in listed.split()
 
 
 def test_without_qt_it_says_how_to_get_the_window(tmp_path: Path) -> None:
@@ -156,7 +192,10 @@ def test_a_library_that_the_window_lacks_is_named(
     monkeypatch.setattr("calibgui.cli.main.import_module", fail)
     monkeypatch.setenv("DISPLAY", ":0")
     assert main([str(tmp_path)]) == 1
-    assert f"cannot be loaded: {reason}" in capsys.readouterr().err
+    assert capsys.readouterr().err == (
+        "calibgui: the window cannot be loaded. The library libEGL.so.1 is missing. On Debian and "
+        "Ubuntu: apt install libegl1\n"
+    )
 
 
 def test_a_bug_shows_traceback_and_versions(

@@ -1,0 +1,25 @@
+"""The package to install where the system's loader lacks a library."""
+
+from __future__ import annotations
+
+import re
+
+_LIBRARY = re.compile(r"(lib[\w.+-]+?)\.so\.(\d+)")
+"""The name and the version of a shared library of Linux."""
+
+
+def describe_missing_library(problem: str) -> str:
+    """Return what to install, from what the loader said; empty if it named no library.
+
+    Debian's packages are called as their policy wants it: the library's name and version, with a
+    hyphen between two digits.
+
+    >>> describe_missing_library("libxcb-cursor.so.0: cannot open shared object file")
+    'The library libxcb-cursor.so.0 is missing. On Debian and Ubuntu: apt install libxcb-cursor0'
+    """
+    found = _LIBRARY.search(problem)
+    if found is None:
+        return ""
+    name, version = found.groups()
+    package = name.lower() + ("-" if name[-1].isdigit() else "") + version
+    return f"The library {found[0]} is missing. On Debian and Ubuntu: apt install {package}"
