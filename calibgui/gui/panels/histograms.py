@@ -16,6 +16,11 @@ from calibgui.gui.panels.split import Split
 from calibgui.gui.widgets import theme
 from calibgui.gui.widgets.plots import Plot
 
+_SAMPLES = 300
+"""Number of points of a drawn density."""
+_PADDING = 0.03
+"""Room around what is drawn, as a share of it."""
+
 
 class HistogramPlot(Plot):
     """One histogram with its Gaussian or Rayleigh density, and the numbers of both."""
@@ -24,15 +29,29 @@ class HistogramPlot(Plot):
         super().__init__("", "")
         self.bars = self.plot(stepMode="center", fillLevel=0)
         self.fit = self.plot()
+        self._extent = (0.0, 1.0), (0.0, 1.0)
 
-    def show_histogram(self, histogram: Histogram, name: str, unit: str) -> None:
-        """Show the density of a quantity."""
+    def show_histogram(
+        self,
+        histogram: Histogram,
+        name: str,
+        unit: str,
+        extent: tuple[float, float] | None = None,
+    ) -> None:
+        """Show the density of a quantity.
+
+        Args:
+            histogram: of the quantity.
+            name: of the quantity, which is in `unit`.
+            extent: the largest value and the largest density that the axes reach to; those of
+                the histogram if None.
+        """
         colours = theme.current()
         self.set_labels(name, self.tr("density"), unit, f"1/{unit}")
         self.bars.setData(histogram.edges, histogram.density)
         self.bars.setPen(pg.mkPen(colours.line))
         self.bars.setBrush(pg.mkBrush(colours.line))
-        x = np.linspace(histogram.edges[0], histogram.edges[-1], 300)
+        x = np.linspace(histogram.edges[0], histogram.edges[-1], _SAMPLES)
         self.fit.setData(x, histogram.evaluate_density(x))
         self.fit.setPen(pg.mkPen(colours.bad, width=2))
         law = self.tr("Rayleigh s") if histogram.is_rayleigh else self.tr("Gaussian σ")
@@ -41,6 +60,23 @@ class HistogramPlot(Plot):
                 round(histogram.mean, 4) + 0.0, histogram.sd, law, histogram.scale
             )
         )
+        limit, highest = extent or _measure_extent(histogram)
+        self._extent = (0.0 if histogram.is_rayleigh else -limit, limit), (0.0, highest)
+        self.show_all()
+
+    def show_all(self) -> None:
+        """Take back what was zoomed and moved."""
+        x, y = self._extent
+        self.getPlotItem().getViewBox().setRange(xRange=x, yRange=y, padding=_PADDING)
+
+
+def _measure_extent(*histograms: Histogram) -> tuple[float, float]:
+    """Return the largest value and the largest density of histograms, the fitted ones included."""
+    highest = 0.0
+    for h in histograms:
+        fitted = h.evaluate_density(np.linspace(h.edges[0], h.edges[-1], _SAMPLES))
+        highest = max(highest, float(h.density.max()), float(fitted.max()))
+    return max(float(h.edges[-1]) for h in histograms), highest
 
 
 class HistogramsPanel(Panel):
@@ -72,5 +108,10 @@ class HistogramsPanel(Panel):
             make_component_histogram(residuals[:, 1]),
             make_length_histogram(np.linalg.norm(residuals, axis=1)),
         )
-        for plot, histogram, name in zip(self.plots, histograms, self.plane.names, strict=True):
-            plot.show_histogram(histogram, name, self.plane.unit)
+        # Both components on the same axes, or their difference is not seen.
+        of_components, of_lengths = _measure_extent(*histograms[:2]), _measure_extent(histograms[2])
+        extents = (of_components, of_components, of_lengths)
+        for plot, histogram, name, extent in zip(
+            self.plots, histograms, self.plane.names, extents, strict=True
+        ):
+            plot.show_histogram(histogram, name, self.plane.unit, extent)

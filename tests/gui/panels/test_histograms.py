@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from PySide6.QtCore import Qt
@@ -40,3 +42,25 @@ def test_bars_curves_and_numbers(
         assert f"SD {histogram.sd:.4f}" in title and f"= {histogram.scale:.4f}" in title
     unit = "reference px" if on_reference else "px"
     assert f"[{unit}]" in panel.plots[2].getPlotItem().getAxis("bottom").labelText
+
+
+def test_both_components_are_on_the_same_axes(
+    shown: Shown[HistogramsPanel], result: Result
+) -> None:
+    panel = shown(HistogramsPanel, _stretch_along_u(result))
+    along_u, along_v, lengths = (
+        plot.getPlotItem().getViewBox().viewRange() for plot in panel.plots
+    )
+    assert along_u == along_v and along_u != lengths
+    edges, density = panel.plots[0].bars.getData()
+    assert along_u[0][1] >= edges[-1] and along_u[1][1] >= density.max()
+    panel.plots[1].getPlotItem().getViewBox().scaleBy((0.1, 0.1))
+    panel.plots[1].show_all()
+    assert panel.plots[1].getPlotItem().getViewBox().viewRange() == along_u
+
+
+def _stretch_along_u(result: Result) -> Result:
+    """Return the result with residuals ten times as large along u."""
+    calibration = result.calibration
+    stretched = [replace(r, image=r.image * [10.0, 1.0]) for r in calibration.residuals]
+    return replace(result, calibration=replace(calibration, residuals=tuple(stretched)))
