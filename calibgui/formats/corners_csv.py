@@ -15,7 +15,7 @@ import io
 import math
 import os
 from collections.abc import Iterator, Sequence
-from pathlib import Path
+from pathlib import Path, PurePath
 
 import numpy as np
 
@@ -39,6 +39,8 @@ def write_corners_csv(
 ) -> None:
     """Write the corners of all views that have corners.
 
+    Images at absolute paths are named from the folder of the file, so that both move together.
+
     Raises:
         CalibrationError: if the file cannot be written.
     """
@@ -47,19 +49,30 @@ def write_corners_csv(
     found = [view for view in views if view.status is ViewStatus.FOUND]
     weighted = any(view.observation(board).cov is not None for view in found)
     writer.writerow(_COLUMNS + _COVARIANCE_COLUMNS if weighted else _COLUMNS)
+    folder = Path(path).absolute().parent
     for view in found:
-        writer.writerows(_make_rows(view, view.observation(board)))
+        writer.writerows(_make_rows(view, view.observation(board), folder))
     # A file name that is not valid Unicode is written so that every reader takes it.
     write_atomically(path, text.getvalue().encode(errors="backslashreplace"))
 
 
-def _make_rows(view: View, points: Observation) -> Iterator[list[str | int | float]]:
+def _make_rows(view: View, points: Observation, folder: Path) -> Iterator[list[str | int | float]]:
+    image = _name_image(view.image, folder)
     for i in range(len(points.uv)):
         place = ["", ""] if view.corners is None else view.corners.grid[i].tolist()
-        row = [view.image, *place, *points.uv[i].tolist(), *points.xy[i].tolist()]
+        row = [image, *place, *points.uv[i].tolist(), *points.xy[i].tolist()]
         if points.cov is not None:
             row += points.cov[i][[0, 0, 1], [0, 1, 1]].tolist()
         yield row
+
+
+def _name_image(image: str, folder: Path) -> str:
+    """Return the path of an image from `folder`, unless it is on another drive or relative."""
+    path = PurePath(image)
+    try:
+        return PurePath(os.path.relpath(path, folder)).as_posix() if path.is_absolute() else image
+    except ValueError:
+        return image
 
 
 def read_corners_csv(path: str | os.PathLike[str]) -> tuple[View, ...]:

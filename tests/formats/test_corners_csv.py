@@ -109,3 +109,14 @@ def test_a_name_that_no_file_has_is_refused(tmp_path: Path) -> None:
     path.write_text("image,row,col,u_px,v_px,x_mm,y_mm\na\0b.png,0,0,1,2,3,4\n")
     with pytest.raises(CalibrationError, match=r"image of corner 1 is no name of a file"):
         read_corners_csv(path)
+
+
+def test_images_are_named_from_the_folder_of_the_file(tmp_path: Path, result: Result) -> None:
+    here, beside = str(tmp_path / "out" / "a.png"), str(tmp_path / "photos" / "b.png")
+    found = [view for view in result.views if view.status is ViewStatus.FOUND]
+    views = [replace(found[0], image=here), replace(found[1], image=beside)]
+    file = tmp_path / "out" / "corners.csv"
+    file.parent.mkdir()
+    write_corners_csv(views, result.board, file)
+    assert [view.image for view in read_corners_csv(file)] == ["a.png", "../photos/b.png"]
+    assert str(tmp_path) not in file.read_text(encoding="utf-8")
