@@ -18,6 +18,12 @@ from calibgui.engine.errors import Cancelled
 Queue = queue.SimpleQueue[Callable[[], None]]
 Outcome = Callable[[], Any]
 
+_LEAST_PARTS = 4
+"""Number of parts after the first whose mean time is told: of parts that take between half and
+twice their mean, it is within a third in nine of ten cases."""
+_LEAST_SECONDS = 1.0
+"""Time that these take at least, s: who waits for less needs no estimate."""
+
 
 def nothing(*_: Any) -> None:
     """Do nothing: the default of callbacks."""
@@ -51,7 +57,8 @@ class Job:
     cancelling: threading.Event = field(default_factory=threading.Event, init=False)
     """Set by `cancel`."""
     settled: int = field(default=0, init=False)
-    _begun: float = field(default_factory=time.monotonic, init=False)
+    _first: tuple[float, int] | None = field(default=None, init=False)
+    """When parts had been finished for the first time, and how many."""
     _stop: threading.Event = field(default_factory=threading.Event, init=False)
 
     def __post_init__(self) -> None:
@@ -89,18 +96,21 @@ class Job:
     def advance(self, finished: int, total: int) -> None:
         """Report from the worker of a single item how many of its parts are finished."""
 
-        def note() -> None:
-            self.finished, self.total = finished, total
-
         self.check()
-        self.queue.put(note)
+        self.queue.put(lambda: self.note_finished(finished, total))
+
+    def note_finished(self, finished: int, total: int) -> None:
+        """Note on the main thread how many parts of the work are finished."""
+        self.finished, self.total = finished, total
+        if self._first is None and finished > 0:
+            self._first = time.monotonic(), finished
 
     def rename(self, label: str) -> None:
         """Report from the worker what is being done from now on."""
 
         def note() -> None:
             if label != self.label:
-                self.label, self._begun = label, time.monotonic()
+                self.label, self._first = label, None
 
         self.check()
         self.queue.put(note)
@@ -126,11 +136,18 @@ class Job:
 
     @property
     def seconds_left(self) -> float | None:
-        """Estimated time left, from the parts that are finished, s; None before the first."""
-        if self.total <= 1 or self.finished == 0:
+        """Estimated time left, s; None while it is not known.
+
+        The time to the first finished part tells nothing: workers start in it. The parts after it
+        differ, and are waited for until their mean is worth telling.
+        """
+        if self._first is None:
             return None
-        each = (time.monotonic() - self._begun) / self.finished
-        return each * (self.total - self.finished)
+        begun, before = self._first
+        parts, seconds = self.finished - before, time.monotonic() - begun
+        if parts < _LEAST_PARTS or seconds < _LEAST_SECONDS:
+            return None
+        return seconds / parts * (self.total - self.finished)
 
 
 def _raise(error: Exception) -> None:

@@ -162,7 +162,7 @@ class Jobs(QObject):
         """Deliver the outcome of the work on one item."""
         job.settled += 1
         if len(job.items) > 1:
-            job.finished = job.settled
+            job.note_finished(job.settled, len(job.items))
         try:
             result = outcome()
             if not job.cancelled and job.wanted and job.inputs(item) == digest:

@@ -144,3 +144,23 @@ def test_a_callback_that_fails_does_not_keep_the_job_alive(qtbot: QtBot, jobs: J
         jobs.start("Failing", lambda _: 1, fails, failed=fails)
         qtbot.waitUntil(lambda: not jobs.running)
     assert [str(error[1]) for error in caught] == ["by design"]
+
+
+def test_the_time_left_is_told_once_it_is_known(
+    jobs: Jobs, qtbot: QtBot, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Two workers start for 10 s, then each part takes 0.2 or 0.6 s."""
+    now = 0.0
+    job = jobs.start("Parts", lambda _: None)
+    monkeypatch.setattr("calibgui.gui.jobs.job.time.monotonic", lambda: now)
+    told: list[tuple[float, float]] = []
+    now = 10.0
+    for finished in range(1, 41):
+        job.note_finished(finished, 40)
+        if (left := job.seconds_left) is not None:
+            told.append((left, 0.4 * (40 - finished)))
+        now += 0.2 if finished % 2 else 0.6
+    assert 30 < len(told) < 39
+    assert all(abs(left - true) <= true / 3 + 0.2 for left, true in told)
+    monkeypatch.undo()
+    qtbot.waitUntil(lambda: not jobs.running)
