@@ -267,11 +267,13 @@ class ImagePage(QWidget):
         if image is None or not (math.isfinite(u) and math.isfinite(v)):
             self.place.emit("")
             return
-        text = self.tr("u {0:.2f}  v {1:.2f} px").format(u, v)
         column, row = round(u), round(v)
         width, height = image.size
-        if 0 <= column < width and 0 <= row < height:
-            text += self.tr("   grey {0}").format(int(image.pixels[row, column]))
+        if not (0 <= column < width and 0 <= row < height):
+            self.place.emit("")
+            return
+        text = self.tr("u {0:.2f}  v {1:.2f} px").format(u, v)
+        text += self.tr("   grey {0}").format(int(image.pixels[row, column]))
         text += self._board_index(u, v)
         self.place.emit(text)
 
