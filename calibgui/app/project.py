@@ -55,6 +55,8 @@ class Project:
     square: float = DEFAULT_SQUARE
     """Side of a square, mm."""
     unit: Unit = Unit.MM
+    by_hand: bool = False
+    """True if the user marks every board: images are searched only where that is asked for."""
     settings: Settings = field(default_factory=Settings)
     results: Mapping[str, Result] = field(default_factory=lambda: MappingProxyType({}))
     """Results by name, the oldest first."""

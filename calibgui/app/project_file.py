@@ -5,6 +5,7 @@
                         pattern as in ``pattern_json.py``; corners, the method of locating them
                         ("edges" where missing)
     size                width and height of the images, px
+    by_hand             whether the user marks every board (false where missing)
     settings            cost, model (of the lens; "auto" if it is chosen automatically), method,
                         freed, fixed (names, or an object of them with their values or null); plate
                         (the board's shape: a model, "auto" or a shape as in
@@ -119,6 +120,7 @@ def encode_project(project: Project, folder: Path) -> dict[str, Any]:
         "version": VERSION,
         "target": {"rows": rows, "cols": cols, **square, **pattern},
         "size": project.size,
+        "by_hand": project.by_hand,
         "settings": _encode_settings(project.settings),
         "views": [_encode_view(view, project) for view in project.views],
         "results": {name: encode_result(result) for name, result in project.results.items()},
@@ -199,6 +201,7 @@ def _decode_project(node: Node) -> Project:
         grid_size=_decode_grid_size(board.get("rows"), board.get("cols")),
         method=method.choice(METHODS) if (method := board.get("corners")) else METHODS[0],
         square=square.number(),
+        by_hand=by_hand.flag() if (by_hand := node.get("by_hand")) else False,
         unit=Unit(board["unit"].choice(list(Unit))),
         settings=_decode_settings(node["settings"]),
         results=MappingProxyType(_decode_results(node, views)),

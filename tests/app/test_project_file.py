@@ -266,3 +266,10 @@ def test_images_on_another_drive_keep_their_whole_path(
     project = examples.calibrated(tmp_path)
     write_project(project, tmp_path / "project.json")
     assert read_project(tmp_path / "project.json").views[0].image == project.views[0].image
+
+
+def test_that_boards_are_marked_by_hand_is_kept(tmp_path: Path) -> None:
+    for by_hand in (True, False):
+        project = replace(examples.calibrated(tmp_path), by_hand=by_hand)
+        write_project(project, tmp_path / "project.json")
+        assert read_project(tmp_path / "project.json").by_hand is by_hand

@@ -22,6 +22,9 @@ from calibgui.gui.canvas.roi_tool import RoiTool
 from calibgui.gui.jobs.job import Job
 from calibgui.gui.session.session import Session
 
+_MARKABLE = (ViewStatus.WAITING, ViewStatus.FOUND, ViewStatus.NO_BOARD)
+"""States of images whose boards can be marked."""
+
 
 class Marker(QObject):
     """Runs one tool at a time on the selected image."""
@@ -178,6 +181,18 @@ class Marker(QObject):
         if tool is None or tool.preview is None:
             return
         corners, points = tool.preview, np.array(tool.points)
+        size = self._session.images.read(self._image).size
+        others = self._session.project.size
+        if others is not None and others != size:
+            self._session.failed.emit(
+                CalibrationError(
+                    self.tr("This image has {0} × {1} pixels, the others {2} × {3}.").format(
+                        *size, *others
+                    ),
+                    self.tr("Calibrate images of each size by themselves."),
+                )
+            )
+            return
 
         def change(view: View) -> View:
             return replace(
@@ -190,7 +205,10 @@ class Marker(QObject):
                 enabled=True,
             )
 
-        self._edit(self.tr("Mark board"), change)
+        self._session.edit(
+            self.tr("Mark board"),
+            lambda p: replace(change_views(p, [self._image], change), size=size),
+        )
         self._next = self._next_in_need()
         self.leave()
         if self._next:
@@ -202,15 +220,21 @@ class Marker(QObject):
         return image == expected
 
     def _next_in_need(self) -> str:
-        """The next image in which no board was found; "" if there is none."""
-        views = self._session.project.views
-        here = self._session.project.find(self._image)
-        need = (
-            view.image
-            for view in (*views[here + 1 :], *views[:here])
-            if view.enabled and view.status is ViewStatus.NO_BOARD
-        )
-        return next(need, "")
+        """The next image to be marked, "" if there is none.
+
+        That is one in which no board was found; where all boards are marked by hand, one that has
+        not been marked, whatever was found in it.
+        """
+        project = self._session.project
+        here = project.find(self._image)
+
+        def needs(view: View) -> bool:
+            if project.by_hand:
+                return view.roi is None and view.status in _MARKABLE
+            return view.status is ViewStatus.NO_BOARD
+
+        others = (*project.views[here + 1 :], *project.views[:here])
+        return next((view.image for view in others if view.enabled and needs(view)), "")
 
     # Single corners
 

@@ -271,7 +271,7 @@ class Files(QObject):
 
     def search(self) -> None:
         """Search the images that wait; a project's first are calibrated as well."""
-        if self._session.project.results:
+        if self._session.project.results or self._session.project.by_hand:
             self._detector.search()
         else:
             self._calibrator.calibrate()

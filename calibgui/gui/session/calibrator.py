@@ -4,6 +4,7 @@ Where the camera then lets more be found, the corners come with the result, in o
 
 from __future__ import annotations
 
+from dataclasses import replace
 from functools import partial
 
 from PySide6.QtCore import QObject, Signal
@@ -81,7 +82,8 @@ class Calibrator(QObject):
             self.ended.emit()
             return
         corner_set = CornerSet(project.size, project.views, project.board)
-        settings = project.settings
+        # Images that the user has not marked are not searched with the calibrated camera either.
+        settings = replace(project.settings, once=project.settings.once or project.by_hand)
 
         preparing = self.tr("Preparing the solver for its first use (once, about {0} s)…").format(
             SOLVER_SECONDS

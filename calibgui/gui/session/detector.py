@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Hashable, Iterable
 from dataclasses import replace
 from pathlib import Path
 
@@ -11,8 +11,7 @@ from PySide6.QtCore import QObject, Signal
 from calibgui.app.detection import Detection, find_views, infer_grid_size, infer_pattern
 from calibgui.app.project import Project, change_views, remove_digests
 from calibgui.dataset import View, ViewStatus
-from calibgui.engine.arrays import Array, GridSize
-from calibgui.engine.boards import Pattern
+from calibgui.engine.arrays import Array
 from calibgui.engine.detection import Corners
 from calibgui.engine.kernels import FINDER_SECONDS
 from calibgui.gui.jobs.job import Job
@@ -37,6 +36,8 @@ class Detector(QObject):
         """Images of the batch, with the regions that are searched."""
         self._found_in_batch: dict[str, Corners | None] = {}
         """Corners that the batch found in them so far."""
+        self._demanded: set[str] = set()
+        """Images that the user wants searched though boards are marked by hand."""
         self._search_key = _find_search_key(session.project)
         """What the batch searches for, and how."""
         session.changed.connect(self._drop_needless)
@@ -47,9 +48,17 @@ class Detector(QObject):
         return self._job is not None
 
     def search(self) -> None:
-        """Search every enabled image that waits, if that is not being done already."""
+        """Search every image that waits, if that is not being done already.
+
+        Where the user marks the boards by hand, only those are searched that were asked for.
+        """
         project = self._session.project
-        asked = tuple(view for view in project.views if view.status is ViewStatus.WAITING)
+        asked = tuple(
+            view
+            for view in project.views
+            if view.status is ViewStatus.WAITING
+            and (view.image in self._demanded or not project.by_hand)
+        )
         if self._job is not None:
             if _find_search_key(project) != self._search_key:
                 self._job.cancel()  # nobody asks for its findings any more
@@ -110,6 +119,7 @@ class Detector(QObject):
             return replace(view, status=ViewStatus.WAITING, reason="", corners=None, points=None)
 
         chosen = list(images)
+        self._demanded.update(chosen)
 
         def change(project: Project) -> Project:
             return remove_digests(change_views(project, chosen, forget), chosen)
@@ -186,6 +196,6 @@ class Detector(QObject):
             )
 
 
-def _find_search_key(project: Project) -> tuple[Pattern, str, GridSize | None]:
-    """Return the pattern and the size that are searched for, and the method that is used."""
-    return project.pattern, project.method, project.grid_size
+def _find_search_key(project: Project) -> Hashable:
+    """Return what is searched for, and how."""
+    return project.pattern, project.grid_size, project.method, project.by_hand

@@ -95,6 +95,13 @@ class BoardPanel(QWidget):
             self.method.addItem(text, method)
             self.method.setItemData(self.method.count() - 1, tip, Qt.ItemDataRole.ToolTipRole)
         self.method.setToolTip(self.tr("How corners are located; another way searches anew."))
+        self.by_hand = QCheckBox(self.tr("&Mark all by hand"))
+        self.by_hand.setToolTip(
+            self.tr(
+                "Images are not searched: point at each board's four outermost corners (M), and "
+                "Enter goes on to the next image."
+            )
+        )
         self.print = QPushButton(self.tr("&Print a board…"))
         self.print.setToolTip(self.tr("Make a PDF or SVG of a board of any size."))
 
@@ -113,6 +120,7 @@ class BoardPanel(QWidget):
         form.addRow(self.counted, corners)
         form.addRow("", self.inferred)
         form.addRow(self.tr("&Located"), self.method)
+        form.addRow("", self.by_hand)
         form.addRow(self.side, side)
         form.addRow("", self.print)
 
@@ -125,6 +133,7 @@ class BoardPanel(QWidget):
         self.square.valueChanged.connect(self._edit_square)
         self.square.editingFinished.connect(lambda: session.document.end_sliding_edit())
         self.method.activated.connect(self._edit_method)
+        self.by_hand.clicked.connect(self._edit_by_hand)
         self.unit.activated.connect(self._edit_unit)
         self.print.clicked.connect(self.print_wanted)
         session.changed.connect(self._project_changed)
@@ -141,6 +150,7 @@ class BoardPanel(QWidget):
         self.method.setCurrentIndex(self.method.findData(project.method))
         circles = not project.pattern.has_squares
         self._form.setRowVisible(self.method, not circles)
+        self.by_hand.setChecked(project.by_hand)
         self.counted.setText(self.tr("Circles") if circles else self.tr("Inner corners"))
         square = self.tr("Tag") if isinstance(project.pattern, AprilGrid) else self.tr("Square")
         self.side.setText(self.tr("Distance") if circles else square)
@@ -213,6 +223,11 @@ class BoardPanel(QWidget):
         if method != self._session.project.method:
             self._session.edit(self.tr("Way to locate corners"), lambda p: set_method(p, method))
             self.search_wanted.emit()
+
+    def _edit_by_hand(self, by_hand: bool) -> None:
+        label = self.tr("Mark by hand") if by_hand else self.tr("Search the images")
+        self._session.edit(label, lambda p: replace(p, by_hand=by_hand))
+        self.search_wanted.emit()
 
     def _edit_square(self, value: float) -> None:
         mm = value * self._session.project.unit.mm

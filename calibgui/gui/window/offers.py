@@ -122,7 +122,7 @@ class Offers(QObject):
         """Look for a board of another size or kind after a search that found nothing at all."""
         project = self._session.project
         searched = [v for v in project.views if v.status in (ViewStatus.FOUND, ViewStatus.NO_BOARD)]
-        if not everything or not searched or any(view.usable for view in searched):
+        if not everything or project.by_hand or not searched or any(v.usable for v in searched):
             return
         samples, pattern = choose_samples(searched), project.pattern
 

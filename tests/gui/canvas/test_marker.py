@@ -58,3 +58,86 @@ def test_an_excluded_image_is_not_offered_to_be_marked(window: MainWindow, qtbot
     hand.wait(lambda: page.shown_path == str(paths[2]))
     hand.wait(lambda: page.canvas.tool is not None)
     page.marker.leave()
+
+
+def test_all_boards_by_hand_from_the_first_click_to_the_camera(
+    window: MainWindow, qtbot: QtBot
+) -> None:
+    paths = sorted(find_resource("sample").glob("*.png"))[:5]
+    found = [find_corners(read_image(path).grey) for path in paths]
+    hand, page, session = Hand(window, qtbot), window.page, window.session
+    session.begin(Document(Project(by_hand=True)))
+    window.files.open_paths(list(map(str, paths)))
+    qtbot.waitUntil(lambda: not session.jobs.running)
+    assert {view.status for view in session.project.views} == {ViewStatus.WAITING}
+    hand.choose_image(paths[0].name)
+    page.tools[0].trigger()
+    for path, corners in zip(paths[:4], found, strict=False):
+        hand.wait(lambda path=path: page.shown_path == str(path))
+        hand.wait(lambda: page.canvas.tool is not None)
+        for point in outermost(corners):
+            hand.click(point)
+        hand.wait(page.marker.roi_bar.accept.isEnabled)
+        hand.key(Qt.Key.Key_Return)
+    assert session.image == str(paths[4])
+    hand.wait(lambda: page.canvas.tool is not None)
+    hand.key(Qt.Key.Key_Escape)
+    hand.key(Qt.Key.Key_F9)
+    hand.wait(lambda: session.result is not None)
+    assert session.result is not None and len(session.result.used) == 4
+    assert session.project.views[4].status is ViewStatus.WAITING, "nobody asked for it"
+    window.detector.search_again([str(paths[4])])
+    hand.wait(lambda: session.project.views[4].usable)
+    hand.wait(lambda: not session.jobs.running)
+
+
+def test_enter_goes_on_to_images_with_corners_where_all_are_marked(
+    window: MainWindow, qtbot: QtBot
+) -> None:
+    paths = sorted(find_resource("sample").glob("*.png"))[:3]
+    found = [find_corners(read_image(path).grey) for path in paths]
+    views = [
+        View(str(path), ViewStatus.FOUND, corners=corners)
+        for path, corners in zip(paths, found, strict=True)
+    ]
+    marked = replace(views[1], roi=outermost(found[1]))
+    project = Project(views=(views[0], marked, views[2]), size=(640, 480))
+    hand, page = Hand(window, qtbot), window.page
+    window.session.begin(Document(project))
+    hand.click_button(window.board.by_hand)
+    assert window.session.project.by_hand
+    hand.choose_image(paths[0].name)
+    page.tools[0].trigger()
+    for point in outermost(found[0]):
+        hand.click(point)
+    hand.wait(page.marker.roi_bar.accept.isEnabled)
+    hand.key(Qt.Key.Key_Return)
+    assert window.session.image == str(paths[2]), "the second one has been marked"
+    hand.wait(lambda: page.canvas.tool is not None)
+    page.marker.leave()
+
+
+def test_an_image_of_another_size_is_not_marked(window: MainWindow, qtbot: QtBot) -> None:
+    path = find_resource("sample") / "view01.png"
+    hand, page = Hand(window, qtbot), window.page
+    window.session.begin(Document(Project(views=(View(str(path)),), size=(800, 600), by_hand=True)))
+    hand.choose_image(path.name)
+    page.tools[0].trigger()
+    for point in outermost(find_corners(read_image(path).grey)):
+        hand.click(point)
+    hand.wait(page.marker.roi_bar.accept.isEnabled)
+    hand.key(Qt.Key.Key_Return)
+    assert "640 × 480 pixels, the others 800 × 600" in window.banner.text.text()
+    assert not window.session.project.usable
+    page.marker.leave()
+
+
+def test_places_outside_of_the_image_have_no_coordinates(window: MainWindow, qtbot: QtBot) -> None:
+    path = find_resource("sample") / "view01.png"
+    hand, page = Hand(window, qtbot), window.page
+    window.session.begin(Document(Project(views=(View(str(path)),), by_hand=True)))
+    hand.choose_image(path.name)
+    page.canvas.hovered.emit(639.4, 479.4)
+    assert window.place.text().startswith("u 639.40  v 479.40 px   grey ")
+    page.canvas.hovered.emit(639.6, 479.4)
+    assert window.place.text() == ""
