@@ -176,6 +176,7 @@ class Table(QTableView):
         self.sortByColumn(-1, Qt.SortOrder.AscendingOrder)
         self.setSelectionBehavior(QAbstractItemView.SelectionBehavior.SelectRows)
         self.setAlternatingRowColors(True)
+        self.setAccessibleName(self.tr("Table"))
         self.setWordWrap(False)
         self.setTextElideMode(Qt.TextElideMode.ElideMiddle)
         self.verticalHeader().hide()
@@ -202,6 +203,9 @@ class Table(QTableView):
         """Show these columns; `marked` rows stand out, each with its reason as the tooltip."""
         reasons = marked if isinstance(marked, dict) else dict.fromkeys(marked, "")
         self._model.show(columns, reasons)
+        self.setAccessibleName(
+            self.tr("Table of {0}").format(", ".join(c.title for c in columns if not c.hidden))
+        )
         self._fit()
 
     def select(self, row: int) -> None:

@@ -10,10 +10,11 @@ import sys
 import tempfile
 import time
 from collections.abc import Iterator
+from datetime import datetime
 from pathlib import Path
 
 import pytest
-from PySide6.QtCore import QEvent
+from PySide6.QtCore import QEvent, QLocale
 from PySide6.QtWidgets import QApplication, QFileDialog
 from pytestqt.qtbot import QtBot
 
@@ -175,6 +176,23 @@ def test_work_on_a_file_stays_until_it_is_decided_about(
     assert not get_autosave_path(slot).exists()
     qtbot.waitUntil(lambda: find_unsaved_work(path) is not None)
     assert "other.png" in read_project(get_autosave_path(path)).views[-1].image
+
+
+def test_the_time_of_unsaved_work_is_told_as_the_users_language_has_it(
+    window: MainWindow, tmp_path: Path
+) -> None:
+    path = tmp_path / "project.json"
+    autosave(examples.calibrated(tmp_path), path)
+    noon = datetime(2026, 11, 22, 12, 30).timestamp()
+    os.utime(get_autosave_path(path), (noon, noon))
+    before = QLocale()
+    try:
+        for language, told in (("de_DE", "22.11.26 12:30"), ("en_GB", "22/11/2026 12:30")):
+            QLocale.setDefault(QLocale(language))
+            window.files.recoverable.emit(path)
+            assert told in window.banner.text.text()
+    finally:
+        QLocale.setDefault(before)
 
 
 def test_work_that_was_given_up_can_be_brought_back(

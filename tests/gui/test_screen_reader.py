@@ -1,0 +1,92 @@
+"""What a screen reader says: no control, table or list without a name."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import pytest
+from PySide6.QtGui import QAccessible, QAccessibleInterface
+from PySide6.QtWidgets import QWidget
+from pytestqt.qtbot import QtBot
+
+from calibgui.gui.dialogs.export_dialog import ExportDialog
+from calibgui.gui.dialogs.help_dialog import HelpDialog
+from calibgui.gui.dialogs.print_dialog import PrintDialog
+from calibgui.gui.panels.analysis import PANELS
+from calibgui.gui.panels.panel import Panel
+from calibgui.gui.window.main_window import MainWindow
+
+_Role = QAccessible.Role
+_CONTROLS = {
+    _Role.Button,
+    _Role.ButtonDropDown,
+    _Role.ButtonMenu,
+    _Role.CheckBox,
+    _Role.ComboBox,
+    _Role.EditableText,
+    _Role.List,
+    _Role.PageTab,
+    _Role.PushButton,
+    _Role.RadioButton,
+    _Role.Slider,
+    _Role.SpinBox,
+    _Role.Table,
+    _Role.Tree,
+}
+"""Roles of what the user works with, or reads line by line."""
+
+
+def walk(interface: QAccessibleInterface, path: str = "") -> Iterator[tuple[str, str]]:
+    """Yield where each control is, in sight or not, and the name that a screen reader says."""
+    thing = interface.object()
+    kind = type(thing).__name__ if thing is not None else ""
+    here = f"{path}/{kind or interface.role().name}"
+    own = isinstance(thing, QWidget) and not thing.objectName().startswith("qt_")
+    if own and interface.role() in _CONTROLS:
+        yield here, interface.text(QAccessible.Text.Name)
+    if interface.role() in (_Role.Table, _Role.List, _Role.Tree, _Role.ComboBox, _Role.SpinBox):
+        return  # their parts are read as values
+    for k in range(interface.childCount()):
+        if (child := interface.child(k)) is not None:
+            yield from walk(child, here)
+
+
+def list_nameless(widget: QWidget) -> list[str]:
+    interface = QAccessible.queryAccessibleInterface(widget)
+    assert interface is not None
+    found = list(walk(interface))
+    assert found, "nothing is read at all"
+    return [place for place, name in found if not name.strip()]
+
+
+def test_the_empty_window(window: MainWindow) -> None:
+    assert list_nameless(window) == []
+
+
+@pytest.mark.parametrize("kind", PANELS, ids=lambda kind: kind.__name__)
+def test_the_window_with_each_panel(full: MainWindow, qtbot: QtBot, kind: type[Panel]) -> None:
+    full.need_analysis().show_panel(kind)
+    qtbot.waitUntil(lambda: not full.session.jobs.running, timeout=60_000)
+    assert list_nameless(full) == []
+
+
+def test_the_bars_of_marking(full: MainWindow) -> None:
+    full.page.marker.roi_bar.show()
+    full.page.marker.corner_bar.show()
+    full.banner.show_text("?", {"&Yes": lambda: None})
+    assert list_nameless(full) == []
+
+
+def test_the_dialogs(full: MainWindow, qtbot: QtBot) -> None:
+    result = full.session.result
+    assert result is not None
+    dialogs = (
+        PrintDialog(full.session.project.board),
+        HelpDialog(full),
+        ExportDialog(full.session.jobs, result, full),
+    )
+    for dialog in dialogs:
+        qtbot.addWidget(dialog)
+        dialog.show()
+        qtbot.waitUntil(lambda: not full.session.jobs.running, timeout=60_000)
+        assert list_nameless(dialog) == [], type(dialog).__name__
