@@ -34,8 +34,9 @@ def _get_box() -> QMessageBox:
 
 def _press(key: Qt.Key, modifier: Qt.KeyboardModifier) -> None:
     box = _get_box()
-    box.activateWindow()
-    QTest.qWaitForWindowActive(box)
+    while QApplication.activeWindow() is not box:
+        box.activateWindow()
+        QTest.qWait(10)
     QTest.keyClick(box.focusWidget() or box, key, modifier)
 
 
