@@ -39,7 +39,8 @@ def write_corners_csv(
 ) -> None:
     """Write the corners of all views that have corners.
 
-    Images at absolute paths are named from the folder of the file, so that both move together.
+    Images at absolute paths are named from the innermost folder that holds them all: what stands
+    above it differs between computers.
 
     Raises:
         CalibrationError: if the file cannot be written.
@@ -49,15 +50,14 @@ def write_corners_csv(
     found = [view for view in views if view.status is ViewStatus.FOUND]
     weighted = any(view.observation(board).cov is not None for view in found)
     writer.writerow(_COLUMNS + _COVARIANCE_COLUMNS if weighted else _COLUMNS)
-    folder = Path(path).absolute().parent
-    for view in found:
-        writer.writerows(_make_rows(view, view.observation(board), folder))
+    names = _shorten_names([view.image for view in found])
+    for view, name in zip(found, names, strict=True):
+        writer.writerows(_make_rows(view, name, view.observation(board)))
     # A file name that is not valid Unicode is written so that every reader takes it.
     write_atomically(path, text.getvalue().encode(errors="backslashreplace"))
 
 
-def _make_rows(view: View, points: Observation, folder: Path) -> Iterator[list[str | int | float]]:
-    image = _name_image(view.image, folder)
+def _make_rows(view: View, image: str, points: Observation) -> Iterator[list[str | int | float]]:
     for i in range(len(points.uv)):
         place = ["", ""] if view.corners is None else view.corners.grid[i].tolist()
         row = [image, *place, *points.uv[i].tolist(), *points.xy[i].tolist()]
@@ -66,13 +66,16 @@ def _make_rows(view: View, points: Observation, folder: Path) -> Iterator[list[s
         yield row
 
 
-def _name_image(image: str, folder: Path) -> str:
-    """Return the path of an image from `folder`, unless it is on another drive or relative."""
-    path = PurePath(image)
+def _shorten_names(images: Sequence[str]) -> list[str]:
+    """Return absolute paths from the innermost folder that holds them all, others as they are."""
+    paths = [PurePath(image) for image in images]
+    if not paths or not all(path.is_absolute() for path in paths):
+        return list(images)
     try:
-        return PurePath(os.path.relpath(path, folder)).as_posix() if path.is_absolute() else image
-    except ValueError:
-        return image
+        folder = os.path.commonpath([path.parent for path in paths])
+    except ValueError:  # on several drives
+        return list(images)
+    return [path.relative_to(folder).as_posix() for path in paths]
 
 
 def read_corners_csv(path: str | os.PathLike[str]) -> tuple[View, ...]:
