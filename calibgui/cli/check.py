@@ -16,7 +16,12 @@ from calibgui.cli.arguments import parse_positive
 from calibgui.cli.camera import add_camera_options, read_camera_and_warn
 from calibgui.cli.console import Console
 from calibgui.cli.corners import add_corner_options, check_corner_options, read_or_search
-from calibgui.engine.assessment import DEFAULT_LIMIT, CalibrationCheck, Verdict, check_calibration
+from calibgui.engine.assessment import (
+    DEFAULT_LIMIT,
+    CalibrationCheck,
+    CheckVerdict,
+    check_calibration,
+)
 from calibgui.engine.errors import CalibrationError
 from calibgui.engine.threads import limit_blas_threads
 from calibgui.formats import EXPORTERS, ImportedCamera
@@ -94,7 +99,7 @@ def run(options: argparse.Namespace, console: Console) -> int:
     if unused:
         console.print_text(unused)
     console.print_line(describe_verdict(check))
-    return 0 if check.verdict is Verdict.STILL_GOOD else _NOT_GOOD
+    return 0 if check.verdict is CheckVerdict.STILL_GOOD else _NOT_GOOD
 
 
 def _read_overdispersion(path: Path, stored: ImportedCamera) -> float:

@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import argparse
+from collections.abc import Sequence
 from dataclasses import replace
+from pathlib import Path
 
 from calibgui.cli.arguments import (
     add_image_paths,
@@ -35,6 +37,13 @@ def add_corner_options(parser: argparse.ArgumentParser, need: str) -> None:
     parser.add_argument(
         "--square", type=parse_positive, metavar="MM", help=f"side of a square, mm; {need}"
     )
+    parser.add_argument(
+        "--exclude",
+        nargs="+",
+        default=(),
+        metavar="IMAGE",
+        help="images to leave out, by their names or paths",
+    )
 
 
 def check_corner_options(options: argparse.Namespace) -> None:
@@ -62,7 +71,7 @@ def read_or_search(
         CalibrationError: if the corners or photographs cannot be read.
     """
     if is_corners_file(options.paths):
-        return _read_corners_file(options)
+        return _exclude_images(_read_corners_file(options), options.exclude)
     pattern = read_pattern_options(options)
     detection = search_images(
         console,
@@ -78,7 +87,33 @@ def read_or_search(
     corner_set = detection.corner_set(side)
     if words := describe_recognised_board(pattern, corner_set.board):
         console.print_text(words + "\n")
-    return corner_set
+    return _exclude_images(corner_set, options.exclude)
+
+
+def _exclude_images(corner_set: CornerSet, names: Sequence[str]) -> CornerSet:
+    """Return the views with those of some images left out.
+
+    Args:
+        corner_set: the views.
+        names: names or paths of images.
+
+    Raises:
+        CalibrationError: for a name that no image has.
+    """
+    known = {name for view in corner_set.views for name in (view.image, Path(view.image).name)}
+    for name in names:
+        if name not in known:
+            raise CalibrationError(
+                f"There is no image {name!r} to leave out.",
+                "Give the name of one of the images, as it is listed, or its path.",
+            )
+    views = tuple(
+        replace(view, enabled=False)
+        if view.image in names or Path(view.image).name in names
+        else view
+        for view in corner_set.views
+    )
+    return replace(corner_set, views=views) if names else corner_set
 
 
 def _read_corners_file(options: argparse.Namespace) -> CornerSet:

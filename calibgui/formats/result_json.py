@@ -26,8 +26,9 @@ from typing import Any
 import numpy as np
 
 from calibgui.dataset import Result
+from calibgui.dataset.judging import judge_result
 from calibgui.engine.arrays import Array
-from calibgui.engine.assessment import Finding, list_findings, summarise_residuals
+from calibgui.engine.assessment import Action, Finding, Verdict, summarise_residuals
 from calibgui.engine.boards import BoardShape
 from calibgui.engine.calibration import (
     Calibration,
@@ -68,6 +69,7 @@ from calibgui.formats.views_json import decode_views, encode_view
 FORMAT = "calibgui-result"
 VERSION = 1
 
+_ERRORS = ("centre", "edge", "worst", "median")
 _ITERATION_KEYS = ("index", "cost", "rms", "gradient", "step", "damping", "seconds")
 
 
@@ -81,13 +83,27 @@ def write_result(result: Result, path: str | os.PathLike[str]) -> None:
 
 
 def encode_result_with_findings(result: Result) -> dict[str, Any]:
-    """Return the content of result.json, with what is wrong with the calibration.
+    """Return the content of result.json, with the verdict and what is wrong.
 
-    Findings follow from the rest, which takes its time; they are not read back.
+    Both follow from the rest, which takes its time; they are not read back.
     """
+    verdict = judge_result(result)
     names = [view.image for view in result.used]
-    found = list_findings(result.calibration, result.observations(), names)
-    return encode_result(result) | {"findings": [_encode_finding(f, names) for f in found]}
+    return encode_result(result) | {
+        "verdict": _encode_verdict(verdict),
+        "findings": [_encode_finding(finding, names) for finding in verdict.findings],
+    }
+
+
+def _encode_verdict(verdict: Verdict) -> dict[str, Any]:
+    return {
+        "grade": verdict.grade,
+        "reason": verdict.reason,
+        "times_better": verdict.times_better,
+        "error_px": {name: getattr(verdict.error, name) for name in _ERRORS},
+        "mm_per_px": verdict.mm_per_pixel,
+        "distance_mm": verdict.distance,
+    }
 
 
 def _encode_finding(finding: Finding, names: Sequence[str]) -> dict[str, Any]:
@@ -98,6 +114,17 @@ def _encode_finding(finding: Finding, names: Sequence[str]) -> dict[str, Any]:
         "remedy": finding.remedy,
         "harm_px": finding.harm,
         "views": [names[k] for k in finding.views],
+        "action": None if finding.action is None else _encode_action(finding.action, names),
+        "times_better": finding.times_better,
+    }
+
+
+def _encode_action(action: Action, names: Sequence[str]) -> dict[str, Any]:
+    return {
+        "kind": action.kind,
+        "views": [names[k] for k in action.views],
+        "parameters": action.parameters,
+        "model": action.model or None,
     }
 
 

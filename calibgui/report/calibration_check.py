@@ -6,7 +6,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from calibgui.engine.assessment import CONFIDENCE, CalibrationCheck, Verdict, Weakness
+from calibgui.engine.assessment import CONFIDENCE, CalibrationCheck, CheckVerdict, Weakness
 from calibgui.report.numbers import format_with_sigma
 from calibgui.report.tables import align_columns, format_bullet
 
@@ -66,12 +66,12 @@ def describe_check(check: CalibrationCheck, names: Sequence[str]) -> str:
 def describe_verdict(check: CalibrationCheck) -> str:
     """Say in one sentence or two whether the calibration is still good."""
     change = f"{_format_change(check)} px"
-    if check.verdict is Verdict.STILL_GOOD:
+    if check.verdict is CheckVerdict.STILL_GOOD:
         return (
             f"The calibration is still good: the camera's change, {change}, is below "
             f"{check.limit:g} px."
         )
-    if check.verdict is Verdict.HAS_CHANGED:
+    if check.verdict is CheckVerdict.HAS_CHANGED:
         return (
             f"The camera has changed: by {change}, which is above {check.limit:g} px by more than "
             f"{CONFIDENCE:g} standard deviations. Calibrate it again."

@@ -7,7 +7,7 @@ counts if it can be told from zero. The advice on what to photograph is in ``adv
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from enum import StrEnum
 from itertools import combinations
@@ -15,11 +15,12 @@ from itertools import combinations
 import numpy as np
 
 from calibgui.dataset import Result
+from calibgui.dataset.judging import judge_result
 from calibgui.engine.assessment import (
     Cause,
     ErrorSources,
     Finding,
-    list_findings,
+    Grade,
     separate_error_sources,
     summarise_residuals,
 )
@@ -28,6 +29,7 @@ from calibgui.engine.calibration import Calibration, Status, compute_correlation
 from calibgui.report import advice, partial
 from calibgui.report.names import shorten_name
 from calibgui.report.numbers import format_count, format_with_sigma
+from calibgui.report.verdict import format_headline
 
 _MAX_GOOD_RELATIVE_SIGMA = 1e-3
 """Relative standard deviation of a length below which it counts as well determined."""
@@ -64,33 +66,26 @@ class Sentence:
     """Its purpose."""
     text: str
     """The sentence, or a few."""
+    cause: Cause | None = None
+    """The cause of the finding that it is about, if it is about one."""
 
 
-def describe_calibration(result: Result) -> tuple[Sentence, ...]:
-    """Describe the calibration in words: first a verdict, then the most important."""
-    names = [shorten_name(view.image) for view in result.used]
-    findings = list_findings(result.calibration, result.observations(), names)
-    sentences = tuple(_describe_in_detail(result, findings))
-    return _describe_verdict(result, findings, sentences), *sentences
+def describe_calibration(
+    result: Result, check: Callable[[], None] | None = None
+) -> tuple[Sentence, ...]:
+    """Describe the calibration in words: first the verdict, then the most important.
 
-
-def _describe_verdict(
-    result: Result, findings: Sequence[Finding], sentences: Sequence[Sentence]
-) -> Sentence:
-    """Describe in a sentence whether something is wrong."""
-    if result.calibration.diagnosis is not None:
-        text = "The views do not determine the camera."
-    elif len(findings) == 1:
-        text = "One thing is wrong."
-    elif findings:
-        text = f"{len(findings)} things are wrong."
-    elif result.calibration.status is not Status.CONVERGED:
-        text = "The calibration is not finished."
-    elif any(sentence.tone is Tone.CAUTION for sentence in sentences):
-        text = "Nothing is wrong with the whole, but mind what follows."
-    else:
-        return Sentence(Tone.GOOD, "Nothing is wrong that the photographs show.")
-    return Sentence(Tone.CAUTION, text)
+    Args:
+        result: the calibration with its views.
+        check: a function that is called now and then, and raises to abandon the work.
+    """
+    verdict = judge_result(result, check)
+    tone = Tone.GOOD if verdict.grade is Grade.GOOD else Tone.CAUTION
+    headline = f"{format_headline(verdict)}."
+    if not verdict.findings:  # they say why themselves
+        headline += f" {verdict.reason}"
+    first = Sentence(tone, headline)
+    return first, *_describe_in_detail(result, verdict.findings)
 
 
 def _describe_in_detail(result: Result, findings: Sequence[Finding]) -> Iterator[Sentence]:
@@ -160,8 +155,8 @@ def _describe_findings(findings: Sequence[Finding]) -> Iterator[Sentence]:
     """Describe what is wrong and what to do, except for lens and board, which follow."""
     for finding in findings:
         if finding.cause not in (Cause.LENS, Cause.BOARD_SHAPE):
-            yield Sentence(Tone.CAUTION, f"{finding.message} {finding.evidence}")
-            yield Sentence(Tone.ADVICE, finding.remedy)
+            yield Sentence(Tone.CAUTION, f"{finding.message} {finding.evidence}", finding.cause)
+            yield Sentence(Tone.ADVICE, finding.remedy, finding.cause)
 
 
 def describe_board_shape(board_shape: BoardShape) -> str:
@@ -240,7 +235,7 @@ def _describe_sources(result: Result, findings: Sequence[Finding]) -> Iterator[S
     yield Sentence(Tone.FACT, describe_error_sources(sources))
     if Cause.LENS in causes or (sources.is_lens_at_fault and not causes & _MISLEADING):
         rms = calibration.lens_error or sources.lens
-        yield Sentence(Tone.CAUTION, describe_lens_error(calibration, rms))
+        yield Sentence(Tone.CAUTION, describe_lens_error(calibration, rms), Cause.LENS)
 
 
 def _describe_board(result: Result, findings: Sequence[Finding]) -> Iterator[Sentence]:
@@ -249,7 +244,7 @@ def _describe_board(result: Result, findings: Sequence[Finding]) -> Iterator[Sen
     if error > 0:
         matters = any(finding.cause is Cause.BOARD_SHAPE for finding in findings)
         tone = Tone.CAUTION if matters else Tone.FACT
-        yield Sentence(tone, describe_board_shape_error(error))
+        yield Sentence(tone, describe_board_shape_error(error), Cause.BOARD_SHAPE)
     if board_shape is not None:
         yield Sentence(Tone.FACT, describe_board_shape(board_shape))
     if (scatter := result.calibration.overdispersion) > 0:
@@ -292,7 +287,8 @@ def _describe_parameters(result: Result, findings: Sequence[Finding]) -> Iterato
     def listed(chosen: list[str]) -> str:
         return ", ".join(f"{name} = {texts[name]}" for name in chosen)
 
-    for lacking in calibration.undetermined:
+    left_open = any(finding.cause is Cause.UNDETERMINED for finding in findings)
+    for lacking in () if left_open else calibration.undetermined:
         yield Sentence(
             Tone.CAUTION,
             f"{lacking.name} is not determined by these views: {lacking.reason}. "

@@ -8,14 +8,15 @@ from __future__ import annotations
 
 import math
 import textwrap
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from itertools import zip_longest
 from pathlib import PurePath
 
 import numpy as np
 
 from calibgui.dataset import Result, View, ViewStatus
-from calibgui.engine.assessment import summarise_residuals
+from calibgui.dataset.judging import judge_result
+from calibgui.engine.assessment import Finding, Verdict, summarise_residuals
 from calibgui.engine.boards import Symmetry
 from calibgui.engine.calibration import Calibration, Cost, make_paper_table
 from calibgui.engine.camera import Lucchese, find_model
@@ -24,6 +25,14 @@ from calibgui.report.coverage import measure_attitudes
 from calibgui.report.names import make_printable, shorten_name
 from calibgui.report.numbers import format_count, format_with_sigma
 from calibgui.report.summary import Tone, describe_calibration
+from calibgui.report.verdict import (
+    describe_error,
+    describe_error_in_scene,
+    describe_fit,
+    format_headline,
+    format_options,
+    format_times,
+)
 
 WIDTH_CHARACTERS = 80
 """Number of characters in a line."""
@@ -36,6 +45,10 @@ _MAX_COEFFICIENTS = 14
 """Number of parameters of a lens model up to which they stand beside the focal lengths."""
 _MAX_NAMES = 6
 """Number of images that are named, of those that are left out for the same reason."""
+_MIN_TOLD_GAIN = 1.1
+"""Ratio of errors from which it is said by how much an action makes the camera better."""
+_MAX_LINES = 20
+"""Number of lines of a short report, to which the command line adds the files that it wrote."""
 _COSTS = {
     Cost.IMAGE: "reprojection error in the image",
     Cost.REFERENCE: "registration error on the reference plane",
@@ -45,49 +58,87 @@ _COSTS = {
 
 def format_report(result: Result, *, verbose: bool = False) -> str:
     """Format the verdict, what is wrong, the camera and its RMS; all that is known if `verbose`."""
-    calibration = result.calibration
-    verdict, *sentences = describe_calibration(result)
-    urgent = [s for s in sentences if s.tone in _URGENT]
-    sections = [
-        "\n".join([verdict.text, *(format_bullet(s.text) for s in urgent)]),
-        list_unused_views(result.views),
-    ]
+    _, *sentences = describe_calibration(result)
+    verdict = judge_result(result)
+    named = {finding.cause for finding in verdict.findings}
+    urgent = [s for s in sentences if s.tone in _URGENT and s.cause not in named]
+    remarks = [format_bullet(s.text) for s in urgent]
     if not verbose:
-        sections += [tabulate_camera(calibration), _fill_lines(describe_rms(result), "", "  ")]
-        return "\n\n".join(filter(None, sections))
+        return _format_briefly(result, verdict, remarks)
     notes = [
         *(s.text for s in sentences if s not in urgent),
         *describe_symmetry(result.used),
         *(f"{PurePath(view.image).name}: {view.note}" for view in result.used if view.note),
     ]
-    sections += [
-        tabulate_intrinsics(calibration),
-        describe_residuals(calibration),
+    return _join_sections(
+        "\n".join([*_format_verdict(result, verdict), *remarks]),
+        list_unused_views(result.views),
+        tabulate_intrinsics(result.calibration),
+        describe_residuals(result.calibration),
         "\n".join(map(format_bullet, notes)),
         tabulate_views(result),
         tabulate_stage_one(result),
-    ]
+    )
+
+
+def _format_briefly(result: Result, verdict: Verdict, remarks: Sequence[str]) -> str:
+    """Format the verdict, the camera and its RMS, with as many remarks as leave it short."""
+    for count in range(len(remarks), -1, -1):
+        text = _join_sections(
+            "\n".join([*_format_verdict(result, verdict), *remarks[:count]]),
+            list_unused_views(result.views),
+            tabulate_camera(result.calibration),
+            _fill_lines(describe_rms(result), "", "  "),
+        )
+        if text.count("\n") < _MAX_LINES:
+            break
+    return text
+
+
+def _join_sections(*sections: str) -> str:
+    """Join the sections that are not empty, a blank line between two."""
     return "\n\n".join(filter(None, sections))
 
 
+def _format_verdict(result: Result, verdict: Verdict) -> Iterator[str]:
+    """Format the headline, the error of a pixel, and a few lines for each finding."""
+    headline = format_headline(verdict)
+    # The first finding says the reason itself.
+    yield (
+        f"{headline}."
+        if verdict.findings
+        else _fill_lines(f"{headline}. {verdict.reason}", "", "  ")
+    )
+    in_scene = describe_error_in_scene(verdict)
+    yield _fill_lines("; ".join(filter(None, [describe_error(verdict), in_scene])) + ".", "", "  ")
+    names = [_get_name(view.image) for view in result.used]
+    for finding in verdict.findings:
+        yield format_bullet(f"{finding.message} {finding.evidence}")
+        options = format_options(finding.action, names) if finding.action is not None else ""
+        yield _fill_lines(f"{options or finding.remedy}{_describe_gain(finding)}", "  > ", "    ")
+
+
+def _get_name(image: str) -> str:
+    return PurePath(image).name
+
+
+def _describe_gain(finding: Finding) -> str:
+    """Describe in brackets by how much an action makes the camera better."""
+    times = finding.times_better
+    return f" ({format_times(times)} times better)" if times > _MIN_TOLD_GAIN else ""
+
+
 def summarise_in_a_line(result: Result) -> str:
-    """Summarise the calibration in a line: verdict, what is most wrong, focal length and RMS."""
-    calibration = result.calibration
-    verdict, *sentences = describe_calibration(result)
-    cautions = [s.text for s in sentences if s.tone is Tone.CAUTION]
-    name, value, sigma = (
-        calibration.camera.names[0],
-        calibration.camera.params[0],
-        calibration.sigma[0],
-    )
-    return " ".join(
-        [
-            verdict.text,
-            *cautions[:1],
-            f"{name} = {_format_parameter(calibration, name, value, sigma)} px, RMS "
-            f"{summarise_residuals(calibration.residuals).rms:.4f} px, {_count_used(result)}.",
-        ]
-    )
+    """Summarise the calibration in a line: the verdict, the error of a pixel, and its remedy."""
+    verdict = judge_result(result)
+    words = [
+        f"{format_headline(verdict)}. {verdict.reason}",
+        f"{describe_error(verdict)}; {describe_fit(result)}, {_count_used(result)}.",
+    ]
+    names = [_get_name(view.image) for view in result.used]
+    if verdict.findings and (action := verdict.findings[0].action) is not None:
+        words.append(f"Do: {options}." if (options := format_options(action, names)) else "")
+    return " ".join(filter(None, words))
 
 
 def tabulate_stage_one(result: Result) -> str:

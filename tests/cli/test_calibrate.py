@@ -38,7 +38,7 @@ def test_photographs_give_the_camera_that_took_them(
     assert (np.abs(camera.params - CAMERA.params)[free] < 5 * sigma[free]).all()
     printed, problems = capsys.readouterr()
     assert problems == ""
-    first = "Nothing is wrong that the photographs show.\n"
+    first = "GOOD. Nothing is wrong that the photographs show.\nError of a pixel: centre 0.0"
     assert printed.startswith(first) and "\nCamera, 320 x 240 px" in printed
     assert "\nRMS 0.0" in printed and f"{COUNT} of {COUNT} images" in printed
     assert "Wrote" in printed and "-v shows Stage I" in printed
@@ -134,7 +134,7 @@ def test_json_is_all_there_is_on_stdout(corners_file: Path, capsys: Capture) -> 
 def test_quiet_is_one_line(corners_file: Path, capsys: Capture) -> None:
     assert main(["calibrate", str(corners_file), "--quiet"]) == 0
     printed, problems = capsys.readouterr()
-    assert printed.startswith("Nothing is wrong that the photographs show. fx = 3")
+    assert printed.startswith("GOOD. Nothing is wrong that the photographs show. Error of a ")
     assert printed.endswith(f", {COUNT} of {COUNT} images.\n") and printed.count("\n") == 1
     assert problems == ""
 
@@ -142,13 +142,14 @@ def test_quiet_is_one_line(corners_file: Path, capsys: Capture) -> None:
 def test_quiet_says_what_is_wrong(corners_file: Path, capsys: Capture) -> None:
     assert main(["calibrate", str(corners_file), "--fix", "fx=300", "--quiet"]) == 0
     printed = capsys.readouterr().out
-    assert printed.startswith("One thing is wrong. ") and "fx" in printed.split(". ")[1]
+    assert printed.startswith("CAN BE ") and " TIMES BETTER. " in printed
+    assert "fx" in printed.split(". ")[1] and "Do: leave fx out of --fix." in printed
 
 
 def test_the_verdict_and_the_camera_come_first(corners_file: Path, capsys: Capture) -> None:
     assert main(["calibrate", str(corners_file), "--fix", "fx=300"]) == 0
     told = capsys.readouterr().out
-    places = [told.index(words) for words in ("One thing is wrong.\n- ", "Camera, ", "RMS ", "-v ")]
+    places = [told.index(words) for words in ("CAN BE ", "Error of", "Camera, ", "RMS ", "-v ")]
     assert places[0] == 0 and places == sorted(places)
 
 

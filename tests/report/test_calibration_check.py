@@ -7,7 +7,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from calibgui.engine.assessment import CalibrationCheck, CheckedView, Verdict, Weakness
+from calibgui.engine.assessment import CalibrationCheck, CheckedView, CheckVerdict, Weakness
 from calibgui.report.calibration_check import describe_check, describe_verdict
 
 GOOD = CalibrationCheck(
@@ -40,20 +40,20 @@ def words(check: CalibrationCheck) -> str:
 @pytest.mark.parametrize(
     ("change", "sigma", "verdict"),
     [
-        (0.1, 0.19, Verdict.STILL_GOOD),
-        (0.1, 0.21, Verdict.CANNOT_TELL),
-        (0.6, 0.06, Verdict.CANNOT_TELL),
-        (0.6, 0.04, Verdict.HAS_CHANGED),
-        (8.0, 4.0, Verdict.CANNOT_TELL),
+        (0.1, 0.19, CheckVerdict.STILL_GOOD),
+        (0.1, 0.21, CheckVerdict.CANNOT_TELL),
+        (0.6, 0.06, CheckVerdict.CANNOT_TELL),
+        (0.6, 0.04, CheckVerdict.HAS_CHANGED),
+        (8.0, 4.0, CheckVerdict.CANNOT_TELL),
     ],
 )
-def test_verdict(change: float, sigma: float, verdict: Verdict) -> None:
+def test_verdict(change: float, sigma: float, verdict: CheckVerdict) -> None:
     check = replace(GOOD, change=change, change_sigma=sigma)
     assert check.verdict is verdict
     said = {
-        Verdict.STILL_GOOD: "is still good",
-        Verdict.CANNOT_TELL: "cannot tell",
-        Verdict.HAS_CHANGED: "has changed: by",
+        CheckVerdict.STILL_GOOD: "is still good",
+        CheckVerdict.CANNOT_TELL: "cannot tell",
+        CheckVerdict.HAS_CHANGED: "has changed: by",
     }
     assert said[verdict] in describe_verdict(check)
     assert f"{change:.3f} ± {sigma:.3f} px" in describe_verdict(check)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
@@ -132,11 +133,15 @@ def test_the_verdict_comes_first(good: Result) -> None:
         first = describe_calibration(result)[0]
         return first.tone, first.text
 
-    assert verdict(good) == (Tone.GOOD, "Nothing is wrong that the photographs show.")
+    assert verdict(good) == (Tone.GOOD, "GOOD. Nothing is wrong that the photographs show.")
     wrong = solved(everywhere(), model="pinhole")
-    assert verdict(wrong) == (Tone.CAUTION, "One thing is wrong.")
+    tone, words = verdict(wrong)
+    assert tone is Tone.CAUTION and re.fullmatch(r"CAN BE \d+ TIMES BETTER\.", words)
     stopped = replace(good, calibration=replace(good.calibration, status=Status.STOPPED))
-    assert verdict(stopped) == (Tone.CAUTION, "The calibration is not finished.")
+    assert verdict(stopped) == (
+        Tone.CAUTION,
+        "NOT USABLE. The calibration is not finished.",
+    )
 
 
 def test_good_views_ask_for_nothing(good: Result) -> None:

@@ -1,6 +1,7 @@
 """Assessment of a calibration: residuals, outliers, errors on unseen views, comparison.
 
-`list_findings` says what is wrong with a calibration and matters, the most harmful first.
+`judge_calibration` says what a calibration is worth and what makes it better, `list_findings` what
+is wrong with it and matters, the most harmful first.
 `summarise_residuals` states how well the model fits, `check_residuals` whether what is left is
 noise or has a cause, `separate_error_sources` how many pixels lens, board, single views and noise
 contribute; `screen_outliers` leaves wrong corners out, `calibrate_weighted` weighs views
@@ -19,7 +20,7 @@ from calibgui.engine.assessment.calibration_check import (
     DEFAULT_LIMIT,
     CalibrationCheck,
     CheckedView,
-    Verdict,
+    CheckVerdict,
     Weakness,
     check_calibration,
 )
@@ -40,7 +41,7 @@ from calibgui.engine.assessment.drift import (
     measure_drift,
 )
 from calibgui.engine.assessment.error_sources import ErrorSources, separate_error_sources
-from calibgui.engine.assessment.finding import Cause, Finding
+from calibgui.engine.assessment.finding import Action, ActionKind, Cause, Finding
 from calibgui.engine.assessment.findings import list_findings
 from calibgui.engine.assessment.lens_choice import (
     CANDIDATES,
@@ -69,6 +70,7 @@ from calibgui.engine.assessment.residual_statistics import (
     summarise_residuals,
 )
 from calibgui.engine.assessment.series import SPLINE, Series, Setting, fit_series
+from calibgui.engine.assessment.verdict import Grade, PixelError, Verdict, judge_calibration
 from calibgui.engine.assessment.view_weights import calibrate_weighted
 
 __all__ = [
@@ -77,11 +79,14 @@ __all__ = [
     "DEFAULT_LIMIT",
     "SIMPLEST_MODEL",
     "SPLINE",
+    "Action",
+    "ActionKind",
     "BoardShapeChoice",
     "Bootstrap",
     "CalibrationCheck",
     "CameraDifference",
     "Cause",
+    "CheckVerdict",
     "CheckedView",
     "CrossValidation",
     "Distortion",
@@ -89,6 +94,7 @@ __all__ = [
     "ErrorSources",
     "Finding",
     "Fold",
+    "Grade",
     "Histogram",
     "LensChoice",
     "LensTrial",
@@ -97,6 +103,7 @@ __all__ = [
     "MethodTrial",
     "NoiseCheck",
     "NoiseReport",
+    "PixelError",
     "Rejection",
     "ResidualSummary",
     "Screening",
@@ -117,6 +124,7 @@ __all__ = [
     "compare_methods",
     "cross_validate",
     "fit_series",
+    "judge_calibration",
     "list_findings",
     "make_component_histogram",
     "make_length_histogram",

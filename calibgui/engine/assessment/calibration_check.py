@@ -75,7 +75,7 @@ _RAYLEIGH_MEDIAN = float(np.sqrt(2 * np.log(2)))
 """Median of a Rayleigh distribution, in units of its parameter."""
 
 
-class Verdict(StrEnum):
+class CheckVerdict(StrEnum):
     """The answer that the pictures give about a stored calibration."""
 
     STILL_GOOD = "still good"
@@ -150,13 +150,13 @@ class CalibrationCheck:
         freeze(self, "shift", "shift_sigma")
 
     @property
-    def verdict(self) -> Verdict:
+    def verdict(self) -> CheckVerdict:
         """The answer whether the calibration is still good, by `limit` and `CONFIDENCE`."""
         if self.change + CONFIDENCE * self.change_sigma <= self.limit:
-            return Verdict.STILL_GOOD
+            return CheckVerdict.STILL_GOOD
         if self.change - CONFIDENCE * self.change_sigma > self.limit:
-            return Verdict.HAS_CHANGED
-        return Verdict.CANNOT_TELL
+            return CheckVerdict.HAS_CHANGED
+        return CheckVerdict.CANNOT_TELL
 
 
 def check_calibration(

@@ -11,6 +11,8 @@ class Cause(StrEnum):
 
     WRONG_FRAME = "wrong-frame"
     HELD_VALUE = "held-value"
+    UNDETERMINED = "undetermined"
+    """Coefficients of the lens that the views leave open."""
     MISPLACED_CORNERS = "misplaced-corners"
     LENS = "lens"
     BOARD_SHAPE = "board-shape"
@@ -24,6 +26,41 @@ class Cause(StrEnum):
     """The views disagree about the camera, and the evidence singles no cause out."""
     BLUR = "blur"
     FEW_VIEWS = "few-views"
+
+
+class ActionKind(StrEnum):
+    """The kinds of actions that remedy a finding, or help to."""
+
+    ESTIMATE_BOARD_SHAPE = "estimate-board-shape"
+    CHOOSE_LENS_MODEL = "choose-lens-model"
+    LEAVE_OUT_CORNERS = "leave-out-corners"
+    """Leave out all corners and views that do not fit."""
+    LEAVE_OUT_VIEWS = "leave-out-views"
+    FREE_HELD_VALUE = "free-held-value"
+    HOLD_AT_ZERO = "hold-at-zero"
+    WEIGH_VIEWS = "weigh-views"
+    LOOK_AT_VIEW = "look-at-view"
+    PHOTOGRAPH_MORE = "photograph-more"
+
+
+@dataclass(frozen=True, slots=True)
+class Action:
+    """Something that can be done about a finding, and that a program can carry out or prepare."""
+
+    kind: ActionKind
+    """The kind of action."""
+    views: tuple[int, ...] = ()
+    """Indices of the views that it is about."""
+    parameters: tuple[str, ...] = ()
+    """Names of the camera's parameters that are freed or held."""
+    model: str = ""
+    """The board's shape model or the lens model that was found to be best; empty if none was
+    tried."""
+
+    @property
+    def is_of_camera(self) -> bool:
+        """True if another calibration from the same photographs carries it out."""
+        return self.kind not in (ActionKind.LOOK_AT_VIEW, ActionKind.PHOTOGRAPH_MORE)
 
 
 @dataclass(frozen=True, slots=True)
@@ -43,3 +80,8 @@ class Finding:
     """
     views: tuple[int, ...] = ()
     """Indices of the views that it is found in; none if it is in all of them."""
+    action: Action | None = None
+    """What remedies it; None if no program can help."""
+    times_better: float = 1.0
+    """Ratio by which the action makes the error of pixels smaller, as a trial showed
+    (``verdict.py``); 1 if it was not tried or brings nothing."""

@@ -29,7 +29,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from calibgui.engine.assessment.finding import Cause, Finding
+from calibgui.engine.assessment.finding import Action, ActionKind, Cause, Finding
 from calibgui.engine.assessment.input_errors import (
     describe_misplaced_corners,
     find_wrong_frame,
@@ -43,6 +43,8 @@ from calibgui.engine.assessment.residual_statistics import summarise_residuals
 from calibgui.engine.assessment.systematic_errors import prepare_fit
 from calibgui.engine.calibration.observations import Observation, name_views
 from calibgui.engine.calibration.result import Calibration
+from calibgui.engine.camera.models import find_model
+from calibgui.engine.camera.models.splined_stereographic import SplinedStereographic
 from calibgui.engine.threads import with_one_blas_thread
 from calibgui.engine.uncertainty.projection_uncertainty import estimate_projection_uncertainty
 
@@ -102,6 +104,11 @@ _MESSAGES = {
     Cause.BLUR: "Some views are less sharp than the others.",
 }
 """Sentences that say what is wrong."""
+_ACTIONS = {
+    Cause.BOARD_SHAPE: ActionKind.ESTIMATE_BOARD_SHAPE,
+    Cause.BLUR: ActionKind.WEIGH_VIEWS,
+}
+"""Actions that need no other photographs, by their causes."""
 
 
 class _Case(NamedTuple):
@@ -149,6 +156,9 @@ def _find(
     if wrong:
         return
     case = _prepare_case(calibration, views, names)
+    open_coefficients = _find_open_coefficients(case)
+    if open_coefficients is not None:
+        yield open_coefficients
     screening = screen_misplaced_corners(calibration, views)
     if screening is not None:
         left = _leave_out(screening, views, names)
@@ -264,6 +274,7 @@ def _choose_cause_of_views(failed: dict[str, NoiseCheck]) -> NoiseCheck | None:
 
 def _describe_two_kinds(case: _Case, split: Split) -> Finding:
     odd = np.flatnonzero(split.is_odd).tolist()
+    views = tuple(case.numbers[k] for k in odd)
     left = case.rms * float(np.sqrt(1 - split.share))
     return Finding(
         Cause.MIXED_VIEWS,
@@ -274,7 +285,8 @@ def _describe_two_kinds(case: _Case, split: Split) -> Finding:
         "Look for another camera, zoom, focus or board in these photographs, and calibrate each "
         "kind by itself.",
         case.harm,
-        tuple(case.numbers[k] for k in odd),
+        views,
+        Action(ActionKind.LEAVE_OUT_VIEWS, views),
     )
 
 
@@ -286,6 +298,7 @@ def _describe_lens(case: _Case, error: float) -> Finding:
         "does not explain.",
         "Compare the lens models and take the one that is recommended (--model auto).",
         max(error, case.harm),
+        action=Action(ActionKind.CHOOSE_LENS_MODEL),
     )
 
 
@@ -312,6 +325,29 @@ def _describe_check(case: _Case, check: NoiseCheck) -> Finding | None:
         f"{evidence}; pixels at the image's edge are known to {case.harm:.2g} px.",
         remedy[:1].upper() + remedy[1:],
         case.harm,
+        action=Action(_ACTIONS.get(cause, ActionKind.PHOTOGRAPH_MORE)),
+    )
+
+
+def _find_open_coefficients(case: _Case) -> Finding | None:
+    """Find coefficients of the lens that the views leave open; None if there are none.
+
+    Control points of a spline that no corner depends on are none: nothing else depends on them.
+    """
+    camera = case.calibration.camera
+    if isinstance(find_model(camera.model), SplinedStereographic):
+        return None
+    lost = [u for u in case.calibration.undetermined if u.name in camera.names[4:]]
+    if not lost:
+        return None
+    listed = ", ".join(u.name for u in lost)
+    return Finding(
+        Cause.UNDETERMINED,
+        f"The views leave {listed} of the lens open.",
+        "; ".join(f"{u.name}: {u.reason}" for u in lost) + ".",
+        f"Hold {listed} at 0, or bring corners closer to the image's edges.",
+        case.harm,
+        action=Action(ActionKind.HOLD_AT_ZERO, parameters=tuple(u.name for u in lost)),
     )
 
 
@@ -329,6 +365,7 @@ def _find_lack_of_views(case: _Case) -> Finding | None:
         "Add views with the board tilted by 20 to 45 degrees in different directions and all over "
         "the image; six good ones are enough.",
         case.harm,
+        action=Action(ActionKind.PHOTOGRAPH_MORE),
     )
 
 
@@ -339,6 +376,8 @@ def _find_disagreement(case: _Case) -> Finding | None:
 
 
 def _describe_disagreement(case: _Case) -> Finding:
+    rms = [view.rms for view in case.calibration.residuals]
+    worst = case.numbers[int(np.argmax(rms))]
     return Finding(
         Cause.DISAGREEMENT,
         "The views disagree about the camera, and no single cause explains it.",
@@ -347,4 +386,5 @@ def _describe_disagreement(case: _Case) -> Finding:
         "Look for photographs of another camera, zoom or board among them, and calibrate each kind "
         "by itself.",
         case.harm,
+        action=Action(ActionKind.LOOK_AT_VIEW, (worst,)),
     )

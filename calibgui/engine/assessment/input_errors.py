@@ -12,7 +12,7 @@ import numpy as np
 
 from calibgui.engine.arrays import Array
 from calibgui.engine.assessment.comparison import compare_cameras
-from calibgui.engine.assessment.finding import Cause, Finding
+from calibgui.engine.assessment.finding import Action, ActionKind, Cause, Finding
 from calibgui.engine.assessment.outliers import (
     Screening,
     estimate_coordinate_sigma,
@@ -91,6 +91,7 @@ def find_wrong_frame(camera: Camera, views: Sequence[Observation]) -> Finding | 
         evidence,
         "Check the image size, and that (0, 0) is the centre of the upper left pixel.",
         float(max(camera.size)),
+        action=Action(ActionKind.LOOK_AT_VIEW, views=(0,)),
     )
 
 
@@ -134,6 +135,7 @@ def find_wrong_values(calibration: Calibration, views: Sequence[Observation]) ->
                 f"{after:.3g} px are left, and the camera's pixels move by up to {harm:.2g} px.",
                 f"Free {name}, or check where its value comes from.",
                 harm,
+                action=Action(ActionKind.FREE_HELD_VALUE, parameters=(name,)),
             )
 
 
@@ -227,6 +229,7 @@ def describe_misplaced_corners(
         harm = before
     if harm < _MIN_HARM_PX and before < _MIN_RISE * after:
         return None
+    chosen = tuple(r.view for r in worst)
     return Finding(
         Cause.MISPLACED_CORNERS,
         f"Corners are not where the others say, in {listed}{more}.",
@@ -234,5 +237,12 @@ def describe_misplaced_corners(
         f"move by up to {harm:.2g} px.",
         "Leave outliers out (--robust), or look at the corners of these views.",
         max(harm, before),
-        tuple(r.view for r in worst),
+        chosen,
+        Action(_choose_action(screening), chosen),
     )
+
+
+def _choose_action(screening: Screening) -> ActionKind:
+    """Choose between leaving out whole views and the corners that do not fit."""
+    is_whole = all(rejected.is_whole_view for rejected in screening.rejected)
+    return ActionKind.LEAVE_OUT_VIEWS if is_whole else ActionKind.LEAVE_OUT_CORNERS

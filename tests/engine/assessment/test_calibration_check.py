@@ -13,7 +13,7 @@ from scipy.spatial.transform import Rotation
 from calibgui.engine.arrays import Array
 from calibgui.engine.assessment.calibration_check import (
     CalibrationCheck,
-    Verdict,
+    CheckVerdict,
     Weakness,
     check_calibration,
 )
@@ -71,12 +71,12 @@ def check(camera: Camera, views: list[Observation], limit: float = 0.5) -> Calib
 
 @pytest.mark.parametrize("camera", [LENS, WIDE], ids=["lucchese", "kannala-brandt"])
 def test_verdicts(camera: Camera) -> None:
-    assert check(camera, views_of(camera, 6, 2)).verdict is Verdict.STILL_GOOD
+    assert check(camera, views_of(camera, 6, 2)).verdict is CheckVerdict.STILL_GOOD
     refocused = check(camera, views_of(changed(camera, 1.01), 4, 3))
-    assert refocused.verdict is Verdict.HAS_CHANGED
+    assert refocused.verdict is CheckVerdict.HAS_CHANGED
     assert refocused.scale == pytest.approx(0.01, abs=4 * refocused.scale_sigma)
     longer = check(camera, views_of(changed(camera, 1.003), 6, 4), limit=0.2)
-    assert longer.verdict is Verdict.HAS_CHANGED
+    assert longer.verdict is CheckVerdict.HAS_CHANGED
 
 
 def test_the_change_is_the_difference_of_the_cameras_without_rotation() -> None:
@@ -109,7 +109,7 @@ def test_a_moved_centre_is_mostly_hidden_by_a_rotation_but_found() -> None:
 def test_a_bent_board_is_no_changed_camera(bow: float) -> None:
     for seed in range(4):
         found = check(LENS, views_of(LENS, 4, 10 + seed, bow=bow))
-        assert found.verdict is not Verdict.HAS_CHANGED
+        assert found.verdict is not CheckVerdict.HAS_CHANGED
         assert found.rms > 2 * NOISE  # which would alarm whoever looks at the residuals only
         assert found.bend == pytest.approx(bow * 2 / 3, rel=0.2)  # from its mean, the farther side
         assert found.bend > 5 * found.bend_sigma
@@ -124,7 +124,7 @@ def test_a_board_parallel_to_the_sensor_cannot_tell() -> None:
     pose = Pose((0, 0, 0), (-165.0, -120.0, 500.0))
     uv = seen(changed(LENS, 1.02), [pose]).views[0].uv
     found = check(LENS, [Observation(uv, BOARD.points())])
-    assert found.verdict is Verdict.CANNOT_TELL
+    assert found.verdict is CheckVerdict.CANNOT_TELL
     assert found.weakness is Weakness.SCALE
 
 
@@ -137,7 +137,7 @@ def test_outliers_are_left_out() -> None:
     views.append(Observation(views[1].uv[mixed], views[1].xy))
     views.append(Observation(views[1].uv[::-1] * [1, -1] + [0, 900], views[1].xy))  # mirrored
     found = check(LENS, views)
-    assert found.verdict is Verdict.STILL_GOOD
+    assert found.verdict is CheckVerdict.STILL_GOOD
     assert found.views[0].left_out == 2
     assert [view.used == 0 for view in found.views] == [False] * 5 + [True] * 2
     assert all("board like this" in v.reason or "do not fit" in v.reason for v in found.views[5:])
@@ -161,9 +161,9 @@ def test_without_a_covariance_the_files_own_error_is_a_change() -> None:
     known = stored(LENS)
     wrong = changed(known.camera, 1.01)
     views = views_of(LENS, 4, 7)
-    assert check_calibration(wrong, views).verdict is Verdict.HAS_CHANGED
+    assert check_calibration(wrong, views).verdict is CheckVerdict.HAS_CHANGED
     wide = np.diag((0.02 * np.abs(known.camera.params)) ** 2)
-    assert check_calibration(wrong, views, wide).verdict is Verdict.CANNOT_TELL
+    assert check_calibration(wrong, views, wide).verdict is CheckVerdict.CANNOT_TELL
 
 
 def _simulate(camera: Camera, count: int, views: int, **made: float) -> list[CalibrationCheck]:
@@ -176,7 +176,7 @@ def test_the_standard_deviations_hold_and_nothing_is_a_false_alarm() -> None:
     scores: Array = np.array([[*(f.shift / f.shift_sigma), f.scale / f.scale_sigma] for f in found])
     np.testing.assert_allclose(np.sqrt(np.mean(scores**2, axis=0)), 1, atol=0.3)
     assert np.abs(scores.mean(axis=0)).max() < 0.4
-    assert all(f.verdict is not Verdict.HAS_CHANGED for f in found)
+    assert all(f.verdict is not CheckVerdict.HAS_CHANGED for f in found)
 
 
 def test_views_that_disagree_widen_the_standard_deviation() -> None:
@@ -192,5 +192,5 @@ def test_views_that_disagree_widen_the_standard_deviation() -> None:
 @pytest.mark.parametrize("bow", [0.0, 1.0])
 def test_false_alarms_are_rare(camera: Camera, bow: float) -> None:
     found = [f for n in (1, 2, 4) for f in _simulate(camera, 70, n, bow=bow)]
-    alarms = sum(f.verdict is Verdict.HAS_CHANGED for f in found)
+    alarms = sum(f.verdict is CheckVerdict.HAS_CHANGED for f in found)
     assert alarms <= 0.01 * len(found)

@@ -1,0 +1,346 @@
+"""The verdict on a calibration: good, usable, can be so many times better, or not usable.
+
+It is decided from the error of a pixel over the image, which has two parts. One is the standard
+deviation of projection (``uncertainty/projection_uncertainty.py``), at infinity and in the
+direction where it is largest; it includes noise, the board's shape and the views' disagreement.
+The other is what that leaves out: a lens that the model does not follow, corners that are not where
+they are said to be, a wrong value that is held. Both together are measured by carrying out what
+remedies a finding (`try_action`). With s' the standard deviation afterwards and d the displacement
+of the camera's pixels by the remedy (``comparison.py``), the error before was
+
+    e = sqrt(d^2 + s'^2),
+
+and the remedy makes it e / s' times smaller: along the image's edge, by the root mean square. So
+the number in "can be x times better" is a measurement of what was tried, and comes true when the
+same is done again. Where nothing can be tried, e is the standard deviation as it is.
+
+The error does not measure what no photograph of the set shows: the length of the squares, or a
+lens far from all corners that behaves otherwise than its formula.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
+from enum import StrEnum
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from calibgui.engine.arrays import Array
+from calibgui.engine.assessment.comparison import compare_cameras
+from calibgui.engine.assessment.cross_validation import choose_board_shape
+from calibgui.engine.assessment.finding import Action, ActionKind, Cause, Finding
+from calibgui.engine.assessment.findings import list_findings
+from calibgui.engine.assessment.lens_choice import choose_lens_stepwise
+from calibgui.engine.assessment.outliers import screen_outliers, select_corners
+from calibgui.engine.assessment.view_weights import calibrate_weighted
+from calibgui.engine.calibration.calibrate import calibrate
+from calibgui.engine.calibration.observations import Observation
+from calibgui.engine.calibration.problem import recover_arguments
+from calibgui.engine.calibration.result import Calibration, Iteration, Report, Status
+from calibgui.engine.camera.models import PINHOLE
+from calibgui.engine.errors import CalibrationError
+from calibgui.engine.geometry.rotations import rotation_from_vector
+from calibgui.engine.threads import with_one_blas_thread
+from calibgui.engine.uncertainty.projection_uncertainty import estimate_projection_uncertainty
+
+MAX_GOOD_PX = 0.5
+"""Largest error of any pixel up to which a calibration is good, px: it is half of what the eye and
+most matchers of points resolve, and the findings' own limit of what matters."""
+MAX_USABLE_PX = 1.0
+"""Median error over the image up to which a calibration is usable, px: above, straight lines are
+visibly bent, and corners of the board itself would be located better without a camera."""
+MIN_TIMES_BETTER = 1.5
+"""Ratio by which a remedy must make the error smaller to be worth the headline. Of two calibrations
+from ten views each the better one's error at the edge is that much smaller by chance."""
+_MIN_GAIN = 1.1
+"""Ratio by which an estimated shape or another lens must make the error smaller to be offered."""
+_MIN_VIEWS_TO_USE, _MIN_VIEWS_TO_BE_GOOD = 3, 5
+"""Number of views below which a calibration is not usable, and not good, however small its error is
+said to be: too few are left to find out that it is wrong."""
+_UNTRUSTWORTHY = (Cause.WRONG_FRAME, Cause.HELD_VALUE, Cause.FEW_VIEWS)
+"""Causes that leave a camera unusable if no remedy can be tried."""
+
+
+class Grade(StrEnum):
+    """What a calibration is worth."""
+
+    GOOD = "good"
+    USABLE = "usable"
+    CAN_BE_BETTER = "can-be-better"
+    """The same photographs give a better camera, by `Verdict.times_better`."""
+    NOT_USABLE = "not-usable"
+
+
+@dataclass(frozen=True, slots=True)
+class PixelError:
+    """The error of a pixel over the image, one standard deviation, px.
+
+    NaN where the lens has no ray, infinite where the camera is not determined.
+    """
+
+    centre: float
+    """At the image's centre."""
+    edge: float
+    """Root mean square along the image's edge."""
+    worst: float
+    """At the worst pixel."""
+    median: float
+    """Median over the image."""
+
+
+_UNKNOWN = PixelError(np.inf, np.inf, np.inf, np.inf)
+
+
+@dataclass(frozen=True, slots=True)
+class Verdict:
+    """What a calibration is worth, and what is wrong with it."""
+
+    grade: Grade
+    """The grade."""
+    reason: str
+    """A sentence that says why."""
+    error: PixelError
+    """The error of pixels."""
+    mm_per_pixel: float
+    """Length of a pixel at the boards' distance, mm; it is as certain as the square's length."""
+    distance: float
+    """Median distance of the boards from the camera, mm."""
+    findings: tuple[Finding, ...] = ()
+    """What is wrong, the most harmful first, with what the actions bring."""
+
+    @property
+    def times_better(self) -> float:
+        """Ratio by which the action on the first finding makes the error smaller; 1 if none does.
+
+        Where the most harmful cause has no remedy, what is done about others brings less than it
+        seems.
+        """
+        return self.findings[0].times_better if self.findings else 1.0
+
+
+class Trial(NamedTuple):
+    """An action that has been carried out for a trial."""
+
+    action: Action
+    """The action, with the model that was found to be best."""
+    calibration: Calibration
+    """The calibration that it leads to."""
+    views: list[Observation]
+    """The views that it was made from."""
+
+
+@with_one_blas_thread
+def judge_calibration(
+    calibration: Calibration,
+    views: Sequence[Observation],
+    names: Sequence[str] | None = None,
+    check: Callable[[], None] | None = None,
+) -> Verdict:
+    """Judge a calibration: list what is wrong, try what remedies it, and grade the camera.
+
+    Args:
+        calibration: a calibration with any cost.
+        views: the views that it was made from.
+        names: names of the views, for messages; numbers by default.
+        check: a function that is called now and then, and raises to abandon the work.
+    """
+    found = list_findings(calibration, views, names)
+    errors: list[Array] = []
+    tried = []
+    for finding in found:
+        trial = _try_action_safely(finding.action, calibration, views, check)
+        if trial is None:
+            tried.append(finding)
+            continue
+        before, times = _compare_with_trial(calibration, views, trial)
+        errors.append(before)
+        tried.append(_state_gain(finding, trial, max(times, 1.0)))
+    error = np.fmax.reduce(errors) if errors else _map_uncertainty(calibration, views)
+    distance = _measure_distance(calibration, views)
+    pixels = _UNKNOWN if calibration.diagnosis is not None else _summarise(error)
+    grade, reason = _grade(calibration, pixels, tried)
+    mm = distance / float(calibration.camera.focal[0])
+    return Verdict(grade, reason, pixels, mm, distance, tuple(tried))
+
+
+def try_action(
+    action: Action | None,
+    calibration: Calibration,
+    views: Sequence[Observation],
+    check: Callable[[], None] | None = None,
+) -> Trial | None:
+    """Carry out an action on the views of a calibration; None if it takes other photographs.
+
+    Args:
+        action: the action; None for none.
+        calibration: the calibration.
+        views: the views that it was made from.
+        check: a function that is called at every iteration, and raises to abandon the work.
+
+    Raises:
+        CalibrationError: if the views do not allow it.
+    """
+    if action is None or not action.is_of_camera:
+        return None
+    given, size = list(views), calibration.camera.size
+    settings = recover_arguments(calibration)
+    if check is not None:
+        settings["report"] = _make_report(check)
+    match action.kind:
+        case ActionKind.ESTIMATE_BOARD_SHAPE:
+            del settings["board_shape"], settings["prior"]
+            board = choose_board_shape(given, size, **settings)
+            return Trial(replace(action, model=board.model), board.chosen, given)
+        case ActionKind.CHOOSE_LENS_MODEL:
+            settings["fix"] = {n: v for n, v in settings["fix"].items() if n in PINHOLE}
+            for name in ("model", "free", "board_shape", "prior"):
+                del settings[name]
+            lens = choose_lens_stepwise(given, size, **settings).chosen
+            held = tuple(lens.fixed)
+            return Trial(
+                replace(action, model=lens.model, parameters=held), lens.calibration, given
+            )
+        case ActionKind.LEAVE_OUT_CORNERS:
+            screening = screen_outliers(given, size, **settings)
+            kept = [
+                select_corners(view, good)
+                for view, good in zip(given, screening.kept, strict=True)
+                if good.any()
+            ]
+            return Trial(action, screening.calibration, kept)
+        case ActionKind.LEAVE_OUT_VIEWS:
+            kept = [view for k, view in enumerate(given) if k not in action.views]
+            return Trial(action, calibrate(kept, size, **settings), kept)
+        case ActionKind.WEIGH_VIEWS:
+            return Trial(action, *calibrate_weighted(given, size, **settings))
+        case _:
+            changed = _change_held(settings, action)
+            return Trial(action, calibrate(given, size, **changed), given)
+
+
+def _make_report(check: Callable[[], None]) -> Report:
+    """Return a report of a solve that goes on until `check` raises."""
+
+    def report(_: Iteration) -> bool:
+        check()
+        return True
+
+    return report
+
+
+def _change_held(settings: dict[str, Any], action: Action) -> dict[str, Any]:
+    """Return the arguments of a calibration with parameters freed, or held at 0."""
+    fixed = {n: v for n, v in settings["fix"].items() if n not in action.parameters}
+    free = [name for name in settings["free"] if name not in action.parameters]
+    if action.kind is ActionKind.FREE_HELD_VALUE:
+        return {**settings, "fix": fixed, "free": [*free, *action.parameters]}
+    return {**settings, "fix": {**fixed, **dict.fromkeys(action.parameters, 0.0)}, "free": free}
+
+
+def _try_action_safely(
+    action: Action | None,
+    calibration: Calibration,
+    views: Sequence[Observation],
+    check: Callable[[], None] | None,
+) -> Trial | None:
+    """Carry out an action; None if the views do not allow it, or it does not determine one."""
+    is_chosen = "model_reason" in calibration.settings  # from all of them already
+    if action is not None and action.kind is ActionKind.CHOOSE_LENS_MODEL and is_chosen:
+        return Trial(action, calibration, list(views))
+    try:
+        trial = try_action(action, calibration, views, check)
+    except CalibrationError:
+        return None
+    if trial is None or trial.calibration.diagnosis is not None:
+        return None
+    return trial
+
+
+def _state_gain(finding: Finding, trial: Trial, times: float) -> Finding:
+    """Return the finding with what its action brings; another action if it brings nothing.
+
+    A shape of the board that too few views allow to be estimated takes more of them, and a lens
+    that no other model follows better has no remedy. What is left out, or weighed less, remains
+    wrong even where the camera does not gain by it.
+    """
+    action: Action | None = trial.action
+    if times < _MIN_GAIN and trial.action.kind is ActionKind.ESTIMATE_BOARD_SHAPE:
+        action = Action(ActionKind.PHOTOGRAPH_MORE)
+    elif times < _MIN_GAIN and trial.action.kind is ActionKind.CHOOSE_LENS_MODEL:
+        action = None
+    return replace(finding, action=action, times_better=times)
+
+
+def _compare_with_trial(
+    calibration: Calibration, views: Sequence[Observation], trial: Trial
+) -> tuple[Array, float]:
+    """Return the error before (m, n), px, and the ratio by which the action makes it smaller."""
+    after = _map_uncertainty(trial.calibration, trial.views)
+    moved = compare_cameras(trial.calibration.camera, calibration.camera, views=views).length
+    before = np.hypot(moved, after)
+    return before, _summarise(before).edge / _summarise(after).edge
+
+
+def _map_uncertainty(calibration: Calibration, views: Sequence[Observation]) -> Array:
+    """Map one standard deviation of a pixel (m, n), px."""
+    return estimate_projection_uncertainty(calibration, views).worst_direction
+
+
+def _summarise(error: Array) -> PixelError:
+    """Summarise a map (m, n) of errors, px."""
+    seen = np.isfinite(error)
+    if not seen.any():
+        return _UNKNOWN
+    rows, cols = error.shape
+    frame = np.concatenate([error[0], error[-1], error[1:-1, 0], error[1:-1, -1]])
+    if not np.isfinite(frame).any():  # a fisheye's circle within the image
+        frame = np.array([np.nanmax(error)])
+    return PixelError(
+        float(error[rows // 2, cols // 2]),
+        float(np.sqrt(np.nanmean(frame**2))),
+        float(np.nanmax(error)),
+        float(np.nanmedian(error)),
+    )
+
+
+def _measure_distance(calibration: Calibration, views: Sequence[Observation]) -> float:
+    """Measure the median distance of the boards' middles from the camera, mm."""
+    R = rotation_from_vector(np.array([pose.rvec for pose in calibration.poses]))
+    middles = [
+        turn[:, :2] @ view.xy.mean(axis=0) + pose.tvec
+        for turn, view, pose in zip(R, views, calibration.poses, strict=True)
+    ]
+    return float(np.median(np.linalg.norm(middles, axis=-1)))
+
+
+def _grade(
+    calibration: Calibration, error: PixelError, findings: Sequence[Finding]
+) -> tuple[Grade, str]:
+    """Grade a calibration; return the grade and a sentence that says why."""
+    if calibration.diagnosis is not None:
+        return Grade.NOT_USABLE, "The views do not determine the camera."
+    if calibration.status is not Status.CONVERGED:
+        return Grade.NOT_USABLE, "The calibration is not finished."
+    count = len(calibration.poses)
+    few = "One view cannot be checked." if count == 1 else f"{count} views are too few."
+    if count < _MIN_VIEWS_TO_USE:
+        return Grade.NOT_USABLE, few
+    if findings and findings[0].times_better >= MIN_TIMES_BETTER:
+        return Grade.CAN_BE_BETTER, findings[0].message
+    is_poor = not error.median <= MAX_USABLE_PX
+    for finding in findings:
+        if is_poor or finding.cause in _UNTRUSTWORTHY:
+            return Grade.NOT_USABLE, finding.message
+    if is_poor:
+        return Grade.NOT_USABLE, "Pixels are known too poorly."
+    if findings:
+        return Grade.USABLE, findings[0].message
+    if count < _MIN_VIEWS_TO_BE_GOOD:
+        return Grade.USABLE, few
+    if error.worst <= MAX_GOOD_PX:
+        return Grade.GOOD, "Nothing is wrong that the photographs show."
+    return Grade.USABLE, (
+        "Nothing is wrong, but the image's edge is known less well: bring corners closer to it."
+    )

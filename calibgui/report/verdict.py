@@ -1,0 +1,141 @@
+"""The verdict in words: a headline, the error of a pixel, and one row for each finding."""
+
+from __future__ import annotations
+
+import shlex
+from collections.abc import Sequence
+
+import numpy as np
+
+from calibgui.dataset import Result
+from calibgui.engine.assessment import (
+    Action,
+    ActionKind,
+    Finding,
+    Grade,
+    Verdict,
+    summarise_residuals,
+)
+
+_HEADLINES = {
+    Grade.GOOD: "GOOD",
+    Grade.USABLE: "USABLE",
+    Grade.CAN_BE_BETTER: "CAN BE {times} TIMES BETTER",
+    Grade.NOT_USABLE: "NOT USABLE",
+}
+_MIN_TOLD = 1.1
+"""Ratio of errors from which a row says by how much its action makes the camera better."""
+
+
+def format_headline(verdict: Verdict) -> str:
+    """Format the grade in capitals, with the ratio by which the camera can be better."""
+    return _HEADLINES[verdict.grade].format(times=format_times(verdict.times_better))
+
+
+def format_times(times: float) -> str:
+    """Format a ratio of errors with two digits: it is known to some 30 %."""
+    return f"{times:.1f}" if times < 9.95 else f"{float(f'{times:.2g}'):.0f}"
+
+
+def describe_error(verdict: Verdict) -> str:
+    """Describe the error of a pixel over the image, in px."""
+    error = verdict.error
+    if not np.isfinite(error.worst):
+        return "Error of a pixel: unknown"
+    return (
+        f"Error of a pixel: centre {error.centre:.2g}, edge {error.edge:.2g}, worst "
+        f"{error.worst:.2g} px"
+    )
+
+
+def describe_error_in_scene(verdict: Verdict, condition: str = "") -> str:
+    """Describe what the error at the image's edge is at the boards' distance, in mm.
+
+    Args:
+        verdict: the verdict.
+        condition: what lengths rest on, such as "if squares are 30 mm"; empty if they are known.
+    """
+    mm = verdict.error.edge * verdict.mm_per_pixel
+    if not np.isfinite(mm):
+        return ""
+    words = f"edge {mm:.2g} mm at {verdict.distance:.0f} mm"
+    return f"{words}, {condition}" if condition else words
+
+
+def describe_fit(result: Result) -> str:
+    """Describe the residuals in a few words: RMS, sigma and the number of corners."""
+    fit = summarise_residuals(result.calibration.residuals)
+    sigma = float(np.hypot(fit.sigma_x, fit.sigma_y) / np.sqrt(2))
+    return f"RMS {fit.rms:.3f} px, σ {sigma:.3f} px of {fit.count:,} corners"
+
+
+def describe_gain(finding: Finding) -> str:
+    """Describe how much a finding matters: what its action brings, or else its harm."""
+    if finding.times_better >= _MIN_TOLD:
+        return f"{format_times(finding.times_better)} times better without"
+    return f"{finding.harm:.2g} px" if np.isfinite(finding.harm) else ""
+
+
+def describe_action(action: Action, names: Sequence[str]) -> str:
+    """Describe an action in the imperative.
+
+    Args:
+        action: the action.
+        names: names of the calibrated views.
+    """
+    views = join_names([names[k] for k in action.views])
+    parameters = join_names(action.parameters)
+    match action.kind:
+        case ActionKind.ESTIMATE_BOARD_SHAPE:
+            return "Estimate the board's shape"
+        case ActionKind.CHOOSE_LENS_MODEL:
+            return f"Take the lens model {action.model}" if action.model else "Choose a lens model"
+        case ActionKind.LEAVE_OUT_CORNERS:
+            return "Leave the corners out that do not fit"
+        case ActionKind.LEAVE_OUT_VIEWS:
+            return f"Leave {views} out"
+        case ActionKind.FREE_HELD_VALUE:
+            return f"Free {parameters}"
+        case ActionKind.HOLD_AT_ZERO:
+            return f"Hold {parameters} at 0"
+        case ActionKind.WEIGH_VIEWS:
+            return "Weigh the views by their noise"
+        case ActionKind.LOOK_AT_VIEW:
+            return f"Look at {views}"
+        case ActionKind.PHOTOGRAPH_MORE:
+            return "Photograph more"
+
+
+def format_options(action: Action, names: Sequence[str]) -> str:
+    """Format the options of the command line that carry an action out; empty if none do.
+
+    Args:
+        action: the action.
+        names: names of the calibrated views.
+    """
+    parameters = ",".join(action.parameters)
+    match action.kind:
+        case ActionKind.ESTIMATE_BOARD_SHAPE:
+            return f"--board-shape {action.model or 'auto'}"
+        case ActionKind.CHOOSE_LENS_MODEL:
+            held = f" --fix {parameters}" if parameters else ""
+            return f"--model {action.model or 'auto'}{held}"
+        case ActionKind.LEAVE_OUT_CORNERS:
+            return "--robust"
+        case ActionKind.LEAVE_OUT_VIEWS:
+            return "--exclude " + shlex.join(names[k] for k in action.views)
+        case ActionKind.HOLD_AT_ZERO:
+            return f"--fix {parameters}"
+        case ActionKind.WEIGH_VIEWS:
+            return "--weigh-views"
+        case ActionKind.FREE_HELD_VALUE:
+            return f"leave {parameters} out of --fix"
+        case _:
+            return ""
+
+
+def join_names(names: Sequence[str], most: int = 3) -> str:
+    """Join names to "a, b and c", or to "a, b, c and 4 more"."""
+    if len(names) > most:
+        return f"{', '.join(names[:most])} and {len(names) - most} more"
+    return " and ".join(filter(None, [", ".join(names[:-1]), *names[-1:]]))

@@ -1,0 +1,153 @@
+"""The verdict agrees with the truth of rendered sets, and what it promises comes true."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from types import SimpleNamespace
+from typing import Any
+
+import numpy as np
+import pytest
+
+from calibgui.engine.arrays import Array
+from calibgui.engine.assessment.comparison import compare_cameras
+from calibgui.engine.assessment.finding import Action, ActionKind, Cause
+from calibgui.engine.assessment.verdict import Grade, Verdict, judge_calibration, try_action
+from calibgui.engine.boards.shape import BoardShapeModel
+from calibgui.engine.calibration.calibrate import calibrate
+from calibgui.engine.calibration.observations import Observation
+from calibgui.engine.calibration.result import Calibration, DegenerateError, Status
+from calibgui.engine.camera.camera import Camera
+from calibgui.engine.errors import Cancelled
+from tests.engine.scenes import VGA, barrel, scene
+from tests.faults import sets
+from tests.faults.causes import FAULTS
+from tests.faults.sets import FaultySet
+
+CLEAN = scene(barrel(), 10, seed=3).noisy(0.1, np.random.default_rng(1))
+
+
+@pytest.fixture(autouse=True)
+def rendered_only(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Sets are the same whether real ones are present or not."""
+    monkeypatch.setattr(sets, "_REAL_SETS", ())
+
+
+def inject(name: str, seed: int) -> FaultySet:
+    return FAULTS[name].inject(np.random.default_rng(seed))
+
+
+def measure_edge(truth: Camera, camera: Camera, views: list[Observation]) -> float:
+    """The true error of pixels, root mean square along the image's edge."""
+    length: Array = compare_cameras(truth, camera, views=views).length
+    frame = np.concatenate([length[0], length[-1], length[1:-1, 0], length[1:-1, -1]])
+    return float(np.sqrt(np.nanmean(frame**2)))
+
+
+def judge(views: list[Observation], **settings: object) -> tuple[Calibration, Verdict]:
+    found = calibrate(views, VGA, **settings)  # type: ignore[arg-type]
+    return found, judge_calibration(found, views)
+
+
+def test_a_clean_set_is_good_and_its_error_is_that_of_the_truth() -> None:
+    calibration, verdict = judge(CLEAN)
+    assert (verdict.grade, verdict.findings, verdict.times_better) == (Grade.GOOD, (), 1.0)
+    error = verdict.error
+    assert error.centre < error.edge < error.worst < 0.5
+    true = measure_edge(barrel(), calibration.camera, CLEAN)
+    assert true / 3 < error.edge < 3 * true
+    # 30 mm squares that appear as large as the pixels' length at the boards' distance says.
+    apart = np.linalg.norm(np.diff(CLEAN[0].uv[:2], axis=0)) * verdict.mm_per_pixel
+    assert apart == pytest.approx(30.0, rel=0.4)
+
+
+@pytest.mark.parametrize(("count", "grade"), [(2, Grade.NOT_USABLE), (4, Grade.USABLE)])
+def test_few_views_are_never_good_however_small_their_noise(count: int, grade: Grade) -> None:
+    views = scene(barrel(), 10, seed=3).noisy(0.001, np.random.default_rng(1))[:count]
+    _, verdict = judge(views)
+    assert verdict.error.median < 0.5
+    assert verdict.grade is grade
+    assert f"{count} views are too few" in verdict.reason
+
+
+def test_views_that_do_not_determine_the_camera_have_no_error() -> None:
+    fault = inject("one-orientation", 0)
+    with pytest.raises(DegenerateError) as caught:
+        calibrate(fault.views, fault.size)
+    partial = caught.value.partial
+    assert partial is not None
+    verdict = judge_calibration(partial, fault.views)
+    assert verdict.grade is Grade.NOT_USABLE
+    assert np.isinf(verdict.error.edge)
+
+
+@pytest.mark.parametrize(
+    ("name", "seed", "cause", "kind"),
+    [
+        ("bow", 0, Cause.BOARD_SHAPE, ActionKind.ESTIMATE_BOARD_SHAPE),
+        ("wrong-square", 0, Cause.BOARD_SHAPE, ActionKind.ESTIMATE_BOARD_SHAPE),
+        ("wide-lens", 0, Cause.LENS, ActionKind.CHOOSE_LENS_MODEL),
+        ("row-shifted", 1, Cause.MISPLACED_CORNERS, ActionKind.LEAVE_OUT_CORNERS),
+        ("held-value", 2, Cause.HELD_VALUE, ActionKind.FREE_HELD_VALUE),
+    ],
+)
+def test_what_a_remedy_promises_comes_true(
+    name: str, seed: int, cause: Cause, kind: ActionKind
+) -> None:
+    fault = inject(name, seed)
+    found = calibrate(fault.views, fault.size, **fault.options)  # type: ignore[arg-type]
+    verdict = judge_calibration(found, fault.views)
+    assert verdict.grade is Grade.CAN_BE_BETTER
+    first = verdict.findings[0]
+    assert first.cause is cause and first.action is not None and first.action.kind is kind
+    # The error that is stated is the true one.
+    true = measure_edge(fault.truth, found.camera, fault.views)
+    assert verdict.error.edge == pytest.approx(true, rel=0.3)
+    # Once the remedy is carried out, the verdict is as much better as was said.
+    trial = try_action(first.action, found, fault.views)
+    assert trial is not None
+    after = judge_calibration(trial.calibration, trial.views)
+    gained = verdict.error.edge / after.error.edge
+    assert gained == pytest.approx(verdict.times_better, rel=0.3)
+    # And so is the truth, but for the chance of one draw, a factor of two or three.
+    left = measure_edge(fault.truth, trial.calibration.camera, trial.views)
+    assert true / left > verdict.times_better / 3
+    assert cause not in [finding.cause for finding in after.findings]
+
+
+def test_a_finding_without_a_remedy_is_never_good() -> None:
+    fault = inject("bending-board", 1)
+    _, verdict = judge(fault.views)
+    assert [finding.cause for finding in verdict.findings] == [Cause.BENDING_BOARD]
+    assert verdict.grade in (Grade.USABLE, Grade.NOT_USABLE)
+    assert verdict.findings[0].action == Action(ActionKind.PHOTOGRAPH_MORE)
+
+
+def test_a_board_whose_shape_cannot_be_estimated_asks_for_photographs(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    def keep_drawing(*given: Any, **settings: Any) -> SimpleNamespace:
+        return SimpleNamespace(model=BoardShapeModel.NOMINAL, chosen=calibrate(*given, **settings))
+
+    monkeypatch.setattr("calibgui.engine.assessment.verdict.choose_board_shape", keep_drawing)
+    _, verdict = judge(inject("bow", 0).views)
+    assert verdict.findings[0].cause is Cause.BOARD_SHAPE
+    assert verdict.findings[0].action == Action(ActionKind.PHOTOGRAPH_MORE)
+    assert verdict.grade is Grade.USABLE
+
+
+def test_a_solve_that_did_not_converge_is_not_usable() -> None:
+    calibration, _ = judge(CLEAN)
+    verdict = judge_calibration(replace(calibration, status=Status.STOPPED), CLEAN)
+    assert verdict.grade is Grade.NOT_USABLE and "not finished" in verdict.reason
+
+
+def test_trying_can_be_abandoned() -> None:
+    fault = inject("held-value", 0)
+    found = calibrate(fault.views, fault.size, **fault.options)  # type: ignore[arg-type]
+
+    def abandon() -> None:
+        raise Cancelled
+
+    with pytest.raises(Cancelled):
+        judge_calibration(found, fault.views, check=abandon)
