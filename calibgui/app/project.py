@@ -57,6 +57,8 @@ class Project:
     unit: Unit = Unit.MM
     by_hand: bool = False
     """True if the user marks every board: images are searched only where that is asked for."""
+    lengths_confirmed: bool = False
+    """True once the user has stated the side of a square, or confirmed it."""
     settings: Settings = field(default_factory=Settings)
     results: Mapping[str, Result] = field(default_factory=lambda: MappingProxyType({}))
     """Results by name, the oldest first."""
@@ -90,14 +92,26 @@ class Project:
 def set_square(project: Project, square: float) -> Project:
     """Return the project with squares (or distances of circles) of `square` mm.
 
-    Markers and circles keep their size, or become unknown if they do not fit.
+    Markers and circles keep their size, or become unknown if they do not fit. The user has stated
+    the length: it needs no confirmation.
     """
     ratio = project.square / square
     try:
         pattern = _scale_pattern(project.pattern, ratio)
     except CalibrationError:
         pattern = KINDS[project.pattern.kind]
-    return replace(project, square=square, pattern=pattern)
+    return replace(project, square=square, pattern=pattern, lengths_confirmed=True)
+
+
+def confirm_lengths(project: Project) -> Project:
+    """Return the project with its squares as long as they are said to be, in the results too."""
+    results = {
+        name: replace(result, lengths_confirmed=True)
+        if result.board is not None and result.board.square == project.square
+        else result
+        for name, result in project.results.items()
+    }
+    return replace(project, lengths_confirmed=True, results=MappingProxyType(results))
 
 
 def _scale_pattern(pattern: Pattern, ratio: float) -> Pattern:
@@ -195,6 +209,7 @@ def record_result(project: Project, name: str, inputs: Sequence[View], result: R
     if screened:
         views = tuple(screened.get(id(view), view) for view in project.views)
         project = replace(project, views=views)
+    result = replace(result, lengths_confirmed=project.lengths_confirmed)
     return add_result(project, name, result)
 
 

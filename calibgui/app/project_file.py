@@ -1,6 +1,8 @@
 """A project as a JSON file beside its images.
 
     format, version     "calibgui-project", 4
+    lengths_confirmed   whether the user has stated the side of a square; where missing, it is
+                        as if so if there are results
     target              the board: rows, cols (null: inferred from the images), square_mm, unit and
                         pattern as in ``pattern_json.py``; corners, the method of locating them
                         ("edges" where missing)
@@ -119,6 +121,7 @@ def encode_project(project: Project, folder: Path) -> dict[str, Any]:
         "format": FORMAT,
         "version": VERSION,
         "target": {"rows": rows, "cols": cols, **square, **pattern},
+        "lengths_confirmed": project.lengths_confirmed,
         "size": project.size,
         "by_hand": project.by_hand,
         "settings": _encode_settings(project.settings),
@@ -194,6 +197,7 @@ def _decode_project(node: Node) -> Project:
         for view, item in zip(views, node["views"].items(), strict=True)
         if (digest := item.get("sha256"))
     }
+    confirmed = node.get("lengths_confirmed")
     return Project(
         views=views,
         size=decode_size(size) if size else None,
@@ -203,6 +207,7 @@ def _decode_project(node: Node) -> Project:
         square=square.number(),
         by_hand=by_hand.flag() if (by_hand := node.get("by_hand")) else False,
         unit=Unit(board["unit"].choice(list(Unit))),
+        lengths_confirmed=bool(node["results"].value) if confirmed is None else confirmed.flag(),
         settings=_decode_settings(node["settings"]),
         results=MappingProxyType(_decode_results(node, views)),
         digests=MappingProxyType(digests),

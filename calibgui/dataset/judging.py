@@ -24,7 +24,7 @@ def judge_result(result: Result, check: Callable[[], None] | None = None) -> Ver
     """
     with _lock:
         for known, verdict in _judged:
-            if known is result:
+            if known.calibration is result.calibration and known.views is result.views:
                 return verdict
         names = [PurePath(view.image).name for view in result.used]
         verdict = judge_calibration(result.calibration, result.observations(), names, check)

@@ -39,6 +39,8 @@ class Result:
     """The board of known layout; None where the corners came with their board points."""
     versions: Mapping[str, str] = field(default_factory=list_installed_versions)
     """Versions of the programs that made the calibration, by name."""
+    lengths_confirmed: bool = True
+    """False if nobody has stated the side of a square: all lengths then hold if it is that."""
 
     def __post_init__(self) -> None:
         if len(self.used) != len(self.calibration.poses):
@@ -54,6 +56,13 @@ class Result:
     def observations(self) -> list[Observation]:
         """Return the corners of the used views, with their points on the board."""
         return [view.observation(self.board) for view in self.used]
+
+    @property
+    def condition(self) -> str:
+        """Condition under which all lengths hold, as "if squares are 30 mm"; empty if they do."""
+        if self.lengths_confirmed or self.board is None:
+            return ""
+        return f"if squares are {self.board.square:g} mm"
 
     def paper_poses(self) -> tuple[PaperPose, ...]:
         """Return the paper's external parameters of the used views.

@@ -23,7 +23,7 @@ from calibgui.engine.calibration import Calibration, Refit, refit
 from calibgui.engine.camera import Camera, find_model, pixels_from_rays, rays_from_pixels
 from calibgui.engine.errors import CalibrationError
 from calibgui.engine.files import write_atomically
-from calibgui.formats.exporter import Exporter, ExportReport
+from calibgui.formats.exporter import Exporter, ExportReport, describe_condition
 from calibgui.formats.origin import make_mark
 
 MAX_REFIT_ERROR = 2.0
@@ -56,7 +56,7 @@ def write_in_models(
     expressed = express_in_format(result, exporter)
     check_refit(result, expressed, path)
     note = describe_refit(result, expressed)
-    marked = f"{make_mark(exporter.name)} {note}"
+    marked = " ".join(filter(None, [make_mark(exporter.name), note, describe_condition(result)]))
     write_atomically(path, make_text(expressed.calibration, marked).encode())
     return ExportReport(path, note, expressed.largest_error)
 

@@ -14,7 +14,7 @@ from calibgui.engine.calibration import Calibration
 from calibgui.engine.camera import MODELS
 from calibgui.engine.files import write_atomically
 from calibgui.formats.camera_refit import find_conversion_note
-from calibgui.formats.exporter import FRAME, Exporter, ExportReport
+from calibgui.formats.exporter import FRAME, Exporter, ExportReport, describe_condition
 from calibgui.formats.origin import make_mark
 
 _NOTE = "The camera as calibrated; nothing is refitted."
@@ -23,7 +23,7 @@ _NOTE = "The camera as calibrated; nothing is refitted."
 def write_engine_python(result: Result, path: Path) -> ExportReport:
     """Write the lines as a file."""
     note = find_conversion_note(result) or _NOTE
-    marked = f"{make_mark(EXPORTER.name)} {note}"
+    marked = " ".join(filter(None, [make_mark(EXPORTER.name), note, describe_condition(result)]))
     write_atomically(path, format_lines(result.calibration, marked).encode())
     return ExportReport(path, note)
 

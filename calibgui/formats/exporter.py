@@ -16,6 +16,11 @@ SPLINED = "splined-stereographic"
 """The id that stands for the splined models of any size in `Exporter.models`."""
 
 
+def describe_condition(result: Result) -> str:
+    """Describe in a sentence what all lengths of a result rest on; empty if nobody need be told."""
+    return f"Lengths hold {result.condition}." if result.condition else ""
+
+
 @dataclass(frozen=True, slots=True)
 class ExportReport:
     """A file that was written."""

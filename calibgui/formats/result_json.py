@@ -169,6 +169,7 @@ def encode_result(result: Result) -> dict[str, Any]:
         },
         "settings": calibration.settings,
         "versions": result.versions,
+        "lengths_confirmed": result.lengths_confirmed,
         "inputs_sha256": calibration.digest,
         "target": None if result.board is None else encode_board(result.board),
         "plate": None
@@ -238,6 +239,7 @@ def decode_result(node: Node) -> Result:
         views,
         board,
         {name: version.text() for name, version in node["versions"].members().items()},
+        confirmed.flag() if (confirmed := node.get("lengths_confirmed")) else True,
     )
 
 

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Sequence
-from dataclasses import replace
 from pathlib import Path
 
 from PySide6.QtCore import QObject, Signal
@@ -15,7 +14,14 @@ from calibgui.app.document import Document
 from calibgui.app.moved_images import find_moved_images, list_missing_images
 from calibgui.app.new_images import ForeignFilesError
 from calibgui.app.paths import find_images
-from calibgui.app.project import Project, add_images, relocate_images, remove_result, rename_result
+from calibgui.app.project import (
+    Project,
+    add_images,
+    relocate_images,
+    remove_result,
+    rename_result,
+    set_square,
+)
 from calibgui.app.resampling import Undistortion, WrittenImage, rectify_files, undistort_files
 from calibgui.app.resources import find_resource, find_sample_square
 from calibgui.dataset import Result
@@ -263,7 +269,7 @@ class Files(QObject):
 
         def change(project: Project) -> Project:
             if square is not None and not project.views:
-                project = replace(project, square=square)
+                project = set_square(project, square)
             return add_images(project, map(str, paths))
 
         self._session.edit(self.tr("Add images"), change)
