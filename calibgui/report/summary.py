@@ -93,6 +93,8 @@ def _describe_in_detail(result: Result, findings: Sequence[Finding]) -> Iterator
     yield from _describe_basis(result)
     yield from _describe_diagnosis(result)
     yield from _describe_ending(result)
+    if result.condition:
+        yield Sentence(Tone.FACT, f"All lengths hold {result.condition}: nobody has confirmed it.")
     yield from _describe_findings(findings)
     yield from _describe_sources(result, findings)
     yield from _describe_board(result, findings)

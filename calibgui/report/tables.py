@@ -109,7 +109,7 @@ def _format_verdict(result: Result, verdict: Verdict) -> Iterator[str]:
         if verdict.findings
         else _fill_lines(f"{headline}. {verdict.reason}", "", "  ")
     )
-    in_scene = describe_error_in_scene(verdict)
+    in_scene = describe_error_in_scene(verdict, result.condition)
     yield _fill_lines("; ".join(filter(None, [describe_error(verdict), in_scene])) + ".", "", "  ")
     names = [_get_name(view.image) for view in result.used]
     for finding in verdict.findings:

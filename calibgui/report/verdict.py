@@ -11,7 +11,6 @@ from calibgui.dataset import Result
 from calibgui.engine.assessment import (
     Action,
     ActionKind,
-    Finding,
     Grade,
     Verdict,
     summarise_residuals,
@@ -23,8 +22,6 @@ _HEADLINES = {
     Grade.CAN_BE_BETTER: "CAN BE {times} TIMES BETTER",
     Grade.NOT_USABLE: "NOT USABLE",
 }
-_MIN_TOLD = 1.1
-"""Ratio of errors from which a row says by how much its action makes the camera better."""
 
 
 def format_headline(verdict: Verdict) -> str:
@@ -48,7 +45,7 @@ def describe_error(verdict: Verdict) -> str:
     )
 
 
-def describe_error_in_scene(verdict: Verdict, condition: str = "") -> str:
+def describe_error_in_scene(verdict: Verdict, condition: str) -> str:
     """Describe what the error at the image's edge is at the boards' distance, in mm.
 
     Args:
@@ -67,43 +64,6 @@ def describe_fit(result: Result) -> str:
     fit = summarise_residuals(result.calibration.residuals)
     sigma = float(np.hypot(fit.sigma_x, fit.sigma_y) / np.sqrt(2))
     return f"RMS {fit.rms:.3f} px, σ {sigma:.3f} px of {fit.count:,} corners"
-
-
-def describe_gain(finding: Finding) -> str:
-    """Describe how much a finding matters: what its action brings, or else its harm."""
-    if finding.times_better >= _MIN_TOLD:
-        return f"{format_times(finding.times_better)} times better without"
-    return f"{finding.harm:.2g} px" if np.isfinite(finding.harm) else ""
-
-
-def describe_action(action: Action, names: Sequence[str]) -> str:
-    """Describe an action in the imperative.
-
-    Args:
-        action: the action.
-        names: names of the calibrated views.
-    """
-    views = join_names([names[k] for k in action.views])
-    parameters = join_names(action.parameters)
-    match action.kind:
-        case ActionKind.ESTIMATE_BOARD_SHAPE:
-            return "Estimate the board's shape"
-        case ActionKind.CHOOSE_LENS_MODEL:
-            return f"Take the lens model {action.model}" if action.model else "Choose a lens model"
-        case ActionKind.LEAVE_OUT_CORNERS:
-            return "Leave the corners out that do not fit"
-        case ActionKind.LEAVE_OUT_VIEWS:
-            return f"Leave {views} out"
-        case ActionKind.FREE_HELD_VALUE:
-            return f"Free {parameters}"
-        case ActionKind.HOLD_AT_ZERO:
-            return f"Hold {parameters} at 0"
-        case ActionKind.WEIGH_VIEWS:
-            return "Weigh the views by their noise"
-        case ActionKind.LOOK_AT_VIEW:
-            return f"Look at {views}"
-        case ActionKind.PHOTOGRAPH_MORE:
-            return "Photograph more"
 
 
 def format_options(action: Action, names: Sequence[str]) -> str:

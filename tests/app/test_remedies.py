@@ -15,6 +15,7 @@ from calibgui.dataset import CornerSet, Result
 from calibgui.dataset.judging import judge_result
 from calibgui.engine.assessment import Action, ActionKind, Grade
 from calibgui.engine.boards import BoardShapeModel
+from calibgui.report.summary import describe_calibration
 from tests.app import examples
 
 
@@ -89,6 +90,8 @@ def test_lengths_are_conditional_until_they_are_confirmed(project: Project) -> N
     result = project.results["Calibration 1"]
     recorded = record_result(open_project, "new", result.views, result)
     assert recorded.results["new"].condition == "if squares are 30 mm"
+    told = " ".join(s.text for s in describe_calibration(recorded.results["new"]))
+    assert "All lengths hold if squares are 30 mm" in told
     assert confirm_lengths(recorded).results["new"].condition == ""
     assert set_square(open_project, 25.0).lengths_confirmed
     kept = confirm_lengths(set_square(recorded, 25.0)).results["new"]

@@ -169,7 +169,10 @@ def test_no_text_of_the_window_is_left_in_english(
     }
     undistort = analysis.show_panel(UndistortPanel)
     assert isinstance(undistort, UndistortPanel)
-    told = {undistort.lost.text()}  # by the engine, as the sentences of the summary are
+    told = {
+        undistort.lost.text(),
+        window.verdict.reason.text(),
+    }  # by the engine, as the sentences of the summary are
     assert left <= NAMES | OTHERS | formats | lenses | methods | told
     assert OPEN in help_dialog.text.toPlainText()
 

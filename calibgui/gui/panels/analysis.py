@@ -135,6 +135,10 @@ class Analysis(QWidget):
         self.names.setCurrentRow(PANELS.index(kind))
         return panel
 
+    def show_panel_named(self, name: str) -> None:
+        """Bring the panel of a class to the front."""
+        self.show_panel(next(kind for kind in PANELS if kind.__name__ == name))
+
     def show_beginning(self) -> None:
         """A calibration starts: its progress is shown."""
         self.panel(ConvergencePanel).start()  # before it would draw the last one

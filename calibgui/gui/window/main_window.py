@@ -13,7 +13,9 @@ from PySide6.QtWidgets import (
     QLabel,
     QMainWindow,
     QPushButton,
+    QSizePolicy,
     QStackedWidget,
+    QToolBar,
     QVBoxLayout,
     QWidget,
 )
@@ -33,6 +35,7 @@ from calibgui.gui.session.detector import Detector
 from calibgui.gui.session.session import Session
 from calibgui.gui.settings.board_panel import BoardPanel
 from calibgui.gui.settings.settings_panel import SettingsPanel
+from calibgui.gui.verdict.verdict_bar import VerdictBar
 from calibgui.gui.widgets import theme
 from calibgui.gui.widgets.actions import show_dialog
 from calibgui.gui.window.banner import Banner
@@ -70,6 +73,7 @@ class MainWindow(QMainWindow):
         self._at = (self.session.document, 0)
         self.welcome = Welcome()
         self.banner = Banner()
+        self.verdict = VerdictBar(self.session)
         self.calibrate = QPushButton()
         self.calibrate.setMinimumHeight(36)
         self.calibrate.setDefault(True)
@@ -122,6 +126,20 @@ class MainWindow(QMainWindow):
         self.statusBar().addPermanentWidget(self.place)
         self.statusBar().addPermanentWidget(Progress(self.session.jobs))
 
+        self._verdict_bar = self._put_on_top(self.verdict)
+
+    def _put_on_top(self, widget: QWidget) -> QToolBar:
+        """Put a widget across the window, under the menus; return the bar that holds it."""
+        bar = QToolBar(self.tr("Verdict"), movable=False, floatable=False)
+        bar.setObjectName("verdict bar")
+        bar.toggleViewAction().setEnabled(False)
+        bar.setContextMenuPolicy(Qt.ContextMenuPolicy.PreventContextMenu)
+        bar.setStyleSheet("QToolBar { border: none; padding: 0; spacing: 0; }")
+        widget.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Fixed)
+        bar.addWidget(widget)
+        self.addToolBar(Qt.ToolBarArea.TopToolBarArea, bar)
+        return bar
+
     def _dock(self, title: str, name: str, widget: QWidget, area: Qt.DockWidgetArea) -> QDockWidget:
         dock = Dock(title, name, widget, self)
         self.addDockWidget(area, dock)
@@ -139,6 +157,7 @@ class MainWindow(QMainWindow):
         self.session.failed.connect(self.show_failure)
         self.session.notified.connect(self.banner.show_text)
         Offers(self.session, self.detector, self.files, self.images, self.banner)
+        self.verdict.panel_wanted.connect(lambda name: self.need_analysis().show_panel_named(name))
         self.page.place.connect(self.place.setText)
         self.images.list.addActions(self.page.tools)
         self.board.search_wanted.connect(self.detector.search)
@@ -222,10 +241,12 @@ class MainWindow(QMainWindow):
         self.pages.setCurrentWidget(self.welcome if empty else self.page)
         for dock in (self.image_dock, self.analysis_dock):
             dock.setVisible(not empty)
+        self._verdict_bar.setVisible(not empty)
         if empty:
             return
         if state := QSettings().value("layout"):
             self.restoreState(state)
+            self._verdict_bar.show()  # it is always in sight
         else:
             widths = [_IMAGES_WIDTH, max(_RESULTS_WIDTH, round(_RESULTS_SHARE * self.width()))]
             self.resizeDocks([self.image_dock, self.analysis_dock], widths, _HORIZONTAL)

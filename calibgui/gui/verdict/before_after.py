@@ -1,0 +1,155 @@
+"""What an action has done, before and after side by side, to be kept or taken back."""
+
+from __future__ import annotations
+
+import numpy as np
+from PySide6.QtCore import Signal, SignalInstance
+from PySide6.QtWidgets import QHBoxLayout, QLabel, QPushButton, QVBoxLayout, QWidget
+
+from calibgui.engine.assessment import CameraDifference, Verdict, compare_cameras
+from calibgui.gui.panels.difference_map import DifferenceMap
+from calibgui.gui.panels.estimates import estimate_columns
+from calibgui.gui.panels.latest import Latest
+from calibgui.gui.session.session import Session
+from calibgui.gui.verdict.overlay import Overlay
+from calibgui.gui.verdict.remedier import Remedied
+from calibgui.gui.verdict.texts import describe_grade
+from calibgui.gui.widgets import theme
+from calibgui.gui.widgets.tables import Column, Table, with_decimals, with_digits
+from calibgui.report.comparison import compare_parameters
+from calibgui.report.verdict import format_times
+
+_SHARE = 0.8
+"""Share of the room below the bar that the comparison may take."""
+_HEIGHT = 560
+"""Its height where there is more room, device-independent px."""
+
+
+class BeforeAndAfter(Overlay):
+    """Shows errors of pixels and parameters of two results, and a map of their difference."""
+
+    kept = Signal(object)
+    """The `Remedied` that the user keeps."""
+    taken_back = Signal(object)
+    """The `Remedied` that the user does not want."""
+
+    def __init__(self, bar: QWidget, session: Session) -> None:
+        super().__init__(bar, _SHARE)
+        self._remedied: Remedied | None = None
+        self._work = Latest(session.jobs, self)
+        self.title = QLabel()
+        font = self.title.font()
+        font.setBold(True)
+        self.title.setFont(font)
+        self.errors, self.parameters = Table(), Table()
+        self.errors.setAccessibleName(self.tr("Error of a pixel before and after"))
+        self.parameters.setAccessibleName(self.tr("Parameters before and after"))
+        self.map = DifferenceMap()
+        self.map.plot.setToolTip(
+            self.tr(
+                "Distance between a point's images before and after, after the rotation that\n"
+                "brings the two closest where corners (dots) were seen."
+            )
+        )
+        self.keep = QPushButton(self.tr("&Keep"))
+        self.keep.setDefault(True)
+        self.back = QPushButton(self.tr("&Take back"))
+        self.keep.clicked.connect(lambda: self._answer(self.kept))
+        self.back.clicked.connect(lambda: self._answer(self.taken_back))
+        head = QHBoxLayout()
+        head.addWidget(self.title, 1)
+        head.addWidget(self.back)
+        head.addWidget(self.keep)
+        tables = QVBoxLayout()
+        tables.addWidget(self.errors)
+        tables.addWidget(self.parameters, 1)
+        sides = QHBoxLayout()
+        sides.addLayout(tables, 1)
+        sides.addWidget(self.map, 1)
+        layout = QVBoxLayout(self)
+        layout.setContentsMargins(*[theme.SPACING] * 4)
+        layout.addLayout(head)
+        layout.addLayout(sides, 1)
+        # Work that goes on keeps what was done.
+        session.changed.connect(lambda _, after: self._close_for_other(after))
+
+    def show_remedied(self, remedied: Remedied) -> None:
+        """Show what an action has done."""
+        self._remedied = remedied
+        before, after = remedied.before.calibration, remedied.after.calibration
+        gain = remedied.verdict_before.error.edge / remedied.verdict_after.error.edge
+        self.title.setText(
+            self.tr("{0}: the error at the image's edge is {1} times smaller").format(
+                remedied.label, format_times(gain)
+            )
+            if gain > 1
+            else self.tr("{0}: the error at the image's edge is not smaller").format(remedied.label)
+        )
+        self._show_errors(remedied.verdict_before, remedied.verdict_after)
+        rows = compare_parameters(before, after)
+        self.parameters.show_columns(
+            [
+                Column(self.tr("Parameter"), [row.name for row in rows]),
+                *estimate_columns(
+                    self.tr("Before"), [r.a for r in rows], [r.sigma_a for r in rows]
+                ),
+                *estimate_columns(self.tr("After"), [r.b for r in rows], [r.sigma_b for r in rows]),
+                Column(
+                    self.tr("Change in σ"),
+                    [row.sigmas for row in rows],
+                    with_decimals(1),
+                    self.tr(
+                        "Over the standard deviation of a difference of independent estimates."
+                    ),
+                ),
+            ]
+        )
+        views = remedied.after.observations()
+
+        def show(difference: CameraDifference) -> None:
+            corners = np.concatenate([view.uv for view in views])
+            self.map.show_difference(difference, before.camera.size, corners)
+
+        self._work.start(
+            "",
+            lambda _: compare_cameras(after.camera, before.camera, views=views),
+            show,
+            lambda error: self.map.show_reason(str(error)),
+        )
+        self.open_up()
+        self.keep.setFocus()
+
+    def measure_height(self, width: int) -> int:  # noqa: ARG002 - Overlay's
+        """Return the height at which the map is well seen."""
+        return _HEIGHT
+
+    def _show_errors(self, before: Verdict, after: Verdict) -> None:
+        pairs = [
+            (self.tr("Error, {0} [px]").format(name), a, b)
+            for name, a, b in (
+                (self.tr("centre"), before.error.centre, after.error.centre),
+                (self.tr("edge"), before.error.edge, after.error.edge),
+                (self.tr("worst"), before.error.worst, after.error.worst),
+            )
+        ]
+        grades = [describe_grade(v.grade, v.times_better) for v in (before, after)]
+        self.errors.show_columns(
+            [
+                Column(self.tr("Verdict"), [name for name, *_ in pairs]),
+                Column(grades[0], [a for _, a, _ in pairs], with_digits(2)),
+                Column(grades[1], [b for *_, b in pairs], with_digits(2)),
+            ]
+        )
+        rows = self.errors.verticalHeader().length() + self.errors.horizontalHeader().height()
+        self.errors.setFixedHeight(rows + 2 * self.errors.frameWidth() + theme.SPACING)
+
+    def _answer(self, signal: SignalInstance) -> None:
+        remedied, self._remedied = self._remedied, None
+        self.hide()
+        if remedied is not None:
+            signal.emit(remedied)
+
+    def _close_for_other(self, project: object) -> None:
+        if self._remedied is not None and project is not self._remedied.project:
+            self._remedied = None
+            self.hide()

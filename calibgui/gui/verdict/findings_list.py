@@ -1,0 +1,134 @@
+"""What is wrong with the shown result: a row for each finding, with the button that does it."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from PySide6.QtCore import Qt, Signal
+from PySide6.QtWidgets import (
+    QFrame,
+    QGridLayout,
+    QLabel,
+    QPushButton,
+    QScrollArea,
+    QToolButton,
+    QVBoxLayout,
+    QWidget,
+)
+
+from calibgui.engine.assessment import Finding, Verdict
+from calibgui.gui.verdict.overlay import Overlay
+from calibgui.gui.verdict.texts import describe_button
+from calibgui.gui.widgets import theme
+from calibgui.gui.widgets.elided import ElidedLabel
+from calibgui.report.verdict import format_times
+
+_SHARE = 0.6
+"""Share of the room below the bar that the list may take."""
+_MIN_TOLD = 1.1
+"""Ratio of errors from which a row says by how much its action makes the camera better."""
+
+
+class FindingsList(Overlay):
+    """Lists findings, the most harmful first; details unfold under a row."""
+
+    action_wanted = Signal(object)
+    """The finding whose action the user wants."""
+    proof_wanted = Signal(object)
+    """The finding whose evidence the user wants to see."""
+
+    def __init__(self, bar: QWidget) -> None:
+        super().__init__(bar, _SHARE)
+        self.rows: list[FindingRow] = []
+        self._body = QWidget()
+        self._column = QVBoxLayout(self._body)
+        self._column.setContentsMargins(theme.SPACING, 0, theme.SPACING, theme.SPACING)
+        self._column.setSpacing(0)
+        area = QScrollArea(widgetResizable=True)
+        area.setFrameShape(QFrame.Shape.NoFrame)
+        area.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
+        area.setWidget(self._body)
+        for widget in (area.viewport(), self._body):  # the overlay's own colour shows
+            widget.setAutoFillBackground(False)
+        layout = QVBoxLayout(self)
+        layout.setContentsMargins(1, 0, 1, 2)
+        layout.addWidget(area)
+
+    def show_verdict(self, verdict: Verdict, names: Sequence[str]) -> None:
+        """List the findings of a verdict on views with these names."""
+        for row in self.rows:
+            self._column.removeWidget(row)
+            row.deleteLater()
+        self.rows = [FindingRow(finding, names) for finding in verdict.findings]
+        for row in self.rows:
+            row.button.clicked.connect(lambda _=False, f=row.finding: self.action_wanted.emit(f))
+            row.proof.clicked.connect(lambda _=False, f=row.finding: self.proof_wanted.emit(f))
+            row.unfold.toggled.connect(self._fit)
+            self._column.addWidget(row)
+        if not self.rows:
+            self.hide()
+        elif self.isVisible():
+            self._fit()
+
+    def set_busy(self, busy: bool) -> None:
+        """Disable the buttons while an action is being carried out."""
+        for row in self.rows:
+            row.button.setEnabled(not busy)
+
+    def _fit(self) -> None:
+        """Take the height that the rows need now."""
+        self._column.activate()
+        self.place()
+
+    def measure_height(self, width: int) -> int:
+        """Return the height of all rows."""
+        return self._column.heightForWidth(width - 2) + 4
+
+
+class FindingRow(QWidget):
+    """One finding: what, how much, one button that does it; details below, folded up."""
+
+    def __init__(self, finding: Finding, names: Sequence[str]) -> None:
+        super().__init__()
+        self.finding = finding
+        self.what = ElidedLabel()
+        self.what.setText(finding.message)
+        self.what.setToolTip(finding.message)
+        self.how_much = QLabel(
+            self.tr("{0} times better without").format(format_times(finding.times_better))
+            if finding.times_better >= _MIN_TOLD
+            else self.tr("{0:.2g} px").format(finding.harm)
+        )
+        self.unfold = QToolButton()
+        self.unfold.setCheckable(True)
+        self.unfold.setAutoRaise(True)
+        self.unfold.setArrowType(Qt.ArrowType.RightArrow)
+        self.unfold.setAccessibleName(self.tr("Details"))
+        self.unfold.setToolTip(self.tr("Show the figures and what to do"))
+        self.unfold.toggled.connect(self._unfold)
+        action = finding.action
+        self.button = QPushButton("" if action is None else describe_button(action, names))
+        self.button.setVisible(action is not None)
+        self.details = QLabel(f"{finding.evidence}\n{finding.remedy}")
+        self.details.setWordWrap(True)
+        self.details.setTextFormat(Qt.TextFormat.PlainText)
+        self.details.setTextInteractionFlags(Qt.TextInteractionFlag.TextSelectableByMouse)
+        self.proof = QPushButton(self.tr("Show the evidence"))
+        for widget in (self.details, self.proof):
+            widget.hide()
+        grid = QGridLayout(self)
+        grid.setContentsMargins(0, theme.SPACING // 2, 0, theme.SPACING // 2)
+        grid.setHorizontalSpacing(theme.SPACING)
+        grid.addWidget(self.unfold, 0, 0)
+        grid.addWidget(self.what, 0, 1)
+        grid.addWidget(self.how_much, 0, 2)
+        grid.addWidget(self.button, 0, 3)
+        grid.addWidget(self.details, 1, 1, 1, 2)
+        grid.addWidget(self.proof, 1, 3, Qt.AlignmentFlag.AlignTop)
+        grid.setColumnStretch(1, 1)
+
+    def _unfold(self, shown: bool) -> None:
+        down, right = Qt.ArrowType.DownArrow, Qt.ArrowType.RightArrow
+        self.unfold.setArrowType(down if shown else right)
+        self.details.setVisible(shown)
+        self.proof.setVisible(shown)

@@ -1,0 +1,73 @@
+"""The question how long the squares are, asked once when photographs first come in."""
+
+from __future__ import annotations
+
+from PySide6.QtWidgets import QDoubleSpinBox, QHBoxLayout, QLabel, QPushButton, QWidget
+
+from calibgui.app.project import Project, confirm_lengths, set_square
+from calibgui.gui.session.session import Session
+from calibgui.gui.widgets import theme
+from calibgui.gui.widgets.elided import ElidedLabel
+
+
+class SquareRow(QWidget):
+    """Says how many corners were counted, and asks for the side of a square until it is stated."""
+
+    def __init__(self, session: Session) -> None:
+        super().__init__()
+        self._session = session
+        self.counted = ElidedLabel()
+        self.side = QLabel(self.tr("Side of a square:"))
+        self.square = QDoubleSpinBox(decimals=3, minimum=0.001, maximum=100_000.0)
+        self.square.setAccessibleName(self.tr("Side of a square"))
+        self.square.setToolTip(
+            self.tr(
+                "Only lengths depend on it, no pixel does. Until it is confirmed, every length "
+                "holds on this condition."
+            )
+        )
+        self.confirm = QPushButton()
+        self.square.valueChanged.connect(lambda _: self._name_button(self._session.project))
+        self.square.lineEdit().returnPressed.connect(self.answer)
+        self.confirm.clicked.connect(self.answer)
+        row = QHBoxLayout(self)
+        row.setContentsMargins(theme.SPACING, 0, theme.SPACING, theme.SPACING)
+        row.setSpacing(theme.SPACING)
+        row.addWidget(self.counted, 1)
+        for widget in (self.side, self.square, self.confirm):
+            row.addWidget(widget)
+        session.changed.connect(lambda _, after: self._show(after))
+        self._show(session.project)
+
+    def answer(self) -> None:
+        """Take the length as it is shown."""
+        mm = self.square.value() * self._session.project.unit.mm
+        if abs(mm - self._session.project.square) > 1e-9:
+            self._session.edit(self.tr("Size of squares"), lambda p: set_square(p, mm))
+        else:
+            self._session.edit(self.tr("Confirm the size of squares"), confirm_lengths)
+
+    def _show(self, project: Project) -> None:
+        self.setVisible(bool(project.views) and not project.lengths_confirmed)
+        if self.isHidden():
+            return
+        board = project.board
+        self.counted.setText(
+            self.tr("How long are the squares? The board is being counted.")
+            if board is None
+            else self.tr(
+                "How long are the squares? The board has {0} × {1} inner corners as counted; "
+                "lengths hold if squares are {2:g} {3}."
+            ).format(board.rows, board.cols, project.square / project.unit.mm, project.unit)
+        )
+        self.counted.setToolTip(self.counted.text())
+        if not self.square.hasFocus():
+            self.square.blockSignals(True)
+            self.square.setValue(project.square / project.unit.mm)
+            self.square.blockSignals(False)
+        self.square.setSuffix(f" {project.unit}")
+        self._name_button(project)
+
+    def _name_button(self, project: Project) -> None:
+        text = self.tr("Confirm {0:g} {1}")
+        self.confirm.setText(text.format(self.square.value(), project.unit))

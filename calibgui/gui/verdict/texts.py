@@ -1,0 +1,96 @@
+"""The window's words for grades and actions: the command line has its own in ``report.verdict``."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+from PySide6.QtCore import QCoreApplication
+
+from calibgui.dataset import Result
+from calibgui.engine.assessment import (
+    Action,
+    ActionKind,
+    Grade,
+    PixelError,
+    Verdict,
+    summarise_residuals,
+)
+from calibgui.report.verdict import format_times, join_names
+
+translate = QCoreApplication.translate
+
+
+def describe_grade(grade: Grade, times_better: float) -> str:
+    """Describe a grade in capitals."""
+    match grade:
+        case Grade.GOOD:
+            return translate("VerdictTexts", "GOOD")
+        case Grade.USABLE:
+            return translate("VerdictTexts", "USABLE")
+        case Grade.CAN_BE_BETTER:
+            text = translate("VerdictTexts", "CAN BE {0} TIMES BETTER")
+            return text.format(format_times(times_better))
+        case Grade.NOT_USABLE:
+            return translate("VerdictTexts", "NOT USABLE")
+
+
+def describe_pixel_error(error: PixelError) -> str:
+    """Describe the error of a pixel over the image, px."""
+    if not np.isfinite(error.worst):
+        return translate("VerdictTexts", "Error of a pixel: unknown")
+    text = translate(
+        "VerdictTexts", "Error of a pixel: centre {0:.2g}, edge {1:.2g}, worst {2:.2g} px"
+    )
+    return text.format(error.centre, error.edge, error.worst)
+
+
+def describe_figures(verdict: Verdict, result: Result) -> str:
+    """Describe the error of a pixel, what it is in the scene, and how well the camera fits."""
+    parts = [describe_pixel_error(verdict.error)]
+    if np.isfinite(mm := verdict.error.edge * verdict.mm_per_pixel):
+        text = translate("VerdictTexts", "edge {0:.2g} mm at {1:.0f} mm")
+        parts.append(text.format(mm, verdict.distance))
+    if not result.lengths_confirmed and result.board is not None:
+        parts[-1] += translate("VerdictTexts", " if squares are {0:g} mm").format(
+            result.board.square
+        )
+    return "; ".join([*parts, describe_fit(result)])
+
+
+def describe_fit(result: Result) -> str:
+    """Describe the residuals: their RMS, sigma and number."""
+    fit = summarise_residuals(result.calibration.residuals)
+    sigma = float(np.hypot(fit.sigma_x, fit.sigma_y) / np.sqrt(2))
+    text = translate("VerdictTexts", "RMS {0:.3f} px, σ {1:.3f} px of {2:,} corners")
+    return text.format(fit.rms, sigma, fit.count)
+
+
+def describe_button(action: Action, names: Sequence[str]) -> str:
+    """Describe what the button of an action does.
+
+    Args:
+        action: the action.
+        names: names of the calibrated views.
+    """
+    views = join_names([names[k] for k in action.views], most=1)
+    parameters = join_names(action.parameters)
+    match action.kind:
+        case ActionKind.ESTIMATE_BOARD_SHAPE:
+            return translate("VerdictTexts", "Estimate the board's shape")
+        case ActionKind.CHOOSE_LENS_MODEL:
+            return translate("VerdictTexts", "Take the lens model that fits")
+        case ActionKind.LEAVE_OUT_CORNERS:
+            return translate("VerdictTexts", "Leave these corners out")
+        case ActionKind.LEAVE_OUT_VIEWS:
+            return translate("VerdictTexts", "Leave {0} out").format(views)
+        case ActionKind.FREE_HELD_VALUE:
+            return translate("VerdictTexts", "Free {0}").format(parameters)
+        case ActionKind.HOLD_AT_ZERO:
+            return translate("VerdictTexts", "Hold {0} at 0").format(parameters)
+        case ActionKind.WEIGH_VIEWS:
+            return translate("VerdictTexts", "Weigh views by their noise")
+        case ActionKind.LOOK_AT_VIEW:
+            return translate("VerdictTexts", "Look at {0}").format(views)
+        case ActionKind.PHOTOGRAPH_MORE:
+            return translate("VerdictTexts", "Show where to hold the board")

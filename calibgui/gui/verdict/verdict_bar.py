@@ -1,0 +1,234 @@
+"""The verdict on the shown result, across the window: a headline, its figures and a button."""
+
+from __future__ import annotations
+
+from pathlib import PurePath
+
+from PySide6.QtCore import QEvent, Signal
+from PySide6.QtWidgets import QFrame, QHBoxLayout, QLabel, QPushButton, QVBoxLayout, QWidget
+
+from calibgui.dataset import Result
+from calibgui.dataset.judging import judge_result
+from calibgui.engine.assessment import ActionKind, Cause, Finding, Verdict
+from calibgui.gui.panels.latest import Latest
+from calibgui.gui.session.session import Session
+from calibgui.gui.verdict.findings_list import FindingsList
+from calibgui.gui.verdict.mark import Mark, get_colour
+from calibgui.gui.verdict.remedier import Remedied, Remedier
+from calibgui.gui.verdict.square_row import SquareRow
+from calibgui.gui.verdict.texts import (
+    describe_button,
+    describe_figures,
+    describe_fit,
+    describe_grade,
+)
+from calibgui.gui.widgets import theme
+from calibgui.gui.widgets.elided import ElidedLabel
+
+_PROOFS = {
+    Cause.BOARD_SHAPE: "BoardShapePanel",
+    Cause.LENS: "LensModelsPanel",
+    Cause.FEW_VIEWS: "UncertaintyPanel",
+    Cause.UNDETERMINED: "UncertaintyPanel",
+    Cause.HELD_VALUE: "ResultPanel",
+}
+"""Panels that prove findings, by their classes' names; of all others the residuals do."""
+_OTHER_PROOF = "ResidualsPanel"
+_PLACES = "CoveragePanel"
+"""The panel that shows where to hold the board."""
+
+
+class VerdictBar(QFrame):
+    """Always in sight; what is wrong is listed below on demand, over the desk."""
+
+    panel_wanted = Signal(str)
+    """The class name of a panel that the user wants to see."""
+
+    def __init__(self, session: Session) -> None:
+        super().__init__()
+        self.setObjectName("verdict")
+        self._session = session
+        self._result: Result | None = None
+        self.verdict: Verdict | None = None
+        self._work = Latest(session.jobs, self)
+        self.remedier = Remedier(session)
+        self.mark = Mark()
+        self.headline = QLabel()
+        font = self.headline.font()
+        font.setBold(True)
+        font.setPointSizeF(1.25 * font.pointSizeF())
+        self.headline.setFont(font)
+        self.reason, self.figures = ElidedLabel(), ElidedLabel()
+        self.button = QPushButton()
+        self.button.clicked.connect(self._do_first)
+        self.unfold = QPushButton()
+        self.unfold.setCheckable(True)
+        self.unfold.toggled.connect(self._unfold)
+        self.square = SquareRow(session)
+        self.findings = FindingsList(self)
+        self.findings.action_wanted.connect(self._act)
+        self.findings.proof_wanted.connect(
+            lambda f: self._show_panel(_PROOFS.get(f.cause, _OTHER_PROOF))
+        )
+        self.comparison: QWidget | None = None
+        self._lay_out()
+        self.remedier.began.connect(self._show_buttons)
+        self.remedier.ended.connect(self._show_buttons)
+        self.remedier.done.connect(self._compare)
+        session.result_changed.connect(self._judge)
+        session.changed.connect(lambda *_: self._show())
+        self._judge(session.result)
+
+    def _lay_out(self) -> None:
+        words = QVBoxLayout()
+        words.setSpacing(0)
+        first = QHBoxLayout()
+        first.setSpacing(theme.SPACING)
+        first.addWidget(self.headline)
+        first.addWidget(self.reason, 1)
+        words.addLayout(first)
+        words.addWidget(self.figures)
+        row = QHBoxLayout()
+        row.setContentsMargins(theme.SPACING, theme.SPACING // 2, theme.SPACING, theme.SPACING // 2)
+        row.setSpacing(theme.SPACING)
+        row.addWidget(self.mark)
+        row.addLayout(words, 1)
+        row.addWidget(self.button)
+        row.addWidget(self.unfold)
+        column = QVBoxLayout(self)
+        column.setContentsMargins(0, 0, 0, 0)
+        column.setSpacing(0)
+        column.addLayout(row)
+        column.addWidget(self.square)
+
+    def _judge(self, result: Result | None) -> None:
+        """Find out what the shown result is worth, beside the window."""
+        known = self.verdict if self._is_alike(result) else None
+        self._result, self.verdict = result, known
+        self._work.cancel()
+        if result is not None and known is None:
+            self.unfold.setChecked(False)
+            self._work.start(
+                self.tr("Judging the calibration"),
+                lambda job: judge_result(result, job.check),
+                self._receive,
+                self._session.failed.emit,
+            )
+        self._show()
+
+    def _is_alike(self, result: Result | None) -> bool:
+        """Return whether a result differs from the last one in what does not touch the verdict."""
+        last = self._result
+        return last is not None and result is not None and last.calibration is result.calibration
+
+    def _receive(self, verdict: Verdict) -> None:
+        self.verdict = verdict
+        self._show()
+
+    def _show(self) -> None:
+        verdict, result = self.verdict, self._result
+        self.mark.show_grade(None if verdict is None else verdict.grade)
+        if verdict is None or result is None:
+            nothing = self.tr("NOT CALIBRATED") if result is None else self.tr("JUDGING…")
+            hint = self.tr("Press Calibrate once the corners are found.")
+            waiting = self.tr("What makes it better is being tried.")
+            self.headline.setText(nothing)
+            self.reason.setText(hint if result is None else waiting)
+            self.figures.setText("" if result is None else describe_fit(result))
+        else:
+            self.headline.setText(describe_grade(verdict.grade, verdict.times_better))
+            is_old = not self._session.project.is_current(result)
+            old = self.tr("Out of date: calibrate again. ") if is_old else ""
+            self.reason.setText(old + verdict.reason)
+            self.figures.setText(describe_figures(verdict, result))
+            self.findings.show_verdict(verdict, self._list_names())
+        self.reason.setToolTip(self.reason.text())
+        self.figures.setToolTip(
+            self.figures.text()
+            + "\n"
+            + self.tr(
+                "One standard deviation of where a distant point is imaged, with what is wrong; "
+                "the edge is the mean along the image's border."
+            )
+        )
+        self._show_buttons()
+        self._restyle()
+
+    def _show_buttons(self) -> None:
+        busy = self.remedier.running
+        first = self._first
+        action = None if first is None else first.action
+        self.button.setVisible(action is not None)
+        if action is not None:
+            self.button.setText(describe_button(action, self._list_names()))
+        self.button.setEnabled(not busy)
+        self.findings.set_busy(busy)
+        count = 0 if self.verdict is None else len(self.verdict.findings)
+        self.unfold.setVisible(count > 0)
+        self.unfold.setText(
+            self.tr("&1 finding") if count == 1 else self.tr("{0} &findings").format(count)
+        )
+        self.unfold.setToolTip(self.tr("List what is wrong, with the figures that show it"))
+
+    @property
+    def _first(self) -> Finding | None:
+        """The most harmful finding."""
+        return self.verdict.findings[0] if self.verdict and self.verdict.findings else None
+
+    def _list_names(self) -> list[str]:
+        used = () if self._result is None else self._result.used
+        return [PurePath(view.image).stem for view in used]
+
+    def _unfold(self, shown: bool) -> None:
+        if shown:
+            self.findings.open_up()
+        else:
+            self.findings.hide()
+
+    def _do_first(self) -> None:
+        if (first := self._first) is not None:
+            self._act(first)
+
+    def _act(self, finding: Finding) -> None:
+        """Carry the action on a finding out, or show what the user can do."""
+        action, result = finding.action, self._result
+        if action is None or result is None:
+            return
+        if action.is_of_camera:
+            self.unfold.setChecked(False)
+            self.remedier.run(describe_button(action, self._list_names()), action, result)
+        elif action.kind is ActionKind.LOOK_AT_VIEW:
+            self._session.select(result.used[action.views[0]].image)
+        else:
+            self._show_panel(_PLACES)
+
+    def _show_panel(self, name: str) -> None:
+        self.unfold.setChecked(False)
+        self.panel_wanted.emit(name)
+
+    def _compare(self, remedied: Remedied) -> None:
+        """Show what an action has done; plots are imported when there is something to plot."""
+        from calibgui.gui.verdict.before_after import BeforeAndAfter
+
+        if not isinstance(self.comparison, BeforeAndAfter):
+            self.comparison = BeforeAndAfter(self, self._session)
+            self.comparison.taken_back.connect(self.remedier.take_back)
+        self.comparison.show_remedied(remedied)
+
+    def changeEvent(self, event: QEvent) -> None:  # noqa: N802 - Qt's name
+        super().changeEvent(event)
+        if event.type() == QEvent.Type.PaletteChange and hasattr(self, "square"):
+            self._restyle()
+
+    def _restyle(self) -> None:
+        colours = theme.current()
+        colour = get_colour(None if self.verdict is None else self.verdict.grade)
+        style = (
+            f"#verdict {{ background: {colours.base}; border: none;"
+            f" border-left: 5px solid {colour}; border-bottom: 1px solid {colours.line}; }}"
+        )
+        if style != self.styleSheet():
+            self.setStyleSheet(style)
+        self.headline.setStyleSheet(f"color: {colour}")
+        self.figures.setStyleSheet(f"color: {colours.muted}")
+        self.mark.update()

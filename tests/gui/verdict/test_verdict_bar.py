@@ -1,0 +1,212 @@
+"""The bar says what a result is worth, and its buttons do what they say and can be undone."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import replace
+from pathlib import Path
+from types import MappingProxyType
+from typing import Any
+
+import numpy as np
+import pytest
+from PySide6.QtCore import Qt
+from PySide6.QtWidgets import QPushButton
+from pytestqt.qtbot import QtBot
+
+from calibgui.app.calibration import calibrate_views
+from calibgui.app.document import Document
+from calibgui.app.project import Project, record_result
+from calibgui.app.settings import Settings
+from calibgui.dataset import CornerSet, View
+from calibgui.engine.assessment import Cause, Grade
+from calibgui.gui.panels.coverage import CoveragePanel
+from calibgui.gui.panels.residuals import ResidualsPanel
+from calibgui.gui.verdict.before_after import BeforeAndAfter
+from calibgui.gui.verdict.verdict_bar import VerdictBar
+from calibgui.gui.window.main_window import MainWindow
+from tests.app import examples
+
+LEFT = Qt.MouseButton.LeftButton
+
+
+def calibrated(project: Project) -> Project:
+    """The project with its first result."""
+    assert project.size is not None
+    corner_set = CornerSet(project.size, project.views, project.board)
+    result = calibrate_views(corner_set, project.settings)
+    empty = replace(project, results=MappingProxyType({}))
+    return record_result(empty, "Calibration 1", project.views, result)
+
+
+@pytest.fixture
+def plain(tmp_path: Path) -> Project:
+    return replace(examples.calibrated(tmp_path), settings=Settings(), lengths_confirmed=True)
+
+
+Open = Callable[[Project], VerdictBar]
+
+
+@pytest.fixture
+def open_project(window: MainWindow, qtbot: QtBot) -> Open:
+    def begin(project: Project) -> VerdictBar:
+        window.session.begin(Document(project))
+        bar = window.verdict
+        qtbot.waitUntil(
+            lambda: bar.verdict is not None and not window.session.jobs.running, timeout=60_000
+        )
+        return bar
+
+    return begin
+
+
+def displace(project: Project, change: Callable[[int, Any], Any]) -> Project:
+    """The project with the corners of its views k elsewhere."""
+
+    def move(k: int, view: View) -> View:
+        if view.corners is None:
+            return view
+        uv = change(k, np.array(view.corners.uv))
+        return replace(view, corners=replace(view.corners, uv=uv))
+
+    return replace(project, views=tuple(move(k, v) for k, v in enumerate(project.views)))
+
+
+def act(bar: VerdictBar, button: QPushButton, window: MainWindow, qtbot: QtBot) -> BeforeAndAfter:
+    """Click the button of an action, and wait for before and after."""
+    qtbot.mouseClick(button, LEFT)
+    qtbot.waitUntil(
+        lambda: (
+            bar.comparison is not None
+            and bar.comparison.isVisible()
+            and not window.session.jobs.running
+        ),
+        timeout=60_000,
+    )
+    assert isinstance(bar.comparison, BeforeAndAfter)
+    return bar.comparison
+
+
+def test_a_sound_result_has_its_figures_and_no_button(plain: Project, open_project: Open) -> None:
+    bar = open_project(calibrated(plain))
+    verdict = bar.verdict
+    assert verdict is not None and bar.mark.grade is verdict.grade
+    assert bar.headline.text() in ("GOOD", "USABLE")
+    assert (
+        f"edge {verdict.error.edge:.2g}, worst {verdict.error.worst:.2g} px" in bar.figures.text()
+    )
+    assert "RMS 0.0" in bar.figures.text() and "of 252 corners" in bar.figures.text()
+    assert "if squares" not in bar.figures.text()
+    assert not bar.button.isVisible() and not bar.unfold.isVisible()
+    assert not bar.square.isVisible()
+
+
+def test_one_click_remedies_and_one_takes_it_back(
+    plain: Project, open_project: Open, window: MainWindow, qtbot: QtBot
+) -> None:
+    wrong = calibrated(replace(plain, settings=Settings(fixed={"fx": 180.0})))
+    bar = open_project(wrong)
+    before = bar.verdict
+    assert before is not None and before.grade is Grade.CAN_BE_BETTER
+    assert bar.headline.text().startswith("CAN BE ") and bar.button.text() == "Free fx"
+    comparison = act(bar, bar.button, window, qtbot)
+    after = bar.verdict
+    assert after is not None
+    gained = before.error.edge / after.error.edge
+    assert gained == pytest.approx(before.times_better, rel=0.3)
+    assert "times smaller" in comparison.title.text()
+    assert window.session.project.settings.fixed == {}
+    assert len(window.session.project.results) == 2
+    changes = comparison.parameters.model()
+    assert changes.index(0, 0).data() == "fx"
+    # Taken back: everything is as it was, the headline too.
+    qtbot.mouseClick(comparison.back, LEFT)
+    qtbot.waitUntil(lambda: not window.session.jobs.running)
+    assert window.session.project is wrong and not comparison.isVisible()
+    assert bar.headline.text().startswith("CAN BE ")
+    # Kept: the comparison goes, the result stays until undo.
+    comparison = act(bar, bar.button, window, qtbot)
+    qtbot.mouseClick(comparison.keep, LEFT)
+    assert not comparison.isVisible() and len(window.session.project.results) == 2
+    assert window.session.document.undo_label == "Free fx"
+    window.session.document.undo()
+    assert window.session.project is wrong
+
+
+def test_work_that_goes_on_keeps_what_was_done(
+    plain: Project, open_project: Open, window: MainWindow, qtbot: QtBot
+) -> None:
+    bar = open_project(calibrated(replace(plain, settings=Settings(fixed={"fx": 180.0}))))
+    comparison = act(bar, bar.button, window, qtbot)
+    window.session.edit("Settings", lambda p: replace(p, settings=Settings(robust=True)))
+    assert not comparison.isVisible() and len(window.session.project.results) == 2
+
+
+def test_findings_unfold_over_the_desk_with_their_evidence(
+    plain: Project, open_project: Open, window: MainWindow, qtbot: QtBot
+) -> None:
+    def misplace(k: int, uv: Any) -> Any:
+        uv[::4] += [6.0, -4.0] if k == 2 else 0.0
+        return uv
+
+    bar = open_project(calibrated(displace(plain, misplace)))
+    assert bar.button.text() == "Leave these corners out"
+    place = window.page.mapTo(window, window.page.rect().topLeft())
+    qtbot.mouseClick(bar.unfold, LEFT)
+    row = bar.findings.rows[0]
+    assert bar.findings.isVisible() and row.finding.cause is Cause.MISPLACED_CORNERS
+    assert "2.png" in row.what.text() and "times better" in row.how_much.text()
+    assert not row.details.isVisible()
+    folded = bar.findings.height()
+    qtbot.mouseClick(row.unfold, LEFT)
+    assert row.details.isVisible() and row.finding.evidence in row.details.text()
+    assert bar.findings.height() > folded
+    assert window.page.mapTo(window, window.page.rect().topLeft()) == place
+    qtbot.mouseClick(row.proof, LEFT)
+    assert window.analysis is not None and not bar.findings.isVisible()
+    assert isinstance(window.analysis.stack.currentWidget(), ResidualsPanel)
+    comparison = act(bar, bar.button, window, qtbot)
+    assert window.session.project.settings.robust
+    qtbot.mouseClick(comparison.back, LEFT)
+    assert not window.session.project.settings.robust
+
+
+def test_two_images_are_not_usable_and_ask_for_more(
+    plain: Project, open_project: Open, window: MainWindow, qtbot: QtBot
+) -> None:
+    two = replace(plain, views=plain.views[:2])
+    bar = open_project(calibrated(two))
+    assert bar.headline.text() == "NOT USABLE"
+    assert "2 views are too few" in bar.reason.text()
+    assert bar.button.text() == "Show where to hold the board"
+    qtbot.mouseClick(bar.button, LEFT)
+    assert window.analysis is not None
+    assert isinstance(window.analysis.stack.currentWidget(), CoveragePanel)
+
+
+def test_the_length_of_squares_is_asked_until_it_is_confirmed(
+    plain: Project, open_project: Open, window: MainWindow, qtbot: QtBot
+) -> None:
+    bar = open_project(calibrated(replace(plain, lengths_confirmed=False)))
+    row = bar.square
+    assert row.isVisible() and "6 × 7 inner corners" in row.counted.text()
+    assert row.confirm.text() == "Confirm 30 mm"
+    assert "if squares are 30 mm" in bar.figures.text()
+    verdict = bar.verdict
+    qtbot.mouseClick(row.confirm, LEFT)
+    assert not row.isVisible() and "if squares" not in bar.figures.text()
+    assert bar.verdict is verdict  # nothing was judged anew
+    window.session.document.undo()
+    assert row.isVisible() and "if squares are 30 mm" in bar.figures.text()
+    row.square.setValue(25.0)
+    assert row.confirm.text() == "Confirm 25 mm"
+    qtbot.mouseClick(row.confirm, LEFT)
+    assert window.session.project.square == 25.0 and window.session.project.lengths_confirmed
+    assert "Out of date" in bar.reason.text()
+
+
+def test_a_search_that_comes_first_asks_too(window: MainWindow, plain: Project) -> None:
+    project = replace(plain, results=MappingProxyType({}), lengths_confirmed=False)
+    window.session.begin(Document(project))
+    assert window.verdict.headline.text() == "NOT CALIBRATED"
+    assert window.verdict.square.isVisible()
