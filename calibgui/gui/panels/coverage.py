@@ -92,9 +92,7 @@ class CoveragePanel(Panel):
         )
         views = np.arange(len(tilt))
         for points, at in zip(self._points, self._at, strict=True):
-            points.setData(
-                *at.T, data=views, brush=[theme.view_colour(k) for k in range(len(tilt))]
-            )
+            points.setData(*at.T, data=views, brush=[theme.view_colour(i) for i in self._indices])
         self.distances.getPlotItem().getViewBox().setYRange(0, 1.1 * attitude.distance.max())
         reach = max(48.0, 1.05 * float(np.abs(self._at[0]).max()))
         self.tilts.getPlotItem().getViewBox().setRange(

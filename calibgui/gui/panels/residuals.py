@@ -62,7 +62,9 @@ class ResidualsPanel(Panel):
         summary = summarise_residuals(calibration.residuals)
         self.views.show_views(np.array([v.rms for v in calibration.residuals]), summary.rms)
         x, y, e = self.plane.names
-        self.scatter.show_residuals(self.plane.residuals(calibration), x, y, self.plane.unit)
+        self.scatter.show_residuals(
+            self.plane.residuals(calibration), self._indices, x, y, self.plane.unit
+        )
         self.scatter.set_title(
             self.tr("{0}: mean {1:.3f}, SD {2:.3f} {3}").format(
                 e, summary.reference_mean, summary.reference_sd, self.plane.unit

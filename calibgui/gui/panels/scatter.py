@@ -26,6 +26,7 @@ class ResidualScatter(Plot):
     def __init__(self) -> None:
         super().__init__("", "", square=True)
         self._points: Sequence[Array] = ()
+        self._views: Sequence[int] = ()
         self._clouds: list[pg.ScatterPlotItem] = []
         self._view = pg.ScatterPlotItem(size=6)
         self._ring = pg.ScatterPlotItem(size=15, brush=None)
@@ -34,16 +35,23 @@ class ResidualScatter(Plot):
             self.addItem(item)
         self.scene().sigMouseClicked.connect(self._clicked)
 
-    def show_residuals(self, points: Sequence[Array], x: str, y: str, unit: str) -> None:
+    def show_residuals(
+        self, points: Sequence[Array], views: Sequence[int], x: str, y: str, unit: str
+    ) -> None:
         """Show the residuals (n, 2) of each view.
 
         All views of a colour and symbol are one item: thousands of points stay quick.
+
+        Args:
+            points: the residuals.
+            views: the index by which each view has its colour (see `theme.view_colour`).
+            x, y, unit: what the axes show.
         """
         for cloud in self._clouds:
             self.removeItem(cloud)
-        self._points = points
+        self._points, self._views = points, views
         alike: defaultdict[tuple[str, str], list[Array]] = defaultdict(list)
-        for k, of_view in enumerate(points):
+        for k, of_view in zip(views, points, strict=True):
             alike[theme.view_colour(k).name(), theme.view_symbol(k)].append(of_view)
         self._clouds = [
             pg.ScatterPlotItem(
@@ -61,7 +69,8 @@ class ResidualScatter(Plot):
         """Bring a view's points to the front and ring one of them; -1 for none."""
         text = theme.current().text
         points = self._points[view] if view >= 0 else np.zeros((0, 2))
-        self._view.setData(*points.T, brush=theme.view_colour(max(view, 0)), pen=pg.mkPen(text))
+        brush = theme.view_colour(self._views[view]) if view >= 0 else None
+        self._view.setData(*points.T, brush=brush, pen=pg.mkPen(text))
         chosen = points[corner : corner + 1] if corner >= 0 else points[:0]
         self._ring.setData(*chosen.T, pen=pg.mkPen(text, width=2))
 

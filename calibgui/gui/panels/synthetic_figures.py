@@ -84,12 +84,14 @@ class Scatters(Split):
 
     def show_check(self, check: SyntheticCheck) -> None:
         """Show the residuals on the reference plane."""
-        names = self.tr("real"), self.tr("synthetic")
-        for result, plot, name in zip(
-            (check.real, check.synthetic), self.plots, names, strict=True
+        real = [i for i, view in enumerate(check.real.views) if view.usable]
+        found_again = [i for i, v in zip(real, check.synthetic.views, strict=True) if v.usable]
+        for result, views, plot, name in (
+            (check.real, real, self.plots[0], self.tr("real")),
+            (check.synthetic, found_again, self.plots[1], self.tr("synthetic")),
         ):
             points = [view.reference for view in result.calibration.residuals]
-            plot.show_residuals(points, *_COMPONENTS[:2], self.tr("reference px"))
+            plot.show_residuals(points, views, *_COMPONENTS[:2], self.tr("reference px"))
             plot.set_title(name)
 
     def select(self, check: SyntheticCheck, k: int, corner: int) -> None:

@@ -1,13 +1,14 @@
 """How the program looks: colours, spacing and fonts, light or dark as the system is.
 
-The colours that carry meaning are Okabe and Ito's, which people with any common kind of colour
-blindness tell apart; views beyond the eighth repeat them with another symbol.
+The colours of the first eight views are Okabe and Ito's, which people with any common kind of
+colour blindness tell apart; later views have other hues, and another symbol every eight views.
 """
 
 from __future__ import annotations
 
 from dataclasses import dataclass
 from enum import StrEnum
+from functools import cache
 
 from PySide6.QtCore import QSettings, Qt
 from PySide6.QtGui import QColor, QFont, QFontDatabase, QPalette
@@ -26,6 +27,10 @@ _OKABE_ITO = (
     "#B8A800",
     "#888888",
 )
+_GOLDEN_ANGLE = 0.381966
+"""Share of a turn: hues that are this far apart never come close to those shortly before."""
+_DISTINCT = 64
+"""Number of views after which colours come again: more cannot be told apart."""
 _SYMBOLS = ("o", "s", "t1", "d", "+", "x", "star")
 
 
@@ -146,13 +151,23 @@ def follow_system(app: QApplication) -> None:
     app.styleHints().colorSchemeChanged.connect(lambda: apply(app, chosen()))
 
 
+@cache
 def view_colour(view: int) -> QColor:
-    """The colour of a view's marks in every plot."""
-    return QColor(_OKABE_ITO[view % len(_OKABE_ITO)])
+    """Return the colour of a view everywhere: in the film strip, on the image and in every plot.
+
+    Args:
+        view: index of the view in the project, so that leaving another one out changes nothing.
+    """
+    k = view % _DISTINCT
+    if k < len(_OKABE_ITO):
+        return QColor(_OKABE_ITO[k])
+    turn = (k * _GOLDEN_ANGLE) % 1.0
+    # Two saturations by three lightnesses, none too pale for white nor too deep for black.
+    return QColor.fromHslF(turn, (0.75, 0.45)[k % 2], (0.38, 0.48, 0.60)[k % 3])
 
 
 def view_symbol(view: int) -> str:
-    """The pyqtgraph symbol of a view's marks: another one each time the colours repeat."""
+    """Return the pyqtgraph symbol of a view's marks: another one every eight views."""
     return _SYMBOLS[view // len(_OKABE_ITO) % len(_SYMBOLS)]
 
 
