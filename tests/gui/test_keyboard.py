@@ -12,7 +12,9 @@ from PySide6.QtWidgets import QAbstractButton, QApplication, QLabel, QMenu, QTab
 from pytestqt.qtbot import QtBot
 
 from calibgui.gui.panels.analysis import PANELS
+from calibgui.gui.panels.groups import Group
 from calibgui.gui.panels.panel import Panel
+from calibgui.gui.panels.residuals import ResidualsPanel
 from calibgui.gui.window.main_window import MainWindow
 
 
@@ -47,11 +49,18 @@ def test_no_letter_means_two_things_beside_a_panel(
     full: MainWindow, qtbot: QtBot, kind: type[Panel]
 ) -> None:
     full.need_analysis().show_panel(kind)
-    how = next(tabs for tabs in full.image_dock.findChildren(QTabWidget))
-    for tab in range(how.count()):
-        how.setCurrentIndex(tab)
-        assert clashes(labels(full)) == {}
+    assert clashes(labels(full)) == {}
     qtbot.waitUntil(lambda: not full.session.jobs.running, timeout=60_000)
+
+
+def test_no_letter_means_two_things_beside_the_set_up_and_the_layers(full: MainWindow) -> None:
+    full.inspector.show_setup()
+    assert clashes(labels(full)) == {}
+    full.inspector.show_image_page()
+    for tool in full.page.tools:
+        tool.trigger()
+        assert clashes(labels(full)) == {}
+    full.page.marker.leave()
 
 
 def test_every_entry_of_a_menu_has_its_letter(full: MainWindow) -> None:
@@ -74,6 +83,8 @@ def test_no_shortcut_means_two_things(full: MainWindow) -> None:
 
 def test_tab_goes_through_all_parts(full: MainWindow, qtbot: QtBot) -> None:
     analysis = full.need_analysis()
+    panel = analysis.choosers[Group.EVIDENCE].buttons[ResidualsPanel]
+    analysis.show_panel(ResidualsPanel)
     full.activateWindow()
     full.images.list.setFocus()
     reached = set()
@@ -86,6 +97,7 @@ def test_tab_goes_through_all_parts(full: MainWindow, qtbot: QtBot) -> None:
         full.calibrate,
         full.page.canvas,
         analysis.results,
-        analysis.names,
+        full.inspector.tabs,
+        panel,
     )
     assert {type(widget).__name__ for widget in wanted if widget not in reached} == set()

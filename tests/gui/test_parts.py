@@ -273,19 +273,19 @@ def test_help_names_keys_that_work(qtbot: QtBot, window: MainWindow) -> None:
 
 def test_the_layout_is_remembered(qtbot: QtBot, tmp_path: Path) -> None:
     widths = []
-    for width in (400, None):
+    for width in (500, None):
         window = MainWindow()
         window.show()
         window.resize(1280, 720)  # the offscreen screen is smaller than a remembered window
         qtbot.waitExposed(window)
         window.session.begin(Document(examples.calibrated(tmp_path)))
         if width is not None:
-            window.resizeDocks([window.image_dock], [width], Qt.Orientation.Horizontal)
+            window.resizeDocks([window.inspector_dock], [width], Qt.Orientation.Horizontal)
         qtbot.wait(50)
-        widths.append(window.image_dock.width())
+        widths.append(window.inspector_dock.width())
         window.close()
         window.deleteLater()
-    assert widths[0] == widths[1] == 400
+    assert widths[0] == widths[1] == 500
 
 
 def test_a_split_is_upright_where_it_is_not_wide(qtbot: QtBot) -> None:
@@ -307,7 +307,7 @@ def test_the_buttons_of_a_part_show_on_its_title(
     qapp.processEvents()
     ground = QColor(theme.current().window).lightness()
     for name in ("qt_dockwidget_floatbutton", "qt_dockwidget_closebutton"):
-        button = window.analysis_dock.findChild(QAbstractButton, name)
+        button = window.inspector_dock.findChild(QAbstractButton, name)
         assert button is not None
         icon = button.icon().pixmap(10, 10).toImage()
         inks = [icon.pixelColor(x, y) for x in range(10) for y in range(10)]

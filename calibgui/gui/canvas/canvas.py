@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from typing import Protocol
 
 import numpy as np
@@ -19,8 +19,8 @@ from PySide6.QtGui import (
 )
 from PySide6.QtWidgets import QFrame, QGraphicsScene, QGraphicsView, QWidget
 
-from calibgui.engine.arrays import Array
-from calibgui.gui.canvas.layers import Layer, Marks, paint_marks
+from calibgui.engine.arrays import Array, Size
+from calibgui.gui.canvas.layers import Drawing, Layer, Marks, paint_drawing, paint_marks
 from calibgui.gui.widgets import theme
 from calibgui.gui.widgets.picture import Picture
 
@@ -61,6 +61,8 @@ class Canvas(QGraphicsView):
     """Image position under the cursor, px; NaN when it leaves."""
     picked = Signal(int)
     """Index of the corner that was clicked."""
+    layers_changed = Signal()
+    """Other layers are shown than before."""
     stepped = Signal(int)
     """The user asks for the next image (1) or the one before (-1)."""
 
@@ -68,7 +70,10 @@ class Canvas(QGraphicsView):
         super().__init__(parent)
         self.marks = Marks()
         self.shown: set[Layer] = {Layer.REGION, Layer.CORNERS, Layer.RESIDUALS}
+        self.opacity: dict[Layer, float] = {}
+        """Opacity of each layer; 1 if it is not named."""
         self.residual_scale = 50.0
+        self._drawings: Mapping[Layer, Drawing] = {}
         self.tool: Tool | None = None
         self._picture = Picture()
         self._fits = True
@@ -106,10 +111,21 @@ class Canvas(QGraphicsView):
         self.marks = marks
         self.viewport().update()
 
+    def show_drawings(self, drawings: Mapping[Layer, Drawing]) -> None:
+        """Draw these over every image of their camera."""
+        self._drawings = drawings
+        self.viewport().update()
+
+    def set_opacity(self, layer: Layer, opacity: float) -> None:
+        """Draw a layer with an opacity of 0 to 1."""
+        self.opacity[layer] = opacity
+        self.viewport().update()
+
     def set_layer(self, layer: Layer, shown: bool) -> None:
         """Show or hide a layer."""
         (self.shown.add if shown else self.shown.discard)(layer)
         self.viewport().update()
+        self.layers_changed.emit()
 
     def set_residual_scale(self, scale: float) -> None:
         """Draw residuals that many times as long as they are."""
@@ -160,6 +176,12 @@ class Canvas(QGraphicsView):
             self._look_at(uv)
             self._fits = False
 
+    @property
+    def _size(self) -> Size:
+        """Width and height of the image, px."""
+        rect = self._picture.boundingRect()
+        return round(rect.width()), round(rect.height())
+
     def _fitting_zoom(self) -> float:
         rect, port = self._picture.boundingRect(), self.viewport().rect()
         if rect.isEmpty():
@@ -208,7 +230,17 @@ class Canvas(QGraphicsView):
         painter.save()
         painter.resetTransform()
         if self.tool is None or self.tool.with_marks:
-            paint_marks(painter, self.marks, self.to_screen, self.shown, self.residual_scale)
+            for layer, drawing in self._drawings.items():
+                if layer in self.shown and drawing.size == self._size:
+                    paint_drawing(painter, drawing, self.to_screen, self.opacity.get(layer, 1.0))
+            paint_marks(
+                painter,
+                self.marks,
+                self.to_screen,
+                self.shown,
+                self.residual_scale,
+                self.opacity,
+            )
         if self.tool is not None:
             self.tool.paint(painter, self)
         painter.restore()

@@ -1,4 +1,4 @@
-"""The selected image with its marks, and the bar of what to show of them."""
+"""The selected image with its marks, and the bar of the tools that work on it."""
 
 from __future__ import annotations
 
@@ -10,20 +10,19 @@ import numpy as np
 from PySide6.QtCore import Signal
 from PySide6.QtGui import QAction
 from PySide6.QtWidgets import (
-    QDoubleSpinBox,
     QHBoxLayout,
     QLabel,
-    QMenu,
     QToolButton,
     QVBoxLayout,
     QWidget,
-    QWidgetAction,
 )
 
 from calibgui.app.project import Project
 from calibgui.dataset import Result, View, ViewStatus
 from calibgui.engine.images import Image
 from calibgui.gui.canvas.canvas import Canvas
+from calibgui.gui.canvas.evidence import Evidence
+from calibgui.gui.canvas.layer_list import LayerList
 from calibgui.gui.canvas.layers import Layer, Marks
 from calibgui.gui.canvas.marker import Marker
 from calibgui.gui.images.image_model import status_text
@@ -32,14 +31,15 @@ from calibgui.gui.session.session import Session
 from calibgui.gui.widgets import theme
 from calibgui.gui.widgets.actions import make_action
 from calibgui.gui.widgets.elided import ElidedLabel
+from calibgui.gui.widgets.overlay import Overlay
 from calibgui.gui.widgets.picture import Levels, stretch_levels
 
 
 class ImagePage(QWidget):
     """Follows the session: whatever image and corner are selected are shown."""
 
-    place = Signal(str)
-    """The text on what is under the cursor, for the status bar, has changed."""
+    tool_changed = Signal(bool)
+    """A tool for corners was taken, or put away."""
 
     def __init__(self, session: Session) -> None:
         super().__init__()
@@ -48,23 +48,29 @@ class ImagePage(QWidget):
         self._job: Job | None = None
         self.canvas = Canvas()
         self.heading = ElidedLabel()
+        # Over the image, which must not move when the next one is chosen.
         self.reason = QLabel(wordWrap=True)
-        self.reason.setContentsMargins(theme.SPACING, 0, theme.SPACING, theme.SPACING)
+        self.reason.setAutoFillBackground(True)
+        self.reason.setMargin(theme.SPACING)
         self.reason.hide()
+        Overlay(self.reason, self.canvas)
         self.marker = Marker(session, self.canvas)
+        self.layer_list = LayerList(self.canvas)
+        self.layers = self.layer_list.actions_by_layer
+        self.evidence = Evidence(session, self.canvas)
+        self.canvas.layers_changed.connect(self.evidence.need)
         self.bar = QHBoxLayout()
         self.bar.setContentsMargins(theme.SPACING, 4, theme.SPACING, 4)
         self.bar.addWidget(self.heading, 1)
+        self.under_cursor = ElidedLabel()
+        self.under_cursor.setFont(theme.fixed_font())
+        self.bar.addWidget(self.under_cursor, 3)
         self._add_tools()
-        self._add_layers()
         self._add_zoom()
         layout = QVBoxLayout(self)
         layout.setContentsMargins(0, 0, 0, 0)
         layout.setSpacing(0)
         layout.addLayout(self.bar)
-        layout.addWidget(self.reason)
-        layout.addWidget(self.marker.roi_bar)
-        layout.addWidget(self.marker.corner_bar)
         layout.addWidget(self.canvas, 1)
         self.canvas.hovered.connect(self._hovered)
         self.canvas.stepped.connect(session.select_next)
@@ -99,6 +105,7 @@ class ImagePage(QWidget):
             button.setDefaultAction(action)
             self.bar.addWidget(button)
         self.marker.finished.connect(self._untoggle)
+        self.marker.finished.connect(lambda: self.tool_changed.emit(False))
 
     def _mark_or_leave(self) -> None:
         self._run_tool(self.tools[0], self.marker.mark_board)
@@ -113,77 +120,11 @@ class ImagePage(QWidget):
         run()
         self._untoggle()
         action.setChecked(self.canvas.tool is not None)
+        self.tool_changed.emit(action.isChecked())
 
     def _untoggle(self) -> None:
         for action in self.tools:
             action.setChecked(False)
-
-    def _add_layers(self) -> None:
-        menu = QMenu(self)
-        self.layers = {}
-        for layer, name, key, tip in (
-            (
-                Layer.REGION,
-                self.tr("&Region of interest"),
-                "Shift+1",
-                self.tr("The part of the image that was searched (yellow outline)"),
-            ),
-            (
-                Layer.ESTIMATES,
-                self.tr("First &estimates"),
-                "Shift+2",
-                self.tr("Corners to the nearest pixel, by Harris' detector (red +)"),
-            ),
-            (
-                Layer.CORNERS,
-                self.tr("Refi&ned corners"),
-                "Shift+3",
-                self.tr("Corners at the saddle point of the grey levels (yellow +)"),
-            ),
-            (
-                Layer.ORDER,
-                self.tr("&Order and axes"),
-                "Shift+4",
-                self.tr("The numbering of the corners: origin, rows, and the board's axes"),
-            ),
-            (
-                Layer.REPROJECTION,
-                self.tr("Re&projection"),
-                "Shift+5",
-                self.tr("Where the calibration expects the corners (blue circles)"),
-            ),
-            (
-                Layer.RESIDUALS,
-                self.tr("Re&siduals"),
-                "Shift+6",
-                self.tr("Arrows from expected to measured corners, magnified"),
-            ),
-        ):
-            action = make_action(self, name, key, tip, lambda: None)
-            action.setCheckable(True)
-            action.setChecked(layer in self.canvas.shown)
-            action.toggled.connect(lambda shown, layer=layer: self.canvas.set_layer(layer, shown))
-            menu.addAction(action)
-            self.layers[layer] = action
-        menu.setToolTipsVisible(True)
-        button = QToolButton()
-        button.setText(self.tr("Layers"))
-        button.setMenu(menu)
-        button.setPopupMode(QToolButton.ToolButtonPopupMode.InstantPopup)
-        button.setToolTip(self.tr("What to draw over the image"))
-        self.scale = QDoubleSpinBox(decimals=0, minimum=1, maximum=10_000, prefix="× ")
-        self.scale.setValue(self.canvas.residual_scale)
-        self.scale.setToolTip(self.tr("How many times as long as they are residuals are drawn"))
-        self.scale.setAccessibleName(self.tr("Magnification of residuals"))
-        self.scale.valueChanged.connect(self.canvas.set_residual_scale)
-        self.bar.addWidget(button)
-        row = QWidget()
-        line = QHBoxLayout(row)
-        line.addWidget(QLabel(self.tr("Residuals drawn")))
-        line.addWidget(self.scale)
-        setting = QWidgetAction(menu)
-        setting.setDefaultWidget(row)
-        menu.addAction(setting)
 
     def _add_zoom(self) -> None:
         self.zoom_actions = [
@@ -265,17 +206,17 @@ class ImagePage(QWidget):
     def _hovered(self, u: float, v: float) -> None:
         image = self._image
         if image is None or not (math.isfinite(u) and math.isfinite(v)):
-            self.place.emit("")
+            self.under_cursor.setText("")
             return
         column, row = round(u), round(v)
         width, height = image.size
         if not (0 <= column < width and 0 <= row < height):
-            self.place.emit("")
+            self.under_cursor.setText("")
             return
         text = self.tr("u {0:.2f}  v {1:.2f} px").format(u, v)
         text += self.tr("   grey {0}").format(int(image.pixels[row, column]))
         text += self._board_index(u, v)
-        self.place.emit(text)
+        self.under_cursor.setText(text)
 
     def _board_index(self, u: float, v: float) -> str:
         corners = self.canvas.marks.corners

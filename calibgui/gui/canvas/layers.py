@@ -6,16 +6,18 @@ size on the screen at any zoom.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection
+from collections.abc import Callable, Collection, Iterator, Mapping
+from contextlib import AbstractContextManager, contextmanager
 from dataclasses import dataclass
 from enum import StrEnum
 from itertools import pairwise
+from types import MappingProxyType
 
 import numpy as np
 from PySide6.QtCore import QLineF, QPointF, QRectF, Qt
 from PySide6.QtGui import QColor, QPainter, QPen, QPolygonF
 
-from calibgui.engine.arrays import Array
+from calibgui.engine.arrays import Array, Size
 from calibgui.engine.detection import Corners
 from calibgui.gui.widgets import theme
 
@@ -26,12 +28,17 @@ _ARM = 6.0
 """Half the length of a cross, if corners are far enough apart."""
 _ROOM = 0.22
 """Share of the distance between corners that a mark may take to each side."""
+_DOT = 2.5
+"""Radius of a dot."""
 _HEAD = 5.0
 """Length of an arrow's head."""
 
 
 class Layer(StrEnum):
-    """The kinds of marks, each of which can be shown or hidden."""
+    """The kinds of marks, each of which can be shown or hidden.
+
+    The first are of one view, the others of the whole calibration.
+    """
 
     REGION = "region"
     ESTIMATES = "estimates"
@@ -39,6 +46,26 @@ class Layer(StrEnum):
     ORDER = "order"
     REPROJECTION = "reprojection"
     RESIDUALS = "residuals"
+    UNCERTAINTY = "uncertainty"
+    DISTORTION = "distortion"
+    DISPLACEMENT = "displacement"
+    COVERAGE = "coverage"
+    NEXT_VIEW = "next view"
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class Drawing:
+    """Lines, labels and dots over the images of one camera, in px of the image."""
+
+    size: Size
+    """Width and height of the images that it lies over, px."""
+    colour: QColor
+    lines: tuple[Array, ...] = ()
+    """Open lines (n, 2)."""
+    labels: tuple[tuple[Array, str], ...] = ()
+    """Texts at places (2,)."""
+    dots: tuple[tuple[Array, QColor], ...] = ()
+    """Dots (n, 2), with the colour of each group."""
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -62,31 +89,62 @@ def paint_marks(
     to_screen: ToScreen,
     shown: Collection[Layer],
     residual_scale: float,
+    opacity: Mapping[Layer, float] = MappingProxyType({}),
 ) -> None:
     """Draw the `shown` layers of `marks` on a painter in the widget's coordinates."""
     painter.setRenderHint(QPainter.RenderHint.Antialiasing)
+
+    def faded(layer: Layer) -> AbstractContextManager[None]:
+        return fade(painter, opacity.get(layer, 1.0))
+
     if Layer.REGION in shown and marks.region is not None:
-        draw_outline(painter, to_screen(marks.region), theme.REGION)
+        with faded(Layer.REGION):
+            draw_outline(painter, to_screen(marks.region), theme.REGION)
     corners = marks.corners
     if corners is not None:
         uv = to_screen(corners.uv)
         arm = choose_arm_length(uv)
         if Layer.ORDER in shown:
-            _draw_order(painter, corners, uv)
+            with faded(Layer.ORDER):
+                _draw_order(painter, corners, uv)
         if Layer.ESTIMATES in shown:
-            draw_crosses(painter, to_screen(corners.estimate), theme.ESTIMATE, arm)
+            with faded(Layer.ESTIMATES):
+                draw_crosses(painter, to_screen(corners.estimate), theme.ESTIMATE, arm)
         if Layer.CORNERS in shown:
-            draw_crosses(painter, uv, theme.REFINED, arm)
+            with faded(Layer.CORNERS):
+                draw_crosses(painter, uv, theme.REFINED, arm)
     if marks.predicted is not None and marks.measured is not None:
         at, measured = to_screen(marks.predicted), to_screen(marks.measured)
         if Layer.REPROJECTION in shown:
-            draw_rings(painter, at, theme.REPROJECTED, choose_arm_length(at))
+            with faded(Layer.REPROJECTION):
+                draw_rings(painter, at, theme.REPROJECTED, choose_arm_length(at))
         if Layer.RESIDUALS in shown:
-            draw_arrows(painter, at, at + residual_scale * (measured - at), theme.RESIDUAL)
+            with faded(Layer.RESIDUALS):
+                draw_arrows(painter, at, at + residual_scale * (measured - at), theme.RESIDUAL)
     if corners is not None and 0 <= marks.chosen < len(corners):
         draw_rings(
             painter, to_screen(corners.uv[marks.chosen : marks.chosen + 1]), theme.REFINED, 12
         )
+
+
+def paint_drawing(painter: QPainter, drawing: Drawing, to_screen: ToScreen, opacity: float) -> None:
+    """Draw what lies over the images of a camera, on a painter in the widget's coordinates."""
+    painter.setRenderHint(QPainter.RenderHint.Antialiasing)
+    with fade(painter, opacity):
+        for dots, colour in drawing.dots:
+            draw_dots(painter, to_screen(dots), colour)
+        for line in drawing.lines:
+            draw_polyline(painter, to_screen(line), drawing.colour)
+        for at, text in drawing.labels:
+            draw_label(painter, to_screen(at[None])[0], text, drawing.colour)
+
+
+@contextmanager
+def fade(painter: QPainter, opacity: float) -> Iterator[None]:
+    """Draw with this opacity in the block."""
+    painter.setOpacity(opacity)
+    yield
+    painter.setOpacity(1.0)
 
 
 def choose_arm_length(at: Array) -> float:
@@ -130,6 +188,14 @@ def draw_arrows(painter: QPainter, start: Array, end: Array, colour: QColor) -> 
     ):
         lines += [QLineF(*a, *b), QLineF(*b, *left), QLineF(*b, *right)]
     _draw_lines(painter, lines, colour)
+
+
+def draw_dots(painter: QPainter, at: Array, colour: QColor) -> None:
+    """A dot at each of (n, 2) screen positions."""
+    painter.setPen(QPen(theme.HALO, 1.0))
+    painter.setBrush(colour)
+    for u, v in at:
+        painter.drawEllipse(QPointF(u, v), _DOT, _DOT)
 
 
 def draw_outline(painter: QPainter, at: Array, colour: QColor) -> None:

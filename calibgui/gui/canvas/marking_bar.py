@@ -1,4 +1,4 @@
-"""The bars above the image while corners are marked by hand."""
+"""What the inspector says and offers while corners are marked by hand."""
 
 from __future__ import annotations
 
@@ -29,8 +29,8 @@ class _Bar(QFrame):
         self.setBackgroundRole(self.backgroundRole().AlternateBase)
         self.words = QLabel()
         self.words.setWordWrap(True)
-        # Room for two lines: the image must not move between two clicks.
-        self.words.setMinimumHeight(2 * self.words.fontMetrics().lineSpacing())
+        # Room for three lines: nothing must move between two clicks.
+        self.words.setMinimumHeight(3 * self.words.fontMetrics().lineSpacing())
         self.words.setAlignment(Qt.AlignmentFlag.AlignTop)
         self.row = QHBoxLayout()
         self.row.addStretch(1)

@@ -1,1 +1,1 @@
-"""The list of images on the left, with their thumbnails and what was found in each."""
+"""The film strip at the bottom: thumbnails, what was found in each, and how well it fits."""

@@ -35,6 +35,10 @@ class Role(IntEnum):
     RMS = Qt.ItemDataRole.UserRole + 2
     """Px, of the shown result; None if the view has no part in it."""
     PATH = Qt.ItemDataRole.UserRole + 3
+    ENABLED = Qt.ItemDataRole.UserRole + 4
+    """True unless the user excluded the image."""
+    VIEW_COLOUR = Qt.ItemDataRole.UserRole + 5
+    """The colour that the view has in every plot."""
 
 
 class Criterion(IntEnum):
@@ -122,7 +126,7 @@ class ImageModel(QAbstractListModel):
             case Qt.ItemDataRole.ToolTipRole:
                 return self._tip(view)
             case Qt.ItemDataRole.AccessibleTextRole:
-                return f"{PurePath(view.image).name}, {self._status(view)}"
+                return self._spoken(view)
             case Role.STATUS:
                 return self._status(view)
             case Role.COLOUR:
@@ -131,11 +135,21 @@ class ImageModel(QAbstractListModel):
                 return self._rms.get(view.image)
             case Role.PATH:
                 return view.image
+            case Role.ENABLED:
+                return view.enabled
+            case Role.VIEW_COLOUR:
+                return theme.view_colour(index.row())
         return None
 
     def _status(self, view: View) -> str:
         text = status_text(view)
         return self.tr("changed · {0}").format(text) if self._altered(view) else text
+
+    def _spoken(self, view: View) -> str:
+        """Return what a screen reader says of an image."""
+        text = f"{PurePath(view.image).name}, {self._status(view)}"
+        rms = self._rms.get(view.image)
+        return text if rms is None else self.tr("{0}, error {1:.3f} px").format(text, rms)
 
     def _tip(self, view: View) -> str:
         tip = status_tip(view)

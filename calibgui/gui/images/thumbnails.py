@@ -12,7 +12,7 @@ from calibgui.app.project import Project, add_digests
 from calibgui.gui.session.session import Session
 from calibgui.gui.widgets.picture import make_qimage
 
-THUMBNAIL = QSize(56, 42)
+THUMBNAIL = QSize(72, 48)
 """Device-independent px."""
 
 

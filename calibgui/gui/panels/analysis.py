@@ -1,17 +1,17 @@
-"""The list of panels on a result, one of which is shown."""
+"""The panels on a result in their groups, one of which is shown."""
 
 from __future__ import annotations
 
 from functools import partial
 from typing import TypeVar, cast
 
-from PySide6.QtCore import QCoreApplication, QEvent, Signal
+from PySide6.QtCore import QEvent, Signal
 from PySide6.QtWidgets import (
     QComboBox,
     QHBoxLayout,
     QLabel,
-    QListWidget,
     QMenu,
+    QSizePolicy,
     QStackedWidget,
     QToolButton,
     QVBoxLayout,
@@ -25,10 +25,12 @@ from calibgui.gui.panels.board_shape import BoardShapePanel
 from calibgui.gui.panels.convergence import ConvergencePanel
 from calibgui.gui.panels.coverage import CoveragePanel
 from calibgui.gui.panels.distortion import DistortionPanel
+from calibgui.gui.panels.groups import Group
 from calibgui.gui.panels.histograms import HistogramsPanel
 from calibgui.gui.panels.lens_models import LensModelsPanel
 from calibgui.gui.panels.methods import MethodsPanel
 from calibgui.gui.panels.panel import Panel
+from calibgui.gui.panels.panel_chooser import PanelChooser
 from calibgui.gui.panels.poses import PosesPanel
 from calibgui.gui.panels.residuals import ResidualsPanel
 from calibgui.gui.panels.result import ResultPanel
@@ -40,25 +42,30 @@ from calibgui.gui.panels.undistort import UndistortPanel
 from calibgui.gui.session.session import Session
 from calibgui.gui.widgets import theme
 
-PANELS: tuple[type[Panel], ...] = (
-    ResultPanel,
-    StageOnePanel,
-    ConvergencePanel,
-    ResidualsPanel,
-    HistogramsPanel,
-    DistortionPanel,
-    UndistortPanel,
-    PosesPanel,
-    CoveragePanel,
-    UncertaintyPanel,
-    LensModelsPanel,
-    MethodsPanel,
-    BoardShapePanel,
-    SyntheticPanel,
-)
-"""The panels in the order of the list."""
+GROUPS: dict[Group, tuple[type[Panel], ...]] = {
+    Group.ANSWER: (ResultPanel, UncertaintyPanel, UndistortPanel),
+    Group.EVIDENCE: (
+        ResidualsPanel,
+        HistogramsPanel,
+        PosesPanel,
+        CoveragePanel,
+        BoardShapePanel,
+    ),
+    Group.METHOD: (
+        StageOnePanel,
+        ConvergencePanel,
+        DistortionPanel,
+        LensModelsPanel,
+        MethodsPanel,
+        SyntheticPanel,
+    ),
+}
+"""The panels of each group, in their order."""
 
-_WIDTH = 380
+PANELS: tuple[type[Panel], ...] = tuple(kind for kinds in GROUPS.values() for kind in kinds)
+"""All panels."""
+
+PANEL_WIDTH = 380
 """Least width of a panel, px."""
 
 P = TypeVar("P", bound=Panel)
@@ -77,6 +84,8 @@ class Analysis(QWidget):
     """See `Panel.method_wanted`."""
     rename_wanted = Signal(str)
     delete_wanted = Signal(str)
+    group_shown = Signal(Group)
+    """A panel of this group has come to the front."""
 
     def __init__(self, session: Session) -> None:
         super().__init__()
@@ -85,26 +94,25 @@ class Analysis(QWidget):
         self._shown: Result | None = None
         self._built: dict[type[Panel], Panel] = {}
         self._blank = {kind: QWidget() for kind in PANELS}
-        self.names = QListWidget()
-        self.names.setAccessibleName(self.tr("Panels"))
-        self.names.setSpacing(2)
+        self.choosers = {group: PanelChooser(kinds) for group, kinds in GROUPS.items()}
+        self._last = {group: kinds[0] for group, kinds in GROUPS.items()}
+        """The panel that was shown last of each group."""
+        self._names = QStackedWidget()
+        self._names.setSizePolicy(QSizePolicy.Policy.Preferred, QSizePolicy.Policy.Fixed)
+        for chooser in self.choosers.values():
+            chooser.chosen.connect(self.show_panel)
+            self._names.addWidget(chooser)
         self.stack = QStackedWidget()
         # All panels get the width that there is, or choosing one would move the image.
-        self.stack.setMinimumSize(_WIDTH, 0)
+        self.stack.setMinimumSize(PANEL_WIDTH, 0)
         for kind in PANELS:
-            self.names.addItem(QCoreApplication.translate(kind.__name__, kind.title))
             self.stack.addWidget(self._blank[kind])
-        width = self.names.sizeHintForColumn(0) + theme.SPACING
-        self.names.setFixedWidth(width)
-        self.names.currentRowChanged.connect(lambda row: self.show_panel(PANELS[row]))
-        below = QHBoxLayout()
-        below.setSpacing(0)  # panels have margins of their own
-        below.addWidget(self.names)
-        below.addWidget(self.stack, 1)
         layout = QVBoxLayout(self)
-        layout.setContentsMargins(theme.SPACING, 0, 0, theme.SPACING)
+        layout.setContentsMargins(0, 0, 0, 0)
+        layout.setSpacing(theme.SPACING // 2)
+        layout.addWidget(self._names)
         layout.addLayout(self._make_bar())
-        layout.addLayout(below, 1)
+        layout.addWidget(self.stack, 1)
         session.changed.connect(self._project_changed)
         session.result_changed.connect(self._show_result)
         session.selected.connect(self._select)
@@ -131,29 +139,33 @@ class Analysis(QWidget):
     def show_panel(self, kind: type[P]) -> P:
         """Bring a panel to the front."""
         panel = self.panel(kind)
+        group = next(group for group, kinds in GROUPS.items() if kind in kinds)
+        self._last[group] = kind
         self.stack.setCurrentWidget(panel)
-        self.names.setCurrentRow(PANELS.index(kind))
+        self.choosers[group].show_chosen(kind)
+        self._names.setCurrentWidget(self.choosers[group])
+        self.group_shown.emit(group)
         return panel
 
     def show_panel_named(self, name: str) -> None:
         """Bring the panel of a class to the front."""
         self.show_panel(next(kind for kind in PANELS if kind.__name__ == name))
 
+    def show_group(self, group: Group) -> None:
+        """Bring that panel of a group to the front that was there last."""
+        self.show_panel(self._last[group])
+
     def show_beginning(self) -> None:
-        """A calibration starts: its progress is shown."""
+        """A calibration starts: its progress is shown where one looks at it."""
         self.panel(ConvergencePanel).start()  # before it would draw the last one
-        self.show_panel(ConvergencePanel)
 
     def show_iteration(self, iteration: Iteration) -> None:
         """A calibration has come one iteration further."""
         self.panel(ConvergencePanel).add(iteration)
 
     def show_end(self) -> None:
-        """A calibration is over: what came of it is shown."""
-        convergence = self.panel(ConvergencePanel)
-        if self.stack.currentWidget() is convergence and self._session.result is not None:
-            self.show_panel(ResultPanel)
-        convergence.show_result(self._session.result)
+        """A calibration is over: what came of it is shown in place of its progress."""
+        self.panel(ConvergencePanel).show_result(self._session.result)
 
     def _make_bar(self) -> QHBoxLayout:
         self.results = QComboBox()

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable
 
 import numpy as np
 import pyqtgraph as pg
@@ -12,8 +12,6 @@ from PySide6.QtGui import QColor, QPen
 from calibgui.engine.arrays import Array
 from calibgui.gui.widgets.plots import Plot
 
-_MOST = 8
-"""Lines that can be told apart on a map that fills a panel."""
 _EDGE = 3.0
 """How many times as far from a label as from the map's edge another label may be."""
 _ROOM = 0.1
@@ -59,18 +57,6 @@ class Contours:
         label.setPos(*at)
         self._plot.addItem(label)
         self.labels.append(label)
-
-
-def choose_levels(top: float, most: int = _MOST) -> Iterator[float]:
-    """Yield at most `most` round numbers between 0 and `top`."""
-    if top <= 0:
-        return
-    power = 10.0 ** np.floor(np.log10(top / most))
-    step = next(m * power for m in (1, 2, 5, 10) if top / (m * power) <= most)
-    n = 1
-    while n * step < top:
-        yield float(n * step)
-        n += 1
 
 
 def _roomiest(points: Array, taken: list[Array], u: Array, v: Array) -> Array | None:

@@ -10,9 +10,10 @@ from PySide6.QtCore import QPointF, Qt
 from PySide6.QtWidgets import QLabel, QStackedWidget, QVBoxLayout, QWidget
 
 from calibgui.engine.arrays import Array, BoolArray, Size
-from calibgui.gui.panels.contours import Contours, choose_levels
+from calibgui.gui.panels.contours import Contours
 from calibgui.gui.panels.heat import HeatMap, surround_places
 from calibgui.gui.widgets import theme
+from calibgui.gui.widgets.levels import choose_levels
 
 _LEVELS = 4
 """Contour lines, at most: the map is small."""

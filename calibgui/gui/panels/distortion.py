@@ -14,10 +14,11 @@ from calibgui.engine.camera import Displacement, DisplacementPart, compute_displ
 from calibgui.engine.geometry import centre_of_array
 from calibgui.engine.images import make_mesh
 from calibgui.gui.panels.arrows import trace_arrows
-from calibgui.gui.panels.contours import Contours, choose_levels
+from calibgui.gui.panels.contours import Contours
 from calibgui.gui.panels.heat import HeatMap, image_rectangle
 from calibgui.gui.panels.panel import Panel
 from calibgui.gui.panels.services import Services
+from calibgui.gui.widgets.levels import choose_levels
 
 _CELLS = 240
 """Values along the image's longer side."""

@@ -1,12 +1,11 @@
-"""Residuals of all corners (figure 10), and the views' RMS beside them."""
+"""Residuals of all corners (figure 10)."""
 
 from __future__ import annotations
 
 from html import escape
 
-import numpy as np
 from PySide6.QtCore import QT_TRANSLATE_NOOP, Qt
-from PySide6.QtWidgets import QLabel, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QLabel, QVBoxLayout
 
 from calibgui.app.calibration import shorten_names
 from calibgui.dataset import Result
@@ -16,8 +15,6 @@ from calibgui.gui.panels.panel import Panel
 from calibgui.gui.panels.plane import PlaneChoice
 from calibgui.gui.panels.scatter import ResidualScatter
 from calibgui.gui.panels.services import Services
-from calibgui.gui.panels.split import Split
-from calibgui.gui.panels.view_errors import ViewErrors
 
 _MARKS = {True: "✓", False: "✗"}
 
@@ -40,27 +37,17 @@ class ResidualsPanel(Panel):
         self.scatter = ResidualScatter()
         self.scatter.setToolTip(self.tr("Click a point to see its corner in the image."))
         self.scatter.picked.connect(self._pick)
-        self.views = ViewErrors()
-        self.views.picked.connect(self._pick)
-        self.views.exclude_wanted.connect(
-            lambda views: self.exclude_wanted.emit(tuple(self._indices[k] for k in views))
-        )
-        left = QWidget()
-        column = QVBoxLayout(left)
-        column.setContentsMargins(0, 0, 0, 0)
-        column.addWidget(self.plane, 0, Qt.AlignmentFlag.AlignLeft)
-        column.addWidget(self.scatter, 1)
         self.verdict = QLabel()
         self.verdict.setWordWrap(True)
         layout = QVBoxLayout(self.body)
         layout.addWidget(self.verdict)
-        layout.addWidget(Split(560, (left, 3), (self.views, 2)), 1)
+        layout.addWidget(self.plane, 0, Qt.AlignmentFlag.AlignLeft)
+        layout.addWidget(self.scatter, 1)
 
     def _refresh(self, result: Result) -> None:
         self._examine(result)
         calibration = result.calibration
         summary = summarise_residuals(calibration.residuals)
-        self.views.show_views(np.array([v.rms for v in calibration.residuals]), summary.rms)
         x, y, e = self.plane.names
         self.scatter.show_residuals(
             self.plane.residuals(calibration), self._indices, x, y, self.plane.unit
@@ -115,4 +102,3 @@ class ResidualsPanel(Panel):
 
     def _select(self, k: int, corner: int) -> None:
         self.scatter.select(k, corner)
-        self.views.select(k)

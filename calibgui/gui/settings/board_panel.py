@@ -119,7 +119,7 @@ class BoardPanel(QWidget):
         form.addRow(self.pattern)
         form.addRow(self.counted, corners)
         form.addRow("", self.inferred)
-        form.addRow(self.tr("&Located"), self.method)
+        form.addRow(self.tr("Loca&ted"), self.method)
         form.addRow("", self.by_hand)
         form.addRow(self.side, side)
         form.addRow("", self.print)

@@ -108,6 +108,10 @@ REPROJECTED = QColor("#56b4e9")
 RESIDUAL = QColor("#ff8c1a")
 PATH = QColor("#00d39b")
 MUTED_MARK = QColor("#ffffff")
+UNCERTAIN = QColor("#ff9ff3")
+MAGNITUDE = QColor("#8be9fd")
+DISPLACED = QColor("#c3f73a")
+NEXT_VIEW = QColor("#ff5c8a")
 HALO = QColor(0, 0, 0, 150)
 
 

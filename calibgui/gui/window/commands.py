@@ -14,7 +14,7 @@ from calibgui.app.recent import list_recent_projects
 from calibgui.gui.canvas.image_page import ImagePage
 from calibgui.gui.dialogs.files import Files
 from calibgui.gui.dialogs.help_dialog import HelpDialog
-from calibgui.gui.images.image_list import ImageList
+from calibgui.gui.images.film_strip import FilmStrip
 from calibgui.gui.session.session import Session
 from calibgui.gui.widgets import theme
 from calibgui.gui.widgets.actions import show_dialog
@@ -32,7 +32,7 @@ class Commands(QObject):
     """
 
     def __init__(
-        self, parent: QWidget, session: Session, files: Files, images: ImageList, page: ImagePage
+        self, parent: QWidget, session: Session, files: Files, images: FilmStrip, page: ImagePage
     ) -> None:
         super().__init__(parent)
         self._parent, self._session, self._files = parent, session, files
@@ -42,6 +42,7 @@ class Commands(QObject):
         self,
         calibrate: Callable[[], object],
         leave: Callable[[], object],
+        change_room: Callable[[], object],
         docks: Mapping[str, QDockWidget],
     ) -> Sequence[Menu]:
         """Return the menus from left to right.
@@ -49,6 +50,7 @@ class Commands(QObject):
         Args:
             calibrate: starts a calibration, or stops the one that runs.
             leave: closes the window.
+            change_room: gives the inspector more room, or the photograph.
             docks: by the text of the entry that shows and hides each.
         """
         return (
@@ -56,7 +58,7 @@ class Commands(QObject):
             self._describe_edit(),
             Menu(self.tr("&Images"), (*self._images.actions_for_menu, None, *self._page.tools)),
             self._describe_calibration(calibrate),
-            self._describe_view(docks),
+            self._describe_view(change_room, docks),
             self._describe_help(),
         )
 
@@ -197,7 +199,9 @@ class Commands(QObject):
             ),
         )
 
-    def _describe_view(self, docks: Mapping[str, QDockWidget]) -> Menu:
+    def _describe_view(
+        self, change_room: Callable[[], object], docks: Mapping[str, QDockWidget]
+    ) -> Menu:
         toggles = []
         for text, dock in docks.items():
             toggle = dock.toggleViewAction()
@@ -226,6 +230,12 @@ class Commands(QObject):
                 *page.layers.values(),
                 None,
                 *toggles,
+                Command(
+                    text=self.tr("&Large inspector, or back"),
+                    shortcut="F8",
+                    tip=self.tr("Give the inspector most of the width, or the photograph"),
+                    run=change_room,
+                ),
                 Menu(self.tr("&Colours"), colours),
             ),
         )

@@ -6,17 +6,14 @@ import gc
 from importlib import import_module
 from typing import TYPE_CHECKING
 
-from PySide6.QtCore import QEvent, QSettings, Qt, QTimer
+from PySide6.QtCore import QEvent, QSettings, QSize, Qt, QTimer
 from PySide6.QtGui import QCloseEvent, QDragEnterEvent, QDropEvent
 from PySide6.QtWidgets import (
-    QDockWidget,
-    QLabel,
     QMainWindow,
     QPushButton,
     QSizePolicy,
     QStackedWidget,
     QToolBar,
-    QVBoxLayout,
     QWidget,
 )
 
@@ -28,22 +25,24 @@ from calibgui.engine.kernels import COMPILED
 from calibgui.gui.canvas.image_page import ImagePage
 from calibgui.gui.dialogs.bug_dialog import BugDialog
 from calibgui.gui.dialogs.files import Files
-from calibgui.gui.images.image_list import ImageList
+from calibgui.gui.images.film_strip import FilmStrip
 from calibgui.gui.jobs import qt_names
+from calibgui.gui.panels.groups import Group
 from calibgui.gui.session.calibrator import Calibrator
 from calibgui.gui.session.detector import Detector
+from calibgui.gui.session.follower import Follower
 from calibgui.gui.session.session import Session
 from calibgui.gui.settings.board_panel import BoardPanel
 from calibgui.gui.settings.settings_panel import SettingsPanel
 from calibgui.gui.verdict.verdict_bar import VerdictBar
-from calibgui.gui.widgets import theme
 from calibgui.gui.widgets.actions import show_dialog
+from calibgui.gui.widgets.overlay import Overlay
 from calibgui.gui.window.banner import Banner
 from calibgui.gui.window.commands import Commands
 from calibgui.gui.window.dock import Dock
+from calibgui.gui.window.inspector import Inspector
 from calibgui.gui.window.menus import Menus
 from calibgui.gui.window.offers import Offers
-from calibgui.gui.window.page_tabs import PageTabs
 from calibgui.gui.window.progress import Progress
 from calibgui.gui.window.welcome import Welcome
 
@@ -52,19 +51,21 @@ if TYPE_CHECKING:
 
 
 class MainWindow(QMainWindow):
-    """Shows images on the left, the selected image in the middle, and results on the right."""
+    """Shows the selected image, the inspector beside it, and a film strip of all images below.
+
+    The verdict on the calibration stands above all.
+    """
 
     def __init__(self) -> None:
         super().__init__()
         self.setObjectName("calibgui")
-        self.setDockNestingEnabled(True)
         self.setAcceptDrops(True)
         self.resize(1280, 720)
         self.session = Session(self)
         self.detector = Detector(self.session)
         self.calibrator = Calibrator(self.session, self.detector)
         self.files = Files(self.session, self.detector, self.calibrator, self)
-        self.images = ImageList(self.session)
+        self.images = FilmStrip(self.session)
         self.page = ImagePage(self.session)
         self.board = BoardPanel(self.session)
         self.settings = SettingsPanel(self.session)
@@ -75,7 +76,7 @@ class MainWindow(QMainWindow):
         self.banner = Banner()
         self.verdict = VerdictBar(self.session)
         self.calibrate = QPushButton()
-        self.calibrate.setMinimumHeight(36)
+        self.calibrate.setMinimumSize(_CALIBRATE)
         self.calibrate.setDefault(True)
         self._lay_out()
         self._connect()
@@ -99,33 +100,17 @@ class MainWindow(QMainWindow):
         self.pages = QStackedWidget()
         self.pages.addWidget(self.welcome)
         self.pages.addWidget(self.page)
-        middle = QWidget()
-        column = QVBoxLayout(middle)
-        column.setContentsMargins(0, 0, 0, 0)
-        column.setSpacing(0)
-        column.addWidget(self.banner)
-        column.addWidget(self.pages, 1)
-        self.setCentralWidget(middle)
-
-        how = PageTabs()
-        how.add(self.board, self.tr("Board"))
-        how.add(self.settings, self.tr("Settings"))
-        left = QWidget()
-        column = QVBoxLayout(left)
-        column.setContentsMargins(theme.SPACING, 0, 0, theme.SPACING)
-        column.addWidget(self.images, 1)
-        column.addWidget(how)
-        column.addWidget(self.calibrate)
-        self.image_dock = self._dock(self.tr("Images"), "images", left, _LEFT)
-        nothing = QLabel(self.tr("Nothing is calibrated yet."))
-        nothing.setAlignment(Qt.AlignmentFlag.AlignCenter)
-        self.analysis_dock = self._dock(self.tr("Results"), "results", nothing, _RIGHT)
-        self.place = QLabel()
-        self.place.setFont(theme.fixed_font())
-        self.place.setContentsMargins(0, 0, theme.SPACING, 0)
-        self.statusBar().addPermanentWidget(self.place)
-        self.statusBar().addPermanentWidget(Progress(self.session.jobs))
-
+        self.setCentralWidget(self.pages)
+        # Over the picture: what one points at must not move when a message comes.
+        Overlay(self.banner, self.pages)
+        self.inspector = Inspector(
+            self.page, self.board, self.settings, Progress(self.session.jobs), self.calibrate
+        )
+        self.inspector_dock = Dock(self.tr("Inspector"), "inspector", self.inspector, self)
+        self.addDockWidget(Qt.DockWidgetArea.RightDockWidgetArea, self.inspector_dock)
+        self.strip_dock = Dock(self.tr("Images"), "images", self.images, self)
+        self.strip_dock.setTitleBarWidget(QWidget())  # none: the strip is as low as it can be
+        self.addDockWidget(Qt.DockWidgetArea.BottomDockWidgetArea, self.strip_dock)
         self._verdict_bar = self._put_on_top(self.verdict)
 
     def _put_on_top(self, widget: QWidget) -> QToolBar:
@@ -140,15 +125,17 @@ class MainWindow(QMainWindow):
         self.addToolBar(Qt.ToolBarArea.TopToolBarArea, bar)
         return bar
 
-    def _dock(self, title: str, name: str, widget: QWidget, area: Qt.DockWidgetArea) -> QDockWidget:
-        dock = Dock(title, name, widget, self)
-        self.addDockWidget(area, dock)
-        return dock
 
     def _make_menus(self) -> None:
         commands = Commands(self, self.session, self.files, self.images, self.page)
-        docks = {self.tr("&Images"): self.image_dock, self.tr("Resul&ts"): self.analysis_dock}
-        menus = Menus(self.menuBar(), commands.list_menus(self.calibrate.click, self.close, docks))
+        docks = {
+            self.tr("F&ilm strip"): self.strip_dock,
+            self.tr("Inspec&tor"): self.inspector_dock,
+        }
+        menus = Menus(
+            self.menuBar(),
+            commands.list_menus(self.calibrate.click, self.close, self.change_room, docks),
+        )
         self.session.changed.connect(lambda *_: menus.refresh())
         self.session.result_changed.connect(lambda _: menus.refresh())
 
@@ -158,8 +145,15 @@ class MainWindow(QMainWindow):
         self.session.notified.connect(self.banner.show_text)
         Offers(self.session, self.detector, self.files, self.images, self.banner)
         self.verdict.panel_wanted.connect(lambda name: self.need_analysis().show_panel_named(name))
-        self.page.place.connect(self.place.setText)
         self.images.list.addActions(self.page.tools)
+        self.page.canvas.addAction(self.images.actions_for_menu[0])
+        self.page.tool_changed.connect(self._follow_tool)
+        self.inspector.group_wanted.connect(lambda group: self.need_analysis().show_group(group))
+        self.inspector.room_wanted.connect(self.change_room)
+        follower = Follower(self.session, self.detector, self.calibrator)
+        self.images.excluded.connect(
+            lambda label: follower.follow(label) if self.images.follows.isChecked() else None
+        )
         self.board.search_wanted.connect(self.detector.search)
         self.calibrate.clicked.connect(self._calibrate_or_stop)
         self.calibrator.began.connect(lambda: self.need_analysis().show_beginning())
@@ -188,7 +182,9 @@ class MainWindow(QMainWindow):
             self.analysis.method_wanted.connect(self._calibrate_with_method)
             self.analysis.rename_wanted.connect(self.files.rename_result)
             self.analysis.delete_wanted.connect(self.files.delete_result)
-            self.analysis_dock.setWidget(self.analysis)
+            self.analysis.group_shown.connect(self.inspector.show_group)
+            self.inspector.set_analysis(self.analysis)
+            self.inspector.show_group(Group.ANSWER)
         return self.analysis
 
     def prepare(self) -> None:
@@ -239,21 +235,32 @@ class MainWindow(QMainWindow):
         if empty:
             self.welcome.show_recent(list_recent_projects())
         self.pages.setCurrentWidget(self.welcome if empty else self.page)
-        for dock in (self.image_dock, self.analysis_dock):
+        for dock in (self.strip_dock, self.inspector_dock):
             dock.setVisible(not empty)
         self._verdict_bar.setVisible(not empty)
         if empty:
             return
-        if state := QSettings().value("layout"):
-            self.restoreState(state)
-            self._verdict_bar.show()  # it is always in sight
-        else:
-            widths = [_IMAGES_WIDTH, max(_RESULTS_WIDTH, round(_RESULTS_SHARE * self.width()))]
-            self.resizeDocks([self.image_dock, self.analysis_dock], widths, _HORIZONTAL)
+        state = QSettings().value("layout")
+        if state is None or not self.restoreState(state, _LAYOUT):
+            self._widen_inspector(_INSPECTOR_SHARE)
+        self._verdict_bar.show()  # it is always in sight
 
     def _keep_layout(self) -> None:
         if not self._empty:
-            QSettings().setValue("layout", self.saveState())
+            QSettings().setValue("layout", self.saveState(_LAYOUT))
+
+    def change_room(self) -> None:
+        """Give the inspector most of the width, or the photograph if the inspector has it."""
+        is_wide = self.inspector.width() > self.width() / 2
+        self._widen_inspector(_INSPECTOR_SHARE if is_wide else _LARGE_SHARE)
+
+    def _widen_inspector(self, share: float) -> None:
+        width = max(Inspector.WIDTH, round(share * self.width()))
+        self.resizeDocks([self.inspector_dock], [width], Qt.Orientation.Horizontal)
+
+    def _follow_tool(self, taken: bool) -> None:
+        if taken:  # what the tool says stands there
+            self.inspector_dock.show()
 
     def _show_calibrate(self) -> None:
         running, stopping = self.calibrator.running, self.calibrator.stopping
@@ -336,11 +343,10 @@ _FRAME = 16
 _SHARE_OF_SCREEN = 0.8
 _SMALL_SCREEN = 1600
 """Width of a screen below which the window fills it, px."""
-_IMAGES_WIDTH = 264
-_RESULTS_WIDTH = 556
-"""At least, px, until the user chooses another."""
-_RESULTS_SHARE = 0.4
-"""Share of the window's width that the results get."""
-_LEFT = Qt.DockWidgetArea.LeftDockWidgetArea
-_RIGHT = Qt.DockWidgetArea.RightDockWidgetArea
-_HORIZONTAL = Qt.Orientation.Horizontal
+_INSPECTOR_SHARE = 0.33
+"""Share of the window's width that the inspector gets, so that the photograph has the most."""
+_LARGE_SHARE = 0.72
+"""The same when a plot needs the room."""
+_CALIBRATE = QSize(110, 32)
+_LAYOUT = 2
+"""Version of the parts' layout: one that was kept of other parts is not restored."""

@@ -15,7 +15,7 @@ from calibgui.dataset import ViewStatus
 from calibgui.engine.arrays import GridSize
 from calibgui.engine.boards import Pattern
 from calibgui.gui.dialogs.files import Files
-from calibgui.gui.images.image_list import ImageList
+from calibgui.gui.images.film_strip import FilmStrip
 from calibgui.gui.jobs.job import Job
 from calibgui.gui.session.detector import Detector
 from calibgui.gui.session.session import Session
@@ -28,7 +28,7 @@ class Offers(QObject):
     search for another pattern where the stated one is nowhere."""
 
     def __init__(
-        self, session: Session, detector: Detector, files: Files, images: ImageList, banner: Banner
+        self, session: Session, detector: Detector, files: Files, images: FilmStrip, banner: Banner
     ) -> None:
         super().__init__(session)
         self._session, self._detector, self._files = session, detector, files

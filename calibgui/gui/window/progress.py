@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
-from PySide6.QtWidgets import QHBoxLayout, QLabel, QProgressBar, QToolButton, QWidget
+from PySide6.QtWidgets import QHBoxLayout, QProgressBar, QToolButton, QWidget
 
 from calibgui.gui.jobs.job import Job
 from calibgui.gui.jobs.jobs import Jobs
+from calibgui.gui.widgets.elided import ElidedLabel
+
+_BAR_WIDTH = 72
 
 
 class Progress(QWidget):
@@ -14,9 +17,9 @@ class Progress(QWidget):
     def __init__(self, jobs: Jobs) -> None:
         super().__init__()
         self._jobs = jobs
-        self.label = QLabel()
+        self.label = ElidedLabel()
         self.bar = QProgressBar()
-        self.bar.setFixedWidth(140)
+        self.bar.setFixedWidth(_BAR_WIDTH)
         self.bar.setTextVisible(False)
         self.cancel = QToolButton()
         self.cancel.setText(self.tr("Cancel"))
@@ -24,9 +27,12 @@ class Progress(QWidget):
         self.cancel.clicked.connect(self._cancel)
         row = QHBoxLayout(self)
         row.setContentsMargins(0, 0, 0, 0)
-        row.addWidget(self.label)
+        row.addWidget(self.label, 1)
         row.addWidget(self.bar)
         row.addWidget(self.cancel)
+        keeping = self.sizePolicy()
+        keeping.setRetainSizeWhenHidden(True)  # what stands beside it must not move
+        self.setSizePolicy(keeping)
         jobs.changed.connect(self._refresh)
         self._refresh()
 
@@ -45,6 +51,7 @@ class Progress(QWidget):
         if left is not None and left >= 1:
             text += self.tr(", {0} left").format(_format_duration(left))
         self.label.setText(text)
+        self.label.setToolTip(text)
         # A range of 0 to 0 moves to and fro: it goes on, nobody knows how long.
         self.bar.setRange(0, job.total if job.total > 1 else 0)
         self.bar.setValue(job.finished)

@@ -14,7 +14,7 @@ from calibgui.app.project import Project, add_images, change_views
 from calibgui.dataset import View, ViewStatus
 from calibgui.engine.detection.corners import Corners, OtherBoard
 from calibgui.gui.images import image_model
-from calibgui.gui.images.image_list import ImageList
+from calibgui.gui.images.film_strip import FilmStrip
 from calibgui.gui.images.image_model import Criterion
 from calibgui.gui.images.thumbnails import Thumbnails
 from calibgui.gui.session.session import Session
@@ -26,7 +26,7 @@ def test_one_finding_among_a_thousand_looks_at_few(
 ) -> None:
     session = Session(qapp)
     monkeypatch.setattr(Thumbnails, "read_new", lambda _: None)
-    images = ImageList(session)
+    images = FilmStrip(session)
     names = [str(tmp_path / f"{k:04}.png") for k in range(1000)]
     session.begin(Document(add_images(Project(), names)))
     images.sorting.setCurrentIndex(criterion)
@@ -52,7 +52,7 @@ def test_names_with_numbers_are_in_the_order_people_expect(
 ) -> None:
     session = Session(qapp)
     monkeypatch.setattr(Thumbnails, "read_new", lambda _: None)
-    images = ImageList(session)
+    images = FilmStrip(session)
     names = [str(tmp_path / f"Image{k}.tif") for k in (10, 2, 1)]
     session.begin(Document(add_images(Project(), names)))
     model = images.list.model()

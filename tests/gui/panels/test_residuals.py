@@ -20,7 +20,7 @@ from calibgui.gui.jobs.jobs import Jobs
 from calibgui.gui.panels import residuals
 from calibgui.gui.panels.residuals import ResidualsPanel
 from calibgui.gui.window.progress import Progress
-from tests.gui.panels.conftest import Shown, click, drag, made, place
+from tests.gui.panels.conftest import Shown, click, made
 
 Show = Callable[[Result], ResidualsPanel]
 
@@ -73,46 +73,6 @@ def test_a_click_beside_the_points_picks_nothing(show: Show, result: Result, qtb
         click(
             qtbot, panel.scatter, box.left() + 0.02 * box.width(), box.top() + 0.02 * box.height()
         )
-
-
-def test_bars_are_the_views_rms(show: Show, result: Result, qtbot: QtBot) -> None:
-    panel = show(result)
-    rms = [view.rms for view in result.calibration.residuals]
-    np.testing.assert_array_equal(panel.views._bars.opts["height"], rms)
-    assert panel.views._overall.value() == summarise_residuals(result.calibration.residuals).rms
-    with qtbot.waitSignal(panel.picked) as signal:
-        click(qtbot, panel.views.plot, 3, rms[2] / 2)
-    assert signal.args == [3, -1]  # the second image has no board
-
-
-def test_dragging_the_threshold_excludes_the_views_above(
-    show: Show, result: Result, qtbot: QtBot
-) -> None:
-    panel = show(result)
-    views = panel.views
-    rms = np.array([view.rms for view in result.calibration.residuals])
-    assert views.above == () and not views.exclude.isEnabled()
-    second, third = np.sort(rms)[[-2, -3]]
-    board = (second + third) / 2
-    start, end = (place(views.plot, 4.5, y) for y in (views.line.value(), board))
-    drag(qtbot, views.plot.viewport(), start, end)
-    worst = sorted(np.argsort(rms)[-2:].tolist())
-    assert views.above == tuple(worst)
-    assert views.threshold.value() == pytest.approx(board, abs=2e-3)
-    with qtbot.waitSignal(panel.exclude_wanted) as signal:
-        qtbot.mouseClick(views.exclude, Qt.MouseButton.LeftButton)
-    assert [result.views[i] for i in signal.args[0]] == [result.used[k] for k in worst]
-
-
-def test_the_threshold_can_be_typed(show: Show, result: Result, qtbot: QtBot) -> None:
-    panel = show(result)
-    panel.views.threshold.setFocus()
-    panel.views.threshold.selectAll()
-    qtbot.keyClicks(panel.views.threshold, "0")
-    qtbot.keyClick(panel.views.threshold, Qt.Key.Key_Return)
-    assert panel.views.line.value() == 0.0
-    assert len(panel.views.above) == 9
-    assert not panel.views.exclude.isEnabled()  # nothing would be left
 
 
 def test_selection_is_highlighted(show: Show, result: Result) -> None:

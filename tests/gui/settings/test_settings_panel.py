@@ -12,7 +12,6 @@ from PySide6.QtWidgets import (
     QApplication,
     QComboBox,
     QFileDialog,
-    QTabWidget,
 )
 from pytestqt.qtbot import QtBot
 
@@ -66,8 +65,7 @@ def choose_item(combo: QComboBox, data: str | None, qtbot: QtBot) -> None:
 
 def test_the_lens_model_decides_what_can_be_held(full: MainWindow, qtbot: QtBot) -> None:
     panel, session = full.settings, full.session
-    tabs = full.image_dock.findChild(QTabWidget)
-    tabs.setCurrentIndex(1)
+    full.inspector.show_setup()
     models = [panel.model.itemData(k) for k in range(panel.model.count())]
     assert models == [None, *MODEL_CHOICES]
     assert shown_boxes(panel) == list(parameter_names("lucchese"))
@@ -293,7 +291,7 @@ def test_every_lens_model_can_be_chosen_and_its_parameters_held(
     full: MainWindow, qtbot: QtBot
 ) -> None:
     panel, session = full.settings, full.session
-    full.image_dock.findChild(QTabWidget).setCurrentIndex(1)
+    full.inspector.show_setup()
     for model in MODEL_CHOICES:
         choose_item(panel.model, model, qtbot)
         assert session.project.settings.model == model

@@ -1,0 +1,250 @@
+"""The film strip: every image with what was found in it and how well it fits."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import replace
+from pathlib import PurePath
+
+from PySide6.QtCore import (
+    QItemSelection,
+    QItemSelectionModel,
+    QModelIndex,
+    QPersistentModelIndex,
+    QSortFilterProxyModel,
+    Qt,
+    Signal,
+)
+from PySide6.QtGui import QAction
+from PySide6.QtWidgets import (
+    QCheckBox,
+    QComboBox,
+    QDoubleSpinBox,
+    QGridLayout,
+    QHBoxLayout,
+    QLabel,
+    QPushButton,
+    QSizePolicy,
+    QWidget,
+)
+
+from calibgui.app.project import change_views, remove_views
+from calibgui.dataset import Result, View
+from calibgui.gui.images.film_view import FilmView
+from calibgui.gui.images.image_model import Criterion, ImageModel, Role
+from calibgui.gui.session.session import Session
+from calibgui.gui.widgets import theme
+from calibgui.gui.widgets.actions import make_action
+
+Index = QModelIndex | QPersistentModelIndex
+
+
+class _Order(QSortFilterProxyModel):
+    """Shows the images in the order of `criterion`."""
+
+    criterion = Criterion.NAME
+
+    def __init__(self, model: ImageModel) -> None:
+        super().__init__(model)
+        self._model = model
+        self.setSourceModel(model)
+        self.setDynamicSortFilter(True)
+        self.sort(0)
+
+    def lessThan(self, left: Index, right: Index) -> bool:  # noqa: N802 - Qt's name
+        key = self._model.sort_key
+        return key(left.row(), self.criterion) < key(right.row(), self.criterion)
+
+
+class FilmStrip(QWidget):
+    """The project's images, to look at, sort, exclude, search again and remove.
+
+    Under each image stands its error. A threshold across all is dragged or typed: the images above
+    it are selected, and Space or a button excludes them.
+    """
+
+    search_wanted = Signal(list)
+    """Images to be searched again."""
+    excluded = Signal(str)
+    """Images were excluded or included by the edit of this name."""
+
+    def __init__(self, session: Session) -> None:
+        super().__init__()
+        self._session = session
+        self._model = ImageModel(session)
+        self.thumbnails = self._model.thumbnails
+        self._order = _Order(self._model)
+        self.list = FilmView(self._model)
+        self.list.setModel(self._order)
+        self.list.setContextMenuPolicy(Qt.ContextMenuPolicy.ActionsContextMenu)
+        self.list.setAccessibleName(self.tr("Images"))
+        layout = QHBoxLayout(self)
+        layout.setContentsMargins(theme.SPACING, theme.SPACING // 2, 0, 0)
+        layout.addLayout(self._make_controls())
+        layout.addWidget(self.list, 1)
+        self.setSizePolicy(QSizePolicy.Policy.Preferred, QSizePolicy.Policy.Fixed)
+        self.actions_for_menu = self._make_actions()
+        self.list.addActions(self.actions_for_menu)
+        self.list.selectionModel().currentChanged.connect(self._current_changed)
+        self.list.threshold_dragged.connect(self._threshold_dragged)
+        session.changed.connect(self._refresh)
+        session.selected.connect(self._show_selected)
+        session.result_changed.connect(self._result_changed)
+        self._refresh()
+        self._result_changed(session.result)
+
+    def _make_controls(self) -> QGridLayout:
+        self.count = QLabel()
+        self.follows = QCheckBox(self.tr("Refit at once"))
+        self.follows.setChecked(True)
+        self.follows.setToolTip(
+            self.tr(
+                "Calibrate again at once when images are excluded or included. The shown result is "
+                "replaced; undo brings it back."
+            )
+        )
+        self.sorting = QComboBox()
+        self.sorting.addItems([self.tr("name"), self.tr("status"), self.tr("largest error")])
+        self.sorting.currentIndexChanged.connect(self._sort_by)
+        self.threshold = QDoubleSpinBox(decimals=3, singleStep=0.01, suffix=self.tr(" px"))
+        self.threshold.setMaximum(1e6)
+        self.threshold.setToolTip(
+            self.tr(
+                "Images whose RMS residual is larger are selected. Drag the red line across the "
+                "bars to change it."
+            )
+        )
+        self.threshold.valueChanged.connect(self._threshold_typed)
+        self.exclude_above = QPushButton()
+        self.exclude_above.clicked.connect(lambda: self.exclude(self.above))
+        grid = QGridLayout()
+        grid.setVerticalSpacing(2)
+        grid.addWidget(self.count, 0, 0)
+        grid.addWidget(self.follows, 0, 1)
+        for row, text, widget in (
+            (1, self.tr("Sort b&y"), self.sorting),
+            (2, self.tr("Threshold"), self.threshold),
+        ):
+            label = QLabel(text)
+            label.setBuddy(widget)
+            grid.addWidget(label, row, 0)
+            grid.addWidget(widget, row, 1)
+        grid.addWidget(self.exclude_above, 3, 0, 1, 2)
+        return grid
+
+    @property
+    def chosen(self) -> list[str]:
+        """The images that are selected in the list."""
+        return [index.data(Role.PATH) for index in self.list.selectedIndexes()]
+
+    @property
+    def above(self) -> list[str]:
+        """The images whose error is above the threshold."""
+        rows = map(self._model.index, range(self._model.rowCount()))
+        errors = ((index.data(Role.PATH), index.data(Role.RMS)) for index in rows)
+        return [path for path, rms in errors if rms is not None and rms > self.list.threshold]
+
+    def exclude(self, images: list[str], enabled: bool = False) -> None:
+        """Leave images out of the calibration, or take them in again."""
+        label = self.tr("Include {0}") if enabled else self.tr("Exclude {0}")
+        name = label.format(self._named(images))
+        change: Callable[[View], View] = lambda view: replace(view, enabled=enabled)  # noqa: E731
+        # The fit that follows continues this very edit, so that one undo takes both back.
+        self._session.document.end_sliding_edit()
+        self._session.edit(name, lambda p: change_views(p, images, change), sliding=True)
+        self.excluded.emit(name)
+
+    def remove(self, images: list[str]) -> None:
+        """Take images out of the project; the files stay."""
+        label = self.tr("Remove {0}").format(self._named(images))
+        self._session.edit(label, lambda p: remove_views(p, images))
+
+    def _named(self, images: list[str]) -> str:
+        """One image by name, several by number."""
+        one = len(images) == 1
+        return PurePath(images[0]).name if one else self.tr("{0} images").format(len(images))
+
+    def _make_actions(self) -> list[QAction]:
+        table: list[tuple[str, str | None, str, Callable[[], None]]] = [
+            (
+                self.tr("Ex&clude or include"),
+                "Space",
+                self.tr("Leave the selected images out of the calibration, or take them in again."),
+                self._toggle,
+            ),
+            (
+                self.tr("&Detect again"),
+                "F5",
+                self.tr("Forget what was found in the selected images and search them anew."),
+                lambda: self.search_wanted.emit(self.chosen),
+            ),
+            (
+                self.tr("&Remove from project"),
+                "Del",
+                self.tr("Take the selected images out of the project. The files stay."),
+                lambda: self.remove(self.chosen),
+            ),
+        ]
+        scope = Qt.ShortcutContext.WidgetShortcut
+        return [make_action(self, *row, scope=scope) for row in table]
+
+    def _toggle(self) -> None:
+        chosen = set(self.chosen)
+        views = [view for view in self._session.project.views if view.image in chosen]
+        if views:
+            self.exclude([v.image for v in views], enabled=not any(v.enabled for v in views))
+
+    def _result_changed(self, _: Result | None) -> None:
+        """Put the threshold above all errors again."""
+        self.list.set_threshold(None)
+        self._show_threshold(self.list.top)
+        self.threshold.setEnabled(self.list.top > 0)
+
+    def _show_threshold(self, error: float) -> None:
+        """Show the threshold as a number, and what excluding by it would do."""
+        self.threshold.blockSignals(True)
+        self.threshold.setValue(error)
+        self.threshold.blockSignals(False)
+        count = len(self.above)
+        usable = sum(view.usable for view in self._session.project.views)
+        self.exclude_above.setEnabled(0 < count < usable)
+        self.exclude_above.setText(
+            self.tr("E&xclude above: {0}").format(count) if count else self.tr("None above")
+        )
+
+    def _threshold_typed(self, error: float) -> None:
+        self.list.set_threshold(error)
+        self._threshold_dragged(error)
+
+    def _threshold_dragged(self, error: float) -> None:
+        """Select the images above the threshold."""
+        self._show_threshold(error)
+        above = set(self.above)
+        chosen = QItemSelection()
+        for row in range(self._order.rowCount()):
+            index = self._order.index(row, 0)
+            if index.data(Role.PATH) in above:
+                chosen.select(index, index)
+        self.list.selectionModel().select(chosen, QItemSelectionModel.SelectionFlag.ClearAndSelect)
+
+    def _sort_by(self, criterion: int) -> None:
+        self._order.criterion = Criterion(criterion)
+        self._order.invalidate()
+
+    def _current_changed(self, current: QModelIndex) -> None:
+        if current.isValid() and current.data(Role.PATH) != self._session.image:
+            self._session.select(current.data(Role.PATH))
+
+    def _refresh(self) -> None:
+        views = self._session.project.views
+        self.count.setText(
+            self.tr("{0} of {1} usable").format(sum(v.usable for v in views), len(views))
+        )
+        self._show_selected(self._session.image)
+
+    def _show_selected(self, image: str, _: int = -1) -> None:
+        row = self._session.project.find(image)
+        index = self._order.mapFromSource(self._model.index(row))
+        if index.isValid() and index != self.list.currentIndex():
+            flags = QItemSelectionModel.SelectionFlag.ClearAndSelect
+            self.list.selectionModel().setCurrentIndex(index, flags)

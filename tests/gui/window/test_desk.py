@@ -1,0 +1,198 @@
+"""The desk: the photograph has the most room, and nothing is clipped at any width."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import pytest
+from PySide6.QtCore import QByteArray, QSettings, Qt
+from PySide6.QtWidgets import (
+    QAbstractButton,
+    QApplication,
+    QCheckBox,
+    QComboBox,
+    QLabel,
+    QTabBar,
+    QWidget,
+)
+from pytestqt.qtbot import QtBot
+
+from calibgui.app.document import Document
+from calibgui.engine.errors import CalibrationError
+from calibgui.gui.panels.analysis import GROUPS, PANELS
+from calibgui.gui.panels.convergence import ConvergencePanel
+from calibgui.gui.panels.groups import Group
+from calibgui.gui.panels.result import ResultPanel
+from calibgui.gui.panels.stage_one import StageOnePanel
+from calibgui.gui.widgets.elided import ElidedLabel
+from calibgui.gui.window.main_window import MainWindow
+from tests.gui.hand import Hand
+
+SIZES = [(1280, 720), (1366, 768), (1920, 1080), (960, 1000)]
+
+
+def resize(window: MainWindow, qtbot: QtBot, width: int, height: int) -> None:
+    window.resize(width, height)
+    qtbot.waitUntil(lambda: window.width() == width)
+    QApplication.processEvents()
+
+
+def settle(window: MainWindow) -> None:
+    """Let layouts follow texts that have just come; each takes a turn of the event loop."""
+    for _ in range(20):
+        QApplication.processEvents()
+        if not list(find_clipped(window)):
+            return
+
+
+def find_clipped(root: QWidget) -> Iterator[str]:
+    """Yield what is in sight with less room than its text takes."""
+    for widget in root.findChildren(QWidget):
+        if not widget.isVisible() or isinstance(widget, ElidedLabel):
+            continue
+        text = ""
+        match widget:
+            case QAbstractButton() if widget.text() and not isinstance(widget, QCheckBox):
+                text, needed = widget.text(), widget.minimumSizeHint()
+                clipped = widget.width() < needed.width() or widget.height() < needed.height()
+            case QCheckBox() if widget.text():
+                text, needed = widget.text(), widget.sizeHint()
+                clipped = widget.width() < needed.width() or widget.height() < needed.height()
+            case QLabel() if widget.text():
+                text = widget.text()
+                height = (
+                    widget.heightForWidth(widget.width())
+                    if widget.wordWrap()
+                    else widget.sizeHint().height()
+                )
+                wide = widget.width() >= widget.sizeHint().width() or widget.wordWrap()
+                clipped = widget.height() < height or not wide
+            case QTabBar():
+                text = " | ".join(map(widget.tabText, range(widget.count())))
+                clipped = widget.width() < widget.tabRect(widget.count() - 1).right()
+            case QComboBox():
+                text, clipped = (
+                    widget.currentText(),
+                    widget.height() < widget.minimumSizeHint().height(),
+                )
+            case _:
+                continue
+        if clipped:
+            yield f"{type(widget).__name__} {text!r} has {widget.width()} x {widget.height()} px"
+
+
+@pytest.mark.parametrize(("width", "height"), SIZES)
+def test_no_text_is_clipped(full: MainWindow, qtbot: QtBot, width: int, height: int) -> None:
+    resize(full, qtbot, width, height)
+    analysis = full.need_analysis()
+    for show in (full.inspector.show_image_page, full.inspector.show_setup):
+        show()
+        settle(full)
+        assert list(find_clipped(full)) == []
+    for kind in PANELS:
+        analysis.show_panel(kind)
+        settle(full)
+        assert list(find_clipped(full)) == [], kind.__name__
+    qtbot.waitUntil(lambda: not full.session.jobs.running, timeout=60_000)
+
+
+@pytest.mark.parametrize(("width", "least"), [(1280, 800), (1366, 880), (1920, 1200), (960, 540)])
+def test_the_photograph_has_the_most_room(
+    full: MainWindow, qtbot: QtBot, width: int, least: int
+) -> None:
+    resize(full, qtbot, width, 720)
+    for wide in (True, False):
+        full.change_room()
+        qtbot.waitUntil(lambda wide=wide: (full.inspector.width() > width / 2) is wide)
+    qtbot.waitUntil(lambda: full.page.canvas.width() >= least)
+    assert full.minimumSizeHint().width() <= 960
+
+
+def test_the_inspector_gets_room_and_gives_it_back(full: MainWindow, qtbot: QtBot) -> None:
+    before = full.page.canvas.width()
+    qtbot.mouseClick(full.inspector.room, Qt.MouseButton.LeftButton)
+    qtbot.waitUntil(lambda: full.inspector.width() > 0.6 * full.width())
+    assert full.page.canvas.isVisible()
+    qtbot.keyClick(full, Qt.Key.Key_F8)
+    qtbot.waitUntil(lambda: abs(full.page.canvas.width() - before) < 30)
+
+
+def test_every_panel_is_in_one_group_and_comes_by_its_name(full: MainWindow, qtbot: QtBot) -> None:
+    analysis = full.need_analysis()
+    assert len(set(PANELS)) == len(PANELS) == sum(map(len, GROUPS.values()))
+    for k, group in enumerate(Group):
+        tabs = full.inspector.tabs
+        at = tabs.tabRect(2 + k).center()
+        qtbot.mouseClick(tabs, Qt.MouseButton.LeftButton, pos=at)
+        assert analysis.isVisible()
+        for kind in GROUPS[group]:
+            button = analysis.choosers[group].buttons[kind]
+            qtbot.mouseClick(button, Qt.MouseButton.LeftButton)
+            assert analysis.stack.currentWidget() is analysis.panel(kind)
+    qtbot.waitUntil(lambda: not full.session.jobs.running, timeout=60_000)
+
+
+def test_a_group_comes_back_with_the_panel_that_was_left(full: MainWindow) -> None:
+    analysis = full.need_analysis()
+    analysis.show_panel(StageOnePanel)
+    full.inspector.show_group(Group.ANSWER)
+    assert analysis.stack.currentWidget() is analysis.panel(ResultPanel)
+    full.inspector.show_group(Group.METHOD)
+    assert analysis.stack.currentWidget() is analysis.panel(StageOnePanel)
+
+
+@pytest.mark.parametrize("kind", [StageOnePanel, ResultPanel, ConvergencePanel])
+def test_calibrating_stays_where_one_is(
+    full: MainWindow, qtbot: QtBot, kind: type[ResultPanel]
+) -> None:
+    panel = full.need_analysis().show_panel(kind)
+    qtbot.mouseClick(full.calibrate, Qt.MouseButton.LeftButton)
+    qtbot.waitUntil(lambda: len(full.session.project.results) == 3, timeout=30_000)
+    qtbot.waitUntil(lambda: not full.session.jobs.running, timeout=30_000)
+    assert panel.isVisible()
+
+
+def test_a_message_lies_over_the_picture(full: MainWindow) -> None:
+    places = full.page.canvas.geometry(), full.calibrate.geometry()
+    full.show_failure(CalibrationError("It cannot be.", "Do otherwise."))
+    QApplication.processEvents()
+    assert full.banner.isVisible() and full.banner.width() == full.pages.width()
+    assert (full.page.canvas.geometry(), full.calibrate.geometry()) == places
+    full.session.select(full.session.project.views[6].image)
+    assert full.page.reason.isVisible()
+    assert (full.page.canvas.geometry(), full.calibrate.geometry()) == places
+
+
+def test_the_progress_of_work_moves_nothing(full: MainWindow, qtbot: QtBot) -> None:
+    place = full.calibrate.geometry()
+    job = full.session.jobs.start("Working", lambda job: job.cancelling.wait(5))
+    QApplication.processEvents()
+    assert full.calibrate.geometry() == place
+    job.cancel()
+    qtbot.waitUntil(lambda: not full.session.jobs.running)
+
+
+def test_a_layout_of_the_earlier_window_is_not_restored(
+    window: MainWindow, qtbot: QtBot, full: MainWindow
+) -> None:
+    QSettings().setValue("layout", QByteArray(b"\x00\x00\x00\xffnonsense of an older version"))
+    full.session.begin(Document())
+    QSettings().setValue("layout", QByteArray(b"\x00\x00\x00\xffnonsense of an older version"))
+    window.files.open_sample()
+    assert window.strip_dock.isVisible() and window.inspector_dock.isVisible()
+    qtbot.waitUntil(lambda: window.page.canvas.width() >= 780)
+
+
+def test_the_inspector_follows_the_tool_that_is_taken(window: MainWindow, qtbot: QtBot) -> None:
+    window.files.open_sample()
+    hand = Hand(window, qtbot)
+    hand.wait(lambda: window.session.result is not None)
+    hand.wait(lambda: window.page.shown_path != "")
+    hand.wait(lambda: not window.session.jobs.running)
+    window.need_analysis().show_panel(StageOnePanel)
+    place = window.page.canvas.geometry()
+    window.page.tools[1].trigger()
+    assert window.page.marker.corner_bar.isVisible()
+    assert window.page.canvas.geometry() == place
+    hand.key(Qt.Key.Key_Escape)
+    assert window.need_analysis().panel(StageOnePanel).isVisible()
