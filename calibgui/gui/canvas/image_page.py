@@ -7,7 +7,7 @@ from collections.abc import Callable
 from pathlib import PurePath
 
 import numpy as np
-from PySide6.QtCore import Signal
+from PySide6.QtCore import Qt, Signal
 from PySide6.QtGui import QAction
 from PySide6.QtWidgets import (
     QHBoxLayout,
@@ -54,6 +54,10 @@ class ImagePage(QWidget):
         self.reason.setMargin(theme.SPACING)
         self.reason.hide()
         Overlay(self.reason, self.canvas)
+        self.facts = QLabel()
+        """What is known of the image, or of its chosen corner; for the inspector."""
+        self.facts.setMinimumHeight(2 * self.facts.fontMetrics().lineSpacing())
+        self.facts.setAlignment(Qt.AlignmentFlag.AlignTop)
         self.marker = Marker(session, self.canvas)
         self.layer_list = LayerList(self.canvas)
         self.layers = self.layer_list.actions_by_layer
@@ -64,7 +68,8 @@ class ImagePage(QWidget):
         self.bar.addWidget(self.heading, 1)
         self.under_cursor = ElidedLabel()
         self.under_cursor.setFont(theme.fixed_font())
-        self.bar.addWidget(self.under_cursor, 3)
+        self.under_cursor.hide()
+        self.bar.addWidget(self.under_cursor, 2)
         self._add_tools()
         self._add_zoom()
         layout = QVBoxLayout(self)
@@ -194,6 +199,7 @@ class ImagePage(QWidget):
         if view is None:
             self.heading.clear()
             self.canvas.show_marks(Marks())
+            self.facts.clear()
             return
         self.heading.setText(PurePath(view.image).name)
         self.heading.setToolTip(f"{view.image}\n{view.reason or status_text(view)}")
@@ -201,22 +207,47 @@ class ImagePage(QWidget):
         region = view.roi
         if region is None and view.corners is not None:
             region = view.corners.roi
-        self.canvas.show_marks(Marks(view.corners, region, measured, predicted, session.corner))
+        marks = Marks(view.corners, region, measured, predicted, session.corner)
+        self.canvas.show_marks(marks)
+        self.facts.setText(self._describe(view, marks))
+
+    def _describe(self, view: View, marks: Marks) -> str:
+        """Say what is known of the chosen corner, or of the image if none is chosen."""
+        corners, k = marks.corners, marks.chosen
+        if corners is None or not 0 <= k < len(corners):
+            text = status_text(view)
+            if marks.measured is not None and marks.predicted is not None:
+                residuals = marks.measured - marks.predicted
+                rms = math.sqrt(float((residuals**2).sum(axis=1).mean()))
+                text += self.tr(", error {0:.3f} px (RMS)").format(rms)
+            return text + "\n" + self.tr("Click a corner to see its residual.")
+        (row, col), (u, v) = corners.grid[k], corners.uv[k]
+        text = self.tr("Corner in row {0}, column {1}: u {2:.3f}, v {3:.3f} px").format(
+            row, col, u, v
+        )
+        if marks.measured is None or marks.predicted is None:
+            return text
+        nearest = np.linalg.norm(marks.measured - corners.uv[k], axis=1).argmin()
+        du, dv = marks.measured[nearest] - marks.predicted[nearest]
+        return text + self.tr("\nResidual: Δu {0:+.3f}, Δv {1:+.3f}, {2:.3f} px").format(
+            du, dv, math.hypot(du, dv)
+        )
 
     def _hovered(self, u: float, v: float) -> None:
         image = self._image
         if image is None or not (math.isfinite(u) and math.isfinite(v)):
-            self.under_cursor.setText("")
+            self.under_cursor.hide()  # the heading takes its room
             return
         column, row = round(u), round(v)
         width, height = image.size
         if not (0 <= column < width and 0 <= row < height):
-            self.under_cursor.setText("")
+            self.under_cursor.hide()
             return
         text = self.tr("u {0:.2f}  v {1:.2f} px").format(u, v)
         text += self.tr("   grey {0}").format(int(image.pixels[row, column]))
         text += self._board_index(u, v)
         self.under_cursor.setText(text)
+        self.under_cursor.show()
 
     def _board_index(self, u: float, v: float) -> str:
         corners = self.canvas.marks.corners

@@ -32,17 +32,18 @@ class _Bar(QFrame):
         # Room for three lines: nothing must move between two clicks.
         self.words.setMinimumHeight(3 * self.words.fontMetrics().lineSpacing())
         self.words.setAlignment(Qt.AlignmentFlag.AlignTop)
-        self.row = QHBoxLayout()
-        self.row.addStretch(1)
-        column = QVBoxLayout(self)
-        column.setContentsMargins(theme.SPACING, 4, theme.SPACING, 4)
-        column.addWidget(self.words)
-        column.addLayout(self.row)
+        self._rows = QVBoxLayout(self)
+        self._rows.setContentsMargins(0, theme.SPACING, 0, 0)
+        self._rows.addWidget(self.words)
         self.hide()
 
-    def add(self, *widgets: QWidget) -> None:
+    def add_row(self, *widgets: QWidget) -> None:
+        """Add a row of widgets below the others."""
+        row = QHBoxLayout()
+        row.addStretch(1)
         for widget in widgets:
-            self.row.addWidget(widget)
+            row.addWidget(widget)
+        self._rows.addLayout(row)
 
     def keyPressEvent(self, event: QKeyEvent) -> None:  # noqa: N802 - Qt's name
         match event.key():
@@ -74,14 +75,8 @@ class RoiBar(_Bar):
             box.valueChanged.connect(self.board_changed)
         self.accept.setToolTip(self.tr("Keep these corners and go on (Enter)"))
         self.leave.setToolTip(self.tr("Leave the image as it was (Esc)"))
-        self.add(
-            QLabel(self.tr("Inner corners")),
-            self.counts[0],
-            QLabel("×"),
-            self.counts[1],
-            self.accept,
-            self.leave,
-        )
+        self.add_row(QLabel(self.tr("Inner corners")), self.counts[0], QLabel("×"), self.counts[1])
+        self.add_row(self.accept, self.leave)
 
     @property
     def grid_size(self) -> GridSize:
@@ -119,4 +114,4 @@ class CornerBar(_Bar):
         self.turn.clicked.connect(self.turn_wanted)
         self.flip.clicked.connect(self.flip_wanted)
         self.leave.clicked.connect(self.left)
-        self.add(self.turn, self.flip, self.leave)
+        self.add_row(self.turn, self.flip, self.leave)

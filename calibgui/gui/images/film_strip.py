@@ -106,7 +106,8 @@ class FilmStrip(QWidget):
         self.sorting = QComboBox()
         self.sorting.addItems([self.tr("name"), self.tr("status"), self.tr("largest error")])
         self.sorting.currentIndexChanged.connect(self._sort_by)
-        self.threshold = QDoubleSpinBox(decimals=3, singleStep=0.01, suffix=self.tr(" px"))
+        self.threshold = QDoubleSpinBox(decimals=4, suffix=self.tr(" px"))
+        self.threshold.setStepType(QDoubleSpinBox.StepType.AdaptiveDecimalStepType)
         self.threshold.setMaximum(1e6)
         self.threshold.setToolTip(
             self.tr(

@@ -159,7 +159,7 @@ def _make_heading(text: str) -> QLabel:
 
 
 def _stack(page: ImagePage) -> QWidget:
-    """Put the layers of the image above the bars of its tools, whose place is reserved."""
+    """Put the facts and layers of the image above its tools' bars, whose place is reserved."""
     bars = page.marker.roi_bar, page.marker.corner_bar
     place = QWidget()
     column = QVBoxLayout(place)
@@ -170,6 +170,7 @@ def _stack(page: ImagePage) -> QWidget:
     whole = QWidget()
     column = QVBoxLayout(whole)
     column.setContentsMargins(0, theme.SPACING, 0, 0)
+    column.addWidget(page.facts)
     column.addWidget(page.layer_list)
     column.addWidget(place)
     column.addStretch(1)

@@ -12,6 +12,7 @@ from PySide6.QtWidgets import (
     QCheckBox,
     QComboBox,
     QLabel,
+    QScrollArea,
     QTabBar,
     QWidget,
 )
@@ -75,6 +76,9 @@ def find_clipped(root: QWidget) -> Iterator[str]:
                     widget.currentText(),
                     widget.height() < widget.minimumSizeHint().height(),
                 )
+            case QScrollArea():
+                text, page = "page", widget.widget()
+                clipped = page.minimumSizeHint().width() > widget.viewport().width()
             case _:
                 continue
         if clipped:
@@ -89,6 +93,13 @@ def test_no_text_is_clipped(full: MainWindow, qtbot: QtBot, width: int, height: 
         show()
         settle(full)
         assert list(find_clipped(full)) == []
+    marker = full.page.marker
+    full.inspector.show_image_page()
+    for bar in (marker.roi_bar, marker.corner_bar):
+        bar.show()
+        settle(full)
+        assert list(find_clipped(full)) == []
+        bar.hide()
     for kind in PANELS:
         analysis.show_panel(kind)
         settle(full)
