@@ -41,7 +41,8 @@ class Evidence(QObject):
     def __init__(self, session: Session, canvas: Canvas) -> None:
         super().__init__(canvas)
         self._session, self._canvas = session, canvas
-        self._drawings: dict[Layer, Drawing] = {}
+        self.drawings: dict[Layer, Drawing] = {}
+        """What has been computed for the shown result."""
         self._jobs: dict[Layer, Job] = {}
         self._works: dict[Layer, tuple[str, Work]] = {
             Layer.COVERAGE: ("", _draw_coverage),
@@ -65,15 +66,15 @@ class Evidence(QObject):
         """Forget the layers of another result."""
         for job in self._jobs.values():
             job.cancel()
-        self._jobs, self._drawings = {}, {}
+        self._jobs, self.drawings = {}, {}
         self._canvas.show_drawings({})
         self.need()
 
     def _start(self, layer: Layer, label: str, work: Work, result: Result) -> None:
         def done(drawing: Drawing) -> None:
             if self._jobs.get(layer) is job:
-                self._drawings[layer] = drawing
-                self._canvas.show_drawings(self._drawings)
+                self.drawings[layer] = drawing
+                self._canvas.show_drawings(self.drawings)
 
         def failed(error: Exception) -> None:
             if not isinstance(error, CalibrationError):
