@@ -37,7 +37,7 @@ class HelpDialog(QDialog):
                 "distances depend on it."
             ),
             self.tr(
-                "<b>Look at the list</b>: images without a board say why. <i>Mark board</i> (M) "
+                "<b>Look at the film strip</b>: images without a board say why. <i>Mark board</i> (M) "
                 "takes four clicks on the outermost inner corners; the loupe shows where a click "
                 "will go. <i>Edit corners</i> (E) moves, removes and restores single ones. An "
                 "image whose file has changed since says so: <i>detect again</i> (F5)."
@@ -50,7 +50,7 @@ class HelpDialog(QDialog):
                 "<b>Doubt it</b>: residuals that point the same way, a view with a long bar, or "
                 "a synthetic check whose residuals are much smaller than the real ones show what "
                 "the model does not explain; so does the sentence above the residuals. Exclude "
-                "views above a threshold, or let the Settings leave outliers out and estimate the "
+                "views above a threshold, or let the Set-up leave outliers out and estimate the "
                 "board's shape, and calibrate again; "
                 "every result keeps its name and can be compared."
             ),
@@ -62,13 +62,14 @@ class HelpDialog(QDialog):
         keys = (
             ("F9", self.tr("calibrate")),
             ("M / E", self.tr("mark board / edit corners")),
-            (self.tr("Space"), self.tr("exclude or include the selected images")),
+            (self.tr("Space"), self.tr("exclude or include the selected images: the fit follows")),
+            ("F8", self.tr("more room for the inspector, or back")),
             (self.tr("← →"), self.tr("previous and next image, with the image in focus")),
             (
                 self.tr("Wheel, + −"),
                 self.tr("zoom, before and after as well; Ctrl+0 fits, Ctrl+1 shows pixels"),
             ),
-            ("Shift+1 … 6", self.tr("layers over the image")),
+            ("Shift+1 … 0, N", self.tr("layers over the image")),
             ("Ctrl+Z / Ctrl+Shift+Z", self.tr("undo and redo: everything can be taken back")),
         )
         origin = self.tr(

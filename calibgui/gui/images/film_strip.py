@@ -141,9 +141,7 @@ class FilmStrip(QWidget):
     @property
     def above(self) -> list[str]:
         """The images whose error is above the threshold."""
-        rows = map(self._model.index, range(self._model.rowCount()))
-        errors = ((index.data(Role.PATH), index.data(Role.RMS)) for index in rows)
-        return [path for path, rms in errors if rms is not None and rms > self.list.threshold]
+        return self._model.find_above(self.list.threshold)
 
     def exclude(self, images: list[str], enabled: bool = False) -> None:
         """Leave images out of the calibration, or take them in again."""

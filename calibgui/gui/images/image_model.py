@@ -113,6 +113,11 @@ class ImageModel(QAbstractListModel):
         """The largest RMS of any view, px; 0 without a result."""
         return max(self._rms.values(), default=0.0)
 
+    def find_above(self, error: float) -> list[str]:
+        """Return the images whose RMS is larger than `error` px, in the project's order."""
+        images = (view.image for view in self._views)
+        return [image for image in images if self._rms.get(image, 0.0) > error]
+
     def rowCount(self, parent: Index = QModelIndex()) -> int:  # noqa: N802, B008 - Qt's signature
         return 0 if parent.isValid() else len(self._views)
 

@@ -92,7 +92,7 @@ class BoardShapePanel(Panel):
             return ""
         how = self.tr(
             "The board was taken as drawn. To estimate its shape, choose “free” or another "
-            "model at “Board is” in the Settings and calibrate again."
+            "model at “Board is” in the Set-up and calibrate again."
         )
         if (missed := calibration.lens_error) > 0:
             return describe_lens_error(calibration, missed)

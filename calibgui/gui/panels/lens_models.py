@@ -40,7 +40,7 @@ class LensModelsPanel(OnDemandPanel[LensChoice]):
         self._chosen: LensRow | None = None
         """The selected row."""
         self.use = QPushButton(self.tr("&Use this model"))
-        self.use.setToolTip(self.tr("Set the selected lens model in the Settings and calibrate."))
+        self.use.setToolTip(self.tr("Set the selected lens model in the Set-up and calibrate."))
         self.use.clicked.connect(self._use)
         self.tables = LensTables()
         self.tables.picked.connect(self._show_row)

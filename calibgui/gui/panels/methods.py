@@ -101,7 +101,7 @@ class MethodsPanel(OnDemandPanel[MethodComparison]):
         refusal = self._refuse(shown)
         self.use.setEnabled(not refusal)
         self.use.setToolTip(
-            refusal or self.tr("Set the selected method in the Settings and calibrate.")
+            refusal or self.tr("Set the selected method in the Set-up and calibrate.")
         )
         self._draw_map(shown)
         self.about.setHtml(self._describe(shown))
