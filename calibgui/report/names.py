@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from pathlib import PurePath
 
 _MAX_NAME_CHARACTERS = 28
 """Number of characters above which a name in a table is shortened."""
+_DIGITS = "0123456789"
 
 
 def make_printable(text: str) -> str:
@@ -18,3 +20,19 @@ def shorten_name(path: str) -> str:
     name = make_printable(PurePath(path).name)
     half = (_MAX_NAME_CHARACTERS - 1) // 2
     return name if len(name) <= _MAX_NAME_CHARACTERS else f"{name[:half]}..{name[-half:]}"
+
+
+def number_names(paths: Sequence[str]) -> list[str]:
+    """Return a short number for each file: the one that its name ends with, or its place.
+
+    The names' own numbers are taken if the names differ in nothing else; digits that all begin
+    with are left out of numbers of one length. Places are counted from 1.
+    """
+    stems = [PurePath(path).stem for path in paths]
+    heads = [stem.rstrip(_DIGITS) for stem in stems]
+    numbers = [stem.removeprefix(head) for stem, head in zip(stems, heads, strict=True)]
+    if len(set(heads)) != 1 or len(set(numbers)) != len(numbers) or not all(numbers):
+        return [str(place) for place in range(1, len(paths) + 1)]
+    while len(numbers) > 1 and len({n[0] for n in numbers}) == len({len(n) for n in numbers}) == 1:
+        numbers = [number[1:] for number in numbers]
+    return numbers

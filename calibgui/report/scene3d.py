@@ -8,6 +8,7 @@ scene's radius orbits about its middle: with B = B_x(elevation) B_y(azimuth) a p
     p = B (X - middle) + (0, 0, 3 radius),      s = zoom (p_x, p_y) / p_z,
 
 and polygons are painted from the farthest to the nearest by the mean depth of their corners.
+Axes of the world, with numbers in mm, say how large all this is.
 """
 
 from __future__ import annotations
@@ -26,8 +27,12 @@ from calibgui.report.coverage import find_shown_extent
 
 _OBSERVER_DISTANCE = 3.0
 """Distance of the observer from the middle, in radii of the scene."""
+_NEAREST_DEPTH = 0.1
+"""Least distance from the observer of what is drawn, radii of the scene."""
 _RELATIVE_CAMERA_LENGTH = 0.12
 """Length of a drawn camera over the mean distance of the boards."""
+_TICKS = 6
+"""Numbers on the longest axis, at most: more would touch each other in a narrow panel."""
 
 
 class SceneCentre(StrEnum):
@@ -111,29 +116,88 @@ class DrawnPolygon:
     """Mean depth of the corners, radii of the scene."""
 
 
+@dataclass(frozen=True, eq=False, slots=True)
+class Axis:
+    """An axis of the world, with ticks; its origin is the camera's centre or the board's origin."""
+
+    name: str
+    """Name of the axis: X, Y or Z."""
+    points: Array
+    """(n, 3) origin, then the ticks, mm; the last one is the axis's end."""
+    numbers: Array
+    """(n,) distances of the points from the origin, mm."""
+
+    def __post_init__(self) -> None:
+        freeze(self, "points", "numbers")
+
+
+def make_axes(polygons: Sequence[Polygon]) -> tuple[Axis, ...]:
+    """Make the world's axes X, Y and Z, each about as long as the scene in its direction.
+
+    Ticks have one round distance on all three. An axis along which there is nothing has one tick.
+    """
+    if not polygons:
+        return ()
+    reach = np.concatenate([polygon.points for polygon in polygons]).max(axis=0)
+    step = _round_up(float(reach.max()) / _TICKS)
+    axes = []
+    for name, direction, length in zip("XYZ", np.eye(3), reach, strict=True):
+        numbers: Array = step * np.arange(max(int(length / step), 1) + 1, dtype=np.float64)
+        axes.append(Axis(name, np.outer(numbers, direction), numbers))
+    return tuple(axes)
+
+
+def _round_up(length: float) -> float:
+    """Return the next 1, 2 or 5 times a power of ten."""
+    if not length > 0:
+        return 1.0
+    power = float(10.0 ** np.floor(np.log10(length)))
+    return next(digit * power for digit in (1, 2, 5, 10) if digit * power >= length * (1 - 1e-9))
+
+
+def _measure_scene(polygons: Sequence[Polygon]) -> tuple[Array, float]:
+    """Return the middle (3,) of the scene and its radius about it, mm."""
+    everything = np.concatenate([polygon.points for polygon in polygons])
+    middle = (everything.min(axis=0) + everything.max(axis=0)) / 2
+    return middle, float(np.linalg.norm(everything - middle, axis=1).max()) or 1.0
+
+
+def project_into_scene(
+    polygons: Sequence[Polygon], points: Array, observer: Observer
+) -> tuple[Array, Array]:
+    """Project points (n, 3), mm, to the plane (n, 2) of the drawn polygons, with depths (n,).
+
+    Depths are in radii of the scene.
+    """
+    middle, radius = _measure_scene(polygons)
+    return project_to_plane((points - middle) / radius, observer)
+
+
 def draw_scene(polygons: Sequence[Polygon], observer: Observer) -> tuple[DrawnPolygon, ...]:
     """Project polygons, and order them for painting; those behind the observer are left out."""
     if not polygons:
         return ()
     everything = np.concatenate([polygon.points for polygon in polygons])
-    middle = (everything.min(axis=0) + everything.max(axis=0)) / 2
-    radius = float(np.linalg.norm(everything - middle, axis=1).max()) or 1.0
-    points, depth = project_to_plane((everything - middle) / radius, observer)
+    points, depth = project_into_scene(polygons, everything, observer)
     ends = np.cumsum([len(polygon.points) for polygon in polygons])[:-1]
     drawn = [
         DrawnPolygon(polygon, at, float(far.mean()))
         for polygon, at, far in zip(
             polygons, np.split(points, ends), np.split(depth, ends), strict=True
         )
-        if far.min() > 0.1
+        if far.min() > _NEAREST_DEPTH
     ]
     return tuple(sorted(drawn, key=lambda d: -d.depth))
 
 
 def fit_zoom(polygons: Sequence[Polygon], observer: Observer) -> Observer:
-    """Return the observer with the zoom at which the scene fills a square of side 2."""
-    drawn = draw_scene(polygons, replace(observer, zoom=1.0))
-    reach = max((float(np.abs(item.points).max()) for item in drawn), default=1.0)
+    """Return the observer with the zoom at which scene and axes fill a square of side 2."""
+    observer = replace(observer, zoom=1.0)
+    drawn = [item.points for item in draw_scene(polygons, observer)]
+    for axis in make_axes(polygons):
+        points, depth = project_into_scene(polygons, axis.points, observer)
+        drawn.append(points[depth > _NEAREST_DEPTH])
+    reach = max((float(np.abs(points).max(initial=0.0)) for points in drawn), default=1.0)
     return replace(observer, zoom=1.0 / reach)
 
 

@@ -19,6 +19,8 @@ from calibgui.report.scene3d import (
     draw_scene,
     find_view_at,
     fit_zoom,
+    make_axes,
+    project_into_scene,
     project_to_plane,
 )
 from tests.engine import scenes
@@ -82,8 +84,9 @@ def test_a_fitted_scene_fills_the_square(result: Result, observer: Observer) -> 
     polygons = build_scene(result, SceneCentre.BOARD)
     there = fit_zoom(polygons, observer)
     assert (there.azimuth, there.elevation) == (observer.azimuth, observer.elevation)
-    reach = max(np.abs(d.points).max() for d in draw_scene(polygons, there))
-    assert reach == pytest.approx(1.0)
+    axes = [project_into_scene(polygons, a.points, there)[0] for a in make_axes(polygons)]
+    drawn = [d.points for d in draw_scene(polygons, there)]
+    assert max(np.abs(points).max() for points in (*drawn, *axes)) == pytest.approx(1.0)
 
 
 def test_straight_ahead_is_the_cameras_own_view() -> None:
@@ -120,3 +123,26 @@ def test_the_nearest_board_under_a_point_is_found(result: Result) -> None:
     nearest = [d for d in drawn if d.polygon.view >= 0][-1]
     assert find_view_at(drawn, nearest.points.mean(axis=0)) == nearest.polygon.view
     assert find_view_at(drawn, np.array([5.0, 5.0])) == -1
+
+
+def test_axes_measure_the_scene(result: Result) -> None:
+    polygons = build_scene(result, SceneCentre.CAMERA)
+    reach = np.concatenate([p.points for p in polygons]).max(axis=0)
+    axes = make_axes(polygons)
+    assert [axis.name for axis in axes] == ["X", "Y", "Z"]
+    step = axes[0].numbers[1]
+    assert f"{step:.0e}"[0] in "125"
+    assert 2 <= reach.max() / step <= 4
+    for k, axis in enumerate(axes):
+        np.testing.assert_allclose(np.diff(axis.numbers), step)
+        np.testing.assert_array_equal(axis.points[:, k], axis.numbers)
+        assert not np.delete(axis.points, k, axis=1).any()
+        assert axis.numbers[-1] <= max(reach[k], step) < axis.numbers[-1] + step + 1e-9
+
+
+def test_points_fall_where_the_polygons_they_belong_to_are_drawn(result: Result) -> None:
+    polygons, observer = build_scene(result, SceneCentre.BOARD), Observer(0.3, -0.2, 1.4)
+    for item in draw_scene(polygons, observer):
+        points, depth = project_into_scene(polygons, item.polygon.points, observer)
+        np.testing.assert_allclose(points, item.points, atol=1e-12)
+        assert np.isclose(depth.mean(), item.depth)

@@ -23,6 +23,8 @@ class Panel(QWidget):
 
     picked = Signal(int, int)
     """The user points at a view (index in `Result.views`) and its corner, or -1 for none."""
+    hovered = Signal(int)
+    """The cursor is over a view (index in `Result.views`) now, or over none: -1."""
     exclude_wanted = Signal(tuple)
     """Views (indices in `Result.views`) that the user wants out of the calibration."""
     save_wanted = Signal(tuple, object)
@@ -78,6 +80,11 @@ class Panel(QWidget):
         self._behind = True
         self._update()
 
+    def hover(self, view: int) -> None:
+        """Highlight a view lightly that the cursor is over elsewhere, without announcing it."""
+        if self._result is not None and self.isVisible() and not self._stale:
+            self._hover_view(self._indices.index(view) if view in self._indices else -1)
+
     def showEvent(self, event: QShowEvent) -> None:  # noqa: N802 - Qt's name
         super().showEvent(event)
         self._update()
@@ -105,6 +112,11 @@ class Panel(QWidget):
         """Announce what the user pointed at: calibrated view k and a corner."""
         self.picked.emit(self._indices[k], corner)
 
+    def _point_at(self, k: int) -> None:
+        """Announce that the cursor is over calibrated view k; -1 for none."""
+        self.hovered.emit(self._indices[k] if k >= 0 else -1)
+        self._hover_view(k)
+
     def _missing(self, result: Result) -> str:  # noqa: ARG002 - most panels show any
         """What `result` lacks for this panel, and how to get it; empty if it has everything."""
         return ""
@@ -115,3 +127,6 @@ class Panel(QWidget):
 
     def _select(self, k: int, corner: int) -> None:
         """Highlight calibrated view k (-1 for none) and a corner; nothing by default."""
+
+    def _hover_view(self, k: int) -> None:
+        """Highlight calibrated view k lightly (-1 for none); nothing by default."""

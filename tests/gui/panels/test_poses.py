@@ -96,6 +96,56 @@ def test_what_is_drawn_is_the_scene(shown: Shown[PosesPanel], result: Result, qt
         np.testing.assert_array_equal(one.points, other.points)
 
 
+def test_every_board_has_its_number(shown: Shown[PosesPanel], result: Result) -> None:
+    panel = shown(PosesPanel, result)
+    panel.grab()
+    # The second image has no board, and a name without a number: places are counted.
+    assert list(panel.space._numbers) == ["1", *map(str, range(3, 11))]
+    places = list(panel.space.numbers_shown.values())
+    assert len(places) >= 7
+    assert not any(a.intersects(b) for k, a in enumerate(places) for b in places[:k])
+    assert all(panel.space.rect().contains(place.toAlignedRect()) for place in places)
+
+
+def test_the_cursor_announces_and_describes_a_board(
+    shown: Shown[PosesPanel], result: Result, qtbot: QtBot
+) -> None:
+    panel = shown(PosesPanel, result)
+    front = [d for d in panel.space._drawn if d.polygon.view >= 0][-1]
+    at = panel.space.to_widget(front.points.mean(axis=0, keepdims=True))[0].toPoint()
+    with qtbot.waitSignal(panel.hovered) as signal:
+        qtbot.mouseMove(panel.space, at)
+    assert result.views[signal.args[0]] is result.used[front.polygon.view]
+    assert panel.words.text().startswith(result.used[front.polygon.view].image)
+    with qtbot.waitSignal(panel.hovered) as signal:
+        qtbot.mouseMove(panel.space, QPoint(2, 2))
+    assert signal.args == [-1]
+    assert panel.words.text().startswith("9 views, ")
+
+
+def test_a_view_pointed_at_elsewhere_is_filled(shown: Shown[PosesPanel], result: Result) -> None:
+    panel = shown(PosesPanel, result)
+    before = panel.space.grab().toImage()
+    with_none = panel.words.text()
+    panel.hover(4)
+    assert panel.space.grab().toImage() != before
+    assert panel.words.text().startswith("view4.png: ")
+    panel.hover(1)  # an image without a board
+    assert panel.space.grab().toImage() == before
+    assert panel.words.text() == with_none
+
+
+def test_only_the_selected_board_is_filled(shown: Shown[PosesPanel], result: Result) -> None:
+    panel = shown(PosesPanel, result)
+    alone = max(panel.space._drawn, key=lambda d: (d.polygon.view >= 0, np.ptp(d.points)))
+    at = panel.space.to_widget(alone.points[:3].mean(axis=0, keepdims=True))[0].toPoint()
+    ratio = panel.space.devicePixelRatio()
+    base = panel.space.grab().toImage().pixelColor(at * ratio)
+    panel.space.select(alone.polygon.view)
+    filled = panel.space.grab().toImage().pixelColor(at * ratio)
+    assert filled != base
+
+
 def test_words_and_highlight_follow_the_selection(shown: Shown[PosesPanel], result: Result) -> None:
     panel = shown(PosesPanel, result)
     assert panel.words.text().startswith("9 views, ")

@@ -1,0 +1,273 @@
+"""Polygons in space as numbered outlines, turned with the mouse or the arrow keys."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+from PySide6.QtCore import QEvent, QPointF, QRectF, Qt, Signal
+from PySide6.QtGui import (
+    QColor,
+    QKeyEvent,
+    QMouseEvent,
+    QPainter,
+    QPaintEvent,
+    QPen,
+    QPolygonF,
+    QWheelEvent,
+)
+from PySide6.QtWidgets import QWidget
+
+from calibgui.engine.arrays import Array
+from calibgui.gui.widgets import theme
+from calibgui.report.scene3d import (
+    DrawnPolygon,
+    Observer,
+    Polygon,
+    PolygonKind,
+    draw_scene,
+    find_view_at,
+    fit_zoom,
+    make_axes,
+    project_into_scene,
+)
+
+_TURN = 0.008
+"""Angle for a pixel of dragging, rad."""
+_KEYS = {
+    Qt.Key.Key_Left: (-0.1, 0.0),
+    Qt.Key.Key_Right: (0.1, 0.0),
+    Qt.Key.Key_Up: (0.0, -0.1),
+    Qt.Key.Key_Down: (0.0, 0.1),
+}
+_SHARE = 0.44
+"""Half the drawn scene in shorter sides of the widget: the rest is for numbers around it."""
+_FADED = 0.45
+"""Opacity of the farthest outline; that of the nearest is 1."""
+_ONE_LINE = Qt.AlignmentFlag.AlignCenter | Qt.TextFlag.TextSingleLine
+
+
+class SceneView(QWidget):
+    """Outlines in space, painted from the farthest to the nearest, farther ones fainter.
+
+    The selected view is filled and stands before all others, and so does, less strongly, the one
+    under the cursor. A number stands where it covers no other.
+    """
+
+    picked = Signal(int)
+    """The view whose polygon was clicked."""
+    hovered = Signal(int)
+    """The view whose polygon is under the cursor now; -1 for none."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
+        self.setMouseTracking(True)
+        self.setMinimumSize(160, 120)
+        self.observer = Observer()
+        self.numbers_shown: dict[int, QRectF] = {}
+        """Places of the views' numbers, as painted last."""
+        self._polygons: tuple[Polygon, ...] = ()
+        self._drawn: tuple[DrawnPolygon, ...] = ()
+        self._numbers: Sequence[str] = ()
+        self._selected = self._under_cursor = -1
+        self._pressed: QPointF | None = None
+        self._last = QPointF()
+
+    def show_scene(self, polygons: tuple[Polygon, ...], numbers: Sequence[str]) -> None:
+        """Show all of these, from the side where the observer stands, with the views' numbers."""
+        self._polygons, self._numbers = polygons, numbers
+        self._under_cursor = -1
+        self.look_from(fit_zoom(polygons, self.observer))
+
+    def go_home(self) -> None:
+        """Show all from where the observer stood first."""
+        self.look_from(fit_zoom(self._polygons, Observer()))
+
+    def look_from(self, observer: Observer) -> None:
+        """Move the observer."""
+        self.observer = observer
+        self._drawn = draw_scene(self._polygons, self.observer)
+        self.update()
+
+    def select(self, view: int) -> None:
+        """Highlight a view; -1 for none."""
+        self._selected = view
+        self.update()
+
+    def hover(self, view: int) -> None:
+        """Highlight a view lightly, as if the cursor were over it; -1 for none."""
+        if view != self._under_cursor:
+            self._under_cursor = view
+            self.update()
+
+    def to_widget(self, points: Array) -> list[QPointF]:
+        """Points (n, 2) of the drawing plane in the widget."""
+        scale = _SHARE * min(self.width(), self.height())
+        middle = np.array([self.width(), self.height()]) / 2
+        return [QPointF(*p) for p in points * scale + middle]
+
+    def view_under(self, position: QPointF) -> int:
+        """The view at a place of the widget; -1 if none."""
+        scale = _SHARE * min(self.width(), self.height())
+        middle = np.array([self.width(), self.height()]) / 2
+        return find_view_at(self._drawn, (np.array([position.x(), position.y()]) - middle) / scale)
+
+    def paintEvent(self, event: QPaintEvent) -> None:  # noqa: N802, ARG002 - Qt's name
+        painter = QPainter(self)
+        painter.setRenderHint(QPainter.RenderHint.Antialiasing)
+        painter.fillRect(self.rect(), QColor(theme.current().base))
+        if not self._drawn:
+            return
+        self._paint_axes(painter)
+        # What is pointed at shows through all that stands before it.
+        for item in sorted(self._drawn, key=lambda item: self._rank(item.polygon.view)):
+            self._paint_polygon(painter, item)
+        self._paint_numbers(painter)
+
+    def _rank(self, view: int) -> int:
+        """2 for the selected view, 1 for the one under the cursor, 0 for all others."""
+        if view < 0:
+            return 0
+        return 2 if view == self._selected else int(view == self._under_cursor)
+
+    def _paint_polygon(self, painter: QPainter, item: DrawnPolygon) -> None:
+        view = item.polygon.view
+        rank = self._rank(view)
+        colour = QColor(theme.current().muted) if view < 0 else theme.view_colour(view)
+        outline, inside = QColor(colour), QColor(colour)
+        outline.setAlphaF(1.0 if rank else self._opacity(item.depth))
+        inside.setAlpha((0, 70, 140)[rank])
+        painter.setPen(QPen(outline, (1.2, 1.8, 2.5)[rank]))
+        painter.setBrush(inside if rank else Qt.BrushStyle.NoBrush)
+        points = self.to_widget(item.points)
+        painter.drawPolygon(QPolygonF(points))
+        if item.polygon.kind is PolygonKind.BOARD and rank:
+            self._paint_board_axes(painter, points)
+
+    def _opacity(self, depth: float) -> float:
+        """Opacity of an outline at a depth: the farther, the fainter."""
+        depths = [item.depth for item in self._drawn]
+        near, far = min(depths), max(depths)
+        return 1.0 - (1.0 - _FADED) * (depth - near) / max(far - near, 1e-9)
+
+    def _paint_board_axes(self, painter: QPainter, points: list[QPointF]) -> None:
+        """The board's origin, with the beginnings of its X (red) and Y axis (green)."""
+        origin, along_x, _, along_y = points
+        for end, colour in ((along_x, theme.current().bad), (along_y, theme.current().good)):
+            painter.setPen(QPen(QColor(colour), 2))
+            painter.drawLine(origin, origin + (end - origin) * 0.3)
+
+    def _paint_axes(self, painter: QPainter) -> None:
+        """The world's axes, with numbers in mm."""
+        colours = theme.current()
+        axis_colours = (colours.bad, colours.good, colours.accent)
+        metrics = painter.fontMetrics()
+        for axis, colour in zip(make_axes(self._polygons), axis_colours, strict=True):
+            points, depth = project_into_scene(self._polygons, axis.points, self.observer)
+            if depth.min() <= 0:
+                continue
+            places = self.to_widget(points)
+            painter.setPen(QPen(QColor(colour), 1.5))
+            painter.drawLine(places[0], places[-1])
+            last = places[0]
+            for k, (place, number) in enumerate(zip(places, axis.numbers, strict=True)):
+                is_end = k == len(places) - 1
+                text = f"{axis.name} {number:g} mm" if is_end else f"{number:g}"
+                room = (place - last).manhattanLength()
+                if k == 0 or (not is_end and room < metrics.horizontalAdvance(text) + 8):
+                    continue
+                painter.setBrush(QColor(colour))
+                painter.drawEllipse(place, 2, 2)
+                box = QRectF(0, 0, metrics.horizontalAdvance(text), metrics.height())
+                box.moveTopLeft(place + QPointF(4, 2))
+                painter.drawText(self._keep_inside(box), _ONE_LINE, text)
+                last = place
+
+    def _paint_numbers(self, painter: QPainter) -> None:
+        """The views' numbers, the selected one's first, then from the nearest to the farthest."""
+        self.numbers_shown = {}
+        metrics = painter.fontMetrics()
+        nearest_first = reversed([item for item in self._drawn if item.polygon.view >= 0])
+        for item in sorted(nearest_first, key=lambda item: -self._rank(item.polygon.view)):
+            view = item.polygon.view
+            if view in self.numbers_shown or view >= len(self._numbers):
+                continue
+            text = self._numbers[view]
+            box = QRectF(0, 0, metrics.horizontalAdvance(text) + 6, metrics.height())
+            place = self._find_room(box, item)
+            if place is not None:
+                self.numbers_shown[view] = place
+                self._paint_number(painter, place, text, item)
+
+    def _find_room(self, box: QRectF, item: DrawnPolygon) -> QRectF | None:
+        """Return the box at a place on the polygon that no number has taken; None if there is none.
+
+        The selected view has its number even if it covers another.
+        """
+        corners = self.to_widget(item.points)
+        middle = QPointF(*np.mean([(p.x(), p.y()) for p in corners], axis=0))
+        for corner in corners:
+            box.moveCenter(corner + (middle - corner) * 0.15)
+            inside = self._keep_inside(box)
+            if not any(inside.intersects(other) for other in self.numbers_shown.values()):
+                return inside
+        return self._keep_inside(box) if self._rank(item.polygon.view) else None
+
+    def _paint_number(self, painter: QPainter, box: QRectF, text: str, item: DrawnPolygon) -> None:
+        colours, rank = theme.current(), self._rank(item.polygon.view)
+        ground = QColor(colours.accent if rank == 2 else colours.base)
+        ink = QColor(colours.on_accent if rank == 2 else colours.text)
+        if not rank:
+            ground.setAlpha(170)
+            ink.setAlphaF(max(self._opacity(item.depth), 0.6))
+        painter.setPen(Qt.PenStyle.NoPen)
+        painter.setBrush(ground)
+        painter.drawRoundedRect(box, 3, 3)
+        painter.setPen(ink)
+        painter.drawText(box, Qt.AlignmentFlag.AlignCenter, text)
+
+    def _keep_inside(self, box: QRectF) -> QRectF:
+        """Return the box moved as little as it takes to lie in the widget."""
+        x = min(max(box.x(), 0.0), max(self.width() - box.width(), 0.0))
+        y = min(max(box.y(), 0.0), max(self.height() - box.height(), 0.0))
+        return QRectF(x, y, box.width(), box.height())
+
+    def _point_at(self, view: int) -> None:
+        if view != self._under_cursor:
+            self.hover(view)
+            self.hovered.emit(view)
+
+    def mousePressEvent(self, event: QMouseEvent) -> None:  # noqa: N802 - Qt's name
+        self._pressed = self._last = event.position()
+
+    def mouseMoveEvent(self, event: QMouseEvent) -> None:  # noqa: N802 - Qt's name
+        if event.buttons() & Qt.MouseButton.LeftButton:
+            step = event.position() - self._last
+            self._last = event.position()
+            self.look_from(self.observer.turned(_TURN * step.x(), _TURN * step.y()))
+        else:
+            self._point_at(self.view_under(event.position()))
+
+    def leaveEvent(self, event: QEvent) -> None:  # noqa: N802 - Qt's name
+        super().leaveEvent(event)
+        self._point_at(-1)
+
+    def mouseReleaseEvent(self, event: QMouseEvent) -> None:  # noqa: N802 - Qt's name
+        pressed, self._pressed = self._pressed, None
+        if pressed is None or (event.position() - pressed).manhattanLength() > 4:
+            return
+        view = self.view_under(event.position())
+        if view >= 0:
+            self.picked.emit(view)
+
+    def wheelEvent(self, event: QWheelEvent) -> None:  # noqa: N802 - Qt's name
+        self.look_from(self.observer.zoomed(1.0015 ** event.angleDelta().y()))
+
+    def keyPressEvent(self, event: QKeyEvent) -> None:  # noqa: N802 - Qt's name
+        if turn := _KEYS.get(Qt.Key(event.key())):
+            self.look_from(self.observer.turned(*turn))
+        elif event.text() in ("+", "-"):
+            self.look_from(self.observer.zoomed(1.2 if event.text() == "+" else 1 / 1.2))
+        else:
+            super().keyPressEvent(event)
