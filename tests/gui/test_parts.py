@@ -28,6 +28,7 @@ from calibgui.engine.errors import CalibrationError
 from calibgui.gui.dialogs.bug_dialog import BugDialog
 from calibgui.gui.dialogs.help_dialog import HelpDialog
 from calibgui.gui.dialogs.print_dialog import PrintDialog
+from calibgui.gui.panels.poses import PosesPanel
 from calibgui.gui.panels.result import ResultPanel
 from calibgui.gui.panels.split import Split
 from calibgui.gui.widgets import questions, theme
@@ -124,6 +125,22 @@ def test_a_click_in_the_image_and_in_a_panel_select_the_same(full: MainWindow) -
     assert full.session.image.endswith("3.png")
     assert full.page.canvas.marks.chosen == 17
     assert full.images.list.currentIndex().data() == "3.png"
+
+
+def test_a_board_and_its_image_are_pointed_at_together(full: MainWindow, qtbot: QtBot) -> None:
+    analysis = full.need_analysis()
+    poses = analysis.show_panel(PosesPanel)
+    qtbot.waitUntil(poses.isVisible)
+    view = full.images.list
+    index = view.model().index(2, 0)
+    qtbot.mouseMove(view.viewport(), view.visualRect(index).center())
+    assert poses.space._under_cursor == 2
+    bare = view.grab().toImage()
+    poses.space.hovered.emit(4)
+    assert full.images._delegate.hovered == full.session.project.views[4].image
+    assert view.grab().toImage() != bare
+    poses.space.hovered.emit(-1)
+    assert full.images._delegate.hovered == ""
 
 
 def test_a_heading_without_room_ends_in_dots(full: MainWindow) -> None:

@@ -76,6 +76,8 @@ class FilmStrip(QWidget):
         self._order = _Order(self._model)
         self.list = FilmView(self._model)
         self.list.setModel(self._order)
+        self.list.entered.connect(lambda index: session.hover(index.data(Role.PATH)))
+        self.list.viewportEntered.connect(lambda: session.hover(""))
         self.list.setContextMenuPolicy(Qt.ContextMenuPolicy.ActionsContextMenu)
         self.list.setAccessibleName(self.tr("Images"))
         layout = QHBoxLayout(self)
@@ -90,6 +92,7 @@ class FilmStrip(QWidget):
         session.changed.connect(self._refresh)
         session.selected.connect(self._show_selected)
         session.result_changed.connect(self._result_changed)
+        session.hovered.connect(self._show_hovered)
         self._refresh()
         self._result_changed(session.result)
 
@@ -240,6 +243,9 @@ class FilmStrip(QWidget):
             self.tr("{0} of {1} usable").format(sum(v.usable for v in views), len(views))
         )
         self._show_selected(self._session.image)
+
+    def _show_hovered(self, image: str) -> None:
+        self.list.show_hovered(image)
 
     def _show_selected(self, image: str, _: int = -1) -> None:
         row = self._session.project.find(image)

@@ -60,6 +60,8 @@ class FilmView(QListView):
         super().__init__()
         self._source = model
         self._threshold: float | None = None
+        self.hovered = ""
+        """Image that the cursor is over, here or elsewhere; its cell gets a frame."""
         self._drags = False
         self._pressed: QMouseEvent | None = None
         """The press on the threshold, until the mouse moves."""
@@ -87,6 +89,11 @@ class FilmView(QListView):
     def set_threshold(self, error: float | None) -> None:
         """Draw the threshold at an error, px; None is above all views."""
         self._threshold = error
+        self.viewport().update()
+
+    def show_hovered(self, image: str) -> None:
+        """Frame the cell of an image that the cursor is over, here or elsewhere."""
+        self.hovered = image
         self.viewport().update()
 
     def place_of(self, error: float) -> float:
@@ -172,8 +179,9 @@ class _Delegate(QStyledItemDelegate):
             tint.setAlphaF(_FADED)
             painter.fillRect(option.rect, tint)
         self._draw_thumbnail(painter, cell.thumbnail, index)
-        if index == self._view.currentIndex():
-            painter.setPen(QPen(QColor(colours.accent), 3))
+        is_current = index == self._view.currentIndex()
+        if is_current or index.data(Role.PATH) == self._view.hovered:
+            painter.setPen(QPen(QColor(colours.accent), 3 if is_current else 1))
             painter.setBrush(Qt.BrushStyle.NoBrush)
             painter.drawRect(cell.thumbnail)
         rms = index.data(Role.RMS)

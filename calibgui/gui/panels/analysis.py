@@ -116,6 +116,7 @@ class Analysis(QWidget):
         session.changed.connect(self._project_changed)
         session.result_changed.connect(self._show_result)
         session.selected.connect(self._select)
+        session.hovered.connect(self._hover)
         self._show_result(session.result)
         self.show_panel(ResultPanel)
 
@@ -124,6 +125,7 @@ class Analysis(QWidget):
         if kind not in self._built:
             panel = self._built[kind] = kind(self._services)
             panel.picked.connect(self._select_picked)
+            panel.hovered.connect(self._hover_shown)
             panel.exclude_wanted.connect(self._exclude)
             panel.save_wanted.connect(self.save_wanted)
             panel.lens_wanted.connect(self.lens_wanted)
@@ -248,6 +250,14 @@ class Analysis(QWidget):
         if self._shown is not None:
             for panel in self._built.values():
                 panel.select(self._place(image), corner)
+
+    def _hover(self, image: str) -> None:
+        for panel in self._built.values():
+            panel.hover(self._place(image))
+
+    def _hover_shown(self, view: int) -> None:
+        if self._shown is not None:
+            self._session.hover(self._shown.views[view].image if view >= 0 else "")
 
     def _place(self, image: str) -> int:
         """Index of an image in the shown result; -1 if it has none."""

@@ -20,6 +20,8 @@ class Session(QObject):
     """The project before and after an edit, an undo, a finding, or opening another one."""
     selected = Signal(str, int)
     """The image chosen to be looked at ("" for none), and one of its corners or -1."""
+    hovered = Signal(str)
+    """The image that the cursor is over now, in whatever shows it; "" for none."""
     renewed = Signal(str)
     """The file of an image holds another picture than before."""
     result_changed = Signal(object)
@@ -38,6 +40,7 @@ class Session(QObject):
         self.document.listeners.append(self._document_changed)
         self.image = ""
         self.corner = -1
+        self._hovered = ""
         self._result_name = ""
         self._announced: Result | None = None
 
@@ -78,6 +81,12 @@ class Session(QObject):
         if (image, corner) != (self.image, self.corner):
             self.image, self.corner = image, corner
             self.selected.emit(image, corner)
+
+    def hover(self, image: str) -> None:
+        """Tell everybody which image the cursor is over; "" for none."""
+        if image != self._hovered:
+            self._hovered = image
+            self.hovered.emit(image)
 
     def renew(self, image: str) -> None:
         """Forget the picture of an image: its file holds another one."""
