@@ -28,6 +28,7 @@ from calibgui.engine.errors import CalibrationError
 from calibgui.gui.dialogs.bug_dialog import BugDialog
 from calibgui.gui.dialogs.help_dialog import HelpDialog
 from calibgui.gui.dialogs.print_dialog import PrintDialog
+from calibgui.gui.panels.compare import ComparePanel
 from calibgui.gui.panels.poses import PosesPanel
 from calibgui.gui.panels.result import ResultPanel
 from calibgui.gui.panels.split import Split
@@ -102,7 +103,8 @@ def test_results_are_chosen_compared_renamed_and_deleted(
     assert analysis is not None
     assert session.result_name == "k3 held"
     analysis.compare_with("Calibration 1")
-    table = analysis.panel(ResultPanel).differences.model()
+    assert analysis.panel(ComparePanel).names == ("Calibration 1", "k3 held")
+    table = analysis.panel(ComparePanel).parameters.model()
     rows = {table.index(r, 0).data(): r for r in range(table.rowCount())}
     assert set(rows) >= {"fx", "k3"}
     analysis.results.setCurrentIndex(0)
@@ -111,6 +113,7 @@ def test_results_are_chosen_compared_renamed_and_deleted(
     monkeypatch.setattr(QInputDialog, "getText", lambda *_: ("all free", True))
     analysis.rename_wanted.emit("Calibration 1")
     assert list(session.project.results) == ["all free", "k3 held"]
+    assert set(analysis.panel(ComparePanel).names) == {"all free", "k3 held"}
     assert session.result_name == "all free"
     analysis.delete_wanted.emit("all free")
     assert session.result_name == "k3 held"

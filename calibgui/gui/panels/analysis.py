@@ -22,6 +22,7 @@ from calibgui.app.project import Project
 from calibgui.dataset import Result
 from calibgui.engine.calibration import Iteration
 from calibgui.gui.panels.board_shape import BoardShapePanel
+from calibgui.gui.panels.compare import ComparePanel
 from calibgui.gui.panels.convergence import ConvergencePanel
 from calibgui.gui.panels.coverage import CoveragePanel
 from calibgui.gui.panels.distortion import DistortionPanel
@@ -43,7 +44,7 @@ from calibgui.gui.session.session import Session
 from calibgui.gui.widgets import theme
 
 GROUPS: dict[Group, tuple[type[Panel], ...]] = {
-    Group.ANSWER: (ResultPanel, UncertaintyPanel, UndistortPanel),
+    Group.ANSWER: (ResultPanel, UncertaintyPanel, UndistortPanel, ComparePanel),
     Group.EVIDENCE: (
         ResidualsPanel,
         HistogramsPanel,
@@ -131,6 +132,7 @@ class Analysis(QWidget):
             panel.lens_wanted.connect(self.lens_wanted)
             panel.method_wanted.connect(self.method_wanted)
             panel.failed.connect(self._session.failed)
+            panel.offer_results(self._session.project.results)
             panel.show_result(self._shown)
             panel.select(self._place(self._session.image), self._session.corner)
             row = PANELS.index(kind)
@@ -213,14 +215,12 @@ class Analysis(QWidget):
             if name != self._session.result_name:
                 self.compare.addAction(name, partial(self.compare_with, name))
         self.compare.setEnabled(len(names) > 1)
+        for panel in self._built.values():
+            panel.offer_results(self._session.project.results)
 
     def compare_with(self, name: str) -> None:
         """Set another result beside the one shown."""
-        mine, other = self._session.result, self._session.project.results[name]
-        if mine is not None:
-            self.show_panel(ResultPanel).show_comparison(
-                other, mine, (name, self._session.result_name)
-            )
+        self.show_panel(ComparePanel).compare(name, self._session.result_name)
 
     def _show_state(self) -> None:
         result = self._session.result

@@ -58,6 +58,11 @@ class BeforeAfter(QWidget):
     def sizeHint(self) -> QSize:  # noqa: N802 - Qt's name
         return QSize(640, 480)
 
+    def set_names(self, before: str, after: str) -> None:
+        """Say anew what the two images are."""
+        self._names = (before, after)
+        self.update()
+
     def show_images(self, before: Grey | None, after: Grey | None) -> None:
         """Compare two images (h, w); without the first the second alone is shown, or nothing."""
         given = [image for image in (before, after) if image is not None]

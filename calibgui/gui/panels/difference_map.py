@@ -1,4 +1,4 @@
-"""A map over the image of how far a camera differs from the chosen one."""
+"""A map over the image of how far two cameras differ."""
 
 from __future__ import annotations
 
@@ -51,7 +51,7 @@ class DifferenceMap(QWidget):
         self.plot = HeatMap(self.tr("difference [px]"))
         self.plot.setToolTip(
             self.tr(
-                "Distance between a point's images by this method and by the chosen calibration,\n"
+                "Distance between a far point's images by the two calibrations that are compared,\n"
                 "after the rotation that brings the two closest where corners (dots) were seen."
             )
         )
@@ -82,9 +82,7 @@ class DifferenceMap(QWidget):
         top = float(np.nanmax(length[difference.region], initial=0.0))
         if top < _LEAST_PX:
             self.show_reason(
-                self.tr("It does not differ from the chosen calibration (below {0:g} px).").format(
-                    _LEAST_PX
-                )
+                self.tr("The two calibrations do not differ (below {0:g} px).").format(_LEAST_PX)
             )
             return
         self._difference, self._size = difference, size

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from typing import ClassVar
 
 from PySide6.QtCore import QT_TRANSLATE_NOOP, QEvent, Qt, Signal
@@ -60,6 +61,9 @@ class Panel(QWidget):
         self._stack = QStackedLayout(self)
         self._stack.addWidget(self._empty)
         self._stack.addWidget(self.body)
+
+    def offer_results(self, results: Mapping[str, Result]) -> None:
+        """Offer the project's results by name, the oldest first; most panels need but one."""
 
     def show_result(self, result: Result | None) -> None:
         """Show this result; None for none."""
