@@ -29,7 +29,7 @@ from calibgui.gui.images.image_model import status_text
 from calibgui.gui.jobs.job import Job
 from calibgui.gui.session.session import Session
 from calibgui.gui.widgets import theme
-from calibgui.gui.widgets.actions import make_action
+from calibgui.gui.widgets.actions import enable_action, make_action
 from calibgui.gui.widgets.elided import ElidedLabel
 from calibgui.gui.widgets.overlay import Overlay
 from calibgui.gui.widgets.picture import Levels, stretch_levels
@@ -86,6 +86,7 @@ class ImagePage(QWidget):
         session.renewed.connect(lambda image: self._load(image) if image == session.image else None)
         session.changed.connect(self._project_changed)
         session.result_changed.connect(lambda _: self._show_marks())
+        self._show_marks()
 
     def _add_tools(self) -> None:
         self.tools = [
@@ -195,7 +196,11 @@ class ImagePage(QWidget):
         self.reason.setText("" if view is None else view.reason)
         self.reason.setVisible(bool(self.reason.text()))
         for action in self.tools:
-            action.setEnabled(view is not None and view.status is not ViewStatus.UNREADABLE)
+            enable_action(
+                action,
+                view is not None and view.status is not ViewStatus.UNREADABLE,
+                self.tr("No image is shown that can be read."),
+            )
         if view is None:
             self.heading.clear()
             self.canvas.show_marks(Marks())

@@ -34,7 +34,7 @@ from calibgui.gui.images.film_view import FilmView
 from calibgui.gui.images.image_model import Criterion, ImageModel, Role
 from calibgui.gui.session.session import Session
 from calibgui.gui.widgets import theme
-from calibgui.gui.widgets.actions import make_action
+from calibgui.gui.widgets.actions import enable_action, make_action
 
 Index = QModelIndex | QPersistentModelIndex
 
@@ -89,6 +89,7 @@ class FilmStrip(QWidget):
         self.list.addActions(self.actions_for_menu)
         self.list.selectionModel().currentChanged.connect(self._current_changed)
         self.list.threshold_dragged.connect(self._threshold_dragged)
+        self.list.selectionModel().selectionChanged.connect(self._enable_actions)
         session.changed.connect(self._refresh)
         session.selected.connect(self._show_selected)
         session.result_changed.connect(self._result_changed)
@@ -187,8 +188,19 @@ class FilmStrip(QWidget):
                 lambda: self.remove(self.chosen),
             ),
         ]
-        scope = Qt.ShortcutContext.WidgetShortcut
-        return [make_action(self, *row, scope=scope) for row in table]
+        # Space and Del mean something else in other parts of the window.
+        scope = Qt.ShortcutContext
+        return [
+            make_action(
+                self, *row, scope=scope.WindowShortcut if row[1] == "F5" else scope.WidgetShortcut
+            )
+            for row in table
+        ]
+
+    def _enable_actions(self) -> None:
+        why = self.tr("No image is selected in the list.")
+        for action in self.actions_for_menu:
+            enable_action(action, bool(self.chosen), why)
 
     def _toggle(self) -> None:
         chosen = set(self.chosen)
@@ -243,6 +255,7 @@ class FilmStrip(QWidget):
             self.tr("{0} of {1} usable").format(sum(v.usable for v in views), len(views))
         )
         self._show_selected(self._session.image)
+        self._enable_actions()
 
     def _show_hovered(self, image: str) -> None:
         self.list.show_hovered(image)

@@ -32,14 +32,30 @@ def make_action(
     action = QAction(text, parent)
     if shortcut is not None:
         action.setShortcut(QKeySequence(shortcut))
-        keys = action.shortcut().toString(QKeySequence.SequenceFormat.NativeText)
-        action.setToolTip(f"{tip} ({keys})" if keys else tip)
-    else:
-        action.setToolTip(tip)
     action.setStatusTip(tip)
+    enable_action(action, True, "")
     action.setShortcutContext(scope)
     action.triggered.connect(lambda: does())
     return action
+
+
+def enable_action(action: QAction, enabled: bool, why_disabled: str) -> None:
+    """Let an action be chosen or not; while it cannot, its tooltip says why.
+
+    Args:
+        action: from `make_action`, whose tip comes back with it.
+        enabled: whether it can be chosen.
+        why_disabled: sentence on why it cannot, and what to do about that.
+    """
+    action.setEnabled(enabled)
+    tip = action.statusTip()
+    if not enabled and why_disabled:
+        action.setToolTip(
+            f"{tip}.\n{why_disabled}" if tip[-1:].isalnum() else f"{tip}\n{why_disabled}"
+        )
+        return
+    keys = action.shortcut().toString(QKeySequence.SequenceFormat.NativeText)
+    action.setToolTip(f"{tip} ({keys})" if keys else tip)
 
 
 def add_close_button(dialog: QDialog) -> QDialogButtonBox:

@@ -44,6 +44,7 @@ class Commands(QObject):
         leave: Callable[[], object],
         change_room: Callable[[], object],
         docks: Mapping[str, QDockWidget],
+        find_action: Callable[[], object],
     ) -> Sequence[Menu]:
         """Return the menus from left to right.
 
@@ -52,6 +53,7 @@ class Commands(QObject):
             leave: closes the window.
             change_room: gives the inspector more room, or the photograph.
             docks: by the text of the entry that shows and hides each.
+            find_action: opens the palette of all actions.
         """
         return (
             self._describe_file(leave),
@@ -59,7 +61,7 @@ class Commands(QObject):
             Menu(self.tr("&Images"), (*self._images.actions_for_menu, None, *self._page.tools)),
             self._describe_calibration(calibrate),
             self._describe_view(change_room, docks),
-            self._describe_help(),
+            self._describe_help(find_action),
         )
 
     def _describe_file(self, leave: Callable[[], object]) -> Menu:
@@ -130,6 +132,7 @@ class Commands(QObject):
                 tip=self.tr("Projects that were saved or opened stand here"),
                 run=lambda: None,
                 is_enabled=lambda: False,
+                why_disabled=self.tr("No project has been saved or opened yet."),
             ),
         )
 
@@ -151,6 +154,7 @@ class Commands(QObject):
                     tip=self.tr("Take the last change back"),
                     run=lambda: session.document.undo(),
                     is_enabled=lambda: bool(session.document.undo_label),
+                    why_disabled=self.tr("Nothing has been changed since the project was opened."),
                     get_subject=lambda: session.document.undo_label,
                 ),
                 Command(
@@ -159,6 +163,7 @@ class Commands(QObject):
                     tip=self.tr("Do what was undone"),
                     run=lambda: session.document.redo(),
                     is_enabled=lambda: bool(session.document.redo_label),
+                    why_disabled=self.tr("Nothing has been undone."),
                     get_subject=lambda: session.document.redo_label,
                 ),
                 None,
@@ -181,6 +186,8 @@ class Commands(QObject):
                     shortcut="F9",
                     tip=self.tr("Do everything that is still to do"),
                     run=calibrate,
+                    is_enabled=lambda: bool(session.project.views),
+                    why_disabled=self.tr("There are no images yet: add some first."),
                 ),
                 Command(
                     text=self.tr("&Export…"),
@@ -188,6 +195,7 @@ class Commands(QObject):
                     tip=self.tr("Write the camera for another program"),
                     run=files.export,
                     is_enabled=lambda: session.result is not None,
+                    why_disabled=self.tr("Nothing is calibrated yet: press Calibrate first."),
                 ),
                 None,
                 Command(
@@ -240,7 +248,7 @@ class Commands(QObject):
             ),
         )
 
-    def _describe_help(self) -> Menu:
+    def _describe_help(self, find_action: Callable[[], object]) -> Menu:
         return Menu(
             self.tr("&Help"),
             (
@@ -249,6 +257,12 @@ class Commands(QObject):
                     shortcut=Key.HelpContents,
                     tip=self.tr("The workflow on one page"),
                     run=lambda: show_dialog(HelpDialog(self._parent)),
+                ),
+                Command(
+                    text=self.tr("&Find an action…"),
+                    shortcut="Ctrl+Shift+P",
+                    tip=self.tr("Search everything that the menus can do"),
+                    run=find_action,
                 ),
             ),
         )

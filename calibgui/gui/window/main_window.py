@@ -43,6 +43,7 @@ from calibgui.gui.window.dock import Dock
 from calibgui.gui.window.inspector import Inspector
 from calibgui.gui.window.menus import Menus
 from calibgui.gui.window.offers import Offers
+from calibgui.gui.window.palette import Palette
 from calibgui.gui.window.progress import Progress
 from calibgui.gui.window.welcome import Welcome
 
@@ -134,7 +135,13 @@ class MainWindow(QMainWindow):
         }
         menus = Menus(
             self.menuBar(),
-            commands.list_menus(self.calibrate.click, self.close, self.change_room, docks),
+            commands.list_menus(
+                self.calibrate.click,
+                self.close,
+                self.change_room,
+                docks,
+                lambda: show_dialog(Palette(menus, self)),
+            ),
         )
         self.session.changed.connect(lambda *_: menus.refresh())
         self.session.result_changed.connect(lambda _: menus.refresh())
