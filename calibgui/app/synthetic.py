@@ -4,7 +4,8 @@ Every view is rendered from its estimated pose through the estimated camera, the
 located in the rendered images and calibrated with the same settings. The estimates can be compared
 with the values that were rendered, which are exact. The remaining residuals are errors of the
 corner finder; anything beyond them in the real residuals comes from the real board, lens and
-sensor.
+sensor. The noise that was found in the real residuals can be added to the rendered corners: what
+the real residuals then have beyond the synthetic ones is no noise.
 
 A corner found in a rendered view is numbered as the corner of the real view whose predicted
 position is nearest, so that both calibrations use the same corners even if the finder numbers a
@@ -13,6 +14,7 @@ symmetric or partly seen board differently.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from contextlib import closing
 from dataclasses import dataclass, replace
 from functools import partial
@@ -24,6 +26,7 @@ from calibgui import engine
 from calibgui.app.workers import Crashed, map_in_processes
 from calibgui.dataset import Result, View, ViewStatus
 from calibgui.engine.arrays import Array, IntArray
+from calibgui.engine.assessment import separate_error_sources
 from calibgui.engine.boards import Board, BoardShapeModel
 from calibgui.engine.calibration import Calibration, Cost, recover_arguments
 from calibgui.engine.camera import Camera, project_points
@@ -46,6 +49,9 @@ class SyntheticCheck:
     synthetic: Result
     """Calibration from renderings. Its views are the used views of `real`, with the corners found
     in their renderings, or the reason why no board was found."""
+    noise: float = 0.0
+    """Standard deviation of each coordinate of the synthetic corners about the rendered place, px,
+    that was asked for; 0 if nothing was added to the finder's own error."""
 
     @property
     def extrinsic_errors(self) -> Array:
@@ -69,6 +75,7 @@ def run_synthetic_check(
     *,
     blur: float = BLUR_PX,
     noise: float = 0.0,
+    corner_noise: float = 0.0,
     progress: Progress | None = None,
 ) -> SyntheticCheck:
     """Render the views of `result`, and calibrate from the rendered images.
@@ -77,6 +84,8 @@ def run_synthetic_check(
         result: calibration from a board of known pattern.
         blur: standard deviation of the blur of the images, px.
         noise: standard deviation of the noise of the images, grey levels.
+        corner_noise: standard deviation of each coordinate of the corners, px, up to which
+            Gaussian noise is added to the finder's own error; see `measure_corner_noise`.
         progress: called after each view.
 
     Raises:
@@ -101,10 +110,63 @@ def run_synthetic_check(
             )
             if progress is not None:
                 progress(done, len(views))
+    if corner_noise > 0:
+        views = _add_corner_noise(views, result, board, corner_noise)
     observations = [view.observation(board) for view in views if view.usable]
     settings = {**recover_arguments(result.calibration), "board_shape": BoardShapeModel.NOMINAL}
     calibration = engine.calibrate(observations, camera.size, **settings)
-    return SyntheticCheck(result, replace(result, calibration=calibration, views=tuple(views)))
+    synthetic = replace(result, calibration=calibration, views=tuple(views))
+    return SyntheticCheck(result, synthetic, corner_noise)
+
+
+def measure_corner_noise(result: Result) -> float:
+    """Measure the standard deviation of a coordinate of the corners, px, less systematic errors.
+
+    It is the noise that is left of the residuals beside smooth errors of lens, board and single
+    views (``separate_error_sources``), with the residuals that camera and poses took up.
+    """
+    sources = separate_error_sources(result.calibration, result.observations())
+    return sources.noise / np.sqrt(2) * np.sqrt(_count_coordinates(result) / count_freedom(result))
+
+
+def count_freedom(result: Result) -> int:
+    """Return the number of coordinates less that of estimated parameters and poses, at least 1."""
+    free = np.count_nonzero(result.calibration.sigma > 0)
+    return max(_count_coordinates(result) - int(free) - 6 * len(result.used), 1)
+
+
+def _count_coordinates(result: Result) -> int:
+    return 2 * sum(len(view.image) for view in result.calibration.residuals)
+
+
+def _add_corner_noise(
+    views: Sequence[View], result: Result, board: Board, noise: float
+) -> list[View]:
+    """Displace the corners at random until they are `noise` px off the rendered places.
+
+    The finder's own error counts towards that, so nothing is added if it is as large already.
+    """
+    camera, poses = result.calibration.camera, result.calibration.poses
+    missed = [
+        observed.uv - project_points(observed.xy, camera, pose)
+        for view, pose in zip(views, poses, strict=True)
+        if view.usable
+        for observed in (view.observation(board),)
+    ]
+    own = float(np.mean(np.concatenate(missed) ** 2)) if missed else 0.0
+    added = np.sqrt(max(noise**2 - own, 0.0))
+    rng = np.random.default_rng(0)
+    return [
+        view
+        if view.corners is None
+        else replace(
+            view,
+            corners=replace(
+                view.corners, uv=view.corners.uv + rng.normal(0.0, added, view.corners.uv.shape)
+            ),
+        )
+        for view in views
+    ]
 
 
 def _make_appearance(calibration: Calibration) -> Appearance:

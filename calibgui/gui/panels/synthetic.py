@@ -8,7 +8,13 @@ from PySide6.QtCore import QT_TRANSLATE_NOOP
 from PySide6.QtWidgets import QTabWidget, QWidget
 
 from calibgui.app.calibration import shorten_names
-from calibgui.app.synthetic import BLUR_PX, SyntheticCheck, run_synthetic_check
+from calibgui.app.synthetic import (
+    BLUR_PX,
+    SyntheticCheck,
+    measure_corner_noise,
+    run_synthetic_check,
+)
+from calibgui.app.synthetic_verdict import describe_synthetic_verdict, judge_synthetic_check
 from calibgui.dataset import Result
 from calibgui.engine.assessment import summarise_residuals
 from calibgui.engine.errors import Progress
@@ -30,8 +36,8 @@ class SyntheticPanel(OnDemandPanel[SyntheticCheck]):
             services,
             button=self.tr("&Render and calibrate"),
             tip=self.tr(
-                "Renders every view from the result, finds the corners again and calibrates:\n"
-                "what comes back is known exactly, so it shows the error of the method itself."
+                "Renders every view from the result, finds the corners again, adds the noise that\n"
+                "was found and calibrates: what must come back is known exactly."
             ),
             label=self.tr("Synthetic check"),
             working=self.tr("Rendering the views and searching them…"),
@@ -69,7 +75,8 @@ class SyntheticPanel(OnDemandPanel[SyntheticCheck]):
         return self.tr("Would the method find this camera again, if it were just so?")
 
     def _find(self, result: Result, progress: Progress) -> SyntheticCheck:
-        return run_synthetic_check(result, progress=progress)
+        noise = measure_corner_noise(result)
+        return run_synthetic_check(result, corner_noise=noise, progress=progress)
 
     def _show_found(self, result: Result, found: SyntheticCheck) -> None:  # noqa: ARG002 - holds it
         self._drawn.clear()
@@ -77,8 +84,11 @@ class SyntheticPanel(OnDemandPanel[SyntheticCheck]):
         real, made = (
             summarise_residuals(r.calibration.residuals) for r in (found.real, found.synthetic)
         )
+        verdict = describe_synthetic_verdict(found, judge_synthetic_check(found))
         self.words.show_text(
-            self.tr(
+            verdict
+            + "\n"
+            + self.tr(
                 "{0} of {1} views found again. e′ = {2:.4f} ± {3:.4f} reference px, "
                 "real images {4:.3f} ± {5:.3f}."
             ).format(

@@ -47,9 +47,9 @@ class ParameterTable(Table):
                 ),
                 Column(
                     self.tr("in σ"),
-                    [r.change / r.sigma_a if r.sigma_a > 0 else np.nan for r in rows],
+                    [r.change / r.sigma_b if r.sigma_b > 0 else np.nan for r in rows],
                     with_decimals(2),
-                    self.tr("The difference over the real result's standard deviation."),
+                    self.tr("The difference over the synthetic result's standard deviation."),
                 ),
             ]
         )

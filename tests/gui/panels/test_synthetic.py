@@ -57,7 +57,9 @@ def test_the_button_runs_the_check(small: Result, jobs: Jobs, qtbot: QtBot) -> N
     assert "Cancel" in panel.run.text()
     qtbot.waitUntil(lambda: panel.found is not None and not jobs.running, timeout=60_000)
     assert panel.tabs.isVisible() and "Cancel" not in panel.run.text()
-    assert panel.words.toPlainText().startswith("5 of 5 views found again.")
+    words = panel.words.toPlainText()
+    assert words.startswith("Passed: from pictures of this very camera, with the 0.0")
+    assert "5 of 5 views found again." in words
 
 
 def test_tables_and_plots_hold_its_numbers(
