@@ -1,10 +1,16 @@
 from __future__ import annotations
 
+import json
 from pathlib import Path
 
 import pytest
 
-from calibgui.app.recent import list_recent_projects, remember_project
+from calibgui.app.recent import (
+    Recent,
+    list_recent,
+    list_recent_projects,
+    remember_project,
+)
 from calibgui.app.state_folder import find_state_folder
 
 
@@ -34,3 +40,25 @@ def test_damaged_notes_are_no_obstacle(tmp_path: Path) -> None:
     project.touch()
     remember_project(project)
     assert list_recent_projects() == [project]
+
+
+def test_folders_and_first_images_are_remembered(tmp_path: Path) -> None:
+    project, folder = tmp_path / "a.json", tmp_path / "images"
+    project.touch()
+    folder.mkdir()
+    remember_project(project, "/photographs/1.png")
+    remember_project(folder, str(folder / "1.png"))
+    assert list_recent() == [
+        Recent(folder, str(folder / "1.png")),
+        Recent(project, "/photographs/1.png"),
+    ]
+    assert list_recent_projects() == [project]
+    folder.rmdir()
+    assert [entry.path for entry in list_recent()] == [project]
+
+
+def test_notes_of_earlier_versions_are_read(tmp_path: Path) -> None:
+    project = tmp_path / "a.json"
+    project.touch()
+    (find_state_folder() / "recent.json").write_text(json.dumps([str(project)]), "utf-8")
+    assert list_recent() == [Recent(project, "")]

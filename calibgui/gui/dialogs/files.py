@@ -22,6 +22,7 @@ from calibgui.app.project import (
     rename_result,
     set_square,
 )
+from calibgui.app.recent import remember_project
 from calibgui.app.resampling import Undistortion, WrittenImage, rectify_files, undistort_files
 from calibgui.app.resources import find_resource, find_sample_square
 from calibgui.dataset import Result
@@ -73,7 +74,18 @@ class Files(QObject):
         if projects:
             self.open_project(Path(projects[0]))
         elif names:
-            self._attempt(lambda: self._add(find_images(names)))
+            self._attempt(lambda: self._add_images(names))
+
+    def _add_images(self, names: Sequence[str]) -> None:
+        """Add the images of files and folders, and remember a folder.
+
+        Raises:
+            CalibrationError: as `find_images`.
+        """
+        images = find_images(names)
+        if len(names) == 1 and Path(names[0]).is_dir():
+            remember_project(Path(names[0]), str(images[0]))
+        self._add(images)
 
     def paste(self) -> None:
         """Add the files or paths on the clipboard."""

@@ -260,14 +260,18 @@ class Saver(QObject):
 def _read(path: Path) -> tuple[Project, FileState | None]:
     known = read_file_state(path)  # first: what is written meanwhile is not what was read
     project = read_project(path)
-    remember_project(path)
+    remember_project(path, _find_first_image(project))
     return project, known
 
 
 def _write(project: Project, path: Path) -> FileState | None:
     write_project(project, path)
-    remember_project(path)
+    remember_project(path, _find_first_image(project))
     return read_file_state(path)
+
+
+def _find_first_image(project: Project) -> str:
+    return project.views[0].image if project.views else ""
 
 
 def _free_slots() -> tuple[list[QLockFile], Path, Path | None]:

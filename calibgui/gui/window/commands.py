@@ -10,7 +10,7 @@ from PySide6.QtCore import QObject
 from PySide6.QtGui import QKeySequence
 from PySide6.QtWidgets import QDockWidget, QWidget
 
-from calibgui.app.recent import list_recent_projects
+from calibgui.app.recent import list_recent
 from calibgui.gui.canvas.image_page import ImagePage
 from calibgui.gui.dialogs.files import Files
 from calibgui.gui.dialogs.help_dialog import HelpDialog
@@ -124,23 +124,23 @@ class Commands(QObject):
         )
 
     def _list_recent(self) -> Sequence[Command]:
-        if paths := list_recent_projects():
-            return tuple(map(self._describe_recent, paths))
+        if recent := list_recent():
+            return tuple(self._describe_recent(entry.path) for entry in recent)
         return (
             Command(
                 text=self.tr("None yet"),
-                tip=self.tr("Projects that were saved or opened stand here"),
+                tip=self.tr("Projects and folders that were opened stand here"),
                 run=lambda: None,
                 is_enabled=lambda: False,
-                why_disabled=self.tr("No project has been saved or opened yet."),
+                why_disabled=self.tr("No project or folder has been opened yet."),
             ),
         )
 
     def _describe_recent(self, path: Path) -> Command:
         return Command(
             text=str(path),
-            tip=self.tr("Open this project"),
-            run=partial(self._files.open_project, path),
+            tip=self.tr("Open this project or folder"),
+            run=partial(self._files.open_paths, [str(path)]),
         )
 
     def _describe_edit(self) -> Menu:

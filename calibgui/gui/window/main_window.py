@@ -17,7 +17,7 @@ from PySide6.QtWidgets import (
     QWidget,
 )
 
-from calibgui.app.recent import list_recent_projects
+from calibgui.app.recent import list_recent
 from calibgui.dataset import Result
 from calibgui.engine.calibration import Cost
 from calibgui.engine.errors import CalibrationError
@@ -73,7 +73,7 @@ class MainWindow(QMainWindow):
         self.analysis: Analysis | None = None
         self._empty = True
         self._at = (self.session.document, 0)
-        self.welcome = Welcome()
+        self.welcome = Welcome(self.session.jobs)
         self.banner = Banner()
         self.verdict = VerdictBar(self.session)
         self.calibrate = QPushButton()
@@ -175,7 +175,7 @@ class MainWindow(QMainWindow):
         self.welcome.images_wanted.connect(self.files.ask_for_images)
         self.welcome.sample_wanted.connect(self.files.open_sample)
         self.welcome.board_wanted.connect(self.files.print_board)
-        self.welcome.project_wanted.connect(self.files.open_project)
+        self.welcome.recent_wanted.connect(lambda path: self.files.open_paths([str(path)]))
 
     def need_analysis(self) -> Analysis:
         """Return the panels, which are imported and made when there is something to show."""
@@ -240,7 +240,7 @@ class MainWindow(QMainWindow):
         self._keep_layout()
         self._empty = empty
         if empty:
-            self.welcome.show_recent(list_recent_projects())
+            self.welcome.show_recent(list_recent())
         self.pages.setCurrentWidget(self.welcome if empty else self.page)
         for dock in (self.strip_dock, self.inspector_dock):
             dock.setVisible(not empty)

@@ -5,34 +5,46 @@ from __future__ import annotations
 from collections.abc import Sequence
 from pathlib import Path
 
-from PySide6.QtCore import QSize, Qt, Signal, SignalInstance
+from PySide6.QtCore import QPointF, QSize, Qt, Signal, SignalInstance
+from PySide6.QtGui import QIcon, QImage, QPainter, QPixmap
 from PySide6.QtWidgets import (
     QCommandLinkButton,
     QHBoxLayout,
     QLabel,
-    QPushButton,
     QStyle,
     QVBoxLayout,
     QWidget,
 )
 
+from calibgui.app.image_store import read_thumbnail
+from calibgui.app.recent import Recent
+from calibgui.gui.jobs.jobs import Jobs
 from calibgui.gui.widgets import theme
+from calibgui.gui.widgets.picture import make_qimage
 
-_SHOWN = 5
-_WIDTH = 520
+_SHOWN = 6
+_WIDTH, _RECENT_WIDTH = 520, 340
+_PICTURE = QSize(64, 48)
+"""A recent project's first image, device-independent px."""
 
 
 class Welcome(QWidget):
-    """Drop images, open a folder, open the sample, or a recent project."""
+    """Drop images, open a folder, open the sample, or a recent project or folder.
+
+    Args:
+        jobs: that read the pictures of recent projects.
+    """
 
     folder_wanted = Signal()
     images_wanted = Signal()
     sample_wanted = Signal()
     board_wanted = Signal()
-    project_wanted = Signal(Path)
+    recent_wanted = Signal(Path)
+    """A recent project's file or folder of images is to be opened."""
 
-    def __init__(self) -> None:
+    def __init__(self, jobs: Jobs) -> None:
         super().__init__()
+        self._jobs = jobs
         title = QLabel(self.tr("Calibrate a camera"))
         font = title.font()
         font.setPointSizeF(1.8 * font.pointSizeF())
@@ -78,39 +90,79 @@ class Welcome(QWidget):
         ]
         column = QWidget()
         column.setMaximumWidth(_WIDTH)
-        self._column = QVBoxLayout(column)
-        self._column.setSpacing(theme.SPACING)
+        begin = QVBoxLayout(column)
+        begin.setSpacing(theme.SPACING)
         for widget in (title, words, *self.buttons):
-            self._column.addWidget(widget)
-        self._heading = QLabel(self.tr("Recent projects"))
-        self._heading.setContentsMargins(0, 2 * theme.SPACING, 0, 0)
-        self._column.addWidget(self._heading)
-        self._recent: list[QPushButton] = []
+            begin.addWidget(widget)
+        begin.addStretch(1)
+        self._recent_part = QWidget()
+        self._recent_part.setFixedWidth(_RECENT_WIDTH)
+        self._list = QVBoxLayout(self._recent_part)
+        heading = QLabel(self.tr("Recent projects and folders"))
+        self._list.addWidget(heading)
+        self._list.addStretch(1)
+        self.recent: list[QCommandLinkButton] = []
+        """Buttons that open what was opened lately, the newest first."""
         layout = QVBoxLayout(self)
         layout.addStretch(1)
         middle = QHBoxLayout()
         middle.addStretch(1)
         middle.addWidget(column, 1000)
+        middle.addWidget(self._recent_part)
         middle.addStretch(1)
         layout.addLayout(middle)
         layout.addStretch(2)
         self.show_recent([])
 
-    def show_recent(self, projects: Sequence[Path]) -> None:
-        """Offer these projects."""
-        for button in self._recent:
+    def show_recent(self, recent: Sequence[Recent]) -> None:
+        """Offer these projects and folders, each with its first image."""
+        for button in self.recent:
             button.deleteLater()
-        self._recent = []
-        self._heading.setVisible(bool(projects))
-        for path in projects[:_SHOWN]:
-            button = QPushButton(f"{path.parent.name}/{path.name}")
-            button.setFlat(True)
-            button.setToolTip(str(path))
-            button.setCursor(Qt.CursorShape.PointingHandCursor)
-            button.setStyleSheet("text-align: left; padding: 4px;")
-            button.clicked.connect(lambda _=False, path=path: self.project_wanted.emit(path))
-            self._column.addWidget(button)
-            self._recent.append(button)
+        self.recent = [self._make_recent(entry) for entry in recent[:_SHOWN]]
+        self._recent_part.setVisible(bool(recent))
+        for place, button in enumerate(self.recent, start=1):
+            self._list.insertWidget(place, button)
+        pictured = [
+            (button, entry.image)
+            for button, entry in zip(self.recent, recent, strict=False)
+            if entry.image
+        ]
+        if pictured:
+            self._jobs.each(
+                "", pictured, _read_picture, self._show_picture, failed=_leave_icon, owner=self
+            )
+
+    def _make_recent(self, entry: Recent) -> QCommandLinkButton:
+        path, room = entry.path, _RECENT_WIDTH - _PICTURE.width() - 8 * theme.SPACING
+        button = QCommandLinkButton()
+        metrics, dots = button.fontMetrics(), Qt.TextElideMode.ElideMiddle
+        # The title is in larger letters than the text below it.
+        name = metrics.elidedText(path.name, dots, round(0.75 * room))
+        button.setText(name.replace("&", "&&"))
+        button.setDescription(metrics.elidedText(str(path.parent), dots, room))
+        button.setAccessibleName(str(path))
+        button.setToolTip(str(path))
+        kind = (
+            QStyle.StandardPixmap.SP_DirIcon if path.is_dir() else QStyle.StandardPixmap.SP_FileIcon
+        )
+        button.setIcon(_centre(self.style().standardIcon(kind).pixmap(_PICTURE)))
+        button.setIconSize(_PICTURE)
+        button.clicked.connect(lambda: self.recent_wanted.emit(path))
+        return button
+
+    def _show_picture(self, pictured: tuple[QCommandLinkButton, str], picture: QImage) -> None:
+        button, _ = pictured
+        if button not in self.recent:  # others are offered by now
+            return
+        ratio = self.devicePixelRatio()
+        small = picture.scaled(
+            _PICTURE * ratio,
+            Qt.AspectRatioMode.KeepAspectRatio,
+            Qt.TransformationMode.SmoothTransformation,
+        )
+        pixmap = QPixmap.fromImage(small)
+        pixmap.setDevicePixelRatio(ratio)
+        button.setIcon(_centre(pixmap))
 
     def _link(
         self, text: str, tip: str, wanted: SignalInstance, icon: QStyle.StandardPixmap
@@ -121,3 +173,30 @@ class Welcome(QWidget):
         button.setIconSize(QSize(24, 24))
         button.clicked.connect(lambda: wanted.emit())
         return button
+
+
+def _centre(pixmap: QPixmap) -> QIcon:
+    """Return an icon of the size of all, so that the texts beside them stand below each other."""
+    ratio = pixmap.devicePixelRatio()
+    whole = QPixmap(_PICTURE * ratio)
+    whole.setDevicePixelRatio(ratio)
+    whole.fill(Qt.GlobalColor.transparent)
+    size = pixmap.deviceIndependentSize()
+    painter = QPainter(whole)
+    place = QPointF(_PICTURE.width() - size.width(), _PICTURE.height() - size.height()) / 2
+    painter.drawPixmap(place, pixmap)
+    painter.end()
+    return QIcon(whole)
+
+
+def _read_picture(pictured: tuple[QCommandLinkButton, str]) -> QImage:
+    """Read the small picture of an image; in a worker, which leaves the button alone.
+
+    Raises:
+        CalibrationError: if the image cannot be read.
+    """
+    return make_qimage(read_thumbnail(pictured[1]).grey)
+
+
+def _leave_icon(_: Exception) -> None:
+    """An image that is gone, or cannot be read, is not missed before its project is opened."""
