@@ -18,6 +18,7 @@ from PySide6.QtGui import (
 from PySide6.QtWidgets import QWidget
 
 from calibgui.gui.widgets import theme
+from calibgui.gui.widgets.plots import offer_picture
 
 Grey = npt.NDArray[np.uint8]
 
@@ -48,6 +49,7 @@ class BeforeAfter(QWidget):
         self._pan_from: QPointF | None = None
         self.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
         self.setMinimumSize(160, 120)
+        offer_picture(self)
         self.setToolTip(
             self.tr(
                 "Drag the divider, or move it by the arrow keys. The wheel magnifies (+ and −); "

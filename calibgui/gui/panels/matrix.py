@@ -11,6 +11,7 @@ from PySide6.QtWidgets import QToolTip, QWidget
 
 from calibgui.engine.arrays import Array
 from calibgui.gui.widgets import theme
+from calibgui.gui.widgets.plots import offer_picture
 
 _NEGATIVE, _POSITIVE = QColor("#0072B2"), QColor("#D55E00")
 
@@ -22,6 +23,7 @@ class Matrix(QWidget):
         super().__init__()
         self._names: tuple[str, ...] = ()
         self._values: Array = np.zeros((0, 0))
+        offer_picture(self)
 
     def show_matrix(self, names: Sequence[str], values: Array) -> None:
         """Show `values` (n, n) in -1..1; NaN is left blank."""

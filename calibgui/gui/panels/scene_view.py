@@ -20,6 +20,7 @@ from PySide6.QtWidgets import QWidget
 
 from calibgui.engine.arrays import Array
 from calibgui.gui.widgets import theme
+from calibgui.gui.widgets.plots import offer_picture
 from calibgui.report.scene3d import (
     DrawnPolygon,
     Observer,
@@ -73,6 +74,7 @@ class SceneView(QWidget):
         self._selected = self._under_cursor = -1
         self._pressed: QPointF | None = None
         self._last = QPointF()
+        offer_picture(self)
 
     def show_scene(self, polygons: tuple[Polygon, ...], numbers: Sequence[str]) -> None:
         """Show all of these, from the side where the observer stands, with the views' numbers."""

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import Any
+from typing import Any, cast
 
 from PySide6.QtCore import Qt
 from PySide6.QtGui import QAction, QIcon, QKeySequence
@@ -56,6 +56,27 @@ def enable_action(action: QAction, enabled: bool, why_disabled: str) -> None:
         return
     keys = action.shortcut().toString(QKeySequence.SequenceFormat.NativeText)
     action.setToolTip(f"{tip} ({keys})" if keys else tip)
+
+
+COPY_TABLE, COPY_PICTURE = "copy_table", "copy_picture"
+"""Names of the actions by which a table and a picture copy themselves; see `find_copier`."""
+
+
+def find_copier(window: QWidget, name: str) -> QAction | None:
+    """Return the action that copies the table or picture in sight: the focused one, or the largest.
+
+    Args:
+        window: in which it is looked for.
+        name: `COPY_TABLE` or `COPY_PICTURE`.
+    """
+
+    def rank(action: QAction) -> tuple[bool, int]:
+        widget = cast(QWidget, action.parent())
+        return widget.hasFocus(), widget.width() * widget.height()
+
+    actions = window.findChildren(QAction, name)
+    shown = [action for action in actions if cast(QWidget, action.parent()).isVisible()]
+    return max(shown, key=rank, default=None)
 
 
 def add_close_button(dialog: QDialog) -> QDialogButtonBox:

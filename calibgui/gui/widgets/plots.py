@@ -19,6 +19,7 @@ from PySide6.QtSvg import QSvgGenerator
 from PySide6.QtWidgets import QMenu, QWidget
 
 from calibgui.gui.widgets import theme
+from calibgui.gui.widgets.actions import COPY_PICTURE
 from calibgui.gui.widgets.save_names import ask_for_name
 
 pg.setConfigOptions(antialias=True)
@@ -72,6 +73,8 @@ class Plot(pg.PlotWidget):  # type: ignore[misc]  # pyqtgraph is not typed
                 action.setShortcut(shortcut)
                 action.setShortcutContext(Qt.ShortcutContext.WidgetShortcut)
             action.triggered.connect(does)
+            if shortcut is QKeySequence.StandardKey.Copy:
+                action.setObjectName(COPY_PICTURE)
             self.addAction(action)
             self._menu.addAction(action)
         self._restyle()
@@ -203,6 +206,20 @@ def save_picture(widget: QWidget, path: str | Path) -> None:
     image.setDevicePixelRatio(2)
     _render(widget, image)
     image.save(str(path))
+
+
+def offer_picture(widget: QWidget) -> None:
+    """Give a drawn widget a context menu that copies and saves what it shows."""
+    translate = QCoreApplication.translate
+    copy = QAction(translate("plots", "Copy as image"), widget)
+    copy.setObjectName(COPY_PICTURE)
+    copy.setShortcut(QKeySequence.StandardKey.Copy)
+    copy.setShortcutContext(Qt.ShortcutContext.WidgetShortcut)
+    copy.triggered.connect(lambda: QGuiApplication.clipboard().setPixmap(widget.grab()))
+    save = QAction(translate("plots", "Save plot…"), widget)
+    save.triggered.connect(lambda: ask_and_save_picture(widget))
+    widget.addActions([copy, save])
+    widget.setContextMenuPolicy(Qt.ContextMenuPolicy.ActionsContextMenu)
 
 
 def ask_and_save_picture(widget: QWidget) -> None:

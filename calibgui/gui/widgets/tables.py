@@ -32,6 +32,7 @@ from PySide6.QtWidgets import (
 )
 
 from calibgui.gui.widgets import theme
+from calibgui.gui.widgets.actions import COPY_TABLE
 from calibgui.gui.widgets.save_names import ask_for_name
 
 Index = QModelIndex | QPersistentModelIndex
@@ -194,6 +195,7 @@ class Table(QTableView):
             action.triggered.connect(does)
             self.addAction(action)
             self._menu.addAction(action)
+        self.actions()[0].setObjectName(COPY_TABLE)
         self.setContextMenuPolicy(Qt.ContextMenuPolicy.CustomContextMenu)
         self.customContextMenuRequested.connect(self._show_menu)
 

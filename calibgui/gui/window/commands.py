@@ -14,10 +14,11 @@ from calibgui.app.recent import list_recent
 from calibgui.gui.canvas.image_page import ImagePage
 from calibgui.gui.dialogs.files import Files
 from calibgui.gui.dialogs.help_dialog import HelpDialog
+from calibgui.gui.dialogs.print_results import ResultPrinter
 from calibgui.gui.images.film_strip import FilmStrip
 from calibgui.gui.session.session import Session
 from calibgui.gui.widgets import theme
-from calibgui.gui.widgets.actions import show_dialog
+from calibgui.gui.widgets.actions import COPY_PICTURE, COPY_TABLE, find_copier, show_dialog
 from calibgui.gui.window.menus import Command, Menu
 
 Key = QKeySequence.StandardKey
@@ -37,6 +38,7 @@ class Commands(QObject):
         super().__init__(parent)
         self._parent, self._session, self._files = parent, session, files
         self._images, self._page = images, page
+        self._printer = ResultPrinter(session, parent)
 
     def list_menus(
         self,
@@ -115,6 +117,14 @@ class Commands(QObject):
                 ),
                 None,
                 Command(
+                    text=self.tr("&Print results…"),
+                    tip=self.tr("Sentences, tables and plots of the result on paper or as PDF"),
+                    run=self._printer.preview,
+                    is_enabled=lambda: self._session.result is not None,
+                    why_disabled=self.tr("Nothing is calibrated yet: press Calibrate first."),
+                ),
+                None,
+                Command(
                     text=self.tr("&Quit"),
                     shortcut="Ctrl+Q",
                     tip=self.tr("Close the window"),
@@ -173,8 +183,28 @@ class Commands(QObject):
                     tip=self.tr("Add the files on the clipboard"),
                     run=self._files.paste,
                 ),
+                None,
+                Command(
+                    text=self.tr("Copy &table"),
+                    tip=self.tr("Put the table in sight on the clipboard, for a spreadsheet"),
+                    run=lambda: self._copy(COPY_TABLE),
+                    is_enabled=lambda: find_copier(self._parent, COPY_TABLE) is not None,
+                    why_disabled=self.tr("No table is in sight: choose a panel with one first."),
+                ),
+                Command(
+                    text=self.tr("Copy p&lot as picture"),
+                    tip=self.tr("Put a picture of the plot in sight on the clipboard"),
+                    run=lambda: self._copy(COPY_PICTURE),
+                    is_enabled=lambda: find_copier(self._parent, COPY_PICTURE) is not None,
+                    why_disabled=self.tr("No plot is in sight: choose a panel with one first."),
+                ),
             ),
         )
+
+    def _copy(self, name: str) -> None:
+        """Copy the table or picture in sight."""
+        if (copier := find_copier(self._parent, name)) is not None:
+            copier.trigger()
 
     def _describe_calibration(self, calibrate: Callable[[], object]) -> Menu:
         session, files = self._session, self._files
