@@ -37,8 +37,8 @@ class HelpDialog(QDialog):
                 "distances depend on it."
             ),
             self.tr(
-                "<b>Look at the film strip</b>: images without a board say why. <i>Mark board</i> (M) "
-                "takes four clicks on the outermost inner corners; the loupe shows where a click "
+                "<b>Look at the film strip</b>: images without a board say why. <i>Mark board</i> "
+                "(M) takes four clicks on the outermost inner corners; the loupe shows where a click "
                 "will go. <i>Edit corners</i> (E) moves, removes and restores single ones. An "
                 "image whose file has changed since says so: <i>detect again</i> (F5)."
             ),

@@ -2,8 +2,9 @@
 
 They are listed in the order in which an image meets them: the levels of the pyramid, the
 X-junctions of one level, the graph of neighbours, the growth of a lattice, the prefilter, taking
-joined boards apart, and the verification of what was refined. Lengths on the board are in squares or, what is the same, in
-steps of the lattice, so that they do not depend on the size of the board in the image.
+joined boards apart, and the verification of what was refined. Lengths on the board are in squares
+or, what is the same, in steps of the lattice, so that they do not depend on the size of the board
+in the image.
 
 Unless a field says otherwise its value is a plausibility limit. The benchmark
 
