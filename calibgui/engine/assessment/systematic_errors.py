@@ -74,8 +74,7 @@ def prepare_fit(calibration: Calibration, views: Sequence[Observation]) -> Linea
 
 def weigh_views(fit: LinearisedFit, sigma: Array) -> LinearisedFit:
     """Return a fit with every view's residuals divided by its standard deviation (K,)."""
-    whitening = fit.get_weight(slice(0, len(sigma))) / sigma[:, None, None, None]
-    return fit._replace(observations=replace(fit.observations, whitening=whitening))
+    return fit.weigh(fit.get_weight(slice(0, len(sigma))) / sigma[:, None, None, None])
 
 
 def explain_by_focus(fit: LinearisedFit) -> Explanation:

@@ -29,6 +29,7 @@ is eliminated with their poses.
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import dataclass, field, replace
 from typing import NamedTuple
 
 import numpy as np
@@ -42,9 +43,7 @@ from calibgui.engine.calibration.refinement.residuals import (
     Linearised,
     State,
     compute_image_residuals,
-    linearise_residuals,
 )
-from calibgui.engine.calibration.result import Cost
 from calibgui.engine.camera.camera import Camera
 from calibgui.engine.camera.models import find_model
 
@@ -58,23 +57,49 @@ MAX_FREE_CORNERS = 600
 """Number of corners of a board up to which each moves by itself. The matrix of the products of n
 free corners takes 72 n^2 bytes, several times over; a board with more of them, as screens have, is
 tested for a shape that is smooth over as many nodes."""
+_MAX_KEPT_VIEWS = 256
+"""Number of views whose derivatives are kept, 0.4 kB for each of their corners."""
 _MIN_PIVOT = 1e-9
 """Part of a column's square that the others leave, below which it is one of their combinations."""
 
 
-class LinearisedFit(NamedTuple):
-    """A calibration as the tests need it: residuals, and their derivatives at its solution."""
+@dataclass(frozen=True, eq=False)
+class LinearisedFit:
+    """A calibration as the tests need it: residuals, and their derivatives at its solution.
+
+    Every cause asks for them again; those of a few hundred views are kept.
+    """
 
     camera: Camera
     state: State
     observations: Observations
     free: IntArray
     """(P,) indices of the camera's estimated parameters."""
+    _kept: dict[tuple[int, int], Linearised] = field(init=False, repr=False, default_factory=dict)
+    """What `linearise_unweighted` returned, by the ends of the slice."""
+
+    def weigh(self, whitening: Array) -> LinearisedFit:
+        """Return the fit with other matrices (K, N, 2, 2) that whiten the residuals."""
+        weighed = replace(self, observations=replace(self.observations, whitening=whitening))
+        weighed._kept.update(self._kept)
+        return weighed
+
+    def linearise_unweighted(self, views: slice) -> Linearised:
+        """Compute residuals of the views in the image, px, with derivatives; padding counts too."""
+        key = views.start, views.stop
+        if key in self._kept:
+            return self._kept[key]
+        state, part = self.state.select_views(views), self.observations.select_views(views)
+        found = compute_image_residuals(state, part, find_model(self.camera.model))
+        if views.stop <= _MAX_KEPT_VIEWS:
+            self._kept[key] = found
+        return found
 
     def linearise(self, views: slice) -> Linearised:
         """Compute whitened residuals of the views in the image, with derivatives."""
-        return linearise_residuals(
-            self.state, self.observations, views, find_model(self.camera.model), Cost.IMAGE, 1.0
+        raw, weight = self.linearise_unweighted(views), self.get_weight(views)
+        return Linearised(
+            (weight @ raw.residual[..., None])[..., 0], weight @ raw.by_params, weight @ raw.by_pose
         )
 
     def get_weight(self, views: slice) -> Array:
@@ -90,10 +115,7 @@ class LinearisedFit(NamedTuple):
         Columns that depend on the place in the image must take it from here: the measured place
         holds the noise that the columns are tested against.
         """
-        state, part = self.state.select_views(views), self.observations.select_views(views)
-        return (
-            part.uv + compute_image_residuals(state, part, find_model(self.camera.model)).residual
-        )
+        return self.observations.uv[views] + self.linearise_unweighted(views).residual
 
     @property
     def degrees_of_freedom(self) -> int:
@@ -216,14 +238,12 @@ def _linearise(fit: LinearisedFit, views: slice) -> tuple[Array, Array, Array, A
         Whitened residuals (k, N, 2) and their derivatives by the free parameters of the camera
         (k, N, 2, P) and by the poses (k, N, 2, 6), and the predicted corners (k, N, 2), px.
     """
-    state, part = fit.state.select_views(views), fit.observations.select_views(views)
-    raw = compute_image_residuals(state, part, find_model(fit.camera.model))
-    weight = fit.get_weight(views)
+    raw, weight = fit.linearise_unweighted(views), fit.get_weight(views)
     return (
         (weight @ raw.residual[..., None])[..., 0],
         weight @ raw.by_params[..., fit.free],
         weight @ raw.by_pose,
-        part.uv + raw.residual,
+        fit.predict_corners(views),
     )
 
 

@@ -83,10 +83,11 @@ def _dense_columns(fit: LinearisedFit, cause: str) -> Array:
             shown = (xy == place).all(axis=-1)
             for axis in np.eye(3):
                 there, back = (
-                    fit._replace(
+                    replace(
+                        fit,
                         observations=replace(
                             fit.observations, xy=solid + sign * step * shown[..., None] * axis
-                        )
+                        ),
                     ).predict_corners(whole)
                     for sign in (1, -1)
                 )
