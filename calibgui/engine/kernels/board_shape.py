@@ -73,6 +73,7 @@ def _add_products(C: Array, row: Array, out: Array, m: int) -> None:
 def _sum_corner_views(
     camera: CameraTuple,
     kind: int,
+    of_rays: bool | None,
     R: Array,
     T: Array,
     uv: Array,
@@ -89,8 +90,8 @@ def _sum_corner_views(
     P = rows.shape[0]
     work, J, C = make_workspace(N), np.empty((P + 7, 2 * N)), np.empty((3, 2 * N))
     for view in range(K):
-        good = project_view(camera, kind, R[view], T[view], uv[view], xyz[view], work)
-        fill_jacobian(camera, kind, uv[view], weight[view], whitened, rows, work, J)
+        good = project_view(camera, kind, of_rays, R[view], T[view], uv[view], xyz[view], work)
+        fill_jacobian(camera, kind, of_rays, uv[view], weight[view], whitened, rows, work, J)
         gram(J, A[view])
         if not good:
             A[view, -1, -1] = np.inf
@@ -169,6 +170,7 @@ def _sum_corner_products(
 def _sum_moving_views(
     camera: CameraTuple,
     kind: int,
+    of_rays: bool | None,
     R: Array,
     T: Array,
     uv: Array,
@@ -185,8 +187,8 @@ def _sum_moving_views(
     P = rows.shape[0]
     work, J, C = make_workspace(N), np.empty((P + 7, 2 * N)), np.empty((3, 2 * N))
     for view in range(K):
-        good = project_view(camera, kind, R[view], T[view], uv[view], xyz[view], work)
-        fill_jacobian(camera, kind, uv[view], weight[view], whitened, rows, work, J)
+        good = project_view(camera, kind, of_rays, R[view], T[view], uv[view], xyz[view], work)
+        fill_jacobian(camera, kind, of_rays, uv[view], weight[view], whitened, rows, work, J)
         _differentiate_by_corner(R[view], J[P : P + 6], C)
         for i in range(2 * N):
             moved = motion[index[view, i % N]]

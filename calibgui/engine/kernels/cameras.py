@@ -24,6 +24,9 @@ class PackedCamera(NamedTuple):
     """Its parameters."""
     kind: int
     """The kind of its lens, which says what they mean."""
+    of_rays: bool | None
+    """True for the lenses of ``kernels.ray_lenses``, None for those of eq. 10. Numba compiles a
+    function for None by itself, without the branches that ask whether an argument is None."""
 
 
 def pack_camera(model: str, params: Array) -> PackedCamera:
@@ -38,7 +41,8 @@ def pack_camera(model: str, params: Array) -> PackedCamera:
         kind = UNIFIED
         camera[6] = 1.0  # beta of the models without one
     camera[list(COMPILED_LENSES[model])] = params
-    return PackedCamera(cast(CameraTuple, tuple(camera.tolist())), kind)
+    of_rays = True if kind in (KANNALA_BRANDT, UNIFIED) else None
+    return PackedCamera(cast(CameraTuple, tuple(camera.tolist())), kind, of_rays)
 
 
 def find_rows(model: str, free: IntArray) -> IntArray:

@@ -19,8 +19,6 @@ import numpy as np
 from calibgui.engine.arrays import Array, IntArray
 from calibgui.engine.kernels.cameras import (
     BACKWARD,
-    KANNALA_BRANDT,
-    UNIFIED,
     CameraTuple,
     PackedCamera,
     find_rows,
@@ -144,6 +142,7 @@ def make_workspace(N: int) -> Workspace:
 def project_view(
     camera: CameraTuple,
     kind: int,
+    of_rays: bool | None,
     R: Array,
     T: Array,
     uv: Array,
@@ -160,7 +159,7 @@ def project_view(
         r0, r1, r2 = R[row, 0], R[row, 1], R[row, 2]
         for i in range(N):
             rotated[row, i] = r0 * X[i] + r1 * Y[i] + r2 * Z[i]
-    if kind in (KANNALA_BRANDT, UNIFIED):
+    if of_rays is not None:
         for row in range(3):
             for i in range(N):
                 point[row, i] = rotated[row, i] + T[row]
@@ -186,6 +185,7 @@ def project_view(
 def fill_jacobian(
     camera: CameraTuple,
     kind: int,
+    of_rays: bool | None,
     uv: Array,
     weight: Array,
     whitened: bool,
@@ -197,7 +197,7 @@ def fill_jacobian(
     rotated, inverse_depth, n, d, M, lead, F, _, G = work
     fx, fy, cx, cy, _, _, _, p1, p2, p3, skew = camera
     P, N = rows.shape[0], uv.shape[1]
-    if kind in (KANNALA_BRANDT, UNIFIED):
+    if of_rays is not None:
         for i in range(N):
             F[0, i], F[1, N + i] = d[0, i], d[1, i]
         _turn_ray_slopes(fx, fy, rotated, G, J[P : P + 6])
@@ -227,6 +227,7 @@ def fill_jacobian(
 def _sum_views(
     camera: CameraTuple,
     kind: int,
+    of_rays: bool | None,
     R: Array,
     T: Array,
     uv: Array,
@@ -240,8 +241,8 @@ def _sum_views(
     K, _, N = uv.shape
     work, J = make_workspace(N), np.empty((rows.shape[0] + 7, 2 * N))
     for view in range(K):
-        good = project_view(camera, kind, R[view], T[view], uv[view], xyz[view], work)
-        fill_jacobian(camera, kind, uv[view], weight[view], whitened, rows, work, J)
+        good = project_view(camera, kind, of_rays, R[view], T[view], uv[view], xyz[view], work)
+        fill_jacobian(camera, kind, of_rays, uv[view], weight[view], whitened, rows, work, J)
         gram(J, out[view])
         if not good:
             out[view, -1, -1] = np.inf
@@ -251,6 +252,7 @@ def _sum_views(
 def _compute_residuals(
     camera: CameraTuple,
     kind: int,
+    of_rays: bool | None,
     R: Array,
     T: Array,
     uv: Array,
@@ -266,13 +268,13 @@ def _compute_residuals(
     _, _, n, d, M, _, F, point, G = work
     goal, ray = np.empty((2, N)), np.ones((3, N))
     for view in range(K):
-        good = project_view(camera, kind, R[view], T[view], uv[view], xyz[view], work)
+        good = project_view(camera, kind, of_rays, R[view], T[view], uv[view], xyz[view], work)
         for i in range(N):
             seen[view, 0, i] = uv[view, 0, i] - cx - fx * d[0, i]
             seen[view, 1, i] = uv[view, 1, i] - cy - fy * d[1, i]
             goal[0, i] = (uv[view, 0, i] - cx) / fx
             goal[1, i] = (uv[view, 1, i] - cy) / fy
-        if kind in (KANNALA_BRANDT, UNIFIED):
+        if of_rays is not None:
             for row in range(3):
                 for i in range(N):
                     ray[row, i] = point[row, i]
