@@ -97,7 +97,7 @@ def _list_cuts(lattice: Lattice) -> Iterator[tuple[Lattice, Lattice]]:
                     ),
                 )
                 if all(map(is_large_enough, parts)):
-                    yield parts
+                    yield turn_lattice(parts[0], -quarters), turn_lattice(parts[1], -quarters)
 
 
 def _drop_ragged_lines(lattice: Lattice) -> Lattice:

@@ -298,12 +298,16 @@ def check_crossing(corners: OrientedCorners, image: GreyImage) -> tuple[bool, bo
     return bare or plain <= _THRESHOLDS.max_printed_dissimilarity, bare
 
 
-def is_plain_crossing(corners: OrientedCorners, image: GreyImage) -> bool:
+def is_plain_crossing(corners: OrientedCorners, image: GreyImage, is_printed: bool) -> bool:
     """Return whether the typical one of the corners is, nearby, the crossing of two edges in a
-    point, where the squares neither overlap nor part as discs do."""
+    point, where the squares neither overlap nor part as discs do; more strictly if something
+    `is_printed` in the squares."""
     near = _compute_typical_patch(corners.shorten_steps(_PLAIN_IF_PRINTED), image)
     crossings = _model_crossings(_PLAIN_IF_PRINTED, overlap=False)
-    return _measure_dissimilarity(near, crossings) <= _THRESHOLDS.max_plain_dissimilarity
+    limit = (
+        _THRESHOLDS.max_printed_dissimilarity if is_printed else _THRESHOLDS.max_dissimilarity_alone
+    )
+    return _measure_dissimilarity(near, crossings) <= limit
 
 
 def _compute_typical_patch(corners: OrientedCorners, image: GreyImage) -> Array:

@@ -38,9 +38,9 @@ class TemplateThresholds:
     max_printed_dissimilarity: float = 0.005
     """... and, where things are printed in the squares, of what is near the corner with those
     crossings that neither overlap nor part."""
-    max_plain_dissimilarity: float = 0.02
-    """The same where a lattice stands alone: boards under a camera that sharpens to one side have
-    up to 0.011, discs of a grid of circles 0.039 and more."""
+    max_dissimilarity_alone: float = 0.02
+    """... or, of a lattice that stands alone with straight edges, whatever is farther away. Boards
+    in interlaced frames, or sharpened to one side, have up to 0.017, discs 0.024 and more."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -19,8 +19,9 @@ What these rules expect of edges is a print seen through a good lens. A camera t
 side, beats with a screen's pixels or is far out of focus, and marks in the squares, break them on
 boards whose every corner is sound. So they do not overrule what no texture shows: a full rectangle
 of corners, seen to end on all four sides (`stands_alone` of `verification`). Of that it is only
-asked that two edges cross at its corners, which the discs of a grid of circles do not, and that
-they are narrower than waves.
+asked that two edges cross at its corners, as those of discs do not in a grid of circles, and that
+they are narrower than waves; if the edges bulge, as marks make them seem to, that they are sharp,
+since blur makes discs cross as well.
 """
 
 from __future__ import annotations
@@ -101,7 +102,7 @@ def _judge_edges(
         return TOO_BLURRED
     if not is_bare or plain < 0.5:
         return ""
-    if any(abs(_compute_known_median(edge.bulge)) > limits.max_bulge for edge in edges):
+    if _do_edges_bulge(edges):
         return "its edges are not straight, like those of discs"
     spreads = np.column_stack([edge.spread for edge in edges])
     is_uneven = not have_same_spread(spreads, limits.max_spread_inside)
@@ -116,10 +117,22 @@ def _is_beyond_doubt(
     lattice: Lattice, image: GreyImage, corners: OrientedCorners, plain: float
 ) -> bool:
     """Return whether a lattice is a board whatever its edges look like away from the corners."""
-    if not stands_alone(lattice, image) or not is_plain_crossing(corners, image):
+    if not stands_alone(lattice, image):
         return False
-    width = _measure_width(_measure_edges(corners, image, plain), corners)
-    return width <= THRESHOLDS.verification.max_edge_blur_alone
+    edges = _measure_edges(corners, image, plain)
+    # Marks in the squares look like a bulge, and blurred discs like crossing edges.
+    is_printed = _do_edges_bulge(edges)
+    limits = THRESHOLDS.prefilter
+    max_width = limits.max_edge_blur_printed if is_printed else limits.max_edge_blur_alone
+    return _measure_width(edges, corners) <= max_width and is_plain_crossing(
+        corners, image, is_printed
+    )
+
+
+def _do_edges_bulge(edges: tuple[EdgeProfiles, EdgeProfiles]) -> bool:
+    """Return whether the dark has spread otherwise away from the corners than near them."""
+    limit = THRESHOLDS.prefilter.max_bulge
+    return any(abs(_compute_known_median(edge.bulge)) > limit for edge in edges)
 
 
 def _compute_areas(corners: OrientedCorners) -> Array:

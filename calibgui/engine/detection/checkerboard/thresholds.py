@@ -143,6 +143,11 @@ class PrefilterThresholds:
     "halftone" ..."""
     max_unsteady_spread: float = 0.004
     """... and of what is left of them without the steady rise, squares."""
+    max_edge_blur_alone: float = 0.23
+    """Greatest median blur of the edges of a lattice that stands alone, as no waves do,
+    squares ..."""
+    max_edge_blur_printed: float = 0.1
+    """... and where its edges seem to bulge: those of discs blurred more cross in a point."""
     max_direction_difference: float = 0.06
     """Greatest difference of the median spreads in the two directions, squares: cameras sharpen
     rows otherwise than columns. Fixed by the "stripes"."""
@@ -219,12 +224,13 @@ class VerificationThresholds:
     max_edge_blur: float = 0.18
     """Greatest median blur of a board's edges, squares: that of a sine wave would be 0.25. Fixed by
     the "waves"."""
-    max_edge_blur_alone: float = 0.23
-    """The same of a lattice that stands alone, as no waves do."""
     max_median_misfit: float = 0.25
     """Greatest median residual of the edge fit over the contrast. Fixed by the "waves"."""
     max_median_misfit_alone: float = 0.4
     """The same of a lattice that stands alone."""
+    max_spread_if_blurred: float = 0.05
+    """Greatest spread of the dark squares of such a lattice if its edges are wider than others may
+    be, squares: that of discs that blur has joined is 0.08 and more."""
 
     image_border: float = 4.0
     """Width of the image's border in which no corner is expected to be found, px."""

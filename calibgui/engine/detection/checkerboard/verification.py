@@ -252,13 +252,16 @@ def find_displaced_corners(fit: XCornerFit, lattice: Lattice) -> BoolArray:
 def has_step_edges(fit: XCornerFit, is_alone: bool = False) -> bool:
     """Return whether the squares are flat inside and step at their edges: waves cross likewise,
     only wider, and are not described by steps. A lattice that `is_alone`, see `stands_alone`, may
-    have edges wider and less like steps."""
+    have edges that are less like steps, and wider, unless its squares overlap or part by much: that
+    may be discs."""
     limits = THRESHOLDS.verification
-    blur = np.median(fit.model.unknowns[:, 4:6] / fit.model.square_height, axis=0)
+    blur = np.median(fit.model.unknowns[:, 4:6] / fit.model.square_height, axis=0).max()
     misfit = np.median(fit.residual / fit.contrast)
-    max_blur = limits.max_edge_blur_alone if is_alone else limits.max_edge_blur
-    max_misfit = limits.max_median_misfit_alone if is_alone else limits.max_median_misfit
-    return bool(blur.max() < max_blur and misfit < max_misfit)
+    if not is_alone:
+        return bool(blur < limits.max_edge_blur and misfit < limits.max_median_misfit)
+    is_even = abs(np.median(fit.model.ink_spread)) < limits.max_spread_if_blurred
+    max_blur = THRESHOLDS.prefilter.max_edge_blur_alone if is_even else limits.max_edge_blur
+    return bool(blur < max_blur and misfit < limits.max_median_misfit_alone)
 
 
 def stands_alone(lattice: Lattice, image: GreyImage) -> bool:

@@ -9,7 +9,7 @@ import pytest
 from numpy.typing import NDArray
 from scipy.ndimage import gaussian_filter
 
-from calibgui.engine.detection.checkerboard import prefilter
+from calibgui.engine.detection.checkerboard import find_checkerboard, prefilter, verification
 from calibgui.engine.detection.checkerboard.thresholds import THRESHOLDS
 from calibgui.engine.detection.find_corners import find_corners
 from calibgui.engine.detection.lattice import Lattice
@@ -99,3 +99,61 @@ def test_a_board_is_found_where_light_blinds_the_camera_to_one_side() -> None:
     levels = np.clip(scene.clean * np.linspace(1, 2.2, 480)[:, None], 0, 400)
     image = np.clip(gaussian_filter(levels, 1.0), 0, 255).astype(np.uint8)
     assert len(find_corners(image).uv) == 54
+
+
+def photograph_crop(margin: float) -> tuple[NDArray[np.uint8], NDArray[np.float64]]:
+    """A board cut off `margin` squares outside of its outermost corners, and these corners."""
+    scene = draw(Conditions(tilt=0.0, turn=0.0, shift=0.0, parts=2, noise=1.0), 0)
+    low, high = (
+        np.rint(edge).astype(int) for edge in (scene.uv.min(axis=(0, 1)), scene.uv.max(axis=(0, 1)))
+    )
+    reach = round(margin * 30)
+    crop = scene.photograph(0)[low[1] - reach : high[1] + reach, low[0] - reach : high[0] + reach]
+    return crop, scene.uv - (low - reach)
+
+
+def test_a_board_that_stands_alone_overrules_the_guards(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Where all of it is seen, not where the image ends before the board does."""
+    monkeypatch.setattr(prefilter, "_judge_edges", lambda *_: "its squares differ in size")
+    for margin, is_whole in ((1.9, True), (0.7, False)):
+        image, uv = photograph_crop(margin)
+        for dark in (True, False):
+            objection = prefilter.find_objection(Lattice(uv, dark), image)
+            if is_right := dark == bool(image[uv_of_first_square(uv)] < 120):
+                assert bool(objection) != is_whole
+            assert objection or is_right
+
+
+def uv_of_first_square(uv: NDArray[np.float64]) -> tuple[int, int]:
+    """The row and the column of the pixel in the middle of the square before the first corner."""
+    u, v = np.rint(uv[0, 0] - (uv[1, 1] - uv[0, 0]) / 2).astype(int)
+    return v, u
+
+
+@pytest.mark.parametrize("is_inverted", [False, True])
+@pytest.mark.parametrize(
+    ("diameter", "blur"), [(0.92, 4.0), (0.98, 1.0), (0.8, 8.0), (1.0, 8.0), (1.05, 9.0)]
+)
+def test_a_grid_of_circles_that_stands_alone_does_not(
+    diameter: float, blur: float, is_inverted: bool
+) -> None:
+    """Where circles of every second place nearly touch a board has its corners."""
+    v, u = np.mgrid[:480, :640]
+    image = np.full(v.shape, 210.0)
+    for row, col in np.argwhere(np.indices((8, 11)).sum(axis=0) % 2 == 0):
+        distance = np.hypot(u - 120 - 40 * col, v - 110 - 40 * row)
+        image[distance < diameter * 40 / np.sqrt(2)] = 40.0
+    image = gaussian_filter(255 - image if is_inverted else image, blur)
+    n, m = np.meshgrid(np.arange(1, 11), np.arange(1, 8))
+    uv = np.stack([100.0 + 40 * n, 90.0 + 40 * m], axis=-1)
+    assert verification.stands_alone(Lattice(uv, not is_inverted), image)
+    with pytest.raises(NoBoardError):
+        find_corners(image.astype(np.uint8))
+
+
+def test_the_message_names_the_test_that_refused(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(
+        find_checkerboard, "find_objection", lambda *_, **__: "its squares differ in size"
+    )
+    with pytest.raises(NoBoardError, match=r"6 x 9 inner corners .*: its squares differ in size"):
+        find_corners(draw(Conditions(parts=2), 0).photograph(0))

@@ -1,0 +1,56 @@
+"""Boards that people have are found whole, without a wrong corner."""
+
+from __future__ import annotations
+
+import pytest
+
+from calibgui.engine.detection.find_corners import find_corners
+from calibgui.engine.errors import NoBoardError
+from tests.scenes.tally import Tally, judge
+from tests.scenes.troubles import TROUBLES
+
+VARIANTS = 20
+FEW = 3
+"""Number of variants that are always drawn; the others take long."""
+DRAWN_ASIDE = "glass"
+"""The trouble in which corners that a reflection's edge runs through are left out on purpose."""
+
+
+def find(name: str, seed: int) -> Tally:
+    """What is found in one variant, its size unknown. Lost corners that were seen and refused as
+    drawn aside are no loss."""
+    photograph = TROUBLES[name](seed)
+    try:
+        corners = find_corners(photograph.image)
+    except NoBoardError:
+        return judge(photograph, None)
+    tally = judge(photograph, (corners.grid, corners.uv))
+    if name == DRAWN_ASIDE:
+        aside = sum(each.reason.startswith("drawn aside") for each in corners.rejected)
+        assert tally.lost <= aside <= 8
+        return Tally(1, int(tally.wrong == 0), 0, tally.wrong)
+    return tally
+
+
+@pytest.mark.parametrize("name", TROUBLES)
+def test_boards_in_trouble_are_found_whole(name: str) -> None:
+    total = sum((find(name, seed) for seed in range(FEW)), Tally())
+    assert (total.whole, total.wrong) == (FEW, 0)
+
+
+@pytest.mark.slow
+@pytest.mark.parametrize("name", TROUBLES)
+def test_in_19_of_20_variants_with_no_corner_wrong(name: str) -> None:
+    total = sum((find(name, seed) for seed in range(VARIANTS)), Tally())
+    assert total.whole >= VARIANTS - 1
+    assert total.wrong == total.false == 0
+
+
+@pytest.mark.parametrize("seed", [1, 17])
+def test_one_of_two_walls_is_found_by_its_size(seed: int) -> None:
+    """Both boards were once joined over the crease, with wrong corners between."""
+    photograph = TROUBLES["crease"](seed)
+    for truth in photograph.boards:
+        corners = find_corners(photograph.image, truth.shape[:2])
+        assert judge(photograph, (corners.grid, corners.uv)).whole
+        assert len(corners) == truth[..., 0].size
