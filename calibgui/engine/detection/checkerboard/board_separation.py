@@ -14,7 +14,7 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from calibgui.engine.arrays import GreyImage
+from calibgui.engine.arrays import Array, GreyImage
 from calibgui.engine.detection import grid_map
 from calibgui.engine.detection.checkerboard.numbering import turn_lattice
 from calibgui.engine.detection.checkerboard.thresholds import THRESHOLDS
@@ -55,15 +55,15 @@ def separate_boards(lattice: Lattice, image: GreyImage) -> list[Lattice]:
 
 def _measure_misfit(parts: list[Lattice]) -> float:
     """Measure the rms distance of corners from the smooth grid maps of their parts, steps."""
-    squares = [
-        (
-            (part.uv[part.found] - grid_map.fit_grid_map(part).locate(np.argwhere(part.found)))
-            / part.spacing()[part.found][:, None]
-        )
-        ** 2
-        for part in parts
-    ]
-    return float(np.sqrt(2 * np.mean(np.concatenate(squares))))
+    return float(np.sqrt(np.mean(np.concatenate([_measure_offsets(part) for part in parts]) ** 2)))
+
+
+def _measure_offsets(lattice: Lattice) -> Array:
+    """Measure the distances (n,) of a lattice's corners from its smooth grid map, steps."""
+    found = lattice.found
+    expected = grid_map.fit_grid_map(lattice).locate(np.argwhere(found).astype(np.float64))
+    off = np.linalg.norm(lattice.uv[found] - expected, axis=1)
+    return np.asarray(off / lattice.spacing()[found])
 
 
 def _cut_at_crease(lattice: Lattice, misfit: float) -> tuple[Lattice, Lattice] | None:
