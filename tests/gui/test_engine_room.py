@@ -1,0 +1,178 @@
+"""What must hold whatever happens: odd files, the keyboard alone, and being killed at any step."""
+
+from __future__ import annotations
+
+import hashlib
+import os
+import shutil
+import signal
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+from PySide6.QtCore import Qt
+from PySide6.QtTest import QTest
+from PySide6.QtWidgets import QApplication, QFileDialog
+from pytestqt.qtbot import QtBot
+
+from calibgui.app.autosave import find_unsaved_work, get_autosave_path, read_unsaved_work
+from calibgui.app.project import Project, add_images
+from calibgui.app.project_file import encode_project, read_project, write_project
+from calibgui.app.resources import find_resource
+from calibgui.dataset import ViewStatus
+from calibgui.formats.json_document import dumps
+from calibgui.formats.result_json import read_result
+from calibgui.gui.dialogs.export_dialog import ExportDialog
+from calibgui.gui.window.main_window import MainWindow
+from tests.gui.hand import Hand
+
+pytestmark = pytest.mark.slow
+
+
+@pytest.fixture
+def folder(tmp_path: Path) -> Path:
+    """Five of the sample's images."""
+    images = tmp_path / "photographs"
+    images.mkdir()
+    for source in sorted(find_resource("sample").glob("*.png"))[:5]:
+        shutil.copy(source, images)
+    return images
+
+
+@pytest.mark.skipif(not hasattr(os, "mkfifo"), reason="the system has no pipes with names")
+def test_a_project_that_names_devices_and_pipes_as_images(
+    window: MainWindow, qtbot: QtBot, tmp_path: Path, folder: Path
+) -> None:
+    os.mkfifo(tmp_path / "pipe.png")
+    odd = ["/dev/zero", str(tmp_path / "pipe.png"), str(tmp_path)]
+    project = add_images(Project(), [*odd, *map(str, sorted(folder.iterdir()))])
+    write_project(project, tmp_path / "project.json")
+    window.files.open_project(tmp_path / "project.json")
+    qtbot.waitUntil(lambda: len(window.session.project.views) == 8)
+    qtbot.mouseClick(window.calibrate, Qt.MouseButton.LeftButton)
+    qtbot.waitUntil(lambda: window.session.result is not None, timeout=60_000)
+    statuses = [view.status for view in window.session.project.views]
+    assert statuses == [ViewStatus.UNREADABLE] * 3 + [ViewStatus.FOUND] * 5
+    for view in window.session.project.views:
+        window.session.select(view.image)
+        qtbot.waitUntil(lambda: not window.session.jobs.running, timeout=10_000)
+
+
+def test_the_keyboard_alone_from_start_to_export(
+    window: MainWindow,
+    qtbot: QtBot,
+    tmp_path: Path,
+    folder: Path,
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    out, hand, session = tmp_path / "camera.json", Hand(window, qtbot), window.session
+    monkeypatch.setattr(QFileDialog, "getExistingDirectory", lambda *_: str(folder))
+    monkeypatch.setattr(QFileDialog, "getSaveFileName", lambda *_: (str(out), ""))
+    window.activateWindow()
+    for _ in range(20):
+        if QApplication.focusWidget() is window.welcome.buttons[0]:
+            break
+        hand.key(Qt.Key.Key_Tab)
+    hand.key(Qt.Key.Key_Space)
+    hand.wait(lambda: session.result is not None)
+    hand.wait(lambda: not session.jobs.running)
+
+    # An image is left out, and the rest calibrated again.
+    for _ in range(60):
+        if QApplication.focusWidget() is window.images.list:
+            break
+        hand.key(Qt.Key.Key_Tab)
+    hand.key(Qt.Key.Key_Down)
+    hand.key(Qt.Key.Key_Space)
+    assert len(session.project.usable) == 4
+    hand.key(Qt.Key.Key_F9)
+    hand.wait(lambda: len(session.project.results) == 2)
+    hand.wait(lambda: not session.jobs.running)
+
+    hand.key(Qt.Key.Key_E, Qt.KeyboardModifier.ControlModifier)
+    dialog = QApplication.activeModalWidget()
+    assert isinstance(dialog, ExportDialog)
+    hand.wait(dialog.save.isEnabled)
+    QTest.keyClick(dialog.focusWidget() or dialog, Qt.Key.Key_Return)
+    hand.wait(out.exists)
+    assert len(read_result(out).used) == 4
+    hand.wait(lambda: not session.jobs.running)
+    QTest.keyClick(dialog, Qt.Key.Key_Escape)
+    assert QApplication.activeModalWidget() is None
+
+
+_STEPS = """
+import hashlib, signal, sys
+from pathlib import Path
+from PySide6.QtCore import QEventLoop, QTimer
+from PySide6.QtWidgets import QApplication
+from calibgui.app.project_file import encode_project
+from calibgui.formats.json_document import dumps
+from calibgui.gui.window.main_window import MainWindow
+
+signal.alarm(300)  # a step that never ends
+app = QApplication([])
+window = MainWindow()
+window.show()
+session, saver = window.session, window.files.saver
+saver._timer.setInterval(50)
+folder, project_file, last = Path(sys.argv[1]), Path(sys.argv[2]), sys.argv[3]
+
+def wait(condition):
+    while not condition():
+        app.processEvents(QEventLoop.ProcessEventsFlag.WaitForMoreEvents, 20)
+
+def open_folder():
+    window.files.open_paths([str(folder)])
+    wait(lambda: session.result is not None)
+
+def exclude():
+    window.images.exclude([session.project.views[1].image])
+
+def calibrate():
+    window.calibrate.click()
+    wait(lambda: len(session.project.results) == 2)
+
+def save():
+    saver.save_beside(project_file)
+    wait(lambda: session.document.saved)
+
+def state_size():
+    window.board.inferred.click()
+    window.board.square.setValue(25.0)
+
+def undo():
+    session.document.undo()
+
+for step in (open_folder, exclude, calibrate, save, state_size, undo):
+    step()
+    wait(lambda: not session.jobs.running)
+    wait(lambda: session.document.saved or saver._autosaved is session.project)
+    wait(lambda: not session.jobs.running)
+    if step.__name__ == last:
+        text = dumps(encode_project(session.project, Path("/")))
+        print(hashlib.sha256(text.encode()).hexdigest(), flush=True)
+        wait(lambda: False)
+"""
+
+
+@pytest.mark.skipif(not hasattr(signal, "SIGKILL"), reason="the system has no SIGKILL")
+@pytest.mark.parametrize(
+    "step", ["open_folder", "exclude", "calibrate", "save", "state_size", "undo"]
+)
+def test_killed_after_any_step_nothing_is_lost(tmp_path: Path, folder: Path, step: str) -> None:
+    state, file = tmp_path / "state", tmp_path / "project.json"
+    env = {**os.environ, "QT_QPA_PLATFORM": "offscreen", "XDG_STATE_HOME": str(state)}
+    arguments = [sys.executable, "-c", _STEPS, str(folder), str(file), step]
+    with subprocess.Popen(arguments, env=env, stdout=subprocess.PIPE, text=True) as process:
+        assert process.stdout is not None
+        told = process.stdout.readline().strip()
+        process.send_signal(signal.SIGKILL)
+    where = file if file.exists() else state / "calibgui" / "unsaved-1.json"
+    work = find_unsaved_work(where)
+    assert (work is None) is (step == "save")
+    project = read_project(file) if work is None else read_unsaved_work(work, where)
+    assert work in (None, get_autosave_path(where))
+    text = dumps(encode_project(project, Path("/")))
+    assert hashlib.sha256(text.encode()).hexdigest() == told
