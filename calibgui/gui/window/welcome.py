@@ -20,6 +20,7 @@ from calibgui.app.image_store import read_thumbnail
 from calibgui.app.recent import Recent
 from calibgui.gui.jobs.jobs import Jobs
 from calibgui.gui.widgets import theme
+from calibgui.gui.widgets.focus_ring import FocusRing
 from calibgui.gui.widgets.picture import make_qimage
 
 _SHOWN = 6
@@ -148,6 +149,7 @@ class Welcome(QWidget):
         button.setIcon(_centre(self.style().standardIcon(kind).pixmap(_PICTURE)))
         button.setIconSize(_PICTURE)
         button.clicked.connect(lambda: self.recent_wanted.emit(path))
+        FocusRing(button)
         return button
 
     def _show_picture(self, pictured: tuple[QCommandLinkButton, str], picture: QImage) -> None:
@@ -172,6 +174,7 @@ class Welcome(QWidget):
         button.setIcon(self.style().standardIcon(icon))
         button.setIconSize(QSize(24, 24))
         button.clicked.connect(lambda: wanted.emit())
+        FocusRing(button)
         return button
 
 
