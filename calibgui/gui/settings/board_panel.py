@@ -184,7 +184,7 @@ class BoardPanel(QWidget):
             self.rows.setFocus()
             self.rows.selectAll()
         else:
-            self._end_typing()
+            self.finish_typing()
 
     def _begin_typing(self) -> None:
         self._typing = True
@@ -192,9 +192,9 @@ class BoardPanel(QWidget):
     def _leave_box(self, other: QSpinBox) -> None:
         """Take what was typed, unless the user goes on to the other box."""
         if not other.hasFocus():
-            self._end_typing()
+            self.finish_typing()
 
-    def _end_typing(self) -> None:
+    def finish_typing(self) -> None:
         """State the rows and columns that were typed, once both are known."""
         stated = self.rows.value(), self.cols.value()
         if self._typing and _UNKNOWN not in stated:
