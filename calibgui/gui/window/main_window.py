@@ -290,6 +290,7 @@ class MainWindow(QMainWindow):
             self.calibrator.stop()
             self._show_calibrate()
         else:
+            self.board.finish_typing()  # a shortcut does not take the focus from a box
             self.calibrator.calibrate()
 
     def _calibrate_with_lens(self, model: str, held: tuple[str, ...]) -> None:

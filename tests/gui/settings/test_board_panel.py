@@ -10,6 +10,7 @@ import pytest
 from PySide6.QtCore import Qt
 from PySide6.QtTest import QSignalSpy, QTest
 from PySide6.QtWidgets import QApplication, QComboBox
+from pytestqt.qtbot import QtBot
 
 from calibgui.app.document import Document
 from calibgui.app.project import change_views, set_grid_size
@@ -22,6 +23,7 @@ from calibgui.engine.boards.circle_grid import Circles
 from calibgui.gui.dialogs.print_dialog import PrintDialog
 from calibgui.gui.session.session import Session
 from calibgui.gui.settings.board_panel import BoardPanel
+from calibgui.gui.window.main_window import MainWindow
 from tests.app import examples
 
 
@@ -196,3 +198,17 @@ def test_counting_again_searches_where_the_stated_size_was_not_found(
     panel.inferred.click()
     assert {view.status for view in session.project.views} == {ViewStatus.WAITING}
     assert searched.count() == 1
+
+
+def test_the_shortcut_calibrates_with_the_size_that_was_typed(
+    full: MainWindow, qtbot: QtBot
+) -> None:
+    full.activateWindow()
+    full.board.inferred.click()
+    for done in type_size(full.board, "8", "9"):
+        if done == "columns":
+            break
+    assert full.board.cols.hasFocus() and full.session.project.grid_size == (6, 7)
+    QTest.keyClick(full.board.cols, Qt.Key.Key_F9)
+    assert full.session.project.grid_size == (8, 9)
+    qtbot.waitUntil(lambda: not full.session.jobs.running, timeout=60_000)
