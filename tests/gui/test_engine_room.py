@@ -8,12 +8,13 @@ import shutil
 import signal
 import subprocess
 import sys
+from collections.abc import Callable
 from pathlib import Path
 
 import pytest
 from PySide6.QtCore import Qt
 from PySide6.QtTest import QTest
-from PySide6.QtWidgets import QApplication, QFileDialog
+from PySide6.QtWidgets import QApplication, QComboBox, QFileDialog, QInputDialog
 from pytestqt.qtbot import QtBot
 
 from calibgui.app.autosave import find_unsaved_work, get_autosave_path, read_unsaved_work
@@ -21,6 +22,7 @@ from calibgui.app.project import Project, add_images
 from calibgui.app.project_file import encode_project, read_project, write_project
 from calibgui.app.resources import find_resource
 from calibgui.dataset import ViewStatus
+from calibgui.engine.calibration.result import Cost
 from calibgui.formats.json_document import dumps
 from calibgui.formats.result_json import read_result
 from calibgui.gui.dialogs.export_dialog import ExportDialog
@@ -176,3 +178,71 @@ def test_killed_after_any_step_nothing_is_lost(tmp_path: Path, folder: Path, ste
     assert work in (None, get_autosave_path(where))
     text = dumps(encode_project(project, Path("/")))
     assert hashlib.sha256(text.encode()).hexdigest() == told
+
+
+def describe(window: MainWindow) -> str:
+    return dumps(encode_project(window.session.project, Path("/")))
+
+
+def list_edits(window: MainWindow) -> list[Callable[[], object]]:
+    """Return what a user can do to the settings, the list of images and the results."""
+    board, settings = window.board, window.settings
+    images = [view.image for view in window.session.project.views]
+
+    def choose(box: QComboBox, row: int) -> None:
+        box.setFocus()
+        while box.currentIndex() != row:
+            QTest.keyClick(box, Qt.Key.Key_Down if box.currentIndex() < row else Qt.Key.Key_Up)
+
+    return [
+        board.by_hand.click,
+        lambda: window.images.exclude(images[1:2]),
+        board.inferred.click,
+        lambda: board.square.setValue(25.0),
+        lambda: choose(board.unit, 1),
+        lambda: choose(board.method, 1),
+        settings.robust.click,
+        settings.weigh.click,
+        settings.again.click,
+        lambda: settings.choose_model("brown-conrady", ()),
+        lambda: settings.choose_method("zhang", Cost.IMAGE),
+        lambda: window.images.remove(images[3:4]),
+        lambda: window.files.rename_result("Calibration 1"),
+        lambda: window.files.delete_result("the only one"),
+        lambda: choose(board.pattern.kind, 2),
+        lambda: window.images.remove(images[:3] + images[4:]),
+    ]
+
+
+def test_every_edit_is_undone_to_the_empty_window_and_done_again(
+    window: MainWindow, qtbot: QtBot, folder: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(QInputDialog, "getText", lambda *_: ("the only one", True))
+    hand, session = Hand(window, qtbot), window.session
+    empty = describe(window)
+    window.files.open_paths([str(folder)])
+    hand.wait(lambda: session.result is not None)
+    hand.wait(lambda: not session.jobs.running)
+    states = {session.document.edits: describe(window)}
+    for edit in list_edits(window):
+        before = describe(window)
+        edit()
+        session.document.end_sliding_edit()
+        hand.wait(lambda: not session.jobs.running)
+        assert describe(window) != before, session.document.undo_label
+        states[session.document.edits] = describe(window)
+    last = session.document.edits
+    assert last >= 18 and not session.project.views
+    for _ in range(last):
+        window.setFocus()
+        hand.key(Qt.Key.Key_Z, Qt.KeyboardModifier.ControlModifier)
+        if session.document.edits in states:
+            assert describe(window) == states[session.document.edits]
+    assert session.document.edits == 0 and describe(window) == empty
+    assert window.pages.currentWidget() is window.welcome
+    while session.document.redo_label:
+        session.document.redo()
+        if session.document.edits in states:
+            assert describe(window) == states[session.document.edits]
+    assert session.document.edits == last
+    hand.wait(lambda: not session.jobs.running)

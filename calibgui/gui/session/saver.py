@@ -92,6 +92,7 @@ class Saver(QObject):
 
         def done(found: tuple[Project, FileState | None]) -> None:
             project, self._known = found
+            self._lock.release()  # the window that held it may have been closed
             self._lock.take(path)
             left = not self._lock.holder and find_unsaved_work(path)
             self._undecided = path if left else None

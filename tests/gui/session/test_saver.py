@@ -274,6 +274,22 @@ def test_two_windows_on_one_project_keep_their_work_apart(
     assert window.files.saver.file != path, "what the other left has to be decided about"
 
 
+def test_the_lock_of_a_window_that_was_closed_is_taken_over(
+    window: MainWindow, qtbot: QtBot, tmp_path: Path, other: Saver
+) -> None:
+    path = tmp_path / "project.json"
+    write_project(examples.calibrated(tmp_path), path)
+    theirs = other.parent()
+    assert isinstance(theirs, Session)
+    theirs.begin(Document(examples.calibrated(tmp_path), path))
+    window.files.open_project(path)
+    qtbot.waitUntil(lambda: window.session.document.path == path)
+    assert window.files.saver.file != path
+    other.close()
+    window.files.open_project(path)
+    qtbot.waitUntil(lambda: window.files.saver.file == path)
+
+
 @pytest.mark.parametrize("answer", ["Yes", "SaveAll", "Cancel"])
 def test_what_another_program_saved_is_not_replaced_without_a_question(
     window: MainWindow,
