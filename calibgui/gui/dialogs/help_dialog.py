@@ -38,8 +38,9 @@ class HelpDialog(QDialog):
             ),
             self.tr(
                 "<b>Look at the film strip</b>: images without a board say why. <i>Mark board</i> "
-                "(M) takes four clicks on the outermost inner corners; the loupe shows where a click "
-                "will go. <i>Edit corners</i> (E) moves, removes and restores single ones. An "
+                "(M) takes four clicks on the outermost inner corners; the loupe shows where a "
+                "click will go. <i>Mark all by hand</i> (Board) turns the search off. "
+                "<i>Edit corners</i> (E) moves, removes and restores single corners. An "
                 "image whose file has changed since says so: <i>detect again</i> (F5)."
             ),
             self.tr(
