@@ -173,7 +173,8 @@ def test_no_text_of_the_window_is_left_in_english(
         undistort.lost.text(),
         window.verdict.reason.text(),
     }  # by the engine, as the sentences of the summary are
-    assert left <= NAMES | OTHERS | formats | lenses | methods | told
+    headings = {f"{name} ± 1σ" for name in NAMES}  # of results, which the user names
+    assert left <= NAMES | headings | OTHERS | formats | lenses | methods | told
     assert OPEN in help_dialog.text.toPlainText()
 
 

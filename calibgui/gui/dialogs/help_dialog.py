@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+from html import escape
+
 from PySide6.QtWidgets import QDialog, QTextBrowser, QVBoxLayout, QWidget
 
 import calibgui
 from calibgui.gui.widgets.actions import add_close_button
+from calibgui.gui.widgets.glossary import list_terms
 
 
 class HelpDialog(QDialog):
@@ -71,6 +74,7 @@ class HelpDialog(QDialog):
                 self.tr("zoom, before and after as well; Ctrl+0 fits, Ctrl+1 shows pixels"),
             ),
             ("Shift+1 … 0, N", self.tr("layers over the image")),
+            ("Ctrl+Shift+P", self.tr("find any action by typing a part of it")),
             ("Ctrl+Z / Ctrl+Shift+Z", self.tr("undo and redo: everything can be taken back")),
         )
         origin = self.tr(
@@ -78,9 +82,14 @@ class HelpDialog(QDialog):
             "multi-view rectification</i>, Image and Vision Computing 23 (2005) 517-539."
         )
         rows = "".join(f"<tr><td><b>{a}</b>&nbsp;&nbsp;</td><td>{b}</td></tr>" for a, b in keys)
+        words = "".join(
+            f"<tr><td><b>{escape(term)}</b>&nbsp;&nbsp;</td><td>{escape(sentence)}</td></tr>"
+            for term, sentence in list_terms().items()
+        )
         listed = "".join(f"<li style='margin-bottom: 6px'>{step}</li>" for step in steps)
         return (
             f"<h2>{self.tr('From photographs to a camera')}</h2><ol>{listed}</ol>"
             f"<h3>{self.tr('Keys')}</h3><table>{rows}</table>"
+            f"<h3>{self.tr('Words')}</h3><table>{words}</table>"
             f"<p>{origin}</p><p>calibgui {calibgui.__version__}</p>"
         )

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QComboBox
 
 from calibgui.engine.arrays import Array
 from calibgui.engine.calibration import Calibration
+from calibgui.gui.widgets.glossary import explain
 
 
 class PlaneChoice(QComboBox):
@@ -15,6 +17,7 @@ class PlaneChoice(QComboBox):
         super().__init__()
         self.addItem(self.tr("in the image"))
         self.addItem(self.tr("on the reference plane"))
+        self.setItemData(1, explain(self.tr("reference px")), Qt.ItemDataRole.ToolTipRole)
         self.setToolTip(
             self.tr(
                 "In the image a residual is the measured less the predicted corner.\n"

@@ -20,6 +20,7 @@ from PySide6.QtWidgets import QMenu, QWidget
 
 from calibgui.gui.widgets import theme
 from calibgui.gui.widgets.actions import COPY_PICTURE
+from calibgui.gui.widgets.glossary import explain
 from calibgui.gui.widgets.save_names import ask_for_name
 
 pg.setConfigOptions(antialias=True)
@@ -151,6 +152,7 @@ class Plot(pg.PlotWidget):  # type: ignore[misc]  # pyqtgraph is not typed
             axis.setPen(colours.line)
             axis.setTextPen(colours.text)
             axis.setLabel(text, color=colours.text)
+            axis.setToolTip(explain(text))
         if self.colour_bar is not None:
             self.colour_bar.restyle()
 
@@ -191,6 +193,7 @@ class ColourBar(pg.ColorBarItem):  # type: ignore[misc]  # pyqtgraph is not type
         self.axis.setPen(colours.line)
         self.axis.setTextPen(colours.text)
         self.getAxis("left").setLabel(self._quantity, color=colours.text)
+        self.setToolTip(explain(self._quantity))
 
 
 def save_picture(widget: QWidget, path: str | Path) -> None:

@@ -33,6 +33,7 @@ from PySide6.QtWidgets import (
 
 from calibgui.gui.widgets import theme
 from calibgui.gui.widgets.actions import COPY_TABLE
+from calibgui.gui.widgets.glossary import explain, list_terms
 from calibgui.gui.widgets.save_names import ask_for_name
 
 Index = QModelIndex | QPersistentModelIndex
@@ -118,7 +119,8 @@ class _Model(QAbstractTableModel):
             return QColor(theme.current().bad_base)
         if role == Qt.ItemDataRole.ToolTipRole:
             own = column.tips[index.row()] if column.tips else ""
-            return self.marked.get(index.row()) or own or column.tip or None
+            tip = own or column.tip or (list_terms().get(value) if index.column() == 0 else "")
+            return self.marked.get(index.row()) or tip or None
         return None
 
     def headerData(  # noqa: N802 - Qt's name
@@ -130,7 +132,7 @@ class _Model(QAbstractTableModel):
                 heading = column.heading or column.title
                 return f"{heading}\n[{column.unit}]" if column.unit else heading
             if role == Qt.ItemDataRole.ToolTipRole:
-                return column.tip or None
+                return column.tip or explain(column.title) or None
         return None
 
 
