@@ -45,6 +45,10 @@ _SHARE = 0.44
 """Half the drawn scene in shorter sides of the widget: the rest is for numbers around it."""
 _FADED = 0.45
 """Opacity of the farthest outline; that of the nearest is 1."""
+_SMOOTHED = 200
+"""Outlines up to which they are smoothed: more take longer than a frame while one turns them."""
+_NUMBERED = 60
+"""Nearest views that have numbers; of more than that all the numbers would hide the boards."""
 _ONE_LINE = Qt.AlignmentFlag.AlignCenter | Qt.TextFlag.TextSingleLine
 
 
@@ -124,7 +128,10 @@ class SceneView(QWidget):
         self._paint_axes(painter)
         # What is pointed at shows through all that stands before it.
         for item in sorted(self._drawn, key=lambda item: self._rank(item.polygon.view)):
+            is_smooth = len(self._drawn) <= _SMOOTHED or self._rank(item.polygon.view) > 0
+            painter.setRenderHint(QPainter.RenderHint.Antialiasing, is_smooth)
             self._paint_polygon(painter, item)
+        painter.setRenderHint(QPainter.RenderHint.Antialiasing)
         self._paint_numbers(painter)
 
     def _rank(self, view: int) -> int:
@@ -140,7 +147,7 @@ class SceneView(QWidget):
         outline, inside = QColor(colour), QColor(colour)
         outline.setAlphaF(1.0 if rank else self._opacity(item.depth))
         inside.setAlpha((0, 70, 140)[rank])
-        painter.setPen(QPen(outline, (1.2, 1.8, 2.5)[rank]))
+        painter.setPen(QPen(outline, (1.0, 1.8, 2.5)[rank]))
         painter.setBrush(inside if rank else Qt.BrushStyle.NoBrush)
         points = self.to_widget(item.points)
         painter.drawPolygon(QPolygonF(points))
@@ -149,8 +156,7 @@ class SceneView(QWidget):
 
     def _opacity(self, depth: float) -> float:
         """Opacity of an outline at a depth: the farther, the fainter."""
-        depths = [item.depth for item in self._drawn]
-        near, far = min(depths), max(depths)
+        far, near = self._drawn[0].depth, self._drawn[-1].depth  # the farthest is painted first
         return 1.0 - (1.0 - _FADED) * (depth - near) / max(far - near, 1e-9)
 
     def _paint_board_axes(self, painter: QPainter, points: list[QPointF]) -> None:
@@ -190,11 +196,14 @@ class SceneView(QWidget):
         """The views' numbers, the selected one's first, then from the nearest to the farthest."""
         self.numbers_shown = {}
         metrics = painter.fontMetrics()
-        nearest_first = reversed([item for item in self._drawn if item.polygon.view >= 0])
-        for item in sorted(nearest_first, key=lambda item: -self._rank(item.polygon.view)):
-            view = item.polygon.view
-            if view in self.numbers_shown or view >= len(self._numbers):
-                continue
+        # The faces of one camera are drawn one by one: the nearest has the number.
+        nearest = {
+            item.polygon.view: item
+            for item in self._drawn
+            if 0 <= item.polygon.view < len(self._numbers)
+        }
+        in_order = sorted(nearest.items(), key=lambda pair: (-self._rank(pair[0]), pair[1].depth))
+        for view, item in in_order[:_NUMBERED]:
             text = self._numbers[view]
             box = QRectF(0, 0, metrics.horizontalAdvance(text) + 6, metrics.height())
             place = self._find_room(box, item)
