@@ -6,7 +6,6 @@ from typing import TYPE_CHECKING
 
 from PySide6.QtCore import QByteArray, QObject, QUrl
 from PySide6.QtGui import QImage, QTextDocument
-from PySide6.QtPrintSupport import QPrinter, QPrintPreviewDialog
 from PySide6.QtWidgets import QWidget
 
 from calibgui.dataset import Result
@@ -14,6 +13,8 @@ from calibgui.gui.session.session import Session
 from calibgui.gui.widgets.actions import show_dialog
 
 if TYPE_CHECKING:
+    from PySide6.QtPrintSupport import QPrinter
+
     from calibgui.report.printed_page import PrintedPage
 
 
@@ -43,6 +44,9 @@ class ResultPrinter(QObject):
             )
 
     def _show(self, name: str, page: PrintedPage) -> None:
+        # Loaded late: the window is on screen sooner, and few print.
+        from PySide6.QtPrintSupport import QPrinter, QPrintPreviewDialog
+
         document = make_document(page)
         self._printer = QPrinter(QPrinter.PrinterMode.HighResolution)
         dialog = QPrintPreviewDialog(self._printer, self._window)

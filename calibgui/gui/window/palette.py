@@ -92,6 +92,8 @@ class Palette(QDialog):
 
     def _run_current(self) -> None:
         """Run the current action, if it can do anything, once the palette is gone."""
+        if not self.isVisible():  # a click is also an activation on some desktops
+            return
         item = self.list.currentItem()
         action: QAction | None = None if item is None else item.data(0, _ACTION)
         if action is None or not action.isEnabled():

@@ -82,6 +82,22 @@ def test_it_finds_by_the_menu_and_by_the_tip(full: MainWindow, qtbot: QtBot) -> 
     palette.reject()
 
 
+def test_a_click_runs_once(full: MainWindow, qtbot: QtBot) -> None:
+    image = full.session.project.views[1].image
+    for _ in range(2):
+        full.images.exclude([image])
+    palette = open_palette(full, qtbot)
+    palette.search.setText("undo")
+    row = palette.list.visualItemRect(palette.list.topLevelItem(0))
+    qtbot.mouseClick(palette.list.viewport(), Qt.MouseButton.LeftButton, pos=row.center())
+    palette.list.itemActivated.emit(palette.list.topLevelItem(0), 0)
+    assert not palette.isVisible()
+    assert full.session.document.undo_label.startswith("Exclude")
+    assert full.session.document.redo_label.startswith("Exclude")
+    full.session.document.redo()
+    assert not full.session.document.redo_label  # only one was taken back
+
+
 def test_arrow_keys_move_while_one_types(full: MainWindow, qtbot: QtBot) -> None:
     palette = open_palette(full, qtbot)
     qtbot.keyClick(palette.search, Qt.Key.Key_Down)
