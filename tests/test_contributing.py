@@ -61,7 +61,7 @@ def test_the_reading_order_is_a_list_of_files() -> None:
         ("calibgui.formats", "EXPORTERS"),
         ("calibgui.formats.camera_import", "IMPORTERS"),
         ("calibgui.cli.parser", "COMMANDS"),
-        ("calibgui.gui.panels.analysis", "PANELS"),
+        ("calibgui.gui.panels.analysis", "GROUPS"),
         ("calibgui.gui.panels.panel", "Panel"),
         ("calibgui.gui.panels.latest", "Latest"),
         ("calibgui.gui.panels.services", "Services"),

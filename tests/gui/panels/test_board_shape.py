@@ -79,7 +79,7 @@ def test_without_a_board_shape_it_says_how_to_get_one(
     assert not panel.body.isVisible()
     assert result.calibration.board_shape_error == 0
     assert panel._empty.text().startswith("The board was taken as drawn")
-    assert "Settings" in panel._empty.text()
+    assert "Set-up" in panel._empty.text()
     doubted = made(bow=0.6)
     assert doubted.calibration.board_shape_error > 0
     panel.show_result(doubted)
