@@ -24,11 +24,13 @@ from PySide6.QtWidgets import QApplication
 
 from calibgui.app.resources import find_resource
 from calibgui.engine.boards import BoardShapeModel
+from calibgui.gui.canvas.layers import Layer
 from calibgui.gui.panels.analysis import PANELS
 from calibgui.gui.panels.board_shape import BoardShapePanel
 from calibgui.gui.panels.methods import MethodsPanel
 from calibgui.gui.panels.on_demand import OnDemandPanel
 from calibgui.gui.panels.poses import PosesPanel
+from calibgui.gui.panels.uncertainty import UncertaintyPanel
 from calibgui.gui.widgets import theme
 from calibgui.gui.window.main_window import MainWindow
 
@@ -73,6 +75,7 @@ class Photographer:
         session.select(session.project.views[2].image)
         self.take("result")
         assert window.analysis is not None
+        self.desk()
         for kind in PANELS[1:]:
             if kind is BoardShapePanel:
                 self.estimate_board_shape()
@@ -84,6 +87,28 @@ class Photographer:
                 panel.tables.errors.selectRow(2)  # the first differs from none: it has no map
             self.take(kind.__name__.removesuffix("Panel").lower())
         self.marking()
+
+    def desk(self) -> None:
+        """Take the layers on the image, the set-up, a large panel, and a threshold."""
+        window, images = self.window, self.window.images
+        window.inspector.show_image_page()
+        for layer in (Layer.COVERAGE, Layer.DISTORTION, Layer.DISPLACEMENT, Layer.UNCERTAINTY):
+            window.page.layers[layer].setChecked(True)
+        self.take("layers")
+        for layer in (Layer.COVERAGE, Layer.DISTORTION, Layer.DISPLACEMENT, Layer.UNCERTAINTY):
+            window.page.layers[layer].setChecked(False)
+        window.inspector.show_setup()
+        self.take("setup")
+        window.need_analysis().show_panel(UncertaintyPanel)
+        window.change_room()
+        self.take("large")
+        window.change_room()
+        images.threshold.setValue(0.7 * images.list.top)
+        images.exclude_above.click()
+        wait(lambda: window.session.project.is_current(window.session.result))
+        images.threshold.setValue(0.8 * images.list.top)
+        self.take("threshold")
+        window.session.document.undo()
 
     def estimate_board_shape(self) -> None:
         """Calibrate once more, every corner of the board free."""

@@ -5,12 +5,14 @@ from __future__ import annotations
 from functools import partial
 from typing import TypeVar, cast
 
-from PySide6.QtCore import QEvent, Signal
+from PySide6.QtCore import QEvent, Qt, Signal
 from PySide6.QtWidgets import (
     QComboBox,
+    QFrame,
     QHBoxLayout,
     QLabel,
     QMenu,
+    QScrollArea,
     QSizePolicy,
     QStackedWidget,
     QToolButton,
@@ -94,7 +96,7 @@ class Analysis(QWidget):
         self._services = Services(session.jobs, session.images.read)
         self._shown: Result | None = None
         self._built: dict[type[Panel], Panel] = {}
-        self._blank = {kind: QWidget() for kind in PANELS}
+        self._areas: dict[type[Panel], QScrollArea] = {}
         self.choosers = {group: PanelChooser(kinds) for group, kinds in GROUPS.items()}
         self._last = {group: kinds[0] for group, kinds in GROUPS.items()}
         """The panel that was shown last of each group."""
@@ -106,8 +108,6 @@ class Analysis(QWidget):
         self.stack = QStackedWidget()
         # All panels get the width that there is, or choosing one would move the image.
         self.stack.setMinimumSize(PANEL_WIDTH, 0)
-        for kind in PANELS:
-            self.stack.addWidget(self._blank[kind])
         layout = QVBoxLayout(self)
         layout.setContentsMargins(0, 0, 0, 0)
         layout.setSpacing(theme.SPACING // 2)
@@ -135,9 +135,8 @@ class Analysis(QWidget):
             panel.offer_results(self._session.project.results)
             panel.show_result(self._shown)
             panel.select(self._place(self._session.image), self._session.corner)
-            row = PANELS.index(kind)
-            self.stack.insertWidget(row, panel)
-            self.stack.removeWidget(self._blank[kind])
+            area = self._areas[kind] = _make_scrollable(panel)
+            self.stack.addWidget(area)
         return cast(P, self._built[kind])
 
     def show_panel(self, kind: type[P]) -> P:
@@ -145,7 +144,7 @@ class Analysis(QWidget):
         panel = self.panel(kind)
         group = next(group for group, kinds in GROUPS.items() if kind in kinds)
         self._last[group] = kind
-        self.stack.setCurrentWidget(panel)
+        self.stack.setCurrentWidget(self._areas[kind])
         self.choosers[group].show_chosen(kind)
         self._names.setCurrentWidget(self.choosers[group])
         self.group_shown.emit(group)
@@ -271,3 +270,14 @@ class Analysis(QWidget):
     def _exclude(self, views: tuple[int, ...]) -> None:
         if self._shown is not None:
             self.exclude_wanted.emit([self._shown.views[k].image for k in views])
+
+
+def _make_scrollable(panel: Panel) -> QScrollArea:
+    """Put a panel where it scrolls if it needs more height than there is: the window keeps its."""
+    area = QScrollArea()
+    area.setWidget(panel)
+    area.setWidgetResizable(True)
+    area.setFrameShape(QFrame.Shape.NoFrame)
+    area.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
+    area.setFocusPolicy(Qt.FocusPolicy.NoFocus)
+    return area

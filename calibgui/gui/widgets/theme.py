@@ -8,7 +8,6 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from enum import StrEnum
-from functools import cache
 
 from PySide6.QtCore import QSettings, Qt
 from PySide6.QtGui import QColor, QFont, QFontDatabase, QPalette
@@ -155,7 +154,6 @@ def follow_system(app: QApplication) -> None:
     app.styleHints().colorSchemeChanged.connect(lambda: apply(app, chosen()))
 
 
-@cache
 def view_colour(view: int) -> QColor:
     """Return the colour of a view everywhere: in the film strip, on the image and in every plot.
 

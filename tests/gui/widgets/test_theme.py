@@ -26,6 +26,11 @@ def test_the_colours_of_views_are_told_apart() -> None:
     assert min(next_to) > 25
 
 
+def test_a_colour_that_is_changed_changes_no_other() -> None:
+    theme.view_colour(9).setAlpha(10)
+    assert theme.view_colour(9).alpha() == 255
+
+
 def test_every_colour_shows_on_light_and_on_dark() -> None:
     lightness = to_lab(64)[:, 0]
     assert lightness.min() > 25 and lightness.max() < 86
