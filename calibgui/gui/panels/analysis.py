@@ -5,14 +5,12 @@ from __future__ import annotations
 from functools import partial
 from typing import TypeVar, cast
 
-from PySide6.QtCore import QEvent, Qt, Signal
+from PySide6.QtCore import QEvent, Signal
 from PySide6.QtWidgets import (
     QComboBox,
-    QFrame,
     QHBoxLayout,
     QLabel,
     QMenu,
-    QScrollArea,
     QSizePolicy,
     QStackedWidget,
     QToolButton,
@@ -33,6 +31,7 @@ from calibgui.gui.panels.histograms import HistogramsPanel
 from calibgui.gui.panels.lens_models import LensModelsPanel
 from calibgui.gui.panels.methods import MethodsPanel
 from calibgui.gui.panels.panel import Panel
+from calibgui.gui.panels.panel_area import PanelArea
 from calibgui.gui.panels.panel_chooser import PanelChooser
 from calibgui.gui.panels.poses import PosesPanel
 from calibgui.gui.panels.residuals import ResidualsPanel
@@ -96,7 +95,7 @@ class Analysis(QWidget):
         self._services = Services(session.jobs, session.images.read)
         self._shown: Result | None = None
         self._built: dict[type[Panel], Panel] = {}
-        self._areas: dict[type[Panel], QScrollArea] = {}
+        self._areas: dict[type[Panel], PanelArea] = {}
         self.choosers = {group: PanelChooser(kinds) for group, kinds in GROUPS.items()}
         self._last = {group: kinds[0] for group, kinds in GROUPS.items()}
         """The panel that was shown last of each group."""
@@ -135,7 +134,7 @@ class Analysis(QWidget):
             panel.offer_results(self._session.project.results)
             panel.show_result(self._shown)
             panel.select(self._place(self._session.image), self._session.corner)
-            area = self._areas[kind] = _make_scrollable(panel)
+            area = self._areas[kind] = PanelArea(panel)
             self.stack.addWidget(area)
         return cast(P, self._built[kind])
 
@@ -270,14 +269,3 @@ class Analysis(QWidget):
     def _exclude(self, views: tuple[int, ...]) -> None:
         if self._shown is not None:
             self.exclude_wanted.emit([self._shown.views[k].image for k in views])
-
-
-def _make_scrollable(panel: Panel) -> QScrollArea:
-    """Put a panel where it scrolls if it needs more height than there is: the window keeps its."""
-    area = QScrollArea()
-    area.setWidget(panel)
-    area.setWidgetResizable(True)
-    area.setFrameShape(QFrame.Shape.NoFrame)
-    area.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
-    area.setFocusPolicy(Qt.FocusPolicy.NoFocus)
-    return area

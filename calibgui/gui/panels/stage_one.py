@@ -28,6 +28,9 @@ _SEARCHED = np.linspace(0.6, 1.4, 401)
 """Aspect ratios over which g(r) is drawn."""
 _RAISED = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 
+_TABLE_HEIGHT = 160
+"""Least height of the table, px: some views, whatever the plots below it need."""
+
 
 class StageOnePanel(Panel):
     """Shows what each view says of the camera by itself."""
@@ -37,6 +40,7 @@ class StageOnePanel(Panel):
     def __init__(self, services: Services) -> None:
         super().__init__(services)
         self.table = Table()
+        self.table.setMinimumHeight(_TABLE_HEIGHT)
         self.table.picked.connect(self._pick)
         self.equation = Plot(self.tr("aspect ratio r"), self.tr("g(r)"))
         self.equation.setToolTip(

@@ -27,6 +27,8 @@ pg.setConfigOptions(antialias=True)
 
 _MANY_DECADES = 4
 """From which on there is room for the powers of ten only."""
+_LEAST_HEIGHT = 160
+"""Height below which the numbers of an axis run into each other, px."""
 _RIM = 8.0
 """Above axes that end with what they enclose: half a line for their topmost number, px."""
 
@@ -52,6 +54,7 @@ class Plot(pg.PlotWidget):  # type: ignore[misc]  # pyqtgraph is not typed
     ) -> None:
         axes = {name: _Axis(name) for name in ("left", "bottom")}
         super().__init__(parent, enableMenu=False, axisItems=axes)  # it has a menu of its own
+        self.setMinimumHeight(_LEAST_HEIGHT)
         self._labels = _labels(x, y, x_unit, y_unit)
         self.colour_bar: ColourBar | None = None
         """What the colours mean, if they mean anything."""
