@@ -69,7 +69,7 @@ class ImagePage(QWidget):
         self.under_cursor = ElidedLabel()
         self.under_cursor.setFont(theme.fixed_font())
         self.under_cursor.hide()
-        self.bar.addWidget(self.under_cursor, 2)
+        self.bar.addWidget(self.under_cursor, 3)
         self._add_tools()
         self._add_zoom()
         layout = QVBoxLayout(self)

@@ -24,7 +24,6 @@ from PySide6.QtWidgets import (
     QHBoxLayout,
     QLabel,
     QPushButton,
-    QSizePolicy,
     QWidget,
 )
 
@@ -84,7 +83,7 @@ class FilmStrip(QWidget):
         layout.setContentsMargins(theme.SPACING, theme.SPACING // 2, 0, 0)
         layout.addLayout(self._make_controls())
         layout.addWidget(self.list, 1)
-        self.setSizePolicy(QSizePolicy.Policy.Preferred, QSizePolicy.Policy.Fixed)
+        self.setFixedHeight(layout.sizeHint().height())
         self.actions_for_menu = self._make_actions()
         self.list.addActions(self.actions_for_menu)
         self.list.selectionModel().currentChanged.connect(self._current_changed)

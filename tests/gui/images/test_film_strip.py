@@ -4,8 +4,6 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
-import numpy as np
-import pytest
 from PySide6.QtCore import QPoint, Qt
 from PySide6.QtWidgets import (
     QApplication,
@@ -14,12 +12,9 @@ from pytestqt.qtbot import QtBot
 
 from calibgui.app.calibration import calibrate_views
 from calibgui.dataset import CornerSet
-from calibgui.app.calibration import calibrate_views
-from calibgui.dataset import CornerSet
 from calibgui.gui.images.image_model import Role
 from calibgui.gui.widgets import theme
 from calibgui.gui.window.main_window import MainWindow
-from tests.gui.panels.conftest import drag
 from tests.gui.panels.conftest import drag
 
 LEFT = Qt.MouseButton.LeftButton
@@ -174,92 +169,19 @@ def test_the_fit_does_not_follow_if_it_is_not_wanted(full: MainWindow, qtbot: Qt
     assert not full.session.project.is_current(before)
 
 
-def test_what_is_heard_of_an_image_holds_its_error(full: MainWindow) -> None:
-    spoken = listed(full, Qt.ItemDataRole.AccessibleTextRole)
-    rms = listed(full, Role.RMS)
-    assert spoken[0] == f"0.png, 42 of 42 corners, error {rms[0]:.3f} px"
-    assert spoken[6] == "blank.png, no board"
+def test_space_means_the_same_on_the_photograph(full: MainWindow, qtbot: QtBot) -> None:
+    full.images.follows.setChecked(False)
+    full.page.canvas.setFocus()
+    qtbot.keyClick(full.page.canvas, Qt.Key.Key_Space)
+    assert [v.enabled for v in full.session.project.views] == [False, *[True] * 6]
+    qtbot.keyClick(full.page.canvas, Qt.Key.Key_Space)
+    assert all(v.enabled for v in full.session.project.views)
 
 
-def test_dragging_the_threshold_selects_the_images_above_and_a_button_excludes_them(
-    full: MainWindow, qtbot: QtBot
-) -> None:
-    strip, view = full.images, full.images.list
-    assert strip.above == [] and not strip.exclude_above.isEnabled()
-    rms = {path: error for path, error in zip(listed(full, Role.PATH), listed(full, Role.RMS))}
-    errors = sorted((error for error in rms.values() if error is not None), reverse=True)
-    between = (errors[1] + errors[2]) / 2
-    x = view.viewport().width() // 2
-    drag(
-        qtbot,
-        view.viewport(),
-        QPoint(x, round(view.place_of(view.threshold))),
-        QPoint(x, round(view.place_of(between))),
-    )
-    one_pixel = view.top / 34
-    assert strip.threshold.value() == pytest.approx(between, abs=one_pixel)
-    worst = {path for path, error in rms.items() if error is not None and error > view.threshold}
-    assert set(strip.chosen) == set(strip.above) == worst
-    strip.threshold.setValue(between)
-    assert len(strip.chosen) == 2
-    qtbot.mouseClick(strip.exclude_above, LEFT)
-    assert [v.image for v in full.session.project.views if not v.enabled] == sorted(strip_two(rms))
-    assert full.session.document.undo_label == "Exclude 2 images"
-
-
-def strip_two(rms: dict[str, float | None]) -> list[str]:
-    """The two images with the largest errors."""
-    return sorted(rms, key=lambda path: -(rms[path] or 0.0))[:2]
-
-
-def test_the_threshold_can_be_typed(full: MainWindow, qtbot: QtBot) -> None:
-    strip = full.images
-    strip.threshold.setFocus()
-    strip.threshold.selectAll()
-    qtbot.keyClicks(strip.threshold, "0")
-    qtbot.keyClick(strip.threshold, Qt.Key.Key_Return)
-    assert strip.list.threshold == 0.0
-    assert len(strip.above) == 6
-    assert not strip.exclude_above.isEnabled(), "nothing would be left"
-
-
-def test_a_bar_is_as_high_as_its_error_in_the_colour_of_its_view(full: MainWindow) -> None:
+def test_arrow_keys_go_along_the_strip(full: MainWindow, qtbot: QtBot) -> None:
     view = full.images.list
-    view.horizontalScrollBar().setValue(0)
-    picture = view.viewport().grab().toImage()
-    for row, error in enumerate(listed(full, Role.RMS)[:6]):
-        x = view.visualRect(view.model().index(row, 0)).left() + 8
-        colour = theme.view_colour(row)
-        drawn = [y for y in range(picture.height()) if picture.pixelColor(x, y) == colour]
-        assert min(drawn) == pytest.approx(view.place_of(error), abs=1.0)
-
-
-def test_the_fit_follows_and_one_undo_takes_both_back(full: MainWindow, qtbot: QtBot) -> None:
-    session = full.session
-    before, names = session.result, list(session.project.results)
-    full.images.list.setFocus()
-    qtbot.keyClick(full.images.list, Qt.Key.Key_Space)
-    assert not session.project.views[0].enabled
-    qtbot.waitUntil(lambda: session.project.is_current(session.result), timeout=20_000)
-    assert session.result is not before and len(session.result.used) == 5
-    assert list(session.project.results) == names, "it takes the place of the one before"
-    assert listed(full, Role.RMS)[0] is None
-    expected = calibrate_views(
-        CornerSet(session.project.size, session.project.views, session.project.board),
-        session.project.settings,
-    )
-    found = session.result.calibration.camera.params
-    np.testing.assert_allclose(found, expected.calibration.camera.params, rtol=1e-9)
-    session.document.undo()
-    assert session.result is before and session.project.views[0].enabled
-    session.document.redo()
-    assert len(session.result.used) == 5
-
-
-def test_the_fit_does_not_follow_if_it_is_not_wanted(full: MainWindow, qtbot: QtBot) -> None:
-    before = full.session.result
-    qtbot.mouseClick(full.images.follows, LEFT, pos=QPoint(8, full.images.follows.height() // 2))
-    full.images.exclude([full.session.image])
-    assert not full.session.jobs.running
-    assert full.session.result is before
-    assert not full.session.project.is_current(before)
+    view.setFocus()
+    qtbot.keyClick(view, Qt.Key.Key_Right)
+    assert full.session.image.endswith("1.png")
+    qtbot.keyClick(view, Qt.Key.Key_Right, Qt.KeyboardModifier.ShiftModifier)
+    assert len(full.images.chosen) == 2

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 import pytest
-from PySide6.QtCore import QByteArray, QSettings, Qt
+from PySide6.QtCore import QByteArray, QPoint, QSettings, Qt
 from PySide6.QtWidgets import (
     QAbstractButton,
     QApplication,
@@ -155,6 +155,20 @@ def test_a_message_lies_over_the_picture(full: MainWindow, qtbot: QtBot) -> None
     full.session.select(full.session.project.views[6].image)
     assert full.page.reason.isVisible()
     assert (full.page.canvas.geometry(), full.calibrate.geometry()) == places
+
+
+def test_what_stands_under_the_menus_is_as_wide_as_the_window(
+    full: MainWindow, qtbot: QtBot
+) -> None:
+    verdict = QLabel(30 * "A verdict that is long. ")
+    full.head.addWidget(verdict)
+    full.session.begin(Document())
+    assert not verdict.isVisible(), "there is nothing to judge"
+    full.files.open_sample()
+    qtbot.waitUntil(verdict.isVisible)
+    assert abs(verdict.width() - full.width()) < 24
+    assert full.menuBar().height() <= verdict.mapTo(full, QPoint()).y() < 60
+    assert full.width() == 1280 and full.page.canvas.width() >= 800
 
 
 def test_the_progress_of_work_moves_nothing(full: MainWindow, qtbot: QtBot) -> None:
