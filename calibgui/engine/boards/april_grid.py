@@ -22,7 +22,8 @@ import numpy as np
 
 from calibgui.engine.arrays import Array, GridSize, IntArray
 from calibgui.engine.boards.apriltags import FAMILIES, draw_tag, load_family
-from calibgui.engine.boards.pattern import Pattern, Symmetry
+from calibgui.engine.boards.coded_pattern import CodedPattern
+from calibgui.engine.boards.pattern import Pattern
 from calibgui.engine.boards.printed_pattern import PrintedPattern, PrintedRectangles
 from calibgui.engine.errors import CalibrationError
 
@@ -46,7 +47,7 @@ class TagLayout(NamedTuple):
 
 
 @dataclass(frozen=True, slots=True)
-class AprilGrid:
+class AprilGrid(CodedPattern):
     """The pattern of an AprilGrid; a field that is None is to be inferred from the images."""
 
     family: str | None = None
@@ -70,14 +71,6 @@ class AprilGrid:
     def kind(self) -> str:
         return "aprilgrid"
 
-    @property
-    def identifies_points(self) -> bool:
-        return True
-
-    @property
-    def has_squares(self) -> bool:
-        return True
-
     def locate_points(self, grid: Array) -> Array:
         """See ``Pattern``.
 
@@ -92,10 +85,6 @@ class AprilGrid:
         tag, corner = np.divmod(grid[:, ::-1], 2)
         return np.asarray((1 + self.spacing) * tag + corner)
 
-    def symmetry(self, grid_size: GridSize) -> Symmetry:  # noqa: ARG002 - at any size
-        """See ``Pattern``."""
-        return Symmetry.NONE
-
     def complete_from(self, seen: Sequence[Pattern]) -> AprilGrid:
         """See ``Pattern``: the gap is the median of those seen, the rest what was seen most."""
         boards = [pattern for pattern in seen if isinstance(pattern, AprilGrid)]
@@ -104,12 +93,8 @@ class AprilGrid:
         most = Counter((board.family, board.border, board.from_top) for board in boards)
         family, border, from_top = most.most_common(1)[0][0]
         gaps = [board.spacing for board in boards if board.spacing]
-        return AprilGrid(
-            self.family or family,
-            self.spacing or (round(float(np.median(gaps)), 3) if gaps else None),
-            self.border or border,
-            from_top if self.from_top is None else self.from_top,
-        )
+        gap = round(float(np.median(gaps)), 3) if gaps else None
+        return self.fill_unknown(family=family, spacing=gap, border=border, from_top=from_top)
 
     def draw(self, grid_size: GridSize) -> PrintedPattern:
         """See ``Pattern``.

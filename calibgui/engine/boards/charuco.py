@@ -17,9 +17,10 @@ from dataclasses import dataclass
 import numpy as np
 
 from calibgui.engine import opencv
-from calibgui.engine.arrays import Array, GridSize, IntArray
+from calibgui.engine.arrays import GridSize, IntArray
 from calibgui.engine.boards.checkerboard import draw_squares
-from calibgui.engine.boards.pattern import Pattern, Symmetry
+from calibgui.engine.boards.coded_pattern import CodedPattern
+from calibgui.engine.boards.pattern import Pattern
 from calibgui.engine.boards.printed_pattern import PrintedPattern, PrintedRectangles
 from calibgui.engine.errors import CalibrationError
 
@@ -45,7 +46,7 @@ MARKER_LAYOUTS = tuple(MarkerLayout(cols, dark) for cols in range(2, 65) for dar
 
 
 @dataclass(frozen=True, slots=True)
-class Charuco:
+class Charuco(CodedPattern):
     """The pattern of a ChArUco board; a field that is None is to be inferred from the images.
 
     Lengths are ratios to the pitch, as in every pattern: markers of 30 mm in squares of 40 mm are
@@ -74,22 +75,6 @@ class Charuco:
     def kind(self) -> str:
         return "charuco"
 
-    @property
-    def identifies_points(self) -> bool:
-        return True
-
-    @property
-    def has_squares(self) -> bool:
-        return True
-
-    def locate_points(self, grid: Array) -> Array:
-        """See ``Pattern``."""
-        return grid[:, ::-1]
-
-    def symmetry(self, grid_size: GridSize) -> Symmetry:  # noqa: ARG002 - at any size
-        """See ``Pattern``."""
-        return Symmetry.NONE
-
     def complete_from(self, seen: Sequence[Pattern]) -> Charuco:
         """See ``Pattern``.
 
@@ -108,11 +93,7 @@ class Charuco:
         )
         legacy = Counter(board.legacy for board in boards).most_common(1)[0][0]
         side = float(np.median([board.marker for board in boards]))
-        return Charuco(
-            self.dictionary or largest,
-            self.marker or round(side, 3),
-            legacy if self.legacy is None else self.legacy,
-        )
+        return self.fill_unknown(dictionary=largest, marker=round(side, 3), legacy=legacy)
 
     def is_first_square_dark(self, grid_size: GridSize) -> bool:
         """Return whether the first square of a board of rows x columns inner corners is dark.

@@ -23,9 +23,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from calibgui.engine.arrays import Array, BoolArray, GridSize
+from calibgui.engine.arrays import BoolArray, GridSize
 from calibgui.engine.boards.checkerboard import draw_squares
-from calibgui.engine.boards.pattern import Pattern, Symmetry
+from calibgui.engine.boards.coded_pattern import CodedPattern
+from calibgui.engine.boards.pattern import Pattern
 from calibgui.engine.boards.printed_pattern import PrintedPattern, PrintedSquaresAndDots
 from calibgui.engine.errors import CalibrationError
 
@@ -62,7 +63,7 @@ MAP_RIGHT = _unpack_map(
 
 
 @dataclass(frozen=True, slots=True)
-class PuzzleBoard:
+class PuzzleBoard(CodedPattern):
     """The pattern of a PuzzleBoard."""
 
     origin: GridSize = (0, 0)
@@ -78,22 +79,6 @@ class PuzzleBoard:
     @property
     def kind(self) -> str:
         return "puzzleboard"
-
-    @property
-    def identifies_points(self) -> bool:
-        return True
-
-    @property
-    def has_squares(self) -> bool:
-        return True
-
-    def locate_points(self, grid: Array) -> Array:
-        """See ``Pattern``."""
-        return grid[:, ::-1]
-
-    def symmetry(self, grid_size: GridSize) -> Symmetry:  # noqa: ARG002 - at any size
-        """See ``Pattern``."""
-        return Symmetry.NONE
 
     def complete_from(self, seen: Sequence[Pattern]) -> PuzzleBoard:  # noqa: ARG002 - all is known
         """See ``Pattern``."""

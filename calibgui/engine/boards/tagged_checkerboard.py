@@ -11,11 +11,11 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import asdict, dataclass
 
 import numpy as np
 
-from calibgui.engine.arrays import Array, GridSize
+from calibgui.engine.arrays import GridSize
 from calibgui.engine.boards.april_grid import (
     MAX_BORDER,
     TagLayout,
@@ -24,13 +24,14 @@ from calibgui.engine.boards.april_grid import (
 )
 from calibgui.engine.boards.apriltags import draw_tag, load_family
 from calibgui.engine.boards.checkerboard import draw_squares
-from calibgui.engine.boards.pattern import Pattern, Symmetry
+from calibgui.engine.boards.coded_pattern import CodedPattern
+from calibgui.engine.boards.pattern import Pattern
 from calibgui.engine.boards.printed_pattern import PrintedPattern, PrintedRectangles
 from calibgui.engine.errors import CalibrationError
 
 
 @dataclass(frozen=True, slots=True)
-class TaggedCheckerboard:
+class TaggedCheckerboard(CodedPattern):
     """The pattern of a checkerboard with tags; a field that is None is to be inferred."""
 
     family: str | None = None
@@ -54,34 +55,13 @@ class TaggedCheckerboard:
     def kind(self) -> str:
         return "tagged-checkerboard"
 
-    @property
-    def identifies_points(self) -> bool:
-        return True
-
-    @property
-    def has_squares(self) -> bool:
-        return True
-
-    def locate_points(self, grid: Array) -> Array:
-        """See ``Pattern``."""
-        return grid[:, ::-1]
-
-    def symmetry(self, grid_size: GridSize) -> Symmetry:  # noqa: ARG002 - at any size
-        """See ``Pattern``."""
-        return Symmetry.NONE
-
     def complete_from(self, seen: Sequence[Pattern]) -> TaggedCheckerboard:
         """See ``Pattern``: what was seen most often is taken."""
         boards = [pattern for pattern in seen if isinstance(pattern, TaggedCheckerboard)]
         if not boards:
             return self
         most = Counter(boards).most_common(1)[0][0]
-        return TaggedCheckerboard(
-            self.family or most.family,
-            self.border or most.border,
-            self.step or most.step,
-            most.from_top if self.from_top is None else self.from_top,
-        )
+        return self.fill_unknown(**asdict(most))
 
     def is_first_square_dark(self, grid_size: GridSize) -> bool:
         """Return whether the square above and left of inner corner (0, 0) is dark."""

@@ -16,11 +16,8 @@ import numpy as np
 from calibgui.engine.arrays import Array, BoolArray, FloatImage, GreyImage, IntArray
 from calibgui.engine.boards.april_grid import MAX_BORDER
 from calibgui.engine.boards.apriltags import FAMILIES, load_family
-from calibgui.engine.geometry import homography
-from calibgui.engine.images.sampling import sample_image
+from calibgui.engine.detection.charuco.marker_cells import find_dark_cells
 
-_SAMPLE_OFFSETS = np.array([(u, v) for v in (-0.2, 0.2) for u in (-0.2, 0.2)])
-"""(4, 2) where a cell is sampled, cells from its centre."""
 _MAX_BRIGHT_BORDER_SHARE = 0.2
 """Greatest share of a border's cells that may look bright. A plausibility limit."""
 
@@ -81,7 +78,7 @@ class TagReader:
         """Read the quadrilaterals as tags of a print; those that are none are left out."""
         n, b = tag_print.side, tag_print.border
         if n not in self._cells:
-            self._cells[n] = _find_dark_cells(self._image, self._quads, n)
+            self._cells[n] = find_dark_cells(self._image, self._quads, n)
         dark = self._cells[n]
         data = dark[:, b:-b, b:-b]
         around = n * n - data[0].size if len(data) else 1
@@ -104,19 +101,3 @@ def _encode_turned_tags(family: str) -> FloatImage:
     cells = load_family(family).cells
     turned = [np.rot90(cells, -turn, axes=(1, 2)) for turn in range(4)]
     return np.where(turned, 1.0, -1.0).astype(np.float32).reshape(4 * len(cells), -1)
-
-
-def _find_dark_cells(image: GreyImage, quads: Array, side: int) -> BoolArray:
-    """Return (m, side, side), True where a cell is darker than the mid level of its
-    quadrilateral."""
-    m = len(quads)
-    square = np.broadcast_to(side * np.array([(0.0, 0), (1, 0), (1, 1), (0, 1)]), (m, 4, 2))
-    H = homography.fit_homography(square, quads, np.ones((m, 4)))
-    v, u = np.indices((side, side)).reshape(2, -1) + 0.5
-    at = (np.column_stack([u, v])[:, None] + _SAMPLE_OFFSETS).reshape(-1, 2)
-    values = sample_image(
-        image, homography.apply_homography(H, np.broadcast_to(at, (m, *at.shape)))
-    )
-    level = values.reshape(m, side, side, len(_SAMPLE_OFFSETS)).mean(axis=3)
-    ends = level.min(axis=(1, 2)), level.max(axis=(1, 2))
-    return np.asarray(level < np.mean(ends, axis=0)[:, None, None])

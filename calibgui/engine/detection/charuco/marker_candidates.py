@@ -15,12 +15,8 @@ import numpy as np
 
 from calibgui.engine import opencv
 from calibgui.engine.arrays import BoolArray, FloatImage, GreyImage
+from calibgui.engine.detection.charuco.marker_cells import find_dark_cells
 from calibgui.engine.detection.charuco.thresholds import CHARUCO_THRESHOLDS
-from calibgui.engine.geometry import homography
-from calibgui.engine.images.sampling import sample_image
-
-_SAMPLE_OFFSETS = np.array([(u, v) for v in (-0.2, 0.2) for u in (-0.2, 0.2)])
-"""(4, 2) where a cell is sampled, cells from its centre."""
 
 
 class MarkerCandidates:
@@ -40,7 +36,7 @@ class MarkerCandidates:
         codes, correctable = _encode_markers(dictionary)
         k = int(np.sqrt(codes.shape[1]))
         if k not in self._cells:
-            self._cells[k] = self._find_dark_cells(k + 2)
+            self._cells[k] = find_dark_cells(self._image, self._quads, k + 2)
         dark = self._cells[k]
         inner = dark[:, 1:-1, 1:-1]
         bright = (k + 2) ** 2 - k * k - (dark.sum(axis=(1, 2)) - inner.sum(axis=(1, 2)))
@@ -49,21 +45,6 @@ class MarkerCandidates:
         )
         alike = np.where(inner, 1.0, -1.0).astype(np.float32) @ codes.T
         return int(np.count_nonzero((alike >= k * k - 2 * correctable).any(axis=1)))
-
-    def _find_dark_cells(self, side: int) -> BoolArray:
-        """Return (n, side, side), True where a cell is darker than the mid level of its
-        quadrilateral."""
-        n = len(self._quads)
-        square = np.broadcast_to(side * np.array([(0.0, 0), (1, 0), (1, 1), (0, 1)]), (n, 4, 2))
-        H = homography.fit_homography(square, self._quads, np.ones((n, 4)))
-        v, u = np.indices((side, side)).reshape(2, -1) + 0.5
-        at = (np.column_stack([u, v])[:, None] + _SAMPLE_OFFSETS).reshape(-1, 2)
-        values = sample_image(
-            self._image, homography.apply_homography(H, np.broadcast_to(at, (n, *at.shape)))
-        )
-        level = values.reshape(n, side, side, len(_SAMPLE_OFFSETS)).mean(axis=3)
-        ends = level.min(axis=(1, 2)), level.max(axis=(1, 2))
-        return np.asarray(level < np.mean(ends, axis=0)[:, None, None])
 
 
 @lru_cache

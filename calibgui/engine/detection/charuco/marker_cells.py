@@ -1,0 +1,37 @@
+"""The cells of square markers and tags: which of them are dark, by the level midway between the
+darkest and the brightest of their quadrilateral."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from calibgui.engine.arrays import Array, BoolArray, GreyImage
+from calibgui.engine.geometry import homography
+from calibgui.engine.images.sampling import sample_image
+
+_SAMPLE_OFFSETS = np.array([(u, v) for v in (-0.2, 0.2) for u in (-0.2, 0.2)])
+"""(4, 2) where a cell is sampled, cells from its centre."""
+
+
+def find_dark_cells(image: GreyImage, quads: Array, side: int) -> BoolArray:
+    """Find the dark ones of the side x side cells of quadrilaterals.
+
+    Args:
+        image: (h, w) grey levels.
+        quads: (n, 4, 2) px, corners in the sense from u to v.
+        side: number of cells along a side.
+
+    Returns:
+        (n, side, side), True where a cell is darker than the mid level of its quadrilateral.
+    """
+    n = len(quads)
+    square = np.broadcast_to(side * np.array([(0.0, 0), (1, 0), (1, 1), (0, 1)]), (n, 4, 2))
+    H = homography.fit_homography(square, quads, np.ones((n, 4)))
+    v, u = np.indices((side, side)).reshape(2, -1) + 0.5
+    at = (np.column_stack([u, v])[:, None] + _SAMPLE_OFFSETS).reshape(-1, 2)
+    values = sample_image(
+        image, homography.apply_homography(H, np.broadcast_to(at, (n, *at.shape)))
+    )
+    level = values.reshape(n, side, side, len(_SAMPLE_OFFSETS)).mean(axis=3)
+    ends = level.min(axis=(1, 2)), level.max(axis=(1, 2))
+    return np.asarray(level < np.mean(ends, axis=0)[:, None, None])
