@@ -237,10 +237,13 @@ def main() -> None:
                 s = score(reader, board, shots)
                 print(f"{kind:20}{name:11}{reader_name:15}{s.found:7.0%}{s.wrong:7d}", end="")
                 print(f"{s.ratio:7.2f}{s.chi2:7.2f}{s.ms:8.1f}", flush=True)
-                times.setdefault(reader_name, {}).setdefault(kind, []).append(s.ms)
+                times.setdefault(reader_name, {}).setdefault(kind, {})[name] = s.ms
     if "checkerboard" in times["ours"]:
-        plain = np.array(times["ours"]["checkerboard"])
-        ratios = {k: float(np.median(np.array(v) / plain)) for k, v in times["ours"].items()}
+        plain = times["ours"]["checkerboard"]
+        ratios = {
+            kind: float(np.median([ms / plain[name] for name, ms in each.items()]))
+            for kind, each in times["ours"].items()
+        }
         print("ours, time over the checkerboard's, median of all conditions:")
         print(", ".join(f"{kind} {ratio:.1f}" for kind, ratio in ratios.items()))
 
