@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from PySide6.QtCore import Signal
 from PySide6.QtWidgets import QDoubleSpinBox, QHBoxLayout, QLabel, QPushButton, QWidget
 
 from calibgui.app.project import Project, confirm_lengths, set_square
@@ -12,6 +13,9 @@ from calibgui.gui.widgets.elided import ElidedLabel
 
 class SquareRow(QWidget):
     """Says how many corners were counted, and asks for the side of a square until it is stated."""
+
+    changed = Signal()
+    """The user has stated another length: results are out of date."""
 
     def __init__(self, session: Session) -> None:
         super().__init__()
@@ -44,6 +48,7 @@ class SquareRow(QWidget):
         mm = self.square.value() * self._session.project.unit.mm
         if abs(mm - self._session.project.square) > 1e-9:
             self._session.edit(self.tr("Size of squares"), lambda p: set_square(p, mm))
+            self.changed.emit()
         else:
             self._session.edit(self.tr("Confirm the size of squares"), confirm_lengths)
 

@@ -44,6 +44,9 @@ class VerdictBar(QFrame):
     panel_wanted = Signal(str)
     """The class name of a panel that the user wants to see."""
 
+    calibration_wanted = Signal()
+    """Something that all results depend on was stated in the bar."""
+
     def __init__(self, session: Session) -> None:
         super().__init__()
         self.setObjectName("verdict")
@@ -65,11 +68,10 @@ class VerdictBar(QFrame):
         self.unfold.setCheckable(True)
         self.unfold.toggled.connect(self._unfold)
         self.square = SquareRow(session)
+        self.square.changed.connect(self.calibration_wanted)
         self.findings = FindingsList(self)
         self.findings.action_wanted.connect(self._act)
-        self.findings.proof_wanted.connect(
-            lambda f: self._show_panel(_PROOFS.get(f.cause, _OTHER_PROOF))
-        )
+        self.findings.proof_wanted.connect(self._show_proof)
         self.comparison: QWidget | None = None
         self._lay_out()
         self.remedier.began.connect(self._show_buttons)
@@ -130,7 +132,7 @@ class VerdictBar(QFrame):
         self.mark.show_grade(None if verdict is None else verdict.grade)
         if verdict is None or result is None:
             nothing = self.tr("NOT CALIBRATED") if result is None else self.tr("JUDGING…")
-            hint = self.tr("Press Calibrate once the corners are found.")
+            hint = self.tr("Once it is, what the camera is worth is said here.")
             waiting = self.tr("What makes it better is being tried.")
             self.headline.setText(nothing)
             self.reason.setText(hint if result is None else waiting)
@@ -201,6 +203,12 @@ class VerdictBar(QFrame):
             self._session.select(result.used[action.views[0]].image)
         else:
             self._show_panel(_PLACES)
+
+    def _show_proof(self, finding: Finding) -> None:
+        """Show the panel that proves a finding, and the first view that it is found in."""
+        if self._result is not None and finding.views:
+            self._session.select(self._result.used[finding.views[0]].image)
+        self._show_panel(_PROOFS.get(finding.cause, _OTHER_PROOF))
 
     def _show_panel(self, name: str) -> None:
         self.unfold.setChecked(False)

@@ -152,6 +152,7 @@ class MainWindow(QMainWindow):
         self.session.notified.connect(self.banner.show_text)
         Offers(self.session, self.detector, self.files, self.images, self.banner)
         self.verdict.panel_wanted.connect(lambda name: self.need_analysis().show_panel_named(name))
+        self.verdict.calibration_wanted.connect(self._calibrate_anew)
         self.images.list.addActions(self.page.tools)
         self.page.canvas.addAction(self.images.actions_for_menu[0])
         self.page.tool_changed.connect(self._follow_tool)

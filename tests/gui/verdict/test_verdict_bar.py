@@ -165,6 +165,7 @@ def test_findings_unfold_over_the_desk_with_their_evidence(
     qtbot.mouseClick(row.proof, LEFT)
     assert window.analysis is not None and not bar.findings.isVisible()
     assert isinstance(window.analysis.stack.currentWidget(), ResidualsPanel)
+    assert window.session.image.endswith("2.png")
     comparison = act(bar, bar.button, window, qtbot)
     assert window.session.project.settings.robust
     qtbot.mouseClick(comparison.back, LEFT)
@@ -203,6 +204,12 @@ def test_the_length_of_squares_is_asked_until_it_is_confirmed(
     qtbot.mouseClick(row.confirm, LEFT)
     assert window.session.project.square == 25.0 and window.session.project.lengths_confirmed
     assert "Out of date" in bar.reason.text()
+    qtbot.waitUntil(
+        lambda: not window.calibrator.running and not window.session.jobs.running, timeout=60_000
+    )
+    assert "Out of date" not in bar.reason.text()  # it was calibrated anew at once
+    result = window.session.result
+    assert result is not None and result.board is not None and result.board.square == 25.0
 
 
 def test_a_search_that_comes_first_asks_too(window: MainWindow, plain: Project) -> None:
