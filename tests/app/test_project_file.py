@@ -273,3 +273,16 @@ def test_that_boards_are_marked_by_hand_is_kept(tmp_path: Path) -> None:
         project = replace(examples.calibrated(tmp_path), by_hand=by_hand)
         write_project(project, tmp_path / "project.json")
         assert read_project(tmp_path / "project.json").by_hand is by_hand
+
+
+def test_lengths_are_confirmed_in_older_files_with_results_only(tmp_path: Path) -> None:
+    project, file = examples.calibrated(tmp_path), tmp_path / "project.json"
+    for stated in (False, True):
+        write_project(replace(project, lengths_confirmed=stated), file)
+        assert read_project(file).lengths_confirmed is stated
+    content = json.loads(file.read_text(encoding="utf-8"))
+    del content["lengths_confirmed"]
+    file.write_text(json.dumps(content), encoding="utf-8")
+    assert read_project(file).lengths_confirmed
+    file.write_text(json.dumps(content | {"results": {}}), encoding="utf-8")
+    assert not read_project(file).lengths_confirmed

@@ -16,6 +16,7 @@ import pytest
 
 from calibgui.dataset import Result
 from calibgui.engine.assessment.verdict import Grade
+from calibgui.engine.boards.board import Board
 from calibgui.engine.calibration.result import Calibration, ViewResiduals
 from calibgui.engine.camera.camera import Camera
 from calibgui.engine.errors import CalibrationError
@@ -133,3 +134,13 @@ def test_other_programs_files_are_written_as_they_always_were(golden: Result) ->
     assert camchain == (_GOLDEN / "camchain.yaml").read_text()
     basalt = format_calibration(fisheye, "How it was refitted.")
     assert basalt == (_GOLDEN / "basalt.json").read_text()
+
+
+@pytest.mark.parametrize("name", ["kalibr", "python", "mrcal"])
+def test_files_say_what_their_lengths_rest_on(name: str, tmp_path: Path, golden: Result) -> None:
+    path = tmp_path / f"file{EXPORTERS[name].suffixes[0]}"
+    board = Board(rows=6, cols=8, square=25.0)
+    for confirmed in (False, True):
+        export(replace(golden, board=board, lengths_confirmed=confirmed), name, path)
+        said = "Lengths hold if squares are 25 mm." in path.read_text(encoding="utf-8")
+        assert said is not confirmed
