@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from PySide6.QtCore import QEvent, QObject, QPoint, Qt
+from PySide6.QtCore import QEvent, QObject, QPoint, Qt, Signal
 from PySide6.QtGui import QKeyEvent
 from PySide6.QtWidgets import QFrame, QWidget
 
@@ -16,6 +16,9 @@ class Overlay(QFrame):
         bar: the widget that it hangs from.
         share: share of the room below that it may take.
     """
+
+    closed = Signal()
+    """The user has closed it by Escape."""
 
     def __init__(self, bar: QWidget, share: float) -> None:
         super().__init__(bar)
@@ -56,6 +59,7 @@ class Overlay(QFrame):
     def keyPressEvent(self, event: QKeyEvent) -> None:  # noqa: N802 - Qt's name
         if event.key() == Qt.Key.Key_Escape:
             self.hide()
+            self.closed.emit()
         else:
             super().keyPressEvent(event)
 

@@ -9,7 +9,7 @@ from PySide6.QtWidgets import QFrame, QHBoxLayout, QLabel, QPushButton, QVBoxLay
 
 from calibgui.dataset import Result
 from calibgui.dataset.judging import judge_result
-from calibgui.engine.assessment import ActionKind, Cause, Finding, Verdict
+from calibgui.engine.assessment import Action, ActionKind, Cause, Finding, Verdict
 from calibgui.gui.panels.latest import Latest
 from calibgui.gui.session.session import Session
 from calibgui.gui.verdict.findings_list import FindingsList
@@ -70,8 +70,9 @@ class VerdictBar(QFrame):
         self.square = SquareRow(session)
         self.square.changed.connect(self.calibration_wanted)
         self.findings = FindingsList(self)
-        self.findings.action_wanted.connect(self._act)
+        self.findings.action_wanted.connect(lambda finding: self._act(finding.action))
         self.findings.proof_wanted.connect(self._show_proof)
+        self.findings.closed.connect(lambda: self.unfold.setChecked(False))
         self.comparison: QWidget | None = None
         self._lay_out()
         self.remedier.began.connect(self._show_buttons)
@@ -108,8 +109,9 @@ class VerdictBar(QFrame):
         known = self.verdict if self._is_alike(result) else None
         self._result, self.verdict = result, known
         self._work.cancel()
-        if result is not None and known is None:
+        if known is None:
             self.unfold.setChecked(False)
+        if result is not None and known is None:
             self._work.start(
                 self.tr("Judging the calibration"),
                 lambda job: judge_result(result, job.check),
@@ -141,7 +143,8 @@ class VerdictBar(QFrame):
             self.headline.setText(describe_grade(verdict.grade, verdict.times_better))
             is_old = not self._session.project.is_current(result)
             old = self.tr("Out of date: calibrate again. ") if is_old else ""
-            self.reason.setText(old + verdict.reason)
+            diagnosis = result.calibration.diagnosis
+            self.reason.setText(old + (diagnosis.message if diagnosis else verdict.reason))
             self.figures.setText(describe_figures(verdict, result))
             self.findings.show_verdict(verdict, self._list_names())
         self.reason.setToolTip(self.reason.text())
@@ -158,8 +161,7 @@ class VerdictBar(QFrame):
 
     def _show_buttons(self) -> None:
         busy = self.remedier.running
-        first = self._first
-        action = None if first is None else first.action
+        action = self._action
         self.button.setVisible(action is not None)
         if action is not None:
             self.button.setText(describe_button(action, self._list_names()))
@@ -173,9 +175,12 @@ class VerdictBar(QFrame):
         self.unfold.setToolTip(self.tr("List what is wrong, with the figures that show it"))
 
     @property
-    def _first(self) -> Finding | None:
-        """The most harmful finding."""
-        return self.verdict.findings[0] if self.verdict and self.verdict.findings else None
+    def _action(self) -> Action | None:
+        """What is to be done first: about the most harmful finding, or to determine the camera."""
+        if self.verdict is not None and self.verdict.findings:
+            return self.verdict.findings[0].action
+        is_partial = self._result is not None and self._result.calibration.diagnosis is not None
+        return Action(ActionKind.PHOTOGRAPH_MORE) if is_partial else None
 
     def _list_names(self) -> list[str]:
         used = () if self._result is None else self._result.used
@@ -188,12 +193,11 @@ class VerdictBar(QFrame):
             self.findings.hide()
 
     def _do_first(self) -> None:
-        if (first := self._first) is not None:
-            self._act(first)
+        self._act(self._action)
 
-    def _act(self, finding: Finding) -> None:
-        """Carry the action on a finding out, or show what the user can do."""
-        action, result = finding.action, self._result
+    def _act(self, action: Action | None) -> None:
+        """Carry an action out, or show what the user can do."""
+        result = self._result
         if action is None or result is None:
             return
         if action.is_of_camera:

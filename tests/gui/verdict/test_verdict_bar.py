@@ -157,6 +157,9 @@ def test_findings_unfold_over_the_desk_with_their_evidence(
     assert bar.findings.isVisible() and row.finding.cause is Cause.MISPLACED_CORNERS
     assert "2.png" in row.what.text() and "times better" in row.how_much.text()
     assert not row.details.isVisible()
+    qtbot.keyClick(bar.findings, Qt.Key.Key_Escape)
+    assert not bar.findings.isVisible() and not bar.unfold.isChecked()
+    qtbot.mouseClick(bar.unfold, LEFT)
     folded = bar.findings.height()
     qtbot.mouseClick(row.unfold, LEFT)
     assert row.details.isVisible() and row.finding.evidence in row.details.text()
@@ -180,6 +183,19 @@ def test_two_images_are_not_usable_and_ask_for_more(
     assert bar.headline.text() == "NOT USABLE"
     assert "2 views are too few" in bar.reason.text()
     assert bar.button.text() == "Show where to hold the board"
+    qtbot.mouseClick(bar.button, LEFT)
+    assert window.analysis is not None
+    assert isinstance(window.analysis.stack.currentWidget(), CoveragePanel)
+
+
+def test_views_that_do_not_determine_the_camera_say_so(
+    plain: Project, open_project: Open, window: MainWindow, qtbot: QtBot
+) -> None:
+    bar = open_project(calibrated(replace(plain, views=plain.views[:1])))
+    assert bar.headline.text() == "NOT USABLE"
+    assert "One view does not determine a camera" in bar.reason.text()
+    assert bar.figures.text().startswith("Error of a pixel: unknown")
+    assert bar.button.text() == "Show where to hold the board" and not bar.unfold.isVisible()
     qtbot.mouseClick(bar.button, LEFT)
     assert window.analysis is not None
     assert isinstance(window.analysis.stack.currentWidget(), CoveragePanel)
