@@ -102,7 +102,7 @@ class ResultPanel(Panel):
         names = calibration.camera.names
         self._work.start(
             "",
-            lambda _: describe_calibration(result),
+            lambda job: describe_calibration(result, job.check),
             lambda sentences: self.words.setHtml(_format_html(sentences)),
             self.failed.emit,
         )
