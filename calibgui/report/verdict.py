@@ -30,7 +30,7 @@ def format_headline(verdict: Verdict) -> str:
 
 
 def format_times(times: float) -> str:
-    """Format a ratio of errors with two digits: it is known to some 30 %."""
+    """Format a ratio of errors with two digits, which is more than it is known to."""
     return f"{times:.1f}" if times < 9.95 else f"{float(f'{times:.2g}'):.0f}"
 
 

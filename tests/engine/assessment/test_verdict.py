@@ -109,7 +109,7 @@ def test_what_a_remedy_promises_comes_true(
     after = judge_calibration(trial.calibration, trial.views)
     gained = verdict.error.edge / after.error.edge
     assert gained == pytest.approx(verdict.times_better, rel=0.3)
-    # And so is the truth, but for the chance of one draw, a factor of two or three.
+    # The truth is one draw, and scatters about that: see the module's docstring.
     left = measure_edge(fault.truth, trial.calibration.camera, trial.views)
     assert true / left > verdict.times_better / 3
     assert cause not in [finding.cause for finding in after.findings]
