@@ -140,10 +140,10 @@ def test_a_board_and_its_image_are_pointed_at_together(full: MainWindow, qtbot: 
     assert poses.space._under_cursor == 2
     bare = view.grab().toImage()
     poses.space.hovered.emit(4)
-    assert full.images._delegate.hovered == full.session.project.views[4].image
+    assert full.images.list.hovered == full.session.project.views[4].image
     assert view.grab().toImage() != bare
     poses.space.hovered.emit(-1)
-    assert full.images._delegate.hovered == ""
+    assert full.images.list.hovered == ""
 
 
 def test_a_heading_without_room_ends_in_dots(full: MainWindow) -> None:

@@ -149,6 +149,13 @@ class Analysis(QWidget):
         self.group_shown.emit(group)
         return panel
 
+    @property
+    def shown(self) -> Panel:
+        """The panel in front."""
+        area = self.stack.currentWidget()
+        assert isinstance(area, PanelArea)
+        return area.panel
+
     def show_panel_named(self, name: str) -> None:
         """Bring the panel of a class to the front."""
         self.show_panel(next(kind for kind in PANELS if kind.__name__ == name))

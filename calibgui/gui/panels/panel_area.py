@@ -18,7 +18,7 @@ class PanelArea(QScrollArea):
 
     def __init__(self, panel: Panel) -> None:
         super().__init__()
-        self._panel = panel
+        self.panel = panel
         self.setWidget(panel)
         self.setFrameShape(QFrame.Shape.NoFrame)
         self.setHorizontalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
@@ -30,17 +30,17 @@ class PanelArea(QScrollArea):
         self._fit()
 
     def eventFilter(self, watched: QObject, event: QEvent) -> bool:  # noqa: N802 - Qt's name
-        if watched is self._panel.body and event.type() == QEvent.Type.LayoutRequest:
+        if watched is self.panel.body and event.type() == QEvent.Type.LayoutRequest:
             self._fit()
         return super().eventFilter(watched, event)
 
     def _fit(self) -> None:
         port = self.viewport().size()
-        self._panel.resize(port.width(), max(port.height(), self._find_least_height(port.width())))
+        self.panel.resize(port.width(), max(port.height(), self._find_least_height(port.width())))
 
     def _find_least_height(self, width: int) -> int:
         """Return the height that the panel's content needs at a width, px."""
-        layout = self._panel.body.layout()
+        layout = self.panel.body.layout()
         if layout is not None and layout.hasHeightForWidth():
             return layout.minimumHeightForWidth(width)
-        return self._panel.body.minimumSizeHint().height()
+        return self.panel.body.minimumSizeHint().height()

@@ -95,7 +95,7 @@ class BoardPanel(QWidget):
             self.method.addItem(text, method)
             self.method.setItemData(self.method.count() - 1, tip, Qt.ItemDataRole.ToolTipRole)
         self.method.setToolTip(self.tr("How corners are located; another way searches anew."))
-        self.by_hand = QCheckBox(self.tr("&Mark all by hand"))
+        self.by_hand = QCheckBox(self.tr("Mar&k all by hand"))
         self.by_hand.setToolTip(
             self.tr(
                 "Images are not searched: point at each board's four outermost corners (M), and "

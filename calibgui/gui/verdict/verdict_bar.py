@@ -62,7 +62,7 @@ class VerdictBar(QFrame):
         font.setPointSizeF(1.25 * font.pointSizeF())
         self.headline.setFont(font)
         self.reason, self.figures = ElidedLabel(), ElidedLabel()
-        self.button = QPushButton()
+        self.button = QPushButton(self.tr("Remedy"))
         self.button.clicked.connect(self._do_first)
         self.unfold = QPushButton()
         self.unfold.setCheckable(True)

@@ -126,7 +126,6 @@ class MainWindow(QMainWindow):
         self.addToolBar(Qt.ToolBarArea.TopToolBarArea, bar)
         return bar
 
-
     def _make_menus(self) -> None:
         commands = Commands(self, self.session, self.files, self.images, self.page)
         docks = {

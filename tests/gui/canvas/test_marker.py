@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from PySide6.QtCore import Qt
+from PySide6.QtCore import QPoint, Qt
 from pytestqt.qtbot import QtBot
 
 from calibgui.app.document import Document
@@ -104,7 +104,9 @@ def test_enter_goes_on_to_images_with_corners_where_all_are_marked(
     project = Project(views=(views[0], marked, views[2]), size=(640, 480))
     hand, page = Hand(window, qtbot), window.page
     window.session.begin(Document(project))
-    hand.click_button(window.board.by_hand)
+    window.inspector.show_setup()
+    box = window.board.by_hand
+    qtbot.mouseClick(box, Qt.MouseButton.LeftButton, pos=QPoint(8, box.height() // 2))
     assert window.session.project.by_hand
     hand.choose_image(paths[0].name)
     page.tools[0].trigger()
@@ -138,6 +140,6 @@ def test_places_outside_of_the_image_have_no_coordinates(window: MainWindow, qtb
     window.session.begin(Document(Project(views=(View(str(path)),), by_hand=True)))
     hand.choose_image(path.name)
     page.canvas.hovered.emit(639.4, 479.4)
-    assert window.place.text().startswith("u 639.40  v 479.40 px   grey ")
+    assert page.under_cursor.text().startswith("u 639.40  v 479.40 px   grey ")
     page.canvas.hovered.emit(639.6, 479.4)
-    assert window.place.text() == ""
+    assert page.under_cursor.isHidden()

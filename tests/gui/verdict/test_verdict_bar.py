@@ -167,7 +167,7 @@ def test_findings_unfold_over_the_desk_with_their_evidence(
     assert window.page.mapTo(window, window.page.rect().topLeft()) == place
     qtbot.mouseClick(row.proof, LEFT)
     assert window.analysis is not None and not bar.findings.isVisible()
-    assert isinstance(window.analysis.stack.currentWidget(), ResidualsPanel)
+    assert isinstance(window.analysis.shown, ResidualsPanel)
     assert window.session.image.endswith("2.png")
     comparison = act(bar, bar.button, window, qtbot)
     assert window.session.project.settings.robust
@@ -185,7 +185,7 @@ def test_two_images_are_not_usable_and_ask_for_more(
     assert bar.button.text() == "Show where to hold the board"
     qtbot.mouseClick(bar.button, LEFT)
     assert window.analysis is not None
-    assert isinstance(window.analysis.stack.currentWidget(), CoveragePanel)
+    assert isinstance(window.analysis.shown, CoveragePanel)
 
 
 def test_views_that_do_not_determine_the_camera_say_so(
@@ -198,7 +198,7 @@ def test_views_that_do_not_determine_the_camera_say_so(
     assert bar.button.text() == "Show where to hold the board" and not bar.unfold.isVisible()
     qtbot.mouseClick(bar.button, LEFT)
     assert window.analysis is not None
-    assert isinstance(window.analysis.stack.currentWidget(), CoveragePanel)
+    assert isinstance(window.analysis.shown, CoveragePanel)
 
 
 def test_the_length_of_squares_is_asked_until_it_is_confirmed(

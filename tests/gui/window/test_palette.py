@@ -138,7 +138,7 @@ PARTS: dict[str, Callable[[MainWindow], QWidget]] = {
     "canvas": lambda window: window.page.canvas,
     "calibrate": lambda window: window.calibrate,
     "results": lambda window: window.need_analysis().results,
-    "panels": lambda window: window.need_analysis().names,
+    "panels": lambda window: window.need_analysis().shown,
 }
 
 
