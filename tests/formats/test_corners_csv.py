@@ -114,9 +114,9 @@ def test_a_name_that_no_file_has_is_refused(tmp_path: Path) -> None:
 @pytest.mark.parametrize(
     ("images", "named"),
     [
-        (["/home/me/photos/a.png", "/home/me/photos/b.png"], ["a.png", "b.png"]),
-        (["/home/me/left/a.png", "/home/me/right/a.png"], ["left/a.png", "right/a.png"]),
-        (["photos/a.png", "/home/me/b.png"], ["photos/a.png", "/home/me/b.png"]),
+        (["/data/photos/a.png", "/data/photos/b.png"], ["a.png", "b.png"]),
+        (["/data/left/a.png", "/data/right/a.png"], ["left/a.png", "right/a.png"]),
+        (["photos/a.png", "/data/b.png"], ["photos/a.png", "/data/b.png"]),
     ],
 )
 def test_images_are_named_without_what_differs_between_computers(

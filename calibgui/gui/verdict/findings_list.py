@@ -108,13 +108,13 @@ class FindingRow(QWidget):
         self.unfold.toggled.connect(self._unfold)
         action = finding.action
         self.button = QPushButton("" if action is None else describe_button(action, names))
-        self.button.setVisible(action is not None)
         self.details = QLabel(f"{finding.evidence}\n{finding.remedy}")
         self.details.setWordWrap(True)
         self.details.setTextFormat(Qt.TextFormat.PlainText)
         self.details.setTextInteractionFlags(Qt.TextInteractionFlag.TextSelectableByMouse)
         self.proof = QPushButton(self.tr("Show the evidence"))
-        for widget in (self.details, self.proof):
+        # Only hidden, never shown, while they have no parent: each would be a window of its own.
+        for widget in (self.details, self.proof, *([self.button] if action is None else [])):
             widget.hide()
         grid = QGridLayout(self)
         grid.setContentsMargins(0, theme.SPACING // 2, 0, theme.SPACING // 2)

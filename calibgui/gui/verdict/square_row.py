@@ -30,7 +30,7 @@ class SquareRow(QWidget):
                 "holds on this condition."
             )
         )
-        self.confirm = QPushButton()
+        self.confirm = QPushButton(self.tr("Confirm"))
         self.square.valueChanged.connect(lambda _: self._name_button(self._session.project))
         self.square.lineEdit().returnPressed.connect(self.answer)
         self.confirm.clicked.connect(self.answer)
