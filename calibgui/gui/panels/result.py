@@ -20,8 +20,7 @@ from calibgui.gui.panels.panel import Panel
 from calibgui.gui.panels.services import Services
 from calibgui.gui.panels.split import Split
 from calibgui.gui.widgets import theme
-from calibgui.gui.widgets.tables import Column, Table, with_decimals, with_digits
-from calibgui.report.comparison import compare_parameters
+from calibgui.gui.widgets.tables import Column, Table, with_digits
 from calibgui.report.summary import Sentence, Tone, describe_calibration
 
 _PAPER_UNITS = ("px", "px", "px⁻²", "px⁻⁴", "px⁻⁶", "px⁻¹", "px⁻¹", "px⁻²", "px", "px")
@@ -41,7 +40,7 @@ class ResultPanel(Panel):
         super().__init__(services)
         self._work = Latest(services.jobs, self)
         self.words = QTextBrowser()
-        self.array_frame, self.paper_units, self.differences = Table(), Table(), Table()
+        self.array_frame, self.paper_units = Table(), Table()
         self.correlations = Matrix()
         self.correlations.setToolTip(
             self.tr("Estimates near ±1 can stand in for each other: only a combination is known.")
@@ -51,51 +50,10 @@ class ResultPanel(Panel):
             (Split(820, (self.words, 1), (self.array_frame, 1)), self.tr("Summary")),
             (self.paper_units, self.tr("The paper's units")),
             (self.correlations, self.tr("Correlations")),
-            (self.differences, self.tr("Comparison")),
         ):
             self.tabs.addTab(widget, name)
-        self.tabs.setTabVisible(3, False)
         layout = QVBoxLayout(self.body)
         layout.addWidget(self.tabs)
-
-    def show_result(self, result: Result | None) -> None:
-        """Drop a comparison with the result shown before."""
-        self.tabs.setTabVisible(3, False)
-        super().show_result(result)
-
-    def show_comparison(self, a: Result, b: Result, names: tuple[str, str] = ("A", "B")) -> None:
-        """Set two results side by side, with their differences in units of sigma."""
-        rows = compare_parameters(a.calibration, b.calibration)
-        self.differences.show_columns(
-            [
-                Column(self.tr("Parameter"), [row.name for row in rows]),
-                *estimate_columns(names[0], [r.a for r in rows], [r.sigma_a for r in rows]),
-                *estimate_columns(names[1], [r.b for r in rows], [r.sigma_b for r in rows]),
-                Column(
-                    self.tr("Difference"),
-                    [row.change for row in rows],
-                    with_digits(3),
-                    self.tr("{1} less {0}").format(*names),
-                    optional=True,
-                ),
-                Column(
-                    self.tr("in σ"),
-                    [row.sigmas for row in rows],
-                    with_decimals(2),
-                    self.tr(
-                        "Over the standard deviation of a difference of independent estimates.\n"
-                        "Results from the same images share their errors: even 1 is much then."
-                    ),
-                ),
-            ],
-            {
-                k: self.tr("differs by more than 3 σ")
-                for k, r in enumerate(rows)
-                if abs(r.sigmas) > 3
-            },
-        )
-        self.tabs.setTabVisible(3, True)
-        self.tabs.setCurrentIndex(3)
 
     def _refresh(self, result: Result) -> None:
         calibration = result.calibration

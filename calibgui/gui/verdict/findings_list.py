@@ -82,7 +82,10 @@ class FindingsList(Overlay):
 
     def measure_height(self, width: int) -> int:
         """Return the height of all rows."""
-        return self._column.heightForWidth(width - 2) + 4
+        column = self._column
+        if column.hasHeightForWidth():  # details are unfolded, whose lines depend on the width
+            return column.heightForWidth(width - 2) + 4
+        return column.sizeHint().height() + 4
 
 
 class FindingRow(QWidget):

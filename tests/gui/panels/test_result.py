@@ -20,7 +20,6 @@ from calibgui.engine.calibration.refinement.covariances import (
 from calibgui.engine.calibration.result import Undetermined
 from calibgui.gui.panels.result import ResultPanel
 from calibgui.gui.widgets.tables import Table
-from calibgui.report.comparison import compare_parameters
 from calibgui.report.summary import describe_calibration
 from tests.gui.panels.conftest import Shown, made
 
@@ -106,20 +105,3 @@ def test_what_is_not_determined_is_marked(told: Told, result: Result) -> None:
     assert model.index(2, 4).data() == "not determined"
     assert model.index(2, 0).data(Qt.ItemDataRole.ToolTipRole) == "no tilt"
     assert "cx is not determined" in panel.words.toPlainText()
-
-
-def test_comparison_in_units_of_sigma(told: Told, result: Result, other: Result) -> None:
-    panel = told(result)
-    assert not panel.tabs.isTabVisible(3)
-    panel.show_comparison(result, other, ("all", "again"))
-    assert panel.differences.isVisible()
-    table = rows(panel.differences)
-    for row, difference in zip(
-        table, compare_parameters(result.calibration, other.calibration), strict=True
-    ):
-        assert float(row[5]) == difference.change
-        assert float(row[6]) == pytest.approx(difference.sigmas, nan_ok=True)
-    headers = [panel.differences.model().headerData(c, Qt.Orientation.Horizontal) for c in (1, 3)]
-    assert headers == ["all ± 1σ", "again ± 1σ"]
-    panel.show_result(other)
-    assert not panel.tabs.isTabVisible(3)

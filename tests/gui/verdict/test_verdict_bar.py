@@ -161,6 +161,7 @@ def test_findings_unfold_over_the_desk_with_their_evidence(
     assert not bar.findings.isVisible() and not bar.unfold.isChecked()
     qtbot.mouseClick(bar.unfold, LEFT)
     folded = bar.findings.height()
+    assert folded >= row.sizeHint().height()
     qtbot.mouseClick(row.unfold, LEFT)
     assert row.details.isVisible() and row.finding.evidence in row.details.text()
     assert bar.findings.height() > folded
