@@ -1,4 +1,4 @@
-"""Whether a file still holds what it held."""
+"""The content of a file at one time, and the test of whether the file still has it."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from calibgui.app.image_store import Signature, compute_file_digest, read_signat
 
 @dataclass(frozen=True, slots=True)
 class FileState:
-    """What a file held when it was looked at."""
+    """The content of a file when it was looked at."""
 
     path: Path
     signature: Signature

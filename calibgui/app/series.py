@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import csv
-import io
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from datetime import datetime
@@ -16,12 +14,10 @@ from calibgui.app.paths import make_natural_key
 from calibgui.dataset import Result
 from calibgui.engine.assessment import Setting, UncertainCamera, choose_covariance
 from calibgui.engine.errors import CalibrationError
-from calibgui.engine.files import read_regular
 from calibgui.engine.images import read_image_header
+from calibgui.formats.csv_table import read_csv_rows
 from calibgui.formats.result_json import read_result
 
-_MAX_TABLE_SIZE = 16 << 20
-"""Size of the largest table of values that is read, bytes."""
 _SECONDS_OF_DAY = 86400.0
 
 
@@ -129,17 +125,8 @@ def parse_value(text: str, scalar: Scalar) -> float:
 
 def _read_values(file: Path, scalar: Scalar) -> dict[Path, float]:
     """Read the values by the paths of the files."""
-    try:
-        text = read_regular(file, _MAX_TABLE_SIZE).decode("utf-8-sig")
-        rows = list(csv.DictReader(io.StringIO(text, newline="")))
-    except OSError as error:
-        raise CalibrationError(
-            f"{file} cannot be read: {error.strerror or error}.", "Check its name and permissions."
-        ) from error
-    except (ValueError, csv.Error) as error:
-        raise CalibrationError(f"{file} is not a CSV file: {error}.", "Choose another.") from error
     found = {}
-    for line, row in enumerate(rows, start=2):
+    for line, row in enumerate(read_csv_rows(file), start=2):
         try:
             found[Path(row["file"])] = parse_value(row["value"], scalar)
         except (KeyError, TypeError, ValueError) as error:

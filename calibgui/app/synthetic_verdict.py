@@ -1,4 +1,4 @@
-"""What a synthetic check proves: of the method, and of the model of camera and board.
+"""The sentence on what a synthetic check proves: of the method, and of the camera and board models.
 
 The estimates z from renderings of a known camera z0 are off by noise alone if the method is right:
 (z - z0)^T C^-1 (z - z0) follows chi-square of as many degrees of freedom as parameters are

@@ -24,11 +24,10 @@ from calibgui.engine.boards import Board
 from calibgui.engine.calibration import Observation
 from calibgui.engine.camera import MODELS
 from calibgui.engine.errors import CalibrationError
-from calibgui.engine.files import read_regular, write_atomically
+from calibgui.engine.files import write_atomically
+from calibgui.formats.csv_table import read_csv_rows
 from calibgui.formats.exporter import Exporter, ExportReport
 
-MAX_FILE_SIZE = 256 << 20
-"""Size of the largest files that are read, bytes: a million corners have 150 MB."""
 _POINT_COLUMNS = ("u_px", "v_px", "x_mm", "y_mm")
 _COVARIANCE_COLUMNS = ("cov_uu", "cov_uv", "cov_vv")
 _COLUMNS = ("image", "row", "col", *_POINT_COLUMNS)
@@ -86,15 +85,7 @@ def read_corners_csv(path: str | os.PathLike[str]) -> tuple[View, ...]:
             finite number; the message names the line.
     """
     file = Path(path)
-    try:
-        text = read_regular(file, MAX_FILE_SIZE).decode("utf-8-sig")
-        rows = list(csv.DictReader(io.StringIO(text, newline="")))
-    except OSError as error:
-        raise CalibrationError(
-            f"{file} cannot be read: {error.strerror or error}.", "Check its name and permissions."
-        ) from error
-    except (ValueError, csv.Error) as error:
-        raise CalibrationError(f"{file} is not a CSV file: {error}.", "Choose another.") from error
+    rows = read_csv_rows(file)
     missing = [name for name in ("image", *_POINT_COLUMNS) if rows and name not in rows[0]]
     if missing or not rows:
         raise CalibrationError(

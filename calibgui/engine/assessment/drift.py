@@ -70,7 +70,7 @@ class Drift:
 
     @property
     def has_changed(self) -> bool:
-        """Whether the difference is more than the uncertainties explain."""
+        """True if the difference is more than the uncertainties explain."""
         return self.probability < SIGNIFICANCE
 
 

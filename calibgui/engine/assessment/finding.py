@@ -81,7 +81,7 @@ class Finding:
     views: tuple[int, ...] = ()
     """Indices of the views that it is found in; none if it is in all of them."""
     action: Action | None = None
-    """What remedies it; None if no program can help."""
+    """The action that remedies it; None if no program can help."""
     times_better: float = 1.0
     """Ratio by which the action makes the error of pixels smaller, as a trial showed
     (``verdict.py``); 1 if it was not tried or brings nothing."""

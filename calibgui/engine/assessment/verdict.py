@@ -68,12 +68,12 @@ _UNTRUSTWORTHY = (Cause.WRONG_FRAME, Cause.HELD_VALUE, Cause.FEW_VIEWS)
 
 
 class Grade(StrEnum):
-    """What a calibration is worth."""
+    """The grades of a calibration."""
 
     GOOD = "good"
     USABLE = "usable"
     CAN_BE_BETTER = "can-be-better"
-    """The same photographs give a better camera, by `Verdict.times_better`."""
+    """Grade of a calibration whose photographs give a better camera, by `Verdict.times_better`."""
     NOT_USABLE = "not-usable"
 
 
@@ -99,7 +99,7 @@ _UNKNOWN = PixelError(np.inf, np.inf, np.inf, np.inf)
 
 @dataclass(frozen=True, slots=True)
 class Verdict:
-    """What a calibration is worth, and what is wrong with it."""
+    """The grade of a calibration, the error of its pixels, and what is wrong with it."""
 
     grade: Grade
     """The grade."""
@@ -112,7 +112,7 @@ class Verdict:
     distance: float
     """Median distance of the boards from the camera, mm."""
     findings: tuple[Finding, ...] = ()
-    """What is wrong, the most harmful first, with what the actions bring."""
+    """The findings, the most harmful first, with what their actions bring."""
 
     @property
     def times_better(self) -> float:

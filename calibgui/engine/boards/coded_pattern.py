@@ -1,4 +1,4 @@
-"""What patterns have in common whose print tells which corner is which.
+"""The base of patterns whose print tells which corner is which.
 
 ChArUco boards, AprilGrids, checkerboards with tags and PuzzleBoards consist of squares, and
 something is printed in them by which every corner is known. They have one origin, and a photograph

@@ -76,7 +76,7 @@ class LinearisedFit:
     free: IntArray
     """(P,) indices of the camera's estimated parameters."""
     _kept: dict[tuple[int, int], Linearised] = field(init=False, repr=False, default_factory=dict)
-    """What `linearise_unweighted` returned, by the ends of the slice."""
+    """Results of `linearise_unweighted`, by the ends of the slice."""
 
     def weigh(self, whitening: Array) -> LinearisedFit:
         """Return the fit with other matrices (K, N, 2, 2) that whiten the residuals."""

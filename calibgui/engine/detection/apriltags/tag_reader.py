@@ -23,7 +23,7 @@ _MAX_BRIGHT_BORDER_SHARE = 0.2
 
 
 class TagPrint(NamedTuple):
-    """What the tags of a board have in common."""
+    """The properties that all tags of a board share."""
 
     family: str
     border: int

@@ -1,0 +1,30 @@
+"""Reading of tables in CSV, the same for every format that is one."""
+
+from __future__ import annotations
+
+import csv
+import io
+from pathlib import Path
+
+from calibgui.engine.errors import CalibrationError
+from calibgui.engine.files import read_regular
+
+MAX_TABLE_SIZE = 256 << 20
+"""Size of the largest files that are read, bytes: a million corners have 150 MB."""
+
+
+def read_csv_rows(file: Path) -> list[dict[str, str]]:
+    """Read the rows of a table whose first line names the columns.
+
+    Raises:
+        CalibrationError: if the file cannot be read, or is not CSV in UTF-8.
+    """
+    try:
+        text = read_regular(file, MAX_TABLE_SIZE).decode("utf-8-sig")
+        return list(csv.DictReader(io.StringIO(text, newline="")))
+    except OSError as error:
+        raise CalibrationError(
+            f"{file} cannot be read: {error.strerror or error}.", "Check its name and permissions."
+        ) from error
+    except (ValueError, csv.Error) as error:
+        raise CalibrationError(f"{file} is not a CSV file: {error}.", "Choose another.") from error
