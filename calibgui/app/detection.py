@@ -1,7 +1,7 @@
 """Search of photographs for the board.
 
 A failure with one image is recorded in its view and does not stop the search. One camera has one
-image size, the most frequent one; images of another size are left out unread. If the grid size of
+image size, and its photographs are all turned alike (``sensor_frame.py``). If the grid size of
 the board is not given, the most frequent one among completely seen boards is taken, and images in
 which another size was found are searched again. Unknown properties of a pattern, such as the
 dictionary of its markers, are inferred in the same way.
@@ -17,13 +17,14 @@ from pathlib import Path
 from threading import Event
 
 from calibgui.app.preparation import prepare_finder
+from calibgui.app.sensor_frame import share_frame
 from calibgui.app.workers import Crashed, map_in_processes
 from calibgui.dataset import CornerSet, View, ViewStatus
 from calibgui.engine.arrays import Array, GridSize, Size
 from calibgui.engine.boards import CHECKERBOARD, KINDS, Board, Pattern
 from calibgui.engine.detection import METHODS, Corners, find_corners, look_for_marks
 from calibgui.engine.errors import CalibrationError, NoBoardError
-from calibgui.engine.images import Image, read_image, read_image_size
+from calibgui.engine.images import Image, read_image
 
 _KINDS_MARKED_IN_SQUARES = ("charuco", "tagged-checkerboard")
 """Kinds of boards with marks in their squares that a search for plain checkerboards may find."""
@@ -79,6 +80,7 @@ def find_views(
     progress: Progress | None = None,
     stop: Event | None = None,
     size: Size | None = None,
+    orientation: int | None = None,
     method: str = METHODS[0],
     pattern: Pattern = CHECKERBOARD,
     preparing: Callable[[], None] | None = None,
@@ -92,6 +94,7 @@ def find_views(
         progress: called after each image; images searched again add to the total.
         stop: abandons the search within 0.2 s when set.
         size: width and height of the camera's images; the most frequent ones if None.
+        orientation: EXIF orientation by which the images are turned; the most frequent one if None.
         method: of locating corners, one of ``detection.METHODS``.
         pattern: of the board; its unknown properties are inferred from the whole set.
         preparing: called if the corner finder has to be compiled for its first use, which takes
@@ -102,7 +105,7 @@ def find_views(
     """
     rois = rois or {}
     waiting = [View(str(path), roi=rois.get(path)) for path in images]
-    views, size = _check_image_sizes(waiting, size)
+    views, size = share_frame(waiting, size, orientation)
 
     def search(which: Sequence[int], grid_size: GridSize | None, before: int = 0) -> None:
         items = [views[k] for k in which]
@@ -137,15 +140,16 @@ def search_view(
 ) -> View:
     """Return the view with the corners found in its image, or the reason why there are none."""
     try:
-        image = read_image(view.image)
+        image = read_image(view.image, view.orientation)
     except CalibrationError as error:
-        return _clear_corners(view, ViewStatus.UNREADABLE, str(error))
+        return view.refuse(ViewStatus.UNREADABLE, str(error))
     doubt = _describe_zero_tail(image)
     try:
         corners = find_corners(image.pixels, grid_size, view.roi, method, pattern=pattern)
     except NoBoardError as error:
-        return _clear_corners(view, ViewStatus.NO_BOARD, f"{error} {doubt}".rstrip())
-    return replace(view, status=ViewStatus.FOUND, reason="", note=doubt, corners=corners)
+        return view.refuse(ViewStatus.NO_BOARD, f"{error} {doubt}".rstrip())
+    note = view.note if doubt in view.note else f"{view.note} {doubt}".lstrip()
+    return replace(view, status=ViewStatus.FOUND, reason="", note=note, corners=corners)
 
 
 def _describe_zero_tail(image: Image) -> str:
@@ -185,20 +189,20 @@ def recognise_pattern(views: Sequence[View]) -> Pattern | None:
     Returns:
         None if it is a plain checkerboard, or nothing that can be found.
     """
-    found = [(view.image, view.corners) for view in views if view.corners is not None]
+    found = [(view, view.corners) for view in views if view.corners is not None]
     if not found:
         return find_other_pattern(choose_samples(views), CHECKERBOARD)
-    image, corners = max(found, key=lambda pair: len(pair[1]))
+    view, corners = max(found, key=lambda pair: len(pair[1]))
     try:
-        marks = look_for_marks(read_image(image).pixels, corners)
+        marks = look_for_marks(read_image(view.image, view.orientation).pixels, corners)
     except CalibrationError:  # the file has changed since it was searched
         return None
     marked = (
         *(_KINDS_MARKED_IN_SQUARES if marks.in_squares else ()),
         *(_KINDS_MARKED_ON_EDGES if marks.on_edges else ()),
     )
-    tries = (search_view(View(image), pattern=KINDS[kind]) for kind in marked)
-    kinds = (view.corners.pattern.kind for view in tries if view.corners is not None)
+    tries = (search_view(View(view.image), pattern=KINDS[kind]) for kind in marked)
+    kinds = (tried.corners.pattern.kind for tried in tries if tried.corners is not None)
     return next((KINDS[kind] for kind in kinds), None)
 
 
@@ -262,42 +266,6 @@ def _is_worth_searching_again(view: View, grid_size: GridSize, pattern: Pattern)
     return view.status is ViewStatus.NO_BOARD and known
 
 
-def _check_image_sizes(views: Iterable[View], size: Size | None) -> tuple[list[View], Size | None]:
-    """Mark the views whose image is unreadable or not of `size`, by default the most frequent one.
-
-    Returns:
-        The views, and the size, None if no image is readable.
-    """
-    sizes: dict[int, Size] = {}
-    result = list(views)
-    for k, view in enumerate(result):
-        try:
-            sizes[k] = read_image_size(view.image)
-        except CalibrationError as error:
-            result[k] = _clear_corners(view, ViewStatus.UNREADABLE, str(error))
-    count = Counter(sizes.values())
-    most = max(count, key=lambda size: (count[size], size[0] * size[1]), default=None)
-    usual = size or most
-    for k, image_size_px in sizes.items():
-        if image_size_px != usual:
-            result[k] = _clear_corners(
-                result[k], ViewStatus.WRONG_SIZE, _describe_wrong_size(image_size_px, usual)
-            )
-    return result, usual
-
-
-def _describe_wrong_size(size: Size, usual: Size | None) -> str:
-    remedy = "Leave it out, or calibrate images of each size by themselves."
-    if usual == size[::-1]:
-        remedy = "Turn it like the others (without EXIF rotation), or leave it out."
-    width, height = usual or (0, 0)
-    return f"It has {size[0]} x {size[1]} pixels, most have {width} x {height}. {remedy}"
-
-
 def _record_crash(view: View) -> View:
     reason = "Searching it ended the process that did. Leave it out."
-    return _clear_corners(view, ViewStatus.UNREADABLE, reason)
-
-
-def _clear_corners(view: View, status: ViewStatus, reason: str) -> View:
-    return replace(view, status=status, reason=reason, corners=None)
+    return view.refuse(ViewStatus.UNREADABLE, reason)

@@ -5,6 +5,7 @@ from __future__ import annotations
 import hashlib
 import threading
 from collections import OrderedDict
+from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -66,10 +67,21 @@ def compute_file_digest(path: str | Path) -> str:
 
 
 class ImageStore:
-    """Images in memory, those used last within a limit; safe to use from any thread."""
+    """Images in memory, those used last within a limit; safe to use from any thread.
 
-    def __init__(self, memory: int = MAX_MEMORY_BYTES) -> None:
+    Args:
+        memory: the limit, bytes.
+        find_orientation: returns the EXIF orientation by which the image of a path is turned, None
+            for that which its file states.
+    """
+
+    def __init__(
+        self,
+        memory: int = MAX_MEMORY_BYTES,
+        find_orientation: Callable[[str], int | None] = lambda _: None,
+    ) -> None:
         self._memory = memory
+        self._find_orientation = find_orientation
         self._kept: OrderedDict[str, Image] = OrderedDict()
         self._lock = threading.Lock()
 
@@ -88,7 +100,7 @@ class ImageStore:
         """
         image = self.kept(path)
         if image is None:
-            image = read_image(path)
+            image = read_image(path, self._find_orientation(path))
             with self._lock:
                 self._kept[path] = image
                 while self.size > self._memory and len(self._kept) > 1:

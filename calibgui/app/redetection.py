@@ -141,7 +141,8 @@ def redetect_view(view: View, calibration: Calibration, grid_size: GridSize) -> 
     """
     before = view.corners
     try:
-        corners = redetect_corners(read_image(view.image).pixels, calibration, grid_size, before)
+        pixels = read_image(view.image, view.orientation).pixels
+        corners = redetect_corners(pixels, calibration, grid_size, before)
     except CalibrationError:
         return view
     if before is None:

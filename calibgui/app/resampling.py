@@ -14,7 +14,8 @@ from pathlib import Path
 from typing import cast
 
 from calibgui.app.new_images import NewImages
-from calibgui.dataset import Result
+from calibgui.app.sensor_frame import choose_orientation
+from calibgui.dataset import Result, find_orientation
 from calibgui.engine import opencv
 from calibgui.engine.arrays import Array, Size
 from calibgui.engine.camera import Camera
@@ -29,6 +30,7 @@ from calibgui.engine.images import (
     choose_ideal_cameras,
     make_ideal_image,
     read_colour,
+    read_image_header,
     rectify_image,
     write_image,
 )
@@ -75,7 +77,7 @@ Progress = Callable[[int, int, WrittenImage], None]
 """Function that is called with the number of finished images, of all images, and the last outcome;
 it may raise Cancelled."""
 
-_Change = Callable[[Path, Pixels], Mapping[str, ResampledImage]]
+_Change = Callable[[Path], Mapping[str, ResampledImage]]
 """Function from a photograph to its new images, named as in `WrittenImage.paths`."""
 _Geometry = tuple[Size, Array]
 """Size and matrix, the same for all new images."""
@@ -88,6 +90,7 @@ def undistort_files(
     undistortion: Undistortion | None = None,
     progress: Progress | None = None,
     overwrite: bool = False,
+    orientation: int | None = None,
 ) -> tuple[WrittenImage, ...]:
     """Write every image without distortion into `folder`, with the geometry of the new images.
 
@@ -99,6 +102,8 @@ def undistort_files(
             faces of a cube are written as NAME_front.png and so on.
         progress: see `Progress`.
         overwrite: whether files in `folder` may be replaced that this program did not make.
+        orientation: EXIF orientation by which the camera's photographs are turned; that which each
+            states if None.
 
     Raises:
         CalibrationError: as `NewImages`, or if the lens has no such undistorted image.
@@ -107,7 +112,8 @@ def undistort_files(
     """
     ideals = (undistortion or Undistortion()).choose_cameras(camera)
 
-    def change(_: Path, pixels: Pixels) -> Mapping[str, ResampledImage]:
+    def change(path: Path) -> Mapping[str, ResampledImage]:
+        pixels = _read_in_frame(path, camera, orientation)
         return {face: make_ideal_image(pixels, camera, ideal) for face, ideal in ideals.items()}
 
     new = NewImages(folder / GEOMETRY_FILE, images, ideals, overwrite)
@@ -140,18 +146,26 @@ def rectify_files(
     scale = pixels_per_mm or measure_natural_scale(result)
     extent = find_shown_extent(result)
     poses = _collect_poses(result)
+    orientation = find_orientation(result.used)
 
-    def change(path: Path, pixels: Pixels) -> Mapping[str, ResampledImage]:
+    def change(path: Path) -> Mapping[str, ResampledImage]:
         pose = poses.get(str(path)) or poses.get(path.name)
         if pose is None:
             raise CalibrationError(
                 f"{path} is not one of the calibrated views.",
                 "Calibrate with it, or rectify the images that were calibrated.",
             )
+        pixels = _read_in_frame(path, camera, orientation)
         return {"": rectify_image(pixels, camera, pose, extent, scale)}
 
     new = NewImages(folder / GEOMETRY_FILE, images, overwrite=overwrite)
     return _write_images("rectified", change, images, new, progress)
+
+
+def _read_in_frame(path: Path, camera: Camera, orientation: int | None) -> Pixels:
+    """Read a photograph, turned like the others of the camera."""
+    header = read_image_header(path)
+    return read_colour(path, choose_orientation(header, camera.size, orientation))
 
 
 def _collect_poses(result: Result) -> dict[str, Pose]:
@@ -198,7 +212,7 @@ def _write_image(
 ) -> tuple[WrittenImage, _Geometry | None]:
     """Write the new images of one photograph."""
     try:
-        made = change(source, read_colour(source))
+        made = change(source)
         paths = {face: path for face, path in new.name_images(source).items() if face in made}
         for face, path in paths.items():
             write_image(path, cast(Pixels, made[face].image))  # of the source's type

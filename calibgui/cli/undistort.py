@@ -52,7 +52,8 @@ def configure(parser: argparse.ArgumentParser) -> None:
 
 def run(options: argparse.Namespace, console: Console) -> None:
     """Read, undistort and write."""
-    camera = read_camera_and_warn(options.result, console, options.camera, options.size).camera
+    found = read_camera_and_warn(options.result, console, options.camera, options.size)
+    camera = found.camera
     images = find_images(options.paths)
     undistortion = Undistortion(
         Projection(options.projection),
@@ -68,5 +69,6 @@ def run(options: argparse.Namespace, console: Console) -> None:
             undistortion,
             progress=lambda done, total, _: advance(done, total),
             overwrite=options.overwrite,
+            orientation=found.orientation,
         )
     report_written(written, options.output, console, shown)

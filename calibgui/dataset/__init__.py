@@ -10,6 +10,13 @@ from __future__ import annotations
 
 from calibgui.dataset.corner_set import CornerSet
 from calibgui.dataset.result import Result, list_installed_versions
-from calibgui.dataset.view import View, ViewStatus
+from calibgui.dataset.view import View, ViewStatus, find_orientation
 
-__all__ = ["CornerSet", "Result", "View", "ViewStatus", "list_installed_versions"]
+__all__ = [
+    "CornerSet",
+    "Result",
+    "View",
+    "ViewStatus",
+    "find_orientation",
+    "list_installed_versions",
+]

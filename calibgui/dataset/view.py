@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections import Counter
+from collections.abc import Iterable
+from dataclasses import dataclass, replace
 from enum import StrEnum
 
 from calibgui.engine.arrays import Array, freeze
@@ -44,6 +46,9 @@ class View:
     """Corners with their points on the board, where another program located them."""
     roi: Array | None = None
     """(4, 2) corners of the region of interest that the user gave, px."""
+    orientation: int | None = None
+    """EXIF orientation by which the image's pixels are turned, 1 to 8, the same for all photographs
+    of a camera (``app/sensor_frame.py``); None for that which the file states."""
     enabled: bool = True
     """True if the user wants the view in the calibration."""
 
@@ -54,6 +59,10 @@ class View:
     def usable(self) -> bool:
         """True if the view takes part in a calibration: its board is found, and it is enabled."""
         return self.enabled and self.status is ViewStatus.FOUND
+
+    def refuse(self, status: ViewStatus, reason: str) -> View:
+        """Return the view without corners, with the reason why there are none."""
+        return replace(self, status=status, reason=reason, corners=None)
 
     def observation(self, board: Board | None) -> Observation:
         """Return the corners with their points on `board`, as a calibration takes them.
@@ -66,3 +75,10 @@ class View:
         if self.corners is None or board is None:
             raise ValueError(f"{self.image} has no corners on a known board")
         return Observation(self.corners.uv, board.points(self.corners.grid), self.corners.cov)
+
+
+def find_orientation(views: Iterable[View]) -> int | None:
+    """Return the EXIF orientation by which most views with a board are turned; None if unknown."""
+    found = Counter(view.orientation for view in views if view.status is ViewStatus.FOUND)
+    found.pop(None, None)
+    return max(found, key=found.__getitem__, default=None)

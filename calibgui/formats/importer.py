@@ -34,6 +34,8 @@ class ImportedCamera:
     """(P, P) covariance of the camera's parameters; None if the file has none."""
     notes: tuple[str, ...] = ()
     """Sentences that the user should know about what was read."""
+    orientation: int | None = None
+    """EXIF orientation by which its photographs are turned; None if the file does not state it."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -25,7 +25,7 @@ from typing import Any
 
 import numpy as np
 
-from calibgui.dataset import Result
+from calibgui.dataset import Result, find_orientation
 from calibgui.dataset.judging import judge_result
 from calibgui.engine.arrays import Array
 from calibgui.engine.assessment import Action, Finding, Verdict, summarise_residuals
@@ -220,11 +220,18 @@ def read_result_camera(source: CameraText) -> ImportedCamera:
     """Read the camera of a result.json, with its covariance. Raises as `read_result`."""
     node = parse_json(source.text, source.file)
     check_format(node, FORMAT, VERSION)
-    calibration = decode_result(node).calibration
+    result = decode_result(node)
+    calibration = result.calibration
     source.choose_size(calibration.camera.size)
     diagnosis = calibration.diagnosis
     notes = () if diagnosis is None else (f"A partial calibration. {diagnosis.message}",)
-    return ImportedCamera(calibration.camera, EXPORTER.title, calibration.covariance, notes)
+    return ImportedCamera(
+        calibration.camera,
+        EXPORTER.title,
+        calibration.covariance,
+        notes,
+        find_orientation(result.used),
+    )
 
 
 def decode_result(node: Node) -> Result:

@@ -5,6 +5,7 @@
     reason   why it cannot be used              cov     (n, 2, 2) px^2, where known
     enabled  true if the user wants it          roi     (4, 2) px, where given by the user
     note     how its corners were found, if unusual
+    orientation  EXIF orientation by which the pixels were turned, where known
 
 and for corners found on a board of known layout their `grid` (row, column), the board's
 `shape`, first `estimate`, `ambiguity`, `relative`, `method` and the searched `outline`; also
@@ -37,6 +38,8 @@ def encode_view(view: View, board: Board | None) -> dict[str, Any]:
     }
     if view.note:
         record["note"] = view.note
+    if view.orientation is not None:
+        record["orientation"] = view.orientation
     if view.roi is not None:
         record["roi"] = view.roi
     if view.points is None and view.corners is None:
@@ -95,8 +98,17 @@ def _decode_view(node: Node, k: int, board: Board | None) -> View:
         corners=corners,
         points=points if len(uv) and not on_board else None,
         roi=roi.numbers(4, 2) if (roi := node.get("roi")) else None,
+        orientation=_decode_orientation(node.get("orientation")),
         enabled=enabled.flag() if (enabled := node.get("enabled")) else True,
     )
+
+
+def _decode_orientation(node: Node | None) -> int | None:
+    if node is None:
+        return None
+    if not 1 <= node.integer() <= 8:
+        node.fail("an EXIF orientation from 1 to 8")
+    return node.integer()
 
 
 def _decode_status(node: Node, found: bool) -> ViewStatus:

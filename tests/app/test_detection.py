@@ -58,7 +58,7 @@ def test_every_image_has_a_view_in_the_images_order(spoilt: Path, found: Detecti
         ("b-truncated", ViewStatus.UNREADABLE, "cut short"),
         ("c-empty", ViewStatus.UNREADABLE, "empty"),
         ("d-smaller", ViewStatus.WRONG_SIZE, "320 x 200 pixels, most have 320 x 240"),
-        ("e-turned", ViewStatus.WRONG_SIZE, "Turn it"),
+        ("e-turned", ViewStatus.WRONG_SIZE, "as the camera wrote it"),
         ("h-larger", ViewStatus.WRONG_SIZE, "640 x 480 pixels, most have 320 x 240"),
         ("f-blank", ViewStatus.NO_BOARD, "No checkerboard"),
     ],

@@ -41,6 +41,13 @@ def test_memory_is_bounded_and_the_last_used_stay(tmp_path: Path) -> None:
     assert store.kept(paths[0]) is None
 
 
+def test_images_are_turned_as_the_caller_says(tmp_path: Path) -> None:
+    path = str(tmp_path / "a.pgm")
+    write_image(path, np.zeros((50, 40), np.uint8))
+    assert ImageStore(find_orientation={path: 6}.get).read(path).size == (50, 40)
+    assert ImageStore().read(path).size == (40, 50)
+
+
 def test_one_image_larger_than_the_bound_is_kept(tmp_path: Path) -> None:
     path = str(tmp_path / "big.pgm")
     write_image(path, np.zeros((50, 40), np.uint8))

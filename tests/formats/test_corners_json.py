@@ -104,6 +104,7 @@ def test_found_corners_follow_another_square_size(tmp_path: Path, result: Result
         (["size"], [640], "size is not a list of 2 entries"),
         (["size"], [640, 0], "size is not the width and height"),
         (["size"], [640.5, 480], "size is not an array of integers"),
+        (["views", 0, "orientation"], 9, "orientation is not an EXIF orientation from 1 to 8"),
         (["views"], {}, "views is not a list"),
         (["views", 1], 7, "view 2 is not an object"),
         (["views", 1, "image"], 7, "view 2.image is not text"),

@@ -59,6 +59,11 @@ class Exif:
     date: datetime | None = None
     """Local time of the exposure, or of the last change of the file."""
 
+    @property
+    def is_of_camera(self) -> bool:
+        """True if the file states a camera: programs that drop this may have turned the pixels."""
+        return self.make is not None or self.model is not None
+
 
 def read_exif(block: bytes) -> Exif:
     """Read an EXIF block; a damaged one counts as empty, as decoders take it."""

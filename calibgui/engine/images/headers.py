@@ -44,7 +44,11 @@ class Header:
     @property
     def size(self) -> Size:
         """Width and height upright, px."""
-        return self.stored if self.exif.orientation < 5 else self.stored[::-1]
+        return self.turned_size(self.exif.orientation)
+
+    def turned_size(self, orientation: int) -> Size:
+        """Return width and height turned by an EXIF orientation, px."""
+        return self.stored if orientation < 5 else self.stored[::-1]
 
 
 def read_header(data: Data) -> Header | None:

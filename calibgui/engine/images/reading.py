@@ -42,6 +42,8 @@ _PAGE = bytes(4096)
 """The fewest zeros that an interrupted copy leaves at the end of a file: systems write pages."""
 _STRETCH_PERCENTILES = (0.5, 99.5)
 """Percentiles of 16-bit levels that become black and white for display and detection."""
+_INVERSE = {6: 8, 8: 6}
+"""EXIF orientations that another one takes back; each of the others takes back itself."""
 _FORMAT_HINT = "Use PNG, JPEG, TIFF, BMP, WebP or PGM with 8 or 16 bits."
 
 
@@ -54,7 +56,7 @@ class Image:
     path: Path
     """File that was read."""
     orientation: int = 1
-    """EXIF orientation that the file states, 1 to 8; `pixels` are upright already."""
+    """EXIF orientation by which `pixels` are turned, 1 to 8."""
     zero_tail: float = 0.0
     """Share of the file that is only zeros, at its end: black pixels, or a copy that was
     interrupted. 0 if it is shorter than a page of memory."""
@@ -88,8 +90,13 @@ def stretch_levels(pixels: npt.NDArray[Any]) -> npt.NDArray[np.uint8]:
     return np.clip(np.rint(levels), 0, 255).astype(np.uint8)[pixels]
 
 
-def read_image(path: PathLike) -> Image:
+def read_image(path: PathLike, orientation: int | None = None) -> Image:
     """Read a photograph in grey, turned upright.
+
+    Args:
+        path: the file.
+        orientation: EXIF orientation by which the stored pixels are turned, 1 to 8; that which the
+            file states if None.
 
     Raises:
         CalibrationError: if `path` is missing, empty, no image, cut short, damaged or too
@@ -105,18 +112,20 @@ def read_image(path: PathLike) -> Image:
         >>> image.size, image.depth, int(image.pixels[2, 3])
         ((4, 3), 8, 7)
     """
-    pixels, header, zero_tail = _read_upright(Path(path), colour=False)
+    pixels, header, zero_tail = _read_turned(Path(path), orientation, colour=False)
     pixels.flags.writeable = False
-    return Image(pixels, Path(path), header.exif.orientation, zero_tail)
+    return Image(pixels, Path(path), orientation or header.exif.orientation, zero_tail)
 
 
-def read_colour(path: PathLike) -> Pixels:
+def read_colour(path: PathLike, orientation: int | None = None) -> Pixels:
     """Read a photograph as (h, w, 3) RGB, or as (h, w) if the file is grey, turned upright.
+
+    `orientation` is as for `read_image`.
 
     Raises:
         CalibrationError: as `read_image`.
     """
-    return _read_upright(Path(path), colour=True)[0]
+    return _read_turned(Path(path), orientation, colour=True)[0]
 
 
 def read_image_size(path: PathLike) -> Size:
@@ -166,8 +175,8 @@ def write_image(path: PathLike, pixels: Pixels) -> None:
     write_atomically(path, content)
 
 
-def _read_upright(path: Path, colour: bool) -> tuple[Pixels, Header, float]:
-    """Read the pixels of the image file `path`, upright, its header, and `Image.zero_tail`."""
+def _read_turned(path: Path, orientation: int | None, colour: bool) -> tuple[Pixels, Header, float]:
+    """Read the pixels of the image file `path`, turned, its header, and `Image.zero_tail`."""
     try:
         data = read_regular(path, _MAX_FILE_SIZE)
     except OSError as error:
@@ -184,13 +193,16 @@ def _read_upright(path: Path, colour: bool) -> tuple[Pixels, Header, float]:
         )
     if pixels.dtype not in (np.uint8, np.uint16):
         raise CalibrationError(f"{path} holds {pixels.dtype} samples.", _FORMAT_HINT)
+    stated = header.exif.orientation
     if header.format != "TIFF":
-        pixels = _turn_upright(pixels, header.exif.orientation)
+        pixels = _turn(pixels, orientation or stated)
+    elif orientation is not None:  # OpenCV has turned it
+        pixels = _turn(_turn(pixels, _INVERSE.get(stated, stated)), orientation)
     zeros = len(data) - len(data.rstrip(b"\0")) if data.endswith(_PAGE) else 0
     return np.ascontiguousarray(pixels), header, zeros / len(data)
 
 
-def _turn_upright(pixels: Pixels, orientation: int) -> Pixels:
+def _turn(pixels: Pixels, orientation: int) -> Pixels:
     """Return `pixels` turned as EXIF says: transposed from 5 on, then mirrored along u or v."""
     if orientation >= 5:
         pixels = pixels.swapaxes(0, 1)

@@ -25,7 +25,7 @@ from calibgui.app.project import (
 from calibgui.app.recent import remember_project
 from calibgui.app.resampling import Undistortion, WrittenImage, rectify_files, undistort_files
 from calibgui.app.resources import find_resource, find_sample_square
-from calibgui.dataset import Result
+from calibgui.dataset import Result, find_orientation
 from calibgui.engine.errors import CalibrationError
 from calibgui.engine.images import FORMATS
 from calibgui.gui.dialogs.print_dialog import PrintDialog
@@ -326,7 +326,10 @@ class Files(QObject):
                 )
             else:
                 camera = result.calibration.camera
-                written = undistort_files(camera, images, folder, undistortion, progress, overwrite)
+                orientation = find_orientation(result.used)
+                written = undistort_files(
+                    camera, images, folder, undistortion, progress, overwrite, orientation
+                )
             return sum(len(image.paths) for image in written)
 
         def failed(error: Exception) -> None:

@@ -10,7 +10,7 @@ from PySide6.QtCore import QObject, Signal
 
 from calibgui.app.detection import Detection, find_views, infer_grid_size, infer_pattern
 from calibgui.app.project import Project, change_views, remove_digests
-from calibgui.dataset import View, ViewStatus
+from calibgui.dataset import View, ViewStatus, find_orientation
 from calibgui.engine.arrays import Array
 from calibgui.engine.detection import Corners
 from calibgui.engine.kernels import FINDER_SECONDS
@@ -93,6 +93,7 @@ class Detector(QObject):
                 progress,
                 job.cancelling,
                 project.size,
+                orientation=find_orientation(project.views),
                 method=project.method,
                 pattern=pattern,
                 preparing=lambda: job.rename(preparing),
@@ -148,7 +149,14 @@ class Detector(QObject):
             asked = view.roi is self._batch[view.image]
             if not asked or view.corners is not self._found_in_batch[view.image]:
                 return view  # changed by the user meanwhile, or of a time before the question
-            return replace(view, status=new.status, reason=new.reason, corners=new.corners)
+            return replace(
+                view,
+                status=new.status,
+                reason=new.reason,
+                note=new.note,
+                corners=new.corners,
+                orientation=new.orientation,
+            )
 
         def change(project: Project) -> Project:
             if _find_search_key(project) != self._search_key:
@@ -159,6 +167,10 @@ class Detector(QObject):
 
         self._session.document.learn(change)
         self._found_in_batch.update({view.image: view.corners for view in news.values()})
+        for view in news.values():
+            shown = self._session.images.kept(view.image)
+            if shown is not None and view.orientation not in (None, shown.orientation):
+                self._session.renew(view.image)
 
     def _done(self, detection: Detection) -> None:
         self._learn(detection.views)

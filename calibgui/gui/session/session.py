@@ -35,7 +35,7 @@ class Session(QObject):
         super().__init__(parent)
         self.jobs = Jobs(self)
         self.jobs.failed.connect(self.failed)
-        self.images = ImageStore()
+        self.images = ImageStore(find_orientation=self._find_orientation)
         self.document = Document()
         self.document.listeners.append(self._document_changed)
         self.image = ""
@@ -87,6 +87,11 @@ class Session(QObject):
         if image != self._hovered:
             self._hovered = image
             self.hovered.emit(image)
+
+    def _find_orientation(self, image: str) -> int | None:
+        """Return the orientation by which an image is turned, as far as the project tells."""
+        views = (view for view in self.project.views if view.image == image)
+        return next((view.orientation for view in views), None)
 
     def renew(self, image: str) -> None:
         """Forget the picture of an image: its file holds another one."""

@@ -129,6 +129,22 @@ def test_orientation_is_honoured_once(tmp_path: Path, suffix: str, orientation: 
     assert image.size == read_image_size(path) == (40, 24)
 
 
+@pytest.mark.parametrize("suffix", [".png", ".tif"])
+@pytest.mark.parametrize("stated", STORED)
+def test_another_orientation_turns_the_stored_pixels(
+    tmp_path: Path, suffix: str, stated: int
+) -> None:
+    exif = Pillow.Exif()
+    exif[0x0112] = stated
+    path = tmp_path / f"a{suffix}"
+    for wanted, store in STORED.items():
+        Pillow.fromarray(np.ascontiguousarray(store(ramp()))).save(path, exif=exif)
+        image = read_image(path, wanted)
+        np.testing.assert_array_equal(image.pixels, ramp())
+        np.testing.assert_array_equal(read_colour(path, wanted), ramp())
+        assert image.orientation == wanted
+
+
 @pytest.mark.parametrize("suffix", [".png", ".jpg", ".tif", ".bmp", ".webp", ".pgm"])
 @pytest.mark.parametrize("kept", [0.5, 0.97])
 def test_truncated_files_are_refused(tmp_path: Path, suffix: str, kept: float) -> None:

@@ -9,6 +9,7 @@ from pathlib import Path
 from threading import Event
 from typing import Any
 
+import numpy as np
 import pytest
 from PySide6.QtWidgets import QApplication
 from pytestqt.qtbot import QtBot
@@ -25,6 +26,7 @@ from calibgui.app.project import (
 )
 from calibgui.dataset import View, ViewStatus
 from calibgui.engine.errors import Cancelled
+from calibgui.engine.images.reading import write_image
 from calibgui.gui.session import detector as detector_module
 from calibgui.gui.session.calibrator import Calibrator
 from calibgui.gui.session.detector import Detector
@@ -315,3 +317,22 @@ def test_a_search_that_cannot_be_made_is_reported_once(
     qtbot.wait(50)
     assert len(failures) == 1 and not detector.running
     assert status(session) == [WAITING] * 3
+
+
+def test_a_photograph_is_shown_as_it_was_searched(
+    qtbot: QtBot, session: Session, search: Search, tmp_path: Path
+) -> None:
+    """A camera that was held otherwise gives pixels that are turned like the others."""
+    detector, found = begun(session, tmp_path)
+    image = found[0].image
+    write_image(image, np.zeros((30, 40), np.uint8))
+    assert session.images.read(image).size == (40, 30)
+    turned = replace(found[0], orientation=6, note="Turned.")
+    with qtbot.waitSignal(session.renewed, check_params_cb=lambda renewed: renewed == image):
+        search.findings.put(turned)
+    assert session.images.read(image).size == (30, 40)
+    assert session.project.views[0].note == "Turned."
+    for view in (found[1], found[2], None):
+        search.findings.put(view)
+    with qtbot.waitSignal(detector.finished):
+        pass

@@ -1,0 +1,83 @@
+"""One frame for all photographs of a camera: that of its sensor.
+
+A camera that is held upright or upside down stores the same rows and columns of its sensor, and
+states in EXIF how to turn them for people to look at. Each photograph turned by itself would be of
+another camera: its principal point and distortion are turned, too. So all photographs of a set are
+turned alike, as most of them state. Only where a file names no camera in EXIF, its pixels may have
+been turned by the program that wrote it, and are left as they are.
+"""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Iterable
+from dataclasses import replace
+
+from calibgui.dataset import View, ViewStatus
+from calibgui.engine.arrays import Size
+from calibgui.engine.errors import CalibrationError
+from calibgui.engine.images import Header, read_image_header
+
+_NOTE = "Turned like the other photographs: the camera was held otherwise when it was taken."
+
+
+def share_frame(
+    views: Iterable[View], size: Size | None = None, orientation: int | None = None
+) -> tuple[list[View], Size | None]:
+    """Turn all photographs alike, and record those that cannot be read or have another size.
+
+    Args:
+        views: views to be searched.
+        size: width and height of the camera's images; the most frequent ones if None.
+        orientation: EXIF orientation by which the camera's other photographs are turned; the most
+            frequent one if None.
+
+    Returns:
+        The views, and the size, None if no image is readable.
+    """
+    headers: dict[int, Header] = {}
+    result = list(views)
+    for k, view in enumerate(result):
+        try:
+            headers[k] = read_image_header(view.image)
+        except CalibrationError as error:
+            result[k] = view.refuse(ViewStatus.UNREADABLE, str(error))
+    if size is None:
+        count = Counter(header.size for header in headers.values())
+        size = max(count, key=lambda size: (count[size], size[0] * size[1]), default=None)
+    if orientation is None:
+        stated = Counter(h.exif.orientation for h in headers.values() if h.size == size)
+        orientation = max(stated, key=stated.__getitem__, default=None)
+    for k, header in headers.items():
+        turned = choose_orientation(header, size, orientation)
+        if turned is None:
+            reason = _describe_wrong_size(header.size, size)
+            result[k] = result[k].refuse(ViewStatus.WRONG_SIZE, reason)
+        else:
+            note = "" if turned == header.exif.orientation else _NOTE
+            result[k] = replace(result[k], orientation=turned, note=note)
+    return result, size
+
+
+def choose_orientation(header: Header, size: Size | None, usual: int | None) -> int | None:
+    """Return the orientation by which an image is turned to its size; None if there is none.
+
+    Args:
+        header: the image's header.
+        size: width and height of the camera's images.
+        usual: EXIF orientation by which the camera's photographs are turned, where it is known.
+    """
+    stated = header.exif.orientation
+    is_original = header.exif.is_of_camera or stated != 1
+    for orientation in (usual if is_original else None, stated):
+        if orientation is not None and header.turned_size(orientation) == size:
+            return orientation
+    return None
+
+
+def _describe_wrong_size(size: Size, usual: Size | None) -> str:
+    remedy = "Leave it out, or calibrate images of each size by themselves."
+    if usual == size[::-1]:
+        remedy = "Take the file as the camera wrote it, or leave it out."
+    width, height = usual or (0, 0)
+    return f"It has {size[0]} x {size[1]} pixels, most have {width} x {height}. {remedy}"
