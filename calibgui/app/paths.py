@@ -6,6 +6,7 @@ import glob
 import os
 import re
 import unicodedata
+from collections import Counter
 from collections.abc import Iterable
 from pathlib import Path
 
@@ -53,8 +54,9 @@ def _list_files(name: str) -> list[Path]:
         images = [p for p in path.iterdir() if _is_image(p)]
         if not images:
             raise CalibrationError(
-                f"The folder {name} holds no images.",
-                f"Name a folder with files that end in {', '.join(FORMATS)}.",
+                f"The folder {name} holds no images that can be read{_describe_others(path)}.",
+                f"Name a folder with files that end in {', '.join(FORMATS)}; save pictures of "
+                "other formats, and pictures of videos, as PNG or as JPEG in full size.",
             )
         return images
     if path.is_file():
@@ -68,6 +70,13 @@ def _list_files(name: str) -> list[Path]:
     if not files:
         raise CalibrationError(f"No file matches {name}.", "Check the pattern and its folder.")
     return files
+
+
+def _describe_others(folder: Path) -> str:
+    """Say which files a folder holds that are no images: cameras write formats of their own."""
+    suffixes = Counter(p.suffix.lower() for p in folder.iterdir() if p.is_file() and p.suffix)
+    listed = ", ".join(f"{count} of {suffix}" for suffix, count in suffixes.most_common(3))
+    return f", but files of other formats: {listed}" if listed else ""
 
 
 def _is_image(path: Path) -> bool:

@@ -113,3 +113,10 @@ class TestSpecialFiles:
     def test_a_name_that_no_file_can_have_is_named(self) -> None:
         with pytest.raises(CalibrationError, match="cannot be read"):
             find_images(["x" * 5000])
+
+
+def test_a_folder_of_other_formats_is_described(tmp_path: Path) -> None:
+    for name in ("IMG_1.HEIC", "IMG_2.heic", "film.mov"):
+        (tmp_path / name).touch()
+    with pytest.raises(CalibrationError, match=r"2 of \.heic, 1 of \.mov\..* as PNG or as JPEG"):
+        find_images([str(tmp_path)])
