@@ -99,8 +99,9 @@ class ImageStore:
             CalibrationError: as ``read_image``.
         """
         image = self.kept(path)
-        if image is None:
-            image = read_image(path, self._find_orientation(path))
+        orientation = self._find_orientation(path)
+        if image is None or orientation not in (None, image.orientation):
+            image = read_image(path, orientation)
             with self._lock:
                 self._kept[path] = image
                 while self.size > self._memory and len(self._kept) > 1:

@@ -181,7 +181,8 @@ class Marker(QObject):
         if tool is None or tool.preview is None:
             return
         corners, points = tool.preview, np.array(tool.points)
-        size = self._session.images.read(self._image).size
+        image = self._session.images.read(self._image)
+        size = image.size
         others = self._session.project.size
         if others is not None and others != size:
             self._session.failed.emit(
@@ -202,6 +203,7 @@ class Marker(QObject):
                 corners=corners,
                 points=None,
                 roi=points,
+                orientation=image.orientation,
                 enabled=True,
             )
 

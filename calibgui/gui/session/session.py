@@ -9,7 +9,9 @@ from PySide6.QtCore import QObject, Signal
 from calibgui.app.document import Change, Document
 from calibgui.app.image_store import ImageStore
 from calibgui.app.project import Project
-from calibgui.dataset import Result, View
+from calibgui.app.sensor_frame import choose_orientation
+from calibgui.dataset import Result, View, find_orientation
+from calibgui.engine.images import read_image_header
 from calibgui.gui.jobs.jobs import Jobs
 
 
@@ -89,9 +91,17 @@ class Session(QObject):
             self.hovered.emit(image)
 
     def _find_orientation(self, image: str) -> int | None:
-        """Return the orientation by which an image is turned, as far as the project tells."""
-        views = (view for view in self.project.views if view.image == image)
-        return next((view.orientation for view in views), None)
+        """Return the orientation by which an image is turned, None for that which it states.
+
+        Raises:
+            CalibrationError: if the image cannot be read.
+        """
+        project = self.project
+        view = next((view for view in project.views if view.image == image), None)
+        if view is None or view.orientation is not None or project.size is None:
+            return None if view is None else view.orientation
+        usual = find_orientation(project.views)
+        return choose_orientation(read_image_header(image), project.size, usual)
 
     def renew(self, image: str) -> None:
         """Forget the picture of an image: its file holds another one."""

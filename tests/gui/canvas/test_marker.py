@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from pathlib import Path
 
+from PIL import Image as Pillow
 from PySide6.QtCore import QPoint, Qt
 from pytestqt.qtbot import QtBot
 
@@ -116,6 +118,32 @@ def test_enter_goes_on_to_images_with_corners_where_all_are_marked(
     hand.key(Qt.Key.Key_Return)
     assert window.session.image == str(paths[2]), "the second one has been marked"
     hand.wait(lambda: page.canvas.tool is not None)
+    page.marker.leave()
+
+
+def test_a_photograph_that_was_held_otherwise_is_marked_in_the_frame_of_the_others(
+    window: MainWindow, qtbot: QtBot, tmp_path: Path
+) -> None:
+    paths = []
+    for k, orientation in ((1, 1), (2, 6)):  # level, upright
+        exif = Pillow.Exif()
+        exif[0x010F], exif[0x0112] = "Maker", orientation
+        paths.append(tmp_path / f"view{k}.png")
+        Pillow.open(find_resource("sample") / f"view0{k}.png").save(paths[-1], exif=exif)
+    hand, page, session = Hand(window, qtbot), window.page, window.session
+    session.begin(Document(Project(by_hand=True)))
+    window.files.open_paths(list(map(str, paths)))
+    qtbot.waitUntil(lambda: not session.jobs.running)
+    hand.choose_image(paths[0].name)
+    page.tools[0].trigger()
+    for path in paths:
+        hand.wait(lambda path=path: page.shown_path == str(path))
+        hand.wait(lambda: page.canvas.tool is not None)
+        for point in outermost(find_corners(read_image(path, 1).grey)):
+            hand.click(point)
+        hand.wait(page.marker.roi_bar.accept.isEnabled)
+        hand.key(Qt.Key.Key_Return)
+    assert [view.orientation for view in session.project.usable] == [1, 1]
     page.marker.leave()
 
 
