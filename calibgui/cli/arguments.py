@@ -33,6 +33,11 @@ from calibgui.formats import EXPORTERS, find_exporter
 from calibgui.report.boards import name_kind
 from calibgui.report.tables import list_unused_views
 
+_UNITS_MM = {"mm": 1.0, "cm": 10.0, "m": 1000.0, "in": 25.4}
+"""Units of lengths, mm."""
+_MIN_LENGTH_MM = 0.5
+"""Length from which a number without a unit is taken for millimetres."""
+
 
 def parse_grid_size(text: str) -> GridSize:
     """Read rows and columns of inner corners such as "12x13"."""
@@ -56,6 +61,21 @@ def parse_positive(text: str) -> float:
     if not 0 < value < float("inf"):
         raise argparse.ArgumentTypeError(f"{text!r} is not a number above 0")
     return value
+
+
+def parse_length(text: str) -> float:
+    """Read a length of a board, mm, with a unit or without one.
+
+    Other programs take metres. So a number without a unit that would be less than a board has, mm,
+    is refused: told nothing, a user would get poses a thousand times too small.
+    """
+    unit = next((unit for unit in _UNITS_MM if text.rstrip().endswith(unit)), "")
+    length = parse_positive(text.rstrip().removesuffix(unit)) * _UNITS_MM.get(unit, 1.0)
+    if not unit and length < _MIN_LENGTH_MM:
+        raise argparse.ArgumentTypeError(
+            f"{text} would be millimetres: say {text}m if it is metres, {text}mm if it is not"
+        )
+    return length
 
 
 def add_image_paths(parser: argparse.ArgumentParser, nargs: str = "+") -> None:

@@ -7,7 +7,7 @@ import re
 from dataclasses import replace
 from typing import Any
 
-from calibgui.cli.arguments import parse_positive
+from calibgui.cli.arguments import parse_length, parse_positive
 from calibgui.engine.arrays import GridSize
 from calibgui.engine.boards import CHECKERBOARD, FAMILIES, KINDS, Pattern
 from calibgui.engine.errors import CalibrationError
@@ -52,7 +52,7 @@ def add_board_options(parser: argparse.ArgumentParser) -> None:
         help="dictionary of the markers of a ChArUco board, as DICT_4X4_50",
     )
     group.add_argument(
-        "--marker", type=parse_positive, metavar="MM", help="side of a marker of a ChArUco board"
+        "--marker", type=parse_length, metavar="MM", help="side of a marker of a ChArUco board"
     )
     group.add_argument(
         "--legacy",
@@ -63,7 +63,7 @@ def add_board_options(parser: argparse.ArgumentParser) -> None:
     )
     group.add_argument(
         "--diameter",
-        type=parse_positive,
+        type=parse_length,
         metavar="MM",
         help="diameter of a circle; measured if left out",
     )

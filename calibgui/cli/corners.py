@@ -12,7 +12,7 @@ from calibgui.cli.arguments import (
     add_search_options,
     is_corners_file,
     open_input,
-    parse_positive,
+    parse_length,
     require_board,
     search_images,
 )
@@ -35,7 +35,10 @@ def add_corner_options(parser: argparse.ArgumentParser, need: str) -> None:
     add_search_options(parser)
     add_board_options(parser)
     parser.add_argument(
-        "--square", type=parse_positive, metavar="MM", help=f"side of a square, mm; {need}"
+        "--square",
+        type=parse_length,
+        metavar="MM",
+        help=f"side of a square, mm, or with a unit as 0.025m; {need}",
     )
     parser.add_argument(
         "--exclude",

@@ -8,7 +8,7 @@ from pathlib import Path
 from calibgui.cli.arguments import (
     add_image_paths,
     add_search_options,
-    parse_positive,
+    parse_length,
     require_board,
     search_images,
 )
@@ -28,10 +28,10 @@ def configure(parser: argparse.ArgumentParser) -> None:
     add_board_options(parser)
     parser.add_argument(
         "--square",
-        type=parse_positive,
+        type=parse_length,
         metavar="MM",
-        help="side of a square, or distance of circles, mm; 1 if left out: then give it to "
-        "'calibgui calibrate'",
+        help="side of a square, or distance of circles, mm, or with a unit as 0.025m; 1 if left "
+        "out: then give it to 'calibgui calibrate'",
     )
     parser.add_argument(
         "-o",

@@ -14,6 +14,7 @@ import numpy as np
 import pytest
 
 from calibgui.app.settings import Settings
+from calibgui.cli.arguments import parse_length
 from calibgui.cli.main import main
 from calibgui.engine.boards.shape import BoardShapeModel, BoardShapePrior
 from calibgui.engine.calibration.result import Cost
@@ -99,6 +100,23 @@ def test_corners_need_no_square(corners_file: Path, tmp_path: Path) -> None:
     file = tmp_path / "result.json"
     assert main(["calibrate", str(corners_file), "-q", "-o", str(file)]) == 0
     assert read_result(file).board == BOARD
+
+
+@pytest.mark.parametrize("text", ["30", "30mm", "3 cm", "0.03m", " 30 "])
+def test_a_square_may_have_a_unit(text: str) -> None:
+    assert parse_length(text) == pytest.approx(30)
+
+
+@pytest.mark.parametrize(
+    ("text", "reason"),
+    [("0.03", "say 0.03m if it is metres, 0.03mm if it is not"), ("m", "above 0"), ("", "above 0")],
+)
+def test_a_square_in_metres_is_not_taken_for_millimetres(
+    corners_file: Path, text: str, reason: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    with pytest.raises(SystemExit):
+        main(["calibrate", str(corners_file), "--square", text])
+    assert reason in capsys.readouterr().err
 
 
 def test_a_square_given_with_corners_scales_the_poses(corners_file: Path, tmp_path: Path) -> None:
