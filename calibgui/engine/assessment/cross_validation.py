@@ -30,9 +30,9 @@ from calibgui.engine.arrays import Array, IntArray, Size, freeze
 from calibgui.engine.boards.shape import BoardShape, BoardShapeModel
 from calibgui.engine.calibration.calibrate import calibrate
 from calibgui.engine.calibration.observations import Observation, pack_observations
-from calibgui.engine.calibration.problem import make_nominal_board_shape, prepare_observations
+from calibgui.engine.calibration.problem import prepare_observations
 from calibgui.engine.calibration.resection import estimate_poses, refine_poses
-from calibgui.engine.calibration.result import Calibration, Cost, ViewResiduals
+from calibgui.engine.calibration.result import Calibration, ViewResiduals
 from calibgui.engine.calibration.result_assembly import compute_view_residuals
 from calibgui.engine.camera.camera import Camera
 from calibgui.engine.errors import CalibrationError
@@ -131,7 +131,7 @@ def cross_validate(
     for fold in range(folds):
         out = np.arange(fold, len(seen), folds)
         kept = [view for k, view in enumerate(seen) if k % folds != fold]
-        result = calibrate(kept, size, **settings)
+        result = calibrate(kept, size, **settings, model_errors=False)
         held_out = resect_views(result, [seen[k] for k in out])
         for k, residual in zip(out, held_out, strict=True):
             by_view[k] = residual
@@ -307,13 +307,11 @@ def bootstrap_views(
     seen = [Observation(*view) for view in views]
     rng = np.random.default_rng(seed)
     settings = {name: settings[name] for name in settings.keys() - {"names", "report"}}
-    if whole.board_shape is None and whole.cost is Cost.IMAGE:
-        settings["board_shape"] = make_nominal_board_shape(seen)
     params = []
     for _ in range(draws):
         drawn = [seen[k] for k in rng.integers(len(seen), size=len(seen)).tolist()]
         with suppress(CalibrationError):
-            params.append(calibrate(drawn, size, **settings).camera.params)
+            params.append(calibrate(drawn, size, **settings, model_errors=False).camera.params)
     if len(params) < max(2, draws // 10):
         raise CalibrationError(
             "Resampled views do not determine the camera: too few of them carry the result.",

@@ -41,9 +41,7 @@ from calibgui.engine.calibration.observations import (
     name_views,
     pack_observations,
 )
-from calibgui.engine.calibration.problem import make_nominal_board_shape
 from calibgui.engine.calibration.result import Calibration
-from calibgui.engine.camera.models import find_model
 from calibgui.engine.camera.projection import pixels_from_rays
 from calibgui.engine.geometry.frames import paper_from_array
 from calibgui.engine.geometry.rotations import rotation_from_vector
@@ -115,13 +113,10 @@ def screen_outliers(
     kept = [np.ones(len(view.uv), dtype=bool) for view in given]
     reasons = dict(_screen_by_stage_one(given, names, size, kept))
     _leave_out_poor_views(kept, reasons)
-    # Screening assumes a flat board and the image cost, whatever is estimated afterwards. A board
-    # whose shape is held is not tested anew in every round, which would take half of the time.
-    plain: dict[str, Any] = {
+    # Screening assumes a flat board and the image cost, whatever is estimated afterwards.
+    plain: dict[str, Any] = {"model_errors": False} | {
         name: settings[name] for name in ("fix", "free", "model") if name in settings
     }
-    if plain.get("model") is None or find_model(plain["model"]).control_points is None:
-        plain["board_shape"] = make_nominal_board_shape(given)
     for _ in range(_MAX_SOLVES):
         if not _screen_by_residual(_calibrate_kept(given, size, names, kept, plain), given, kept):
             break

@@ -56,7 +56,6 @@ def add_model_errors(
     Nothing is added for a splined lens: it has enough coefficients to follow what a board's shape
     or a single view does to the image, and the tests that tell these apart know few parameters.
     """
-    shape = BoardShapeModel(options.settings["plate"])
     if find_model(options.model).control_points is not None:
         return estimate
     if options.cost is not Cost.IMAGE:
@@ -66,19 +65,38 @@ def add_model_errors(
     board = linearise_board(estimate, observations, options.model, options.free)
     lens_error, is_suspect = _examine_lens(board, estimate, observations, options)
     views = None
-    if shape is BoardShapeModel.NOMINAL:
+    if options.settings["plate"] == BoardShapeModel.NOMINAL:
         error, views = estimate_board_error(board, estimate, observations.count, prior), board.views
         estimate = add_board_error(estimate, error)
         if is_suspect:
             estimate = estimate._replace(board_shape_error=error.deviation)
     else:
-        estimate = fit_board_shape(
-            estimate.solution, observations, options.model, options.free, shape, prior, report
-        )
-        _check_camera_known(estimate, options, shape)
+        estimate = estimate_board_shape(estimate, observations, options, prior, report)
     if lens_error > 0:
         estimate = estimate._replace(lens_error=lens_error, board_shape_error=0.0)
     return add_overdispersion(estimate, options.model, options.free, views)
+
+
+def estimate_board_shape(
+    estimate: Estimate,
+    observations: Observations,
+    options: Options,
+    prior: BoardShapePrior | None,
+    report: Report | None,
+) -> Estimate:
+    """Estimate the board's shape with the camera; return the estimate as it is if none is wanted.
+
+    Raises:
+        CalibrationError: if the views cannot determine the shape, or not the camera beside it.
+    """
+    shape = BoardShapeModel(options.settings["plate"])
+    if shape is BoardShapeModel.NOMINAL or options.board_shape is not None:
+        return estimate
+    estimate = fit_board_shape(
+        estimate.solution, observations, options.model, options.free, shape, prior, report
+    )
+    _check_camera_known(estimate, options, shape)
+    return estimate
 
 
 def _examine_lens(

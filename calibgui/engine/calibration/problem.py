@@ -52,17 +52,6 @@ def recover_arguments(calibration: Calibration) -> dict[str, Any]:
     }
 
 
-def make_nominal_board_shape(views: Sequence[Observation]) -> BoardShape:
-    """Make the board shape without deviations that all corners of some views lie on.
-
-    Calibrations that hold it do not test anew whether the board deviates from its drawing, which
-    saves time where many are made.
-    """
-    places = np.unique(np.round(np.concatenate([view.xy for view in views]), 9), axis=0)
-    none = np.zeros((len(places), 3))
-    return BoardShape(BoardShapeModel.NOMINAL, places, none, none)
-
-
 def find_free_parameters(calibration: Calibration) -> IntArray:
     """Return the indices of the camera's parameters that were estimated, ascending."""
     names = calibration.camera.names

@@ -21,8 +21,8 @@ import numpy as np
 from calibgui.engine.arrays import Array, IntArray, freeze, freeze_ints
 from calibgui.engine.calibration.calibrate import calibrate
 from calibgui.engine.calibration.observations import Observation
-from calibgui.engine.calibration.problem import make_nominal_board_shape, recover_arguments
-from calibgui.engine.calibration.result import Calibration, Cost
+from calibgui.engine.calibration.problem import recover_arguments
+from calibgui.engine.calibration.result import Calibration
 from calibgui.engine.errors import CalibrationError, Progress
 from calibgui.engine.uncertainty.view_design import ViewDesign, build_design
 
@@ -176,9 +176,7 @@ def _measure_scatter(
     """Calibrate random sets and return one sigma (n, 2) of centre and focal length, px."""
     K = len(views)
     sigma = np.full((len(counts), 2), np.nan)
-    settings = recover_arguments(calibration)
-    if calibration.cost is Cost.IMAGE and calibration.board_shape is None:
-        settings["board_shape"] = make_nominal_board_shape(views)
+    settings = recover_arguments(calibration) | {"model_errors": False}
     sizes = [i for i, n in enumerate(counts) if _MIN_SOLVED_VIEWS <= n < K]
     for done, i in enumerate(sizes):
         n = int(counts[i])

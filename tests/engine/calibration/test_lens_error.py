@@ -117,6 +117,19 @@ def test_only_the_name_of_the_error_depends_on_the_verdict(monkeypatch: pytest.M
     np.testing.assert_array_equal(found.pose_covariances, blamed.pose_covariances)
 
 
+@pytest.mark.parametrize("shape", [BoardShapeModel.NOMINAL, BoardShapeModel.BOW])
+def test_without_errors_of_models_the_camera_is_the_same(shape: BoardShapeModel) -> None:
+    views = photographed(barrel(), deviation("bow", 0.5), 9)
+    whole = calibrate(views, VGA, board_shape=shape)
+    plain = calibrate(views, VGA, board_shape=shape, model_errors=False)
+    np.testing.assert_array_equal(plain.camera.params, whole.camera.params)
+    np.testing.assert_array_equal(plain.covariance, plain.noise_covariance)
+    np.testing.assert_array_equal(plain.noise_covariance, whole.noise_covariance)
+    assert plain.board_shape_error == plain.lens_error == plain.overdispersion == 0
+    if shape is BoardShapeModel.NOMINAL:
+        assert whole.board_shape_error > 0 and (whole.sigma[:4] > plain.sigma[:4]).all()
+
+
 def test_the_lens_is_examined_only_where_the_board_is_suspected(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
