@@ -64,6 +64,18 @@ def test_the_floor_is_found(floor: float) -> None:
     )
 
 
+@pytest.mark.parametrize("stretch", [0.0, 1e-12, 1.0, 1e6])
+def test_corners_are_resolved_along_the_axes_of_their_covariances(stretch: float) -> None:
+    rng = np.random.default_rng(4)
+    axes = np.linalg.qr(rng.normal(size=(50, 2, 2)))[0]
+    C = axes @ (np.diag([1.0, 1.0 + stretch]) @ np.swapaxes(axes, -1, -2))
+    r = rng.normal(size=(50, 2))
+    observations = Observations(r[None], r[None], np.ones((1, 50)), C[None])
+    tau2 = estimate_model_variance(observations, 1e4 * r[None], 7)
+    weights = np.linalg.inv(C + tau2 * np.eye(2))
+    assert 1e8 * np.einsum("ni,nij,nj", r, weights, r) == pytest.approx(100 - 7, rel=1e-5)
+
+
 def test_weights_beat_equal_weights_where_corners_differ() -> None:
     errors = {"weighted": [], "equal": []}
     reported = []
