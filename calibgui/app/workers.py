@@ -12,6 +12,7 @@ and the libraries of other systems do not stand it.
 from __future__ import annotations
 
 import contextlib
+import gc
 import multiprocessing
 import os
 import signal
@@ -132,6 +133,7 @@ def _prepare_here(prepare: Callable[[], None], preparing: Callable[[], None] | N
     """Prepare in this process what workers are then forked with."""
     with opencv.single_thread(), when_compiling(preparing or (lambda: None)):
         prepare()
+    gc.freeze()  # no process has to look for garbage among the libraries and kernels that it shares
     _prepared.add(prepare)
 
 

@@ -363,3 +363,21 @@ def test_names_do_not_command_the_terminal(
     assert r"\x1b[2J.png" in printed
     assert main(["calibrate", "\x1b[2J.json"]) == 1
     assert "\x1b" not in capsys.readouterr().err
+
+
+def test_no_garbage_is_looked_for_among_what_a_command_loads() -> None:
+    code = (
+        "import contextlib, gc, sys\n"
+        "from calibgui.cli.main import main\n"
+        "looked = []\n"
+        "gc.callbacks.append(lambda phase, _: looked.append('numpy' in sys.modules))\n"
+        "with contextlib.suppress(SystemExit):\n"
+        "    main(['calibrate', '--help'])\n"
+        "print(sum(looked), gc.get_freeze_count(), gc.isenabled())\n"
+    )
+    command = [sys.executable, "-c", code]
+    printed = subprocess.run(command, capture_output=True, text=True, check=True).stdout
+    looked, kept, is_enabled = printed.split()[-3:]
+    assert int(looked) < 20  # of some 180, should the formatting of the help look for some
+    assert int(kept) > 50_000
+    assert is_enabled == "True"
