@@ -35,6 +35,7 @@ from calibgui.engine.assessment.cross_validation import (
     cross_validate,
 )
 from calibgui.engine.assessment.drift import (
+    SIGNIFICANCE,
     Drift,
     UncertainCamera,
     choose_covariance,
@@ -77,6 +78,7 @@ __all__ = [
     "CANDIDATES",
     "CONFIDENCE",
     "DEFAULT_LIMIT",
+    "SIGNIFICANCE",
     "SIMPLEST_MODEL",
     "SPLINE",
     "Action",
