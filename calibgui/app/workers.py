@@ -39,6 +39,8 @@ _POLL_SECONDS = 0.05
 """Time between two checks of `stop`, s."""
 _prepared: set[Callable[[], None]] = set()
 """The preparations that this process has made, and need not make again."""
+_serial = threading.local()
+"""Whether a thread does all tasks itself (`do_tasks_here`)."""
 
 
 class Crashed(Exception):  # noqa: N818 - a value, never raised
@@ -49,12 +51,27 @@ class _Compiling:
     """A message from a worker that has to compile kernels first."""
 
 
+@contextlib.contextmanager
+def do_tasks_here() -> Iterator[None]:
+    """Let `map_in_processes` do the tasks of this thread in it, one after another.
+
+    It is for a process that is one of many workers itself: more would only take turns with them,
+    and some (Dask's) may start none.
+    """
+    _serial.is_on = True
+    try:
+        yield
+    finally:
+        _serial.is_on = False
+
+
 def map_in_processes(
     task: Callable[[T], R],
     items: Sequence[T],
     stop: Event | None = None,
     preparing: Callable[[], None] | None = None,
     prepare: Callable[[], None] | None = None,
+    count: int | None = None,
 ) -> Generator[tuple[int, R | Crashed], None, None]:
     """Yield the index and task(item) of each item, in the order of completion.
 
@@ -67,6 +84,7 @@ def map_in_processes(
         preparing: called once if kernels have to be compiled first.
         prepare: a function of a module that loads or compiles the kernels of the task. It is called
             once before the work is shared, so that no two processes compile the same.
+        count: number of processes; that of the processors if None.
 
     Raises:
         Cancelled: if `stop` was set.
@@ -75,12 +93,16 @@ def map_in_processes(
     waiting = list(enumerate(items))[::-1]
     if prepare in _prepared or not items:
         prepare = None
-    if prepare is not None and _can_fork():
+    is_serial = getattr(_serial, "is_on", False)
+    if prepare is not None and (is_serial or _can_fork()):
         _prepare_here(prepare, preparing)
         prepare = None
+    if is_serial:
+        yield from _do_here(task, items, stop)
+        return
     team = [
         _start_worker(task, None if k else prepare)
-        for k in range(min(len(items), os.cpu_count() or 1))
+        for k in range(min(len(items), count or os.cpu_count() or 1))
     ]
     # The index of the item that each worker is busy with; None until it has started.
     busy: dict[Connection, int | None] = {connection: None for connection, _ in team}
@@ -121,6 +143,16 @@ def map_in_processes(
         for connection, process in team:
             process.join()
             connection.close()
+
+
+def _do_here(
+    task: Callable[[T], R], items: Sequence[T], stop: Event | None
+) -> Iterator[tuple[int, R]]:
+    """Yield the index and task(item) of each item. Raises Cancelled if `stop` was set."""
+    for k, item in enumerate(items):
+        if stop is not None and stop.is_set():
+            raise Cancelled
+        yield k, task(item)
 
 
 def _can_fork() -> bool:
@@ -190,8 +222,13 @@ def _run_worker(
 
 
 def _serve_items(task: Callable[[Any], Any], connection: Connection) -> None:
-    """Do `task` to every item that arrives, and send the results."""
-    while True:
+    """Do `task` to every item that arrives, and send the results, as long as the parent lives.
+
+    Its death does not close the connection: workers that were forked later have copies of it.
+    """
+    parent = multiprocessing.parent_process()
+    assert parent is not None
+    while connection in wait([connection, parent.sentinel]):
         item = connection.recv()
         try:
             message: tuple[Exception | None, Any] = (None, task(item))

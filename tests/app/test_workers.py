@@ -142,3 +142,49 @@ def test_the_first_worker_is_as_deaf_to_ctrl_c_as_the_others(tmp_path: Path) -> 
     )
     done = subprocess.run([sys.executable, script], capture_output=True, text=True, check=True)
     assert "SIGINT" in done.stdout
+
+
+def test_one_process_of_many_does_its_tasks_itself() -> None:
+    asked = ["__import__('os').getpid()"] * 3
+    with workers.do_tasks_here():
+        assert list(map_in_processes(eval, asked)) == [(k, os.getpid()) for k in range(3)]
+        stop = Event()
+        stop.set()
+        with pytest.raises(Cancelled):
+            list(map_in_processes(eval, asked, stop))
+    assert os.getpid() not in dict(map_in_processes(eval, asked)).values()
+
+
+def test_no_more_processes_than_asked_for() -> None:
+    asked = ["__import__('os').getpid()"] * 4
+    assert len(set(dict(map_in_processes(eval, asked, count=1)).values())) == 1
+
+
+@pytest.mark.skipif(sys.platform != "linux", reason="reads /proc")
+def test_workers_end_with_a_parent_that_is_killed(tmp_path: Path) -> None:
+    """They wait for the next item, and hear of no more: forked ones hold each other's pipes."""
+    script = tmp_path / "parent.py"
+    start = "fork" if workers._can_fork() else "spawn"
+    script.write_text(
+        "import os, signal, sys\n"
+        "from calibgui.app import workers\n"
+        f"workers._can_fork = lambda: {start == 'fork'}\n"
+        "if __name__ == '__main__':\n"
+        "    asked = [\"__import__('os').getpid()\"] * 2 + [\"__import__('time').sleep(1)\"] * 2\n"
+        "    for k, number in workers.map_in_processes(eval, asked, count=2):\n"
+        "        print(number, flush=True)\n"
+        "        if k == 1: os.kill(os.getpid(), signal.SIGKILL)\n",
+        encoding="utf-8",
+    )
+    printed = tmp_path / "printed.txt"
+    with printed.open("w") as file:  # a pipe would be open for as long as a worker lives
+        done = subprocess.run([sys.executable, script], stdout=file, check=False)
+    assert done.returncode == -signal.SIGKILL
+    left = {int(line) for line in printed.read_text().split()}
+    deadline = time.monotonic() + 20
+    while left and time.monotonic() < deadline:
+        time.sleep(0.05)
+        left = {number for number in left if Path(f"/proc/{number}").exists()}
+    for number in left:
+        os.kill(number, signal.SIGKILL)
+    assert not left
