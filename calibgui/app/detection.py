@@ -15,6 +15,7 @@ from dataclasses import dataclass, replace
 from functools import partial
 from pathlib import Path
 from threading import Event
+from typing import Protocol
 
 from calibgui.app.preparation import prepare_finder
 from calibgui.app.sensor_frame import share_frame
@@ -25,6 +26,7 @@ from calibgui.engine.boards import CHECKERBOARD, KINDS, Board, Pattern
 from calibgui.engine.detection import METHODS, Corners, find_corners, look_for_marks
 from calibgui.engine.errors import CalibrationError, NoBoardError
 from calibgui.engine.images import Image, read_image
+from calibgui.report.boards import name_kind
 
 _KINDS_MARKED_IN_SQUARES = ("charuco", "tagged-checkerboard")
 """Kinds of boards with marks in their squares that a search for plain checkerboards may find."""
@@ -34,6 +36,14 @@ _SAMPLES = 2
 """Number of images in which other boards are looked for, which takes seconds in each."""
 Progress = Callable[[int, int, View], None]
 """Function that is called with the number of finished images, of all images, and the last view."""
+
+
+class SearchImage(Protocol):
+    """A function that searches the image of a view, as `search_view`."""
+
+    def __call__(
+        self, view: View, grid_size: GridSize | None, method: str, pattern: Pattern
+    ) -> View: ...
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -57,10 +67,7 @@ class Detection:
                 neither given nor seen.
         """
         if self.size is None:
-            raise CalibrationError(
-                "None of the files can be read as an image.",
-                f"The first: {self.views[0].reason}",
-            )
+            raise _refuse_unreadable(self.views)
         seen = [view.corners for view in self.views if view.corners is not None]
         if self.grid_size is None and (largest := measure_largest_part(seen)) is not None:
             rows, cols = largest
@@ -84,6 +91,7 @@ def find_views(
     method: str = METHODS[0],
     pattern: Pattern = CHECKERBOARD,
     preparing: Callable[[], None] | None = None,
+    search_image: SearchImage | None = None,
 ) -> Detection:
     """Search all images for the board, on all processors.
 
@@ -99,6 +107,7 @@ def find_views(
         pattern: of the board; its unknown properties are inferred from the whole set.
         preparing: called if the corner finder has to be compiled for its first use, which takes
             about ``kernels.FINDER_SECONDS``.
+        search_image: does what `search_view` does, as one that remembers; `search_view` if None.
 
     Raises:
         Cancelled: if `stop` was set.
@@ -110,7 +119,9 @@ def find_views(
     def search(which: Sequence[int], grid_size: GridSize | None, before: int = 0) -> None:
         items = [views[k] for k in which]
         results = map_in_processes(
-            partial(search_view, grid_size=grid_size, method=method, pattern=pattern),
+            partial(
+                search_image or search_view, grid_size=grid_size, method=method, pattern=pattern
+            ),
             items,
             stop,
             preparing,
@@ -160,6 +171,61 @@ def _describe_zero_tail(image: Image) -> str:
         f"The last {100 * image.zero_tail:.2g} % of the file are zeros: if the photograph is not "
         "black there, copy it from the camera again."
     )
+
+
+def explain_missing_board(
+    detection: Detection,
+    pattern: Pattern,
+    grid_size: GridSize | None,
+    is_any_looked_for: bool = False,
+) -> tuple[CalibrationError | None, tuple[View, ...]]:
+    """Explain why none of the photographs shows the board, and what they show instead.
+
+    Args:
+        detection: what was found.
+        pattern: of the board that was looked for.
+        grid_size: of that board, if stated.
+        is_any_looked_for: True if boards of all other patterns were looked for as well.
+
+    Returns:
+        The error, None if the board was found or no image could be read, and the views with other
+        faults than that.
+    """
+    views = detection.views
+    if any(view.usable for view in views) or detection.size is None:
+        return None, ()
+    samples = choose_samples(views)
+    if not samples:
+        return _refuse_unreadable(views), ()
+    size = None if grid_size is None else find_grid_size(samples, pattern)
+    other = None if size or is_any_looked_for else find_other_pattern(samples, pattern)
+    if grid_size is not None and size is not None:
+        problem = (
+            f"The images show a board of {_format_size(size)}, not of {_format_size(grid_size)}."
+        )
+        hint = f"State --board {_format_size(size)}, or leave --board out."
+    elif other is not None:
+        problem = f"The images show {name_kind(other)}, not {name_kind(pattern)}."
+        hint = f"State --target {other.kind}; if another board is meant, --roi says where it is."
+    else:
+        problem = "The board was found in none of the images."
+        hint = (
+            "Photograph the whole board, sharp and evenly lit; state what is printed on it with "
+            "--target, or mark its corners with --roi."
+        )
+    is_explained = size is not None or other is not None
+    faults = [v for v in views if not (is_explained and v.status is ViewStatus.NO_BOARD)]
+    return CalibrationError(problem, hint), tuple(faults)
+
+
+def _refuse_unreadable(views: Sequence[View]) -> CalibrationError:
+    """Return the error that none of the images can be read."""
+    problem = "None of the files can be read as an image."
+    return CalibrationError(problem, f"The first: {views[0].reason}")
+
+
+def _format_size(size: GridSize) -> str:
+    return f"{size[0]}x{size[1]}"
 
 
 def choose_samples(views: Iterable[View]) -> list[str]:

@@ -14,23 +14,19 @@ from pathlib import Path
 
 from calibgui.app.detection import (
     Detection,
-    choose_samples,
-    find_grid_size,
-    find_other_pattern,
+    explain_missing_board,
     find_views,
     recognise_pattern,
 )
 from calibgui.app.paths import find_images
 from calibgui.app.regions import read_regions
 from calibgui.cli.console import Console
-from calibgui.dataset import ViewStatus
 from calibgui.engine.arrays import GridSize
 from calibgui.engine.boards import CHECKERBOARD, Pattern
 from calibgui.engine.detection import METHODS, MIN_LINES
 from calibgui.engine.errors import CalibrationError
 from calibgui.engine.kernels import FINDER_SECONDS
 from calibgui.formats import EXPORTERS, find_exporter
-from calibgui.report.boards import name_kind
 from calibgui.report.tables import list_unused_views
 
 _UNITS_MM = {"mm": 1.0, "cm": 10.0, "m": 1000.0, "in": 25.4}
@@ -110,13 +106,7 @@ def list_input_files(paths: Sequence[str]) -> Sequence[str | Path]:
 
 def add_search_options(parser: argparse.ArgumentParser) -> None:
     """Add the options on how the board is searched."""
-    parser.add_argument(
-        "--board",
-        type=parse_grid_size,
-        metavar="ROWSxCOLS",
-        help="inner corners of the board (one fewer than squares each way), or circles of a grid; "
-        "inferred from the photographs if left out",
-    )
+    add_grid_size_option(parser)
     parser.add_argument(
         "--roi",
         type=Path,
@@ -125,6 +115,17 @@ def add_search_options(parser: argparse.ArgumentParser) -> None:
     )
 
     add_corner_method(parser)
+
+
+def add_grid_size_option(parser: argparse.ArgumentParser) -> None:
+    """Add the option on the size of the board."""
+    parser.add_argument(
+        "--board",
+        type=parse_grid_size,
+        metavar="ROWSxCOLS",
+        help="inner corners of the board (one fewer than squares each way), or circles of a grid; "
+        "inferred from the photographs if left out",
+    )
 
 
 def add_corner_method(parser: argparse.ArgumentParser) -> None:
@@ -226,35 +227,12 @@ def require_board(
     Raises:
         CalibrationError: if there are such, after a list of the images that have other faults.
     """
-    views = detection.views
-    if any(view.usable for view in views) or detection.size is None:
+    error, faults = explain_missing_board(detection, pattern, grid_size, is_any_looked_for)
+    if error is None:
         return
-    samples = choose_samples(views)
-    size = None if grid_size is None else find_grid_size(samples, pattern)
-    other = None if size or is_any_looked_for else find_other_pattern(samples, pattern)
-    if grid_size is not None and size is not None:
-        problem = (
-            f"The images show a board of {_format_size(size)}, not of {_format_size(grid_size)}."
-        )
-        hint = f"State --board {_format_size(size)}, or leave --board out."
-    elif other is not None:
-        problem = f"The images show {name_kind(other)}, not {name_kind(pattern)}."
-        hint = f"State --target {other.kind}; if another board is meant, --roi says where it is."
-    else:
-        problem = "The board was found in none of the images."
-        hint = (
-            "Photograph the whole board, sharp and evenly lit; state what is printed on it with "
-            "--target, or mark its corners with --roi."
-        )
-    is_explained = size is not None or other is not None
-    other_faults = [v for v in views if not (is_explained and v.status is ViewStatus.NO_BOARD)]
-    if unused := list_unused_views(other_faults):
+    if unused := list_unused_views(faults):
         console.print_problem(unused)
-    raise CalibrationError(problem, hint)
-
-
-def _format_size(size: GridSize) -> str:
-    return f"{size[0]}x{size[1]}"
+    raise error
 
 
 def _parse_export(text: str) -> tuple[str, Path]:
