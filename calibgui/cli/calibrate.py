@@ -46,6 +46,31 @@ from calibgui.report import tables
 def configure(parser: argparse.ArgumentParser) -> None:
     """Describe the arguments."""
     add_corner_options(parser, "needed for photographs")
+    add_settings_options(parser)
+    parser.add_argument(
+        "--save-board-shape",
+        "--save-plate",
+        type=Path,
+        metavar="FILE",
+        help="write the estimated board shape, for later calibrations with the same board",
+    )
+    parser.add_argument(
+        "-o", "--output", type=Path, metavar="FILE", help="write result.json; - for standard output"
+    )
+    add_export_option(parser, "write another format as well")
+    add_overwrite_option(parser)
+    parser.add_argument(
+        "-v",
+        "--verbose",
+        "--stage-one",
+        action="store_true",
+        help="print all that is known: each view by itself (the paper's Stage I), its residuals "
+        "and pose, the camera in the paper's units, and how far each value is determined",
+    )
+
+
+def add_settings_options(parser: argparse.ArgumentParser) -> None:
+    """Add the options on how to calibrate, which `read_settings` reads."""
     parser.add_argument(
         "--cost",
         choices=[cost.value for cost in Cost],
@@ -117,31 +142,11 @@ def configure(parser: argparse.ArgumentParser) -> None:
         "size, which yields to what the views show. It counts in every ±, and in a free board "
         "shape",
     )
-    parser.add_argument(
-        "--save-board-shape",
-        "--save-plate",
-        type=Path,
-        metavar="FILE",
-        help="write the estimated board shape, for later calibrations with the same board",
-    )
-    parser.add_argument(
-        "-o", "--output", type=Path, metavar="FILE", help="write result.json; - for standard output"
-    )
-    add_export_option(parser, "write another format as well")
-    add_overwrite_option(parser)
-    parser.add_argument(
-        "-v",
-        "--verbose",
-        "--stage-one",
-        action="store_true",
-        help="print all that is known: each view by itself (the paper's Stage I), its residuals "
-        "and pose, the camera in the paper's units, and how far each value is determined",
-    )
 
 
 def run(options: argparse.Namespace, console: Console) -> None:
     """Search, calibrate, write and print."""
-    settings = _read_settings(options)
+    settings = read_settings(options)
     _check_usage(options)
     options.output = console.take_output(options.output)
     outputs = [(options.output, RESULT), (options.save_board_shape, BOARD_SHAPE)]
@@ -222,7 +227,7 @@ def _write_files(
     return messages, errors
 
 
-def _read_settings(options: argparse.Namespace) -> Settings:
+def read_settings(options: argparse.Namespace) -> Settings:
     """Return the settings that the options state, or end the program if they are impossible."""
     model = options.model if "model" in options else get_own_model(options.method)
     try:

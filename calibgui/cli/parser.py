@@ -13,6 +13,7 @@ from calibgui import __version__
 
 COMMANDS = {
     "calibrate": "calibrate a camera from photographs of a checkerboard or another board",
+    "batch": "calibrate many cameras from a list, on all processors or a cluster",
     "detect": "locate the corners of the board in photographs",
     "undistort": "write photographs without lens distortion",
     "rectify": "write photographs of the board as seen from straight above",

@@ -19,9 +19,19 @@ def read_csv_rows(file: Path) -> list[dict[str, str]]:
     Raises:
         CalibrationError: if the file cannot be read, or is not CSV in UTF-8.
     """
+    return [row for _, row in read_numbered_csv_rows(file)]
+
+
+def read_numbered_csv_rows(file: Path) -> list[tuple[int, dict[str, str]]]:
+    """Read the rows of a table, each with the number of its last line.
+
+    Raises:
+        CalibrationError: as `read_csv_rows`.
+    """
     try:
         text = read_regular(file, MAX_TABLE_SIZE).decode("utf-8-sig")
-        return list(csv.DictReader(io.StringIO(text, newline="")))
+        reader = csv.DictReader(io.StringIO(text, newline=""))
+        return [(reader.line_num, row) for row in reader]
     except OSError as error:
         raise CalibrationError(
             f"{file} cannot be read: {error.strerror or error}.", "Check its name and permissions."

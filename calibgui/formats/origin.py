@@ -14,7 +14,7 @@ from calibgui.engine.files import open_regular
 
 RESULT, CORNERS, CORNERS_CSV, BOARD_SHAPE = "result", "corners", "corners-csv", "board-shape"
 FIGURE, LENS_COMPARISON, METHOD_COMPARISON = "figure", "lens-comparison", "method-comparison"
-PAPER_PAGE, SERIES_CSV = "paper-page", "series-csv"
+PAPER_PAGE, SERIES_CSV, FLEET_TABLE = "paper-page", "series-csv", "fleet-table"
 """Kinds of files; those of exporters are the exporters' names."""
 _LENGTH = 4096
 """Number of bytes at either end of a file in which its mark is."""
@@ -22,6 +22,9 @@ _OWN_WORDS: Mapping[str, re.Pattern[bytes]] = {
     RESULT: re.compile(rb'\A\s*\{\s*"format"\s*:\s*"calibgui-result"'),
     BOARD_SHAPE: re.compile(rb'\A\s*\{\s*"format"\s*:\s*"calibgui-plate"'),
     CORNERS_CSV: re.compile(rb"\Aimage,row,col,u_px,v_px,x_mm,y_mm"),
+    FLEET_TABLE: re.compile(
+        rb"\Aid,serial,date,temperature_c,|" + re.escape(b"Written by calibgui as fleet-table.")
+    ),
     SERIES_CSV: re.compile(rb"\Avalue,file,model,fx,sigma_fx,"),
 }
 """Patterns of the files that say in words of their own what they are."""

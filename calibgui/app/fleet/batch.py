@@ -1,0 +1,169 @@
+"""The calibration of a fleet: what is not done yet, one task a camera, with a ledger of all.
+
+A camera is done if the ledger has a row of its photographs, board, settings and versions. Rows are
+written as cameras end, so that a run that is killed loses the cameras in flight and no others; the
+next run does them, and the same again: changes between the calibrations of a serial number, and
+limits. These follow from rows and results alone, so that the order of completion changes nothing.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import dataclass, replace
+
+from calibgui.app.fleet.camera_task import (
+    FleetFolder,
+    Pair,
+    Work,
+    calibrate_camera,
+    is_done,
+    measure_change,
+    refuse_camera,
+)
+from calibgui.app.fleet.limits import NO_LIMITS, Limits, list_failures
+from calibgui.app.fleet.manifest import CameraTask
+from calibgui.app.fleet.photographs import is_remote, list_photographs
+from calibgui.app.fleet.schedulers import Scheduler
+from calibgui.app.workers import Crashed
+from calibgui.dataset.fleet import FleetCamera
+from calibgui.engine.arrays import Size
+from calibgui.engine.errors import CalibrationError, Progress
+from calibgui.formats.fleet_ledger import Ledger
+
+
+@dataclass(frozen=True, slots=True)
+class BatchSummary:
+    """What a run has led to."""
+
+    cameras: int
+    """Number of cameras in the manifest."""
+    worked_on: int
+    """Number of cameras that workers were given in this run: not those known to be done."""
+    failed: tuple[FleetCamera, ...]
+    """The cameras that fail, in the order of the manifest."""
+
+
+def run_batch(
+    tasks: Sequence[CameraTask],
+    ledger: Ledger,
+    scheduler: Scheduler,
+    limits: Limits = NO_LIMITS,
+    progress: Progress | None = None,
+) -> BatchSummary:
+    """Calibrate the cameras of a manifest that are not done, and judge all by the limits.
+
+    Args:
+        tasks: the cameras.
+        ledger: an open ledger; results are written to folders beside it.
+        scheduler: what does the work on cameras.
+        limits: what is demanded of each camera.
+        progress: a function that is told how many of the cameras that are not done are done since.
+
+    Raises:
+        CalibrationError: if the ledger or its folders cannot be written, or the scheduler fails.
+    """
+    folder = FleetFolder(ledger.path)
+    folder.make()
+    waiting = list(_find_waiting(tasks, ledger, folder))
+    for done, camera in enumerate(_calibrate_all(waiting, scheduler), start=1):
+        ledger.write([camera])
+        if progress is not None:
+            progress(done, len(waiting))
+    ledger.write(_measure_changes(tasks, ledger, scheduler))
+    ledger.write(_judge(tasks, ledger, limits))
+    rows = (ledger.find(task.entry.id) for task in tasks)
+    failed = tuple(row for row in rows if row is not None and not row.passed)
+    return BatchSummary(len(tasks), len(waiting), failed)
+
+
+def _find_waiting(
+    tasks: Iterable[CameraTask], ledger: Ledger, folder: FleetFolder
+) -> Iterator[Work]:
+    """Yield the cameras that a worker has to look at.
+
+    Files are looked at here, which takes little; addresses are left to the workers.
+    """
+    for task in tasks:
+        work = Work(task, ledger.find(task.entry.id), folder)
+        row = None if any(map(is_remote, task.paths)) else _find_row(work)
+        if row is None:
+            yield work
+        elif row != work.known:
+            ledger.write([row])
+
+
+def _find_row(work: Work) -> FleetCamera | None:
+    """Return the row of a camera that needs no work: it is done, or has no photographs."""
+    try:
+        photographs = list_photographs(work.task.paths)
+    except CalibrationError as error:
+        return refuse_camera(work.task, error.message, error.hint)
+    if work.known is None or not is_done(work, photographs):
+        return None
+    return replace(work.known, entry=work.task.entry)
+
+
+def _calibrate_all(waiting: Sequence[Work], scheduler: Scheduler) -> Iterator[FleetCamera]:
+    """Yield the rows of cameras as they end; those whose process died are tried once more."""
+    crashed = []
+    for k, camera in scheduler.run(calibrate_camera, waiting):
+        if isinstance(camera, Crashed):
+            crashed.append(waiting[k])
+        else:
+            yield camera
+    for k, camera in scheduler.run(calibrate_camera, crashed):
+        if isinstance(camera, Crashed):
+            yield refuse_camera(
+                crashed[k].task,
+                "The process that worked on it died twice.",
+                "Give workers more memory, or calibrate it by itself to see why.",
+            )
+        else:
+            yield camera
+
+
+def _measure_changes(
+    tasks: Iterable[CameraTask], ledger: Ledger, scheduler: Scheduler
+) -> Iterator[FleetCamera]:
+    """Yield the rows that change by a comparison with the last calibration of a serial number."""
+    serials = dict.fromkeys(task.entry.serial for task in tasks if task.entry.serial)
+    pairs: list[Pair] = []
+    for serial in serials:
+        last: dict[Size, FleetCamera] = {}
+        for camera in ledger.read_serial(serial):
+            earlier = None
+            if (size := _find_comparable_size(camera)) is not None:
+                earlier = last.get(size)
+                last[size] = camera
+            known = (
+                None
+                if camera.change is None
+                else (camera.change.against, camera.change.against_digest)
+            )
+            if known == (None if earlier is None else (earlier.id, earlier.digest)):
+                continue
+            if earlier is None:
+                yield replace(camera, change=None)
+            else:
+                pairs.append(Pair(earlier, camera, ledger.path))
+    for k, change in scheduler.run(measure_change, pairs):
+        yield replace(pairs[k].later, change=None if isinstance(change, Crashed) else change)
+
+
+def _find_comparable_size(camera: FleetCamera) -> Size | None:
+    """Return the size of the images of a camera that can be compared with another one.
+
+    None if it has no date, or its calibration does not determine it.
+    """
+    found = camera.figures
+    is_known = found is not None and math.isfinite(found.error.median)
+    return found.size if found is not None and is_known and camera.entry.date else None
+
+
+def _judge(tasks: Iterable[CameraTask], ledger: Ledger, limits: Limits) -> Iterator[FleetCamera]:
+    """Yield the rows of a manifest whose reasons to fail are others than before."""
+    for task in tasks:
+        row = ledger.find(task.entry.id)
+        if row is not None and (failures := list_failures(row, limits)) != row.failures:
+            yield replace(row, failures=failures)

@@ -1,0 +1,166 @@
+"""The photographs of a camera of a fleet: where they are, whether they changed, copies of them.
+
+They are files, or objects that fsspec reads where it is installed (s3://, http://, memory://). The
+latter are copied to a temporary folder for as long as a camera is worked on.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import tempfile
+from collections.abc import Iterable, Iterator, Sequence
+from contextlib import contextmanager
+from dataclasses import dataclass
+from pathlib import Path, PurePosixPath
+from typing import Any
+
+from calibgui.app.image_store import compute_file_digest
+from calibgui.app.paths import find_images, make_natural_key
+from calibgui.engine.errors import CalibrationError
+from calibgui.engine.images import FORMATS
+
+_MARKS_OF_CHANGE = ("ETag", "etag", "mtime", "LastModified", "last_modified", "created")
+"""Names under which file systems of fsspec state what changes with an object."""
+
+
+@dataclass(frozen=True, slots=True)
+class Photograph:
+    """A photograph, wherever it is."""
+
+    name: str
+    """Its path, or its address."""
+    state: str
+    """What changes when it is written to; empty if that is not known without reading it."""
+
+
+def is_remote(path: str) -> bool:
+    """Return whether a path is an address for fsspec."""
+    return "://" in path
+
+
+def list_photographs(paths: Iterable[str]) -> tuple[Photograph, ...]:
+    """List the photographs that paths and addresses mean, naturally sorted.
+
+    Raises:
+        CalibrationError: if a path means none, or an address cannot be read.
+    """
+    paths = list(paths)
+    found = {
+        photograph.name: photograph
+        for path in paths
+        if is_remote(path)
+        for photograph in _list_remote(path)
+    }
+    if local := [path for path in paths if not is_remote(path)]:
+        found |= {
+            str(path): Photograph(str(path), _read_state(path)) for path in find_images(local)
+        }
+    return tuple(sorted(found.values(), key=lambda one: make_natural_key(Path(one.name))))
+
+
+def compute_digest(path: Path) -> str:
+    """Return the SHA-256 of a photograph's content; empty if it cannot be read."""
+    try:
+        return compute_file_digest(path)
+    except OSError:
+        return ""
+
+
+def combine_digests(parts: Iterable[str]) -> str:
+    """Return the SHA-256 of a sequence of texts."""
+    digest = hashlib.sha256()
+    for part in parts:
+        digest.update(f"{len(part)} ".encode() + part.encode("utf-8", "surrogatepass"))
+    return digest.hexdigest()
+
+
+@contextmanager
+def fetch_photographs(photographs: Sequence[Photograph]) -> Iterator[list[Path]]:
+    """Give the files of photographs: their own, or copies for as long as the block lasts.
+
+    Raises:
+        CalibrationError: if one cannot be copied.
+    """
+    if not any(is_remote(photograph.name) for photograph in photographs):
+        yield [Path(photograph.name) for photograph in photographs]
+        return
+    with tempfile.TemporaryDirectory(prefix="calibgui-") as folder:
+        yield [
+            _fetch(photograph.name, Path(folder, str(k)))
+            if is_remote(photograph.name)
+            else Path(photograph.name)
+            for k, photograph in enumerate(photographs)
+        ]
+
+
+def _read_state(path: Path) -> str:
+    """Return the size and time of a file; empty if it cannot be read."""
+    try:
+        state = path.stat()
+    except OSError:
+        return ""
+    return f"{state.st_size} {state.st_mtime_ns}"
+
+
+def _list_remote(address: str) -> list[Photograph]:
+    """List the photographs that an address means."""
+    with _explain_remote(address):
+        system, path = _open_file_system(address)
+        if PurePosixPath(path).suffix.lower() in FORMATS and "*" not in path:
+            infos = [system.info(path)]
+        else:
+            pattern = path if "*" in path else f"{path.rstrip('/')}/*"
+            infos = [
+                info
+                for info in system.glob(pattern, detail=True).values()
+                if info["type"] == "file" and PurePosixPath(info["name"]).suffix.lower() in FORMATS
+            ]
+        names = [system.unstrip_protocol(info["name"]) for info in infos]
+    if not names:
+        raise CalibrationError(f"{address} holds no images.", "Check the address.")
+    return [
+        Photograph(name, _describe_state(info)) for name, info in zip(names, infos, strict=True)
+    ]
+
+
+def _describe_state(info: dict[str, Any]) -> str:
+    """Return the size of an object with what changes with it; empty if nothing is stated."""
+    marks = [str(info[name]) for name in _MARKS_OF_CHANGE if info.get(name)]
+    return " ".join([str(info.get("size")), *marks]) if marks else ""
+
+
+def _fetch(address: str, folder: Path) -> Path:
+    """Copy an object to a folder of its own, under its own name."""
+    folder.mkdir()
+    copy = folder / PurePosixPath(address).name
+    with _explain_remote(address):
+        system, path = _open_file_system(address)
+        system.get_file(path, str(copy))
+    return copy
+
+
+def _open_file_system(address: str) -> tuple[Any, str]:
+    """Return the file system of an address, and the path in it."""
+    import fsspec.core
+
+    return fsspec.core.url_to_fs(address)
+
+
+@contextmanager
+def _explain_remote(address: str) -> Iterator[None]:
+    """Turn what file systems raise into errors that the user can act on."""
+    try:
+        yield
+    except CalibrationError:
+        raise
+    except ImportError as error:
+        what = "fsspec is not installed" if error.name == "fsspec" else str(error)
+        raise CalibrationError(
+            f"{address} cannot be read: {what}.",
+            "pip install 'calibgui[batch]', and the package of fsspec for this kind of address.",
+        ) from error
+    except Exception as error:  # each file system raises errors of its own
+        raise CalibrationError(
+            f"{address} cannot be read: {str(error) or type(error).__name__}.",
+            "Check the address, your rights and the network.",
+        ) from error
