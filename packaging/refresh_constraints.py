@@ -35,10 +35,15 @@ def read_requirements() -> list[list[str]]:
     content = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))
     project = content["project"]
     needs = [[*project["dependencies"], *content["build-system"]["requires"], EDITABLE]]
+    optional = project["optional-dependencies"]
     for extra in EXTRAS[1:]:
-        added = project["optional-dependencies"][extra]
-        # An extra that names another one of ours has all of that anyway.
-        needs.append([*needs[-1], *(need for need in added if not need.startswith("calibgui"))])
+        added = list(optional[extra])
+        for own in [need for need in added if need.startswith("calibgui")]:
+            added.remove(own)
+            # Those of EXTRAS are there anyway.
+            for other in sorted(Requirement(own).extras - set(EXTRAS)):
+                added.extend(optional[other])
+        needs.append([*needs[-1], *added])
     return needs
 
 
