@@ -12,9 +12,11 @@ import numpy as np
 
 from calibgui.app.paths import make_natural_key
 from calibgui.dataset import Result
-from calibgui.engine.assessment import Setting, UncertainCamera, choose_covariance
+from calibgui.engine.assessment import Series, Setting, UncertainCamera, choose_covariance
 from calibgui.engine.errors import CalibrationError
 from calibgui.engine.images import read_image_header
+from calibgui.formats import Exporter, ExportReport
+from calibgui.formats.camera_conversion import export_camera
 from calibgui.formats.csv_table import read_csv_rows
 from calibgui.formats.result_json import read_result
 
@@ -100,6 +102,29 @@ def are_boards_alike(results: Sequence[SeriesResult]) -> bool:
     """Return whether all results are of one board, as far as its layout tells."""
     boards = [one.result.board for one in results]
     return boards[0] is not None and all(board == boards[0] for board in boards)
+
+
+def export_from_series(
+    series: Series, value: float | None, exporter: Exporter, path: Path
+) -> ExportReport:
+    """Write the camera at a value of the scalar, or a profile of all focal lengths.
+
+    Args:
+        series: the series.
+        value: the value; None for a profile of the series' settings, by focal lengths in mm, with
+            the cameras of the function that describes them.
+        exporter: the format, which holds a zoom lens if there is no value.
+        path: the file.
+
+    Raises:
+        CalibrationError: if the format cannot hold the lens, the value lies outside of the series,
+            or the file cannot be written.
+    """
+    if value is not None:
+        return export_camera(series.predict(value).camera, exporter, path)
+    assert exporter.write_zoom is not None
+    focals = [setting.value for setting in series.settings]
+    return exporter.write_zoom([(mm, series.predict(mm).camera) for mm in focals], path)
 
 
 def format_value(value: float, scalar: Scalar) -> str:

@@ -18,6 +18,7 @@ from calibgui.app.outputs import check_figures, check_outputs, save_figure
 from calibgui.app.series import (
     Scalar,
     are_boards_alike,
+    export_from_series,
     find_results,
     format_value,
     parse_value,
@@ -34,10 +35,12 @@ from calibgui.engine.assessment import (
     measure_drift,
 )
 from calibgui.formats import EXPORTERS
-from calibgui.formats.camera_conversion import export_camera
 from calibgui.formats.origin import SERIES_CSV
 from calibgui.formats.series_csv import write_series_csv
 from calibgui.report import series as words
+
+_ZOOM_FORMATS = [name for name, exporter in EXPORTERS.items() if exporter.write_zoom]
+"""Names of the formats that hold a zoom lens."""
 
 
 def configure(parser: argparse.ArgumentParser) -> None:
@@ -56,7 +59,11 @@ def configure(parser: argparse.ArgumentParser) -> None:
         help="table of file,value: the quantity of each result, as a number or an ISO date",
     )
     parser.add_argument("--at", metavar="VALUE", help="print the camera at this value")
-    add_export_option(parser, "with --at: a file of the camera there")
+    add_export_option(
+        parser,
+        "with --at: a file of the camera there; with --by zoom and without --at: a lens profile of "
+        f"all focal lengths ({', '.join(_ZOOM_FORMATS)})",
+    )
     parser.add_argument("--table", type=Path, metavar="FILE.csv", help="write all settings as CSV")
     parser.add_argument(
         "-o", "--output", type=Path, metavar="FILE", help="draw the series (.png, .svg, .pdf)"
@@ -96,9 +103,9 @@ def run(options: argparse.Namespace, console: Console) -> None:
         known = series.predict(at)
         answer["at"] = {"value": at} | _encode_camera(known)
         texts.append(words.tabulate_camera_at(known, format_value(at, options.by)))
-        for name, path in options.export:
-            note = export_camera(known.camera, EXPORTERS[name], path).note
-            texts.append(f"Wrote {path}. {note}")
+    for name, path in options.export:
+        note = export_from_series(series, at, EXPORTERS[name], path).note
+        texts.append(f"Wrote {path}. {note}")
     texts += _write_files(options, series, [str(one.path) for one in results])
     console.print_json(answer)
     console.print_text("\n\n".join(texts))
@@ -116,8 +123,12 @@ def _measure_drifts(series: Series) -> list[Drift]:
 def _read_value(options: argparse.Namespace) -> float | None:
     """Return the value of --at, or end the program if it is none or missing."""
     if options.at is None:
-        if options.export:
-            options.usage_error("--export needs --at VALUE: the camera where?")
+        for name, _ in options.export:
+            if options.by is not Scalar.ZOOM or name not in _ZOOM_FORMATS:
+                options.usage_error(
+                    f"--export {name} needs --at VALUE: the camera where? A profile of all focal "
+                    f"lengths is written with --by zoom to {' or '.join(_ZOOM_FORMATS)}."
+                )
         return None
     try:
         return parse_value(options.at, options.by)

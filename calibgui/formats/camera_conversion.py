@@ -10,6 +10,7 @@ from __future__ import annotations
 
 import math
 import os
+from collections.abc import Sequence
 from pathlib import Path
 
 import numpy as np
@@ -46,6 +47,38 @@ def convert_within_limit(camera: Camera, model: str, angle: float = math.inf) ->
         message, hint = _explain_failure(camera, found)
         raise CalibrationError(message[0].upper() + message[1:], hint)
     return found
+
+
+def convert_alike(
+    cameras: Sequence[Camera], exporter: Exporter, path: str | os.PathLike[str]
+) -> list[Conversion]:
+    """Express cameras of one lens model in one of the lens models that a format holds.
+
+    Of the models in which the format has cameras refitted it is the first whose error is below
+    `SUFFICIENT_REFIT_ERROR` for all cameras, else the one of the least error.
+
+    Args:
+        cameras: the cameras.
+        exporter: the format.
+        path: the file that is to be written, for messages.
+
+    Raises:
+        CalibrationError: if no model follows all cameras.
+    """
+    if all(exporter.holds(camera) for camera in cameras):
+        return [convert_camera(camera, camera.model) for camera in cameras]
+    tried: list[tuple[float, list[Conversion]]] = []
+    for model in exporter.refits:
+        found = [convert_camera(camera, model) for camera in cameras]
+        tried.append((max(one.largest_error for one in found), found))
+        if tried[-1][0] < SUFFICIENT_REFIT_ERROR:
+            break
+    error, best = min(tried, key=lambda pair: pair[0])
+    if not error < MAX_REFIT_ERROR:
+        k = max(range(len(best)), key=lambda k: best[k].largest_error)
+        message, hint = _explain_failure(cameras[k], best[k])
+        raise CalibrationError(f"{os.fspath(path)} is not written: {message}", hint)
+    return best
 
 
 def describe_conversion(original: Camera, found: Conversion) -> str:
@@ -113,7 +146,8 @@ def write_conversion(
         )
     result = _make_result(found, describe_conversion(original, found))
     report = exporter.write(result, Path(path))
-    return ExportReport(report.path, report.note, found.largest_error)
+    error = max(found.largest_error, report.largest_error_px or 0.0)
+    return ExportReport(report.path, report.note, error)
 
 
 def _make_result(found: Conversion, note: str) -> Result:

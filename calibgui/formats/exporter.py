@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -58,15 +58,20 @@ class Exporter:
     """True if the format states what was assumed of a camera, or holds no camera."""
     needs_corners: bool = False
     """True if a camera without the corners that it was calibrated from cannot be written."""
+    fits_rays: bool = False
+    """True if the format has a lens model of its own, which `write` fits to any camera's rays."""
+    write_zoom: Callable[[Sequence[tuple[float, Camera]], Path], ExportReport] | None = None
+    """Function that writes one file of a zoom lens from its focal lengths, mm, and cameras, or None
+    if the format holds one camera; it raises CalibrationError if it cannot."""
 
     def holds(self, camera: Camera) -> bool:
-        """Return whether a file of this format holds the camera as calibrated."""
+        """Return whether `write` takes the camera as calibrated."""
         named = dict(zip(camera.names, camera.params.tolist(), strict=True))
-        if named.get("skew", 0.0) != 0 and not self.holds_skew:
+        if named.get("skew", 0.0) != 0 and not (self.holds_skew or self.fits_rays):
             return False
         return self.holds_model(camera.model)
 
     def holds_model(self, model: str) -> bool:
-        """Return whether a file of this format holds cameras of a lens model."""
+        """Return whether `write` takes cameras of a lens model as calibrated."""
         splined = isinstance(find_model(model), SplinedStereographic)
-        return model in self.models or (splined and SPLINED in self.models)
+        return self.fits_rays or model in self.models or (splined and SPLINED in self.models)

@@ -67,6 +67,22 @@ def test_the_camera_between_the_settings_is_printed_and_exported(
         assert drawn.size[0] > 500
 
 
+def test_a_profile_of_all_focal_lengths_is_exported(folder: Path, capsys: Capture) -> None:
+    gyroflow, lensfun = folder.parent / "profile.json", folder / "lens.xml"
+    table = ["--values", str(folder / "values.csv")]
+    exports = ["--export", f"gyroflow={gyroflow}", "--export", f"lensfun={lensfun}"]
+    assert main(["series", str(folder), "--by", "zoom", *table, *exports, "-q"]) == 0
+    capsys.readouterr()
+    profile = json.loads(gyroflow.read_text())
+    entries = profile["interpolations"]
+    assert list(entries) == ["10", "20", "30", "40"]
+    main(["series", str(folder), "--by", "zoom", *table, "--at", "30", "--json"])
+    there = json.loads(capsys.readouterr().out)["at"]["params"]
+    matrix = entries["30"]["camera_matrix"]
+    assert matrix[0][2] == pytest.approx(there["cx"], abs=0.5), "refitted in another lens model"
+    assert lensfun.read_text().count("<distortion ") == 4
+
+
 def test_the_answer_for_programs_has_the_uncertainty(folder: Path, capsys: Capture) -> None:
     assert run(folder, "--at", "25", "--json") == 0
     answer = json.loads(capsys.readouterr().out)

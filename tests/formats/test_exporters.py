@@ -23,7 +23,9 @@ from calibgui.engine.errors import CalibrationError
 from calibgui.formats import EXPORTERS, export, find_exporter
 from calibgui.formats.basalt_json import format_calibration
 from calibgui.formats.colmap_cameras import format_cameras
+from calibgui.formats.gyroflow_json import format_profile
 from calibgui.formats.kalibr_camchain import format_camchain
+from calibgui.formats.lensfun_xml import format_database
 from calibgui.formats.matlab_script import format_script
 from calibgui.formats.mrcal_model import format_camera_model
 from calibgui.formats.opencv_file import format_storage
@@ -134,6 +136,10 @@ def test_other_programs_files_are_written_as_they_always_were(golden: Result) ->
     assert camchain == (_GOLDEN / "camchain.yaml").read_text()
     basalt = format_calibration(fisheye, "How it was refitted.")
     assert basalt == (_GOLDEN / "basalt.json").read_text()
+    profile = format_profile([(24.0, fisheye), (35.5, fisheye)], "How it was refitted.")
+    assert profile == (_GOLDEN / "gyroflow.json").read_text()
+    lens = format_database("fisheye", [fisheye], [24.0], 12.0, "How it was fitted.")
+    assert lens == (_GOLDEN / "lensfun.xml").read_text()
 
 
 @pytest.mark.parametrize("name", ["kalibr", "python", "mrcal"])

@@ -1,0 +1,120 @@
+"""Gyroflow's lens profile in JSON, of one camera or of the focal lengths of a zoom lens.
+
+Reader: Gyroflow (src/core/lens_profile.rs), which undistorts and stabilises videos with it. Pixels
+are OpenCV's (0-based, integer at pixel centres), as Gyroflow calibrates with OpenCV. The models are
+opencv_fisheye (cv2.fisheye's k1 k2 k3 k4) and opencv_standard (k1 k2 p1 p2 and up to eight more of
+cv2.projectPoints). Gyroflow puts the principal point in the middle of the image unless
+`asymmetrical` is true, and takes a profile without `calibrator_version` for damaged.
+Cannot hold: other lens models and skew (they are refitted), standard deviations, poses, corners.
+
+A zoom lens has `interpolations`: focal lengths in mm as keys, each with its camera matrix and
+coefficients, between which Gyroflow interpolates linearly. All of them are of one lens model and
+have the same number of coefficients; the profile's own camera is that of the shortest focal length.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+from typing import Any
+
+from calibgui import __version__
+from calibgui.dataset import Result
+from calibgui.engine.camera import Camera
+from calibgui.engine.files import write_atomically
+from calibgui.formats.camera_conversion import convert_alike, describe_conversion
+from calibgui.formats.camera_refit import write_in_models
+from calibgui.formats.exporter import Exporter, ExportReport
+from calibgui.formats.json_document import dumps
+from calibgui.formats.opencv_lens import FISHEYE, PERSPECTIVE_MODELS, list_coefficients
+from calibgui.formats.origin import make_mark
+
+
+def write_gyroflow(result: Result, path: Path) -> ExportReport:
+    """Write the profile of one camera."""
+    return write_in_models(
+        result, path, EXPORTER, lambda fitted, note: format_profile([(None, fitted.camera)], note)
+    )
+
+
+def write_gyroflow_zoom(cameras: Sequence[tuple[float, Camera]], path: Path) -> ExportReport:
+    """Write the profile of a zoom lens.
+
+    Args:
+        cameras: nominal focal lengths, mm, and the camera at each, all of one lens model.
+        path: the file.
+
+    Raises:
+        CalibrationError: if no lens model of Gyroflow's follows all of them, or the file cannot be
+            written.
+    """
+    ordered = sorted(cameras, key=lambda pair: pair[0])
+    originals = [camera for _, camera in ordered]
+    found = convert_alike(originals, EXPORTER, path)
+    worst = max(range(len(found)), key=lambda k: found[k].largest_error)
+    note = describe_conversion(originals[worst], found[worst])
+    written = [(focal, one.camera) for (focal, _), one in zip(ordered, found, strict=True)]
+    write_atomically(path, format_profile(written, f"{make_mark(EXPORTER.name)} {note}").encode())
+    return ExportReport(path, note, found[worst].largest_error)
+
+
+def format_profile(cameras: Sequence[tuple[float | None, Camera]], note: str) -> str:
+    """Return the text of the file.
+
+    Args:
+        cameras: focal lengths in ascending order, mm, and the camera at each, in one of the
+            format's models; a single camera may have None.
+        note: the note on the file.
+    """
+    focal, camera = cameras[0]
+    width, height = camera.size
+    size = {"w": width, "h": height}
+    content: dict[str, Any] = {
+        "name": "",
+        "note": note,
+        "calibrated_by": "calibgui",
+        "camera_brand": "",
+        "camera_model": "",
+        "lens_model": "",
+        "camera_setting": "",
+        "calib_dimension": size,
+        "orig_dimension": size,
+        "input_horizontal_stretch": 1.0,
+        "input_vertical_stretch": 1.0,
+        "num_images": 0,
+        "fps": 0.0,
+        "official": False,
+        "asymmetrical": True,
+        "fisheye_params": {"RMS_error": 0.0} | _encode_camera(camera),
+        "distortion_model": "opencv_fisheye" if camera.model == FISHEYE else "opencv_standard",
+        "calibrator_version": f"calibgui {__version__}",
+        "date": "",
+        "compatible_settings": [],
+    }
+    if focal is not None:
+        content["focal_length"] = focal
+        content["interpolations"] = {
+            f"{mm:g}": {"focal_length": mm} | _encode_camera(one) for mm, one in cameras
+        }
+    return dumps(content) + "\n"
+
+
+def _encode_camera(camera: Camera) -> dict[str, Any]:
+    fx, fy, cx, cy = camera.params[:4].tolist()
+    return {
+        "camera_matrix": [[fx, 0.0, cx], [0.0, fy, cy], [0.0, 0.0, 1.0]],
+        "distortion_coeffs": list_coefficients(camera).tolist(),
+    }
+
+
+EXPORTER = Exporter(
+    name="gyroflow",
+    title="Gyroflow lens profile",
+    suffixes=(".json",),
+    models=(*PERSPECTIVE_MODELS, FISHEYE),
+    refits=("brown-conrady", FISHEYE),
+    limits="opencv_standard or opencv_fisheye, other lenses refitted; no standard deviations, no "
+    "poses; names of camera and lens are left for you to fill in.",
+    write=write_gyroflow,
+    write_zoom=write_gyroflow_zoom,
+)
