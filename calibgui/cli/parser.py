@@ -22,6 +22,7 @@ COMMANDS = {
     "uncertainty": "show how far a calibration can be trusted",
     "diff": "compare two calibrations of a camera",
     "series": "describe a camera whose zoom, focus or temperature varies",
+    "fleet": "show a fleet of cameras as a page: distributions, outliers, drift",
     "check": "check with a few pictures whether a stored calibration is still good",
     "convert": "convert a camera file to another lens model or format",
     "views": "study how many views are enough, and where to hold the board next",

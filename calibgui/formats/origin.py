@@ -14,7 +14,8 @@ from calibgui.engine.files import open_regular
 
 RESULT, CORNERS, CORNERS_CSV, BOARD_SHAPE = "result", "corners", "corners-csv", "board-shape"
 FIGURE, LENS_COMPARISON, METHOD_COMPARISON = "figure", "lens-comparison", "method-comparison"
-PAPER_PAGE, SERIES_CSV, FLEET_TABLE = "paper-page", "series-csv", "fleet-table"
+PAPER_PAGE, SERIES_CSV = "paper-page", "series-csv"
+FLEET_TABLE, FLEET_PAGE = "fleet-table", "fleet-page"
 """Kinds of files; those of exporters are the exporters' names."""
 _LENGTH = 4096
 """Number of bytes at either end of a file in which its mark is."""

@@ -44,6 +44,12 @@ from calibgui.engine.assessment.drift import (
 from calibgui.engine.assessment.error_sources import ErrorSources, separate_error_sources
 from calibgui.engine.assessment.finding import Action, ActionKind, Cause, Finding
 from calibgui.engine.assessment.findings import list_findings
+from calibgui.engine.assessment.fleet_spread import (
+    MIN_FLEET,
+    OUTLIER_Z,
+    FleetSpread,
+    measure_fleet_spread,
+)
 from calibgui.engine.assessment.lens_choice import (
     CANDIDATES,
     SIMPLEST_MODEL,
@@ -78,6 +84,8 @@ __all__ = [
     "CANDIDATES",
     "CONFIDENCE",
     "DEFAULT_LIMIT",
+    "MIN_FLEET",
+    "OUTLIER_Z",
     "SIGNIFICANCE",
     "SIMPLEST_MODEL",
     "SPLINE",
@@ -95,6 +103,7 @@ __all__ = [
     "Drift",
     "ErrorSources",
     "Finding",
+    "FleetSpread",
     "Fold",
     "Grade",
     "Histogram",
@@ -131,6 +140,7 @@ __all__ = [
     "make_component_histogram",
     "make_length_histogram",
     "measure_drift",
+    "measure_fleet_spread",
     "measure_radial_shift",
     "screen_outliers",
     "separate_error_sources",
