@@ -12,7 +12,15 @@ import numpy as np
 
 from calibgui.app.paths import make_natural_key
 from calibgui.dataset import Result
-from calibgui.engine.assessment import Series, Setting, UncertainCamera, choose_covariance
+from calibgui.engine.assessment import (
+    Drift,
+    Series,
+    Setting,
+    UncertainCamera,
+    choose_covariance,
+    fit_series,
+    measure_drift,
+)
 from calibgui.engine.errors import CalibrationError
 from calibgui.engine.images import read_image_header
 from calibgui.formats import Exporter, ExportReport
@@ -46,6 +54,41 @@ class SeriesResult:
         calibration = self.result.calibration
         covariance = choose_covariance(calibration, is_same_board)
         return Setting(self.value, UncertainCamera(calibration.camera, covariance))
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class AnalysedSeries:
+    """Results with the function that describes them, and their changes."""
+
+    scalar: Scalar
+    results: tuple[SeriesResult, ...]
+    """The results, by ascending values."""
+    series: Series
+    """The camera as a function of the scalar."""
+    drifts: tuple[Drift, ...]
+    """The differences from the first result, of all but the first; none for a zoom lens, which has
+    changed, of course."""
+
+
+def analyse_series(
+    paths: Sequence[Path], scalar: Scalar, values: Path | None = None
+) -> AnalysedSeries:
+    """Read results, fit functions of the scalar, and test whether the camera has changed.
+
+    Args:
+        paths, scalar, values: as for `read_series`.
+
+    Raises:
+        CalibrationError: as `read_series` and ``engine.assessment.fit_series``.
+    """
+    results = read_series(paths, scalar, values)
+    alike = are_boards_alike(results)
+    series = fit_series([one.make_setting(alike) for one in results])
+    if scalar is Scalar.ZOOM:
+        return AnalysedSeries(scalar, results, series, ())
+    first, *others = (setting.known for setting in series.settings)
+    drifts = tuple(measure_drift(first, other) for other in others)
+    return AnalysedSeries(scalar, results, series, drifts)
 
 
 def find_results(names: Iterable[str]) -> tuple[Path, ...]:

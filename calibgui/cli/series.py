@@ -17,22 +17,18 @@ import numpy as np
 from calibgui.app.outputs import check_figures, check_outputs, save_figure
 from calibgui.app.series import (
     Scalar,
-    are_boards_alike,
+    analyse_series,
     export_from_series,
     find_results,
     format_value,
     parse_value,
-    read_series,
 )
 from calibgui.cli.arguments import add_export_option
 from calibgui.cli.console import Console
 from calibgui.cli.outputs import add_overwrite_option
 from calibgui.engine.assessment import (
-    Drift,
     Series,
     UncertainCamera,
-    fit_series,
-    measure_drift,
 )
 from calibgui.formats import EXPORTERS
 from calibgui.formats.origin import SERIES_CSV
@@ -76,10 +72,8 @@ def run(options: argparse.Namespace, console: Console) -> None:
     at = _read_value(options)
     paths = find_results(options.paths)
     _check_files(options, paths)
-    results = read_series(paths, options.by, options.values)
-    alike = are_boards_alike(results)
-    series = fit_series([one.make_setting(alike) for one in results])
-    drifts = _measure_drifts(series) if options.by is not Scalar.ZOOM else []
+    analysed = analyse_series(paths, options.by, options.values)
+    results, series, drifts = analysed.results, analysed.series, analysed.drifts
     values = [format_value(one.value, options.by) for one in results]
     texts = [
         words.tabulate_settings(series, values, drifts, options.by),
@@ -109,15 +103,6 @@ def run(options: argparse.Namespace, console: Console) -> None:
     texts += _write_files(options, series, [str(one.path) for one in results])
     console.print_json(answer)
     console.print_text("\n\n".join(texts))
-
-
-def _measure_drifts(series: Series) -> list[Drift]:
-    """Measure the difference of every camera but the first from the first.
-
-    A camera that is zoomed has changed, of course.
-    """
-    first = series.settings[0].known
-    return [measure_drift(first, setting.known) for setting in series.settings[1:]]
 
 
 def _read_value(options: argparse.Namespace) -> float | None:

@@ -57,29 +57,41 @@ def tabulate_functions(series: Series) -> str:
 
 
 def describe_series(series: Series, drifts: Sequence[Drift]) -> str:
-    """Describe in sentences how well the function follows, and whether the camera has changed."""
-    error = series.errors[series.function]
-    lines = [
-        f"{_name_function(series.function)[0].upper()}{_name_function(series.function)[1:]} "
-        f"describes the camera: at settings that it has not seen it is off by {error:.2g} px rms."
+    """Describe for a terminal how well the function follows, and whether the camera has changed."""
+    return "\n".join(map(format_bullet, list_sentences(series, drifts)))
+
+
+def list_sentences(series: Series, drifts: Sequence[Drift]) -> list[str]:
+    """List sentences on how well the function follows, and whether the camera has changed.
+
+    Args:
+        series: the series.
+        drifts: the differences from the first setting, of all but the first; none to say nothing.
+    """
+    name, error = _name_function(series.function), series.errors[series.function]
+    sentences = [
+        f"{name[0].upper()}{name[1:]} describes the camera: at settings that it has not seen it is "
+        f"off by {error:.2g} px rms."
     ]
     if series.inflation > 1:
-        lines.append(
+        sentences.append(
             f"That is {np.sqrt(series.inflation):.1f} times what the calibrations' "
             "uncertainties explain; every ± between settings includes it."
         )
-    changed = [drift for drift in drifts if drift.has_changed]
     if not drifts:
-        return "\n".join(map(format_bullet, lines))
+        return sentences
+    changed = [drift for drift in drifts if drift.has_changed]
     if changed:
         most = max(drift.difference.rms for drift in changed)
-        lines.append(
+        sentences.append(
             f"{len(changed)} of {len(drifts)} cameras differ from the first by more than their "
             f"uncertainties explain, by up to {most:.2g} px rms."
         )
     else:
-        lines.append("No camera differs from the first by more than their uncertainties explain.")
-    return "\n".join(map(format_bullet, lines))
+        sentences.append(
+            "No camera differs from the first by more than their uncertainties explain."
+        )
+    return sentences
 
 
 def tabulate_camera_at(known: UncertainCamera, value: str) -> str:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from pathlib import Path
 
 import pytest
 from PySide6.QtGui import QAccessible, QAccessibleInterface
@@ -10,11 +11,14 @@ from PySide6.QtWidgets import QWidget
 from pytestqt.qtbot import QtBot
 
 from calibgui.gui.dialogs.export_dialog import ExportDialog
+from calibgui.gui.dialogs.fleet_dialog import FleetDialog
 from calibgui.gui.dialogs.help_dialog import HelpDialog
 from calibgui.gui.dialogs.print_dialog import PrintDialog
+from calibgui.gui.dialogs.series_dialog import SeriesDialog
 from calibgui.gui.panels.analysis import PANELS
 from calibgui.gui.panels.panel import Panel
 from calibgui.gui.window.main_window import MainWindow
+from calibgui.report.fleet_overview import make_overview
 
 _Role = QAccessible.Role
 _CONTROLS = {
@@ -84,6 +88,8 @@ def test_the_dialogs(full: MainWindow, qtbot: QtBot) -> None:
         PrintDialog(full.session.project.board),
         HelpDialog(full),
         ExportDialog(full.session.jobs, result, full),
+        SeriesDialog(full.session.jobs, full),
+        FleetDialog(Path("fleet.db"), make_overview([]), lambda *_: False, full),
     )
     for dialog in dialogs:
         qtbot.addWidget(dialog)

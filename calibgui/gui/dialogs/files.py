@@ -25,6 +25,7 @@ from calibgui.app.project import (
 from calibgui.app.recent import remember_project
 from calibgui.app.resampling import Undistortion, WrittenImage, rectify_files, undistort_files
 from calibgui.app.resources import find_resource, find_sample_square
+from calibgui.app.result_project import make_project
 from calibgui.dataset import Result, find_orientation
 from calibgui.engine.errors import CalibrationError
 from calibgui.engine.images import FORMATS
@@ -131,6 +132,20 @@ class Files(QObject):
         """Open a project file."""
         if self.may_leave():
             self.saver.open(path)
+
+    def open_result(self, path: Path, name: str) -> bool:
+        """Begin a project with a result.json under a name; return whether the user allows it."""
+        if not self.may_leave():
+            return False
+
+        def done(project: Project) -> None:
+            self._session.begin(Document(project))
+            self.check_images()
+
+        self._session.jobs.start(
+            self.tr("Opening {0}").format(name), lambda _: make_project(path, name), done
+        )
+        return True
 
     def save(self) -> None:
         """Save to the document's file, asking for one if it has none."""

@@ -14,6 +14,7 @@ from calibgui.app.recent import list_recent
 from calibgui.gui.canvas.image_page import ImagePage
 from calibgui.gui.dialogs.files import Files
 from calibgui.gui.dialogs.help_dialog import HelpDialog
+from calibgui.gui.dialogs.many_cameras import ManyCameras
 from calibgui.gui.dialogs.print_results import ResultPrinter
 from calibgui.gui.images.film_strip import FilmStrip
 from calibgui.gui.session.session import Session
@@ -39,6 +40,7 @@ class Commands(QObject):
         self._parent, self._session, self._files = parent, session, files
         self._images, self._page = images, page
         self._printer = ResultPrinter(session, parent)
+        self._many = ManyCameras(session, files, parent)
 
     def list_menus(
         self,
@@ -84,6 +86,11 @@ class Commands(QObject):
                     run=files.ask_for_project,
                 ),
                 Menu(self.tr("Open &recent"), self._list_recent),
+                Command(
+                    text=self.tr("Open f&leet…"),
+                    tip=self.tr("Show the cameras of a ledger that calibgui batch wrote"),
+                    run=self._many.ask_for_fleet,
+                ),
                 Command(
                     text=self.tr("Open the sa&mple"),
                     tip=self.tr("Rendered photographs, to look around"),
@@ -226,6 +233,11 @@ class Commands(QObject):
                     run=files.export,
                     is_enabled=lambda: session.result is not None,
                     why_disabled=self.tr("Nothing is calibrated yet: press Calibrate first."),
+                ),
+                Command(
+                    text=self.tr("&Series of calibrations…"),
+                    tip=self.tr("How a camera varies with zoom, focus, temperature or date"),
+                    run=self._many.show_series,
                 ),
                 None,
                 Command(

@@ -1,0 +1,174 @@
+"""A fleet: the cameras of its ledger in one table, each of which opens as a project."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from pathlib import Path
+
+from PySide6.QtCore import QModelIndex
+from PySide6.QtWidgets import (
+    QDialog,
+    QDialogButtonBox,
+    QHBoxLayout,
+    QLabel,
+    QPushButton,
+    QVBoxLayout,
+    QWidget,
+)
+
+from calibgui.gui.widgets.actions import add_close_button
+from calibgui.gui.widgets.tables import Column, Table, with_decimals
+from calibgui.report.fleet_overview import FleetOverview, PlacedCamera
+
+
+class FleetDialog(QDialog):
+    """Shows the cameras of a ledger, those that are unlike the others first.
+
+    Args:
+        ledger: its file.
+        overview: its cameras.
+        open_result: opens a result.json under a name, and returns whether it did.
+        parent: over which the dialog opens.
+    """
+
+    def __init__(
+        self,
+        ledger: Path,
+        overview: FleetOverview,
+        open_result: Callable[[Path, str], bool],
+        parent: QWidget | None = None,
+    ) -> None:
+        super().__init__(parent)
+        self.setWindowTitle(self.tr("Fleet {0}").format(ledger.name))
+        self._folder, self._open_result = ledger.parent, open_result
+        self.placed = sorted(overview.placed, key=_rank)
+        self.words = QLabel(wordWrap=True)
+        self.words.setText(
+            self.tr(
+                "{0} cameras: {1} fail, {2} are unlike the others of their image size and lens "
+                "model, {3} have changed."
+            ).format(
+                len(overview.placed),
+                len(overview.failed),
+                len(overview.outliers),
+                len(overview.changed),
+            )
+        )
+        self.reason = QLabel(wordWrap=True)
+        self.reason.setMinimumHeight(2 * self.fontMetrics().lineSpacing())
+        self.table = Table()
+        self.table.show_columns(self._list_columns(), self._list_reasons())
+        self.table.picked.connect(self._pick)
+        self.table.doubleClicked.connect(self._open_clicked)
+        self.open_camera = QPushButton(self.tr("&Open camera"), default=True)
+        self.open_camera.setEnabled(False)
+        self.open_camera.clicked.connect(self._open_picked)
+        buttons = add_close_button(self)
+        buttons.addButton(self.open_camera, QDialogButtonBox.ButtonRole.ActionRole)
+        below = QHBoxLayout()
+        below.addWidget(self.reason, 1)
+        below.addWidget(buttons)
+        layout = QVBoxLayout(self)
+        layout.addWidget(self.words)
+        layout.addWidget(self.table, 1)
+        layout.addLayout(below)
+        self._picked = 0
+        if self.placed:
+            self.table.select(0)
+            self._pick(0)
+        self.resize(1000, 560)
+
+    def _list_columns(self) -> list[Column]:
+        cameras = [one.camera for one in self.placed]
+        figures = [camera.figures for camera in cameras]
+        changes = [camera.change for camera in cameras]
+        px = self.tr("px")
+        return [
+            Column(self.tr("Camera"), [camera.id for camera in cameras]),
+            Column(self.tr("Serial number"), [camera.entry.serial for camera in cameras]),
+            Column(self.tr("Date"), [camera.entry.date for camera in cameras]),
+            Column(
+                self.tr("Verdict"),
+                [self.tr("pass") if camera.passed else self.tr("fail") for camera in cameras],
+                tip=self.tr("Whether the camera keeps the limits of its fleet"),
+            ),
+            Column(self.tr("Views"), [0 if f is None else f.views for f in figures], optional=True),
+            Column(
+                self.tr("RMS"),
+                [math.nan if f is None else f.rms for f in figures],
+                with_decimals(3),
+                self.tr("Root mean square residual"),
+                unit=px,
+            ),
+            Column(
+                self.tr("Error, edge"),
+                [math.nan if f is None else f.error.edge for f in figures],
+                with_decimals(3),
+                self.tr("Error of a pixel at the image's edge, one standard deviation"),
+                unit=px,
+            ),
+            Column(
+                self.tr("Difference"),
+                [one.difference for one in self.placed],
+                with_decimals(3),
+                self.tr(
+                    "Distance from the median camera of the same image size and lens model, rms "
+                    "over the image, after the rotation that brings both together"
+                ),
+                unit=px,
+            ),
+            Column(
+                self.tr("Robust z"),
+                [one.z for one in self.placed],
+                with_decimals(1),
+                self.tr("The difference in standard deviations of the fleet"),
+            ),
+            Column(
+                self.tr("Changed by"),
+                [math.nan if change is None else change.rms for change in changes],
+                with_decimals(3),
+                self.tr("Difference from the last calibration of the serial number"),
+                unit=px,
+            ),
+        ]
+
+    def _list_reasons(self) -> dict[int, str]:
+        """Return why rows stand out, by row."""
+        reasons = {}
+        for row, one in enumerate(self.placed):
+            if said := self._explain(one):
+                reasons[row] = said
+        return reasons
+
+    def _explain(self, one: PlacedCamera) -> str:
+        """Say in sentences why a camera fails or is unlike the others."""
+        said = [*one.camera.failures]
+        if one.is_outlier:
+            said.append(self.tr("It is unlike the others of its kind."))
+        if one.camera.change is not None and one.camera.change.is_significant:
+            said.append(
+                self.tr("It has changed since {0}, by {1:.2g} px at most.").format(
+                    one.camera.change.against, one.camera.change.worst
+                )
+            )
+        return " ".join(said)
+
+    def _pick(self, row: int) -> None:
+        self._picked = row
+        one = self.placed[row]
+        self.open_camera.setEnabled(bool(one.camera.result))
+        self.reason.setText(self._explain(one) or self.tr("It passes."))
+
+    def _open_clicked(self, _: QModelIndex) -> None:
+        self._open_picked()
+
+    def _open_picked(self) -> None:
+        camera = self.placed[self._picked].camera
+        if camera.result and self._open_result(self._folder / camera.result, camera.id):
+            self.accept()
+
+
+def _rank(one: PlacedCamera) -> tuple[bool, float, bool]:
+    """Order cameras: those unlike the others first, the farthest before, then those that fail."""
+    return not one.is_outlier, -one.z if one.is_outlier else 0.0, one.camera.passed

@@ -1,0 +1,383 @@
+"""A series of calibrations: parameters against zoom, focus, temperature or date, and changes."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from pathlib import Path
+
+import numpy as np
+import pyqtgraph as pg
+from PySide6.QtGui import QColor
+from PySide6.QtWidgets import (
+    QComboBox,
+    QDialog,
+    QDialogButtonBox,
+    QFileDialog,
+    QHBoxLayout,
+    QLabel,
+    QLineEdit,
+    QPushButton,
+    QSplitter,
+    QTabWidget,
+    QVBoxLayout,
+    QWidget,
+)
+
+from calibgui.app.series import (
+    AnalysedSeries,
+    Scalar,
+    analyse_series,
+    export_from_series,
+    format_value,
+    parse_value,
+)
+from calibgui.engine.assessment import Series, UncertainCamera
+from calibgui.engine.errors import CalibrationError
+from calibgui.formats import EXPORTERS
+from calibgui.formats.exporter import Exporter, ExportReport
+from calibgui.gui.jobs.jobs import Jobs
+from calibgui.gui.panels.latest import Latest
+from calibgui.gui.widgets import theme
+from calibgui.gui.widgets.actions import add_close_button
+from calibgui.gui.widgets.plots import Plot
+from calibgui.gui.widgets.save_names import ask_for_name
+from calibgui.gui.widgets.tables import Column, Table, with_decimals, with_digits
+from calibgui.report.numbers import format_with_sigma
+from calibgui.report.series import list_sentences
+
+_STEPS = 100
+"""Number of values at which the function is drawn."""
+_BAND_OPACITY = 60
+"""Opacity of the band of one standard deviation, of 255."""
+
+
+class SeriesDialog(QDialog):
+    """Shows how a camera varies, tells whether it has changed, and writes what lies between.
+
+    Results are read and functions fitted by a job whenever the files, the quantity or its table
+    change.
+    """
+
+    def __init__(self, jobs: Jobs, parent: QWidget | None = None) -> None:
+        super().__init__(parent)
+        self.setWindowTitle(self.tr("Series of calibrations"))
+        self._jobs, self._work = jobs, Latest(jobs, self)
+        self._paths: tuple[Path, ...] = ()
+        self._values: Path | None = None
+        self.analysed: AnalysedSeries | None = None
+        """What is shown; None while there is nothing."""
+        self.add = QPushButton(self.tr("&Add results…"), autoDefault=False)
+        self.add.clicked.connect(self._ask_for_results)
+        self.scalar = QComboBox()
+        self.scalar.setAccessibleName(self.tr("The quantity that varies"))
+        for scalar, text in (
+            (Scalar.ZOOM, self.tr("zoom")),
+            (Scalar.FOCUS, self.tr("focus")),
+            (Scalar.TEMPERATURE, self.tr("temperature")),
+            (Scalar.DATE, self.tr("date")),
+        ):
+            self.scalar.addItem(text, scalar)
+        self.scalar.currentIndexChanged.connect(self._analyse)
+        self.table_of_values = QPushButton(self.tr("&Table of values…"), autoDefault=False)
+        self.table_of_values.setToolTip(
+            self.tr(
+                "A CSV file with the columns file,value. Without one focal lengths and dates are "
+                "read from the photographs."
+            )
+        )
+        self.table_of_values.clicked.connect(self._ask_for_values)
+        self.words = QLabel(wordWrap=True)
+        self.results, self.camera = Table(), Table()
+        self.parameter = QComboBox()
+        self.parameter.setAccessibleName(self.tr("Parameter"))
+        self.parameter.currentIndexChanged.connect(self._draw)
+        self.plot = Plot("", "")
+        self.at = QLineEdit()
+        self.at.setAccessibleName(self.tr("Value at which the camera is shown"))
+        self.at.setMaximumWidth(14 * self.fontMetrics().averageCharWidth())
+        self.at.textChanged.connect(self._show_camera)
+        self.format = QComboBox()
+        self.format.setAccessibleName(self.tr("Format"))
+        self.export = QPushButton(self.tr("&Export…"), autoDefault=False)
+        self.export.clicked.connect(self._ask_and_export)
+        self.said = QLabel(wordWrap=True)
+        self._lay_out()
+        self.resize(1000, 620)
+        self._clear(
+            self.tr(
+                "Add the result.json of each setting of one camera: three or more, or a folder."
+            )
+        )
+
+    def _lay_out(self) -> None:
+        above = QHBoxLayout()
+        above.addWidget(self.add)
+        above.addWidget(QLabel(self.tr("by")))
+        above.addWidget(self.scalar)
+        above.addWidget(self.table_of_values)
+        above.addStretch(1)
+        drawing = QWidget()
+        right = QVBoxLayout(drawing)
+        right.setContentsMargins(0, 0, 0, 0)
+        right.addWidget(self.parameter)
+        right.addWidget(self.plot, 1)
+        tabs = QTabWidget(documentMode=True)
+        tabs.addTab(self.results, self.tr("Results"))
+        tabs.addTab(self.camera, self.tr("Camera at a value"))
+        split = QSplitter()
+        split.addWidget(tabs)
+        split.addWidget(drawing)
+        split.setSizes([540, 460])
+        buttons = add_close_button(self)
+        buttons.addButton(self.export, QDialogButtonBox.ButtonRole.ActionRole)
+        below = QHBoxLayout()
+        below.addWidget(QLabel(self.tr("at")))
+        below.addWidget(self.at)
+        below.addWidget(QLabel(self.tr("as")))
+        below.addWidget(self.format)
+        below.addWidget(self.said, 1)
+        below.addWidget(buttons)
+        layout = QVBoxLayout(self)
+        layout.addLayout(above)
+        layout.addWidget(self.words)
+        layout.addWidget(split, 1)
+        layout.addLayout(below)
+
+    @property
+    def quantity(self) -> Scalar:
+        """The chosen quantity."""
+        return Scalar(self.scalar.currentData())  # Qt keeps its text only
+
+    def show_results(self, paths: Sequence[Path], scalar: Scalar, values: Path | None) -> None:
+        """Show results by a quantity, from a table or from the photographs."""
+        self._paths, self._values = tuple(dict.fromkeys(paths)), values
+        blocked = self.scalar.blockSignals(True)
+        self.scalar.setCurrentIndex(self.scalar.findData(scalar))
+        self.scalar.blockSignals(blocked)
+        self._analyse()
+
+    def _ask_for_results(self) -> None:
+        names, _ = QFileDialog.getOpenFileNames(
+            self, self.tr("Results"), "", self.tr("Results (*.json)")
+        )
+        if names:
+            found = (*self._paths, *map(Path, names))
+            self.show_results(found, self.quantity, self._values)
+
+    def _ask_for_values(self) -> None:
+        name, _ = QFileDialog.getOpenFileName(
+            self, self.tr("Table of values"), "", self.tr("Tables (*.csv)")
+        )
+        if name:
+            self.show_results(self._paths, self.quantity, Path(name))
+
+    def _analyse(self) -> None:
+        paths, scalar, values = self._paths, self.quantity, self._values
+        if paths:
+            self._clear(self.tr("working…"))
+            self._work.start(
+                self.tr("Fitting the series"),
+                lambda _: analyse_series(paths, scalar, values),
+                self._show,
+                lambda error: self._clear(str(error)),
+            )
+
+    def _clear(self, text: str) -> None:
+        self.analysed = None
+        self.words.setText(text)
+        self.results.show_columns([])
+        self.camera.show_columns([])
+        self.parameter.clear()
+        self.plot.clear()
+        for widget in (self.parameter, self.at, self.format, self.export):
+            widget.setEnabled(False)
+
+    def _show(self, analysed: AnalysedSeries) -> None:
+        self.analysed = analysed
+        self.words.setText("\n".join(list_sentences(analysed.series, analysed.drifts)))
+        self._tabulate(analysed)
+        known = analysed.series.settings[0].known
+        free = np.flatnonzero(np.diag(known.covariance) > 0).tolist()
+        for k in free:
+            self.parameter.addItem(known.camera.names[k], k)
+        for widget in (self.parameter, self.at, self.format, self.export):
+            widget.setEnabled(True)
+        settings = analysed.series.settings
+        middle = (settings[0].value + settings[-1].value) / 2
+        self.at.setText(format_value(middle, analysed.scalar).partition(" mm")[0])
+        self.at.setToolTip(
+            self.tr("From {0} to {1}; empty to write a profile of all focal lengths").format(
+                format_value(settings[0].value, analysed.scalar),
+                format_value(settings[-1].value, analysed.scalar),
+            )
+        )
+        self._draw()
+        self._show_camera()
+
+    def _tabulate(self, analysed: AnalysedSeries) -> None:
+        columns = [
+            Column(self.tr("File"), [one.path.name for one in analysed.results]),
+            Column(
+                self.scalar.currentText(),
+                [one.value for one in analysed.results],
+                lambda value: format_value(value, analysed.scalar),
+            ),
+        ]
+        if analysed.drifts:
+            drifts = [None, *analysed.drifts]
+            px = self.tr("px")
+            columns += [
+                Column(
+                    self.tr("From the first"),
+                    [0.0 if d is None else d.difference.rms for d in drifts],
+                    with_decimals(3),
+                    self.tr("Difference from the first camera after a rotation, rms"),
+                    unit=px,
+                ),
+                Column(
+                    self.tr("Explained"),
+                    [math.nan if d is None else d.expected for d in drifts],
+                    with_decimals(3),
+                    self.tr("Difference that the calibrations' uncertainties explain"),
+                    unit=px,
+                ),
+                Column(
+                    self.tr("Probability"),
+                    [math.nan if d is None else d.probability for d in drifts],
+                    with_digits(2),
+                    self.tr("Of a difference as large as this one if the camera has not changed"),
+                ),
+                Column(
+                    self.tr("Changed"),
+                    ["" if d is None else self._answer(d.has_changed) for d in drifts],
+                ),
+            ]
+        marked = [k for k, d in enumerate(analysed.drifts, start=1) if d.has_changed]
+        self.results.show_columns(columns, marked)
+
+    def _answer(self, has_changed: bool) -> str:
+        return self.tr("yes") if has_changed else self.tr("no")
+
+    def _draw(self) -> None:
+        """Draw the chosen parameter with its standard deviation, and the function between."""
+        self.plot.clear()
+        k = self.parameter.currentData()
+        if self.analysed is None or k is None:
+            return
+        series, colours = self.analysed.series, theme.current()
+        self.plot.set_labels(
+            self.scalar.currentText(),
+            self.parameter.currentText(),
+            _find_unit(self.analysed.scalar),
+            self.tr("px") if k < 4 else "",
+        )
+        x = np.linspace(series.settings[0].value, series.settings[-1].value, _STEPS)
+        middle, sigma = _evaluate(series, x.tolist(), k)
+        band = QColor(colours.accent)
+        band.setAlpha(_BAND_OPACITY)
+        edges = [self.plot.plot(x, middle + sign * sigma, pen=band) for sign in (-1, 1)]
+        self.plot.addItem(pg.FillBetweenItem(*edges, brush=band))
+        self.plot.plot(x, middle, pen=pg.mkPen(colours.accent, width=2))
+        values = np.array([setting.value for setting in series.settings])
+        measured = [setting.known for setting in series.settings]
+        y = np.array([known.camera.params[k] for known in measured])
+        error = np.array([np.sqrt(known.covariance[k, k]) for known in measured])
+        self.plot.addItem(
+            pg.ErrorBarItem(x=values, y=y, height=2 * error, pen=pg.mkPen(colours.text))
+        )
+        self.plot.plot(
+            values, y, pen=None, symbol="o", symbolSize=6, symbolBrush=colours.text, symbolPen=None
+        )
+        self.plot.show_all()
+
+    @property
+    def value(self) -> float | None:
+        """The value at which the camera is shown; None if none is stated.
+
+        Raises:
+            ValueError: if it is no value of the quantity.
+        """
+        text = self.at.text().strip()
+        return parse_value(text, self.quantity) if text else None
+
+    def _show_camera(self) -> None:
+        """Show the camera at the value, and offer the formats that can hold it."""
+        if self.analysed is None:
+            return
+        known: UncertainCamera | None = None
+        said = ""
+        try:
+            value = self.value
+            known = None if value is None else self.analysed.series.predict(value)
+            is_profile = value is None and self.analysed.scalar is Scalar.ZOOM
+        except (ValueError, CalibrationError) as error:
+            said, is_profile = str(error), False
+        self.said.setText(said)
+        self._tabulate_camera(known)
+        exporters = [
+            one
+            for one in EXPORTERS.values()
+            if (known is not None and not one.needs_corners)
+            or (is_profile and one.write_zoom is not None)
+        ]
+        chosen = self.format.currentText()
+        self.format.clear()
+        for exporter in exporters:
+            self.format.addItem(exporter.title, exporter.name)
+        self.format.setCurrentIndex(max(self.format.findText(chosen), 0))
+        self.export.setEnabled(bool(exporters))
+
+    def _tabulate_camera(self, known: UncertainCamera | None) -> None:
+        if known is None:
+            self.camera.show_columns([])
+            return
+        sigma = np.sqrt(np.diag(known.covariance)).tolist()
+        pairs = list(zip(known.camera.params.tolist(), sigma, strict=True))
+        self.camera.show_columns(
+            [
+                Column(self.tr("Parameter"), known.camera.names),
+                Column(self.tr("Value"), pairs, lambda pair: format_with_sigma(*pair)),
+            ]
+        )
+
+    def _ask_and_export(self) -> None:
+        exporter = EXPORTERS[self.format.currentData()]
+        pattern = " ".join(f"*{suffix}" for suffix in exporter.suffixes)
+        path = ask_for_name(
+            self,
+            self.tr("Export"),
+            f"camera{exporter.suffixes[0]}",
+            f"{exporter.title} ({pattern})",
+        )
+        if path is not None:
+            self.write(exporter, Path(path))
+
+    def write(self, exporter: Exporter, path: Path) -> None:
+        """Write the camera at the value, or the profile of all focal lengths, by a job."""
+        if self.analysed is None:
+            return
+        series, value = self.analysed.series, self.value
+
+        def done(report: ExportReport) -> None:
+            self.said.setText(self.tr("Saved as {0}. {1}").format(path.name, report.note))
+
+        self._jobs.start(
+            self.tr("Writing {0}").format(path.name),
+            lambda _: export_from_series(series, value, exporter, path),
+            done,
+            failed=lambda error: self.said.setText(str(error)),
+            owner=self,
+        )
+
+
+def _find_unit(scalar: Scalar) -> str:
+    """Return the unit of a quantity on an axis, empty where the user knows it."""
+    return {Scalar.ZOOM: "mm", Scalar.DATE: "days since 1970"}.get(scalar, "")
+
+
+def _evaluate(series: Series, values: Sequence[float], k: int) -> tuple[np.ndarray, np.ndarray]:
+    """Return parameter k and its standard deviation at values."""
+    known = [series.predict(value) for value in values]
+    middle = np.array([one.camera.params[k] for one in known])
+    return middle, np.sqrt([one.covariance[k, k] for one in known])

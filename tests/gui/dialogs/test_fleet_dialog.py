@@ -1,0 +1,97 @@
+"""The table of a fleet: outliers first, reasons on the row, and cameras that open as projects."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+from PySide6.QtCore import Qt
+from PySide6.QtWidgets import QFileDialog
+from pytestqt.qtbot import QtBot
+
+from calibgui.dataset import Result
+from calibgui.dataset.fleet import Estimate, FleetCamera, FleetEntry, FleetFigures, FleetStatus
+from calibgui.engine.assessment import Grade, PixelError
+from calibgui.formats import export
+from calibgui.formats.fleet_ledger import open_ledger
+from calibgui.gui.dialogs.fleet_dialog import FleetDialog
+from calibgui.gui.window.main_window import MainWindow
+
+NAMES = ("fx", "fy", "cx", "cy", "k1", "k2", "p1", "p2", "k3", "skew")
+
+
+def make_camera(k: int, rng: np.random.Generator) -> FleetCamera:
+    """A camera of an ordinary fleet; number 4 is odd."""
+    k1 = rng.normal(-0.2 + 0.1 * (k == 4), 0.002)
+    values = [*rng.normal([650, 650, 320, 240], 1), k1, 0.05, 0, 0, 0, 0]
+    estimates = [Estimate(float(v), 0.01) for v in values]
+    figures = FleetFigures(
+        size=(640, 480),
+        board="checkerboard 6x7, 30 mm",
+        lens_model="brown-conrady",
+        views=10,
+        corners=400,
+        rms=0.05 + 0.01 * k,
+        noise=0.05,
+        coverage=0.8,
+        grade=Grade.GOOD,
+        reason="Nothing is wrong.",
+        times_better=1.0,
+        error=PixelError(0.01, 0.02, 0.05, 0.02),
+        parameters=dict(zip(NAMES, estimates, strict=True)),
+    )
+    entry = FleetEntry(f"camera {k}", f"S{k}", "2026-05-01")
+    return FleetCamera(entry, FleetStatus.DONE, figures=figures, result=f"results/{k}.json")
+
+
+@pytest.fixture(scope="module")
+def ledger(result: Result, tmp_path_factory: pytest.TempPathFactory) -> Path:
+    folder = tmp_path_factory.mktemp("fleet")
+    (folder / "results").mkdir()
+    export(result, "result", folder / "results" / "4.json")
+    rng = np.random.default_rng(1)
+    lost = "The board was found in none of the images."
+    refused = FleetCamera(FleetEntry("lost"), FleetStatus.REFUSED, lost, failures=(lost,))
+    with open_ledger(folder / "fleet.db", create=True) as opened:
+        opened.write([*(make_camera(k, rng) for k in range(20)), refused])
+    return folder / "fleet.db"
+
+
+@pytest.fixture
+def dialog(
+    window: MainWindow, ledger: Path, qtbot: QtBot, monkeypatch: pytest.MonkeyPatch
+) -> FleetDialog:
+    """The dialog as the menu opens it."""
+    monkeypatch.setattr(QFileDialog, "getOpenFileName", lambda *_: (str(ledger), ""))
+    menu = window.menuBar().actions()[0].menu()
+    next(action for action in menu.actions() if "leet" in action.text()).trigger()
+    qtbot.waitUntil(lambda: bool(window.findChildren(FleetDialog)), timeout=30_000)
+    (dialog,) = window.findChildren(FleetDialog)
+    return dialog
+
+
+def test_the_odd_camera_is_first_and_then_what_fails(dialog: FleetDialog) -> None:
+    lines = [line.split(",") for line in dialog.table.as_csv().splitlines()]
+    assert [line[0] for line in lines[1:3]] == ["camera 4", "lost"]
+    assert len(lines) == 22
+    assert "21 cameras: 1 fail, 1 are unlike the others" in dialog.words.text()
+    rms = {line[0]: line[5] for line in lines[1:]}
+    assert float(rms["camera 7"]) == pytest.approx(0.12)
+    dialog.table.picked.emit(1)
+    assert dialog.reason.text() == "The board was found in none of the images."
+    assert not dialog.open_camera.isEnabled(), "there is nothing to open"
+    dialog.reject()
+
+
+def test_a_camera_opens_as_a_project(
+    dialog: FleetDialog, window: MainWindow, result: Result, qtbot: QtBot
+) -> None:
+    assert "unlike the others" in dialog.reason.text()
+    qtbot.mouseClick(dialog.open_camera, Qt.MouseButton.LeftButton)
+    qtbot.waitUntil(lambda: bool(window.session.project.results), timeout=30_000)
+    assert list(window.session.project.results) == ["camera 4"]
+    opened = window.session.project.results["camera 4"]
+    assert np.array_equal(opened.calibration.camera.params, result.calibration.camera.params)
+    assert window.session.project.is_current(opened)
+    assert all(Path(view.image).is_absolute() for view in window.session.project.views)
