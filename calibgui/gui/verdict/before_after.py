@@ -11,7 +11,7 @@ from calibgui.gui.panels.difference_map import DifferenceMap
 from calibgui.gui.panels.estimates import estimate_columns
 from calibgui.gui.panels.latest import Latest
 from calibgui.gui.session.session import Session
-from calibgui.gui.verdict.overlay import Overlay
+from calibgui.gui.verdict.drop_down import DropDown
 from calibgui.gui.verdict.remedier import Remedied
 from calibgui.gui.verdict.texts import describe_grade
 from calibgui.gui.widgets import theme
@@ -25,7 +25,7 @@ _HEIGHT = 560
 """Its height where there is more room, device-independent px."""
 
 
-class BeforeAndAfter(Overlay):
+class BeforeAndAfter(DropDown):
     """Shows errors of pixels and parameters of two results, and a map of their difference."""
 
     kept = Signal(object)
@@ -119,7 +119,7 @@ class BeforeAndAfter(Overlay):
         self.open_up()
         self.keep.setFocus()
 
-    def measure_height(self, width: int) -> int:  # noqa: ARG002 - Overlay's
+    def heightForWidth(self, width: int) -> int:  # noqa: N802, ARG002 - Qt's
         """Return the height at which the map is well seen."""
         return _HEIGHT
 

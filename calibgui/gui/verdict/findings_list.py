@@ -17,7 +17,7 @@ from PySide6.QtWidgets import (
 )
 
 from calibgui.engine.assessment import Finding, Verdict
-from calibgui.gui.verdict.overlay import Overlay
+from calibgui.gui.verdict.drop_down import DropDown
 from calibgui.gui.verdict.texts import describe_button
 from calibgui.gui.widgets import theme
 from calibgui.gui.widgets.elided import ElidedLabel
@@ -29,7 +29,7 @@ _MIN_TOLD = 1.1
 """Ratio of errors from which a row says by how much its action makes the camera better."""
 
 
-class FindingsList(Overlay):
+class FindingsList(DropDown):
     """Lists findings, the most harmful first; details unfold under a row."""
 
     action_wanted = Signal(object)
@@ -78,9 +78,9 @@ class FindingsList(Overlay):
     def _fit(self) -> None:
         """Take the height that the rows need now."""
         self._column.activate()
-        self.place()
+        self.fit()
 
-    def measure_height(self, width: int) -> int:
+    def heightForWidth(self, width: int) -> int:  # noqa: N802 - Qt's name
         """Return the height of all rows."""
         column = self._column
         if column.hasHeightForWidth():  # details are unfolded, whose lines depend on the width

@@ -2,38 +2,47 @@
 
 from __future__ import annotations
 
-from PySide6.QtCore import QEvent, QObject
+from PySide6.QtCore import QEvent, QObject, QPoint
 from PySide6.QtWidgets import QWidget
 
 
 class Overlay(QObject):
-    """Keeps a widget over the upper edge of another, as wide as that and as high as it needs.
+    """Keeps a widget over another, as high as it needs for its width.
 
     Args:
         widget: what lies over the other, outside of any layout.
         host: the widget that it becomes a child of.
+        bar: the part of the host that it hangs from, as wide as that; None for its upper edge.
+        share: share of the host's height below that it may take.
     """
 
-    def __init__(self, widget: QWidget, host: QWidget) -> None:
+    def __init__(
+        self, widget: QWidget, host: QWidget, bar: QWidget | None = None, share: float = 1.0
+    ) -> None:
         super().__init__(widget)
-        self._widget, self._host = widget, host
+        self._widget, self._host, self._bar, self._share = widget, host, bar, share
         visible = not widget.isHidden()
         widget.setParent(host)
         widget.setVisible(visible)
-        widget.installEventFilter(self)
-        host.installEventFilter(self)
+        self._watched = (widget, host) if bar is None else (widget, host, bar)
+        for part in self._watched:
+            part.installEventFilter(self)
+
+    def place(self) -> None:
+        """Take the place that the widget needs now."""
+        widget, host, bar = self._widget, self._host, self._bar
+        top = QPoint() if bar is None else bar.mapTo(host, QPoint(0, bar.height()))
+        width = host.width() if bar is None else bar.width()
+        needed = widget.heightForWidth(width)
+        if needed < 0:  # it does not depend on the width
+            needed = widget.minimumSizeHint().height()
+        height = min(needed, round(self._share * (host.height() - top.y())))
+        if widget.geometry().getRect() != (top.x(), top.y(), width, height):
+            widget.setGeometry(top.x(), top.y(), width, height)
+        widget.raise_()
 
     def eventFilter(self, watched: QObject, event: QEvent) -> bool:  # noqa: N802 - Qt's name
-        if event.type() in (QEvent.Type.Resize, QEvent.Type.LayoutRequest, QEvent.Type.Show):
-            self._place(watched)
+        moves = (QEvent.Type.Resize, QEvent.Type.LayoutRequest, QEvent.Type.Show)
+        if event.type() in moves and watched in self._watched:
+            self.place()
         return False
-
-    def _place(self, watched: QObject) -> None:
-        widget, host = self._widget, self._host
-        if watched not in (widget, host):
-            return
-        width = host.width()
-        height = max(widget.heightForWidth(width), widget.minimumSizeHint().height())
-        if widget.geometry().getRect() != (0, 0, width, height):
-            widget.setGeometry(0, 0, width, height)
-        widget.raise_()

@@ -1,20 +1,21 @@
-"""A frame that lies over the desk, below the bar: what is under it does not move."""
+"""A frame that drops down from the verdict's bar over the desk: what is under it does not move."""
 
 from __future__ import annotations
 
-from PySide6.QtCore import QEvent, QObject, QPoint, Qt, Signal
+from PySide6.QtCore import QEvent, Qt, Signal
 from PySide6.QtGui import QKeyEvent
 from PySide6.QtWidgets import QFrame, QWidget
 
 from calibgui.gui.widgets import theme
+from calibgui.gui.widgets.overlay import Overlay
 
 
-class Overlay(QFrame):
-    """Hangs from a widget, as wide as it is; Escape closes it.
+class DropDown(QFrame):
+    """Hangs from a bar until Escape closes it; `heightForWidth` is the height that it asks for.
 
     Args:
         bar: the widget that it hangs from.
-        share: share of the room below that it may take.
+        share: share of the window's height below that it may take.
     """
 
     closed = Signal()
@@ -23,38 +24,23 @@ class Overlay(QFrame):
     def __init__(self, bar: QWidget, share: float) -> None:
         super().__init__(bar)
         self._bar, self._share = bar, share
+        self._overlay: Overlay | None = None
         self.setObjectName("overlay")
         self.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
         self.hide()
 
     def open_up(self) -> None:
         """Lie over the desk."""
-        window = self._bar.window()
-        if self.parentWidget() is not window:
-            self.setParent(window)
-            window.installEventFilter(self)
+        if self._overlay is None:  # by now the bar is in its window
+            self._overlay = Overlay(self, self._bar.window(), self._bar, self._share)
         self._restyle()
-        self.place()
+        self._overlay.place()
         self.show()
-        self.raise_()
 
-    def place(self) -> None:
-        """Keep to the place below the bar, no higher than the content asks for."""
-        window = self._bar.window()
-        corner = self._bar.mapTo(window, QPoint(0, self._bar.height()))
-        room = window.height() - corner.y() - theme.SPACING
-        width = self._bar.width()
-        height = min(self.measure_height(width), round(self._share * room))
-        self.setGeometry(corner.x(), corner.y(), width, height)
-
-    def measure_height(self, width: int) -> int:  # noqa: ARG002 - subclasses need it
-        """Return the height that the content asks for."""
-        return self.sizeHint().height()
-
-    def eventFilter(self, watched: QObject, event: QEvent) -> bool:  # noqa: N802 - Qt's name
-        if self.isVisible() and event.type() in (QEvent.Type.Resize, QEvent.Type.LayoutRequest):
-            self.place()
-        return super().eventFilter(watched, event)
+    def fit(self) -> None:
+        """Take the height that the content needs now."""
+        if self._overlay is not None:
+            self._overlay.place()
 
     def keyPressEvent(self, event: QKeyEvent) -> None:  # noqa: N802 - Qt's name
         if event.key() == Qt.Key.Key_Escape:
