@@ -20,7 +20,15 @@ from PySide6.QtGui import (
 from PySide6.QtWidgets import QFrame, QGraphicsScene, QGraphicsView, QWidget
 
 from calibgui.engine.arrays import Array, Size
-from calibgui.gui.canvas.layers import Drawing, Layer, Marks, paint_drawing, paint_marks
+from calibgui.gui.canvas.layers import (
+    Drawing,
+    Layer,
+    Marks,
+    draw_outline,
+    paint_drawing,
+    paint_marks,
+    trace_hull,
+)
 from calibgui.gui.widgets import theme
 from calibgui.gui.widgets.picture import Picture
 
@@ -28,6 +36,8 @@ _STEP = 1.25
 """Zoom of a wheel's notch or a key."""
 _NEAREST, _FARTHEST = 64.0, 0.5
 """Largest zoom; smallest, over the one at which the image fits."""
+_HIGHLIGHT = 4.0
+"""Width of the line around the board that the cursor is over elsewhere, px."""
 _GRAB = 10
 """Distance at which a mark is hit, device-independent px."""
 
@@ -74,6 +84,7 @@ class Canvas(QGraphicsView):
         """Opacity of each layer; 1 if it is not named."""
         self.residual_scale = 50.0
         self._drawings: Mapping[Layer, Drawing] = {}
+        self._highlight: QColor | None = None
         self.tool: Tool | None = None
         self._picture = Picture()
         self._fits = True
@@ -110,6 +121,12 @@ class Canvas(QGraphicsView):
         """Draw these marks over the image."""
         self.marks = marks
         self.viewport().update()
+
+    def show_highlight(self, colour: QColor | None) -> None:
+        """Draw a line of this colour around the board; None for no line."""
+        if colour != self._highlight:
+            self._highlight = colour
+            self.viewport().update()
 
     def show_drawings(self, drawings: Mapping[Layer, Drawing]) -> None:
         """Draw these over every image of their camera."""
@@ -241,6 +258,10 @@ class Canvas(QGraphicsView):
                 self.residual_scale,
                 self.opacity,
             )
+            corners = self.marks.corners
+            if self._highlight is not None and corners is not None:
+                at = self.to_screen(trace_hull(corners.uv))
+                draw_outline(painter, at, self._highlight, _HIGHLIGHT)
         if self.tool is not None:
             self.tool.paint(painter, self)
         painter.restore()

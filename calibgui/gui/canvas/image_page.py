@@ -7,8 +7,8 @@ from collections.abc import Callable
 from pathlib import PurePath
 
 import numpy as np
-from PySide6.QtCore import Qt, Signal
-from PySide6.QtGui import QAction
+from PySide6.QtCore import QPointF, Qt, Signal
+from PySide6.QtGui import QAction, QPolygonF
 from PySide6.QtWidgets import (
     QHBoxLayout,
     QLabel,
@@ -23,7 +23,7 @@ from calibgui.engine.images import Image
 from calibgui.gui.canvas.canvas import Canvas
 from calibgui.gui.canvas.evidence import Evidence
 from calibgui.gui.canvas.layer_list import LayerList
-from calibgui.gui.canvas.layers import Layer, Marks
+from calibgui.gui.canvas.layers import Layer, Marks, trace_hull
 from calibgui.gui.canvas.marker import Marker
 from calibgui.gui.images.image_model import status_text
 from calibgui.gui.jobs.job import Job
@@ -46,6 +46,7 @@ class ImagePage(QWidget):
         self._session = session
         self._image: Image | None = None
         self._job: Job | None = None
+        self._is_over_board = False
         self.canvas = Canvas()
         self.heading = ElidedLabel()
         # Over the image, which must not move when the next one is chosen.
@@ -83,6 +84,7 @@ class ImagePage(QWidget):
         for changes_axes in (self.marker.corner_bar.turn, self.marker.corner_bar.flip):
             changes_axes.clicked.connect(lambda: self.layers[Layer.ORDER].setChecked(True))
         session.selected.connect(self._selected)
+        session.hovered.connect(lambda _: self._show_hovered())
         session.renewed.connect(lambda image: self._load(image) if image == session.image else None)
         session.changed.connect(self._project_changed)
         session.result_changed.connect(lambda _: self._show_marks())
@@ -154,6 +156,7 @@ class ImagePage(QWidget):
         if self.shown_path != image:
             self._load(image)
         self._show_marks()
+        self._show_hovered()
         view = self._session.view
         if view is not None and view.corners is not None and 0 <= corner < len(view.corners):
             self.canvas.show_place(view.corners.uv[corner])
@@ -238,7 +241,33 @@ class ImagePage(QWidget):
             du, dv, math.hypot(du, dv)
         )
 
+    def _show_hovered(self) -> None:
+        """Outline the board if the cursor is over it elsewhere, in the view's colour."""
+        session = self._session
+        is_pointed_at = bool(session.image) and session.hovered_image == session.image
+        self.canvas.show_highlight(
+            theme.view_colour(session.project.find(session.image))
+            if is_pointed_at and not self._is_over_board
+            else None
+        )
+
+    def _point_at_board(self, u: float, v: float) -> None:
+        """Tell everybody whether the cursor is over the board."""
+        corners = self.canvas.marks.corners
+        is_over = self._is_over_board
+        self._is_over_board = (
+            corners is not None
+            and len(corners) > 2
+            and math.isfinite(u)
+            and QPolygonF([QPointF(*at) for at in trace_hull(corners.uv)]).containsPoint(
+                QPointF(u, v), Qt.FillRule.OddEvenFill
+            )
+        )
+        if self._is_over_board or is_over:
+            self._session.hover(self._session.image if self._is_over_board else "")
+
     def _hovered(self, u: float, v: float) -> None:
+        self._point_at_board(u, v)
         image = self._image
         if image is None or not (math.isfinite(u) and math.isfinite(v)):
             self.under_cursor.hide()  # the heading takes its room

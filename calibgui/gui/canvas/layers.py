@@ -6,7 +6,7 @@ size on the screen at any zoom.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection, Iterator, Mapping
+from collections.abc import Callable, Collection, Iterable, Iterator, Mapping
 from contextlib import AbstractContextManager, contextmanager
 from dataclasses import dataclass
 from enum import StrEnum
@@ -30,6 +30,8 @@ _ROOM = 0.22
 """Share of the distance between corners that a mark may take to each side."""
 _DOT = 2.5
 """Radius of a dot."""
+_LINE = 1.4
+"""Width of a line; its halo is 1 wider on each side."""
 _HEAD = 5.0
 """Length of an arrow's head."""
 
@@ -198,11 +200,32 @@ def draw_dots(painter: QPainter, at: Array, colour: QColor) -> None:
         painter.drawEllipse(QPointF(u, v), _DOT, _DOT)
 
 
-def draw_outline(painter: QPainter, at: Array, colour: QColor) -> None:
+def trace_hull(uv: Array) -> Array:
+    """Return the corners of the convex hull (m, 2) of points (n, 2), in their order around it.
+
+    Andrew's monotone chain: points on one line, or fewer than three, have a hull as well.
+    """
+    points = sorted(map(tuple, uv.tolist()))
+
+    def trace_half(points: Iterable[tuple[float, float]]) -> list[tuple[float, float]]:
+        half: list[tuple[float, float]] = []
+        for u, v in points:
+            while len(half) > 1:
+                (u0, v0), (u1, v1) = half[-2:]
+                if (u1 - u0) * (v - v0) > (v1 - v0) * (u - u0):
+                    break
+                half.pop()
+            half.append((u, v))
+        return half[:-1]
+
+    return np.array([*trace_half(points), *trace_half(reversed(points))]).reshape(-1, 2)
+
+
+def draw_outline(painter: QPainter, at: Array, colour: QColor, width: float = _LINE) -> None:
     """A closed line through (n, 2) screen positions."""
     polygon = QPolygonF([QPointF(u, v) for u, v in at])
     painter.setBrush(Qt.BrushStyle.NoBrush)
-    for pen in _make_pens(colour):
+    for pen in _make_pens(colour, width):
         painter.setPen(pen)
         painter.drawPolygon(polygon)
 
@@ -253,6 +276,6 @@ def _draw_lines(painter: QPainter, lines: list[QLineF], colour: QColor) -> None:
         painter.drawLines(lines)
 
 
-def _make_pens(colour: QColor) -> tuple[QPen, QPen]:
+def _make_pens(colour: QColor, width: float = _LINE) -> tuple[QPen, QPen]:
     """The halo's pen, then the mark's."""
-    return QPen(theme.HALO, 3.4), QPen(colour, 1.4)
+    return QPen(theme.HALO, width + 2.0), QPen(colour, width)

@@ -76,7 +76,8 @@ class FilmStrip(QWidget):
         self.list = FilmView(self._model)
         self.list.setModel(self._order)
         self.list.entered.connect(lambda index: session.hover(index.data(Role.PATH)))
-        self.list.viewportEntered.connect(lambda: session.hover(""))
+        for away in (self.list.viewportEntered, self.list.left):
+            away.connect(lambda: session.hover(""))
         self.list.setContextMenuPolicy(Qt.ContextMenuPolicy.ActionsContextMenu)
         self.list.setAccessibleName(self.tr("Images"))
         layout = QHBoxLayout(self)
@@ -258,6 +259,9 @@ class FilmStrip(QWidget):
 
     def _show_hovered(self, image: str) -> None:
         self.list.show_hovered(image)
+        if image and not self.list.underMouse():  # nothing moves under the cursor
+            row = self._session.project.find(image)
+            self.list.scrollTo(self._order.mapFromSource(self._model.index(row)))
 
     def _show_selected(self, image: str, _: int = -1) -> None:
         row = self._session.project.find(image)

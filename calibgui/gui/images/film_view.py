@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from PySide6.QtCore import (
+    QEvent,
     QModelIndex,
     QPersistentModelIndex,
     QPoint,
@@ -55,6 +56,8 @@ class FilmView(QListView):
 
     threshold_dragged = Signal(float)
     """The threshold was dragged to this error, px."""
+    left = Signal()
+    """The cursor is over no image any more."""
 
     def __init__(self, model: ImageModel) -> None:
         super().__init__()
@@ -116,6 +119,10 @@ class FilmView(QListView):
     def _is_at_threshold(self, event: QMouseEvent) -> bool:
         distance = abs(event.position().y() - self.place_of(self.threshold))
         return self.top > 0 and distance <= _GRAB
+
+    def leaveEvent(self, event: QEvent) -> None:  # noqa: N802 - Qt's name
+        super().leaveEvent(event)
+        self.left.emit()
 
     def mousePressEvent(self, event: QMouseEvent) -> None:  # noqa: N802 - Qt's name
         self._drags = event.button() is Qt.MouseButton.LeftButton and self._is_at_threshold(event)

@@ -137,6 +137,12 @@ class CoveragePanel(Panel):
         )
 
     def _select(self, k: int, corner: int) -> None:  # noqa: ARG002 - a view has one tilt
+        self._ring_view(k)
+
+    def _hover_view(self, k: int) -> None:
+        self._ring_view(k if k >= 0 else self._selected[0])
+
+    def _ring_view(self, k: int) -> None:
         for ring, at in zip(self._rings, self._at, strict=True):
             ring.setData(*at[k : k + 1].T if k >= 0 else ([], []))
             ring.setPen(pg.mkPen(theme.current().text, width=2))

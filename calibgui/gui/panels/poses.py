@@ -11,6 +11,7 @@ from calibgui.dataset import Result
 from calibgui.gui.panels.panel import Panel
 from calibgui.gui.panels.scene_view import SceneView
 from calibgui.gui.panels.services import Services
+from calibgui.gui.widgets import theme
 from calibgui.report.coverage import measure_attitudes
 from calibgui.report.names import number_names
 from calibgui.report.scene3d import SceneCentre, build_scene
@@ -62,6 +63,7 @@ class PosesPanel(Panel):
         self.space.show_scene(
             build_scene(result, SceneCentre(self.centre.currentData())),
             [numbers[i] for i in self._indices],
+            [theme.view_colour(i) for i in self._indices],
         )
 
     def _select(self, k: int, corner: int) -> None:  # noqa: ARG002 - a board is drawn whole

@@ -102,3 +102,9 @@ class ResidualsPanel(Panel):
 
     def _select(self, k: int, corner: int) -> None:
         self.scatter.select(k, corner)
+
+    def _hover_view(self, k: int) -> None:
+        if k >= 0:
+            self.scatter.select(k)
+        else:
+            self.scatter.select(*self._selected)

@@ -75,14 +75,23 @@ class SceneView(QWidget):
         self._polygons: tuple[Polygon, ...] = ()
         self._drawn: tuple[DrawnPolygon, ...] = ()
         self._numbers: Sequence[str] = ()
+        self._colours: Sequence[QColor] = ()
         self._selected = self._under_cursor = -1
         self._pressed: QPointF | None = None
         self._last = QPointF()
         offer_picture(self)
 
-    def show_scene(self, polygons: tuple[Polygon, ...], numbers: Sequence[str]) -> None:
-        """Show all of these, from the side where the observer stands, with the views' numbers."""
-        self._polygons, self._numbers = polygons, numbers
+    def show_scene(
+        self, polygons: tuple[Polygon, ...], numbers: Sequence[str], colours: Sequence[QColor]
+    ) -> None:
+        """Show all of these, from the side where the observer stands.
+
+        Args:
+            polygons: boards, or cameras, in space.
+            numbers: of the views.
+            colours: of the views.
+        """
+        self._polygons, self._numbers, self._colours = polygons, numbers, colours
         self._under_cursor = -1
         self.look_from(fit_zoom(polygons, self.observer))
 
@@ -143,7 +152,7 @@ class SceneView(QWidget):
     def _paint_polygon(self, painter: QPainter, item: DrawnPolygon) -> None:
         view = item.polygon.view
         rank = self._rank(view)
-        colour = QColor(theme.current().muted) if view < 0 else theme.view_colour(view)
+        colour = QColor(theme.current().muted) if view < 0 else self._colours[view]
         outline, inside = QColor(colour), QColor(colour)
         outline.setAlphaF(1.0 if rank else self._opacity(item.depth))
         inside.setAlpha((0, 70, 140)[rank])

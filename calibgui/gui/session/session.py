@@ -42,7 +42,8 @@ class Session(QObject):
         self.document.listeners.append(self._document_changed)
         self.image = ""
         self.corner = -1
-        self._hovered = ""
+        self.hovered_image = ""
+        """The image that the cursor is over; "" for none."""
         self._result_name = ""
         self._announced: Result | None = None
 
@@ -86,8 +87,8 @@ class Session(QObject):
 
     def hover(self, image: str) -> None:
         """Tell everybody which image the cursor is over; "" for none."""
-        if image != self._hovered:
-            self._hovered = image
+        if image != self.hovered_image:
+            self.hovered_image = image
             self.hovered.emit(image)
 
     def _find_orientation(self, image: str) -> int | None:

@@ -1,0 +1,136 @@
+"""What the cursor is over in one place is seen in all others, in the view's colour."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from PySide6.QtCore import QEvent, QPoint, QPointF
+from PySide6.QtGui import QColor, QImage
+from PySide6.QtWidgets import QApplication
+from pytestqt.qtbot import QtBot
+
+from calibgui.gui.canvas.layers import trace_hull
+from calibgui.gui.images.image_model import Role
+from calibgui.gui.panels.coverage import CoveragePanel
+from calibgui.gui.panels.poses import PosesPanel
+from calibgui.gui.panels.residuals import ResidualsPanel
+from calibgui.gui.widgets import theme
+from calibgui.gui.widgets.picture import make_qimage
+from calibgui.gui.window.main_window import MainWindow
+from tests.app import examples
+
+
+@pytest.fixture
+def shown(full: MainWindow, qtbot: QtBot) -> MainWindow:
+    """The window with poses beside the first image, which is left out, and the second chosen."""
+    views = full.session.project.views
+    full.need_analysis().show_panel(PosesPanel)
+    full.images.follows.setChecked(True)
+    full.images.exclude([views[0].image])
+    qtbot.waitUntil(
+        lambda: (
+            full.session.project.is_current(full.session.result) and not full.session.jobs.running
+        ),
+        timeout=60_000,
+    )
+    full.session.select(views[1].image)
+    qtbot.waitUntil(lambda: not full.session.jobs.running)
+    width, height = examples.CAMERA.size
+    full.page.canvas.show_image((make_qimage(np.full((height, width), 128, np.uint8)),))
+    return full
+
+
+def point_at(window: MainWindow, row: int, qtbot: QtBot) -> None:
+    """Move the cursor onto a thumbnail."""
+    strip = window.images.list
+    at = strip.visualRect(strip.model().index(row, 0)).center()
+    qtbot.mouseMove(strip.viewport(), at)
+
+
+def leave(window: MainWindow) -> None:
+    """Move the cursor off the film strip."""
+    for part in (window.images.list.viewport(), window.images.list):
+        QApplication.sendEvent(part, QEvent(QEvent.Type.Leave))
+
+
+def count_pixels(window: MainWindow, colour: QColor) -> int:
+    """Count the canvas's pixels of a colour."""
+    picture = window.page.canvas.grab().toImage().convertToFormat(QImage.Format.Format_RGB32)
+    pixels = np.frombuffer(picture.constBits(), np.uint32)
+    return int(np.count_nonzero(pixels == colour.rgb()))
+
+
+def test_every_view_has_one_colour(shown: MainWindow) -> None:
+    panel = shown.need_analysis().panel(PosesPanel)
+    strip = shown.images.list.model()
+    in_strip = {
+        strip.index(row, 0).data(Role.PATH): strip.index(row, 0).data(Role.VIEW_COLOUR)
+        for row in range(strip.rowCount())
+    }
+    assert shown.session.result is not None
+    used = [view.image for view in shown.session.result.used]
+    assert len(used) == 5
+    assert [in_strip[image] for image in used] == list(panel.space._colours)
+
+
+def test_a_photograph_in_the_strip_is_seen_among_the_poses(shown: MainWindow, qtbot: QtBot) -> None:
+    panel = shown.need_analysis().show_panel(PosesPanel)
+    before = panel.space.grab().toImage()
+    point_at(shown, 3, qtbot)
+    assert panel.words.text().startswith("3.png: ")
+    assert panel.space.grab().toImage() != before
+    # The board of the photograph in sight is outlined in its colour, another one is not.
+    colour = theme.view_colour(1)
+    assert count_pixels(shown, colour) == 0
+    point_at(shown, 1, qtbot)
+    assert count_pixels(shown, colour) > 200
+    leave(shown)
+    assert shown.session.hovered_image == "" and count_pixels(shown, colour) == 0
+    assert panel.words.text().startswith("1.png: ")  # the selected one
+
+
+def test_the_board_in_the_photograph_is_seen_in_strip_and_poses(
+    shown: MainWindow, qtbot: QtBot
+) -> None:
+    panel, canvas = shown.need_analysis().show_panel(PosesPanel), shown.page.canvas
+    view = shown.session.view
+    assert view is not None and view.corners is not None
+    shown.session.corner = -1
+    before = panel.space.grab().toImage()
+    middle = canvas.to_screen(view.corners.uv.mean(axis=0, keepdims=True))[0]
+    qtbot.mouseMove(canvas.viewport(), QPointF(*middle).toPoint())
+    assert shown.session.hovered_image == view.image
+    assert shown.images.list.hovered == view.image
+    panel.space.select(-1)
+    assert panel.space.grab().toImage() != before
+    assert count_pixels(shown, theme.view_colour(1)) == 0  # the cursor shows where it is
+    qtbot.mouseMove(canvas.viewport(), QPoint(1, 1))
+    assert shown.images.list.hovered == ""
+
+
+def test_a_view_pointed_at_stands_out_in_plots(shown: MainWindow, qtbot: QtBot) -> None:
+    result = shown.session.result
+    assert result is not None
+    analysis = shown.need_analysis()
+    residuals, coverage = analysis.panel(ResidualsPanel), analysis.panel(CoveragePanel)
+    first, fourth = (result.calibration.residuals[k].image for k in (0, 3))
+    for panel, item in ((residuals, residuals.scatter._view), (coverage, coverage._rings[1])):
+        analysis.show_panel(type(panel))
+        places = (first, fourth) if panel is residuals else coverage._at[1][[[0], [3]]]
+        for at, points in ((places[1], True), (places[0], False)):
+            if points:
+                point_at(shown, 4, qtbot)
+            else:
+                leave(shown)
+            np.testing.assert_allclose(np.transpose(item.getData()), at)
+
+
+def test_the_hull_goes_around_the_points() -> None:
+    square = np.array([[0.0, 0], [4, 0], [4, 3], [0, 3]])
+    points = np.vstack([square, [[1, 1], [2, 0], [3, 2]], square[:1]])
+    hull = trace_hull(points)
+    assert {tuple(p) for p in hull} == {tuple(p) for p in square}
+    x, y = (hull - hull.mean(axis=0)).T
+    turns = np.diff(np.unwrap(np.arctan2(y, x)))
+    assert (turns > 0).all() or (turns < 0).all()
+    assert len(trace_hull(square[:2])) == 2  # no area
