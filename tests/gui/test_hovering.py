@@ -44,6 +44,7 @@ def point_at(window: MainWindow, row: int, qtbot: QtBot) -> None:
     """Move the cursor onto a thumbnail."""
     strip = window.images.list
     at = strip.visualRect(strip.model().index(row, 0)).center()
+    qtbot.mouseMove(strip.viewport(), at - QPoint(3, 3))
     qtbot.mouseMove(strip.viewport(), at)
 
 
