@@ -56,7 +56,7 @@ def run(options: argparse.Namespace, console: Console) -> None:
         found = estimate_projection_uncertainty(result.calibration, views, options.distance)
         report = check_residuals(result.calibration, views, shorten_names(result.used))
         sections = [
-            quality.tabulate_projection_uncertainty(found, options.limit),
+            quality.tabulate_projection_uncertainty(found, options.limit, result.condition),
             quality.tabulate_noise_report(report),
         ]
         if options.validate:

@@ -26,7 +26,7 @@ from calibgui.engine.camera import MODELS
 from calibgui.engine.errors import CalibrationError
 from calibgui.engine.files import write_atomically
 from calibgui.formats.csv_table import read_csv_rows
-from calibgui.formats.exporter import Exporter, ExportReport
+from calibgui.formats.exporter import Exporter, ExportReport, describe_condition
 
 _POINT_COLUMNS = ("u_px", "v_px", "x_mm", "y_mm")
 _COVARIANCE_COLUMNS = ("cov_uu", "cov_uv", "cov_vv")
@@ -136,7 +136,7 @@ def _make_view(image: str, numbers: list[list[float]], file: Path) -> View:
 
 def _export(result: Result, path: Path) -> ExportReport:
     write_corners_csv(result.views, result.board, path)
-    return ExportReport(path, EXPORTER.limits)
+    return ExportReport(path, f"{EXPORTER.limits} {describe_condition(result)}".rstrip())
 
 
 EXPORTER = Exporter(

@@ -143,7 +143,8 @@ def _tabulate_views(result: Result) -> str:
             strict=True,
         )
     ]
-    head = ["Image", "Corners", "RMS [px]", "Distance [mm]", "Tilt [°]"]
+    unit = f"mm {result.condition}".rstrip()
+    head = ["Image", "Corners", "RMS [px]", f"Distance [{unit}]", "Tilt [°]"]
     return _make_table(head, rows)
 
 

@@ -52,8 +52,16 @@ def describe_distance(distance: float) -> str:
     return f"{distance:g} mm away" if math.isfinite(distance) else "far away"
 
 
-def tabulate_projection_uncertainty(found: ProjectionUncertainty, limit: float) -> str:
-    """Tabulate projection uncertainty, with the share of the image known to `limit` px."""
+def tabulate_projection_uncertainty(
+    found: ProjectionUncertainty, limit: float, condition: str = ""
+) -> str:
+    """Tabulate projection uncertainty, with the share of the image known to `limit` px.
+
+    Args:
+        found: the uncertainty.
+        limit: of the share, px.
+        condition: what lengths rest on, such as "if squares are 30 mm"; empty if they are known.
+    """
     rows = [
         ["at the image's centre", f"{found.centre:.3f}"],
         ["median over the image", f"{found.median:.3f}"],
@@ -61,6 +69,8 @@ def tabulate_projection_uncertainty(found: ProjectionUncertainty, limit: float) 
     ]
     head = ["", "px"]
     points = f"points {describe_distance(found.distance)}"
+    if condition and math.isfinite(found.distance):
+        points += f" {condition}"
     title = f"Projection uncertainty of {points} (one sigma, worst direction)"
     inside = f"{100 * found.fraction(limit):.0f} % of the image is known to {limit:g} px or better."
     return f"{title}\n{align_columns([head, *rows], left=(0,))}\n{format_bullet(inside)}"

@@ -192,7 +192,8 @@ def tabulate_views(result: Result) -> str:
     ]
     head = ["view", "image", "corners", "rms", "distance", "tilt"]
     units = ["", "", "", "px", "mm", "deg"]
-    return "Views\n" + align_columns([head, units, *rows], left=(1,))
+    condition = f", distances {result.condition}" if result.condition else ""
+    return f"Views{condition}\n" + align_columns([head, units, *rows], left=(1,))
 
 
 def list_unused_views(all_views: Iterable[View]) -> str:

@@ -17,6 +17,7 @@ from calibgui.gui.panels.arrows import trace_arrows
 from calibgui.gui.panels.panel import Panel
 from calibgui.gui.panels.services import Services
 from calibgui.gui.widgets import theme
+from calibgui.gui.widgets.lengths import describe_condition, name_unit, state_condition
 from calibgui.gui.widgets.plots import ColourBar, Plot
 from calibgui.gui.widgets.save_names import ask_for_name
 from calibgui.report.summary import (
@@ -47,18 +48,12 @@ class BoardShapePanel(Panel):
             )
         )
         self.save.clicked.connect(self._ask_and_save)
-        self.plot = Plot(
-            self.tr("X on the board"),
-            self.tr("Y on the board"),
-            self.tr("mm"),
-            self.tr("mm"),
-            square=True,
-        )
+        self.plot = Plot(self.tr("X on the board"), self.tr("Y on the board"), square=True)
         item = self.plot.getPlotItem()
         item.getViewBox().invertY(True)
         self.dots = pg.ScatterPlotItem(size=9, pen=pg.mkPen("#808080"))
         self.colours = pg.colormap.get(_COLOURS)
-        self.bar = ColourBar(self.plot, self.tr("out of the plane [mm]"), self.colours)
+        self.bar = ColourBar(self.plot, "", self.colours)
         self.plot.setToolTip(
             self.tr(
                 "Arrows: from where corners should be to where they are, magnified.\n"
@@ -82,9 +77,13 @@ class BoardShapePanel(Panel):
     @property
     def board_shape(self) -> BoardShape:
         """The board shape that is shown."""
+        assert self._shown.calibration.board_shape is not None
+        return self._shown.calibration.board_shape
+
+    @property
+    def _shown(self) -> Result:
         assert self._result is not None
-        assert self._result.calibration.board_shape is not None
-        return self._result.calibration.board_shape
+        return self._result
 
     def _missing(self, result: Result) -> str:
         calibration = result.calibration
@@ -97,10 +96,16 @@ class BoardShapePanel(Panel):
         if (missed := calibration.lens_error) > 0:
             return describe_lens_error(calibration, missed)
         doubt = calibration.board_shape_error
-        return f"{describe_board_shape_error(doubt)}\n\n{how}" if doubt > 0 else how
+        if doubt == 0:
+            return how
+        words = f"{describe_board_shape_error(doubt)} {state_condition(result)}"
+        return f"{words.rstrip()}\n\n{how}"
 
     def _refresh(self, result: Result) -> None:
         board_shape = self.board_shape
+        unit = name_unit(result)
+        self.plot.set_labels(self.tr("X on the board"), self.tr("Y on the board"), unit, unit)
+        self.bar.set_quantity(self.tr("out of the plane [{0}]").format(unit))
         at, d = board_shape.nominal, board_shape.deviation
         reach = float(np.abs(d[:, 2]).max()) or 1e-3
         brushes = self.colours.map((d[:, 2] / reach + 1) / 2, mode="qcolor")
@@ -110,14 +115,14 @@ class BoardShapePanel(Panel):
         pitch = self._pitch = float(np.asarray(nearest)[:, 1].min())
         longest = float(np.linalg.norm(d[:, :2], axis=1).max()) or 1e-3
         scale = _LONGEST * pitch / longest
-        corner, unit = at.min(axis=0) - [0.0, 1.4 * pitch], _round_down(longest)
-        key = np.array([[unit * scale, 0.0]])
+        corner, size = at.min(axis=0) - [0.0, 1.4 * pitch], _round_down(longest)
+        key = np.array([[size * scale, 0.0]])
         tails = np.vstack([at + scale * d[:, :2] / 2, corner + key / 2])
         self.arrows.setData(*trace_arrows(tails, np.vstack([scale * d[:, :2], key])).T)
         colours = theme.current()
         self.arrows.setPen(pg.mkPen(colours.text, width=1.5))
-        self.key.setText(self.tr("{0:g} mm in the plane").format(unit), color=colours.text)
-        self.key.setPos(corner[0] + unit * scale + 0.2 * pitch, corner[1])
+        self.key.setText(self.tr("{0:g} mm in the plane").format(size), color=colours.text)
+        self.key.setPos(corner[0] + size * scale + 0.2 * pitch, corner[1])
         low, high = at.min(axis=0) - pitch * np.array([1.0, 2.0]), at.max(axis=0) + pitch
         self.plot.enclose(QRectF(*low, *(high - low)))
         words = describe_board_shape(board_shape)
@@ -127,7 +132,7 @@ class BoardShapePanel(Panel):
         if board_shape.sigma.any():
             known = float(np.median(board_shape.sigma[board_shape.sigma > 0]))
             words += self.tr(" Each is known to ± {0:.2g} mm (1σ, median).").format(known)
-        self.words.setText(words)
+        self.words.setText(f"{words} {state_condition(result)}".rstrip())
         self._hover(None)
 
     def _hover(self, position: QPointF | None) -> None:
@@ -145,6 +150,7 @@ class BoardShapePanel(Panel):
             self.tr("({0:g}, {1:g}) mm: x {2}, y {3}, z {4} mm").format(
                 *board_shape.nominal[k], x, y, z
             )
+            + describe_condition(self._shown)
         )
 
     def _corner_at(self, position: QPointF) -> int:

@@ -17,6 +17,7 @@ from calibgui.gui.panels.panel import Panel
 from calibgui.gui.panels.services import Services
 from calibgui.gui.panels.split import Split
 from calibgui.gui.widgets import theme
+from calibgui.gui.widgets.lengths import name_unit
 from calibgui.gui.widgets.plots import Plot
 from calibgui.report.coverage import count_corners_per_cell, measure_attitudes
 
@@ -58,7 +59,7 @@ class CoveragePanel(Panel):
         )
         for ring in _RINGS:
             self._add_ring(ring)
-        self.distances = Plot(self.tr("view"), self.tr("distance"), y_unit=self.tr("mm"))
+        self.distances = Plot(self.tr("view"), self.tr("distance"))
         self.distances.setToolTip(self.tr("From the camera to the middle of the corners seen."))
         self._planned: Result | None = None
         self._points = [pg.ScatterPlotItem(size=10, pen=None) for _ in range(2)]
@@ -93,6 +94,7 @@ class CoveragePanel(Panel):
         views = np.arange(len(tilt))
         for points, at in zip(self._points, self._at, strict=True):
             points.setData(*at.T, data=views, brush=[theme.view_colour(i) for i in self._indices])
+        self.distances.set_labels(self.tr("view"), self.tr("distance"), y_unit=name_unit(result))
         self.distances.getPlotItem().getViewBox().setYRange(0, 1.1 * attitude.distance.max())
         reach = max(48.0, 1.05 * float(np.abs(self._at[0]).max()))
         self.tilts.getPlotItem().getViewBox().setRange(

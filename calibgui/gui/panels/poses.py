@@ -12,6 +12,7 @@ from calibgui.gui.panels.panel import Panel
 from calibgui.gui.panels.scene_view import SceneView
 from calibgui.gui.panels.services import Services
 from calibgui.gui.widgets import theme
+from calibgui.gui.widgets.lengths import describe_condition, state_condition
 from calibgui.report.coverage import measure_attitudes
 from calibgui.report.names import number_names
 from calibgui.report.scene3d import SceneCentre, build_scene
@@ -58,12 +59,14 @@ class PosesPanel(Panel):
 
     def _refresh(self, result: Result) -> None:
         self._attitudes = measure_attitudes(result.calibration, result.observations())
+        self._condition = describe_condition(result)
         self._names = shorten_names(result.used)
         numbers = number_names([view.image for view in result.views])
         self.space.show_scene(
             build_scene(result, SceneCentre(self.centre.currentData())),
             [numbers[i] for i in self._indices],
             [theme.view_colour(i) for i in self._indices],
+            state_condition(result),
         )
 
     def _select(self, k: int, corner: int) -> None:  # noqa: ARG002 - a board is drawn whole
@@ -78,11 +81,18 @@ class PosesPanel(Panel):
         """Say where the board of calibrated view k was, or in what range all were if k is -1."""
         distance, tilt = self._attitudes.distance, np.rad2deg(self._attitudes.tilt)
         self.words.setText(
-            self.tr("{0}: {1:.0f} mm away, tilted by {2:.0f}°").format(
-                self._names[k], distance[k], tilt[k]
+            self.tr("{0}: {1:.0f} mm away{2}, tilted by {3:.0f}°").format(
+                self._names[k], distance[k], self._condition, tilt[k]
             )
             if k >= 0
             else self.tr(
-                "{0} views, {1:.0f} to {2:.0f} mm away, tilted by {3:.0f}° to {4:.0f}°"
-            ).format(len(tilt), distance.min(), distance.max(), tilt.min(), tilt.max())
+                "{0} views, {1:.0f} to {2:.0f} mm away{3}, tilted by {4:.0f}° to {5:.0f}°"
+            ).format(
+                len(tilt),
+                distance.min(),
+                distance.max(),
+                self._condition,
+                tilt.min(),
+                tilt.max(),
+            )
         )

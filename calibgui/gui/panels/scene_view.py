@@ -49,6 +49,7 @@ _SMOOTHED = 200
 """Outlines up to which they are smoothed: more take longer than a frame while one turns them."""
 _NUMBERED = 60
 """Nearest views that have numbers; of more than that all the numbers would hide the boards."""
+_BELOW = Qt.AlignmentFlag.AlignLeft | Qt.AlignmentFlag.AlignBottom
 _ONE_LINE = Qt.AlignmentFlag.AlignCenter | Qt.TextFlag.TextSingleLine
 
 
@@ -76,13 +77,18 @@ class SceneView(QWidget):
         self._drawn: tuple[DrawnPolygon, ...] = ()
         self._numbers: Sequence[str] = ()
         self._colours: Sequence[QColor] = ()
+        self._condition = ""
         self._selected = self._under_cursor = -1
         self._pressed: QPointF | None = None
         self._last = QPointF()
         offer_picture(self)
 
     def show_scene(
-        self, polygons: tuple[Polygon, ...], numbers: Sequence[str], colours: Sequence[QColor]
+        self,
+        polygons: tuple[Polygon, ...],
+        numbers: Sequence[str],
+        colours: Sequence[QColor],
+        condition: str,
     ) -> None:
         """Show all of these, from the side where the observer stands.
 
@@ -90,7 +96,9 @@ class SceneView(QWidget):
             polygons: boards, or cameras, in space.
             numbers: of the views.
             colours: of the views.
+            condition: a sentence on what lengths rest on; empty if they are confirmed.
         """
+        self._condition = condition
         self._polygons, self._numbers, self._colours = polygons, numbers, colours
         self._under_cursor = -1
         self.look_from(fit_zoom(polygons, self.observer))
@@ -142,6 +150,8 @@ class SceneView(QWidget):
             self._paint_polygon(painter, item)
         painter.setRenderHint(QPainter.RenderHint.Antialiasing)
         self._paint_numbers(painter)
+        painter.setPen(QColor(theme.current().muted))
+        painter.drawText(self.rect().adjusted(4, 2, -4, -2), _BELOW, self._condition)
 
     def _rank(self, view: int) -> int:
         """2 for the selected view, 1 for the one under the cursor, 0 for all others."""

@@ -16,6 +16,7 @@ from calibgui.gui.panels.heat import HeatMap, surround_places
 from calibgui.gui.panels.latest import Latest
 from calibgui.gui.panels.panel import Panel
 from calibgui.gui.panels.services import Services
+from calibgui.gui.widgets.lengths import describe_condition
 from calibgui.report.quality import describe_distance
 
 _LIMIT = 0.1
@@ -105,7 +106,7 @@ class UncertaintyPanel(Panel):
 
     def _draw_limit(self) -> None:
         found, limit = self.found, self.limit.value()
-        if found is None:
+        if found is None or self._result is None:
             return
         self.region.show(found.u, found.v, found.worst_direction, [limit])
         share = found.fraction(limit)
@@ -116,7 +117,8 @@ class UncertaintyPanel(Panel):
                 "{3:.3f} px at worst (1σ). {4:.0f} % of the image is known to {5:g} px or "
                 "better{6}."
             ).format(
-                describe_distance(found.distance),
+                describe_distance(found.distance)
+                + (describe_condition(self._result) if math.isfinite(found.distance) else ""),
                 found.centre,
                 found.median,
                 found.worst,

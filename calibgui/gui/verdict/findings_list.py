@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Sequence
 
 from PySide6.QtCore import Qt, Signal
@@ -25,6 +26,8 @@ from calibgui.report.verdict import format_times
 
 _SHARE = 0.6
 """Share of the room below the bar that the list may take."""
+_LENGTH = re.compile(r"\d mm\b")
+"""What a length looks like in a finding's sentences."""
 _MIN_TOLD = 1.1
 """Ratio of errors from which a row says by how much its action makes the camera better."""
 
@@ -54,12 +57,18 @@ class FindingsList(DropDown):
         layout.setContentsMargins(1, 0, 1, 2)
         layout.addWidget(area)
 
-    def show_verdict(self, verdict: Verdict, names: Sequence[str]) -> None:
-        """List the findings of a verdict on views with these names."""
+    def show_verdict(self, verdict: Verdict, names: Sequence[str], condition: str) -> None:
+        """List the findings of a verdict.
+
+        Args:
+            verdict: on the shown result.
+            names: of its views.
+            condition: a sentence on what lengths rest on; empty if they are confirmed.
+        """
         for row in self.rows:
             self._column.removeWidget(row)
             row.deleteLater()
-        self.rows = [FindingRow(finding, names) for finding in verdict.findings]
+        self.rows = [FindingRow(finding, names, condition) for finding in verdict.findings]
         for row in self.rows:
             row.button.clicked.connect(lambda _=False, f=row.finding: self.action_wanted.emit(f))
             row.proof.clicked.connect(lambda _=False, f=row.finding: self.proof_wanted.emit(f))
@@ -91,7 +100,7 @@ class FindingsList(DropDown):
 class FindingRow(QWidget):
     """One finding: what, how much, one button that does it; details below, folded up."""
 
-    def __init__(self, finding: Finding, names: Sequence[str]) -> None:
+    def __init__(self, finding: Finding, names: Sequence[str], condition: str) -> None:
         super().__init__()
         self.finding = finding
         self.what = ElidedLabel()
@@ -111,7 +120,10 @@ class FindingRow(QWidget):
         self.unfold.toggled.connect(self._unfold)
         action = finding.action
         self.button = QPushButton("" if action is None else describe_button(action, names))
-        self.details = QLabel(f"{finding.evidence}\n{finding.remedy}")
+        details = f"{finding.evidence}\n{finding.remedy}"
+        self.details = QLabel(
+            f"{details}\n{condition}" if condition and _LENGTH.search(details) else details
+        )
         self.details.setWordWrap(True)
         self.details.setTextFormat(Qt.TextFormat.PlainText)
         self.details.setTextInteractionFlags(Qt.TextInteractionFlag.TextSelectableByMouse)

@@ -16,6 +16,7 @@ from calibgui.engine.assessment import (
     Verdict,
     summarise_residuals,
 )
+from calibgui.gui.widgets.lengths import describe_condition
 from calibgui.report.verdict import format_times, join_names
 
 translate = QCoreApplication.translate
@@ -51,10 +52,7 @@ def describe_figures(verdict: Verdict, result: Result) -> str:
     if np.isfinite(mm := verdict.error.edge * verdict.mm_per_pixel):
         text = translate("VerdictTexts", "edge {0:.2g} mm at {1:.0f} mm")
         parts.append(text.format(mm, verdict.distance))
-    if not result.lengths_confirmed and result.board is not None:
-        parts[-1] += translate("VerdictTexts", " if squares are {0:g} mm").format(
-            result.board.square
-        )
+        parts[-1] += describe_condition(result)
     return "; ".join([*parts, describe_fit(result)])
 
 

@@ -24,6 +24,7 @@ from calibgui.gui.verdict.texts import (
 )
 from calibgui.gui.widgets import theme
 from calibgui.gui.widgets.elided import ElidedLabel
+from calibgui.gui.widgets.lengths import state_condition
 
 _PROOFS = {
     Cause.BOARD_SHAPE: "BoardShapePanel",
@@ -146,7 +147,7 @@ class VerdictBar(QFrame):
             diagnosis = result.calibration.diagnosis
             self.reason.setText(old + (diagnosis.message if diagnosis else verdict.reason))
             self.figures.setText(describe_figures(verdict, result))
-            self.findings.show_verdict(verdict, self._list_names())
+            self.findings.show_verdict(verdict, self._list_names(), state_condition(result))
         self.reason.setToolTip(self.reason.text())
         self.figures.setToolTip(
             self.figures.text()

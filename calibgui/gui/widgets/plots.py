@@ -190,6 +190,11 @@ class ColourBar(pg.ColorBarItem):  # type: ignore[misc]  # pyqtgraph is not type
         plot.colour_bar = self
         self.restyle()
 
+    def set_quantity(self, quantity: str) -> None:
+        """Say anew what the colours show, with its unit."""
+        self._quantity = quantity
+        self.restyle()
+
     def restyle(self) -> None:
         """Take the theme's colours."""
         colours = theme.current()
