@@ -9,7 +9,7 @@ from __future__ import annotations
 import argparse
 from pathlib import Path
 
-from calibgui.app.fleet_pages import write_fleet_pages
+from calibgui.app.fleet.pages import write_fleet_pages
 from calibgui.app.outputs import check_outputs
 from calibgui.cli.console import Console
 from calibgui.cli.outputs import add_overwrite_option
