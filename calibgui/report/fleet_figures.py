@@ -74,7 +74,7 @@ def make_histogram(values: Sequence[float], title: str) -> Histogram | None:
     low, high = _choose_range(known)
     bins = min(_MAX_BARS, max(2 * math.isqrt(known.size), 4))
     counts, edges = np.histogram(known, bins, (low, high))
-    highest, ends = int(counts.max()), edges.tolist()
+    highest, ends, step = int(counts.max()), edges.tolist(), (high - low) / bins
     parts = []
     for count, (left, right) in zip(counts.tolist(), pairwise(ends), strict=True):
         x, end = _place_x(left, low, high), _place_x(right, low, high)
@@ -82,13 +82,15 @@ def make_histogram(values: Sequence[float], title: str) -> Histogram | None:
         if count:
             parts.append(
                 f'<rect class="bar" x="{x:.1f}" y="{y:.1f}" width="{end - x - 1:.1f}" '
-                f'height="{_HEIGHT - _BOTTOM - y:.1f}"><title>{count} from {left:.4g} to '
-                f"{right:.4g}</title></rect>"
+                f'height="{_HEIGHT - _BOTTOM - y:.1f}"><title>{count} from '
+                f"{_format(left, step)} to {_format(right, step)}</title></rect>"
             )
     beyond = int(np.sum((known < low) | (known > high)))
     unknown = len(values) - known.size
     notes = [f"{beyond} beyond"] * bool(beyond) + [f"{unknown} unknown"] * bool(unknown)
-    parts += _draw_axes(0, highest, ", ".join(notes)) + _label_ends(f"{low:.4g}", f"{high:.4g}")
+    parts += _draw_axes(0, highest, ", ".join(notes)) + _label_ends(
+        _format(low, step), _format(high, step)
+    )
     return Histogram(title, low, high, tuple(parts))
 
 
@@ -149,13 +151,19 @@ def _place_y(value: float, low: float, high: float) -> float:
     return _HEIGHT - _BOTTOM - (value - low) / (high - low) * (_HEIGHT - _TOP - _BOTTOM)
 
 
+def _format(value: float, step: float) -> str:
+    """Format a value so that it differs from one that is a step away."""
+    ratio = max(abs(value) / step, 1.0) if step > 0 else 1.0
+    return f"{value:.{2 + math.ceil(math.log10(ratio))}g}"
+
+
 def _draw_axes(low: float, high: float, note: str) -> list[str]:
     """Draw axes with the ends of the vertical one, and a note below."""
     floor, end = _HEIGHT - _BOTTOM, _WIDTH - _RIGHT
     return [
         f'<path class="axis" d="M{_LEFT},{_TOP}V{floor}H{end}"/>',
-        f'<text x="{_LEFT - 4}" y="{floor}" text-anchor="end">{low:.4g}</text>',
-        f'<text x="{_LEFT - 4}" y="{_TOP + 8}" text-anchor="end">{high:.4g}</text>',
+        f'<text x="{_LEFT - 4}" y="{floor}" text-anchor="end">{_format(low, high - low)}</text>',
+        f'<text x="{_LEFT - 4}" y="{_TOP + 8}" text-anchor="end">{_format(high, high - low)}</text>',
         f'<text x="{(_LEFT + end) / 2:g}" y="{_HEIGHT - 4}" text-anchor="middle">{note}</text>',
     ]
 
