@@ -76,8 +76,11 @@ class Finding:
     remedy: str
     """A sentence that says what to do."""
     harm: float
-    """Error of pixels that it causes, px: at the image's edge, or rms where that is what is known.
-    """
+    """Error of pixels that it causes, px. Of a systematic cause, blur among them, it is what it
+    adds to the standard deviation of pixels where there are corners, rms (``findings.py``), and at
+    least what a lens model leaves of the residuals; of wrong values and corners how far they move
+    the camera's pixels at most; of a lack of views the standard deviation of the worst pixel of the
+    image; and the image's size where the corners are of another frame."""
     views: tuple[int, ...] = ()
     """Indices of the views that it is found in; none if it is in all of them."""
     action: Action | None = None
