@@ -69,7 +69,7 @@ from calibgui.formats.views_json import decode_views, encode_view
 FORMAT = "calibgui-result"
 VERSION = 1
 
-_ERRORS = ("centre", "edge", "worst", "median")
+_ERRORS = ("centre", "covered", "edge", "worst", "median")
 _ITERATION_KEYS = ("index", "cost", "rms", "gradient", "step", "damping", "seconds")
 
 

@@ -40,8 +40,8 @@ def describe_error(verdict: Verdict) -> str:
     if not np.isfinite(error.worst):
         return "Error of a pixel: unknown"
     return (
-        f"Error of a pixel: centre {error.centre:.2g}, edge {error.edge:.2g}, worst "
-        f"{error.worst:.2g} px"
+        f"Error of a pixel: centre {error.centre:.2g}, covered part {error.covered:.2g}, edge "
+        f"{error.edge:.2g}, worst {error.worst:.2g} px"
     )
 
 

@@ -82,7 +82,9 @@ def test_a_held_value_that_is_freed_gives_a_better_verdict(project: Project) -> 
     action = before.findings[0].action
     assert before.grade is Grade.CAN_BE_BETTER and action is not None
     after = judge_result(calibrate(apply_action(wrong, result, action)))
-    assert before.error.edge / after.error.edge == pytest.approx(before.times_better, rel=0.05)
+    assert before.error.covered / after.error.covered == pytest.approx(
+        before.times_better, rel=0.05
+    )
 
 
 def test_lengths_are_conditional_until_they_are_confirmed(project: Project) -> None:

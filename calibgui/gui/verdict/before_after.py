@@ -77,13 +77,15 @@ class BeforeAndAfter(DropDown):
         """Show what an action has done."""
         self._remedied = remedied
         before, after = remedied.before.calibration, remedied.after.calibration
-        gain = remedied.verdict_before.error.edge / remedied.verdict_after.error.edge
+        gain = remedied.verdict_before.error.covered / remedied.verdict_after.error.covered
         self.title.setText(
-            self.tr("{0}: the error at the image's edge is {1} times smaller").format(
+            self.tr("{0}: the error where there are corners is {1} times smaller").format(
                 remedied.label, format_times(gain)
             )
             if gain > 1
-            else self.tr("{0}: the error at the image's edge is not smaller").format(remedied.label)
+            else self.tr("{0}: the error where there are corners is not smaller").format(
+                remedied.label
+            )
         )
         self._show_errors(remedied.verdict_before, remedied.verdict_after)
         rows = compare_parameters(before, after)
@@ -128,6 +130,7 @@ class BeforeAndAfter(DropDown):
             (self.tr("Error, {0} [px]").format(name), a, b)
             for name, a, b in (
                 (self.tr("centre"), before.error.centre, after.error.centre),
+                (self.tr("covered part"), before.error.covered, after.error.covered),
                 (self.tr("edge"), before.error.edge, after.error.edge),
                 (self.tr("worst"), before.error.worst, after.error.worst),
             )

@@ -41,9 +41,10 @@ def describe_pixel_error(error: PixelError) -> str:
     if not np.isfinite(error.worst):
         return translate("VerdictTexts", "Error of a pixel: unknown")
     text = translate(
-        "VerdictTexts", "Error of a pixel: centre {0:.2g}, edge {1:.2g}, worst {2:.2g} px"
+        "VerdictTexts",
+        "Error of a pixel: centre {0:.2g}, covered part {1:.2g}, edge {2:.2g}, worst {3:.2g} px",
     )
-    return text.format(error.centre, error.edge, error.worst)
+    return text.format(error.centre, error.covered, error.edge, error.worst)
 
 
 def describe_figures(verdict: Verdict, result: Result) -> str:

@@ -9,7 +9,6 @@ from typing import Any
 import numpy as np
 import pytest
 
-from calibgui.engine.arrays import Array
 from calibgui.engine.assessment.comparison import compare_cameras
 from calibgui.engine.assessment.finding import Action, ActionKind, Cause
 from calibgui.engine.assessment.verdict import Grade, Verdict, judge_calibration, try_action
@@ -18,7 +17,7 @@ from calibgui.engine.calibration.calibrate import calibrate
 from calibgui.engine.calibration.observations import Observation
 from calibgui.engine.calibration.result import Calibration, DegenerateError, Status
 from calibgui.engine.camera.camera import Camera
-from calibgui.engine.errors import Cancelled
+from calibgui.engine.errors import CalibrationError, Cancelled
 from tests.engine.scenes import VGA, barrel, scene
 from tests.faults import sets
 from tests.faults.causes import FAULTS
@@ -37,11 +36,9 @@ def inject(name: str, seed: int) -> FaultySet:
     return FAULTS[name].inject(np.random.default_rng(seed))
 
 
-def measure_edge(truth: Camera, camera: Camera, views: list[Observation]) -> float:
-    """The true error of pixels, root mean square along the image's edge."""
-    length: Array = compare_cameras(truth, camera, views=views).length
-    frame = np.concatenate([length[0], length[-1], length[1:-1, 0], length[1:-1, -1]])
-    return float(np.sqrt(np.nanmean(frame**2)))
+def measure_covered(truth: Camera, camera: Camera, views: list[Observation]) -> float:
+    """The true error of pixels where there are corners, rms."""
+    return compare_cameras(truth, camera, views=views).rms
 
 
 def judge(views: list[Observation], **settings: object) -> tuple[Calibration, Verdict]:
@@ -54,8 +51,9 @@ def test_a_clean_set_is_good_and_its_error_is_that_of_the_truth() -> None:
     assert (verdict.grade, verdict.findings, verdict.times_better) == (Grade.GOOD, (), 1.0)
     error = verdict.error
     assert error.centre < error.edge < error.worst < 0.5
-    true = measure_edge(barrel(), calibration.camera, CLEAN)
-    assert true / 3 < error.edge < 3 * true
+    assert error.covered < error.worst_covered < error.worst
+    true = measure_covered(barrel(), calibration.camera, CLEAN)
+    assert true / 3 < error.covered < 3 * true
     # 30 mm squares that appear as large as the pixels' length at the boards' distance says.
     apart = np.linalg.norm(np.diff(CLEAN[0].uv[:2], axis=0)) * verdict.mm_per_pixel
     assert apart == pytest.approx(30.0, rel=0.4)
@@ -101,16 +99,16 @@ def test_what_a_remedy_promises_comes_true(
     first = verdict.findings[0]
     assert first.cause is cause and first.action is not None and first.action.kind is kind
     # The error that is stated is the true one.
-    true = measure_edge(fault.truth, found.camera, fault.views)
-    assert verdict.error.edge == pytest.approx(true, rel=0.3)
+    true = measure_covered(fault.truth, found.camera, fault.views)
+    assert verdict.error.covered == pytest.approx(true, rel=0.3)
     # Once the remedy is carried out, the verdict is as much better as was said.
     trial = try_action(first.action, found, fault.views)
     assert trial is not None
     after = judge_calibration(trial.calibration, trial.views)
-    gained = verdict.error.edge / after.error.edge
+    gained = verdict.error.covered / after.error.covered
     assert gained == pytest.approx(verdict.times_better, rel=0.3)
     # The truth is one draw, and scatters about that: see the module's docstring.
-    left = measure_edge(fault.truth, trial.calibration.camera, trial.views)
+    left = measure_covered(fault.truth, trial.calibration.camera, trial.views)
     assert true / left > verdict.times_better / 3
     assert cause not in [finding.cause for finding in after.findings]
 
@@ -126,14 +124,36 @@ def test_a_finding_without_a_remedy_is_never_good() -> None:
 def test_a_board_whose_shape_cannot_be_estimated_asks_for_photographs(
     monkeypatch: pytest.MonkeyPatch,
 ) -> None:
+    def refuse(*_: Any, **__: Any) -> None:
+        raise CalibrationError("The views do not determine the board's shape.", "Add views.")
+
+    monkeypatch.setattr("calibgui.engine.assessment.verdict.choose_board_shape", refuse)
+    _, verdict = judge(inject("bow", 0).views)
+    assert verdict.findings[0].cause is Cause.BOARD_SHAPE
+    assert verdict.findings[0].action == Action(ActionKind.PHOTOGRAPH_MORE)
+    assert verdict.grade is Grade.USABLE
+
+
+def test_a_board_whose_shape_brings_nothing_is_no_finding(monkeypatch: pytest.MonkeyPatch) -> None:
     def keep_drawing(*given: Any, **settings: Any) -> SimpleNamespace:
         return SimpleNamespace(model=BoardShapeModel.NOMINAL, chosen=calibrate(*given, **settings))
 
     monkeypatch.setattr("calibgui.engine.assessment.verdict.choose_board_shape", keep_drawing)
     _, verdict = judge(inject("bow", 0).views)
-    assert verdict.findings[0].cause is Cause.BOARD_SHAPE
-    assert verdict.findings[0].action == Action(ActionKind.PHOTOGRAPH_MORE)
-    assert verdict.grade is Grade.USABLE
+    assert (verdict.findings, verdict.grade) == ((), Grade.USABLE)
+    assert "add views" in verdict.reason  # the standard deviations include the doubt
+
+
+def test_an_edge_that_no_photograph_shows_is_told_but_leaves_a_calibration_good() -> None:
+    middle = [
+        Observation(view.uv[near], view.xy[near])
+        for view in CLEAN
+        if (near := np.abs(view.uv - [320, 240]).max(axis=1) < 200).sum() > 20
+    ]
+    _, verdict = judge(middle)
+    assert verdict.error.worst_covered < 0.5 < verdict.error.worst
+    assert (verdict.grade, verdict.findings) == (Grade.GOOD, ())
+    assert f"{verdict.error.worst:.2g} px" in verdict.reason
 
 
 def test_a_solve_that_did_not_converge_is_not_usable() -> None:

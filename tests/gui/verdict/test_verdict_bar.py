@@ -112,7 +112,7 @@ def test_one_click_remedies_and_one_takes_it_back(
     comparison = act(bar, bar.button, window, qtbot)
     after = bar.verdict
     assert after is not None
-    gained = before.error.edge / after.error.edge
+    gained = before.error.covered / after.error.covered
     assert gained == pytest.approx(before.times_better, rel=0.3)
     assert "times smaller" in comparison.title.text()
     assert window.session.project.settings.fixed == {}
