@@ -160,10 +160,11 @@ def _format(value: float, step: float) -> str:
 def _draw_axes(low: float, high: float, note: str) -> list[str]:
     """Draw axes with the ends of the vertical one, and a note below."""
     floor, end = _HEIGHT - _BOTTOM, _WIDTH - _RIGHT
+    ends = _format(low, high - low), _format(high, high - low)
     return [
         f'<path class="axis" d="M{_LEFT},{_TOP}V{floor}H{end}"/>',
-        f'<text x="{_LEFT - 4}" y="{floor}" text-anchor="end">{_format(low, high - low)}</text>',
-        f'<text x="{_LEFT - 4}" y="{_TOP + 8}" text-anchor="end">{_format(high, high - low)}</text>',
+        f'<text x="{_LEFT - 4}" y="{floor}" text-anchor="end">{ends[0]}</text>',
+        f'<text x="{_LEFT - 4}" y="{_TOP + 8}" text-anchor="end">{ends[1]}</text>',
         f'<text x="{(_LEFT + end) / 2:g}" y="{_HEIGHT - 4}" text-anchor="middle">{note}</text>',
     ]
 
