@@ -36,8 +36,10 @@ def test_command_lines(elsewhere: Path, capsys: pytest.CaptureFixture[str]) -> N
     lines = re.findall(r"^calibgui (.+)$", "".join(blocks("sh")), re.MULTILINE)
     window, *lines = lines
     assert Path(window).is_dir()
-    # The paper's images and those of other boards are not bundled; see cli/test_boards.py.
-    lines = [line for line in lines if not line.startswith(("paper", "calibrate photographs"))]
+    # The paper's images, those of other boards and of many cameras are not bundled; see
+    # cli/test_boards.py and cli/test_batch.py.
+    left_out = ("paper", "calibrate photographs", "batch")
+    lines = [line for line in lines if not line.startswith(left_out)]
     for line in lines:
         assert main(shlex.split(line)) == 0, capsys.readouterr().err
     written = {path.name for path in elsewhere.iterdir()}

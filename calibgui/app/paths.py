@@ -8,6 +8,7 @@ import re
 import unicodedata
 from collections import Counter
 from collections.abc import Iterable
+from functools import cache
 from pathlib import Path
 
 from calibgui.engine.errors import CalibrationError
@@ -24,9 +25,13 @@ def find_images(names: Iterable[str]) -> tuple[Path, ...]:
         CalibrationError: if a name means no file, or one that must not be read.
     """
     found: dict[str, Path] = {}
+    resolve_folder = cache(os.path.realpath)
     for name in names:
         for path in _find_files(name):
-            found.setdefault(os.path.realpath(path), path)
+            # A folder is resolved once for its files, of which a thousand cameras have thousands.
+            is_plain = path.name not in ("", "..") and not path.is_symlink()
+            place = f"{resolve_folder(path.parent)}{os.sep}{path.name}" if is_plain else ""
+            found.setdefault(place or os.path.realpath(path), path)
     return tuple(sorted(found.values(), key=make_natural_key))
 
 

@@ -6,6 +6,7 @@ are left out of result.json, and what was found in photographs before is taken a
 
 from __future__ import annotations
 
+import json
 import math
 import time
 import traceback
@@ -114,7 +115,7 @@ class Pair(NamedTuple):
 
 def is_done(work: Work, photographs: Sequence[Photograph]) -> bool:
     """Return whether the ledger's row is of these photographs, as far as their times tell."""
-    known, state = work.known, _compute_state(work.task, photographs)
+    known, state = work.known, compute_state(work.task, photographs)
     return known is not None and state != "" and known.state == state and _is_kept(known, work)
 
 
@@ -199,7 +200,7 @@ def _calibrate(work: Work) -> FleetCamera:
     photographs = list_photographs(task.paths)
     if known is not None and is_done(work, photographs):
         return replace(known, entry=task.entry)
-    state = _compute_state(task, photographs)
+    state = compute_state(task, photographs)
     with fetch_photographs(photographs) as files:
         contents = [compute_digest(file) for file in files]
         names = [photograph.name for photograph in photographs]
@@ -357,7 +358,7 @@ def _describe_board(board: Board) -> str:
     return f"{board.pattern.kind} {board.rows}x{board.cols} {board.square:g}mm"
 
 
-def _compute_state(task: CameraTask, photographs: Sequence[Photograph]) -> str:
+def compute_state(task: CameraTask, photographs: Sequence[Photograph]) -> str:
     """Return a digest of a task and the times of its photographs; empty if one is not known."""
     if not all(photograph.state for photograph in photographs):
         return ""
@@ -369,7 +370,7 @@ def _describe_task(task: CameraTask) -> str:
     """Return all that a result depends on besides photographs, as JSON."""
     board, settings = task.board, task.settings
     shape = settings.board_shape
-    return dumps(
+    return json.dumps(
         {
             "board": {
                 "square": board.square,
@@ -385,5 +386,6 @@ def _describe_task(task: CameraTask) -> str:
                 "prior": None if settings.prior is None else astuple(settings.prior),
             },
             "versions": list_installed_versions(),
-        }
+        },
+        default=np.ndarray.tolist,
     )
