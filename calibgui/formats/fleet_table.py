@@ -67,9 +67,13 @@ def write_fleet_table(cameras: Iterable[FleetCamera], path: Path) -> None:
     import pyarrow.parquet
 
     table = pyarrow.table({name: [row.get(name) for row in rows] for name in names})
-    marked = table.replace_schema_metadata({"origin": make_mark(FLEET_TABLE)})
-    with open_replacement(path) as file:
-        pyarrow.parquet.write_table(marked, file)
+    # Arrow's own schema would push the mark away from the end of the file.
+    with (
+        open_replacement(path) as file,
+        pyarrow.parquet.ParquetWriter(file, table.schema, store_schema=False) as writer,
+    ):
+        writer.write_table(table)
+        writer.add_key_value_metadata({"origin": make_mark(FLEET_TABLE)})
 
 
 def _flatten(row: dict[str, Any]) -> dict[str, Any]:
