@@ -71,6 +71,8 @@ _COLUMNS: Mapping[str, str] = MappingProxyType(
         "error_edge_px": "REAL",
         "error_worst_px": "REAL",
         "error_median_px": "REAL",
+        "error_covered_px": "REAL",
+        "error_worst_covered_px": "REAL",
         "parameters": "TEXT",
         "change_against": "TEXT",
         "change_against_digest": "TEXT",
@@ -88,7 +90,7 @@ _COLUMNS: Mapping[str, str] = MappingProxyType(
 """The columns of the table, with their types in SQL."""
 COLUMNS = tuple(_COLUMNS)
 """Names of the columns."""
-_ERRORS = ("centre", "edge", "worst", "median")
+_ERRORS = ("centre", "edge", "worst", "median", "covered", "worst_covered")
 _CHANGES = ("against", "against_digest", "rms_px", "worst_px", "expected_px", "probability")
 
 
@@ -310,7 +312,7 @@ def _decode_figures(row: Mapping[str, Any]) -> FleetFigures:
         grade=Grade(row["grade"]),
         reason=row["reason"],
         times_better=_read_number(row["times_better"]),
-        error=PixelError(*(_read_number(row[f"error_{name}_px"]) for name in _ERRORS)),
+        error=PixelError(**{name: _read_number(row[f"error_{name}_px"]) for name in _ERRORS}),
         parameters={
             name: Estimate(*map(_read_number, pair))
             for name, pair in json.loads(row["parameters"]).items()

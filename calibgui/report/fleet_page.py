@@ -307,6 +307,7 @@ def _list_facts(one: PlacedCamera) -> list[list[str]]:
             "Noise": f"{_format(figures.noise, 3)} px",
             "Coverage": f"{figures.coverage:.0%}",
             "Error, centre": f"{_format(error.centre, 3)} px",
+            "Error, covered part": f"{_format(error.covered, 3)} px",
             "Error, edge": f"{_format(error.edge, 3)} px",
             "Error, worst": f"{_format(error.worst, 3)} px",
             "Difference from the median camera": f"{_format(one.difference, 3)} px rms, "

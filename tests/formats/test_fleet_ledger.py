@@ -40,7 +40,7 @@ FIGURES = FleetFigures(
     grade=Grade.USABLE,
     reason="Nothing is wrong, but the image's edge is known less well.",
     times_better=1.2,
-    error=PixelError(0.01, 0.2, float("inf"), 0.1),
+    error=PixelError(0.01, 0.2, float("inf"), 0.1, 0.05, 0.3),
     parameters={"fx": Estimate(650.25, 0.5), "k3": Estimate(0.0, 0.0)},
 )
 DONE = FleetCamera(

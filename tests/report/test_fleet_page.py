@@ -93,7 +93,7 @@ def make_figures(rng: np.random.Generator, k1: float = -0.2) -> FleetFigures:
         grade=Grade.USABLE,
         reason="Nothing is wrong.",
         times_better=1.0,
-        error=PixelError(0.01, float(rng.uniform(0.02, 0.2)), float("inf"), 0.1),
+        error=PixelError(0.01, float(rng.uniform(0.02, 0.2)), float("inf"), 0.1, 0.03, 0.09),
         parameters=dict(zip(NAMES, estimates, strict=True)),
     )
 

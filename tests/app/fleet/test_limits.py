@@ -73,5 +73,5 @@ def test_a_camera_that_is_no_use_fails_without_limits() -> None:
     assert list_failures(REFUSED) == (REFUSED.problem,)
     bad = replace(DONE, figures=replace(FIGURES, grade=Grade.NOT_USABLE, reason="Too few views."))
     assert list_failures(bad) == ("The calibration is not usable: Too few views.",)
-    unknown = replace(DONE, figures=replace(FIGURES, error=PixelError(*[float("nan")] * 4)))
+    unknown = replace(DONE, figures=replace(FIGURES, error=PixelError(*[float("nan")] * 6)))
     assert len(list_failures(unknown, KEPT)) == 1

@@ -38,7 +38,7 @@ def make_camera(k: int, rng: np.random.Generator) -> FleetCamera:
         grade=Grade.GOOD,
         reason="Nothing is wrong.",
         times_better=1.0,
-        error=PixelError(0.01, 0.02, 0.05, 0.02),
+        error=PixelError(0.01, 0.02, 0.05, 0.02, 0.015, 0.02),
         parameters=dict(zip(NAMES, estimates, strict=True)),
     )
     entry = FleetEntry(f"camera {k}", f"S{k}", "2026-05-01")

@@ -126,12 +126,13 @@ def test_an_action_is_shown_before_and_after_and_kept_or_taken_back(
     shown = bar.comparison
     assert isinstance(shown, BeforeAndAfter)
     after = bar.verdict
-    assert after is not None and after.error.edge < before.error.edge
-    assert shown.title.text().startswith(f"{label}: the error at the image's edge is ")
+    assert after is not None and after.error.covered < before.error.covered
+    assert shown.title.text().startswith(f"{label}: the error where there are corners is ")
     assert shown.title.text().endswith(" times smaller")
     cells = shown.errors.model()
-    edges = [float(cells.index(1, column).data()) for column in (1, 2)]
-    assert edges == pytest.approx([before.error.edge, after.error.edge], rel=0.05)  # two digits
+    covered = [float(cells.index(1, column).data()) for column in (1, 2)]
+    stated = [before.error.covered, after.error.covered]
+    assert covered == pytest.approx(stated, rel=0.05)  # two digits
     assert shown.parameters.model().rowCount() >= 4
     assert case.is_done(session.project) and len(session.project.results) == 2
     qtbot.mouseClick(shown.keep if keeps else shown.back, LEFT)
