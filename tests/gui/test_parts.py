@@ -33,6 +33,7 @@ from calibgui.gui.panels.poses import PosesPanel
 from calibgui.gui.panels.result import ResultPanel
 from calibgui.gui.panels.split import Split
 from calibgui.gui.widgets import questions, theme
+from calibgui.gui.widgets.narrow_combo import NarrowCombo
 from calibgui.gui.window.main_window import MainWindow
 from tests.app import examples
 
@@ -333,3 +334,14 @@ def test_the_buttons_of_a_part_show_on_its_title(
         inks = [icon.pixelColor(x, y) for x in range(10) for y in range(10)]
         drawn = [ink.lightness() for ink in inks if ink.alpha() > 200]
         assert drawn and abs(np.mean(drawn) - ground) > 70
+
+
+def test_a_narrow_choice_shows_that_its_text_goes_on(qtbot: QtBot) -> None:
+    combo = NarrowCombo()
+    qtbot.addWidget(combo)
+    combo.addItem("views registered one by one, then all together")
+    combo.resize(160, 30)
+    assert combo.shorten_text().endswith("…")
+    assert combo.fontMetrics().horizontalAdvance(combo.shorten_text()) < 160
+    combo.resize(800, 30)
+    assert combo.shorten_text() == combo.currentText()
