@@ -24,9 +24,9 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
+from html import escape
 from pathlib import Path
 from typing import NamedTuple
-from xml.sax.saxutils import escape
 
 import numpy as np
 import scipy
@@ -215,7 +215,7 @@ def format_database(
         )
     type_line = "" if kind == "rectilinear" else f"        <type>{kind}</type>\n"
     return f"""\
-<!-- {escape(note).replace("--", "- -")} -->
+<!-- {escape(note, quote=False).replace("--", "- -")} -->
 <lensdatabase version="1">
     <mount>
         <name>calibgui</name>

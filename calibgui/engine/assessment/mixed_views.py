@@ -60,7 +60,7 @@ class Split(NamedTuple):
     """The views parted in two kinds."""
 
     is_odd: BoolArray
-    """(K,) true for the views of the kind with fewer views."""
+    """(K,) true for the views of the kind with fewer views; of halves, for that without the first."""
     part: float
     """Part of what a camera or board of each view's own explains, that two kinds explain."""
     share: float
@@ -106,7 +106,7 @@ def split_views(products: ViewProducts) -> Split:
         gain, found = _seek_split(products, k)
         if gain - common > best:
             best, odd = gain - common, found
-    if odd.sum() > K / 2:
+    if 2 * odd.sum() > K or (2 * odd.sum() == K and odd[0]):
         odd = ~odd
     rest = products.freedom - K * m
     if rest < 1 or not whole > 0:

@@ -25,7 +25,7 @@ def make_products(c: np.ndarray, noise: float, rng: np.random.Generator) -> View
     return ViewProducts(np.tile(np.eye(m), (K, 1, 1)), b, *no_camera, cost, 100 * K + K * m)
 
 
-@pytest.mark.parametrize("odd", [[3], [1, 4, 7], [0, 1, 2, 3, 4, 5]])
+@pytest.mark.parametrize("odd", [[3], [1, 4, 7], [6, 7, 8, 9, 10, 11]])
 def test_two_kinds_are_parted(odd: list[int]) -> None:
     c = np.zeros((12, 4))
     c[odd] = [3.0, -2.0, 1.0, 4.0]
@@ -82,7 +82,7 @@ def test_views_keep_their_numbers_where_others_are_left_out() -> None:
 
 def test_two_boards_are_told_from_two_cameras() -> None:
     """The second board's print is higher, and both cameras are the same."""
-    made, rng = scene(barrel(), 14, seed=8), np.random.default_rng(9)
+    made, rng = scene(barrel(), 14, seed=18), np.random.default_rng(19)
     views = made.noisy(0.1, rng)
     for k in (3, 7, 8, 11, 12):
         xy = views[k].xy
