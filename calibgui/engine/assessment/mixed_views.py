@@ -60,7 +60,7 @@ class Split(NamedTuple):
     """The views parted in two kinds."""
 
     is_odd: BoolArray
-    """(K,) true for the views of the kind with fewer views; of halves, for that without the first."""
+    """(K,) true for the views of the kind with fewer views; of halves, that without the first."""
     part: float
     """Part of what a camera or board of each view's own explains, that two kinds explain."""
     share: float
