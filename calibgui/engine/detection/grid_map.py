@@ -27,6 +27,10 @@ three equations that give c and l1. From there Gauss-Newton steps lead to the le
 distances in the image, all coefficients free. The lens is kept only if it explains most of what the
 homography alone leaves.
 
+A fisheye sees beyond 90 degrees from its axis. There 1 / k is negative, e lies on the other side of
+c, and w, the last of H (col, row, 1), is negative as well: with the sign of H chosen so that it is
+positive on the axis' side, that of w tells which of the two points that e may stand for is seen.
+
 **Smooth residual**. What the lens bends otherwise is small and smooth: a polynomial p of low degree
 in column and row. `GridMap` fits it to a lattice with gaps and reaches over these, where a corner
 has no neighbours left to predict it. `compute_polynomial_terms` also serves those that need its
@@ -73,7 +77,8 @@ class RadialHomography:
     """A homography seen through a radial lens."""
 
     H: Array
-    """(3, 3) from cells (col, row) to ideal points, px from the centre."""
+    """(3, 3) from cells (col, row) to ideal points, px from the centre; its sign is such that w,
+    the last coordinate, is positive up to 90 degrees from the lens's axis, negative beyond."""
     centre: Array
     """(2,) centre of the lens, px."""
     coefficients: Array
@@ -81,11 +86,17 @@ class RadialHomography:
 
     def locate(self, cells: Array) -> Array:
         """Compute positions (n, 2) px of the cells (n, 2) = (col, row)."""
-        return self.distort(homography.apply_homography(self.H, cells))
+        e = homography.apply_homography(self.H, cells)
+        return self.distort(e, self._compute_last(cells))
 
-    def distort(self, e: Array) -> Array:
-        """Compute positions (n, 2) px of ideal points `e` (n, 2), px from the centre."""
-        return self.centre + (self._invert_lens(e) if self.coefficients.any() else e)
+    def distort(self, e: Array, w: Array) -> Array:
+        """Compute positions (n, 2) px of ideal points.
+
+        Args:
+            e: (n, 2) px from the centre.
+            w: (n,) their last coordinates, negative where they lie beyond 90 degrees.
+        """
+        return self.centre + (self._invert_lens(e, w) if self.coefficients.any() else e)
 
     def differentiate(self, cells: Array) -> tuple[Array, Array]:
         """Compute first and second derivatives (n, 2, 2) of `locate` by column and by row.
@@ -96,18 +107,19 @@ class RadialHomography:
         Through the lens u' = D' e' and u'' = D' e'' + D''(e', e').
         """
         H = self.H
-        e = homography.apply_homography(H, cells)
-        w = (cells @ H[2, :2] + H[2, 2])[:, None, None]
+        e, last = homography.apply_homography(H, cells), self._compute_last(cells)
+        w = last[:, None, None]
         e1 = (H[:2, :2].T - e[:, None] * H[2, :2, None]) / w
         e2 = -2 * e1 * H[2, :2, None] / w
         if not self.coefficients.any():
             return e1, e2
-        D1, D2 = self.differentiate_lens(e)
+        D1, D2 = self.differentiate_lens(e, last)
         second = np.einsum("nijk,naj,nak->nai", D2, e1, e1)
         return np.einsum("nij,naj->nai", D1, e1), np.einsum("nij,naj->nai", D1, e2) + second
 
-    def differentiate_lens(self, e: Array) -> tuple[Array, Array]:
-        """Compute D' (n, 2, 2) and D'' (n, 2, 2, 2) of `distort` by the ideal points `e` (n, 2).
+    def differentiate_lens(self, e: Array, w: Array) -> tuple[Array, Array]:
+        """Compute D' (n, 2, 2) and D'' (n, 2, 2, 2) of `distort` by the ideal points `e` (n, 2) of
+        last coordinates `w` (n,).
 
         Those of its inverse e = E(d) = k d are, with k' and k'' by r,
 
@@ -117,7 +129,7 @@ class RadialHomography:
         1_ij being 1 where i = j and else 0. From E(D(e)) = e follow D' = E'^-1 and
         D'' = -D' E''(D', D').
         """
-        d = self._invert_lens(e) if self.coefficients.any() else e
+        d = self._invert_lens(e, w) if self.coefficients.any() else e
         k, by_r, by_r2 = _compute_scale(np.sum(d * d, axis=1), self.coefficients)
         one = np.eye(2)
         first = k[:, None, None] * one + 2 * by_r[:, None, None] * d[:, :, None] * d[:, None]
@@ -129,21 +141,31 @@ class RadialHomography:
         D2 = -np.einsum("nil,nlab,naj,nbk->nijk", D1, second, D1, D1, optimize=True)
         return D1, np.asarray(D2)
 
-    def _invert_lens(self, e: Array) -> Array:
-        """Compute d (n, 2) px from the centre, where the lens shows the ideal points `e` (n, 2).
+    def _compute_last(self, cells: Array) -> Array:
+        """Compute w (n,), the last coordinates of the ideal points of cells (n, 2) = (col, row)."""
+        return np.asarray(cells @ self.H[2, :2] + self.H[2, 2])
 
-        Newton's steps on |d| = |e| / k lead there from where l1 alone would show them.
+    def _invert_lens(self, e: Array, w: Array) -> Array:
+        """Compute d (n, 2) px from the centre, where the lens shows the ideal points `e` (n, 2) of
+        last coordinates `w` (n,).
+
+        Newton's steps on |d| = |e| / k lead there from where l1 alone would show them. Beyond 90
+        degrees, which only l1 < 0 reaches, |e| counts as negative, as k is.
         """
-        far = np.linalg.norm(e, axis=1)
         l1, l2, l3 = self.coefficients
-        x = 2 * far / (1 + np.sqrt(np.maximum(1 - 4 * l1 * far**2, 0.0)))
+        far = np.linalg.norm(e, axis=1)
+        beyond = (w < 0) & (l1 < 0)
+        far[beyond] *= -1
+        root = 1 + np.sqrt(np.maximum(1 - 4 * l1 * far**2, 0.0))
+        x = 2 * far / root
+        x[beyond] = root[beyond] / (2 * l1 * far[beyond])
         with np.errstate(all="ignore"):  # beyond where the lens reaches
             for _ in range(_INVERSION_STEPS):
                 r = x * x
                 inverse = 1 + r * (l1 + r * (l2 + r * l3))
                 slope = 2 * x * (l1 + r * (2 * l2 + r * 3 * l3))
                 x = x - (x - far * inverse) / (1 - far * slope)
-        return np.asarray(e * (x / np.maximum(far, 1e-300))[:, None])
+        return np.asarray(e * (x / np.where(far == 0, 1.0, far))[:, None])
 
 
 def _compute_scale(r: Array, coefficients: Array) -> tuple[Array, Array, Array]:
@@ -256,7 +278,8 @@ def _refine_lens(x: Array, u: Array, start: RadialHomography) -> RadialHomograph
             return None
         A = A - step[:9].reshape(3, 3)
         centre, bend = centre - step[9:11], bend - step[11:]
-    return RadialHomography(np.linalg.inv(A), centre, bend)
+    # What is seen of a board lies on one side of its plane's horizon: there w is positive.
+    return RadialHomography(np.linalg.inv(A * np.sign(np.median(w))), centre, bend)
 
 
 def _normalise(points: Array) -> tuple[Array, Array, float]:

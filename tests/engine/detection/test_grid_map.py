@@ -49,6 +49,31 @@ def test_a_fisheye_is_followed_where_a_polynomial_is_not() -> None:
     )
 
 
+def locate_beyond(cells: Array) -> Array:
+    """Positions (n, 2) px of cells seen by an equidistant fisheye, slanted: the first column is up
+    to 97 degrees off its axis."""
+    board = (cells - [4.0, 2.5]) * 0.55
+    rays = np.column_stack([0.5 * board[:, 0] - 1.2, board[:, 1], 0.7 + 0.45 * board[:, 0]])
+    across = np.linalg.norm(rays[:, :2], axis=1)
+    angle = np.arctan2(across, rays[:, 2])
+    return np.asarray(300.0 * rays[:, :2] * (angle / across)[:, None] + CENTRE)
+
+
+def test_a_board_is_followed_beyond_90_degrees() -> None:
+    between = CELLS[CELLS[:, 0] < 8] + [0.5, 0.0]
+    seen = fit_radial_homography(CELLS, locate_beyond(CELLS))
+    np.testing.assert_allclose(seen.locate(between), locate_beyond(between), atol=0.1)
+
+
+def test_derivatives_hold_beyond_90_degrees() -> None:
+    seen = fit_radial_homography(CELLS, locate_beyond(CELLS))
+    first, _ = seen.differentiate(CELLS)
+    for axis in (0, 1):
+        step = 1e-3 * np.eye(2)[axis]
+        slope = (locate_beyond(CELLS + step) - locate_beyond(CELLS - step)) / 2e-3
+        np.testing.assert_allclose(first[:, axis], slope, atol=0.3)
+
+
 def test_no_lens_is_seen_in_noise() -> None:
     plain = RadialHomography(H, np.zeros(2), np.zeros(3)).locate(CELLS)
     noise = np.random.default_rng(0).standard_normal(plain.shape)

@@ -87,10 +87,10 @@ class CircleMap:
         r2 = radii[:, None] ** 2
         centre = p[:, :2] * p[:, 2:] - r2 * (h1[:2] * h1[2] + h2[:2] * h2[2])
         centre /= p[:, 2:] ** 2 - r2 * (h1[2] ** 2 + h2[2] ** 2)
-        e = p[:, :2] / p[:, 2:]
-        by_homography = self.homography.distort(centre) - self.homography.distort(e)
+        e, w = p[:, :2] / p[:, 2:], p[:, 2]
+        by_homography = self.homography.distort(centre, w) - self.homography.distort(e, w)
         by_xy = (H[:2, :2] - e[..., None] * H[2, :2]) / p[:, 2:, None]
-        by_lens = self.homography.differentiate_lens(e)[1]
+        by_lens = self.homography.differentiate_lens(e, w)[1]
         second = np.einsum("nijk,nja,nkb->niab", by_lens, by_xy, by_xy)
         for a, b, order in ((0, 0, (2, 0)), (0, 1, (1, 1)), (1, 0, (1, 1)), (1, 1, (0, 2))):
             second[:, :, a, b] += self._compute_terms(xy, order) @ self.coefficients

@@ -46,6 +46,12 @@ def test_in_19_of_20_variants_with_no_corner_wrong(name: str) -> None:
     assert total.wrong == total.false == 0
 
 
+@pytest.mark.parametrize("seed", [24, 34])
+def test_a_board_that_reaches_beyond_90_degrees_is_found_whole(seed: int) -> None:
+    """Such boards were cut in two at a line of the lattice, and one part handed out as all."""
+    assert find("curved", seed).whole == 1
+
+
 @pytest.mark.parametrize("seed", [1, 17])
 def test_one_of_two_walls_is_found_by_its_size(seed: int) -> None:
     """Both boards were once joined over the crease, with wrong corners between."""
