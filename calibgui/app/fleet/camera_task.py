@@ -281,8 +281,8 @@ class _Search:
     ) -> View:
         """Search a view as `search_view`, unless that has been done before."""
         content = self._contents.get(view.image, "")
-        asked = dumps([grid_size, method, encode_pattern(pattern), list_installed_versions()])
-        key = combine_digests([content, asked])
+        asked = [grid_size, method, encode_pattern(pattern), view.orientation]
+        key = combine_digests([content, dumps([*asked, list_installed_versions()])])
         found = self._known.get(key)
         if found is None:
             found = drop_details(search_view(view, grid_size, method, pattern))

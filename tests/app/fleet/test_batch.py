@@ -12,6 +12,7 @@ from typing import Any, TypeVar
 
 import numpy as np
 import pytest
+from PIL import Image as Pillow
 
 from calibgui.app.detection import find_views
 from calibgui.app.fleet import camera_task
@@ -169,6 +170,29 @@ def test_only_what_changed_is_searched(fleet: Path, tmp_path: Path, searched: li
     assert run(others, ledger, Here()).worked_on == 2
     assert not searched
     assert [r.figures.lens_model for r in read_rows(ledger) if r.figures] == ["brown-conrady"] * 2
+
+
+def test_what_is_turned_anew_is_searched_again(
+    fleet: Path, tmp_path: Path, searched: list[str]
+) -> None:
+    """Two photographs, then four more for which the camera was held the other way round."""
+    folder = tmp_path / "fleet" / "c0"
+    folder.mkdir(parents=True)
+    ways = [1, 1, 3, 3, 3, 3]
+    for k, (path, way) in enumerate(zip(sorted((fleet / "c0").iterdir()), ways, strict=True)):
+        if k == 2:
+            run(read_manifest(tmp_path / "fleet", BOARD, Settings()), tmp_path / "f.db", Here())
+            assert len(searched) == 2
+        exif = Pillow.Exif()
+        exif[0x010F], exif[0x0112] = "Maker", way
+        Pillow.open(path).save(folder / path.name, exif=exif)
+    run(read_manifest(tmp_path / "fleet", BOARD, Settings()), tmp_path / "f.db", Here())
+    assert len(searched) == 2 + 6
+    (row,) = read_rows(tmp_path / "f.db")
+    truth = make_camera(0)
+    assert row.figures is not None
+    cx = row.figures.parameters["cx"]
+    assert abs(cx.value - (truth.size[0] - 1 - truth.params[2])) < 4 * cx.sigma < 4.0
 
 
 def test_what_was_lost_beside_the_ledger_is_made_again(
