@@ -9,7 +9,8 @@ from calibgui.engine.errors import NoBoardError
 from tests.scenes.tally import Tally, judge
 from tests.scenes.troubles import TROUBLES
 
-VARIANTS = 20
+VARIANTS = 12
+"""Number of variants; ``tests.benchmarks.corner_troubles`` draws 20."""
 FEW = 3
 """Number of variants that are always drawn; the others take long."""
 DRAWN_ASIDE = "glass"
@@ -40,7 +41,7 @@ def test_boards_in_trouble_are_found_whole(name: str) -> None:
 
 @pytest.mark.slow
 @pytest.mark.parametrize("name", TROUBLES)
-def test_in_19_of_20_variants_with_no_corner_wrong(name: str) -> None:
+def test_at_most_one_variant_is_not_whole_and_no_corner_wrong(name: str) -> None:
     total = sum((find(name, seed) for seed in range(VARIANTS)), Tally())
     assert total.whole >= VARIANTS - 1
     assert total.wrong == total.false == 0
