@@ -34,20 +34,19 @@ class Camera:
         self._H = np.column_stack([R[:, 0], R[:, 1], t])
 
     def board_from_image(self, u: Array, v: Array) -> tuple[Array, Array]:
-        q = np.stack([u - self._centre[0], v - self._centre[1]], axis=-1)
-        r2 = np.sum(q * q, axis=-1)
+        qx, qy = u - self._centre[0], v - self._centre[1]
+        r2 = qx * qx + qy * qy
         if self._conditions.fisheye:
             theta = np.sqrt(r2) / self._f
-            ray = np.concatenate(
-                [q / self._f * np.sinc(theta / np.pi)[..., None], np.cos(theta)[..., None]], axis=-1
-            )
+            scale, depth = np.sinc(theta / np.pi) / self._f, np.cos(theta)
         else:
-            q *= (1 + self._conditions.distortion * r2 / self._half**2)[..., None]
-            ray = np.concatenate([q / self._f, np.ones((*r2.shape, 1))], axis=-1)
-        p = ray @ np.linalg.inv(self._H).T
+            scale = (1 + self._conditions.distortion * r2 / self._half**2) / self._f
+            depth = np.ones_like(r2)
+        ray = (scale * qx, scale * qy, depth)
+        px, py, pz = (sum(n * r for n, r in zip(row, ray)) for row in np.linalg.inv(self._H))
         with np.errstate(divide="ignore", invalid="ignore"):
-            x, y = p[..., 0] / p[..., 2], p[..., 1] / p[..., 2]
-        behind = p[..., 2] <= 0
+            x, y = px / pz, py / pz
+        behind = pz <= 0
         x[behind] = y[behind] = np.inf
         return x, y
 

@@ -138,20 +138,27 @@ def _cover(c: Array, ink: float) -> tuple[Array, Array]:
     (R(d + (a + b)/2) - R(d + (a - b)/2) - R(d - (a - b)/2) + R(d - (a + b)/2)) / (a b), R(t) =
     max(t, 0)^2 / 2.
     """
-    slope_v, slope_u = np.gradient(c)
-    steep = np.hypot(slope_u, slope_v)
-    a, b = (np.maximum(abs(s) / steep, 1e-3) for s in (slope_u, slope_v))
-    place = np.mod(c, 2.0)
-    to_edge = np.minimum(np.mod(c, 1.0), 1 - np.mod(c, 1.0))
+    slopes = np.gradient(c)
+    reach = (np.abs(slopes[0]) + np.abs(slopes[1])) / 2
+    steep = np.hypot(*slopes)
+    place = c - 2 * np.floor(c / 2)
+    within = place - (place >= 1)
+    to_edge = np.minimum(within, 1 - within)
     inside_odd = np.where(place >= 1, to_edge, -to_edge)
 
-    def covered(distance: Array) -> Array:
-        total = np.zeros_like(distance)
+    def cover(distance: Array) -> Array:
+        share = (distance > 0).astype(np.float64)
+        cut = np.abs(distance) < reach  # no edge goes through the others
+        d = distance[cut] / steep[cut]
+        a, b = (np.maximum(np.abs(slope[cut]) / steep[cut], 1e-3) for slope in slopes)
+        total = np.zeros_like(d)
         for sa, sb in ((1, 1), (1, -1), (-1, 1), (-1, -1)):
-            total += sa * sb * np.maximum(distance + (sa * a + sb * b) / 2, 0) ** 2 / 2
-        return np.clip(total / (a * b), 0, 1)
+            total += sa * sb * np.maximum(d + (sa * a + sb * b) / 2, 0) ** 2 / 2
+        share[cut] = np.clip(total / (a * b), 0, 1)
+        return share
 
-    return covered((inside_odd - ink) / steep), covered((-inside_odd - ink) / steep)
+    odd = cover(inside_odd - ink)
+    return odd, (1 - odd if ink == 0 else cover(-inside_odd - ink))
 
 
 def _background(shape: tuple[int, ...], conditions: Conditions, rng: np.random.Generator) -> Array:
@@ -215,5 +222,5 @@ def _response(irradiance: Array, conditions: Conditions) -> Array:
 
 def _pixels(fine: Array, parts: int) -> Array:
     """Means over each pixel's parts."""
-    height, width = fine.shape[0] // parts, fine.shape[1] // parts
-    return np.asarray(fine.reshape(height, parts, width, parts).mean(axis=(1, 3)))
+    size = fine.shape[1] // parts, fine.shape[0] // parts
+    return np.asarray(cv2.resize(fine, size, interpolation=cv2.INTER_AREA))
