@@ -43,7 +43,7 @@ class Camera:
             scale = (1 + self._conditions.distortion * r2 / self._half**2) / self._f
             depth = np.ones_like(r2)
         ray = (scale * qx, scale * qy, depth)
-        px, py, pz = (sum(n * r for n, r in zip(row, ray)) for row in np.linalg.inv(self._H))
+        px, py, pz = (a * ray[0] + b * ray[1] + c * ray[2] for a, b, c in np.linalg.inv(self._H))
         with np.errstate(divide="ignore", invalid="ignore"):
             x, y = px / pz, py / pz
         behind = pz <= 0
