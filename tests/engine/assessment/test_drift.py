@@ -51,8 +51,8 @@ def photographed_twice(change: Array | float, seed: int) -> Drift:
 
 
 def test_an_unchanged_camera_is_seldom_said_to_have_changed() -> None:
-    drifts = [photographed_twice(0.0, seed) for seed in range(60)]
-    assert sum(drift.has_changed for drift in drifts) <= 6
+    drifts = [photographed_twice(0.0, seed) for seed in range(40)]
+    assert sum(drift.has_changed for drift in drifts) <= 5
     ratio = np.array([drift.difference.rms / drift.expected for drift in drifts])
     assert 0.6 < np.sqrt(np.mean(ratio**2)) < 1.4
 
@@ -60,8 +60,8 @@ def test_an_unchanged_camera_is_seldom_said_to_have_changed() -> None:
 def test_a_drift_of_a_third_of_a_pixel_is_found() -> None:
     scale = np.zeros(10)
     scale[:2] = 0.3 / 250  # 0.3 px at 250 px from the centre
-    drifts = [photographed_twice(scale, 1000 + seed) for seed in range(40)]
-    assert sum(drift.has_changed for drift in drifts) >= 38
+    drifts = [photographed_twice(scale, 1000 + seed) for seed in range(20)]
+    assert sum(drift.has_changed for drift in drifts) >= 19
     assert np.median([drift.difference.rms for drift in drifts]) == pytest.approx(0.3, abs=0.08)
 
 

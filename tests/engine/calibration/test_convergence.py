@@ -10,7 +10,7 @@ pytestmark = pytest.mark.slow
 
 
 def test_random_problems_reach_the_minimum() -> None:
-    outcomes = [outcome(seed) for seed in range(1000, 1120)]
+    outcomes = [outcome(seed) for seed in range(1000, 1060)]
     missed = [(result.seed, result.words) for result in outcomes if not result.reached]
     # Measured: 8 of 9,000, where several minima are equally good but for noise.
     assert len(missed) <= 1, missed

@@ -1,7 +1,7 @@
 """Reported standard deviations are those that repeated solves show, for lens models with kernels.
 
 ``test_monte_carlo.py`` repeats whole calibrations; here only Stage II is repeated, from the truth,
-so that 500 draws are affordable, which know a standard deviation to 3 %. Noise alone is widened
+so that 200 draws are affordable, which know a standard deviation to 5 %. Noise alone is widened
 for the views' disagreement in about one draw of twenty (``overdispersion.py``).
 """
 
@@ -22,7 +22,7 @@ from calibgui.engine.camera.models import parameter_names
 from calibgui.engine.kernels import COMPILED_LENSES
 from tests.engine.scenes import VALLEYS, example, scene
 
-DRAWS = 500
+DRAWS = 200
 NOISE = 0.2
 
 
@@ -53,8 +53,8 @@ def test_repeated_solves_scatter_as_reported(model: str, count: int) -> None:
         reported.append(np.diag(widened.camera_covariance))
     scatter = np.std(estimates, axis=0, ddof=1)
     ratio = scatter / np.sqrt(np.mean(reported, axis=0))
-    assert ((ratio > 0.9) & (ratio < 1.1)).all()
+    assert ((ratio > 0.85) & (ratio < 1.15)).all()
     # The nonlinearity's bias is small: the means are within 0.2 of the standard deviations.
     assert (np.abs(np.mean(estimates, axis=0) - camera.params[free]) < 0.2 * scatter).all()
     inside = np.abs(np.array(estimates) - camera.params[free]) < 1.96 * np.sqrt(reported)
-    assert inside.mean(axis=0) == pytest.approx(np.full(len(free), 0.95), abs=0.03)
+    assert inside.mean(axis=0) == pytest.approx(np.full(len(free), 0.95), abs=0.05)

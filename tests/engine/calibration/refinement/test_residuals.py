@@ -140,7 +140,10 @@ the others make a proper minimum."""
 @pytest.mark.parametrize(
     ("model", "cost"),
     # Differences by 162 coefficients take minutes: test_local_support.py asks mrcal instead.
-    [(model, cost) for model, cost in CASES if not model.startswith("splined")],
+    [
+        *((m, c) for m, c in CASES if c is not Cost.REFERENCE and not m.startswith("splined")),
+        *((model, Cost.REFERENCE) for model in ("lucchese", "kannala-brandt")),
+    ],
 )
 def test_the_minimum_is_scipys(model: str, cost: Cost) -> None:
     """The same residual minimised by another program ends at the same cost.
