@@ -93,7 +93,7 @@ def _validate(result: Result) -> list[str]:
     size, settings = calibration.camera.size, recover_arguments(calibration)
     sections = [
         quality.tabulate_cross_validation(
-            cross_validate(views, size, min(5, len(views)), **settings)
+            cross_validate(views, size, min(5, len(views)), calibration, **settings)
         ),
         quality.tabulate_bootstrap(bootstrap_views(views, size, **settings), calibration),
     ]

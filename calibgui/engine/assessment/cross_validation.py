@@ -29,6 +29,8 @@ import numpy as np
 from calibgui.engine.arrays import Array, IntArray, Size, freeze
 from calibgui.engine.boards.shape import BoardShape, BoardShapeModel
 from calibgui.engine.calibration.calibrate import calibrate
+from calibgui.engine.calibration.methods import DEFAULT_METHOD, find_method
+from calibgui.engine.calibration.methods.method import begin_at
 from calibgui.engine.calibration.observations import Observation, pack_observations
 from calibgui.engine.calibration.problem import prepare_observations
 from calibgui.engine.calibration.resection import estimate_poses, refine_poses
@@ -86,6 +88,7 @@ def cross_validate(
     views: Sequence[Observation | tuple[Array, Array]],
     size: Size,
     folds: int = DEFAULT_FOLDS,
+    start: Calibration | None = None,
     **settings: Any,
 ) -> CrossValidation:
     """Calibrate `folds` times without some of the views, and measure the error on these.
@@ -95,6 +98,8 @@ def cross_validate(
         size: width and height of the images, px.
         folds: number of folds into which the views are dealt; as many as views leaves one out
             each time.
+        start: a calibration of all views with the same settings, at whose camera and poses every
+            fold begins; without one it begins at a guess of its own, which takes longer.
         settings: further arguments of ``calibrate``; `names` are not used, and `report` gets the
             iterations of every fold: it may raise ``Cancelled``, but has to return True.
 
@@ -125,13 +130,17 @@ def cross_validate(
         )
     seen = [Observation(*view) for view in views]
     settings = {name: settings[name] for name in settings.keys() - {"names"}}
+    method = find_method(settings.pop("method", DEFAULT_METHOD))
     done: list[Fold] = []
     trained: list[ViewResiduals] = []
     by_view: list[ViewResiduals | None] = [None] * len(seen)
     for fold in range(folds):
         out = np.arange(fold, len(seen), folds)
-        kept = [view for k, view in enumerate(seen) if k % folds != fold]
-        result = calibrate(kept, size, **settings, model_errors=False)
+        kept = [k for k in range(len(seen)) if k % folds != fold]
+        how = method if start is None else begin_at(method, start, kept)
+        result = calibrate(
+            [seen[k] for k in kept], size, method=how, **settings, model_errors=False
+        )
         held_out = resect_views(result, [seen[k] for k in out])
         for k, residual in zip(out, held_out, strict=True):
             by_view[k] = residual
@@ -244,7 +253,9 @@ def choose_board_shape(
             refused[model] = _REASON_LENS
             continue
         try:
-            validations[model] = cross_validate(views, size, folds, board_shape=model, **settings)
+            validations[model] = cross_validate(
+                views, size, folds, nominal, board_shape=model, **settings
+            )
         except CalibrationError as error:
             if model is BoardShapeModel.NOMINAL:
                 raise
@@ -307,11 +318,14 @@ def bootstrap_views(
     seen = [Observation(*view) for view in views]
     rng = np.random.default_rng(seed)
     settings = {name: settings[name] for name in settings.keys() - {"names", "report"}}
+    method = find_method(settings.pop("method", DEFAULT_METHOD))
     params = []
     for _ in range(draws):
-        drawn = [seen[k] for k in rng.integers(len(seen), size=len(seen)).tolist()]
+        drawn = rng.integers(len(seen), size=len(seen)).tolist()
+        how, sample = begin_at(method, whole, drawn), [seen[k] for k in drawn]
         with suppress(CalibrationError):
-            params.append(calibrate(drawn, size, **settings, model_errors=False).camera.params)
+            again = calibrate(sample, size, method=how, **settings, model_errors=False)
+            params.append(again.camera.params)
     if len(params) < max(2, draws // 10):
         raise CalibrationError(
             "Resampled views do not determine the camera: too few of them carry the result.",

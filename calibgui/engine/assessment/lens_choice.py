@@ -238,7 +238,8 @@ class _Attempt:
     def _predict(self, trial: LensTrial) -> LensTrial:
         """Return a trial with its error on unseen views."""
         how = {"model": trial.model, "fix": self.held | trial.fixed, **self.settings}
-        return replace(trial, validation=cross_validate(self.views, self.size, self.folds, **how))
+        found = cross_validate(self.views, self.size, self.folds, trial.calibration, **how)
+        return replace(trial, validation=found)
 
     def _is_close(self, model: str) -> bool:
         """Return whether a model's residuals are of the size of the best one's."""

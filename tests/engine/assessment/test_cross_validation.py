@@ -12,6 +12,7 @@ from calibgui.engine.assessment.cross_validation import (
 )
 from calibgui.engine.boards.shape import BoardShapeModel
 from calibgui.engine.calibration.calibrate import calibrate
+from calibgui.engine.calibration.methods import lucchese
 from calibgui.engine.calibration.observations import Observation
 from calibgui.engine.errors import CalibrationError
 from tests.engine.scenes import TRUE_BOARD, barrel, scene
@@ -45,6 +46,18 @@ def test_a_fold_is_a_calibration_of_the_others() -> None:
     fold = cross_validate(views, SIZE, folds=3, fix=["k3"]).folds[1]
     others = [view for k, view in enumerate(views) if k not in fold.views]
     assert np.array_equal(fold.camera.params, calibrate(others, SIZE, fix=["k3"]).camera.params)
+
+
+@pytest.mark.parametrize("model", ["lucchese", "kannala-brandt"])
+def test_folds_that_begin_at_a_calibration_end_where_others_do(
+    model: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    views = _views(9)
+    start = calibrate(views, SIZE, model=model)
+    guessed = cross_validate(views, SIZE, 3, model=model)
+    monkeypatch.setattr(lucchese, "initialise_stage_two", None)  # nothing is guessed
+    begun = cross_validate(views, SIZE, 3, start, model=model)
+    np.testing.assert_allclose(begun.by_view, guessed.by_view, rtol=1e-5)
 
 
 def test_unseen_views_fit_worse() -> None:

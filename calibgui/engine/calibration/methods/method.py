@@ -8,7 +8,7 @@ the diagnosis of degenerate views, the board's shape) is the same for all method
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property, partial
 from typing import NamedTuple
@@ -33,7 +33,7 @@ from calibgui.engine.calibration.refinement.schur import NormalEquations, solve_
 from calibgui.engine.calibration.result import Calibration, Cost, Report, Status
 from calibgui.engine.camera.models import parameter_names
 from calibgui.engine.errors import CalibrationError
-from calibgui.engine.geometry.rotations import vector_from_rotation
+from calibgui.engine.geometry.rotations import rotation_from_vector, vector_from_rotation
 
 
 @dataclass(frozen=True, eq=False)
@@ -125,6 +125,31 @@ class Method(Description):
     The covariance of any other is simulated (``simulated_covariance.py``)."""
     list_remarks: Callable[[Calibration], tuple[str, ...]] = list_no_remarks
     """Return sentences on a result of this method that its figures do not say."""
+
+
+def begin_at(method: Method, calibration: Calibration, views: Sequence[int]) -> Method:
+    """Return the method with the camera and the poses of a calibration in place of its guess.
+
+    It saves the guess where subsets of the views are calibrated again with the same settings. A
+    method that does not minimise a cost is returned as it is: its guess is part of its estimate.
+
+    Args:
+        method: the method of the calibration.
+        calibration: a calibration of all views.
+        views: those of its views, in order, that the method is used on; some may repeat.
+    """
+    if not method.is_minimum:
+        return method
+    poses = [calibration.poses[k] for k in views]
+    R = np.array([rotation_from_vector(pose.rvec) for pose in poses])
+    T = np.array([pose.tvec for pose in poses])
+    values = dict(zip(calibration.camera.names, calibration.camera.params.tolist(), strict=True))
+
+    def initialise(given: Given) -> Initialisation:
+        state = State(calibration.camera.params.copy(), R.copy(), T.copy())
+        return Initialisation(state, {name: values[name] for name in given.held})
+
+    return replace(method, initialise=initialise)
 
 
 def hold_parameters(
