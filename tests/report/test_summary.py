@@ -104,8 +104,8 @@ def test_a_fisheye_is_told_from_a_board_that_is_off(data_dir: Path) -> None:
     views = read_ov_plane(data_dir / "babelcalib_ov_plane", "train")
     made = tuple(View(f"{k}.png", ViewStatus.FOUND, points=v) for k, v in enumerate(views))
     papers, fisheye = (
-        Result(engine.calibrate(views, OV_PLANE_SIZE, model=model), made)
-        for model in ("lucchese", "kannala-brandt")
+        Result(engine.calibrate(views[::step], OV_PLANE_SIZE, model=model), made[::step])
+        for model, step in (("lucchese", 2), ("kannala-brandt", 1))  # half is enough to see it
     )
     assert "does not follow this lens" in texts(papers, Tone.CAUTION)
     assert "not flat" not in texts(papers, Tone.CAUTION)
