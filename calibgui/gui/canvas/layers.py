@@ -6,6 +6,7 @@ size on the screen at any zoom.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Collection, Iterable, Iterator, Mapping
 from contextlib import AbstractContextManager, contextmanager
 from dataclasses import dataclass
@@ -15,11 +16,12 @@ from types import MappingProxyType
 
 import numpy as np
 from PySide6.QtCore import QLineF, QPointF, QRectF, Qt
-from PySide6.QtGui import QColor, QPainter, QPen, QPolygonF
+from PySide6.QtGui import QColor, QPainter, QPen, QPixmap, QPixmapCache, QPolygonF
 
 from calibgui.engine.arrays import Array, Size
 from calibgui.engine.detection import Corners
 from calibgui.gui.widgets import theme
+from calibgui.gui.widgets.stamps import draw_stamps
 
 ToScreen = Callable[[Array], Array]
 """From (n, 2) px of the image to (n, 2) device-independent px of the widget."""
@@ -193,11 +195,28 @@ def draw_arrows(painter: QPainter, start: Array, end: Array, colour: QColor) -> 
 
 
 def draw_dots(painter: QPainter, at: Array, colour: QColor) -> None:
-    """A dot at each of (n, 2) screen positions."""
+    """A dot at each of (n, 2) screen positions: there are ten thousands of a whole calibration."""
+    ratio = painter.device().devicePixelRatioF()
+    side = math.ceil((2 * _DOT + 2) * ratio)
+    stamp, key = QPixmap(), f"dot {colour.name()} {ratio}"
+    if not QPixmapCache.find(key, stamp):
+        stamp = _draw_dot(colour, side, ratio)
+        QPixmapCache.insert(key, stamp)
+    draw_stamps(painter, at, stamp, np.zeros(2), side)
+
+
+def _draw_dot(colour: QColor, side: int, ratio: float) -> QPixmap:
+    """Return a picture, `side` pixels wide, of a dot on a screen with a device pixel ratio."""
+    picture = QPixmap(side, side)
+    picture.fill(Qt.GlobalColor.transparent)
+    picture.setDevicePixelRatio(ratio)
+    painter = QPainter(picture)
+    painter.setRenderHint(QPainter.RenderHint.Antialiasing)
     painter.setPen(QPen(theme.HALO, 1.0))
     painter.setBrush(colour)
-    for u, v in at:
-        painter.drawEllipse(QPointF(u, v), _DOT, _DOT)
+    painter.drawEllipse(QPointF(side, side) / (2 * ratio), _DOT, _DOT)
+    painter.end()
+    return picture
 
 
 def trace_hull(uv: Array) -> Array:

@@ -11,9 +11,10 @@ from PySide6.QtWidgets import QLabel, QStackedWidget, QVBoxLayout, QWidget
 
 from calibgui.engine.arrays import Array, BoolArray, Size
 from calibgui.gui.panels.contours import Contours
-from calibgui.gui.panels.heat import HeatMap, surround_places
+from calibgui.gui.panels.heat import CORNERS, HeatMap, surround_places
 from calibgui.gui.widgets import theme
 from calibgui.gui.widgets.levels import choose_levels
+from calibgui.gui.widgets.point_cloud import PointCloud
 
 _LEVELS = 4
 """Contour lines, at most: the map is small."""
@@ -57,7 +58,7 @@ class DifferenceMap(QWidget):
         )
         self.plot.scene().sigMouseMoved.connect(self._hover)
         self.contours = Contours(self.plot, pg.mkPen("#ffffffc8"))
-        self.corners = pg.ScatterPlotItem(size=2, pen=None, brush=(255, 255, 255, 110))
+        self.corners = PointCloud(size=2)
         self.plot.addItem(self.corners)
         self.under_cursor = QLabel()
         self.reason = QLabel()
@@ -90,7 +91,7 @@ class DifferenceMap(QWidget):
         self.plot.fit(size)
         seen = np.where(difference.region, length, np.nan)
         self.contours.show(u, v, seen, choose_levels(top, _LEVELS))
-        self.corners.setData(*corners.T)
+        self.corners.show_points([corners], [CORNERS])
         self._stack.setCurrentIndex(0)
         self._hover(None)
 

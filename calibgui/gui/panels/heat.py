@@ -5,9 +5,13 @@ from __future__ import annotations
 import numpy as np
 import pyqtgraph as pg
 from PySide6.QtCore import QPointF, QRectF
+from PySide6.QtGui import QColor
 
 from calibgui.engine.arrays import Array, Size
 from calibgui.gui.widgets.plots import ColourBar, Plot
+
+CORNERS = (QColor(255, 255, 255, 110), "o")
+"""Style of the dots where corners were seen."""
 
 
 def image_rectangle(size: Size) -> QRectF:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections import defaultdict
 from collections.abc import Sequence
 
 import numpy as np
@@ -12,6 +11,7 @@ from PySide6.QtCore import Qt, Signal
 from calibgui.engine.arrays import Array
 from calibgui.gui.widgets import theme
 from calibgui.gui.widgets.plots import Plot
+from calibgui.gui.widgets.point_cloud import PointCloud
 
 _REACH = 8.0
 """Distance from a point within which a click means it, px of the screen."""
@@ -27,7 +27,8 @@ class ResidualScatter(Plot):
         super().__init__("", "", square=True)
         self._points: Sequence[Array] = ()
         self._views: Sequence[int] = ()
-        self._clouds: list[pg.ScatterPlotItem] = []
+        self._cloud = PointCloud(size=4)
+        self.addItem(self._cloud)
         self._view = pg.ScatterPlotItem(size=6)
         self._ring = pg.ScatterPlotItem(size=15, brush=None)
         for z, item in enumerate((self._view, self._ring), start=10):
@@ -40,27 +41,14 @@ class ResidualScatter(Plot):
     ) -> None:
         """Show the residuals (n, 2) of each view.
 
-        All views of a colour and symbol are one item: thousands of points stay quick.
-
         Args:
             points: the residuals.
             views: the index by which each view has its colour (see `theme.view_colour`).
             x, y, unit: what the axes show.
         """
-        for cloud in self._clouds:
-            self.removeItem(cloud)
         self._points, self._views = points, views
-        alike: defaultdict[tuple[str, str], list[Array]] = defaultdict(list)
-        for k, of_view in zip(views, points, strict=True):
-            alike[theme.view_colour(k).name(), theme.view_symbol(k)].append(of_view)
-        self._clouds = [
-            pg.ScatterPlotItem(
-                *np.concatenate(group).T, size=4, pen=None, brush=brush, symbol=symbol
-            )
-            for (brush, symbol), group in alike.items()
-        ]
-        for cloud in self._clouds:
-            self.addItem(cloud)
+        styles = [(theme.view_colour(k), theme.view_symbol(k)) for k in views]
+        self._cloud.show_points(points, styles)
         self.set_labels(x, y, unit, unit)
         self.select(-1)
         self.getPlotItem().autoRange()

@@ -12,11 +12,12 @@ from PySide6.QtWidgets import QDoubleSpinBox, QHBoxLayout, QLabel, QVBoxLayout
 from calibgui.dataset import Result
 from calibgui.engine.uncertainty import ProjectionUncertainty, estimate_projection_uncertainty
 from calibgui.gui.panels.contours import Contours
-from calibgui.gui.panels.heat import HeatMap, surround_places
+from calibgui.gui.panels.heat import CORNERS, HeatMap, surround_places
 from calibgui.gui.panels.latest import Latest
 from calibgui.gui.panels.panel import Panel
 from calibgui.gui.panels.services import Services
 from calibgui.gui.widgets.lengths import describe_condition
+from calibgui.gui.widgets.point_cloud import PointCloud
 from calibgui.report.quality import describe_distance
 
 _LIMIT = 0.1
@@ -74,7 +75,7 @@ class UncertaintyPanel(Panel):
         )
         self.plot.scene().sigMouseMoved.connect(self._hover)
         self.region = Contours(self.plot, pg.mkPen("#ff3b30", width=2.5))
-        self.corners = pg.ScatterPlotItem(size=2, pen=None, brush=(255, 255, 255, 110))
+        self.corners = PointCloud(size=2)
         self.plot.addItem(self.corners)
         self.under_cursor = QLabel()
         layout = QVBoxLayout(self.body)
@@ -87,7 +88,7 @@ class UncertaintyPanel(Panel):
         self.found = None
         self.words.setText(self.tr("Working…"))
         views = result.observations()
-        self.corners.setData(*np.concatenate([view.uv for view in views]).T)
+        self.corners.show_points([np.concatenate([view.uv for view in views])], [CORNERS])
         distance = self.distance.value() or math.inf
         self._work.start(
             self.tr("Propagating the uncertainty"),

@@ -34,7 +34,7 @@ def show(shown: Shown[ResidualsPanel], monkeypatch: pytest.MonkeyPatch) -> Show:
 
 def drawn(panel: ResidualsPanel) -> Array:
     """All points on the plot, in order of x."""
-    points = np.concatenate([np.transpose(cloud.getData()) for cloud in panel.scatter._clouds])
+    points = np.transpose(panel.scatter._cloud.getData())
     return points[np.lexsort(points.T)]
 
 
@@ -83,13 +83,6 @@ def test_selection_is_highlighted(show: Show, result: Result) -> None:
     np.testing.assert_array_equal(np.transpose(panel.scatter._ring.getData()), image[17:18])
     panel.select(1)  # an image that was not used
     assert len(panel.scatter._view.getData()[0]) == 0
-
-
-def test_many_views_take_few_items(show: Show) -> None:
-    result = made(count=70)
-    panel = show(result)
-    assert len(panel.scatter._clouds) == 70, "one of each view, however many corners it has"
-    assert len(drawn(panel)) == 70 * 108
 
 
 def test_what_the_residuals_look_like_is_said_with_its_cause(

@@ -1,0 +1,126 @@
+"""Ten thousands of points in a plot, whose groups have colours and symbols of their own."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+
+import numpy as np
+import pyqtgraph as pg
+from pyqtgraph.graphicsItems.ScatterPlotItem import Symbols
+from PySide6.QtCore import QRectF, Qt
+from PySide6.QtGui import QColor, QPainter, QPixmap
+from PySide6.QtWidgets import QStyleOptionGraphicsItem, QWidget
+
+from calibgui.engine.arrays import Array
+from calibgui.gui.widgets.stamps import draw_stamps
+
+_PER_ROW = 256
+"""Symbols side by side on the sheet that they are copied from; a pixmap is at most 32,767 wide."""
+
+
+class PointCloud(pg.GraphicsObject):  # type: ignore[misc]  # pyqtgraph is not typed
+    """Draws groups of points, each in its colour and with its symbol.
+
+    pyqtgraph's own item is slow to fill and has one style for all, or one to be told for every
+    point. This one draws each group's symbol once and copies it to the group's points.
+
+    Args:
+        size: diameter of a symbol, px of the screen.
+    """
+
+    def __init__(self, size: float) -> None:
+        super().__init__()
+        self._size = size
+        self._styles: list[tuple[QColor, str]] = []
+        self._points = np.zeros((0, 2))
+        self._groups = np.zeros(0, dtype=np.intp)
+        """The group of each point."""
+        self._sheet: QPixmap | None = None
+        """The symbols of all groups, as they are copied; None until they are needed."""
+
+    def show_points(self, groups: Sequence[Array], styles: Sequence[tuple[QColor, str]]) -> None:
+        """Show other points.
+
+        Args:
+            groups: points (n, 2) of each group; those that are not finite are left out.
+            styles: colour of each group, and its symbol by pyqtgraph's name.
+        """
+        self.prepareGeometryChange()
+        points = np.concatenate(groups) if groups else np.zeros((0, 2))
+        numbers = np.repeat(np.arange(len(groups)), [len(group) for group in groups])
+        known = np.isfinite(points).all(axis=1)
+        self._points, self._groups = points[known], numbers[known]
+        self._styles, self._sheet = list(styles), None
+        self.informViewBoundsChanged()
+        self.update()
+
+    def getData(self) -> tuple[Array, Array]:  # noqa: N802 - as of pyqtgraph's items
+        """Return u and v of all points."""
+        return self._points[:, 0], self._points[:, 1]
+
+    def dataBounds(  # noqa: N802 - pyqtgraph's name
+        self,
+        ax: int,
+        frac: float = 1.0,  # noqa: ARG002 - all points are to be seen
+        orthoRange: object = None,  # noqa: ARG002
+    ) -> tuple[float, float] | tuple[None, None]:
+        """Return the least and the largest coordinate along axis 0 or 1."""
+        values = self._points[:, ax]
+        return (float(values.min()), float(values.max())) if values.size else (None, None)
+
+    def pixelPadding(self) -> float:  # noqa: N802 - pyqtgraph's name
+        """Return the room that symbols take around the points, px."""
+        return self._size / 2
+
+    def boundingRect(self) -> QRectF:  # noqa: N802 - Qt's name
+        if not len(self._points):
+            return QRectF()
+        least, most = self._points.min(axis=0), self._points.max(axis=0)
+        vectors = self.pixelVectors()
+        pads = (0.0 if vector is None else self._size * vector.length() for vector in vectors)
+        across, along = pads
+        return QRectF(*least, *(most - least)).adjusted(-across, -along, across, along)
+
+    def viewTransformChanged(self) -> None:  # noqa: N802 - pyqtgraph's name
+        """Take the room that the symbols have in the new view."""
+        self.prepareGeometryChange()
+        super().viewTransformChanged()
+
+    def paint(
+        self,
+        painter: QPainter,
+        option: QStyleOptionGraphicsItem,  # noqa: ARG002 - Qt's signature
+        widget: QWidget | None = None,  # noqa: ARG002
+    ) -> None:
+        ratio = painter.device().devicePixelRatioF()
+        side = math.ceil(self._size * ratio) + 2
+        if not len(self._points):
+            return
+        if self._sheet is None or self._sheet.devicePixelRatio() != ratio:
+            self._sheet = self._draw_sheet(side, ratio)
+        to = painter.transform()
+        u, v = self._points.T
+        at = np.stack(
+            [to.m11() * u + to.m21() * v + to.dx(), to.m12() * u + to.m22() * v + to.dy()], axis=1
+        )
+        row, column = np.divmod(self._groups, _PER_ROW)
+        painter.resetTransform()
+        draw_stamps(painter, at, self._sheet, side * np.stack([column, row], axis=1), side)
+
+    def _draw_sheet(self, side: int, ratio: float) -> QPixmap:
+        """Draw the symbol of each group in a square of `side` px, row by row."""
+        rows = math.ceil(len(self._styles) / _PER_ROW)
+        sheet = QPixmap(min(len(self._styles), _PER_ROW) * side, rows * side)
+        sheet.fill(Qt.GlobalColor.transparent)
+        painter = QPainter(sheet)
+        painter.setRenderHint(QPainter.RenderHint.Antialiasing)
+        for k, (colour, symbol) in enumerate(self._styles):
+            row, column = divmod(k, _PER_ROW)
+            painter.resetTransform()
+            painter.translate((column + 0.5) * side, (row + 0.5) * side)
+            painter.scale(self._size * ratio, self._size * ratio)
+            painter.fillPath(Symbols[symbol], colour)
+        painter.end()
+        sheet.setDevicePixelRatio(ratio)
+        return sheet
