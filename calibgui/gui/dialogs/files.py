@@ -34,7 +34,7 @@ from calibgui.gui.jobs.job import Job
 from calibgui.gui.session.calibrator import Calibrator
 from calibgui.gui.session.detector import Detector
 from calibgui.gui.session.saver import Saver
-from calibgui.gui.session.session import Session
+from calibgui.gui.session.session import Session, make_empty_document
 from calibgui.gui.widgets import questions
 from calibgui.gui.widgets.actions import show_dialog
 from calibgui.gui.widgets.questions import Answer
@@ -118,7 +118,7 @@ class Files(QObject):
     def new(self) -> None:
         """Begin with nothing."""
         if self.may_leave():
-            self._session.begin(Document())
+            self._session.begin(make_empty_document())
 
     def ask_for_project(self) -> None:
         """Open a project of the user's choice."""

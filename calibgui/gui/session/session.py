@@ -4,12 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Hashable
 
-from PySide6.QtCore import QObject, Signal
+from PySide6.QtCore import QObject, QSettings, Signal
 
 from calibgui.app.document import Change, Document
 from calibgui.app.image_store import ImageStore
 from calibgui.app.project import Project
 from calibgui.app.sensor_frame import choose_orientation
+from calibgui.app.settings import NEW_PROJECT_SETTINGS
 from calibgui.dataset import Result, View, find_orientation
 from calibgui.engine.images import read_image_header
 from calibgui.gui.jobs.jobs import Jobs
@@ -38,13 +39,15 @@ class Session(QObject):
         self.jobs = Jobs(self)
         self.jobs.failed.connect(self.failed)
         self.images = ImageStore(find_orientation=self._find_orientation)
-        self.document = Document()
+        self.document = make_empty_document()
         self.document.listeners.append(self._document_changed)
         self.image = ""
         self.corner = -1
         self.hovered_image = ""
         """The image that the cursor is over; "" for none."""
-        self._result_name = ""
+        self._chosen_results: list[str] = []
+        """Names of the results that were chosen to be shown, the latest last; empty ones stand for
+        the newest result."""
         self._announced: Result | None = None
 
     @property
@@ -59,11 +62,14 @@ class Session(QObject):
 
     @property
     def result_name(self) -> str:
-        """Name of the result that is shown: the chosen one, or the newest."""
+        """Name of the result that is shown: of those that there are the one chosen last.
+
+        What undo takes away gives place to what was shown before it, and redo brings it back.
+        """
         results = self.project.results
-        if self._result_name in results:
-            return self._result_name
-        return list(results)[-1] if results else ""
+        newest = list(results)[-1] if results else ""
+        chosen = (name for name in reversed(self._chosen_results) if name in results or not name)
+        return next(chosen, "") or newest
 
     @property
     def result(self) -> Result | None:
@@ -72,7 +78,7 @@ class Session(QObject):
 
     def show_result(self, name: str) -> None:
         """Show another result; the empty name stands for the newest."""
-        self._result_name = name
+        self._chosen_results = [*(n for n in self._chosen_results if n != name), name]
         self._announce_result()
 
     def edit(self, label: str, change: Change, *, sliding: bool = False) -> None:
@@ -124,7 +130,7 @@ class Session(QObject):
         self.document.listeners.remove(self._document_changed)
         self.document = document
         document.listeners.append(self._document_changed)
-        self._result_name = ""
+        self._chosen_results = []
         self._document_changed(before, document.project)
 
     def question(self) -> Hashable:
@@ -145,3 +151,18 @@ class Session(QObject):
         if self.result is not self._announced:
             self._announced = self.result
             self.result_changed.emit(self.result)
+
+
+_BY_HAND = "by hand"
+"""Name of the setting whether boards of new projects are marked by hand."""
+
+
+def make_empty_document() -> Document:
+    """Return a document to begin with; its boards are marked by hand if the last ones were."""
+    by_hand = bool(QSettings().value(_BY_HAND, False, bool))
+    return Document(Project(settings=NEW_PROJECT_SETTINGS, by_hand=by_hand))
+
+
+def remember_by_hand(by_hand: bool) -> None:
+    """Keep for new projects whether boards are marked by hand."""
+    QSettings().setValue(_BY_HAND, by_hand)

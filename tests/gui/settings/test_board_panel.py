@@ -13,7 +13,7 @@ from PySide6.QtWidgets import QApplication, QComboBox
 from pytestqt.qtbot import QtBot
 
 from calibgui.app.document import Document
-from calibgui.app.project import change_views, set_grid_size
+from calibgui.app.project import Project, change_views, set_grid_size
 from calibgui.app.project_file import read_project, write_project
 from calibgui.dataset import ViewStatus
 from calibgui.engine.boards.board import Board
@@ -21,7 +21,7 @@ from calibgui.engine.boards.charuco import Charuco
 from calibgui.engine.boards.checkerboard import CHECKERBOARD
 from calibgui.engine.boards.circle_grid import Circles
 from calibgui.gui.dialogs.print_dialog import PrintDialog
-from calibgui.gui.session.session import Session
+from calibgui.gui.session.session import Session, make_empty_document
 from calibgui.gui.settings.board_panel import BoardPanel
 from calibgui.gui.window.main_window import MainWindow
 from tests.app import examples
@@ -213,3 +213,19 @@ def test_the_shortcut_calibrates_with_the_size_that_was_typed(
     QTest.keyClick(full.board.cols, Qt.Key.Key_F9)
     assert full.session.project.grid_size == (8, 9)
     qtbot.waitUntil(lambda: not full.session.jobs.running, timeout=60_000)
+
+
+def test_marking_by_hand_is_remembered_for_new_projects(
+    session: Session, panel: BoardPanel
+) -> None:
+    assert not session.project.by_hand
+    panel.by_hand.click()
+    session.begin(make_empty_document())
+    assert panel.by_hand.isChecked()
+    # A project from a file has a choice of its own, which is not the user's for new ones.
+    session.begin(Document(Project(by_hand=False)))
+    assert not panel.by_hand.isChecked()
+    assert make_empty_document().project.by_hand
+    panel.by_hand.click()
+    session.document.undo()
+    assert not make_empty_document().project.by_hand
