@@ -109,7 +109,8 @@ def open_window() -> int:
 
 def _open_window(arguments: list[str]) -> int:
     try:
-        app = import_module("calibgui.gui.app")
+        with _keep_what_is_loaded():
+            app = import_module("calibgui.gui.app")
     except ImportError as error:
         if (error.name or "").partition(".")[0] not in _WINDOW_PACKAGES:
             raise

@@ -180,7 +180,7 @@ def explain(text: str) -> str:
     """Explain the terms in a heading or label, a line each; empty if there are none."""
     found: dict[str, str] = {}
     rest = text
-    terms = list_terms()
+    terms = {term: tip for term, tip in list_terms().items() if term.lower() in text.lower()}
     for term in sorted(terms, key=len, reverse=True):  # "± 1σ" before "1σ"
         pattern = rf"(?<![\w′]){re.escape(term)}(?![\w′])"
         if re.search(pattern, rest, re.IGNORECASE if len(term) > 3 else 0):
