@@ -14,6 +14,7 @@ from calibgui.gui.images.image_model import Role
 from calibgui.gui.panels.coverage import CoveragePanel
 from calibgui.gui.panels.poses import PosesPanel
 from calibgui.gui.panels.residuals import ResidualsPanel
+from calibgui.gui.panels.stage_one import StageOnePanel
 from calibgui.gui.widgets import theme
 from calibgui.gui.widgets.picture import make_qimage
 from calibgui.gui.window.main_window import MainWindow
@@ -124,6 +125,27 @@ def test_a_view_pointed_at_stands_out_in_plots(shown: MainWindow, qtbot: QtBot) 
             else:
                 leave(shown)
             np.testing.assert_allclose(np.transpose(item.getData()), at)
+
+
+def test_a_view_and_its_row_stand_out_together(shown: MainWindow, qtbot: QtBot) -> None:
+    panel = shown.need_analysis().show_panel(StageOnePanel)
+    assert shown.session.result is not None
+    used = [view.image for view in shown.session.result.used]
+    plain, selected = panel.table.grab().toImage(), panel._current.getData()
+    for row, image in ((1, 2), (4, 5)):  # the first image is left out
+        point_at(shown, image, qtbot)
+        assert panel.table.grab().toImage() != plain
+        aspect = shown.session.result.calibration.stage_one[row].aspect
+        assert np.ravel(panel._current.getData()).tolist() == [row + 1, aspect]
+        leave(shown)
+        assert panel.table.grab().toImage() == plain
+        np.testing.assert_array_equal(panel._current.getData(), selected)
+        cell = panel.table.visualRect(panel.table.model().index(row, 0)).center()
+        qtbot.mouseMove(panel.table.viewport(), cell)
+        assert shown.images.list.hovered == used[row]
+        for part in (panel.table.viewport(), panel.table):
+            QApplication.sendEvent(part, QEvent(QEvent.Type.Leave))
+        assert shown.images.list.hovered == ""
 
 
 def test_the_hull_goes_around_the_points() -> None:

@@ -42,6 +42,7 @@ class StageOnePanel(Panel):
         self.table = Table()
         self.table.setMinimumHeight(_TABLE_HEIGHT)
         self.table.picked.connect(self._pick)
+        self.table.hovered.connect(self._point_at)
         self.equation = Plot(self.tr("aspect ratio r"), self.tr("g(r)"))
         self.equation.setToolTip(
             self.tr(
@@ -80,9 +81,17 @@ class StageOnePanel(Panel):
         self._line.setData(np.arange(1, len(rows) + 1), [row.aspect for row in rows])
 
     def _select(self, k: int, corner: int) -> None:  # noqa: ARG002 - a view has one row
+        self.table.select(k)
+        self._show_equation(k)
+
+    def _hover_view(self, k: int) -> None:
+        self.table.hover(k)
+        self._show_equation(k if k >= 0 else self._selected[0])
+
+    def _show_equation(self, k: int) -> None:
+        """Draw the equation of calibrated view k, of the first if k is -1, and mark its root."""
         assert self._result is not None
         calibration = self._result.calibration
-        self.table.select(k)
         row = calibration.stage_one[max(k, 0)]
         g = evaluate_cosines_equation(row.backward, _SEARCHED, calibration.cost is Cost.PAPER)
         self._curve.setData(_SEARCHED, g, connect="finite")

@@ -12,6 +12,7 @@ from typing import Any
 
 from PySide6.QtCore import (
     QAbstractTableModel,
+    QEvent,
     QItemSelectionModel,
     QModelIndex,
     QPersistentModelIndex,
@@ -92,10 +93,11 @@ class _Model(QAbstractTableModel):
         super().__init__(parent)
         self.columns: tuple[Column, ...] = ()
         self.marked: dict[int, str] = {}
+        self.hovered = -1
 
     def show(self, columns: Sequence[Column], marked: dict[int, str]) -> None:
         self.beginResetModel()
-        self.columns, self.marked = tuple(columns), marked
+        self.columns, self.marked, self.hovered = tuple(columns), marked, -1
         self.endResetModel()
 
     def rowCount(self, parent: Index = QModelIndex()) -> int:  # noqa: N802, B008 - Qt's signature
@@ -115,8 +117,12 @@ class _Model(QAbstractTableModel):
         if role == Qt.ItemDataRole.TextAlignmentRole:
             side = Qt.AlignmentFlag.AlignLeft if isinstance(value, str) else _RIGHT
             return int(side | Qt.AlignmentFlag.AlignVCenter)
-        if role == Qt.ItemDataRole.BackgroundRole and index.row() in self.marked:
-            return QColor(theme.current().bad_base)
+        if role == Qt.ItemDataRole.BackgroundRole:
+            if index.row() == self.hovered:
+                tint = QColor(theme.current().accent)
+                tint.setAlpha(_TINT)
+                return tint
+            return QColor(theme.current().bad_base) if index.row() in self.marked else None
         if role == Qt.ItemDataRole.ToolTipRole:
             own = column.tips[index.row()] if column.tips else ""
             tip = own or column.tip or (list_terms().get(value) if index.column() == 0 else "")
@@ -139,6 +145,8 @@ class _Model(QAbstractTableModel):
 _RIGHT = Qt.AlignmentFlag.AlignRight
 _LEGIBLE = 8
 """Characters of the first column that are shown however narrow the table is."""
+_TINT = 60
+"""Opacity of the accent behind a row that the cursor is over, of 255."""
 
 
 class _Titles(QHeaderView):
@@ -166,9 +174,14 @@ class Table(QTableView):
 
     picked = Signal(int)
     """The row that the user chose, counted as in `Column.values`."""
+    hovered = Signal(int)
+    """The cursor is over a row now, counted in the same way, or over none: -1."""
 
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
+        self.setMouseTracking(True)
+        self.entered.connect(lambda at: self.hovered.emit(self._order.mapToSource(at).row()))
+        self.viewportEntered.connect(lambda: self.hovered.emit(-1))
         self._model = _Model(self)
         self._order = QSortFilterProxyModel(self)
         self._order.setSourceModel(self._model)
@@ -227,6 +240,13 @@ class Table(QTableView):
         if index.isValid():
             self.scrollTo(index)
 
+    def hover(self, row: int) -> None:
+        """Tint a row that the cursor is over, here or elsewhere; none if it is negative."""
+        self._model.hovered = row
+        self.viewport().update()
+        if row >= 0 and not self.underMouse():  # nothing moves under the cursor
+            self.scrollTo(self._order.mapFromSource(self._model.index(row, 0)))
+
     def as_csv(self, separator: str = ",") -> str:
         """The table in the order shown: titles with units, then values with every digit."""
         out = io.StringIO()
@@ -252,6 +272,10 @@ class Table(QTableView):
         )
         if path is not None:
             self.save(path)
+
+    def leaveEvent(self, event: QEvent) -> None:  # noqa: N802 - Qt's name
+        super().leaveEvent(event)
+        self.hovered.emit(-1)
 
     def showEvent(self, event: QShowEvent) -> None:  # noqa: N802 - Qt's name
         super().showEvent(event)
