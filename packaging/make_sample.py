@@ -111,10 +111,10 @@ def describe_truth() -> dict[str, object]:
     }
 
 
-def draw_photograph(number: int) -> npt.NDArray[np.uint8]:
+def draw_photograph(number: int, look: Appearance = LOOK) -> npt.NDArray[np.uint8]:
     """Render the image of view `number`, from 1."""
     pose = place_board(VIEWS[number - 1])
-    return render_view(CAMERA, pose, BOARD, blur=BLUR, noise=NOISE, seed=number, appearance=LOOK)
+    return render_view(CAMERA, pose, BOARD, blur=BLUR, noise=NOISE, seed=number, appearance=look)
 
 
 def main() -> None:

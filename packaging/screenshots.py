@@ -13,7 +13,8 @@ from __future__ import annotations
 import argparse
 import os
 import tempfile
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from dataclasses import replace
 from functools import partial
 from pathlib import Path
@@ -51,6 +52,23 @@ def wait(condition: Callable[[], object]) -> None:
             return
         pause(0.02)
     raise TimeoutError("the window does not come to an end")
+
+
+@contextmanager
+def open_window(width: int, height: int, scheme: theme.Scheme) -> Iterator[MainWindow]:
+    """Show the window with settings of its own; what is unsaved at the end is given up."""
+    os.environ.setdefault("QT_QPA_PLATFORM", "offscreen")
+    with tempfile.TemporaryDirectory() as home:
+        os.environ["XDG_STATE_HOME"] = home
+        QSettings.setPath(QSettings.Format.NativeFormat, QSettings.Scope.UserScope, home)
+        app = QApplication([])
+        theme.apply(app, scheme)
+        window = MainWindow()
+        window.resize(width, height)
+        window.show()
+        yield window
+        window.session.document.mark_saved(window.session.project, window.files.saver.file)
+        window.close()
 
 
 class Photographer:
@@ -155,18 +173,8 @@ def main() -> None:
     parser.add_argument("--scheme", type=theme.Scheme, default=theme.Scheme.LIGHT)
     options = parser.parse_args()
     options.folder.mkdir(parents=True, exist_ok=True)
-    os.environ.setdefault("QT_QPA_PLATFORM", "offscreen")
-    with tempfile.TemporaryDirectory() as home:
-        os.environ["XDG_STATE_HOME"] = home
-        QSettings.setPath(QSettings.Format.NativeFormat, QSettings.Scope.UserScope, home)
-        app = QApplication([])
-        theme.apply(app, options.scheme)
-        window = MainWindow()
-        window.resize(*map(int, options.size.split("x")))
-        window.show()
+    with open_window(*map(int, options.size.split("x")), options.scheme) as window:
         Photographer(window, options.folder).all()
-        window.session.document.mark_saved(window.session.project, window.files.saver.file)
-        window.close()
 
 
 if __name__ == "__main__":

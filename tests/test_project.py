@@ -100,8 +100,10 @@ def test_wheel_is_whole(wheel: Path) -> None:
         for file in (ROOT / "resources").rglob("*")
         if file.is_file()
     }
-    assert resources
-    assert {"calibgui/py.typed"} | sources | resources <= shipped
+    pictures = {name for name in resources if name.startswith("calibgui/resources/images/")}
+    assert pictures < resources
+    assert {"calibgui/py.typed"} | sources | (resources - pictures) <= shipped
+    assert not pictures & shipped, "the README's pictures are of no use to the program"
     metadata = f"calibgui-{calibgui.__version__}.dist-info"
     assert f"{metadata}/licenses/LICENSE" in shipped
     assert all(name.startswith(("calibgui/", metadata)) for name in shipped)
