@@ -1,4 +1,4 @@
-"""Take the pictures of the window that the README shows, and one of every panel.
+"""Take the pictures of the window that the README shows, one of every panel, and of dialogs.
 
     python packaging/screenshots.py FOLDER [--size 1280x720] [--scheme light|dark]
 
@@ -21,11 +21,15 @@ from pathlib import Path
 
 from PySide6.QtCore import QEventLoop, QPoint, QSettings, Qt, QTimer
 from PySide6.QtTest import QTest
-from PySide6.QtWidgets import QApplication
+from PySide6.QtWidgets import QApplication, QTabWidget
 
 from calibgui.app.resources import find_resource
+from calibgui.app.series import Scalar
+from calibgui.cli.main import main as calibgui
 from calibgui.engine.boards import BoardShapeModel
 from calibgui.gui.canvas.layers import Layer
+from calibgui.gui.dialogs.many_cameras import ManyCameras
+from calibgui.gui.dialogs.series_dialog import SeriesDialog
 from calibgui.gui.panels.analysis import PANELS
 from calibgui.gui.panels.board_shape import BoardShapePanel
 from calibgui.gui.panels.methods import MethodsPanel
@@ -33,9 +37,13 @@ from calibgui.gui.panels.on_demand import OnDemandPanel
 from calibgui.gui.panels.poses import PosesPanel
 from calibgui.gui.panels.uncertainty import UncertaintyPanel
 from calibgui.gui.widgets import theme
+from calibgui.gui.widgets.actions import show_dialog
 from calibgui.gui.window.main_window import MainWindow
 
 _PATIENCE = 600.0
+"""Time after which the window is taken to hang, s."""
+_CAMERAS, _VIEWS = 6, 8
+"""Number of cameras in the fleet, and of photographs of each."""
 
 
 def pause(seconds: float) -> None:
@@ -82,7 +90,9 @@ class Photographer:
         pause(0.3)
         wait(lambda: not self.window.session.jobs.running)
         pause(0.1)
-        self.window.grab().save(str(self.folder / f"{name}.png"))
+        (QApplication.activeModalWidget() or self.window).grab().save(
+            str(self.folder / f"{name}.png")
+        )
 
     def all(self) -> None:
         """The way from the empty window through every panel."""
@@ -105,6 +115,9 @@ class Photographer:
                 panel.tables.errors.selectRow(2)  # the first differs from none: it has no map
             self.take(kind.__name__.removesuffix("Panel").lower())
         self.marking()
+        with tempfile.TemporaryDirectory() as folder:
+            self.fleet(Path(folder))
+            self.series(Path(folder))
 
     def desk(self) -> None:
         """Take the layers on the image, the set-up, a large panel, and a threshold."""
@@ -163,6 +176,45 @@ class Photographer:
         wait(window.page.marker.roi_bar.accept.isEnabled)
         self.take("marked")
         window.page.marker.leave()
+
+    def fleet(self, folder: Path) -> None:
+        """Calibrate a fleet from sets of the sample's photographs, and show its table."""
+        photographs = [Path(view.image) for view in self.window.session.project.views]
+        rows = ["id,paths,serial,date"]
+        for number in range(_CAMERAS):
+            chosen = [photographs[(number + k) % len(photographs)] for k in range(_VIEWS)]
+            paths = ";".join(map(str, chosen))
+            rows.append(f"camera {number},{paths},S{number // 2},2026-0{1 + number % 2}-15")
+        rows.append(f"camera {_CAMERAS},{photographs[0]},S{_CAMERAS},")  # is refused
+        manifest = folder / "fleet.csv"
+        manifest.write_text("\n".join(rows))
+        ledger = folder / "fleet.db"
+        calibgui(["batch", str(manifest), "-o", str(ledger), "--board", "7x10", "--square", "25"])
+        ManyCameras(self.window.session, self.window.files, self.window).open_fleet(ledger)
+        wait(QApplication.activeModalWidget)
+        self.take("fleet")
+        self._close_dialog()
+
+    def series(self, folder: Path) -> None:
+        """Show the fleet's cameras as one camera at several temperatures."""
+        results = sorted((folder / "fleet.results").glob("*.json"))[:_CAMERAS]
+        table = folder / "temperatures.csv"
+        rows = [f"{path.name},{10 * number}" for number, path in enumerate(results, start=1)]
+        table.write_text("\n".join(["file,value", *rows]))
+        dialog = SeriesDialog(self.window.session.jobs, self.window)
+        show_dialog(dialog)
+        self.take("series-empty")
+        dialog.show_results(results, Scalar.TEMPERATURE, table)
+        wait(lambda: dialog.analysed)
+        self.take("series")
+        dialog.findChildren(QTabWidget)[0].setCurrentIndex(1)
+        self.take("series-camera")
+        self._close_dialog()
+
+    def _close_dialog(self) -> None:
+        dialog = QApplication.activeModalWidget()
+        assert dialog is not None
+        dialog.close()
 
 
 def main() -> None:

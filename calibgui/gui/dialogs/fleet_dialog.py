@@ -46,8 +46,8 @@ class FleetDialog(QDialog):
         self.words = QLabel(wordWrap=True)
         self.words.setText(
             self.tr(
-                "{0} cameras: {1} fail, {2} are unlike the others of their image size and lens "
-                "model, {3} have changed."
+                "{0} cameras. Failing: {1}. Unlike the others of their image size and lens "
+                "model: {2}. Changed: {3}."
             ).format(
                 len(overview.placed),
                 len(overview.failed),

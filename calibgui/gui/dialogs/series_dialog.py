@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from pathlib import Path
+from pathlib import Path, PurePath
 
 import numpy as np
 import pyqtgraph as pg
@@ -105,9 +105,7 @@ class SeriesDialog(QDialog):
         self._lay_out()
         self.resize(1000, 620)
         self._clear(
-            self.tr(
-                "Add the result.json of each setting of one camera: three or more, or a folder."
-            )
+            self.tr("Add the result.json of each setting of one camera: three or more.")
         )
 
     def _lay_out(self) -> None:
@@ -125,14 +123,17 @@ class SeriesDialog(QDialog):
         tabs = QTabWidget(documentMode=True)
         tabs.addTab(self.results, self.tr("Results"))
         tabs.addTab(self.camera, self.tr("Camera at a value"))
-        split = QSplitter()
-        split.addWidget(tabs)
-        split.addWidget(drawing)
-        split.setSizes([540, 460])
+        self._found = QSplitter()
+        self._found.addWidget(tabs)
+        self._found.addWidget(drawing)
+        self._found.setSizes([540, 460])
+        policy = self._found.sizePolicy()
+        policy.setRetainSizeWhenHidden(True)
+        self._found.setSizePolicy(policy)
         buttons = add_close_button(self)
         buttons.addButton(self.export, QDialogButtonBox.ButtonRole.ActionRole)
         below = QHBoxLayout()
-        below.addWidget(QLabel(self.tr("at")))
+        below.addWidget(QLabel(self.tr("Camera at")))
         below.addWidget(self.at)
         below.addWidget(QLabel(self.tr("as")))
         below.addWidget(self.format)
@@ -141,7 +142,7 @@ class SeriesDialog(QDialog):
         layout = QVBoxLayout(self)
         layout.addLayout(above)
         layout.addWidget(self.words)
-        layout.addWidget(split, 1)
+        layout.addWidget(self._found, 1)
         layout.addLayout(below)
 
     @property
@@ -190,8 +191,13 @@ class SeriesDialog(QDialog):
         self.camera.show_columns([])
         self.parameter.clear()
         self.plot.clear()
-        for widget in (self.parameter, self.at, self.format, self.export):
-            widget.setEnabled(False)
+        self._show_whether_found(False)
+
+    def _show_whether_found(self, found: bool) -> None:
+        """Show tables and plot if there is anything in them, and let a camera be exported."""
+        self._found.setVisible(found)
+        for widget in (self.at, self.format, self.export):
+            widget.setEnabled(found)
 
     def _show(self, analysed: AnalysedSeries) -> None:
         self.analysed = analysed
@@ -201,8 +207,7 @@ class SeriesDialog(QDialog):
         free = np.flatnonzero(np.diag(known.covariance) > 0).tolist()
         for k in free:
             self.parameter.addItem(known.camera.names[k], k)
-        for widget in (self.parameter, self.at, self.format, self.export):
-            widget.setEnabled(True)
+        self._show_whether_found(True)
         settings = analysed.series.settings
         middle = (settings[0].value + settings[-1].value) / 2
         self.at.setText(format_value(middle, analysed.scalar).partition(" mm")[0])
@@ -217,7 +222,11 @@ class SeriesDialog(QDialog):
 
     def _tabulate(self, analysed: AnalysedSeries) -> None:
         columns = [
-            Column(self.tr("File"), [one.path.name for one in analysed.results]),
+            Column(
+                self.tr("File"),
+                [one.path.name for one in analysed.results],
+                lambda name: PurePath(name).stem,  # all are .json
+            ),
             Column(
                 self.scalar.currentText(),
                 [one.value for one in analysed.results],

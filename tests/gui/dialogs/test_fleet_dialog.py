@@ -75,7 +75,7 @@ def test_the_odd_camera_is_first_and_then_what_fails(dialog: FleetDialog) -> Non
     lines = [line.split(",") for line in dialog.table.as_csv().splitlines()]
     assert [line[0] for line in lines[1:3]] == ["camera 4", "lost"]
     assert len(lines) == 22
-    assert "21 cameras: 1 fail, 1 are unlike the others" in dialog.words.text()
+    assert "21 cameras. Failing: 1. Unlike the others" in dialog.words.text()
     rms = {line[0]: line[5] for line in lines[1:]}
     assert float(rms["camera 7"]) == pytest.approx(0.12)
     dialog.table.picked.emit(1)
