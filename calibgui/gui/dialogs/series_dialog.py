@@ -104,9 +104,7 @@ class SeriesDialog(QDialog):
         self.said = QLabel(wordWrap=True)
         self._lay_out()
         self.resize(1000, 620)
-        self._clear(
-            self.tr("Add the result.json of each setting of one camera: three or more.")
-        )
+        self._clear(self.tr("Add the result.json of each setting of one camera: three or more."))
 
     def _lay_out(self) -> None:
         above = QHBoxLayout()

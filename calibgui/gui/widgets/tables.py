@@ -179,12 +179,12 @@ class Table(QTableView):
 
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
-        self.setMouseTracking(True)
-        self.entered.connect(lambda at: self.hovered.emit(self._order.mapToSource(at).row()))
-        self.viewportEntered.connect(lambda: self.hovered.emit(-1))
         self._model = _Model(self)
         self._order = QSortFilterProxyModel(self)
         self._order.setSourceModel(self._model)
+        self.setMouseTracking(True)
+        self.entered.connect(lambda at: self.hovered.emit(self._order.mapToSource(at).row()))
+        self.viewportEntered.connect(lambda: self.hovered.emit(-1))
         self._order.setSortRole(_SORT_ROLE)
         self.setHorizontalHeader(_Titles(self))
         self.setModel(self._order)
