@@ -5,6 +5,11 @@ from __future__ import annotations
 from dataclasses import dataclass
 from enum import StrEnum
 
+MIN_HARM_PX = 0.05
+"""Harm from which a cause is a finding, px: a tenth of what makes a calibration less than good
+(``verdict.py``). A choice, which no benchmark fixed; on clean sets the tests' own rate of false
+alarms counts, whatever it is."""
+
 
 class Cause(StrEnum):
     """The causes that a finding can name."""
@@ -76,11 +81,9 @@ class Finding:
     remedy: str
     """A sentence that says what to do."""
     harm: float
-    """Error of pixels that it causes, px. Of a systematic cause, blur among them, it is what it
-    adds to the standard deviation of pixels where there are corners, rms (``findings.py``), and at
-    least what a lens model leaves of the residuals; of wrong values and corners how far they move
-    the camera's pixels at most; of a lack of views the standard deviation of the worst pixel of the
-    image; and the image's size where the corners are of another frame."""
+    """Error that the cause adds to that of pixels, px rms over the part of the image that corners
+    cover (``findings.py``): of a lens model at least what it leaves of the residuals, and the
+    image's size where the corners are of another frame."""
     views: tuple[int, ...] = ()
     """Indices of the views that it is found in; none if it is in all of them."""
     action: Action | None = None
@@ -88,3 +91,8 @@ class Finding:
     times_better: float = 1.0
     """Ratio by which the action makes the error of pixels smaller, as a trial showed
     (``verdict.py``); 1 if it was not tried or brings nothing."""
+
+
+def describe_harm(harm: float) -> str:
+    """Describe what a cause does to pixels, px, as the end of a sentence."""
+    return f"it adds {harm:.2g} px to the error of pixels where there are corners"

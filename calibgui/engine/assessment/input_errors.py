@@ -1,6 +1,11 @@
 """Errors in what a calibration is given: the corners' frame, held values, misplaced corners.
 
 These come before any test of lens or board, which they would mislead.
+
+The harm of wrong values and corners is measured by doing without them: it is the displacement d of
+the camera's pixels (``comparison.py``), by the root mean square over the part of the image that the
+remaining corners cover. With s' the standard deviation of a pixel without them, its error with them
+is sqrt(d^2 + s'^2), of which d^2 is what they add.
 """
 
 from __future__ import annotations
@@ -12,11 +17,19 @@ import numpy as np
 
 from calibgui.engine.arrays import Array
 from calibgui.engine.assessment.comparison import compare_cameras
-from calibgui.engine.assessment.finding import Action, ActionKind, Cause, Finding
+from calibgui.engine.assessment.finding import (
+    MIN_HARM_PX,
+    Action,
+    ActionKind,
+    Cause,
+    Finding,
+    describe_harm,
+)
 from calibgui.engine.assessment.outliers import (
     Screening,
     estimate_coordinate_sigma,
     screen_outliers,
+    select_corners,
 )
 from calibgui.engine.assessment.residual_statistics import stack_residuals, summarise_residuals
 from calibgui.engine.calibration.calibrate import calibrate
@@ -41,8 +54,6 @@ _MIN_VIEWS_OF_QUARTER, _MIN_EXTENT_OF_QUARTER = 5, 0.3
 """
 _MIN_SIGMAS_MOVED = 4.0
 """Move of a freed parameter, in its standard deviations, from which its value is wrong."""
-_MIN_HARM_OF_VALUE_PX = 0.2
-"""Largest move of the camera's pixels by the freed parameters, px, from which that matters."""
 _MIN_OUTLYING = 6.0
 """Length of the largest residual, in sigma of the median one, from which outliers are looked for:
 of a thousand sets of 4,000 good corners one has such a residual."""
@@ -52,8 +63,6 @@ grossly misplaced, and not missed by the model or by a little."""
 _MAX_RANK = 0.9
 """Part of all corners that lie closer to the centre than the median of the misplaced ones, above
 which a lens that is not followed at the image's edge is the cause."""
-_MIN_HARM_PX = 0.5
-"""Shift of the camera's pixels by misplaced corners, px, from which they matter."""
 _MIN_RISE = 1.3
 """Ratio by which misplaced corners raise the residuals, from which they matter all the same."""
 _MAX_LISTED = 5
@@ -116,10 +125,10 @@ def find_wrong_values(calibration: Calibration, views: Sequence[Observation]) ->
     settings["free"] = [*settings["free"], *by_choice]
     try:
         free = calibrate(views, camera.size, **settings)
-        harm = compare_cameras(free.camera, camera, views=views).worst
     except CalibrationError:  # that is why it is held
         return
-    if harm < _MIN_HARM_OF_VALUE_PX:
+    harm = _measure_harm(camera, free.camera, views)
+    if harm < MIN_HARM_PX:
         return
     before, after = (summarise_residuals(c.residuals).rms for c in (calibration, free))
     for name in by_choice:
@@ -132,7 +141,7 @@ def find_wrong_values(calibration: Calibration, views: Sequence[Observation]) ->
                 f"The views contradict the value at which {name} is held.",
                 f"Held at {camera.params[i]:.6g}, it leaves {before:.3g} px RMS; free it is "
                 f"{free.camera.params[i]:.6g}, {sigmas:.0f} of its standard deviations from there, "
-                f"{after:.3g} px are left, and the camera's pixels move by up to {harm:.2g} px.",
+                f"{after:.3g} px are left; {describe_harm(harm)}.",
                 f"Free {name}, or check where its value comes from.",
                 harm,
                 action=Action(ActionKind.FREE_HELD_VALUE, parameters=(name,)),
@@ -147,6 +156,21 @@ def _recover_plain_settings(calibration: Calibration) -> dict[str, Any]:
     if settings["cost"] is Cost.PAPER:
         del settings["model"]
     return settings
+
+
+def _measure_harm(wrong: Camera, right: Camera, views: Sequence[Observation]) -> float:
+    """Measure how far wrong values or corners move a camera's pixels, px rms.
+
+    It is the image's size where the two cameras have nothing in common.
+
+    Args:
+        wrong, right: the camera with them and without.
+        views: the views without them.
+    """
+    try:
+        return compare_cameras(right, wrong, views=views).rms
+    except CalibrationError:
+        return float(max(wrong.size))
 
 
 def screen_misplaced_corners(
@@ -223,20 +247,21 @@ def describe_misplaced_corners(
     before, after = (
         summarise_residuals(c.residuals).rms for c in (calibration, screening.calibration)
     )
-    try:
-        harm = compare_cameras(screening.calibration.camera, calibration.camera, views=views).worst
-    except CalibrationError:
-        harm = before
-    if harm < _MIN_HARM_PX and before < _MIN_RISE * after:
+    kept = [
+        select_corners(view, good)
+        for view, good in zip(views, screening.kept, strict=True)
+        if good.any()
+    ]
+    harm = _measure_harm(calibration.camera, screening.calibration.camera, kept)
+    if harm < MIN_HARM_PX and before < _MIN_RISE * after:
         return None
     chosen = tuple(r.view for r in worst)
     return Finding(
         Cause.MISPLACED_CORNERS,
         f"Corners are not where the others say, in {listed}{more}.",
-        f"Without them the RMS falls from {before:.3g} to {after:.3g} px, and the camera's pixels "
-        f"move by up to {harm:.2g} px.",
+        f"Without them the RMS falls from {before:.3g} to {after:.3g} px; {describe_harm(harm)}.",
         "Leave outliers out (--robust), or look at the corners of these views.",
-        max(harm, before),
+        harm,
         chosen,
         Action(_choose_action(screening), chosen),
     )

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from calibgui.engine.arrays import Array
+from calibgui.engine.assessment.comparison import compare_cameras
 from calibgui.engine.assessment.finding import Cause, Finding
 from calibgui.engine.assessment.findings import list_findings
 from calibgui.engine.assessment.input_errors import find_wrong_frame
@@ -38,12 +39,14 @@ def test_nothing_is_found_where_nothing_is_wrong() -> None:
 def test_corners_that_are_off_are_named_with_their_view(share: float) -> None:
     uv = np.array(CLEAN[4].uv)
     uv[:: round(1 / share)] += [30.0, -20.0]
-    finding = found(changed(4, uv))[0]
+    views = changed(4, uv)
+    finding = found(views)[0]
     assert finding.cause is Cause.MISPLACED_CORNERS
     assert finding.views == (4,)
     assert "View 5" in finding.message
     assert "--robust" in finding.remedy
-    assert finding.harm > 1
+    error = compare_cameras(barrel(), calibrate(views, VGA).camera, views=CLEAN)
+    assert finding.harm == pytest.approx(error.rms, rel=0.2)
 
 
 def test_a_wrong_lens_is_named_before_the_board() -> None:
@@ -58,6 +61,39 @@ def test_a_held_value_is_named_and_freed() -> None:
     assert "fx" in finding.message
     assert "650" in finding.evidence
     assert found(CLEAN, fix={"fx": 650.0}) == ()
+
+
+def test_harm_of_a_held_value_is_the_error_where_there_are_corners() -> None:
+    calibration = calibrate(CLEAN, VGA, fix={"fx": 640.0})
+    error = compare_cameras(barrel(), calibration.camera, views=CLEAN)
+    (finding,) = list_findings(calibration, CLEAN)
+    assert finding.harm == pytest.approx(error.rms, rel=0.03)
+    assert finding.harm < 0.7 * error.worst
+
+
+def test_views_of_another_camera_are_no_misplaced_corners() -> None:
+    change = np.array([-37.5, -37.5, 15.0, 15.0, 0, 0, 0, 0, 0, 0])
+    made = scene(barrel(), 16, seed=3)
+    others = scene(Camera(VGA, barrel().params + change), 16, seed=3)
+    rng = np.random.default_rng(1)
+    pairs = zip(made.noisy(0.07, rng), others.noisy(0.07, rng), strict=True)
+    (finding,) = found([b if k in (2, 7, 12) else a for k, (a, b) in enumerate(pairs)])
+    assert finding.cause is Cause.MIXED_VIEWS
+    assert finding.views == (2, 7, 12)
+
+
+def test_corners_are_misplaced_where_other_views_have_motion_and_long_tails() -> None:
+    rng, views = np.random.default_rng(1), []
+    for view in scene(barrel(), 12, seed=3).noisy(0.0, rng):
+        moved = (view.uv[:, 1:] / VGA[1] - 0.5) * rng.normal(0, 0.3, 2)
+        noise = 0.04 * rng.standard_t(3, view.uv.shape)
+        views.append(Observation(view.uv + moved + noise, view.xy))
+    first, second = np.array(views[2].uv), np.array(views[5].uv)
+    first[-40:], second[-40:] = views[5].uv[-40:], views[2].uv[-40:]
+    views[2], views[5] = Observation(first, views[2].xy), Observation(second, views[5].xy)
+    finding = found(views)[0]
+    assert finding.cause is Cause.MISPLACED_CORNERS
+    assert set(finding.views[:2]) == {2, 5}
 
 
 def test_a_bent_board_is_named_if_it_matters() -> None:
