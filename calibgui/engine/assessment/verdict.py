@@ -14,7 +14,8 @@ and the remedy makes it e / s' times smaller, by the root mean square over the p
 that the corners of all views cover (``comparison.find_covered_pixels``). So the number in "can be x
 times better" is what a trial gave for the stated errors, and the same comes out when it is done
 again. Where nothing can be tried, e is the standard deviation as it is. A board's shape that brings
-nothing is not what is wrong.
+nothing is not what is wrong; where it leaves pixels too poorly known all the same, the views do not
+tell board and camera apart, and photographs of a stiff board are needed.
 
 Against the truth of 24 rendered sets with shifted rows, wrong held values, bowed boards and unequal
 squares that were remedied (``tests/benchmarks/verdict_gain.py``), e was within 14 % in 22, 30 % off
@@ -176,8 +177,12 @@ def judge_calibration(
             continue
         before, after = _compare_with_trial(calibration, views, trial)
         times = max(_compute_rms(before[covered]) / _compute_rms(after[covered]), 1.0)
-        if times < _MIN_GAIN and trial.action.kind is ActionKind.ESTIMATE_BOARD_SHAPE:
-            continue
+        if trial.action.kind is ActionKind.ESTIMATE_BOARD_SHAPE:
+            if times < MIN_TIMES_BETTER and not np.nanmedian(after) <= MAX_USABLE_PX:
+                tried.append(_ask_for_photographs(finding))
+                continue
+            if times < _MIN_GAIN:
+                continue
         errors.append(before)
         tried.append(_state_gain(finding, trial, times))
     error = np.fmax.reduce(errors) if errors else _map_uncertainty(calibration, views)
@@ -284,7 +289,7 @@ def _try_action_safely(
 def _ask_for_photographs(finding: Finding) -> Finding:
     """Return a finding whose action cannot be tried, with one that helps where that is known.
 
-    The shape of a board that the views do not allow to be estimated takes more of them.
+    The shape of a board that the views do not allow to be estimated well takes more of them.
     """
     if finding.cause is not Cause.BOARD_SHAPE:
         return finding

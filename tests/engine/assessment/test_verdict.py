@@ -134,11 +134,26 @@ def test_a_board_whose_shape_cannot_be_estimated_asks_for_photographs(
     assert verdict.grade is Grade.USABLE
 
 
-def test_a_board_whose_shape_brings_nothing_is_no_finding(monkeypatch: pytest.MonkeyPatch) -> None:
-    def keep_drawing(*given: Any, **settings: Any) -> SimpleNamespace:
+@pytest.fixture
+def keep_drawing(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Estimating a board's shape brings nothing."""
+
+    def choose(*given: Any, **settings: Any) -> SimpleNamespace:
         return SimpleNamespace(model=BoardShapeModel.NOMINAL, chosen=calibrate(*given, **settings))
 
-    monkeypatch.setattr("calibgui.engine.assessment.verdict.choose_board_shape", keep_drawing)
+    monkeypatch.setattr("calibgui.engine.assessment.verdict.choose_board_shape", choose)
+
+
+@pytest.mark.usefixtures("keep_drawing")
+def test_a_board_that_leaves_pixels_too_poorly_known_asks_for_photographs() -> None:
+    _, verdict = judge(inject("bow", 1).views)
+    assert verdict.grade is Grade.NOT_USABLE
+    assert [finding.cause for finding in verdict.findings] == [Cause.BOARD_SHAPE]
+    assert verdict.findings[0].action == Action(ActionKind.PHOTOGRAPH_MORE)
+
+
+@pytest.mark.usefixtures("keep_drawing")
+def test_a_board_whose_shape_brings_nothing_is_no_finding() -> None:
     _, verdict = judge(inject("bow", 0).views)
     assert (verdict.findings, verdict.grade) == ((), Grade.USABLE)
     assert "add views" in verdict.reason  # the standard deviations include the doubt
