@@ -29,7 +29,6 @@ from calibgui.app.result_project import make_project
 from calibgui.dataset import Result, find_orientation
 from calibgui.engine.errors import CalibrationError
 from calibgui.engine.images import FORMATS
-from calibgui.gui.dialogs.print_dialog import PrintDialog
 from calibgui.gui.jobs.job import Job
 from calibgui.gui.session.calibrator import Calibrator
 from calibgui.gui.session.detector import Detector
@@ -228,6 +227,8 @@ class Files(QObject):
 
     def print_board(self) -> None:
         """Offer a board to print, like the project's."""
+        from calibgui.gui.dialogs.print_dialog import PrintDialog
+
         show_dialog(PrintDialog(self._session.project.board, self._window))
 
     def check_images(self) -> None:

@@ -13,7 +13,6 @@ from PySide6.QtWidgets import QDockWidget, QWidget
 from calibgui.app.recent import list_recent
 from calibgui.gui.canvas.image_page import ImagePage
 from calibgui.gui.dialogs.files import Files
-from calibgui.gui.dialogs.help_dialog import HelpDialog
 from calibgui.gui.dialogs.many_cameras import ManyCameras
 from calibgui.gui.dialogs.print_results import ResultPrinter
 from calibgui.gui.images.film_strip import FilmStrip
@@ -213,6 +212,12 @@ class Commands(QObject):
         if (copier := find_copier(self._parent, name)) is not None:
             copier.trigger()
 
+    def _help(self) -> None:
+        """Show how it works."""
+        from calibgui.gui.dialogs.help_dialog import HelpDialog
+
+        show_dialog(HelpDialog(self._parent))
+
     def _describe_calibration(self, calibrate: Callable[[], object]) -> Menu:
         session, files = self._session, self._files
         return Menu(
@@ -298,7 +303,7 @@ class Commands(QObject):
                     text=self.tr("&How it works"),
                     shortcut=Key.HelpContents,
                     tip=self.tr("The workflow on one page"),
-                    run=lambda: show_dialog(HelpDialog(self._parent)),
+                    run=self._help,
                 ),
                 Command(
                     text=self.tr("&Find an action…"),

@@ -23,7 +23,6 @@ from calibgui.engine.calibration import Cost
 from calibgui.engine.errors import CalibrationError
 from calibgui.engine.kernels import COMPILED
 from calibgui.gui.canvas.image_page import ImagePage
-from calibgui.gui.dialogs.bug_dialog import BugDialog
 from calibgui.gui.dialogs.files import Files
 from calibgui.gui.images.film_strip import FilmStrip
 from calibgui.gui.jobs import qt_names
@@ -220,6 +219,8 @@ class MainWindow(QMainWindow):
             self.banner.show_error(error)
             return
         self.files.keep_work()
+        from calibgui.gui.dialogs.bug_dialog import BugDialog
+
         show_dialog(BugDialog(error, self))
 
     def _refresh(self) -> None:
