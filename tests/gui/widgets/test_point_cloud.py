@@ -74,11 +74,3 @@ def test_the_view_encloses_the_points_that_are_known(plot: Plot) -> None:
     cloud.show_points([], [])
     assert cloud.boundingRect().isEmpty()
     picture(plot)  # nothing to draw
-
-
-def test_points_far_outside_are_not_drawn(plot: Plot) -> None:
-    cloud = PointCloud(size=9)
-    plot.addItem(cloud)
-    cloud.show_points([np.array([[0.0, 0.0], [1e12, -1e12]])], [(RED, "o")])
-    plot.getPlotItem().getViewBox().setRange(QRectF(-1, -1, 2, 2))
-    assert colour_at(plot, np.zeros(2)) == RED
