@@ -30,7 +30,9 @@ def make_action(
         scope: where the shortcut works.
     """
     action = QAction(text, parent)
-    if shortcut is not None:
+    if isinstance(shortcut, QKeySequence.StandardKey):
+        action.setShortcuts(shortcut)  # all that are usual: redo is Ctrl+Y and Ctrl+Shift+Z
+    elif shortcut is not None:
         action.setShortcut(QKeySequence(shortcut))
     action.setStatusTip(tip)
     enable_action(action, True, "")
