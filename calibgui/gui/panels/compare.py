@@ -18,8 +18,8 @@ from calibgui.engine.arrays import Array
 from calibgui.engine.assessment import CameraDifference, compare_cameras
 from calibgui.engine.geometry import rotation_from_vector
 from calibgui.engine.images import Image, make_ideal_image
-from calibgui.gui.panels.before_after import BeforeAfter, Grey
 from calibgui.gui.panels.difference_map import DifferenceMap
+from calibgui.gui.panels.divided_images import DividedImages, Grey
 from calibgui.gui.panels.estimates import estimate_columns
 from calibgui.gui.panels.latest import Latest
 from calibgui.gui.panels.panel import Panel
@@ -54,7 +54,7 @@ class ComparePanel(Panel):
         self.parameters = Table()
         self.parameters.setAccessibleName(self.tr("Parameters of both results"))
         self.map = DifferenceMap()
-        self.images = BeforeAfter("", "")
+        self.images = DividedImages("", "")
         self.images.setAccessibleName(self.tr("One image undistorted by both results"))
         self.tabs = QTabWidget(documentMode=True)
         for widget, name in (

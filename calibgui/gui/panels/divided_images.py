@@ -30,7 +30,7 @@ _GRAB = 12.0
 """Distance within which the divider is meant, device-independent px."""
 
 
-class BeforeAfter(QWidget):
+class DividedImages(QWidget):
     """The first image left of the divider, the second right of it.
 
     The divider is dragged or moved by the arrow keys; the wheel and the keys + and - magnify

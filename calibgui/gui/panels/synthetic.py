@@ -19,7 +19,7 @@ from calibgui.dataset import Result
 from calibgui.engine.assessment import summarise_residuals
 from calibgui.engine.errors import Progress
 from calibgui.engine.images import Image, render_view
-from calibgui.gui.panels.before_after import BeforeAfter, Grey
+from calibgui.gui.panels.divided_images import DividedImages, Grey
 from calibgui.gui.panels.latest import Latest
 from calibgui.gui.panels.on_demand import OnDemandPanel
 from calibgui.gui.panels.services import Services
@@ -47,7 +47,7 @@ class SyntheticPanel(OnDemandPanel[SyntheticCheck]):
         self._drawn: set[QWidget] = set()
         """Tabs that show the check already."""
         self.table = ParameterTable()
-        self.images = BeforeAfter(self.tr("real"), self.tr("synthetic"))
+        self.images = DividedImages(self.tr("real"), self.tr("synthetic"))
         self.errors = PoseErrors()
         self.scatters = Scatters()
         self.histograms = Histograms()

@@ -21,8 +21,8 @@ from calibgui.engine.images import (
     make_ideal_image,
     rectify_image,
 )
-from calibgui.gui.panels.before_after import BeforeAfter, Grey
 from calibgui.gui.panels.cube_cross import unfold_cube
+from calibgui.gui.panels.divided_images import DividedImages, Grey
 from calibgui.gui.panels.latest import Latest
 from calibgui.gui.panels.panel import Panel
 from calibgui.gui.panels.services import Services
@@ -71,7 +71,7 @@ class UndistortPanel(Panel):
         self.save_all = QPushButton(self.tr("&Save all…"))
         self.save_one.clicked.connect(lambda: self._save((self._indices[self._shown],)))
         self.save_all.clicked.connect(lambda: self._save(self._indices))
-        self.images = BeforeAfter(self.tr("as taken"), self.tr("undistorted"))
+        self.images = DividedImages(self.tr("as taken"), self.tr("undistorted"))
         self.lost = QLabel()
         self.words = QLabel()
         for label in (self.lost, self.words):

@@ -9,16 +9,16 @@ from PySide6.QtGui import QWheelEvent
 from PySide6.QtWidgets import QApplication
 from pytestqt.qtbot import QtBot
 
-from calibgui.gui.panels.before_after import BeforeAfter
+from calibgui.gui.panels.divided_images import DividedImages
 from tests.gui.panels.conftest import drag
 
 LEFT, NONE = Qt.MouseButton.LeftButton, Qt.KeyboardModifier.NoModifier
 
 
 @pytest.fixture
-def images(qtbot: QtBot) -> BeforeAfter:
+def images(qtbot: QtBot) -> DividedImages:
     """A dark image 400 x 300 before, one that grows lighter to the right after."""
-    shown = BeforeAfter("before", "after")
+    shown = DividedImages("before", "after")
     qtbot.addWidget(shown)
     shown.resize(400, 300)
     ramp = np.tile(np.linspace(50, 250, 400).astype(np.uint8), (300, 1))
@@ -27,7 +27,7 @@ def images(qtbot: QtBot) -> BeforeAfter:
     return shown
 
 
-def wheel(widget: BeforeAfter, at: QPointF, notches: int) -> None:
+def wheel(widget: DividedImages, at: QPointF, notches: int) -> None:
     event = QWheelEvent(
         at,
         QPointF(widget.mapToGlobal(at)),
@@ -41,12 +41,12 @@ def wheel(widget: BeforeAfter, at: QPointF, notches: int) -> None:
     QApplication.sendEvent(widget, event)
 
 
-def pixel_under(images: BeforeAfter, at: QPointF) -> tuple[float, float]:
+def pixel_under(images: DividedImages, at: QPointF) -> tuple[float, float]:
     frame = images.frame
     return (at.x() - frame.left()) / frame.width(), (at.y() - frame.top()) / frame.height()
 
 
-def test_the_wheel_keeps_what_is_under_the_cursor(images: BeforeAfter) -> None:
+def test_the_wheel_keeps_what_is_under_the_cursor(images: DividedImages) -> None:
     at = QPointF(310, 80)
     before = pixel_under(images, at)
     wheel(images, at, 4)
@@ -59,7 +59,7 @@ def test_the_wheel_keeps_what_is_under_the_cursor(images: BeforeAfter) -> None:
 
 
 def test_magnified_images_are_dragged_within_their_bounds(
-    images: BeforeAfter, qtbot: QtBot
+    images: DividedImages, qtbot: QtBot
 ) -> None:
     wheel(images, QPointF(200, 150), 3)
     left = images.frame.left()
@@ -70,7 +70,7 @@ def test_magnified_images_are_dragged_within_their_bounds(
     assert images.frame.right() == pytest.approx(400), "no more is shown than there is"
 
 
-def test_the_divider_is_dragged_when_magnified_as_well(images: BeforeAfter, qtbot: QtBot) -> None:
+def test_the_divider_is_dragged_when_magnified_as_well(images: DividedImages, qtbot: QtBot) -> None:
     wheel(images, QPointF(200, 150), 3)
     frame = images.frame
     drag(qtbot, images, QPoint(200, 100), QPoint(100, 100))
@@ -81,7 +81,7 @@ def test_the_divider_is_dragged_when_magnified_as_well(images: BeforeAfter, qtbo
     assert picture.pixelColor(150, 100).lightness() > 60
 
 
-def test_keys_and_a_double_click(images: BeforeAfter, qtbot: QtBot) -> None:
+def test_keys_and_a_double_click(images: DividedImages, qtbot: QtBot) -> None:
     qtbot.keyClick(images, Qt.Key.Key_Plus)
     assert images.frame.width() == pytest.approx(500)
     qtbot.keyClick(images, Qt.Key.Key_Minus)
@@ -97,7 +97,7 @@ def test_keys_and_a_double_click(images: BeforeAfter, qtbot: QtBot) -> None:
     assert images.divider == pytest.approx(0.45)
 
 
-def test_the_next_image_of_the_same_size_is_seen_at_the_same_place(images: BeforeAfter) -> None:
+def test_the_next_image_of_the_same_size_is_seen_at_the_same_place(images: DividedImages) -> None:
     wheel(images, QPointF(10, 10), 5)
     frame = images.frame
     images.show_images(None, np.zeros((300, 400), np.uint8))
