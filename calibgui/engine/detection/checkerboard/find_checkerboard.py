@@ -33,7 +33,7 @@ from calibgui.engine.detection.checkerboard.numbering import (
     list_numberings,
     place_corners,
 )
-from calibgui.engine.detection.checkerboard.prefilter import find_objection
+from calibgui.engine.detection.checkerboard.prefilter import Refusal, find_objection
 from calibgui.engine.detection.checkerboard.pyramid_search import Candidate, find_candidates
 from calibgui.engine.detection.checkerboard.saddle import refine_lattice
 from calibgui.engine.detection.checkerboard.x_corner_fit import XCornerFit
@@ -59,16 +59,6 @@ _STATE_SIZE = "State the number of inner corners, rows x columns, or leave it ou
 
 class _OtherSizeError(NoBoardError):
     """There are boards, but none of the stated size."""
-
-
-@dataclass(frozen=True, slots=True)
-class Refusal:
-    """Why a lattice is no board."""
-
-    shape: tuple[int, int]
-    """Rows and columns of the lattice."""
-    reason: str
-    """The test that it failed, the end of a sentence."""
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -155,8 +145,9 @@ def _find_wanted_board(
     """
     boards: list[RefinedBoard] = []
     tried: dict[Candidate, list[RefinedBoard | Refusal]] = {}
+    refused: list[Refusal] = []
     searched = None if outline is None else region.enlarge_outline(outline)
-    for candidates in find_candidates(grey, searched):
+    for candidates in find_candidates(grey, searched, on_refusal=refused.append):
         for candidate in candidates:
             if candidate not in tried:
                 tried[candidate] = [
@@ -172,8 +163,9 @@ def _find_wanted_board(
     if boards and grid_size is not None:
         raise _describe_other_sizes(grey, boards, grid_size)
     refusals = [each for results in tried.values() for each in results if isinstance(each, Refusal)]
-    if refusals:
-        raise _describe_refusal(max(refusals, key=lambda each: each.shape[0] * each.shape[1]))
+    for stage in (refusals, refused):  # what came farther is likelier to be meant
+        if stage:
+            raise _describe_refusal(max(stage, key=lambda each: each.shape[0] * each.shape[1]))
     raise NoBoardError(
         "No checkerboard was found.",
         "Mark its four outermost corners, or take the picture again: all of the board in"

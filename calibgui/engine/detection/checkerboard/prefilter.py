@@ -26,6 +26,8 @@ since blur makes discs cross as well.
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+
 import numpy as np
 
 from calibgui.engine.arrays import Array, GreyImage
@@ -48,11 +50,28 @@ from calibgui.engine.detection.checkerboard.verification import (
 from calibgui.engine.detection.lattice import MIN_CORNERS, Lattice
 
 
+@dataclass(frozen=True, slots=True)
+class Refusal:
+    """Why a lattice is no board."""
+
+    shape: tuple[int, int]
+    """Rows and columns of the lattice."""
+    reason: str
+    """The test that it failed, the end of a sentence."""
+
+
 def is_hopeless(lattice: Lattice, image: GreyImage, plain: float = 0.5) -> bool:
-    """Return whether a lattice that may still grow is large enough to tell that it is no board;
-    `plain` as in `is_plausible`."""
-    enough = len(lattice) >= MIN_CORNERS
-    return enough and not is_plausible(lattice, image, is_grown=False, plain=plain)
+    """Return whether a lattice that may still grow is large enough to tell that it is no board:
+    see `find_early_objection`."""
+    return bool(find_early_objection(lattice, image, plain))
+
+
+def find_early_objection(lattice: Lattice, image: GreyImage, plain: float = 0.5) -> str:
+    """Find the rule by which a lattice that may still grow is no board's; empty if it could be one,
+    or is too small to tell. The arguments are those of `find_objection`."""
+    if len(lattice) < MIN_CORNERS:
+        return ""
+    return find_objection(lattice, image, is_grown=False, plain=plain)
 
 
 def is_plausible(

@@ -18,7 +18,7 @@ Pixel (u, v) of a level covers the block around (2u + 1/2, 2v + 1/2) of the next
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import partial
 
 import numpy as np
@@ -29,6 +29,7 @@ from calibgui.engine.arrays import Array, GreyImage
 from calibgui.engine.detection.checkerboard import prefilter, verification
 from calibgui.engine.detection.checkerboard.lattice_growth import PointIndex, grow_lattice
 from calibgui.engine.detection.checkerboard.neighbour_graph import find_lattices
+from calibgui.engine.detection.checkerboard.prefilter import Refusal
 from calibgui.engine.detection.checkerboard.saddle import refine_lattice
 from calibgui.engine.detection.checkerboard.thresholds import THRESHOLDS, JunctionTolerance
 from calibgui.engine.detection.checkerboard.x_junctions import (
@@ -43,6 +44,10 @@ _RANGE_PERCENTILES = (0.5, 99.5)
 """Percentiles of the grey levels between which their range is measured, %."""
 _SPACING_PERCENTILE = 5
 """Percentile of a lattice's spacings that counts as the side of its small squares, %."""
+
+
+OnRefusal = Callable[[Refusal], object]
+"""What is called with every lattice that the prefilter refuses though it is large enough."""
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -66,6 +71,7 @@ class _LevelContent:
     """The junctions' lattices that could be boards, largest first."""
     plain: float
     """How far from the corners nothing is printed, squares: see `find_candidates`."""
+    on_refusal: OnRefusal
 
 
 def find_candidates(
@@ -73,6 +79,7 @@ def find_candidates(
     outline: Array | None = None,
     is_sufficient: Callable[[Lattice], bool] = is_large_enough,
     plain: float = 0.5,
+    on_refusal: OnRefusal = lambda _: None,
 ) -> Iterator[list[Candidate]]:
     """Find all lattices that may be boards, in full resolution but not yet verified.
 
@@ -81,6 +88,7 @@ def find_candidates(
         outline: (m, 2) convex outline, px, that the corners must not leave.
         is_sufficient: test of whether a lattice is large enough to be kept.
         plain: how far from the corners nothing is printed in the squares and on their edges.
+        on_refusal: is told which lattices that are large enough were refused, and why.
 
     Yields:
         The candidates, that of the most corners first: once when a finer level could hardly add to
@@ -98,7 +106,13 @@ def find_candidates(
     waiting: list[tuple[int, list[Lattice]]] = []
     for depth in reversed(range(len(levels))):
         found, too_small = _search_level(
-            levels[depth], min_contrast, outlines[depth], is_sufficient, not depth, plain
+            levels[depth],
+            min_contrast,
+            outlines[depth],
+            is_sufficient,
+            not depth,
+            plain,
+            on_refusal,
         )
         if too_small:
             waiting.append((depth, too_small))
@@ -108,7 +122,9 @@ def find_candidates(
         if is_sure or not depth:
             for k, lattices in waiting:
                 if missed := _select_missed(lattices, k, candidates):
-                    content = _analyse_level(levels[k], min_contrast, outlines[k], plain)
+                    content = _analyse_level(
+                        levels[k], min_contrast, outlines[k], plain, on_refusal
+                    )
                     found = _grow_lattices(content, missed, is_sufficient)
                     candidates = _drop_parts(
                         candidates + [_carry_down(new, levels[:k]) for new in found]
@@ -122,6 +138,7 @@ def find_candidates(
             min_contrast,
             _scale_to_level(outline, depth),
             plain,
+            on_refusal,
             THRESHOLDS.junctions.parted,
         )
         if found := _grow_lattices(content, content.lattices, is_sufficient):
@@ -158,6 +175,7 @@ def _search_level(
     is_sufficient: Callable[[Lattice], bool],
     is_finest: bool,
     plain: float,
+    on_refusal: OnRefusal,
 ) -> tuple[list[Candidate], list[Lattice]]:
     """Search one level for candidates.
 
@@ -166,7 +184,7 @@ def _search_level(
         the level to show all and it is not the finest, no candidates and the lattices that are of
         use only if the finer levels show less.
     """
-    content = _analyse_level(image, min_contrast, outline, plain)
+    content = _analyse_level(image, min_contrast, outline, plain, on_refusal)
     if content.lattices and not is_finest and not _is_resolved(content.lattices[0]):
         return [], content.lattices
     return _grow_lattices(content, content.lattices, is_sufficient), []
@@ -177,6 +195,7 @@ def _analyse_level(
     min_contrast: float,
     outline: Array | None,
     plain: float,
+    on_refusal: OnRefusal,
     tolerance: JunctionTolerance = THRESHOLDS.junctions.crossing,
 ) -> _LevelContent:
     """Find the junctions and the lattices of one level.
@@ -186,6 +205,7 @@ def _analyse_level(
         min_contrast: least contrast of a junction, grey levels.
         outline: (m, 2) convex outline, px, that junctions must not leave.
         plain: how far from the corners nothing is printed, squares.
+        on_refusal: as in `find_candidates`.
         tolerance: what is tolerated in junctions and between them.
     """
     saddles = find_saddles(image, min_contrast)
@@ -194,8 +214,16 @@ def _analyse_level(
     passed, junctions = classify_saddles(saddles, tolerance)
     most = THRESHOLDS.search.max_grown_lattices
     lattices = find_lattices(saddles, junctions, most, tolerance, plain)
-    hopeful = [lattice for lattice in lattices if not prefilter.is_hopeless(lattice, image, plain)]
-    return _LevelContent(image, saddles, saddles.select(passed), hopeful, plain)
+    content = _LevelContent(image, saddles, saddles.select(passed), lattices, plain, on_refusal)
+    return replace(content, lattices=[each for each in lattices if not _refuse(each, content)])
+
+
+def _refuse(lattice: Lattice, content: _LevelContent) -> bool:
+    """Return whether the prefilter refuses a lattice, and report why if it is large enough."""
+    objection = prefilter.find_early_objection(lattice, content.image, content.plain)
+    if objection and is_large_enough(lattice):
+        content.on_refusal(Refusal(lattice.shape, objection))
+    return bool(objection)
 
 
 def _grow_lattices(
@@ -210,11 +238,12 @@ def _grow_lattices(
     grown: list[Lattice] = []
     hopeful: list[Lattice] = []
     for seed in seeds:
-        if any(_is_part(seed, other) for other in grown):
+        if any(is_part(seed, other) for other in grown):
             continue
         lattice = grow_lattice(seed, nearby, beyond, is_hopeless)
         grown.append(lattice)
-        if lattice is seed or not is_hopeless(lattice):  # the seeds passed the prefilter before
+        # The seeds passed the prefilter before.
+        if lattice is seed or not _refuse(lattice, content):
             hopeful.append(verification.drop_stray_lines(lattice, smooth))
     return _drop_parts(
         [
@@ -237,7 +266,7 @@ def _select_missed(
     return [
         lattice
         for lattice in lattices
-        if not any(len(known) >= len(lattice) and _is_part(lattice, known) for known in full)
+        if not any(len(known) >= len(lattice) and is_part(lattice, known) for known in full)
     ]
 
 
@@ -245,12 +274,12 @@ def _drop_parts(candidates: list[Candidate]) -> list[Candidate]:
     """Drop the candidates that are parts of others; return the rest, largest first."""
     kept: list[Candidate] = []
     for candidate in sorted(candidates, key=lambda each: len(each.lattice), reverse=True):
-        if not any(_is_part(candidate.lattice, larger.lattice) for larger in kept):
+        if not any(is_part(candidate.lattice, larger.lattice) for larger in kept):
             kept.append(candidate)
     return kept
 
 
-def _is_part(lattice: Lattice, larger: Lattice) -> bool:
+def is_part(lattice: Lattice, larger: Lattice) -> bool:
     """Return whether a good share of a lattice's corners are another's, to half a step."""
     distance, _ = scipy.spatial.cKDTree(larger.uv[larger.found]).query(lattice.uv[lattice.found])
     shared = np.mean(distance < lattice.spacing()[lattice.found] / 2)

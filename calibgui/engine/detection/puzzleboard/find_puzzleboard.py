@@ -19,11 +19,11 @@ from calibgui.engine.detection.checkerboard import a_contrario
 from calibgui.engine.detection.checkerboard.find_checkerboard import (
     METHODS,
     RefinedBoard,
-    Refusal,
     assemble_corners,
     refine_board,
 )
 from calibgui.engine.detection.checkerboard.numbering import Numbering, turn_lattice
+from calibgui.engine.detection.checkerboard.prefilter import Refusal
 from calibgui.engine.detection.checkerboard.pyramid_search import Candidate, find_candidates
 from calibgui.engine.detection.checkerboard.saddle import refine_lattice
 from calibgui.engine.detection.corners import Corners

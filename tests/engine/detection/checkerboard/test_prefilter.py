@@ -151,6 +151,12 @@ def test_a_grid_of_circles_that_stands_alone_does_not(
         find_corners(image.astype(np.uint8))
 
 
+@pytest.mark.parametrize(("seed", "says"), [(2, "waves"), (8, "printed dots")])
+def test_the_message_names_the_rule_by_which_the_search_refused(seed: int, says: str) -> None:
+    with pytest.raises(NoBoardError, match=says):
+        find_corners(draw_without_board(seed))
+
+
 def test_the_message_names_the_test_that_refused(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(
         find_checkerboard, "find_objection", lambda *_, **__: "its squares differ in size"
