@@ -149,7 +149,8 @@ def _read_board(
         NoBoardError: if there is no such board; the message names the one that is there instead.
     """
     layouts = _list_layouts(pattern, grid_size)
-    readers = [MarkerReader(image, outline), MarkerReader(invert_levels(image), outline)]
+    positive = MarkerReader(image, outline)
+    readers = [positive, MarkerReader(invert_levels(image), outline, positive)]
     for is_inverted, reader in enumerate(readers):
         found = (
             reader.read_dictionary(pattern.dictionary, layouts)

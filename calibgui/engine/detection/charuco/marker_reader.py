@@ -1,9 +1,11 @@
 """Reading the markers of an image: of a stated dictionary, or of whichever it may be.
 
 Reading is slow on large images and for large dictionaries. So the image is read at the coarsest
-size first, and of dictionaries that are not stated only those are read of which the image's dark
-quadrilaterals (`MarkerCandidates`) may be markers. The dictionaries of a family of OpenCV's begin
-alike: the markers of the smallest are the first of all.
+size first, and only those dictionaries are read of which the image's dark quadrilaterals
+(`MarkerCandidates`) may be markers; at the coarsest size, which is quick, a stated one always is.
+At the other sizes to look for quadrilaterals takes long as well where the image is full of texture:
+it is done quickly, and once for dark and for bright markers. The dictionaries of a family of
+OpenCV's begin alike: the markers of the smallest are the first of all.
 """
 
 from __future__ import annotations
@@ -49,16 +51,20 @@ class ReadBoard(NamedTuple):
 class MarkerReader:
     """A reader of the markers of one image, from its coarsest size to its full size."""
 
-    def __init__(self, image: GreyImage, outline: Array | None) -> None:
+    def __init__(
+        self, image: GreyImage, outline: Array | None, positive: MarkerReader | None = None
+    ) -> None:
         """
         Args:
             image: (h, w) 8-bit grey levels.
             outline: (4, 2) px, the region of interest; None for the whole image.
+            positive: the reader of the image that `image` is the negative of, if it is one.
         """
         self._levels = [image]
         while max(self._levels[-1].shape) > _MAX_COARSE_SIDE:
             self._levels.append(opencv.halve_image(self._levels[-1]))
         self._outline = None if outline is None else region.enlarge_outline(outline)
+        self._positive = positive
         self._candidates: dict[int, MarkerCandidates] = {}
         self._read: dict[tuple[int, str], tuple[IntArray, Array]] = {}
 
@@ -68,7 +74,12 @@ class MarkerReader:
         Returns:
             The dictionary and the markers; None if they show no such board.
         """
-        return self._read_first(lambda _: [name], layouts)
+
+        def list_if_likely(depth: int) -> list[str]:
+            is_coarsest = depth == len(self._levels) - 1
+            return [name] if is_coarsest else self._select_likely([name], depth)
+
+        return self._read_first(list_if_likely, layouts)
 
     def search_dictionaries(self, layouts: Collection[MarkerLayout]) -> ReadBoard | None:
         """Read the markers of an unknown dictionary on a board of one of the layouts.
@@ -95,8 +106,7 @@ class MarkerReader:
 
     def _may_show_more(self, dictionary: str, board: ReadBoard) -> bool:
         """Return whether more quadrilaterals may be markers of a dictionary than were read."""
-        seen = self._find_candidates(len(self._levels) - 1)
-        return seen.count_fitting(dictionary) > board.count_markers()
+        return self._count_fitting(dictionary, len(self._levels) - 1) > board.count_markers()
 
     def _read_first(
         self, names: Callable[[int], Iterable[str]], layouts: Collection[MarkerLayout]
@@ -112,14 +122,22 @@ class MarkerReader:
 
     def _select_likely(self, names: list[str], depth: int) -> list[str]:
         """Select the dictionaries of which enough quadrilaterals may be markers."""
-        seen = self._find_candidates(depth)
         least = CHARUCO_THRESHOLDS.min_markers
-        return [name for name in names if seen.count_fitting(name) >= least]
+        return [name for name in names if self._count_fitting(name, depth) >= least]
+
+    def _count_fitting(self, dictionary: str, depth: int) -> int:
+        """Count the quadrilaterals of one level that may be markers of a dictionary."""
+        is_coarsest = depth == len(self._levels) - 1
+        if self._positive is not None and not is_coarsest:
+            seen = self._positive._find_candidates(depth)
+            return seen.count_fitting(dictionary, is_inverted=True)
+        return self._find_candidates(depth).count_fitting(dictionary)
 
     def _find_candidates(self, depth: int) -> MarkerCandidates:
         """Find the quadrilaterals of one level of the pyramid, once."""
         if depth not in self._candidates:
-            self._candidates[depth] = MarkerCandidates(self._levels[depth])
+            is_coarsest = depth == len(self._levels) - 1
+            self._candidates[depth] = MarkerCandidates(self._levels[depth], not is_coarsest)
         return self._candidates[depth]
 
     def _read_markers(self, depth: int, name: str) -> tuple[IntArray, Array]:

@@ -25,7 +25,11 @@ from calibgui.engine.detection.checkerboard.edge_profiles import measure_edge_pr
 from calibgui.engine.detection.checkerboard.x_corner_fit import fit_x_corners
 from calibgui.engine.detection.lattice import Lattice
 from calibgui.engine.detection.puzzleboard.dot_levels import measure_dots
-from calibgui.engine.detection.puzzleboard.place_decoding import Dots
+from calibgui.engine.detection.puzzleboard.place_decoding import (
+    Dots,
+    StatedBoard,
+    find_place_of_print,
+)
 
 PLAIN = 0.8 * (1 - DOT_DIAMETER) / 2
 """How far from the corners squares and edges are read, squares: most of the way to the dots."""
@@ -34,6 +38,9 @@ _MAX_SHARP_BLUR = 0.2 * (1 - DOT_DIAMETER) / 2 / 2.5
 _NEARER = 0.75
 """Distance from the corners at which edges are measured for the first time, over that of a board
 without dots."""
+_MAX_DOUBT = 0.5
+"""Greatest probability that the dots have another place on the pattern, or none, at which they are
+removed: textures have none, and to compute thousands of dots takes long."""
 _ROUNDS = 2
 """Number of times that contrast and blur are measured again without dots: the blur of squares of
 8 px is then known to 2 %."""
@@ -63,13 +70,16 @@ def _divide_half_disc() -> tuple[Array, Array, float]:
 _POINTS, _AREAS, _CELL_SIDE = _divide_half_disc()
 
 
-def remove_blurred_dots(image: GreyImage, lattice: Lattice) -> GreyImage:
+def remove_blurred_dots(
+    image: GreyImage, lattice: Lattice, stated: StatedBoard | None = None
+) -> GreyImage:
     """Return an image without the dots of a PuzzleBoard, or as it is if they are sharp enough not
-    to disturb the corners.
+    to disturb the corners, or if what is seen between these are hardly such dots.
 
     Args:
         image: (h, w) grey levels.
         lattice: the board's corners.
+        stated: the part of the pattern that is expected, None if that is open.
 
     Returns:
         (h, w) grey levels of the same type.
@@ -78,6 +88,9 @@ def remove_blurred_dots(image: GreyImage, lattice: Lattice) -> GreyImage:
     if blur <= _MAX_SHARP_BLUR * np.nanmedian(lattice.spacing()):
         return image
     dots = measure_dots(image, lattice)
+    place, _ = find_place_of_print(dots, stated)
+    if place.doubt > _MAX_DOUBT:
+        return image
     cleaned = _subtract_dots(image, lattice, dots, contrast, blur)
     for _ in range(_ROUNDS):
         # Without dots, even roughly, the edges tell contrast and blur much better.

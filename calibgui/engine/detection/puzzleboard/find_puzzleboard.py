@@ -24,16 +24,21 @@ from calibgui.engine.detection.checkerboard.find_checkerboard import (
 )
 from calibgui.engine.detection.checkerboard.numbering import Numbering, turn_lattice
 from calibgui.engine.detection.checkerboard.prefilter import Refusal
-from calibgui.engine.detection.checkerboard.pyramid_search import Candidate, find_candidates
+from calibgui.engine.detection.checkerboard.pyramid_search import (
+    Candidate,
+    find_candidates,
+    is_part,
+)
 from calibgui.engine.detection.checkerboard.saddle import refine_lattice
 from calibgui.engine.detection.corners import Corners
 from calibgui.engine.detection.detector_io import check_grey_levels
+from calibgui.engine.detection.lattice import Lattice
 from calibgui.engine.detection.puzzleboard.dot_levels import measure_dots
 from calibgui.engine.detection.puzzleboard.dot_removal import PLAIN, remove_blurred_dots
 from calibgui.engine.detection.puzzleboard.place_decoding import (
     Place,
     StatedBoard,
-    find_place,
+    find_place_of_print,
     is_certain,
 )
 from calibgui.engine.errors import NoBoardError
@@ -92,11 +97,21 @@ def _find_boards(
     for candidates in find_candidates(grey, searched, plain=PLAIN):
         for candidate in candidates:
             if candidate not in tried:
-                tried[candidate] = _verify_candidate(grey, candidate, method, stated)
-        placed = [each for candidate in candidates if (each := tried[candidate])]
+                tried[candidate] = _find_known(candidate.lattice, placed) or _verify_candidate(
+                    grey, candidate, method, stated
+                )
+        placed = [*dict.fromkeys(each for candidate in candidates if (each := tried[candidate]))]
         if any(is_certain(each.place) for each in placed):
             break
     return placed
+
+
+def _find_known(lattice: Lattice, placed: list[_PlacedBoard]) -> _PlacedBoard | None:
+    """Find the board that a lattice shows no more of, if it is placed already."""
+    for each in placed:
+        if len(lattice) <= len(each.board) and is_part(lattice, each.board.lattice):
+            return each
+    return None
 
 
 def _verify_candidate(
@@ -104,24 +119,13 @@ def _verify_candidate(
 ) -> _PlacedBoard | None:
     """Return the board that a candidate is, None if it is none or may be one by chance."""
     lattice, _ = refine_lattice(grey, candidate.lattice, plain=PLAIN)
-    board = refine_board(remove_blurred_dots(grey, lattice), lattice, method, PLAIN)
+    board = refine_board(remove_blurred_dots(grey, lattice, stated), lattice, method, PLAIN)
     if isinstance(board, Refusal) or not a_contrario.is_meaningful(
         board.lattice.found, candidate.others
     ):
         return None
-    return _place_board(grey, board, stated)
-
-
-def _place_board(grey: GreyImage, board: RefinedBoard, stated: StatedBoard | None) -> _PlacedBoard:
-    """Find the place of a board by its dots, which an inverted print or a mirror may show."""
-    dots = measure_dots(grey, board.lattice)
-    place = find_place(dots, stated)
-    if is_certain(place):
-        return _PlacedBoard(board, place, is_mirrored=False)
-    for other, is_mirrored in ((dots.invert(), False), (dots.mirror(), True)):
-        if is_certain(found := find_place(other, stated)):
-            return _PlacedBoard(board, found, is_mirrored)
-    return _PlacedBoard(board, place, is_mirrored=False)
+    place, is_mirrored = find_place_of_print(measure_dots(grey, board.lattice), stated)
+    return _PlacedBoard(board, place, is_mirrored)
 
 
 def _explain_missing_board(placed: list[_PlacedBoard]) -> NoBoardError:

@@ -146,6 +146,22 @@ def find_place(dots: Dots, board: StatedBoard | None = None) -> Place:
     return Place(quarters, (first[0], first[1]), doubt)
 
 
+def find_place_of_print(dots: Dots, board: StatedBoard | None = None) -> tuple[Place, bool]:
+    """Find the likeliest place of dots that may be printed inversely or seen in a mirror.
+
+    Returns:
+        The place, and whether only the mirror image of the dots has one; if none is certain, the
+        likeliest place of the dots as they are.
+    """
+    place = find_place(dots, board)
+    if is_certain(place):
+        return place, False
+    for other, is_mirrored in ((dots.invert(), False), (dots.mirror(), True)):
+        if is_certain(found := find_place(other, board)):
+            return found, is_mirrored
+    return place, False
+
+
 def is_certain(place: Place) -> bool:
     """Return whether so little speaks for anything else that a place can be trusted."""
     return place.doubt <= _MAX_DOUBT

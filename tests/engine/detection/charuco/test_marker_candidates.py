@@ -7,10 +7,12 @@ import numpy as np
 import pytest
 
 from calibgui.engine import arrays, opencv
+from calibgui.engine.boards.board import Board
 from calibgui.engine.boards.charuco import Charuco
 from calibgui.engine.detection.charuco.marker_candidates import MarkerCandidates
 from calibgui.engine.detection.find_corners import find_corners
 from calibgui.engine.errors import NoBoardError
+from tests.engine.detection.conftest import Scene
 from tests.scenes.without_board import draw_without_board
 
 NAMES = ["DICT_4X4_50", "DICT_5X5_250", "DICT_6X6_50", "DICT_7X7_1000", "DICT_ARUCO_ORIGINAL"]
@@ -54,3 +56,37 @@ def test_no_marker_is_read_where_nothing_fits(seed: int, monkeypatch: pytest.Mon
     with pytest.raises(NoBoardError):
         find_corners(draw_without_board(seed), None, pattern=Charuco())
     assert not read
+
+
+@pytest.mark.parametrize("is_inverted", [False, True])
+def test_most_are_found_quickly_dark_and_bright(is_inverted: bool) -> None:
+    image = page(NAMES[0], 0.7, 2.0)
+    candidates = MarkerCandidates(255 - image if is_inverted else image, is_quick=True)
+    assert candidates.count_fitting(NAMES[0], is_inverted) >= 10
+    assert candidates.count_fitting(NAMES[0], not is_inverted) <= 2
+
+
+def test_large_images_without_markers_are_read_at_their_coarsest_size_only(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    read = []
+    markers = opencv.detect_markers
+
+    def detect(image: arrays.GreyImage, name: str) -> tuple[arrays.IntArray, arrays.Array]:
+        read.append(image.shape)
+        return markers(image, name)
+
+    monkeypatch.setattr(opencv, "detect_markers", detect)
+    image = np.random.default_rng(0).integers(0, 256, (1200, 1800)).astype(np.uint8)
+    with pytest.raises(NoBoardError):
+        find_corners(image, pattern=Charuco(NAMES[0]))
+    assert set(read) == {(600, 900)}
+
+
+@pytest.mark.parametrize("is_inverted", [False, True])
+def test_markers_that_show_at_full_size_only_are_read(is_inverted: bool) -> None:
+    small = Scene(Board(5, 8, 20.0, Charuco(NAMES[0], 0.7, False)), distance=900.0).image()
+    image = np.full((1300, 1700), small[0, 0], np.uint8)
+    image[200:950, 300:1300] = small
+    corners = find_corners(255 - image if is_inverted else image, pattern=Charuco(NAMES[0]))
+    assert len(corners) > 30

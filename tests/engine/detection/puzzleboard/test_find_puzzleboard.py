@@ -14,10 +14,15 @@ from calibgui.engine.boards.checkerboard import CHECKERBOARD
 from calibgui.engine.boards.pattern import Symmetry
 from calibgui.engine.boards.puzzleboard import PuzzleBoard
 from calibgui.engine.camera.camera import Camera
+from calibgui.engine.camera.distortion import project_points
 from calibgui.engine.detection.corners import Corners
 from calibgui.engine.detection.find_corners import find_corners
+from calibgui.engine.detection.lattice import Lattice
+from calibgui.engine.detection.puzzleboard import find_puzzleboard
+from calibgui.engine.detection.puzzleboard.dot_removal import remove_blurred_dots
 from calibgui.engine.errors import NoBoardError
 from tests.engine.detection.conftest import Scene
+from tests.scenes.perspective import photograph_board
 
 _CAMERA = Camera((480, 400), [480.0, 482.0, 240.0, 200.0, 0.1, 0.02, 0.0, 1e-4, 0.0, 0.0])
 _PATTERN = PuzzleBoard((50, 101))
@@ -98,6 +103,30 @@ def test_mirrored_inverted_and_without_dots() -> None:
         find_corners(checkerboard, pattern=PuzzleBoard())
     with pytest.raises(NoBoardError, match="No PuzzleBoard"):
         find_corners(np.full((200, 300), 128, np.uint8), pattern=PuzzleBoard())
+
+
+def test_a_board_without_dots_is_verified_once(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Every level of the image shows it again."""
+    verified = []
+    refine = find_puzzleboard.refine_board
+    monkeypatch.setattr(
+        find_puzzleboard, "refine_board", lambda *args: verified.append(1) or refine(*args)
+    )
+    image = photograph_board((1600, 1200), (6, 9), 96, 1.0)
+    with pytest.raises(NoBoardError, match="dots of the 6 x 9 corners"):
+        find_corners(image, pattern=PuzzleBoard())
+    assert len(verified) == 1
+
+
+def test_only_what_may_be_dots_is_removed() -> None:
+    """Waves have thousands of places for dots, and to compute these takes long."""
+    uv = project_points(_BOARD.points(), _CAMERA, _SCENE.pose).reshape(8, 10, 2)
+    image = _SCENE.image(2.0)
+    assert remove_blurred_dots(image, Lattice(uv, dark=False)) is not image
+    v, u = np.indices((400, 480))
+    waves = 127 + 80 * np.sin(np.pi * (u - 60) / 30) * np.sin(np.pi * (v - 60) / 30)
+    crossings = 60.0 + 30 * np.stack(np.meshgrid(np.arange(10), np.arange(8)), axis=-1)
+    assert remove_blurred_dots(waves, Lattice(crossings, dark=True)) is waves
 
 
 def test_a_wrong_statement_is_told() -> None:
