@@ -159,7 +159,8 @@ def search_view(
         corners = find_corners(image.pixels, grid_size, view.roi, method, pattern=pattern)
     except NoBoardError as error:
         return view.refuse(ViewStatus.NO_BOARD, f"{error} {doubt}".rstrip())
-    note = view.note if doubt in view.note else f"{view.note} {doubt}".lstrip()
+    said = [view.note, *(each for each in (doubt, corners.remark) if each not in view.note)]
+    note = " ".join(filter(None, said))
     return replace(view, status=ViewStatus.FOUND, reason="", note=note, corners=corners)
 
 

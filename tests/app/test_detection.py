@@ -21,6 +21,7 @@ from calibgui.engine.detection.corners import Corners
 from calibgui.engine.errors import CalibrationError, Cancelled
 from calibgui.engine.images.reading import read_image, write_image
 from tests.photographs import BOARD, CAMERA, COUNT, draw_poses
+from tests.scenes.troubles import TROUBLES
 
 
 @pytest.fixture(scope="module")
@@ -193,3 +194,11 @@ def test_parts_alone_do_not_tell_the_size() -> None:
     with pytest.raises(CalibrationError, match="largest part seen has 5 x 7 inner corners"):
         Detection(tuple(views), (640, 480), None).corner_set(30.0)
     assert Detection(tuple(views), (640, 480), (5, 7)).corner_set(30.0).board == Board(5, 7, 30.0)
+
+
+def test_a_board_cut_at_a_crease_is_pointed_out(tmp_path: Path) -> None:
+    path = tmp_path / "corner.png"
+    write_image(path, TROUBLES["crease"](1).image)
+    view = search_view(View(str(path)))
+    assert "cut at what looks like a crease" in view.note
+    assert search_view(view).note == view.note

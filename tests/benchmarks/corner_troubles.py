@@ -7,8 +7,7 @@ named, and prints per trouble how many boards are found whole, and how many corn
 wrong: ours with the size unknown, ours with it stated, and OpenCV's sector-based finder, which is
 told the size and flags to search long. Of several boards in a photograph one is asked for where the
 size is stated, the first; where it is not, any whole one will do. What counts as right is said by
-`tests.scenes.tally`. Behind glass corners that the edge of a reflection draws aside are lost on
-purpose: they are 0.1 to 0.6 px off.
+`tests.scenes.tally`.
 """
 
 from __future__ import annotations

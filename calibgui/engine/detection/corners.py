@@ -82,6 +82,9 @@ class Corners:
     """Corners that were seen but are not trusted."""
     others: tuple[OtherBoard, ...] = ()
     """Further boards in the image."""
+    remark: str = ""
+    """What the user should know of how the board was found, a sentence; mostly empty. It is not
+    stored with the corners: a view keeps it as its note."""
     pattern: Pattern = CHECKERBOARD
     """The pattern that they belong to, with its unknown fields as this image shows them."""
 

@@ -9,11 +9,9 @@ leaves more unexplained than it does elsewhere.
 
 from __future__ import annotations
 
-from dataclasses import fields
-
 import numpy as np
 
-from calibgui.engine.arrays import Array, BoolArray, GreyImage
+from calibgui.engine.arrays import BoolArray, GreyImage
 from calibgui.engine.detection.apriltags.near_priors import NearPriors
 from calibgui.engine.detection.charuco.corners_between_markers import (
     refine_corners,
@@ -21,8 +19,7 @@ from calibgui.engine.detection.charuco.corners_between_markers import (
 )
 from calibgui.engine.detection.checkerboard import verification, x_corner_fit
 from calibgui.engine.detection.checkerboard.thresholds import THRESHOLDS
-from calibgui.engine.detection.checkerboard.x_corner_fit import XCornerFit
-from calibgui.engine.detection.checkerboard.x_corner_model import XCornerModel
+from calibgui.engine.detection.checkerboard.x_corner_fit import XCornerFit, replace_fits
 from calibgui.engine.detection.corners import RejectedCorner
 from calibgui.engine.detection.detector_io import list_rejected_corners
 from calibgui.engine.detection.lattice import Lattice
@@ -108,30 +105,4 @@ def _fit_again_near(
     near = x_corner_fit.fit_x_corners(
         image, lattice.select(large), priors=NearPriors(places, 2 * plain)
     )
-    return _replace_fits(fit, near, large[found], suspect[large[found]])
-
-
-def _replace_fits(
-    fit: XCornerFit, other: XCornerFit, fitted: BoolArray, better: BoolArray
-) -> XCornerFit:
-    """Replace fits by others.
-
-    Args:
-        fit: at n corners.
-        other: at the m of them under the mask `fitted` (n,).
-        better: (m,) True where the other is taken.
-    """
-    at = np.flatnonzero(fitted)[better]
-
-    def choose(mine: Array, its: Array) -> Array:
-        result = mine.copy()
-        result[at] = its[better]
-        return result
-
-    names = [field.name for field in fields(XCornerModel)]
-    model = XCornerModel(
-        **{name: choose(getattr(fit.model, name), getattr(other.model, name)) for name in names}
-    )
-    return XCornerFit(
-        model, choose(fit.covariance, other.covariance), choose(fit.residual, other.residual)
-    )
+    return replace_fits(fit, near, large[found], suspect[large[found]])

@@ -69,6 +69,8 @@ class RefinedBoard:
     rejected: tuple[RejectedCorner, ...]
     fit: XCornerFit | None
     """The edge model at the lattice's corners, None if the method is another."""
+    cut_from: tuple[int, int] | None = None
+    """Rows and columns of the lattice that it was cut from at a crease, None if it was not."""
 
     def __len__(self) -> int:
         return len(self.lattice)
@@ -150,10 +152,7 @@ def _find_wanted_board(
     for candidates in find_candidates(grey, searched, on_refusal=refused.append):
         for candidate in candidates:
             if candidate not in tried:
-                tried[candidate] = [
-                    _verify_lattice(grey, part, candidate.others, method)
-                    for part in separate_boards(candidate.lattice, grey)
-                ]
+                tried[candidate] = _verify_parts(grey, candidate, method)
         results = (result for candidate in candidates for result in tried[candidate])
         boards = [board for board in results if isinstance(board, RefinedBoard)]
         boards.sort(key=lambda board: board.edge_length, reverse=True)
@@ -171,6 +170,21 @@ def _find_wanted_board(
         "Mark its four outermost corners, or take the picture again: all of the board in"
         " view, sharp and evenly lit.",
     )
+
+
+def _verify_parts(
+    grey: GreyImage, candidate: Candidate, method: str
+) -> list[RefinedBoard | Refusal]:
+    """Take a candidate apart where it is cut by a crease, and verify the parts."""
+    parts = separate_boards(candidate.lattice, grey)
+    results = [_verify_lattice(grey, part, candidate.others, method) for part in parts]
+    if len(parts) == 1:
+        return results
+    shape = candidate.lattice.shape
+    return [
+        replace(each, cut_from=shape) if isinstance(each, RefinedBoard) else each
+        for each in results
+    ]
 
 
 def _verify_lattice(
@@ -255,10 +269,10 @@ def _fit_board(
             return Refusal(lattice.shape, objection)
         if method == "saddle":
             return RefinedBoard(lattice, tuple(rejected), None)
-        fit = x_corner_fit.fit_x_corners(grey, lattice, bare_edge=plain)
+        fit, displacement = _fit_undisturbed(grey, lattice, plain)
         described = verification.find_described_corners(fit, lattice)
-        displaced = described & verification.find_displaced_corners(fit, lattice)
-        good = described & ~displaced
+        near = verification.find_tolerable_displacements(displacement, lattice)
+        good = described & near
         if good.all():
             is_board = verification.has_step_edges(fit) or (
                 verification.stands_alone(lattice, grey)
@@ -266,17 +280,45 @@ def _fit_board(
             )
             if not is_board:
                 return Refusal(lattice.shape, verification.TOO_BLURRED)
-            return RefinedBoard(lattice, tuple(rejected), fit)
+            return RefinedBoard(lattice, tuple(rejected), fit.widen(displacement))
         failed += int(np.count_nonzero(~described))
         if not verification.is_credible(failed, int(np.count_nonzero(described)) + failed):
             break
         uv = lattice.uv[lattice.found]
         rejected += list_rejected_corners(uv[~described], "not two crossing edges")
-        rejected += list_rejected_corners(uv[displaced], "drawn aside by what is seen there")
+        rejected += list_rejected_corners(
+            uv[described & ~near], "drawn aside by what is seen there"
+        )
         keep = lattice.found
         keep[keep] = good
         lattice = drop_isolated_and_crop(lattice.select(keep))
     return Refusal(shape, _TOO_MANY_FAIL)
+
+
+def _fit_undisturbed(grey: GreyImage, lattice: Lattice, plain: float) -> tuple[XCornerFit, Array]:
+    """Fit the edge model at all corners of a lattice, and find those that something draws aside.
+
+    These mislead what is taken from the whole board. So the others are fitted without them, until
+    no more are found, and say how far each is off.
+
+    Returns:
+        The fit, and how far (n,) px corners are drawn aside; 0 for most.
+    """
+    fit = x_corner_fit.fit_x_corners(grey, lattice, bare_edge=plain)
+    part, undisturbed = fit, lattice.found
+    for _ in range(_MAX_ROUNDS):
+        rest = lattice.select(undisturbed)
+        displaced = verification.find_displaced_corners(part, rest)
+        if not displaced.any():
+            break
+        undisturbed[undisturbed] = ~displaced
+        part = x_corner_fit.fit_x_corners(grey, lattice.select(undisturbed), bare_edge=plain)
+    kept = undisturbed[lattice.found]
+    if kept.all():
+        return fit, np.zeros(len(lattice))
+    fit = x_corner_fit.replace_fits(fit, part, kept, np.ones(len(part.uv), np.bool_))
+    off = verification.measure_displacements(fit.uv, lattice, undisturbed)
+    return fit, np.where(kept, 0.0, off)
 
 
 def find_marked_board(
@@ -409,6 +451,7 @@ def assemble_corners(
         relative=is_relative(numberings),
         rejected=board.rejected,
         others=tuple(map(_summarise_board, others)),
+        remark="" if board.cut_from is None else _describe_cut(board.cut_from),
     )
     fit = board.fit
     if fit is None:
@@ -421,6 +464,16 @@ def assemble_corners(
         blur=fit.blur[order],
         contrast=fit.contrast[order],
         residual=fit.residual[order],
+    )
+
+
+def _describe_cut(shape: tuple[int, int]) -> str:
+    """Return a sentence that says of which lattice a board is a part."""
+    rows, cols = sorted(shape)
+    return (
+        f"{rows} x {cols} corners hang together here and were cut at what looks like a crease"
+        " between two boards; if they are one, flatten it, or mark its outermost corners and state"
+        " its size."
     )
 
 

@@ -11,7 +11,7 @@ squares. The rules, in the order in which they are asked:
   no corner (`drop_broken_lines`);
 - border lines of few corners behind the end of the board are left out (`drop_stray_lines`);
 - the edge model fitted to a corner describes it (`find_described_corners`), and those that it
-  describes worse are not drawn aside (`find_displaced_corners`);
+  describes worse are hardly drawn aside (`find_displaced_corners`);
 - the edges step from one square to the next (`has_step_edges`): waves cross likewise, only wider.
 
 The prefilter (`prefilter`) and the test against chance (`a_contrario`) are asked as well. Their
@@ -209,7 +209,7 @@ def find_described_corners(
         limits.max_relative_residual * typical, limits.max_residual_to_contrast * fit.contrast
     )
     return np.asarray(
-        (shift <= np.maximum(limits.max_fit_shift * spacing, limits.min_fit_shift_limit))
+        (shift <= _limit_fit_shift(spacing))
         & ~(askew & (fit.residual > limits.suspect_relative_residual * typical))
         & (fit.contrast > limits.min_relative_contrast * np.median(fit.contrast))
         & (fit.residual <= max_residual)
@@ -235,18 +235,43 @@ def find_displaced_corners(fit: XCornerFit, lattice: Lattice) -> BoolArray:
     good = fit.residual <= limits.suspect_relative_residual * np.median(fit.residual)
     if good.all():
         return ~good
-    cells = np.argwhere(lattice.found)
-    uv = lattice.uv.copy()
-    uv[lattice.found] = fit.uv
     mask = lattice.found
     mask[mask] = good
-    expected = grid_map.fit_grid_map(Lattice(uv, lattice.dark).select(mask)).locate(
-        cells.astype(np.float64)
-    )
-    off = np.linalg.norm(fit.uv - expected, axis=1)
+    off = measure_displacements(fit.uv, lattice, mask)
     usual = np.sqrt(np.mean(off[good] ** 2))
     limit = max(limits.max_relative_displacement * usual, limits.max_displacement)
     return np.asarray(~good & ~(off <= limit))
+
+
+def measure_displacements(fitted: Array, lattice: Lattice, undisturbed: BoolArray) -> Array:
+    """Measure how far corners lie from where the undisturbed ones expect them.
+
+    Args:
+        fitted: (n, 2) px, the corners after the fit.
+        lattice: the n corners before it.
+        undisturbed: (rows, cols) those of them whose smooth grid map is taken.
+
+    Returns:
+        (n,) px.
+    """
+    uv = lattice.uv.copy()
+    uv[lattice.found] = fitted
+    expected = grid_map.fit_grid_map(Lattice(uv, lattice.dark).select(undisturbed)).locate(
+        np.argwhere(lattice.found).astype(np.float64)
+    )
+    return np.asarray(np.linalg.norm(fitted - expected, axis=1))
+
+
+def find_tolerable_displacements(displacement: Array, lattice: Lattice) -> BoolArray:
+    """Find the corners of a lattice that are drawn aside, (n,) px, by no more than the edge fit may
+    move them: with a covariance as large they are still of use."""
+    return np.asarray(displacement <= _limit_fit_shift(lattice.spacing()[lattice.found]))
+
+
+def _limit_fit_shift(spacing: Array) -> Array:
+    """Return how far corners `spacing` (n,) px apart may lie from where they are expected, px."""
+    limits = THRESHOLDS.verification
+    return np.maximum(limits.max_fit_shift * spacing, limits.min_fit_shift_limit)
 
 
 def has_step_edges(fit: XCornerFit, is_alone: bool = False) -> bool:

@@ -40,12 +40,12 @@ over all corners. The difference of a corner's blurs is held near it.
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, fields, replace
 
 import numpy as np
 
 from calibgui.engine import kernels
-from calibgui.engine.arrays import Array, GreyImage
+from calibgui.engine.arrays import Array, BoolArray, GreyImage
 from calibgui.engine.detection.checkerboard import edge_profiles
 from calibgui.engine.detection.checkerboard.board_priors import BoardPriors, PredictedBoardPriors
 from calibgui.engine.detection.checkerboard.fit_thresholds import FIT_THRESHOLDS
@@ -93,6 +93,38 @@ class XCornerFit:
     def contrast(self) -> Array:
         """(n,) bright minus dark, grey levels."""
         return 2 * self.model.unknowns[A]
+
+    def widen(self, displacement: Array) -> XCornerFit:
+        """Return the fit with the covariances of corners that are drawn aside, by `displacement`
+        (n,) px, so much larger that they expect it: its square, shared by both axes."""
+        added = displacement[:, None, None] ** 2 / 2 * np.eye(2)
+        return replace(self, covariance=self.covariance + added)
+
+
+def replace_fits(
+    fit: XCornerFit, other: XCornerFit, fitted: BoolArray, better: BoolArray
+) -> XCornerFit:
+    """Replace fits by others.
+
+    Args:
+        fit: at n corners.
+        other: at the m of them under the mask `fitted` (n,).
+        better: (m,) True where the other is taken.
+    """
+    at = np.flatnonzero(fitted)[better]
+
+    def choose(mine: Array, its: Array) -> Array:
+        result = mine.copy()
+        result[at] = its[better]
+        return result
+
+    names = [field.name for field in fields(XCornerModel)]
+    model = XCornerModel(
+        **{name: choose(getattr(fit.model, name), getattr(other.model, name)) for name in names}
+    )
+    return XCornerFit(
+        model, choose(fit.covariance, other.covariance), choose(fit.residual, other.residual)
+    )
 
 
 def fit_x_corners(

@@ -13,24 +13,16 @@ VARIANTS = 12
 """Number of variants; ``tests.benchmarks.corner_troubles`` draws 20."""
 FEW = 3
 """Number of variants that are always drawn; the others take long."""
-DRAWN_ASIDE = "glass"
-"""The trouble in which corners that a reflection's edge runs through are left out on purpose."""
 
 
 def find(name: str, seed: int) -> Tally:
-    """What is found in one variant, its size unknown. Lost corners that were seen and refused as
-    drawn aside are no loss."""
+    """What is found in one variant, its size unknown."""
     photograph = TROUBLES[name](seed)
     try:
         corners = find_corners(photograph.image)
     except NoBoardError:
         return judge(photograph, None)
-    tally = judge(photograph, (corners.grid, corners.uv))
-    if name == DRAWN_ASIDE:
-        aside = sum(each.reason.startswith("drawn aside") for each in corners.rejected)
-        assert tally.lost <= aside <= 8
-        return Tally(1, int(tally.wrong == 0), 0, tally.wrong)
-    return tally
+    return judge(photograph, (corners.grid, corners.uv))
 
 
 @pytest.mark.parametrize("name", TROUBLES)
@@ -61,3 +53,4 @@ def test_one_of_two_walls_is_found_by_its_size(seed: int) -> None:
         corners = find_corners(photograph.image, truth.shape[:2])
         assert judge(photograph, (corners.grid, corners.uv)).whole
         assert len(corners) == truth[..., 0].size
+        assert "cut at what looks like a crease" in corners.remark
