@@ -191,6 +191,6 @@ def test_views_that_disagree_widen_the_standard_deviation() -> None:
 @pytest.mark.parametrize("camera", [LENS, WIDE], ids=["lucchese", "kannala-brandt"])
 @pytest.mark.parametrize("bow", [0.0, 1.0])
 def test_false_alarms_are_rare(camera: Camera, bow: float) -> None:
-    found = [f for n in (1, 2, 4) for f in _simulate(camera, 70, n, bow=bow)]
+    found = [f for n in (1, 2, 4) for f in _simulate(camera, 40, n, bow=bow)]
     alarms = sum(f.verdict is CheckVerdict.HAS_CHANGED for f in found)
     assert alarms <= 0.01 * len(found)
