@@ -1,4 +1,8 @@
-"""Samples around corners, compiled; see ``detection.checkerboard.corner_template``."""
+"""Samples around corners, compiled; see ``detection.checkerboard.corner_template``.
+
+Only `_fill_samples` reads the image: what is computed from the samples would be compiled anew for
+each type of image.
+"""
 
 from __future__ import annotations
 
@@ -40,23 +44,11 @@ def sample_around(
 
 
 @compiled
-def _fill_patches(
-    image: GreyImage,
-    uv: Array,
-    right: Array,
-    down: Array,
-    dark: BoolArray,
-    places: Array,
-    light: Array,
-    out: Array,
-) -> None:
-    """Fill out (n, k) with patches; light (m, k)."""
-    k = places.shape[0]
-    for i in range(uv.shape[0]):
-        row = out[i]
-        _sample_row(
-            image, uv[i, 0], uv[i, 1], right[i] if dark[i] else -right[i], down[i], places, row
-        )
+def _normalise_patches(light: Array, patches: Array) -> None:
+    """Take the terms light (m, k) out of patches (n, k), and scale these to a mean square of 1."""
+    k = patches.shape[1]
+    for i in range(patches.shape[0]):
+        row = patches[i]
         for term in range(light.shape[0]):
             share = 0.0
             for j in range(k):
@@ -84,54 +76,6 @@ def compute_patches(
 
     The first column of `light` is constant, so that what is left has no mean.
     """
-    out = np.empty((len(uv), len(positions)))
-    terms = np.ascontiguousarray(light.T)
-    _fill_patches(make_read_only(image), uv, right, down, dark, positions, terms, out)
-    return out
-
-
-@compiled
-def _fill_differences(
-    image: GreyImage,
-    uv: Array,
-    right: Array,
-    down: Array,
-    dark: BoolArray,
-    places: Array,
-    reach: float,
-    gap: Array,
-    difference: Array,
-) -> None:
-    """Fill gap and difference (n,)."""
-    height, width = image.shape
-    grey, level = np.empty(places.shape[0]), np.empty(4)
-    count = places.shape[0] // 4
-    for i in range(uv.shape[0]):
-        u, v = uv[i]
-        nearer = min(u, width - 1 - u) / (reach * (abs(right[i, 0]) + abs(down[i, 0])))
-        across = min(v, height - 1 - v) / (reach * (abs(right[i, 1]) + abs(down[i, 1])))
-        nearer = min(max(min(nearer, across), 0.1), 1.0)
-        _sample_row(image, u, v, nearer * right[i], nearer * down[i], places, grey)
-        for sector in range(4):
-            total = 0.0
-            for k in range(count):
-                total += grey[sector * count + k]
-            level[sector] = total / count if dark[i] else -total / count
-        gap[i] = min(level[2], level[3]) - max(level[0], level[1])
-        difference[i] = (level[2] + level[3] - level[0] - level[1]) / 2
-
-
-def compare_sectors(
-    image: GreyImage,
-    uv: Array,
-    right: Array,
-    down: Array,
-    dark: BoolArray,
-    positions: Array,
-    reach: float,
-) -> tuple[Array, Array]:
-    """Compute ``_compare_sectors`` of the reference."""
-    gap, difference = np.empty((2, len(uv)))
-    image = make_read_only(image)
-    _fill_differences(image, uv, right, down, dark, positions, reach, gap, difference)
-    return gap, difference
+    patches = sample_around(image, uv, np.where(dark[:, None], right, -right), down, positions)
+    _normalise_patches(np.ascontiguousarray(light.T), patches)
+    return patches

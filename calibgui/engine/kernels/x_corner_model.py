@@ -142,6 +142,7 @@ def _contains(x: float, y: float, edge: _OrientedBand) -> bool:
 @compiled_part
 def _read_band(
     image: GreyImage,
+    flat: bool,
     cx: float,
     cy: float,
     edge: _OrientedBand,
@@ -150,9 +151,12 @@ def _read_band(
     y_offset: _Ints,
     grey: _Floats,
 ) -> int:
-    """Read the pixels of a flat edge's band that are not in the one `done`; return their number."""
+    """Read the pixels of an edge's band that are not in the one `done`; return their number.
+
+    All lies in the frame of the bands, whose x and y are the image's u and v if the edge is flat,
+    otherwise v and u. (The transposed image would be another type, compiled by itself.)"""
     tx, ty, _, ny, bend, arm, width = edge
-    height, breadth = image.shape
+    height, breadth = image.shape if flat else image.shape[::-1]
     x0, y0 = int(np.rint(cx)), int(np.rint(cy))
     slope, bow = ty / tx, bend * ny / (tx * tx)
     along = int(np.ceil(arm * abs(tx) + width))
@@ -164,7 +168,8 @@ def _read_band(
         for y in range(max(middle - across, 1), min(middle + across, height - 2) + 1):
             dy = y - cy
             if _contains(dx, dy, edge) and not _contains(dx, dy, done):
-                x_offset[count], y_offset[count], grey[count] = x - x0, y - y0, image[y, x]
+                x_offset[count], y_offset[count] = x - x0, y - y0
+                grey[count] = image[y, x] if flat else image[x, y]
                 count += 1
     return count
 
@@ -181,10 +186,8 @@ def _read(image: GreyImage, uv: Array, bands: Array, offset: _Ints, grey: _Float
         edge = _orient_band(bands[i], flat, bands[i, 6])
         done = _orient_band(bands[0], flat, bands[0, 6] if i else -1.0)
         free = grey[begin:]
-        if flat:
-            begin += _read_band(image, uv[0], uv[1], edge, done, u[begin:], v[begin:], free)
-        else:
-            begin += _read_band(image.T, uv[1], uv[0], edge, done, v[begin:], u[begin:], free)
+        cx, cy, x, y = (uv[0], uv[1], u, v) if flat else (uv[1], uv[0], v, u)
+        begin += _read_band(image, flat, cx, cy, edge, done, x[begin:], y[begin:], free)
     return begin
 
 

@@ -188,22 +188,6 @@ def compare_sectors(
         Gap between the darkest bright and the brightest dark sector (n,), and the difference
         of bright and dark on average (n,), both grey levels and negative where exchanged.
     """
-    reach = float(_SECTOR_OFFSETS.max())
-    return _compare_sectors(image, uv, right, down, dark, _SECTOR_POSITIONS, reach)
-
-
-@kernels.with_kernel("corner_template", "compare_sectors")
-def _compare_sectors(
-    image: GreyImage,
-    uv: Array,
-    right: Array,
-    down: Array,
-    dark: BoolArray,
-    positions: Array,  # noqa: ARG001 - the kernel's, who has no module constants
-    reach: float,  # noqa: ARG001
-) -> tuple[Array, Array]:
-    """`compare_sectors`, given the samples of the sectors `positions` (4 k, 2) in steps, and the
-    farthest of them."""
     values = _sample_sectors(image, uv, right, down).mean(axis=2)
     values = np.where(dark[:, None], values, -values)
     low, high = values[:, :2], values[:, 2:]
