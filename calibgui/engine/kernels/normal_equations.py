@@ -51,10 +51,9 @@ def _differentiate_by_params(
     n = d.shape[1]
     # Slices, and not indices, so that the compiler sees what it can vectorise.
     base0, base1, d0, d1 = base[0], base[1], d[0], d[1]
-    F[0, :n] = d0
-    F[1, n:] = d1
+    # Not F[0, :n] = d0: its message about unlike shapes would be compiled, too.
     for i in range(n):
-        F[10, i] = fx * d1[i]
+        F[0, i], F[1, n + i], F[10, i] = d0[i], d1[i], fx * d1[i]
     for row in range(2):
         f, lead0, lead1 = (fx if row == 0 else fy), lead[2 * row], lead[2 * row + 1]
         half = slice(0, n) if row == 0 else slice(n, 2 * n)
