@@ -151,14 +151,15 @@ def fit_x_corners(
         BoardPriors(found) if geometry is None else PredictedBoardPriors(found, geometry)
     )
     model = _estimate_start(image, lattice, board, plain, bare_edge)
-    near = replace(model, arm=np.minimum(model.arm, _THRESHOLDS.max_first_arm))
-    products, _ = accumulate_normal_equations(image, near, near, odd=False)
-    first = _take_step(near, products)[0]
-    read = _update_priors(replace(model, unknowns=first.unknowns), board)
-    products, _ = accumulate_normal_equations(image, read, read, odd=False)
-    model = _update_priors(_take_step(read, products)[0], board)
-    products, odd_part = accumulate_normal_equations(image, read, model, odd=True)
+    arm = model.arm
+    for _ in range(2):
+        near = replace(model, arm=np.minimum(arm, _THRESHOLDS.max_near_arm))
+        products, _ = accumulate_normal_equations(image, near, near, odd=False)
+        model = _update_priors(_take_step(near, products)[0], board, arm)
+    products, odd_part = accumulate_normal_equations(image, model, model, odd=True)
     model, inverse, square = _take_step(model, products)
+    if (arm > _THRESHOLDS.max_near_arm).any():
+        model = _correct_for_priors(model, inverse, _update_priors(model, board, arm))
     noise = np.maximum(_estimate_noise(square, odd_part), estimate_least_noise(image))
     model = _correct_for_light(model)
     return XCornerFit(model, noise[:, None, None] * inverse, np.sqrt(square))
@@ -182,7 +183,7 @@ def _estimate_start(
         unknowns=unknowns,
         sign=np.where(lattice.dark ^ (cells.sum(axis=1) % 2 == 1), -1.0, 1.0),
         square_height=height,
-        arm=np.minimum(longest, max(_THRESHOLDS.max_arm, _THRESHOLDS.total_arm / n)),
+        arm=longest,
         plain_width=plain * height,
         curvature=curvature,
         ink_spread=np.zeros(n),
@@ -224,8 +225,9 @@ def _estimate_ink_spread(spreads: Array) -> Array:
     return np.full(len(spreads), middle if clear else 0.0)
 
 
-def _update_priors(model: XCornerModel, board: BoardPriors) -> XCornerModel:
-    """Return the model with the geometry and gradients that follow from its present unknowns."""
+def _update_priors(model: XCornerModel, board: BoardPriors, arm: Array) -> XCornerModel:
+    """Return the model with the geometry and gradients that follow from its present unknowns, and
+    with the arms `arm` (n, 2) px that are to be read next."""
     x = model.unknowns
     steps, curvature = board.estimate_geometry(x[C])
     height = _compute_heights(steps)
@@ -237,6 +239,7 @@ def _update_priors(model: XCornerModel, board: BoardPriors) -> XCornerModel:
     return replace(
         model,
         square_height=height,
+        arm=arm,
         curvature=curvature,
         level_gradient=gradients[:, 0],
         contrast_gradient=gradients[:, 1],
@@ -283,6 +286,31 @@ def _add_priors(model: XCornerModel, products: Array) -> None:
     N[:, 4:6, 4:6] += weight[:, None, None] * np.outer(difference, difference)
     lack = estimate_blur_difference(normals, blurs) - blurs @ difference
     g[BLUR] += (weight * lack)[:, None] * difference
+
+
+def _correct_for_priors(model: XCornerModel, inverse: Array, better: XCornerModel) -> XCornerModel:
+    """Return the model with its corners where the `better` curvatures and gradients would have put
+    them, that follow from all of the arms.
+
+    Away from the corner an edge's intensity rises by +-2 a across it, with the sign of s along it.
+    Summed over an arm of length L to both sides, a gradient g of the level weighs on n_i by
+    2 p a L^2 g.t_i; a curvature kappa moves the edge's mean by kappa L^2 / 6.
+
+    Args:
+        model: after its last step.
+        inverse: (n, 2, 2) the part of that step's inverse for c.
+        better: the model with better curvatures and gradients.
+    """
+    normals, square = model.normals(), model.arm**2
+    rise = better.level_gradient - model.level_gradient
+    along = np.einsum("nij,nj->ni", model.tangents(), rise)
+    swing = 2 * model.sign * model.unknowns[A]
+    pull = np.einsum("ni,nij->nj", swing[:, None] * square * along, normals)
+    bend = square / 6 * (better.curvature - model.curvature)
+    unknowns = model.unknowns.copy()
+    unknowns[C] += np.einsum("nij,nj->ni", inverse, pull)
+    unknowns[C] -= np.linalg.solve(normals, bend[..., None])[..., 0]
+    return replace(better, unknowns=unknowns)
 
 
 def _correct_for_light(model: XCornerModel) -> XCornerModel:

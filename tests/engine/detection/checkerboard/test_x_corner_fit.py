@@ -22,6 +22,7 @@ from tests.scenes.conditions import Conditions
         {"ink": 0.08},  # squares that overlap
         {"ink": -0.08},  # and that part
         {"blur": 5.0, "square": 36.0},  # neighbours' edges are near
+        {"grid_size": (12, 16), "square": 72.0, "size": (1400, 1050), "turn": 4.0, "parts": 2},
         {"fisheye": True, "focal": 0.32, "square": 80.0, "size": (720, 720)},  # near its front lens
         {"distortion": 0.9, "focal": 0.5, "square": 60.0, "size": (800, 600)},
         {"distortion": -0.3, "focal": 0.8, "square": 60.0, "size": (800, 600)},
