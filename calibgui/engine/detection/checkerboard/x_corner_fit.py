@@ -17,6 +17,10 @@ what the model gets wrong in the same way at every corner.
 What is odd too and would not decouple - curvature and the light's gradients gm, ga - comes from
 the whole board (`board_priors`), as does the spread w of the ink.
 
+Two steps near the corners give what the board needs, and the last one reads whole edges. Where
+these are longer, the board is asked once more, and the corners follow without reading the image
+again.
+
 **Light.** The model lights the blurred pattern, where a camera blurs the lit one. Under light L
 that rises by l = grad L / L,
 
