@@ -200,7 +200,7 @@ def _sample_sectors(image: GreyImage, uv: Array, right: Array, down: Array) -> A
     # At the border of the image the sectors are sampled nearer to the corner.
     distance = np.minimum(uv, np.array(image.shape[::-1]) - 1.0 - uv)
     reach = _SECTOR_OFFSETS.max() * (abs(right) + abs(down))
-    nearer = np.clip(distance / reach, 0.1, 1.0).min(axis=1, keepdims=True)
+    nearer = np.clip(distance / np.maximum(reach, 1e-9), 0.1, 1.0).min(axis=1, keepdims=True)
     values = sample_around(image, uv, nearer * right, nearer * down, _SECTOR_POSITIONS)
     return values.reshape(len(uv), len(_SECTOR_SIGNS), _SECTOR_OFFSETS.size**2)
 
