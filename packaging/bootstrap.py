@@ -257,7 +257,7 @@ class Environment:
         Nothing is lost if that fails: they are compiled when they are needed.
         """
         say("compiling what is slow in Python (half a minute, once)")
-        succeeds(self.python, "-m", "calibgui.app.preparation", env=self.variables())
+        succeeds(self.python, "-m", "calibgui.app.kernel_preparation", env=self.variables())
         sample = ROOT / "resources" / "sample"
         calibrate = ["-m", "calibgui", "calibrate", sample, "--square", "25", "--quiet"]
         succeeds(self.python, *calibrate, env=self.variables())

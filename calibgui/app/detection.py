@@ -17,7 +17,7 @@ from pathlib import Path
 from threading import Event
 from typing import Protocol
 
-from calibgui.app.preparation import prepare_finder
+from calibgui.app.kernel_preparation import prepare_finder
 from calibgui.app.sensor_frame import share_frame
 from calibgui.app.workers import Crashed, map_in_processes
 from calibgui.dataset import CornerSet, View, ViewStatus

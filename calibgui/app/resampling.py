@@ -13,7 +13,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import cast
 
-from calibgui.app.new_images import NewImages
+from calibgui.app.output_folder import OutputFolder
 from calibgui.app.sensor_frame import choose_orientation
 from calibgui.dataset import Result, find_orientation
 from calibgui.engine import opencv
@@ -106,8 +106,8 @@ def undistort_files(
             states if None.
 
     Raises:
-        CalibrationError: as `NewImages`, or if the lens has no such undistorted image.
-        ForeignFilesError: as `NewImages`.
+        CalibrationError: as `OutputFolder`, or if the lens has no such undistorted image.
+        ForeignFilesError: as `OutputFolder`.
         Cancelled: from `progress`.
     """
     ideals = (undistortion or Undistortion()).choose_cameras(camera)
@@ -116,8 +116,8 @@ def undistort_files(
         pixels = _read_in_frame(path, camera, orientation)
         return {face: make_ideal_image(pixels, camera, ideal) for face, ideal in ideals.items()}
 
-    new = NewImages(folder / GEOMETRY_FILE, images, ideals, overwrite)
-    return _write_images("undistorted", change, images, new, progress, ideals)
+    outputs = OutputFolder(folder / GEOMETRY_FILE, images, ideals, overwrite)
+    return _write_images("undistorted", change, images, outputs, progress, ideals)
 
 
 def rectify_files(
@@ -139,7 +139,7 @@ def rectify_files(
         overwrite: whether files in `folder` may be replaced that this program did not make.
 
     Raises:
-        CalibrationError, ForeignFilesError: as `NewImages`.
+        CalibrationError, ForeignFilesError: as `OutputFolder`.
         Cancelled: from `progress`.
     """
     camera = result.calibration.camera
@@ -158,8 +158,8 @@ def rectify_files(
         pixels = _read_in_frame(path, camera, orientation)
         return {"": rectify_image(pixels, camera, pose, extent, scale)}
 
-    new = NewImages(folder / GEOMETRY_FILE, images, overwrite=overwrite)
-    return _write_images("rectified", change, images, new, progress)
+    outputs = OutputFolder(folder / GEOMETRY_FILE, images, overwrite=overwrite)
+    return _write_images("rectified", change, images, outputs, progress)
 
 
 def _read_in_frame(path: Path, camera: Camera, orientation: int | None) -> Pixels:
@@ -180,7 +180,7 @@ def _write_images(
     kind: str,
     change: _Change,
     images: Sequence[Path],
-    new: NewImages,
+    outputs: OutputFolder,
     progress: Progress | None,
     ideals: Mapping[str, IdealCamera] | None = None,
 ) -> tuple[WrittenImage, ...]:
@@ -190,7 +190,7 @@ def _write_images(
     executor = ThreadPoolExecutor(os.cpu_count())
     with opencv.single_thread():  # every processor has an image of its own
         try:
-            jobs = [executor.submit(_write_image, change, path, new) for path in images]
+            jobs = [executor.submit(_write_image, change, path, outputs) for path in images]
             for done, job in enumerate(as_completed(jobs), start=1):
                 outcome, made = job.result()
                 outcomes[outcome.source] = outcome
@@ -199,24 +199,24 @@ def _write_images(
                     progress(done, len(images), outcome)
         finally:
             executor.shutdown(cancel_futures=True)
-            new.close()
+            outputs.close()
     written = tuple(outcomes[path] for path in images)
     if geometry is not None:
         names = {path.name: str(w.source) for w in written for path in w.paths.values()}
-        write_resampled(new.geometry_file, kind, *geometry, names, new.written, ideals)
+        write_resampled(outputs.geometry_file, kind, *geometry, names, outputs.written, ideals)
     return written
 
 
 def _write_image(
-    change: _Change, source: Path, new: NewImages
+    change: _Change, source: Path, outputs: OutputFolder
 ) -> tuple[WrittenImage, _Geometry | None]:
     """Write the new images of one photograph."""
     try:
         made = change(source)
-        paths = {face: path for face, path in new.name_images(source).items() if face in made}
+        paths = {face: path for face, path in outputs.name_images(source).items() if face in made}
         for face, path in paths.items():
             write_image(path, cast(Pixels, made[face].image))  # of the source's type
-            new.record(path)
+            outputs.record(path)
     except CalibrationError as error:
         return WrittenImage(source, {}, str(error)), None
     first = next(iter(made.values()))

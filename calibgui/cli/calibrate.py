@@ -29,8 +29,8 @@ from calibgui.cli.arguments import (
 )
 from calibgui.cli.console import Advance, Console
 from calibgui.cli.corners import add_corner_options, check_corner_options, read_or_search
+from calibgui.cli.notices import explain_solve
 from calibgui.cli.outputs import add_overwrite_option, check_corner_outputs
-from calibgui.cli.solving import explain_solve
 from calibgui.dataset import Result
 from calibgui.engine.boards import BoardShape, BoardShapeModel, BoardShapePrior
 from calibgui.engine.calibration import DEFAULT_METHOD, METHODS, Cost, DegenerateError

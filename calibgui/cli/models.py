@@ -15,8 +15,8 @@ from calibgui.app.lens_comparison import compare_lenses
 from calibgui.app.project import DEFAULT_SQUARE
 from calibgui.cli.console import Console
 from calibgui.cli.corners import add_corner_options, check_corner_options, read_or_search
+from calibgui.cli.notices import explain_solve
 from calibgui.cli.outputs import add_overwrite_option, check_corner_outputs
-from calibgui.cli.solving import explain_solve
 from calibgui.engine.assessment import LensChoice
 from calibgui.formats.json_document import write_json
 from calibgui.formats.origin import LENS_COMPARISON, make_mark

@@ -13,7 +13,7 @@ from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from typing import TYPE_CHECKING, Any, Protocol, TypeVar
 
-from calibgui.app.preparation import prepare_finder
+from calibgui.app.kernel_preparation import prepare_finder
 from calibgui.app.workers import Crashed, map_in_processes
 from calibgui.engine.errors import CalibrationError
 

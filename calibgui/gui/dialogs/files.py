@@ -12,7 +12,7 @@ from PySide6.QtWidgets import QFileDialog, QInputDialog, QLineEdit, QWidget
 from calibgui.app.autosave import get_discarded_folder
 from calibgui.app.document import Document
 from calibgui.app.moved_images import find_moved_images, list_missing_images
-from calibgui.app.new_images import ForeignFilesError
+from calibgui.app.output_folder import ForeignFilesError
 from calibgui.app.paths import find_images
 from calibgui.app.project import (
     Project,

@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from calibgui.cli.console import Console
-from calibgui.cli.solving import explain_solve
+from calibgui.cli.notices import explain_solve
 from calibgui.dataset import CornerSet, View, ViewStatus
 from calibgui.engine.errors import CalibrationError
 

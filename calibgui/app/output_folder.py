@@ -40,7 +40,7 @@ class ForeignFilesError(CalibrationError):
         self.names = tuple(names)
 
 
-class NewImages:
+class OutputFolder:
     """The new images in a folder, which is created if missing.
 
     Args:

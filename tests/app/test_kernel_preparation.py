@@ -12,7 +12,7 @@ SCRIPT = """
 import sys
 import numpy as np
 from numba.core.dispatcher import Dispatcher
-from calibgui.app.preparation import prepare_finder
+from calibgui.app.kernel_preparation import prepare_finder
 from calibgui.engine.detection import find_corners
 from calibgui.engine.images import read_image
 

@@ -11,7 +11,7 @@ from pathlib import Path
 import pytest
 
 from calibgui.app import resampling
-from calibgui.app.new_images import ForeignFilesError, NewImages
+from calibgui.app.output_folder import ForeignFilesError, OutputFolder
 from calibgui.app.resampling import GEOMETRY_FILE, undistort_files
 from calibgui.engine.errors import CalibrationError
 from tests.photographs import CAMERA
@@ -69,8 +69,8 @@ def test_what_a_killed_call_has_left_is_replaced(
 
     with monkeypatch.context() as patch:
         # The process ends after an image is in its place and before it is recorded.
-        patch.setattr(NewImages, "record", kill)
-        patch.setattr(NewImages, "close", lambda _: None)
+        patch.setattr(OutputFolder, "record", kill)
+        patch.setattr(OutputFolder, "close", lambda _: None)
         with pytest.raises(Killed):
             undistort_files(CAMERA, images[:1], folder)
     assert (folder / "view1.png").exists() and read_record(folder) == {"view1.png": None}
