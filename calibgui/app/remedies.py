@@ -9,7 +9,7 @@ from calibgui.app.settings import DEFAULT_MODEL, Settings
 from calibgui.dataset import Result
 from calibgui.engine.assessment import Action, ActionKind
 from calibgui.engine.boards import BoardShapeModel
-from calibgui.engine.calibration import Cost
+from calibgui.engine.calibration import DEFAULT_METHOD, Cost
 
 
 def apply_action(project: Project, result: Result, action: Action) -> Project:
@@ -33,6 +33,8 @@ def apply_action(project: Project, result: Result, action: Action) -> Project:
 
 def _change_settings(settings: Settings, result: Result, action: Action) -> Settings:
     """Return the settings with which a calibration carries an action out."""
+    if action.takes_image_cost:
+        settings = replace(settings, cost=Cost.IMAGE, method=DEFAULT_METHOD)
     match action.kind:
         case ActionKind.ESTIMATE_BOARD_SHAPE:
             shape = BoardShapeModel(action.model) if action.model else None

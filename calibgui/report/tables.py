@@ -111,15 +111,10 @@ def _format_verdict(result: Result, verdict: Verdict) -> Iterator[str]:
     )
     in_scene = describe_error_in_scene(verdict, result.condition)
     yield _fill_lines("; ".join(filter(None, [describe_error(verdict), in_scene])) + ".", "", "  ")
-    names = [_get_name(view.image) for view in result.used]
     for finding in verdict.findings:
         yield format_bullet(f"{finding.message} {finding.evidence}")
-        options = format_options(finding.action, names) if finding.action is not None else ""
+        options = format_options(finding.action, result) if finding.action is not None else ""
         yield _fill_lines(f"{options or finding.remedy}{_describe_gain(finding)}", "  > ", "    ")
-
-
-def _get_name(image: str) -> str:
-    return PurePath(image).name
 
 
 def _describe_gain(finding: Finding) -> str:
@@ -135,9 +130,8 @@ def summarise_in_a_line(result: Result) -> str:
         f"{format_headline(verdict)}. {verdict.reason}",
         f"{describe_error(verdict)}; {describe_fit(result)}, {_count_used(result)}.",
     ]
-    names = [_get_name(view.image) for view in result.used]
     if verdict.findings and (action := verdict.findings[0].action) is not None:
-        words.append(f"Do: {options}." if (options := format_options(action, names)) else "")
+        words.append(f"Do: {options}." if (options := format_options(action, result)) else "")
     return " ".join(filter(None, words))
 
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import shlex
 from collections.abc import Sequence
+from pathlib import PurePath
 
 import numpy as np
 
@@ -15,6 +16,7 @@ from calibgui.engine.assessment import (
     Verdict,
     summarise_residuals,
 )
+from calibgui.engine.calibration import DEFAULT_METHOD, Cost
 
 _HEADLINES = {
     Grade.GOOD: "GOOD",
@@ -66,13 +68,24 @@ def describe_fit(result: Result) -> str:
     return f"RMS {fit.rms:.3f} px, σ {sigma:.3f} px of {fit.count:,} corners"
 
 
-def format_options(action: Action, names: Sequence[str]) -> str:
+def format_options(action: Action, result: Result) -> str:
     """Format the options of the command line that carry an action out; empty if none do.
 
     Args:
         action: the action.
-        names: names of the calibrated views.
+        result: the result that the action is about.
     """
+    options = _format_own_options(action, [PurePath(view.image).name for view in result.used])
+    if action.takes_image_cost:
+        if result.calibration.cost is not Cost.IMAGE:
+            options += f" --cost {Cost.IMAGE.value}"
+        if "method" in result.calibration.settings:
+            options += f" --method {DEFAULT_METHOD}"
+    return options
+
+
+def _format_own_options(action: Action, names: Sequence[str]) -> str:
+    """Format the options that are the action's own; empty if it has none."""
     parameters = ",".join(action.parameters)
     match action.kind:
         case ActionKind.ESTIMATE_BOARD_SHAPE:

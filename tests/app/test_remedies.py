@@ -10,11 +10,12 @@ import pytest
 from calibgui.app.calibration import calibrate_views
 from calibgui.app.project import Project, confirm_lengths, record_result, set_square
 from calibgui.app.remedies import apply_action
-from calibgui.app.settings import Settings
+from calibgui.app.settings import Settings, check_settings
 from calibgui.dataset import CornerSet, Result
 from calibgui.dataset.judging import judge_result
 from calibgui.engine.assessment import Action, ActionKind, Grade
 from calibgui.engine.boards import BoardShapeModel
+from calibgui.engine.calibration import DEFAULT_METHOD, Cost
 from calibgui.report.summary import describe_calibration
 from tests.app import examples
 
@@ -58,6 +59,20 @@ def test_an_action_changes_its_settings(
     after = apply_action(replace(project, settings=settings), result, action)
     assert after.settings == replace(settings, **changed)  # type: ignore[arg-type]
     assert after.views is project.views
+
+
+@pytest.mark.parametrize("settings", [Settings(cost=Cost.PAPER), Settings(method="tsai")])
+@pytest.mark.parametrize(
+    "kind",
+    [ActionKind.ESTIMATE_BOARD_SHAPE, ActionKind.CHOOSE_LENS_MODEL, ActionKind.WEIGH_VIEWS],
+)
+def test_an_action_takes_the_cost_and_the_method_that_it_needs(
+    project: Project, settings: Settings, kind: ActionKind
+) -> None:
+    result = project.results["Calibration 1"]
+    after = apply_action(replace(project, settings=settings), result, Action(kind)).settings
+    assert (after.cost, after.method) == (Cost.IMAGE, DEFAULT_METHOD)
+    check_settings(after)
 
 
 def test_views_are_left_out(project: Project) -> None:

@@ -67,6 +67,15 @@ class Action:
         """True if another calibration from the same photographs carries it out."""
         return self.kind not in (ActionKind.LOOK_AT_VIEW, ActionKind.PHOTOGRAPH_MORE)
 
+    @property
+    def takes_image_cost(self) -> bool:
+        """True if it takes the image cost and the default method, whatever was minimised before."""
+        return self.kind in (
+            ActionKind.ESTIMATE_BOARD_SHAPE,
+            ActionKind.CHOOSE_LENS_MODEL,
+            ActionKind.WEIGH_VIEWS,
+        )
+
 
 @dataclass(frozen=True, slots=True)
 class Finding:

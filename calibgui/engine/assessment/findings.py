@@ -63,10 +63,13 @@ from calibgui.engine.assessment.noise_test import NoiseCheck, check_residuals
 from calibgui.engine.assessment.outliers import Screening, select_corners
 from calibgui.engine.assessment.residual_statistics import summarise_residuals
 from calibgui.engine.assessment.systematic_errors import prepare_fit
+from calibgui.engine.calibration.calibrate import calibrate
 from calibgui.engine.calibration.observations import Observation, name_views
-from calibgui.engine.calibration.result import Calibration
+from calibgui.engine.calibration.problem import recover_image_arguments
+from calibgui.engine.calibration.result import Calibration, Cost
 from calibgui.engine.camera.models import find_model
 from calibgui.engine.camera.models.splined_stereographic import SplinedStereographic
+from calibgui.engine.errors import CalibrationError
 from calibgui.engine.images.sampling import make_mesh
 from calibgui.engine.threads import with_one_blas_thread
 from calibgui.engine.uncertainty.projection_uncertainty import (
@@ -192,6 +195,9 @@ def _find(
     open_coefficients = _find_open_coefficients(case)
     if open_coefficients is not None:
         yield open_coefficients
+    if calibration.cost is not Cost.IMAGE:
+        calibration = _minimise_image_cost(calibration, views)
+        case = _prepare_case(calibration, views, names)
     screening = screen_misplaced_corners(calibration, views)
     if screening is not None:
         left = _leave_out(screening, views, names)
@@ -207,6 +213,18 @@ def _find(
     found = _find_systematic_cause(case) or _find_disagreement(case) or few
     if found is not None:
         yield found
+
+
+def _minimise_image_cost(calibration: Calibration, views: Sequence[Observation]) -> Calibration:
+    """Return the calibration by the image cost, whose residuals tell of photographs and board.
+
+    Those of another cost tell of the cost as well, which gives views other weights. It is returned
+    as it is where the views do not determine a camera by the image cost.
+    """
+    try:
+        return calibrate(views, calibration.camera.size, **recover_image_arguments(calibration))
+    except CalibrationError:
+        return calibration
 
 
 def _prepare_case(

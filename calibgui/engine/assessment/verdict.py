@@ -49,7 +49,7 @@ from calibgui.engine.assessment.outliers import screen_outliers, select_corners
 from calibgui.engine.assessment.view_weights import calibrate_weighted
 from calibgui.engine.calibration.calibrate import calibrate
 from calibgui.engine.calibration.observations import Observation
-from calibgui.engine.calibration.problem import recover_arguments
+from calibgui.engine.calibration.problem import recover_arguments, recover_image_arguments
 from calibgui.engine.calibration.result import Calibration, Iteration, Report, Status
 from calibgui.engine.camera.models import PINHOLE
 from calibgui.engine.errors import CalibrationError
@@ -213,7 +213,8 @@ def try_action(
     if action is None or not action.is_of_camera:
         return None
     given, size = list(views), calibration.camera.size
-    settings = recover_arguments(calibration)
+    recover = recover_image_arguments if action.takes_image_cost else recover_arguments
+    settings = recover(calibration)
     if check is not None:
         settings["report"] = _make_report(check)
     match action.kind:
@@ -224,7 +225,7 @@ def try_action(
         case ActionKind.CHOOSE_LENS_MODEL:
             settings["fix"] = {n: v for n, v in settings["fix"].items() if n in PINHOLE}
             for name in ("model", "free", "board_shape", "prior"):
-                del settings[name]
+                settings.pop(name, None)
             lens = choose_lens_stepwise(given, size, **settings).chosen
             held = tuple(lens.fixed)
             return Trial(

@@ -52,6 +52,17 @@ def recover_arguments(calibration: Calibration) -> dict[str, Any]:
     }
 
 
+def recover_image_arguments(calibration: Calibration) -> dict[str, Any]:
+    """Recover the arguments as `recover_arguments`, but for the image cost and the default method.
+
+    The lens model of `Cost.PAPER` takes no other cost: the default one is estimated instead.
+    """
+    settings = recover_arguments(calibration)
+    if calibration.cost is Cost.PAPER:
+        del settings["model"], settings["free"]
+    return settings | {"cost": Cost.IMAGE, "method": DEFAULT_METHOD}
+
+
 def find_free_parameters(calibration: Calibration) -> IntArray:
     """Return the indices of the camera's parameters that were estimated, ascending."""
     names = calibration.camera.names

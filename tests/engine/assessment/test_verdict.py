@@ -113,6 +113,22 @@ def test_what_a_remedy_promises_comes_true(
     assert cause not in [finding.cause for finding in after.findings]
 
 
+@pytest.mark.parametrize(
+    "settings", [{"cost": "paper", "fix": ["p3"]}, {"cost": "reference"}, {"method": "bouguet"}]
+)
+def test_a_board_is_found_and_mended_whatever_was_minimised(settings: dict[str, Any]) -> None:
+    _, verdict = judge(inject("bow", 0).views, **settings)
+    (finding,) = verdict.findings
+    assert (verdict.grade, finding.cause) == (Grade.CAN_BE_BETTER, Cause.BOARD_SHAPE)
+    assert verdict.times_better > 3
+
+
+@pytest.mark.parametrize("cost", ["paper", "reference"])
+def test_a_clean_set_is_good_with_every_cost(cost: str) -> None:
+    _, verdict = judge(CLEAN, cost=cost, fix=["p3"])
+    assert (verdict.grade, verdict.findings) == (Grade.GOOD, ())
+
+
 def test_a_finding_without_a_remedy_is_never_good() -> None:
     fault = inject("bending-board", 1)
     _, verdict = judge(fault.views)
