@@ -17,6 +17,7 @@ from calibgui.engine.camera.projection import pixels_from_rays
 from calibgui.engine.errors import CalibrationError
 from calibgui.engine.geometry.rotations import rotation_from_vector
 from tests.engine.scenes import VGA, barrel, scene
+from tests.faults.sets import draw_rendered_set, photograph
 
 CLEAN = scene(barrel(), 10, seed=3).noisy(0.1, np.random.default_rng(1))
 MIDDLE = np.array([319.5, 239.5])
@@ -80,6 +81,23 @@ def test_views_of_another_camera_are_no_misplaced_corners() -> None:
     (finding,) = found([b if k in (2, 7, 12) else a for k, (a, b) in enumerate(pairs)])
     assert finding.cause is Cause.MIXED_VIEWS
     assert finding.views == (2, 7, 12)
+
+
+@pytest.mark.parametrize("roughness", [0.2, 0.6])
+def test_corners_are_misplaced_on_a_rough_board_and_both_are_named(roughness: float) -> None:
+    def print_roughly(xy: Array) -> Array:
+        shifts = np.random.default_rng(1).normal(scale=roughness, size=(len(xy), 3))
+        return np.asarray(np.column_stack([xy, np.zeros(len(xy))]) + shifts)
+
+    views = photograph(draw_rendered_set(np.random.default_rng(0)), displace=print_roughly)
+    uv, xy, _ = views[3]
+    row = np.flatnonzero(xy[:, 1] == np.unique(xy[:, 1])[2])
+    uv = np.array(uv)
+    uv[row[:-1]] = uv[row[1:]]
+    views[3] = Observation(uv, xy)
+    first, second = found(views)
+    assert (first.cause, second.cause) == (Cause.MISPLACED_CORNERS, Cause.BOARD_SHAPE)
+    assert 3 in first.views
 
 
 def test_corners_are_misplaced_where_other_views_have_motion_and_long_tails() -> None:
