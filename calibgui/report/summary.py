@@ -17,6 +17,7 @@ import numpy as np
 from calibgui.dataset import Result
 from calibgui.dataset.judging import judge_result
 from calibgui.engine.assessment import (
+    ActionKind,
     Cause,
     ErrorSources,
     Finding,
@@ -211,8 +212,14 @@ def describe_board_shape_error(rms: float) -> str:
     return (
         f"The residuals are not noise: over the views the board's corners are off by "
         f"{rms:.2g} mm (rms), as if it were not flat or not printed true. Every ± includes "
-        "what this does to the camera. Estimate the board's shape to remove it."
+        "what this does to the camera."
     )
+
+
+def _advises_board_shape(findings: Sequence[Finding]) -> bool:
+    """Return whether estimating the board's shape makes the camera better, as a trial showed."""
+    actions = [finding.action for finding in findings if finding.action is not None]
+    return any(action.kind is ActionKind.ESTIMATE_BOARD_SHAPE for action in actions)
 
 
 def describe_view_scatter(scatter: float) -> str:
@@ -246,7 +253,10 @@ def _describe_board(result: Result, findings: Sequence[Finding]) -> Iterator[Sen
     if error > 0:
         matters = any(finding.cause is Cause.BOARD_SHAPE for finding in findings)
         tone = Tone.CAUTION if matters else Tone.FACT
-        yield Sentence(tone, describe_board_shape_error(error), Cause.BOARD_SHAPE)
+        text = describe_board_shape_error(error)
+        if _advises_board_shape(findings):
+            text += " Estimate the board's shape to remove it."
+        yield Sentence(tone, text, Cause.BOARD_SHAPE)
     if board_shape is not None:
         yield Sentence(Tone.FACT, describe_board_shape(board_shape))
     if (scatter := result.calibration.overdispersion) > 0:
@@ -308,7 +318,7 @@ def _describe_parameters(result: Result, findings: Sequence[Finding]) -> Iterato
             f"Badly determined: {listed(poor)} px. "
             + (
                 "Estimate the board's shape."
-                if calibration.board_shape_error > 0
+                if _advises_board_shape(findings)
                 else "Add views with the board tilted by 30 to 45 degrees in different directions."
             ),
         )
@@ -320,7 +330,7 @@ def _describe_parameters(result: Result, findings: Sequence[Finding]) -> Iterato
             f"Not told from zero: {listed(vague)}. They may be held at 0; to measure them, "
             + (
                 "estimate the board's shape."
-                if calibration.board_shape_error > 0
+                if _advises_board_shape(findings)
                 else "bring corners closer to the image's edges."
             ),
         )

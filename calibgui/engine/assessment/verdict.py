@@ -75,6 +75,10 @@ _MIN_GAIN = 1.1
 _MIN_VIEWS_TO_USE, _MIN_VIEWS_TO_BE_GOOD = 3, 5
 """Number of views below which a calibration is not usable, and not good, however small its error is
 said to be: too few are left to find out that it is wrong."""
+_REMEDY_OF_BOARD = (
+    "These photographs do not tell board and camera apart: put the board on glass or another stiff "
+    "plate, and take 10 to 20 of it, tilted by 20 to 45 degrees in different directions."
+)
 _UNTRUSTWORTHY = (Cause.WRONG_FRAME, Cause.HELD_VALUE, Cause.FEW_VIEWS)
 """Causes that leave a camera unusable if no remedy can be tried."""
 
@@ -294,7 +298,7 @@ def _ask_for_photographs(finding: Finding) -> Finding:
     """
     if finding.cause is not Cause.BOARD_SHAPE:
         return finding
-    return replace(finding, action=Action(ActionKind.PHOTOGRAPH_MORE))
+    return replace(finding, remedy=_REMEDY_OF_BOARD, action=Action(ActionKind.PHOTOGRAPH_MORE))
 
 
 def _state_gain(finding: Finding, trial: Trial, times: float) -> Finding:

@@ -147,6 +147,8 @@ def test_a_board_whose_shape_cannot_be_estimated_asks_for_photographs(
     _, verdict = judge(inject("bow", 0).views)
     assert verdict.findings[0].cause is Cause.BOARD_SHAPE
     assert verdict.findings[0].action == Action(ActionKind.PHOTOGRAPH_MORE)
+    assert "stiff" in verdict.findings[0].remedy
+    assert "estimate" not in verdict.findings[0].remedy
     assert verdict.grade is Grade.USABLE
 
 
