@@ -17,6 +17,7 @@ from calibgui.engine.assessment import (
     summarise_residuals,
 )
 from calibgui.engine.calibration import DEFAULT_METHOD, Cost
+from calibgui.engine.numbers import format_two_digits
 
 _HEADLINES = {
     Grade.GOOD: "GOOD",
@@ -33,7 +34,7 @@ def format_headline(verdict: Verdict) -> str:
 
 def format_times(times: float) -> str:
     """Format a ratio of errors with two digits, which is more than it is known to."""
-    return f"{times:.1f}" if times < 9.95 else f"{float(f'{times:.2g}'):.0f}"
+    return f"{times:.1f}" if times < 9.95 else format_two_digits(times)
 
 
 def describe_error(verdict: Verdict) -> str:
@@ -41,10 +42,9 @@ def describe_error(verdict: Verdict) -> str:
     error = verdict.error
     if not np.isfinite(error.worst):
         return "Error of a pixel: unknown"
-    return (
-        f"Error of a pixel: centre {error.centre:.2g}, covered part {error.covered:.2g}, edge "
-        f"{error.edge:.2g}, worst {error.worst:.2g} px"
-    )
+    places = ("centre", error.centre), ("covered part", error.covered), ("edge", error.edge)
+    listed = ", ".join(f"{place} {format_two_digits(px)}" for place, px in places)
+    return f"Error of a pixel: {listed}, worst {format_two_digits(error.worst)} px"
 
 
 def describe_error_in_scene(verdict: Verdict, condition: str) -> str:
@@ -57,7 +57,7 @@ def describe_error_in_scene(verdict: Verdict, condition: str) -> str:
     mm = verdict.error.edge * verdict.mm_per_pixel
     if not np.isfinite(mm):
         return ""
-    words = f"edge {mm:.2g} mm at {verdict.distance:.0f} mm"
+    words = f"edge {format_two_digits(mm)} mm at {verdict.distance:.0f} mm"
     return f"{words}, {condition}" if condition else words
 
 

@@ -5,6 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 from enum import StrEnum
 
+from calibgui.engine.numbers import format_two_digits
+
 MIN_HARM_PX = 0.05
 """Harm from which a cause is a finding, px: a tenth of what makes a calibration less than good
 (``verdict.py``). A choice, which no benchmark fixed; on clean sets the tests' own rate of false
@@ -104,4 +106,4 @@ class Finding:
 
 def describe_harm(harm: float) -> str:
     """Describe what a cause does to pixels, px, as the end of a sentence."""
-    return f"it adds {harm:.2g} px to the error of pixels where there are corners"
+    return f"it adds {format_two_digits(harm)} px to the error of pixels where there are corners"

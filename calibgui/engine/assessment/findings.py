@@ -71,6 +71,7 @@ from calibgui.engine.camera.models import find_model
 from calibgui.engine.camera.models.splined_stereographic import SplinedStereographic
 from calibgui.engine.errors import CalibrationError
 from calibgui.engine.images.sampling import make_mesh
+from calibgui.engine.numbers import format_two_digits
 from calibgui.engine.threads import with_one_blas_thread
 from calibgui.engine.uncertainty.projection_uncertainty import (
     compute_worst_sigma,
@@ -460,8 +461,8 @@ def _find_lack_of_views(case: _Case) -> Finding | None:
     return Finding(
         Cause.FEW_VIEWS,
         f"{count} views are too few." if few else "The views are too few, or too much alike.",
-        f"A pixel is known to {case.sigma:.2g} px in the median over the image, and to "
-        f"{case.worst:.2g} px where it is known worst.",
+        f"A pixel is known to {format_two_digits(case.sigma)} px in the median over the image, and "
+        f"to {format_two_digits(case.worst)} px where it is known worst.",
         "Add views with the board tilted by 20 to 45 degrees in different directions and all over "
         "the image; six good ones are enough.",
         _measure_harm(case, share=1.0),

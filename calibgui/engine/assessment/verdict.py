@@ -55,6 +55,7 @@ from calibgui.engine.camera.models import PINHOLE
 from calibgui.engine.errors import CalibrationError
 from calibgui.engine.geometry.rotations import rotation_from_vector
 from calibgui.engine.images.sampling import make_mesh
+from calibgui.engine.numbers import format_two_digits
 from calibgui.engine.threads import with_one_blas_thread
 from calibgui.engine.uncertainty.projection_uncertainty import (
     estimate_projection_uncertainty,
@@ -393,13 +394,14 @@ def _grade(
         return Grade.USABLE, few
     if not error.worst_covered <= MAX_GOOD_PX:
         return Grade.USABLE, (
-            f"Nothing is wrong that the photographs show, but pixels are known to "
-            f"{error.worst_covered:.2g} px where they are known worst among corners: add views."
+            "Nothing is wrong that the photographs show, but pixels are known to "
+            f"{format_two_digits(error.worst_covered)} px where they are known worst among "
+            "corners: add views."
         )
     if error.worst <= MAX_GOOD_PX:
         return Grade.GOOD, "Nothing is wrong that the photographs show."
     grade = Grade.GOOD if error.median <= MAX_GOOD_PX else Grade.USABLE
     return grade, (
         "Nothing is wrong where there are corners; beyond them pixels are known to "
-        f"{error.worst:.2g} px: bring corners closer to the image's edge."
+        f"{format_two_digits(error.worst)} px: bring corners closer to the image's edge."
     )

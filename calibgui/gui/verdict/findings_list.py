@@ -18,6 +18,7 @@ from PySide6.QtWidgets import (
 )
 
 from calibgui.engine.assessment import Finding, Verdict
+from calibgui.engine.numbers import format_two_digits
 from calibgui.gui.verdict.drop_down import DropDown
 from calibgui.gui.verdict.texts import describe_button
 from calibgui.gui.widgets import theme
@@ -109,7 +110,7 @@ class FindingRow(QWidget):
         self.how_much = QLabel(
             self.tr("{0} times better without").format(format_times(finding.times_better))
             if finding.times_better >= _MIN_TOLD
-            else self.tr("{0:.2g} px").format(finding.harm)
+            else self.tr("{0} px").format(format_two_digits(finding.harm))
         )
         self.unfold = QToolButton()
         self.unfold.setCheckable(True)

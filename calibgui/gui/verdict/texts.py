@@ -16,6 +16,7 @@ from calibgui.engine.assessment import (
     Verdict,
     summarise_residuals,
 )
+from calibgui.engine.numbers import format_two_digits
 from calibgui.gui.widgets.lengths import describe_condition
 from calibgui.report.verdict import format_times, join_names
 
@@ -42,17 +43,18 @@ def describe_pixel_error(error: PixelError) -> str:
         return translate("VerdictTexts", "Error of a pixel: unknown")
     text = translate(
         "VerdictTexts",
-        "Error of a pixel: centre {0:.2g}, covered part {1:.2g}, edge {2:.2g}, worst {3:.2g} px",
+        "Error of a pixel: centre {0}, covered part {1}, edge {2}, worst {3} px",
     )
-    return text.format(error.centre, error.covered, error.edge, error.worst)
+    figures = error.centre, error.covered, error.edge, error.worst
+    return text.format(*map(format_two_digits, figures))
 
 
 def describe_figures(verdict: Verdict, result: Result) -> str:
     """Describe the error of a pixel, what it is in the scene, and how well the camera fits."""
     parts = [describe_pixel_error(verdict.error)]
     if np.isfinite(mm := verdict.error.edge * verdict.mm_per_pixel):
-        text = translate("VerdictTexts", "edge {0:.2g} mm at {1:.0f} mm")
-        parts.append(text.format(mm, verdict.distance))
+        text = translate("VerdictTexts", "edge {0} mm at {1:.0f} mm")
+        parts.append(text.format(format_two_digits(mm), verdict.distance))
         parts[-1] += describe_condition(result)
     return "; ".join([*parts, describe_fit(result)])
 
