@@ -16,6 +16,7 @@ from __future__ import annotations
 import re
 import struct
 from dataclasses import dataclass
+from enum import Enum
 from mmap import mmap
 
 from calibgui.engine.arrays import Size
@@ -26,6 +27,23 @@ Data = bytes | mmap
 _NO_EXIF = Exif()
 _ZEROS = bytes(64)
 """Compressed pixels do not end in so many zeros, unless a copy was interrupted."""
+
+
+class ForeignKind(Enum):
+    """Kinds of files that people take for photographs, and that are not read."""
+
+    VIDEO = "a video"
+    HEIF = "a HEIC or AVIF image, which is not read"
+
+
+def find_foreign_kind(data: Data) -> ForeignKind | None:
+    """Find out what a file is that is no image; None if that is not known."""
+    start = bytes(data[:16])
+    if start[4:8] == b"ftyp":
+        is_image = start[8:12] in (b"heic", b"heix", b"mif1", b"msf1", b"avif")
+        return ForeignKind.HEIF if is_image else ForeignKind.VIDEO
+    is_video = start[8:12] == b"AVI " or start.startswith((b"\x1aE\xdf\xa3", b"\0\0\1\xba"))
+    return ForeignKind.VIDEO if is_video else None
 
 
 @dataclass(frozen=True, slots=True)

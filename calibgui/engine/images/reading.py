@@ -25,7 +25,7 @@ from calibgui.engine import opencv
 from calibgui.engine.arrays import Size
 from calibgui.engine.errors import CalibrationError
 from calibgui.engine.files import open_regular, read_regular, write_atomically
-from calibgui.engine.images.headers import Header, read_header
+from calibgui.engine.images.headers import ForeignKind, Header, find_foreign_kind, read_header
 
 Pixels = npt.NDArray[np.uint8] | npt.NDArray[np.uint16]
 PathLike = str | os.PathLike[str]
@@ -45,6 +45,11 @@ _STRETCH_PERCENTILES = (0.5, 99.5)
 _INVERSE = {6: 8, 8: 6}
 """EXIF orientations that another one takes back; each of the others takes back itself."""
 _FORMAT_HINT = "Use PNG, JPEG, TIFF, BMP, WebP or PGM with 8 or 16 bits."
+_HINTS = {
+    ForeignKind.VIDEO: "Save single frames of it as PNG first, some 20 in which the board stands "
+    "still in different positions.",
+    ForeignKind.HEIF: "Save it as JPEG or PNG first, and set the phone to the compatible format.",
+}
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -217,6 +222,9 @@ def _read_checked_header(path: Path, data: bytes | mmap.mmap) -> Header:
     """Read the header of `data`; refuse an unknown format and an impossible size."""
     header = read_header(data)
     if header is None:
+        kind = find_foreign_kind(data)
+        if kind is not None:
+            raise CalibrationError(f"{path} is {kind.value}.", _HINTS[kind])
         raise CalibrationError(
             f"{path} is not an image of a known format, or cut short.", _FORMAT_HINT
         )
