@@ -7,11 +7,13 @@ takes 2000 new ones for each invariant and prints how to repeat the one that fai
 from __future__ import annotations
 
 import os
+from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
 from hypothesis import HealthCheck, settings
 
+from calibgui.app.workers import do_tasks_here
 from calibgui.engine.kernels import COMPILED
 from tests.photographs import write_photographs
 
@@ -51,6 +53,17 @@ def pytest_ignore_collect(collection_path: Path) -> bool | None:
 def find_data_dir() -> Path:
     """Find the folder of the real image sets, which may not be there."""
     return Path(os.environ.get("CALIBGUI_DATA", _REPOSITORY.parent / "shared" / "data"))
+
+
+@pytest.fixture(scope="module")
+def search_here() -> Iterator[None]:
+    """Let photographs be searched in the test's own process.
+
+    Starting workers takes longer than searching a few photographs, and xdist keeps the processors
+    busy. What workers do is tested in tests/app and by subcommands in processes of their own.
+    """
+    with do_tasks_here():
+        yield
 
 
 @pytest.fixture(scope="session")

@@ -38,7 +38,7 @@ class Found:
 
 
 @pytest.fixture(scope="module", params=["edges", "saddle"])
-def found(request: pytest.FixtureRequest, bouguet: Path) -> Found:
+def found(request: pytest.FixtureRequest, bouguet: Path, search_here: None) -> Found:  # noqa: ARG001
     images = [bouguet / f"Image{k}.tif" for k in range(1, 26)]
     corners = find_views(images, method=request.param).corner_set(30.0)
     return Found(

@@ -11,6 +11,11 @@ import pytest
 from calibgui.cli.main import main
 
 
+@pytest.fixture(scope="module", autouse=True)
+def search_always_here(search_here: None) -> None:
+    """No subcommand starts workers."""
+
+
 @pytest.fixture(scope="session")
 def corners_file(photographs: Path, tmp_path_factory: pytest.TempPathFactory) -> Path:
     """corners.json of the photographs, as `calibgui detect` writes it."""
