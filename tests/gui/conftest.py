@@ -7,6 +7,7 @@ import os
 import threading
 from collections.abc import Iterator
 from pathlib import Path
+from types import SimpleNamespace
 
 import pytest
 
@@ -36,6 +37,15 @@ def imported() -> None:
     """What is imported stays: the collection after each test need not look at it."""
     gc.collect()
     gc.freeze()
+
+
+@pytest.fixture(autouse=True)
+def search_in_threads(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Photographs are searched in the threads of the jobs, as tests/conftest.py has it.
+
+    Modules that are about the processes themselves put a fixture of this name in its place.
+    """
+    monkeypatch.setattr("calibgui.app.workers._serial", SimpleNamespace(is_on=True))
 
 
 @pytest.fixture(autouse=True)

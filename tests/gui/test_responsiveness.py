@@ -33,6 +33,11 @@ LIMIT = 0.25
 """Longest gap, s, on a slow machine; 0.1 is aimed at."""
 
 
+@pytest.fixture(autouse=True)
+def search_in_threads() -> None:
+    """Photographs are searched in processes, as they are for the user."""
+
+
 @contextmanager
 def heartbeat(what: str) -> Iterator[None]:
     """Measure the gaps while the block runs the event loop.

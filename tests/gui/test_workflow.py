@@ -34,6 +34,11 @@ pytestmark = pytest.mark.slow
 COUNT = 8
 
 
+@pytest.fixture(autouse=True)
+def search_in_threads() -> None:
+    """Photographs are searched in processes, as they are for the user."""
+
+
 @pytest.fixture
 def folder(tmp_path: Path) -> Path:
     """Some of the sample's images, and one that shows nothing."""
