@@ -15,6 +15,10 @@ from calibgui.engine.assessment import OUTLIER_Z, FleetSpread, measure_fleet_spr
 from calibgui.engine.camera import Camera
 from calibgui.engine.errors import CalibrationError
 
+_MIN_OVER_OWN_ERROR = 3.0
+"""Ratio of a camera's difference from the others to its own error of a pixel, above which it is
+unlike them: below, the camera may be like them and only poorly known."""
+
 Kind = tuple[Size, str]
 """Image size and lens model: cameras of one kind are compared with each other."""
 
@@ -34,8 +38,10 @@ class PlacedCamera:
 
     @property
     def is_outlier(self) -> bool:
-        """True if the camera is unlike the others of its kind."""
-        return self.z > OUTLIER_Z
+        """True if the camera is unlike the others of its kind, beyond its own uncertainty."""
+        figures = self.camera.figures
+        own = math.nan if figures is None else figures.error.median
+        return self.z > OUTLIER_Z and self.difference > _MIN_OVER_OWN_ERROR * own
 
 
 @dataclass(frozen=True, slots=True)
@@ -54,6 +60,15 @@ class FleetOverview:
         """The cameras that are unlike the others, the farthest first."""
         found = [one for one in self.placed if one.is_outlier]
         return tuple(sorted(found, key=lambda one: -one.z))
+
+    @property
+    def undetermined(self) -> tuple[PlacedCamera, ...]:
+        """The cameras that have a calibration, but one that cannot be compared with others."""
+        return tuple(
+            one
+            for one in self.placed
+            if one.camera.figures is not None and math.isnan(one.difference)
+        )
 
     @property
     def failed(self) -> tuple[PlacedCamera, ...]:
@@ -94,7 +109,9 @@ def make_overview(cameras: Sequence[FleetCamera]) -> FleetOverview:
 
 
 def rebuild_camera(figures: FleetFigures) -> Camera | None:
-    """Return the camera of a calibration; None if a parameter of it is undetermined."""
+    """Return the camera of a calibration; None if its views do not determine it."""
+    if not math.isfinite(figures.error.median):
+        return None
     values = np.array([one.value for one in figures.parameters.values()])
     sigmas = np.array([one.sigma for one in figures.parameters.values()])
     if not np.isfinite([values, sigmas]).all():

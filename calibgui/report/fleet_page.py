@@ -18,6 +18,7 @@ from calibgui.formats.origin import FLEET_PAGE, make_mark
 from calibgui.report.fleet_figures import Histogram, Measured, draw_history, make_histogram
 from calibgui.report.fleet_overview import FleetOverview, Kind, PlacedCamera
 from calibgui.report.numbers import format_with_sigma
+from calibgui.report.verdict import join_names
 
 _MAX_HISTORIES = 12
 """Largest number of serial numbers whose drift is drawn on the first page: those that changed most.
@@ -176,9 +177,12 @@ def _describe_outliers(overview: FleetOverview, links: Mapping[str, str]) -> lis
         "<p>Each camera is compared with the median of its image size and lens model by where both "
         "image the same far points, after the rotation that brings them together. The difference "
         "contains the calibration's own error. Robust z is its distance from the median difference "
-        f"in standard deviations; beyond {OUTLIER_Z:g} a camera is listed here. Of fewer than "
-        f"{MIN_FLEET} cameras none is.</p>"
+        f"in standard deviations; beyond {OUTLIER_Z:g} a camera is listed here, if its own error "
+        f"does not explain it. Of fewer than {MIN_FLEET} cameras none is.</p>"
     )
+    if overview.undetermined:
+        names = escape(join_names([one.camera.id for one in overview.undetermined]))
+        parts.append(f"<p>Not compared, as photographs do not determine them: {names}.</p>")
     if not overview.outliers:
         return [*parts, "<p>There is none.</p>"]
     rows = [

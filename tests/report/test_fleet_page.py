@@ -24,6 +24,7 @@ from calibgui.engine.assessment import Grade, PixelError
 from calibgui.formats.fleet_ledger import open_ledger
 from calibgui.report.fleet_figures import Measured, draw_history, make_histogram
 from calibgui.report.fleet_overview import make_overview
+from calibgui.report.fleet_page import FleetPages
 
 Capture = pytest.CaptureFixture[str]
 OUTLIER, BAD_NAME = "odd one", '<script>alert("x")</script> & Ärger'
@@ -174,6 +175,27 @@ def test_the_camera_that_is_unlike_the_others_is_first(
     assert float(rows[0][5]) == pytest.approx(overview.outliers[0].z, abs=0.05)
     assert overview.outliers[0].z > 10
     assert len(overview.outliers) < 5
+
+
+def with_error(camera: FleetCamera, error: PixelError) -> FleetCamera:
+    assert camera.figures is not None
+    return replace(camera, figures=replace(camera.figures, error=error))
+
+
+def test_what_a_camera_does_not_know_of_itself_makes_it_no_outlier(
+    fleet: list[FleetCamera],
+) -> None:
+    (place,) = [k for k, camera in enumerate(fleet) if camera.id == OUTLIER]
+    known, poor, none = (PixelError(*[px] * 6) for px in (0.3, 5.0, float("inf")))
+    for error, is_outlier, is_compared in (
+        (known, True, True), (poor, False, True), (none, False, False),
+    ):  # fmt: skip
+        cameras = [*fleet[:place], with_error(fleet[place], error), *fleet[place + 1 :]]
+        overview = make_overview(cameras)
+        assert overview.placed[place].is_outlier is is_outlier
+        assert (overview.placed[place] not in overview.undetermined) is is_compared
+        page = FleetPages(overview, "fleet", "cameras", "fleet.html", {}).make_first()
+        assert ("do not determine them" in page) is not is_compared
 
 
 def test_failures_and_changes_are_listed_with_their_reasons(page: Path) -> None:

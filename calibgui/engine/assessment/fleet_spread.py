@@ -102,12 +102,6 @@ def measure_fleet_spread(cameras: Sequence[Camera]) -> FleetSpread:
     return FleetSpread(rms, worst, _compute_robust_z(rms))
 
 
-def _list_middles(length: int, longer: int) -> Array:
-    """Return the middles of the cells along a side of the image, px."""
-    cells = max(round(_GRID_STEPS * length / longer), 2)
-    return np.asarray((np.arange(cells) + 0.5) * length / cells - 0.5)
-
-
 def _compute_shifts(rays: Array, uv: Array, camera: Camera) -> Array:
     """Return the displacements (n, 2) of a camera's pixels; all NaN if it sees too few of them."""
     R = np.eye(3)
