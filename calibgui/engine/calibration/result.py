@@ -7,10 +7,11 @@ camera, and carries what they do determine.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from enum import StrEnum
-from typing import Any
+from functools import cached_property
+from typing import Any, overload
 
 import numpy as np
 
@@ -45,6 +46,28 @@ class StageOne:
 
     def __post_init__(self) -> None:
         freeze(self, "backward")
+
+
+@dataclass(frozen=True, eq=False)
+class StageOneTable(Sequence[StageOne]):
+    """The paper's Table 1, computed when somebody first reads a row: a calibration needs none."""
+
+    tabulate: Callable[[], tuple[StageOne, ...]]
+    """Function that returns all rows."""
+
+    @cached_property
+    def _rows(self) -> tuple[StageOne, ...]:
+        return self.tabulate()
+
+    @overload
+    def __getitem__(self, index: int) -> StageOne: ...
+    @overload
+    def __getitem__(self, index: slice) -> tuple[StageOne, ...]: ...
+    def __getitem__(self, index: int | slice) -> StageOne | tuple[StageOne, ...]:
+        return self._rows[index]
+
+    def __len__(self) -> int:
+        return len(self._rows)
 
 
 @dataclass(frozen=True, slots=True)
@@ -180,7 +203,8 @@ class Calibration:
     along each axis (``refinement/whitening.py``); 0 where corners have no covariances."""
     reference_scale: float
     """Scale of the virtual reference image, reference px per mm on the board."""
-    stage_one: tuple[StageOne, ...]
+    stage_one: Sequence[StageOne]
+    """A row of the paper's Table 1 for each view."""
     history: tuple[Iteration, ...]
     status: Status
     cost: Cost

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import pickle
 from collections.abc import Callable, Sequence
 
 import cv2
@@ -14,7 +15,14 @@ from threadpoolctl import threadpool_limits
 from calibgui.engine.arrays import Array
 from calibgui.engine.calibration.calibrate import calibrate
 from calibgui.engine.calibration.observations import Observation
-from calibgui.engine.calibration.result import Calibration, Cost, Iteration, Status
+from calibgui.engine.calibration.result import (
+    Calibration,
+    Cost,
+    Iteration,
+    StageOne,
+    StageOneTable,
+    Status,
+)
 from calibgui.engine.errors import CalibrationError, Cancelled
 from calibgui.engine.geometry.rotations import rotation_from_vector
 from tests.engine.scenes import TRUE_BOARD, VGA, Scene, barrel, brown, looking, scene, seen
@@ -306,6 +314,23 @@ def test_stage_one_is_reported(expected: Calibration) -> None:
     assert all(row.converged and row.rms < 1.0 for row in expected.stage_one)
     aspects = np.array([row.aspect for row in expected.stage_one])
     assert np.nanmedian(aspects) == pytest.approx(0.9, abs=0.05)
+
+
+def test_the_table_of_stage_one_is_computed_once_and_when_it_is_read(
+    expected: Calibration,
+) -> None:
+    rows, asked = tuple(expected.stage_one), []
+
+    def tabulate() -> tuple[StageOne, ...]:
+        asked.append(1)
+        return rows
+
+    table = StageOneTable(tabulate)
+    assert not asked
+    assert (len(table), table[0], table[-2:], [*table]) == (8, rows[0], rows[-2:], [*rows])
+    assert len(asked) == 1
+    copied = pickle.loads(pickle.dumps(expected)).stage_one  # other processes get it as well
+    assert [row.xp for row in copied] == [row.xp for row in rows]
 
 
 def test_arrays_of_results_are_frozen(expected: Calibration) -> None:
