@@ -114,7 +114,7 @@ def solve(observations: Observations, start: State, model: str) -> float:
         solution.normal, names, observations.count, np.full(9, np.inf)
     )
     rvecs = rotations.vector_from_rotation(solution.state.R)
-    covariances.compute_pose_covariances(solution.normal, found.shared, rvecs, found.variance)
+    covariances.compute_pose_covariances(found.reduced, found.shared, rvecs, found.variance)
     return float(np.sqrt(solution.normal.cost / observations.count))
 
 

@@ -43,7 +43,6 @@ from calibgui.engine.calibration.partial.degeneracy import (
     diagnose_degeneracy,
     find_copies,
     find_misfits,
-    find_traded_focal_lengths,
     find_undetermined,
     is_in_one_spot,
 )
@@ -262,9 +261,7 @@ def _measure_precision(
     camera = Camera(options.size, solution.state.params, options.model)
     tolerated = _compute_tolerated_deviations(camera, observations)[options.free]
     precision = covariances.measure_precision(solution.normal, names, observations.count, tolerated)
-    lens = find_model(options.model)
-    traded = find_traded_focal_lengths(camera.params, lens, names, precision.shared)
-    lost = find_undetermined(solution, names, precision, misfits, traded)
+    lost = find_undetermined(solution, names, precision, misfits, camera)
     if lost or is_in_one_spot(observations.uv, options.size):  # padding repeats a corner
         _raise_if_undetermined(observations, originals, options, solution.state, lost)
     return precision

@@ -68,8 +68,8 @@ def make_estimate(
 ) -> Estimate:
     """Make the estimate of a solution whose board has the shape that it was given."""
     rvecs = rotations.vector_from_rotation(solution.state.R)
-    sigma2, camera, _ = precision
-    poses = covariances.compute_pose_covariances(solution.normal, camera, rvecs, sigma2)
+    sigma2, camera, _, reduced = precision
+    poses = covariances.compute_pose_covariances(reduced, camera, rvecs, sigma2)
     return Estimate(solution, solution.state, observations, sigma2, camera, poses, camera)
 
 

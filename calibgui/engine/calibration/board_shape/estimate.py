@@ -78,7 +78,8 @@ def fit_board_shape(
     G = make_gauge(points) if gauged else np.zeros((B.shape[2], 0))
     deviations = _Deviations(points, index, B, G, prior)
     joint = _solve_jointly(nominal, observations, model, free, deviations, report)
-    inverse, left = covariances.invert_information(eliminate_poses(joint.solution.normal))
+    reduced = eliminate_poses(joint.solution.normal)
+    inverse, left = covariances.invert_information(reduced)
     if left < _MIN_INFORMATION:
         raise CalibrationError(
             f"These views do not determine the board's shape ({shape.value}).",
@@ -97,7 +98,7 @@ def fit_board_shape(
         sigma2=joint.sigma2,
         camera_covariance=camera,
         pose_covariances=covariances.compute_pose_covariances(
-            joint.solution.normal, covariance, rvecs, joint.sigma2
+            reduced, covariance, rvecs, joint.sigma2
         ),
         noise_covariance=camera,
         board_shape=BoardShape(shape, points, joint.deviation, _compute_sigma(B, shape_covariance)),

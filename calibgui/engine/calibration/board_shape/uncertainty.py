@@ -242,7 +242,7 @@ def estimate_board_error(
     by_pose = joint.solve_poses(-normal.pose, np.append(shift, q))
     return BoardError(
         covariance[:P, :P],
-        covariances.compute_pose_covariances(normal, covariance, rvecs, sigma2),
+        covariances.compute_pose_covariances(joint, covariance, rvecs, sigma2),
         shift,
         (covariances.differentiate_poses(rvecs) @ by_pose[..., None])[..., 0],
         float(np.sqrt(square / n)),

@@ -30,8 +30,8 @@ from calibgui.engine.calibration.refinement.covariances import Precision
 from calibgui.engine.calibration.refinement.levenberg_marquardt import Solution
 from calibgui.engine.calibration.refinement.residuals import State
 from calibgui.engine.calibration.result import Degeneracy, Diagnosis
-from calibgui.engine.camera.model import Lens
-from calibgui.engine.camera.models import PINHOLE
+from calibgui.engine.camera.camera import Camera
+from calibgui.engine.camera.models import PINHOLE, find_model
 from calibgui.engine.errors import CalibrationError
 
 _MIN_T = 50.0
@@ -62,12 +62,12 @@ def compute_normals(R: Array) -> Array:
     return n * np.where(n[:, 2:] < 0, -1.0, 1.0)
 
 
-def are_planes_parallel(R: Array, V: Array, variance: float) -> bool:
+def are_planes_parallel(R: Array, roots: Array, variance: float) -> bool:
     """Return whether the planes' normals differ by no more than noise.
 
     Args:
         R: (K, 3, 3) rotations cam_from_board.
-        V: (K, 6, 6) normal matrices of the poses (w, tau), as in ``refinement/schur.py``.
+        roots: (K, 6, 6) L^-1 of the poses (w, tau), as in ``refinement/schur.py``.
         variance: variance of one residual coordinate.
     """
     n = compute_normals(R)
@@ -75,9 +75,10 @@ def are_planes_parallel(R: Array, V: Array, variance: float) -> bool:
     if _measure_max_angle(n, mean) < _MIN_ANGLE:
         return True
     # The turn about the board's two axes across n; turns about n itself leave n where it is.
-    across = np.swapaxes(R[:, :, :2], 1, 2)
-    turn = (across @ np.cross(n, mean)[..., None])[..., 0]
-    covariance = across @ np.linalg.inv(V)[:, :3, :3] @ np.swapaxes(across, 1, 2)
+    across = R[:, :, :2]
+    turn = (np.cross(n, mean)[:, None] @ across)[:, 0]
+    root = roots[..., :3] @ across
+    covariance = np.swapaxes(root, 1, 2) @ root
     squares = turn * np.linalg.solve(covariance, turn[..., None])[..., 0]
     return bool(squares.sum() / (2 * (len(n) - 1)) < _MIN_T * variance)
 
@@ -98,7 +99,7 @@ def find_undetermined(
     names: tuple[str, ...],
     precision: Precision,
     misfits: Sequence[str],
-    traded: Sequence[str],
+    camera: Camera,
 ) -> tuple[str, ...]:
     """Find the focal lengths and coordinates of the centre that the views do not determine.
 
@@ -107,7 +108,7 @@ def find_undetermined(
         names: (P,) names of the free parameters.
         precision: the precision of the solution.
         misfits: names of the views that `find_misfits` found.
-        traded: names of the focal lengths that `find_traded_focal_lengths` found.
+        camera: the camera of the solution.
 
     Raises:
         CalibrationError: if there are misfits, which are then the cause.
@@ -116,16 +117,13 @@ def find_undetermined(
     if not np.isfinite(precision.variance):
         return pinhole
     # One orientation gives two equations: enough if the other two parameters are held.
-    are_parallel = len(pinhole) > 2 and are_planes_parallel(
-        solution.state.R, solution.normal.V, precision.variance
-    )
-    found = (
-        pinhole
-        if are_parallel
-        else tuple(
-            u.name for u in precision.undetermined if u.name in PINHOLE and u.name not in traded
-        )
-    )
+    if len(pinhole) > 2 and are_planes_parallel(
+        solution.state.R, precision.reduced.roots, precision.variance
+    ):
+        found = pinhole
+    elif found := tuple(u.name for u in precision.undetermined if u.name in PINHOLE):
+        traded = _find_traded_focal_lengths(camera, names, precision.shared)
+        found = tuple(name for name in found if name not in traded)
     if found and misfits:
         raise CalibrationError(
             f"No camera sees a flat board as in {', '.join(misfits)}, which leaves "
@@ -135,8 +133,8 @@ def find_undetermined(
     return found
 
 
-def find_traded_focal_lengths(
-    params: Array, lens: Lens, names: tuple[str, ...], covariance: Array
+def _find_traded_focal_lengths(
+    camera: Camera, names: tuple[str, ...], covariance: Array
 ) -> tuple[str, ...]:
     """Find the focal lengths that the lens's coefficients make up for.
 
@@ -145,11 +143,11 @@ def find_traded_focal_lengths(
     image's scale is not.
 
     Args:
-        params: (P,) the camera's parameters.
-        lens: the lens model.
+        camera: the camera.
         names: names of the free parameters.
         covariance: covariance of the free parameters.
     """
+    params, lens = camera.params, find_model(camera.model)
     near_axis = lens.project(np.array([_NEAR_AXIS, 0.0, 1.0]), params[4:])
     by_k = near_axis.by_coefficients[0] / near_axis.points[0]
     found = []

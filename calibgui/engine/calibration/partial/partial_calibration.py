@@ -135,7 +135,9 @@ def estimate_partially(
     )(state)
     status = Status.PARTIAL if solution.status is Status.CONVERGED else solution.status
     rvecs = rotations.vector_from_rotation(state.R)
-    spread = covariances.compute_pose_covariances(normal, camera, rvecs, fit.sigma2)
+    spread = covariances.compute_pose_covariances(
+        eliminate_poses(normal), camera, rvecs, fit.sigma2
+    )
     solution = Solution(state, normal, solution.history, status)
     estimate = Estimate(solution, state, observations, fit.sigma2, camera, spread, by_noise)
     held_priors = zip(free[held].tolist(), fit.prior[held].tolist(), strict=True)

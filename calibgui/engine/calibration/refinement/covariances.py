@@ -56,6 +56,8 @@ class Precision(NamedTuple):
     """(P, P) covariance of the free shared parameters."""
     undetermined: tuple[Undetermined, ...]
     """Parameters whose standard deviations are not to be believed."""
+    reduced: Reduced
+    """The normal equations of the shared parameters."""
 
 
 def estimate_variance(cost: float, corners: int, unknowns: float) -> float:
@@ -103,7 +105,7 @@ def measure_precision(
             or ("the corners' noise leaves it open" if is_imprecise[i] else "")
         )
     )
-    return Precision(sigma2, shared, undetermined)
+    return Precision(sigma2, shared, undetermined, reduced)
 
 
 def compute_shared_covariance(reduced: Reduced, sigma2: float) -> Array:
@@ -151,27 +153,26 @@ def _invert_scaled(scaled: Array) -> tuple[Array, float]:
     return vectors[:, kept] / values[kept] @ vectors[:, kept].T, float(values[0])
 
 
-def compute_pose_covariances(
-    normal: NormalEquations, shared: Array, rvecs: Array, sigma2: float
-) -> Array:
+def compute_pose_covariances(reduced: Reduced, shared: Array, rvecs: Array, sigma2: float) -> Array:
     """Compute the covariances (K, 6, 6) of (rvec, tvec), rad and mm.
 
     Args:
-        normal: the normal equations at the solution.
+        reduced: the normal equations of the shared parameters at the solution.
         shared: (P, P) covariance of the free shared parameters.
         rvecs: (K, 3) rotation vectors of the poses.
         sigma2: variance of one residual coordinate.
     """
-    local, W = np.asarray(np.linalg.inv(normal.V)), normal.W
+    roots, W = reduced.roots, reduced.W
     is_touched = W.any(axis=(0, 2))
     if not is_touched.all():  # the coefficients that no corner touches do not act on poses
         W, shared = W[:, is_touched], shared[np.ix_(is_touched, is_touched)]
-    for views in slice_views(len(local)):
-        G = local[views] @ np.swapaxes(W[views], 1, 2)
+    by_root = differentiate_poses(rvecs) @ np.swapaxes(roots, 1, 2)
+    found = sigma2 * (by_root @ np.swapaxes(by_root, 1, 2))
+    for views in slice_views(len(found)):
+        G = by_root[views] @ (roots[views] @ np.swapaxes(W[views], 1, 2))
         carried = np.tensordot(G, shared, axes=1)  # one product for all views
-        local[views] = sigma2 * local[views] + carried @ np.swapaxes(G, 1, 2)
-    J = differentiate_poses(rvecs)
-    return J @ local @ np.swapaxes(J, 1, 2)
+        found[views] += carried @ np.swapaxes(G, 1, 2)
+    return found
 
 
 def differentiate_poses(rvecs: Array) -> Array:
