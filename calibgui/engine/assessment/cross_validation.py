@@ -19,7 +19,7 @@ error that all views share, as that of the board's shape. The variance of K draw
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from contextlib import suppress
 from dataclasses import dataclass
 from typing import Any
@@ -30,9 +30,9 @@ from calibgui.engine.arrays import Array, IntArray, Size, freeze
 from calibgui.engine.boards.shape import BoardShape, BoardShapeModel
 from calibgui.engine.calibration.calibrate import calibrate
 from calibgui.engine.calibration.methods import DEFAULT_METHOD, find_method
-from calibgui.engine.calibration.methods.method import begin_at
+from calibgui.engine.calibration.methods.method import Method, begin_at, stay_at
 from calibgui.engine.calibration.observations import Observation, pack_observations
-from calibgui.engine.calibration.problem import prepare_observations
+from calibgui.engine.calibration.problem import weigh_and_place
 from calibgui.engine.calibration.resection import estimate_poses, refine_poses
 from calibgui.engine.calibration.result import Calibration, ViewResiduals
 from calibgui.engine.calibration.result_assembly import compute_view_residuals
@@ -123,40 +123,76 @@ def cross_validate(
         >>> bool(validation.held_out < 1e-3)
         True
     """
-    if not 2 <= folds <= len(views):
+    seen, method, settings = _sort_arguments(views, settings)
+    methods = [
+        method if start is None else begin_at(method, start, kept)
+        for kept, _ in _deal_views(len(seen), folds)
+    ]
+    return _validate(seen, _calibrate_folds(seen, size, methods, settings))
+
+
+def _sort_arguments(
+    views: Sequence[Observation | tuple[Array, Array]], settings: Mapping[str, Any]
+) -> tuple[list[Observation], Method, dict[str, Any]]:
+    """Return the views, the method, and the settings that suit some of the views as well."""
+    further = {name: settings[name] for name in settings.keys() - {"names", "method"}}
+    method = find_method(settings.get("method", DEFAULT_METHOD))
+    return [Observation(*view) for view in views], method, further
+
+
+def _deal_views(count: int, folds: int) -> list[tuple[list[int], list[int]]]:
+    """Return, for each fold, the indices of the views that are calibrated, and of those held out.
+
+    Raises:
+        CalibrationError: if there are fewer folds than 2 or more than views.
+    """
+    if not 2 <= folds <= count:
         raise CalibrationError(
-            f"{len(views)} views cannot be dealt into {folds} folds.",
+            f"{count} views cannot be dealt into {folds} folds.",
             "Use at least 2 folds and at most one a view.",
         )
-    seen = [Observation(*view) for view in views]
-    settings = {name: settings[name] for name in settings.keys() - {"names"}}
-    method = find_method(settings.pop("method", DEFAULT_METHOD))
-    done: list[Fold] = []
+    return [
+        ([k for k in range(count) if k % folds != fold], list(range(fold, count, folds)))
+        for fold in range(folds)
+    ]
+
+
+def _calibrate_folds(
+    views: Sequence[Observation],
+    size: Size,
+    methods: Sequence[Method],
+    settings: Mapping[str, Any],
+) -> list[Calibration]:
+    """Calibrate without the views of each fold, by the method for it."""
+    dealt = zip(_deal_views(len(views), len(methods)), methods, strict=True)
+    return [
+        calibrate([views[k] for k in kept], size, method=how, **settings, model_errors=False)
+        for (kept, _), how in dealt
+    ]
+
+
+def _validate(views: Sequence[Observation], calibrations: Sequence[Calibration]) -> CrossValidation:
+    """Measure the errors of the folds' calibrations on the views that they have not seen."""
+    folds: list[Fold] = []
     trained: list[ViewResiduals] = []
-    by_view: list[ViewResiduals | None] = [None] * len(seen)
-    for fold in range(folds):
-        out = np.arange(fold, len(seen), folds)
-        kept = [k for k in range(len(seen)) if k % folds != fold]
-        how = method if start is None else begin_at(method, start, kept)
-        result = calibrate(
-            [seen[k] for k in kept], size, method=how, **settings, model_errors=False
-        )
-        held_out = resect_views(result, [seen[k] for k in out])
-        for k, residual in zip(out, held_out, strict=True):
-            by_view[k] = residual
-        trained += result.residuals
-        done.append(
+    by_view: dict[int, ViewResiduals] = {}
+    dealt = _deal_views(len(views), len(calibrations))
+    for (_, out), calibration in zip(dealt, calibrations, strict=True):
+        held_out = resect_views(calibration, [views[k] for k in out])
+        by_view.update(zip(out, held_out, strict=True))
+        trained += calibration.residuals
+        folds.append(
             Fold(
-                out,
-                _compute_rms(result.residuals),
+                np.array(out),
+                _compute_rms(calibration.residuals),
                 _compute_rms(held_out),
-                result.camera,
-                result.board_shape,
+                calibration.camera,
+                calibration.board_shape,
             )
         )
-    complete = [residual for residual in by_view if residual is not None]
+    complete = [by_view[k] for k in range(len(views))]
     return CrossValidation(
-        folds=tuple(done),
+        folds=tuple(folds),
         by_view=np.array([residual.rms for residual in complete]),
         lengths=np.concatenate([np.linalg.norm(view.image, axis=1) for view in complete]),
         training=_compute_rms(trained),
@@ -176,8 +212,9 @@ def resect_views(
     Raises:
         CalibrationError: if views cannot be used, or do not fit the camera or the board.
     """
-    observations = prepare_observations(calibration, views)
-    start = estimate_poses(calibration.camera, pack_observations(views))
+    drawn = pack_observations(views)
+    start = estimate_poses(calibration.camera, drawn)
+    observations = weigh_and_place(calibration, drawn)
     how = calibration.camera.model, calibration.cost, calibration.reference_scale
     return compute_view_residuals(refine_poses(start, observations, *how), observations, *how)
 
@@ -248,22 +285,22 @@ def choose_board_shape(
     validations: dict[BoardShapeModel, CrossValidation] = {}
     refused: dict[BoardShapeModel, str] = {}
     best, nominal = BoardShapeModel.NOMINAL, calibrate(views, size, **settings)
-    for model in BoardShapeModel:
-        if model is not best and nominal.lens_error > 0:
+    seen, method, further = _sort_arguments(views, settings)
+    begun = [begin_at(method, nominal, kept) for kept, _ in _deal_views(len(seen), folds)]
+    drawn = _calibrate_folds(seen, size, begun, further)
+    validations[best] = _validate(seen, drawn)
+    solved = [stay_at(method, calibration) for calibration in drawn]
+    for model in list(BoardShapeModel)[1:]:
+        if nominal.lens_error > 0:
             refused[model] = _REASON_LENS
             continue
         try:
-            validations[model] = cross_validate(
-                views, size, folds, nominal, board_shape=model, **settings
-            )
+            shaped = _calibrate_folds(seen, size, solved, further | {"board_shape": model})
+            validations[model] = _validate(seen, shaped)
         except CalibrationError as error:
-            if model is BoardShapeModel.NOMINAL:
-                raise
             refused[model] = error.message
             continue
-        if model is not best and predicts_better(
-            validations[model].by_view, validations[best].by_view
-        ):
+        if predicts_better(validations[model].by_view, validations[best].by_view):
             best = model
     chosen = (
         nominal
@@ -315,10 +352,8 @@ def bootstrap_views(
         CalibrationError: if the views themselves, or nine draws in ten, cannot be calibrated.
     """
     whole = calibrate(views, size, **settings)
-    seen = [Observation(*view) for view in views]
+    seen, method, settings = _sort_arguments(views, settings | {"report": None})
     rng = np.random.default_rng(seed)
-    settings = {name: settings[name] for name in settings.keys() - {"names", "report"}}
-    method = find_method(settings.pop("method", DEFAULT_METHOD))
     params = []
     for _ in range(draws):
         drawn = rng.integers(len(seen), size=len(seen)).tolist()

@@ -71,7 +71,11 @@ def find_free_parameters(calibration: Calibration) -> IntArray:
 
 def prepare_observations(calibration: Calibration, views: Sequence[Observation]) -> Observations:
     """Prepare views as a calibration takes them: whitened, on the board shape found or held."""
-    observations = pack_observations(views)
+    return weigh_and_place(calibration, pack_observations(views))
+
+
+def weigh_and_place(calibration: Calibration, observations: Observations) -> Observations:
+    """Whiten observations as a calibration does, and place them on the board that it has."""
     if calibration.cost is Cost.IMAGE:
         observations = whiten_observations(observations, calibration.model_error**2)
     return (

@@ -96,6 +96,21 @@ def test_a_wrong_board_is_described_with_figures() -> None:
     assert "moves fx by" in choice.recommendation
 
 
+def test_shapes_are_fitted_to_the_minimum_that_a_fold_has_for_the_drawing() -> None:
+    """The choice solves every fold once, and ends where cross-validation of a shape does."""
+    views = [  # two kinds of corners, all far better than the model: the weights matter
+        view._replace(
+            cov=np.where(np.arange(len(view.uv)) % 2, 1e-3, 4e-3)[:, None, None] * np.eye(2)
+        )
+        for view in _on_wide_squares(8)
+    ]
+    choice = choose_board_shape(views, SIZE, folds=2)
+    alone = cross_validate(views, SIZE, 2, choice.nominal, board_shape="affine")
+    np.testing.assert_allclose(
+        choice.validations[BoardShapeModel.AFFINE].by_view, alone.by_view, rtol=1e-9
+    )
+
+
 def test_no_board_shape_stands_in_for_a_lens_that_is_not_followed() -> None:
     choice = choose_board_shape(_views(10), SIZE, model="pinhole")
     assert choice.model is BoardShapeModel.NOMINAL

@@ -30,6 +30,7 @@ from calibgui.engine.calibration.refinement.levenberg_marquardt import (
 )
 from calibgui.engine.calibration.refinement.residuals import State, build_stage_two
 from calibgui.engine.calibration.refinement.schur import NormalEquations, solve_normal_equations
+from calibgui.engine.calibration.refinement.whitening import whiten_observations
 from calibgui.engine.calibration.result import Calibration, Cost, Report, Status
 from calibgui.engine.camera.models import parameter_names
 from calibgui.engine.errors import CalibrationError
@@ -141,7 +142,7 @@ def begin_at(method: Method, calibration: Calibration, views: Sequence[int]) -> 
     if not method.is_minimum:
         return method
     poses = [calibration.poses[k] for k in views]
-    R = np.array([rotation_from_vector(pose.rvec) for pose in poses])
+    R = rotation_from_vector(np.array([pose.rvec for pose in poses]))
     T = np.array([pose.tvec for pose in poses])
     values = dict(zip(calibration.camera.names, calibration.camera.params.tolist(), strict=True))
 
@@ -150,6 +151,32 @@ def begin_at(method: Method, calibration: Calibration, views: Sequence[int]) -> 
         return Initialisation(state, {name: values[name] for name in given.held})
 
     return replace(method, initialise=initialise)
+
+
+def stay_at(method: Method, calibration: Calibration) -> Method:
+    """Return the method with the minimum that a calibration of the same views has found.
+
+    It saves the solve where different shapes of the board are estimated beside one camera.
+
+    Args:
+        method: the method of the calibration; one that does not minimise a cost is returned as it
+            is.
+        calibration: a calibration by the image cost, with the board as drawn.
+    """
+    if not method.is_minimum:
+        return method
+
+    def refine(
+        observations: Observations,
+        start: State,
+        options: Options,
+        report: Report | None,
+        max_iterations: int,  # noqa: ARG001 - of the contract
+    ) -> Refinement:
+        observations = whiten_observations(observations, calibration.model_error**2)
+        return Refinement(observations, evaluate_state(observations, start, options, report))
+
+    return replace(begin_at(method, calibration, range(len(calibration.poses))), refine=refine)
 
 
 def hold_parameters(
