@@ -143,8 +143,9 @@ def compute_view_residuals(
         cost: the cost that was minimised.
         scale: reference px per mm.
     """
-    seen, registered = residuals.compute_residuals(state, observations, model, cost)
-    image, reference = freeze_array(seen), freeze_array(scale * registered)
+    image, reference = residuals.compute_residuals(state, observations, model, cost)
+    reference *= scale
+    image.flags.writeable = reference.flags.writeable = False  # so that no view copies its part
     counts = observations.mask.sum(axis=1).astype(int).tolist()
     return tuple(ViewResiduals(image[k, :n], reference[k, :n]) for k, n in enumerate(counts))
 

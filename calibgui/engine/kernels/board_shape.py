@@ -85,7 +85,7 @@ def _sum_corner_views(
     D: Array,
     total: Array,
 ) -> None:
-    """Fill A (K, P + 7, P + 7) as in Stage II and D (K, 3, 6, n); add up total (3, P + 4, n)."""
+    """Fill A (K, P + 7, P + 7) as in Stage II; add to D (K, 3, 6, n) and total (3, P + 4, n)."""
     K, _, N = uv.shape
     P = rows.shape[0]
     work, J, C = make_workspace(N), np.empty((P + 7, 2 * N)), np.empty((3, 2 * N))
@@ -128,9 +128,8 @@ def _sum_corner_products(
     views: Views,
     rows: IntArray,
     index: IntArray,
-    count: int,
-    with_poses: bool,
-) -> tuple[Array, Array, Array]:
+    D: Array,
+) -> tuple[Array, Array]:
     """Return products of the columns [camera, pose, r] of some views and of the board's corners.
 
     Args:
@@ -140,16 +139,16 @@ def _sum_corner_products(
         views: the measured corners.
         rows: (P,) places of the free parameters in ``lens.camera``.
         index: (K, N) number of the board's corner that each observation shows.
-        count: n, the number of the board's corners.
-        with_poses: true to return the second of the results, which is empty otherwise.
+        D: (K, 3, 6, n) the products of the three columns of each corner with the pose's, which are
+            filled in; none, (0, 3, 6, n), if they are not wanted.
 
     Returns:
-        (K, P + 7, P + 7) of the first columns with each other; (K, n, 3, 6) of the three columns
-        of each corner with the pose's; (n, 3, P + 4) of these with the camera's, with r and with
-        themselves, summed over the views.
+        (K, P + 7, P + 7) of the first columns with each other; (n, 3, P + 4) of the corners'
+        columns with the camera's, with r and with themselves, summed over the views.
     """
-    K, P = len(R), len(rows)
-    A, D = np.empty((K, P + 7, P + 7)), np.zeros((K if with_poses else 0, 3, 6, count))
+    K, P, count = len(R), len(rows), D.shape[-1]
+    A = np.empty((K, P + 7, P + 7))
+    D.fill(0.0)
     totals = np.zeros((-(-K // VIEWS_PER_BLOCK), 3, P + 4, count))
     R, T = make_contiguous(R), make_contiguous(T)
     uv, xyz, weight = _arrange_by_corner(views, index, count)
@@ -158,12 +157,12 @@ def _sum_corner_products(
     def run(part: slice) -> None:
         _sum_corner_views(
             *lens, R[part], T[part], uv[part], xyz[part], weight[part], whitened, rows,
-            A[part], D[part if with_poses else slice(0)],
+            A[part], D[part],
             totals[part.start // VIEWS_PER_BLOCK],
         )  # fmt: skip
 
     run_in_blocks(K, run)
-    return A, np.moveaxis(D, -1, 1), np.moveaxis(totals.sum(axis=0), -1, 0)
+    return A, np.moveaxis(totals.sum(axis=0), -1, 0)
 
 
 @compiled
@@ -263,12 +262,12 @@ def iterate_corner_products(
     """Compute ``calibration.board_shape.parametrisation.iterate_corner_products``."""
     lens, rows = pack_camera(model, state.params), find_rows(model, free)
     K, together = len(index), max(_CORNERS_TOGETHER // count, 1)
+    # One array for all parts: new memory costs more than what is computed in it.
+    held = np.empty((min(together, K) if with_poses else 0, 3, 6, count))
     for begin in range(0, K, together):
         part = slice(begin, min(begin + together, K))
-        views = pack_views(observations.select_views(part))
-        yield (
-            part,
-            *_sum_corner_products(
-                lens, state.R[part], state.T[part], views, rows, index[part], count, with_poses
-            ),
+        views, D = pack_views(observations.select_views(part)), held[: part.stop - begin]
+        A, total = _sum_corner_products(
+            lens, state.R[part], state.T[part], views, rows, index[part], D
         )
+        yield part, A, np.moveaxis(D, -1, 1), total

@@ -259,7 +259,7 @@ def _compute_residuals(
     seen: Array,
     registered: Array,
 ) -> None:
-    """Fill seen and registered (K, 2, N); NaN for a view with corners that have no image."""
+    """Fill seen and registered (K, N, 2); NaN for a view with corners that have no image."""
     K, _, N = uv.shape
     fx, fy, cx, cy = camera[:4]
     skew = camera[10]
@@ -269,8 +269,8 @@ def _compute_residuals(
     for view in range(K):
         good = project_view(camera, kind, of_rays, R[view], T[view], uv[view], xyz[view], work)
         for i in range(N):
-            seen[view, 0, i] = uv[view, 0, i] - cx - fx * d[0, i]
-            seen[view, 1, i] = uv[view, 1, i] - cy - fy * d[1, i]
+            seen[view, i, 0] = uv[view, 0, i] - cx - fx * d[0, i]
+            seen[view, i, 1] = uv[view, 1, i] - cy - fy * d[1, i]
             goal[0, i] = (uv[view, 0, i] - cx) / fx
             goal[1, i] = (uv[view, 1, i] - cy) / fy
         if of_rays is not None:
@@ -294,8 +294,8 @@ def _compute_residuals(
             X, Y, Z = xyz[view, 0, i], xyz[view, 1, i], xyz[view, 2, i]
             distance = (Z + t2) / (r[0, 2] * x + r[1, 2] * y + r[2, 2] * z)
             good &= distance > 0  # the ray leads to the board
-            registered[view, 0, i] = distance * (r[0, 0] * x + r[1, 0] * y + r[2, 0] * z) - t0 - X
-            registered[view, 1, i] = distance * (r[0, 1] * x + r[1, 1] * y + r[2, 1] * z) - t1 - Y
+            registered[view, i, 0] = distance * (r[0, 0] * x + r[1, 0] * y + r[2, 0] * z) - t0 - X
+            registered[view, i, 1] = distance * (r[0, 1] * x + r[1, 1] * y + r[2, 1] * z) - t1 - Y
         if not good:
             seen[view] = np.nan
             registered[view] = np.nan
@@ -415,7 +415,7 @@ def compute_residuals(
     """
     lens, (uv, xyz, _) = pack_camera(model, state.params), pack_views(observations)
     R, T = make_contiguous(state.R), make_contiguous(state.T)
-    seen, registered = np.empty_like(uv), np.empty_like(uv)
+    seen, registered = (np.empty(observations.uv.shape) for _ in range(2))
 
     def run(part: slice) -> None:
         _compute_residuals(
@@ -423,4 +423,4 @@ def compute_residuals(
         )
 
     run_in_blocks(len(R), run)
-    return np.swapaxes(seen, 1, 2).copy(), np.swapaxes(registered, 1, 2).copy()
+    return seen, registered

@@ -149,6 +149,8 @@ def iterate_corner_products(
 ) -> Iterator[tuple[slice, Array, Array, Array]]:
     """Yield products of the columns [camera, pose, r] and of the board's corners, in parts.
 
+    The products with the poses hold until the next part is asked for.
+
     Args:
         state: camera and poses.
         observations: the views, on the board as it is.
