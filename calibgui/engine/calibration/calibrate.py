@@ -348,5 +348,5 @@ def _compute_digest(observations: Observations, settings: Mapping[str, Any]) -> 
     digest = hashlib.sha256(repr(sorted(settings.items())).encode())
     for array in (observations.uv, observations.xy, observations.mask, observations.cov):
         if array is not None:
-            digest.update(np.ascontiguousarray(array).tobytes())
+            digest.update(np.ascontiguousarray(array).data)
     return digest.hexdigest()
