@@ -269,6 +269,7 @@ def choose_board_shape(
     views: Sequence[Observation | tuple[Array, Array]],
     size: Size,
     folds: int = DEFAULT_FOLDS,
+    nominal: Calibration | None = None,
     **settings: Any,
 ) -> BoardShapeChoice:
     """Try all models of the board's shape on unseen views and recommend one.
@@ -278,13 +279,15 @@ def choose_board_shape(
 
     Args:
         views, size, folds, settings: as for `cross_validate`, without `board_shape`.
+        nominal: a calibration of all views with the same settings and the board as drawn, if it is
+            at hand.
 
     Raises:
         CalibrationError: as `cross_validate` with the board as drawn.
     """
     validations: dict[BoardShapeModel, CrossValidation] = {}
     refused: dict[BoardShapeModel, str] = {}
-    best, nominal = BoardShapeModel.NOMINAL, calibrate(views, size, **settings)
+    best, nominal = BoardShapeModel.NOMINAL, nominal or calibrate(views, size, **settings)
     seen, method, further = _sort_arguments(views, settings)
     begun = [begin_at(method, nominal, kept) for kept, _ in _deal_views(len(seen), folds)]
     drawn = _calibrate_folds(seen, size, begun, further)

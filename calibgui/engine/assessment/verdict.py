@@ -225,7 +225,8 @@ def try_action(
     match action.kind:
         case ActionKind.ESTIMATE_BOARD_SHAPE:
             del settings["board_shape"], settings["prior"]
-            board = choose_board_shape(given, size, **settings)
+            nominal = calibration if calibration.board_shape is None else None
+            board = choose_board_shape(given, size, nominal=nominal, **settings)
             return Trial(replace(action, model=board.model), board.chosen, given)
         case ActionKind.CHOOSE_LENS_MODEL:
             settings["fix"] = {n: v for n, v in settings["fix"].items() if n in PINHOLE}

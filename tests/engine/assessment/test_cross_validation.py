@@ -104,8 +104,10 @@ def test_shapes_are_fitted_to_the_minimum_that_a_fold_has_for_the_drawing() -> N
         )
         for view in _on_wide_squares(8)
     ]
-    choice = choose_board_shape(views, SIZE, folds=2)
-    alone = cross_validate(views, SIZE, 2, choice.nominal, board_shape="affine")
+    nominal = calibrate(views, SIZE)
+    choice = choose_board_shape(views, SIZE, 2, nominal)
+    assert choice.nominal is nominal
+    alone = cross_validate(views, SIZE, 2, nominal, board_shape="affine")
     np.testing.assert_allclose(
         choice.validations[BoardShapeModel.AFFINE].by_view, alone.by_view, rtol=1e-9
     )

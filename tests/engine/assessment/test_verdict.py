@@ -156,8 +156,8 @@ def test_a_board_whose_shape_cannot_be_estimated_asks_for_photographs(
 def keep_drawing(monkeypatch: pytest.MonkeyPatch) -> None:
     """Estimating a board's shape brings nothing."""
 
-    def choose(*given: Any, **settings: Any) -> SimpleNamespace:
-        return SimpleNamespace(model=BoardShapeModel.NOMINAL, chosen=calibrate(*given, **settings))
+    def choose(*_: Any, nominal: Calibration, **__: Any) -> SimpleNamespace:
+        return SimpleNamespace(model=BoardShapeModel.NOMINAL, chosen=nominal)
 
     monkeypatch.setattr("calibgui.engine.assessment.verdict.choose_board_shape", choose)
 
