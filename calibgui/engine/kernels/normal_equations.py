@@ -259,7 +259,8 @@ def _compute_residuals(
     seen: Array,
     registered: Array,
 ) -> None:
-    """Fill seen and registered (K, N, 2); NaN for a view with corners that have no image."""
+    """Fill seen and, unless it is empty, registered (K, N, 2); NaN for a view with corners that
+    have no image."""
     K, _, N = uv.shape
     fx, fy, cx, cy = camera[:4]
     skew = camera[10]
@@ -273,6 +274,10 @@ def _compute_residuals(
             seen[view, i, 1] = uv[view, 1, i] - cy - fy * d[1, i]
             goal[0, i] = (uv[view, 0, i] - cx) / fx
             goal[1, i] = (uv[view, 1, i] - cy) / fy
+        if registered.shape[0] == 0:
+            if not good:
+                seen[view] = np.nan
+            continue
         if of_rays is not None:
             for row in range(3):
                 for i in range(N):
@@ -413,9 +418,32 @@ def compute_residuals(
 
     Where Newton's method does not reach one corner the whole view is NaN.
     """
+    seen, registered = (np.empty(observations.uv.shape) for _ in range(2))
+    _fill_residuals(state, observations, model, seen, registered)
+    return seen, registered
+
+
+def compute_misses(
+    state: CameraAndPoses,
+    observations: MeasuredViews,
+    model: str,
+    cost: object,  # noqa: ARG001 - the reference's arguments
+) -> Array:
+    """Compute ``calibration.refinement.residuals.compute_misses`` for the image cost.
+
+    Where Newton's method does not reach one corner the whole view is NaN.
+    """
+    missed = np.empty(observations.uv.shape)
+    _fill_residuals(state, observations, model, missed, missed[:0])
+    return missed
+
+
+def _fill_residuals(
+    state: CameraAndPoses, observations: MeasuredViews, model: str, seen: Array, registered: Array
+) -> None:
+    """Fill in residuals (K, N, 2) in the image and, unless it is empty, on the board."""
     lens, (uv, xyz, _) = pack_camera(model, state.params), pack_views(observations)
     R, T = make_contiguous(state.R), make_contiguous(state.T)
-    seen, registered = (np.empty(observations.uv.shape) for _ in range(2))
 
     def run(part: slice) -> None:
         _compute_residuals(
@@ -423,4 +451,3 @@ def compute_residuals(
         )
 
     run_in_blocks(len(R), run)
-    return seen, registered

@@ -26,7 +26,7 @@ from calibgui.engine.calibration.refinement.residuals import (
     Linearised,
     State,
     compute_image_residuals,
-    compute_residuals,
+    compute_misses,
 )
 from calibgui.engine.calibration.refinement.whitening import whiten_observations
 from calibgui.engine.calibration.resection import estimate_poses, refine_poses
@@ -113,7 +113,7 @@ def resect_view(calibration: Calibration, uv: Array, xy: Array, cov: Array) -> R
     state = refine_poses(
         estimate_poses(camera, observations), observations, camera.model, Cost.IMAGE
     )
-    residuals, _ = compute_residuals(state, observations, camera.model, Cost.IMAGE)
+    residuals = compute_misses(state, observations, camera.model, Cost.IMAGE)
     square = np.sum(residuals[0] ** 2, axis=1)
     excess = (
         np.median(square) / _MEDIAN_SQUARED_LENGTH - np.median(np.trace(cov, axis1=1, axis2=2)) / 2

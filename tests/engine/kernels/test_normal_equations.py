@@ -101,20 +101,22 @@ def test_the_compiled_residuals_are_the_readable_ones(
         bent = np.concatenate([observations.xy, height], axis=-1)
         observations = replace(observations, xy=bent)
     compiled = residuals.compute_residuals(state, observations, model, Cost.IMAGE)
+    alone = residuals.compute_misses(state, observations, model, Cost.IMAGE)
+    np.testing.assert_array_equal(alone, compiled[0])
     monkeypatch.setattr(kernels, "COMPILED", False)
     readable = residuals.compute_residuals(state, observations, model, Cost.IMAGE)
     for ours, truth in zip(compiled, readable, strict=True):
         np.testing.assert_allclose(ours, truth, atol=1e-10)
+    alone = residuals.compute_misses(state, observations, model, Cost.IMAGE)
+    np.testing.assert_array_equal(alone, readable[0])
 
 
 @pytest.mark.parametrize("model", CAMERAS)
 def test_views_behind_the_camera_have_no_residuals(model: str) -> None:
     state, views = scene(model, weighted=False)
     turned = np.array([1.0, 1.0, -1.0]) ** (np.arange(5) == 2)[:, None]
-    seen, registered = residuals.compute_residuals(
-        state._replace(T=state.T * turned), pack_observations(views), model, Cost.IMAGE
-    )
-    for found in (seen, registered):
+    given = state._replace(T=state.T * turned), pack_observations(views), model, Cost.IMAGE
+    for found in (*residuals.compute_residuals(*given), residuals.compute_misses(*given)):
         np.testing.assert_array_equal(np.isnan(found).any(axis=(1, 2)), np.arange(5) == 2)
 
 

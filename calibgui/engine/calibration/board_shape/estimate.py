@@ -25,7 +25,7 @@ from calibgui.engine.calibration.board_shape.parametrisation import (
 from calibgui.engine.calibration.observations import Observations
 from calibgui.engine.calibration.refinement import covariances
 from calibgui.engine.calibration.refinement.levenberg_marquardt import Solution, minimise
-from calibgui.engine.calibration.refinement.residuals import BoardMotion, State, compute_residuals
+from calibgui.engine.calibration.refinement.residuals import BoardMotion, State, compute_misses
 from calibgui.engine.calibration.refinement.schur import (
     eliminate_poses,
 )
@@ -189,7 +189,7 @@ def _solve_jointly(
         )
         unknowns = known + deviations.unknowns
         if observations.cov is not None:
-            miss, _ = compute_residuals(state, displaced, model, Cost.IMAGE)
+            miss = compute_misses(state, displaced, model, Cost.IMAGE)
             observations = whiten_observations(
                 observations, estimate_model_variance(observations, miss, unknowns)
             )

@@ -44,7 +44,7 @@ def simulate_covariances(
         run: a function that runs the method on views.
     """
     observations, state = estimate.observations, estimate.state
-    miss = residuals.compute_residuals(state, observations, options.model, options.cost)[0]
+    miss = residuals.compute_misses(state, observations, options.model, options.cost)
     predicted = observations.uv - miss
     rng = np.random.default_rng(0)
     steps = []

@@ -208,7 +208,7 @@ def estimate_radial_terms(state: State, observations: Observations, terms: IntAr
     seen = observations.mask > 0
     D = np.stack([ideal * r2, ideal * r2**2], axis=-1)[seen].reshape(-1, 2)
     # What the current k leaves, so that decentering, where it is free, stays accounted for.
-    miss, _ = residuals.compute_residuals(state, observations, _MODEL, Cost.IMAGE)
+    miss = residuals.compute_misses(state, observations, _MODEL, Cost.IMAGE)
     params[terms] += np.linalg.lstsq(D[:, terms - _K1], miss[seen].ravel(), rcond=None)[0]
     return state._replace(params=params)
 

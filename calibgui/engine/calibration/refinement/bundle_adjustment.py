@@ -300,7 +300,7 @@ def reweight_and_solve(
     tau2 = 0.0
     for _ in range(_MAX_REWEIGHTINGS):
         before = tau2
-        miss, _ = residuals.compute_residuals(solution.state, observations, model, Cost.IMAGE)
+        miss = residuals.compute_misses(solution.state, observations, model, Cost.IMAGE)
         tau2 = estimate_model_variance(observations, miss, unknowns)
         if solution.status is Status.STOPPED or abs(tau2 - before) <= 0.01 * before:
             break

@@ -341,20 +341,34 @@ def compute_residuals(
         (K, N, 2) measured minus predicted corners, px, and registered minus nominal ones, mm.
     """
     seen, registered = _compute_residuals(state, observations, model, cost)
-    # The kernel gives a view up for one corner that its Newton's method does not reach.
-    given_up = ~np.isfinite(seen + registered).all(axis=(1, 2))
-    for k in np.flatnonzero(given_up).tolist():
-        view = slice(k, k + 1)
+    for view in _find_given_up(seen + registered):
         seen[view], registered[view] = _compute_residuals.reference(
             state.select_views(view), observations.select_views(view), model, cost
         )
     return seen, registered
 
 
+def compute_misses(state: State, observations: Observations, model: str, cost: Cost) -> Array:
+    """Compute the first of `compute_residuals`, those in the image (K, N, 2), alone."""
+    missed = _compute_misses(state, observations, model, cost)
+    for view in _find_given_up(missed):
+        missed[view] = _compute_misses.reference(
+            state.select_views(view), observations.select_views(view), model, cost
+        )
+    return missed
+
+
+def _find_given_up(found: Array) -> list[slice]:
+    """Find the views that a kernel gives up for one corner that its Newton's method does not
+    reach."""
+    given_up = ~np.isfinite(found).all(axis=(1, 2))
+    return [slice(k, k + 1) for k in np.flatnonzero(given_up).tolist()]
+
+
 def _is_image_residual_of_compiled_lens(
     _state: State, _observations: Observations, model: str, cost: Cost
 ) -> bool:
-    """Return whether `_compute_residuals` has a kernel for these arguments."""
+    """Return whether `_compute_residuals` and `_compute_misses` have a kernel for these."""
     return cost is Cost.IMAGE and model in COMPILED_LENSES
 
 
@@ -366,10 +380,20 @@ def _compute_residuals(
     seen, registered = np.empty_like(observations.uv), np.empty_like(observations.uv)
     for views in slice_views(len(state.R)):
         part, own = observations.select_views(views), state.select_views(views)
-        seen[views] = part.uv - predict_corners(own, part, find_model(model), cost)
+        seen[views] = _compute_misses.reference(own, part, model, cost)
         there = compute_registration_errors(own, part, find_model(model), cost)
         registered[views] = np.where(np.isfinite(seen[views]), there, np.nan)
     return seen, registered
+
+
+@with_kernel("normal_equations", "compute_misses", _is_image_residual_of_compiled_lens)
+def _compute_misses(state: State, observations: Observations, model: str, cost: Cost) -> Array:
+    """Compute `compute_misses`."""
+    missed = np.empty_like(observations.uv)
+    for views in slice_views(len(state.R)):
+        part, own = observations.select_views(views), state.select_views(views)
+        missed[views] = part.uv - predict_corners(own, part, find_model(model), cost)
+    return missed
 
 
 def predict_corners(state: State, views: Observations, lens: Lens, cost: Cost) -> Array:
