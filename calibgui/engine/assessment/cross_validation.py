@@ -293,7 +293,9 @@ def choose_board_shape(
     drawn = _calibrate_folds(seen, size, begun, further)
     validations[best] = _validate(seen, drawn)
     solved = [stay_at(method, calibration) for calibration in drawn]
-    for model in list(BoardShapeModel)[1:]:
+    for model in BoardShapeModel:
+        if model is BoardShapeModel.NOMINAL:
+            continue
         if nominal.lens_error > 0:
             refused[model] = _REASON_LENS
             continue
