@@ -275,7 +275,7 @@ def _estimate_coefficients(
         stiffness, stiffened = np.exp(logarithms)[kind], S.copy()
         stiffened[diagonal] += stiffness
         factor, _ = scipy.linalg.lapack.dpotrf(stiffened)
-        root, _ = scipy.linalg.lapack.dtrtri(factor, overwrite_c=True)
+        root, _ = scipy.linalg.lapack.dtrtri(factor)
         inverse, q = np.sum(root * root, axis=1), -root @ (right @ root)
         sigma2 = estimate_sigma2(-float(right @ q), len(S) - float(stiffness @ inverse))
         variances = expected
