@@ -220,12 +220,14 @@ def try_action(
     given, size = list(views), calibration.camera.size
     recover = recover_image_arguments if action.takes_image_cost else recover_arguments
     settings = recover(calibration)
+    is_repeated = settings == recover_arguments(calibration)
     if check is not None:
         settings["report"] = _make_report(check)
     match action.kind:
         case ActionKind.ESTIMATE_BOARD_SHAPE:
             del settings["board_shape"], settings["prior"]
-            nominal = calibration if calibration.board_shape is None else None
+            is_nominal = calibration.board_shape is None and is_repeated
+            nominal = calibration if is_nominal else None
             board = choose_board_shape(given, size, nominal=nominal, **settings)
             return Trial(replace(action, model=board.model), board.chosen, given)
         case ActionKind.CHOOSE_LENS_MODEL:
