@@ -14,6 +14,7 @@ import numpy as np
 from calibgui.engine.arrays import Array
 from calibgui.engine.detection import grid_map
 from calibgui.engine.detection.checkerboard.board_priors import BoardPriors, compute_curvatures
+from calibgui.engine.detection.checkerboard.edge_map import EdgeGeometry
 
 _DIFFERENCE_STEP = 0.5
 """Step of the central differences of the grid map, units."""
@@ -47,6 +48,11 @@ class NearPriors(BoardPriors):
             second.append((after - 2 * here + before) / _DIFFERENCE_STEP**2)
         steps = np.stack(first, axis=1)
         return steps, compute_curvatures(steps, np.stack(second, axis=1))
+
+    def follow_edges(self, uv: Array, normals: Array, arm: Array, curvature: Array) -> EdgeGeometry:
+        """Estimate the geometry from the corners alone, which do not lie in even rows."""
+        del normals, arm, curvature
+        return EdgeGeometry(*self.estimate_geometry(uv), np.zeros((len(uv), 2)))
 
     def estimate_gradients(self, steps: Array, values: Array) -> Array:
         """Estimate gradients (n, k, 2) over the image, per px, of `values` (n, k) at the corners.

@@ -28,6 +28,7 @@ import numpy as np
 
 from calibgui.engine.arrays import Array, BoolArray, GridSize, IntArray
 from calibgui.engine.detection import grid_map
+from calibgui.engine.detection.checkerboard.edge_map import EdgeGeometry, fit_edge_map
 from calibgui.engine.detection.checkerboard.fit_thresholds import FIT_THRESHOLDS
 
 _THRESHOLDS = FIT_THRESHOLDS.priors
@@ -111,6 +112,19 @@ class BoardPriors:
         steps = first + np.stack([by_col, by_row], axis=1)
         return steps, compute_curvatures(steps, second + np.stack([by_col2, by_row2], axis=1))
 
+    def follow_edges(self, uv: Array, normals: Array, arm: Array, curvature: Array) -> EdgeGeometry:
+        """Estimate the geometry again; of few corners from the directions of their edges, too.
+
+        Args:
+            uv: (n, 2) the corners, px.
+            normals: (n, 2, 2) unit normals of the edges, on the side of `estimate_geometry`.
+            arm: (n, 2) how far the edges were read to both sides, px.
+            curvature: (n, 2) that the edges were taken to have there, 1/px.
+        """
+        if len(uv) < _THRESHOLDS.many_corners:
+            return fit_edge_map(self._found, uv, normals, arm, curvature)
+        return EdgeGeometry(*self.estimate_geometry(uv), np.zeros((len(uv), 2)))
+
     def estimate_gradients(self, steps: Array, values: Array) -> Array:
         """Estimate gradients (n, k, 2) over the image, per px, of `values` (n, k) at the corners.
 
@@ -187,6 +201,11 @@ class PredictedBoardPriors(BoardPriors):
         """Return the predicted geometry, wherever the corners were found."""
         del uv
         return self._geometry
+
+    def follow_edges(self, uv: Array, normals: Array, arm: Array, curvature: Array) -> EdgeGeometry:
+        """Return the predicted geometry, whatever the edges show."""
+        del normals, arm, curvature
+        return EdgeGeometry(*self.estimate_geometry(uv), np.zeros((len(uv), 2)))
 
 
 def compute_curvatures(first: Array, second: Array) -> Array:

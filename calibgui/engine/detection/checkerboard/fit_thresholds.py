@@ -70,9 +70,18 @@ class PriorThresholds:
 
     max_degree: int = 7
     """Highest degree of the polynomials tried."""
+    many_corners: int = 40
+    """Number of corners from which on they tell how edges bend, without their directions."""
+    min_edge_degree: int = 3
+    """Lowest degree of the polynomials tried that follow edges, too."""
+    max_edge_degree: int = 5
+    """The highest degree of those."""
     term_cost: float = 1.4
     """Cost of a term in the cross-validation, as Kim and Gu (2004) advise: with 1 it takes too high
     a degree by chance now and then."""
+    min_edge_independence: float = 0.02
+    """The same as `min_independence` of terms that follow edges, too: what depends on less of a
+    term is noise."""
     min_independence: float = 1e-6
     """Least part of a term that those of lower degree do not have in common with it."""
     max_relative_misfit: float = 3.0

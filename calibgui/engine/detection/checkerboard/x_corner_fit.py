@@ -19,7 +19,8 @@ the whole board (`board_priors`), as does the spread w of the ink.
 
 Two steps near the corners give what the board needs, and the last one reads whole edges. Where
 these are longer, the board is asked once more, and the corners follow without reading the image
-again.
+again. Few corners do not tell how long edges bend: then the edges' directions do (`edge_map`), and
+what they leave open of the curvatures is added to the covariance.
 
 **Light.** The model lights the blurred pattern, where a camera blurs the lit one. Under light L
 that rises by l = grad L / L,
@@ -52,6 +53,7 @@ from calibgui.engine import kernels
 from calibgui.engine.arrays import Array, BoolArray, GreyImage
 from calibgui.engine.detection.checkerboard import edge_profiles
 from calibgui.engine.detection.checkerboard.board_priors import BoardPriors, PredictedBoardPriors
+from calibgui.engine.detection.checkerboard.edge_map import EdgeGeometry
 from calibgui.engine.detection.checkerboard.fit_thresholds import FIT_THRESHOLDS
 from calibgui.engine.detection.checkerboard.x_corner_model import (
     BLUR,
@@ -156,17 +158,23 @@ def fit_x_corners(
     )
     model = _estimate_start(image, lattice, board, plain, bare_edge)
     arm = model.arm
-    for _ in range(2):
+    is_large = bool((arm > _THRESHOLDS.max_near_arm).any())
+    for is_next_large in (False, is_large):
         near = replace(model, arm=np.minimum(arm, _THRESHOLDS.max_near_arm))
         products, _ = accumulate_normal_equations(image, near, near, odd=False)
-        model = _update_priors(_take_step(near, products)[0], board, arm)
+        near = _take_step(near, products)[0]
+        followed = _follow_edges(near, board) if is_next_large else None
+        model = _update_priors(near, board, arm, followed)
     products, odd_part = accumulate_normal_equations(image, model, model, odd=True)
     model, inverse, square = _take_step(model, products)
-    if (arm > _THRESHOLDS.max_near_arm).any():
-        model = _correct_for_priors(model, inverse, _update_priors(model, board, arm))
     noise = np.maximum(_estimate_noise(square, odd_part), estimate_least_noise(image))
+    covariance = noise[:, None, None] * inverse
+    if is_large:
+        edges = _follow_edges(model, board)
+        model = _correct_for_priors(model, inverse, _update_priors(model, board, arm, edges))
+        covariance = covariance + _compute_bend_covariance(model, edges.variance)
     model = _correct_for_light(model)
-    return XCornerFit(model, noise[:, None, None] * inverse, np.sqrt(square))
+    return XCornerFit(model, covariance, np.sqrt(square))
 
 
 def _estimate_start(
@@ -229,11 +237,28 @@ def _estimate_ink_spread(spreads: Array) -> Array:
     return np.full(len(spreads), middle if clear else 0.0)
 
 
-def _update_priors(model: XCornerModel, board: BoardPriors, arm: Array) -> XCornerModel:
+def _follow_edges(model: XCornerModel, board: BoardPriors) -> EdgeGeometry:
+    """Estimate the geometry of the edges from the corners and directions of the model."""
+    return board.follow_edges(model.unknowns[C], model.normals(), model.arm, model.curvature)
+
+
+def _compute_bend_covariance(model: XCornerModel, variance: Array) -> Array:
+    """Compute what the `variance` (n, 2) of the edges' curvatures adds to the covariance (n, 2, 2)
+    of the corners."""
+    moved = np.linalg.inv(model.normals()) * (model.arm**2 / 6)[:, None]
+    return np.asarray(np.einsum("nij,nj,nkj->nik", moved, variance, moved))
+
+
+def _update_priors(
+    model: XCornerModel, board: BoardPriors, arm: Array, edges: EdgeGeometry | None = None
+) -> XCornerModel:
     """Return the model with the geometry and gradients that follow from its present unknowns, and
-    with the arms `arm` (n, 2) px that are to be read next."""
+    with the arms `arm` (n, 2) px that are to be read next. The geometry is that of `edges` if these
+    were followed."""
     x = model.unknowns
-    steps, curvature = board.estimate_geometry(x[C])
+    steps, curvature = (
+        board.estimate_geometry(x[C]) if edges is None else (edges.steps, edges.curvature)
+    )
     height = _compute_heights(steps)
     gradients = board.estimate_gradients(steps, np.column_stack([x[M], x[A], x[BLUR], height]))
     # The edge at a fraction w of a square stands w S + w^2 S' / 2 away where the squares' height S

@@ -13,6 +13,9 @@ from calibgui.engine.detection.find_corners import find_corners
 from tests.scenes.checkerboards import draw
 from tests.scenes.conditions import Conditions
 
+FEW = {"size": (720, 600), "turn": 15.0, "blur": 0.8, "parts": 2}
+"""Of a board with few corners."""
+
 
 @pytest.mark.parametrize(
     "condition",
@@ -26,6 +29,10 @@ from tests.scenes.conditions import Conditions
         {"fisheye": True, "focal": 0.32, "square": 80.0, "size": (720, 720)},  # near its front lens
         {"distortion": 0.9, "focal": 0.5, "square": 60.0, "size": (800, 600)},
         {"distortion": -0.3, "focal": 0.8, "square": 60.0, "size": (800, 600)},
+        # Few corners of large squares: only the edges' directions tell how they bend.
+        {**FEW, "grid_size": (3, 4), "square": 100.0, "distortion": 0.032},
+        {**FEW, "grid_size": (4, 5), "square": 90.0, "distortion": 0.065},
+        {**FEW, "grid_size": (3, 4), "square": 90.0, "distortion": 0.43},
     ],
     ids=str,
 )
