@@ -1,9 +1,9 @@
 """Calibration in two rounds: the first camera shows what can be found and numbered better.
 
 After a first calibration only those images are searched again in which something may be gained: no
-board was found, corners are missing that the image should show, or it is open which part of the
-board is seen. Then the corners of symmetric boards are labelled alike in all views
-(``labelling.py``). If either changed a view, the calibration is repeated.
+board was found, corners are missing that the image should show, it is open which part of the board
+is seen, or few corners have edges that are bent. Then the corners of symmetric boards are labelled
+alike in all views (``labelling.py``). If either changed a view, the calibration is repeated.
 """
 
 from __future__ import annotations
@@ -33,13 +33,16 @@ from calibgui.engine.detection import Corners
 from calibgui.engine.errors import CalibrationError, Progress
 from calibgui.engine.geometry import Pose
 from calibgui.engine.images import read_image
-from calibgui.engine.redetection import redetect_corners
+from calibgui.engine.redetection import are_edges_bent, redetect_corners
 from calibgui.report.numbers import format_count
 
 _MAX_SERIAL_IMAGES = 6
 """Number of images up to which starting other processes takes longer than searching."""
 _BORDER = 8.0
 """Width of the image's border in which a missing corner is not looked for, px."""
+
+_MIN_SHIFT = 0.5
+"""Shift of a corner, in its standard deviations, from which on it is worth another calibration."""
 
 
 def calibrate_twice(
@@ -160,7 +163,11 @@ def _is_promising(view: View, board: Board, calibration: Calibration, pose: Pose
         return False  # left out, given from elsewhere, or searched where the user wants it
     if view.corners is None:
         return view.status is ViewStatus.NO_BOARD
-    if view.corners.method != "edges" or view.corners.complete or pose is None:
+    if view.corners.method != "edges" or pose is None:
+        return False
+    if are_edges_bent(view.corners, calibration, pose, board):
+        return True
+    if view.corners.complete:
         return False
     uv = project_points(board.points(), calibration.camera, pose)
     limit = np.array(calibration.camera.size) - 1 - _BORDER
@@ -205,6 +212,11 @@ def _describe_changes(before: Corners, after: Corners) -> Iterator[str]:
     if fewer:
         left_out = f"{format_count(fewer, 'corner')} left out"
         yield f"{left_out}, unclear or far from where the camera would see it"
+    if not more and not fewer and not before.relative and before.cov is not None:
+        moved = np.linalg.norm(after.uv - before.uv, axis=1)
+        sigma = np.sqrt(np.trace(before.cov, axis1=1, axis2=2) / 2)
+        if np.any(moved > _MIN_SHIFT * sigma):
+            yield f"corners moved by up to {moved.max():.2g} px, as their edges are bent"
 
 
 def _describe_gain(before: Sequence[View], after: Sequence[View]) -> str:
@@ -212,8 +224,12 @@ def _describe_gain(before: Sequence[View], after: Sequence[View]) -> str:
     found = [view for old, view in zip(before, after, strict=True) if old.corners is None]
     corners = sum(len(view.corners or ()) for view in after)
     corners -= sum(len(view.corners or ()) for view in before)
-    text = f"Searched again with the camera known: {format_count(abs(corners), 'corner')} "
-    text += f"{'more' if corners >= 0 else 'fewer'} in {format_count(len(after), 'image')}"
+    text = "Searched again with the camera known: "
+    if corners:
+        text += f"{format_count(abs(corners), 'corner')} {'more' if corners > 0 else 'fewer'}"
+    else:
+        text += "corners placed better"
+    text += f" in {format_count(len(after), 'image')}"
     if found:
         text += f", {', '.join(shorten_names(found))} for the first time"
     return text + "."

@@ -20,7 +20,9 @@ from calibgui.engine.boards.shape import BoardShapeModel
 from calibgui.engine.calibration.calibrate import calibrate
 from calibgui.engine.calibration.result import Cost
 from calibgui.engine.detection.corners import Corners
+from calibgui.engine.detection.find_corners import find_corners
 from calibgui.engine.images.reading import read_image, write_image
+from calibgui.engine.images.rendering import render_view
 from tests import photographs
 from tests.engine import scenes
 from tests.photographs import BOARD, CAMERA
@@ -82,6 +84,26 @@ def test_nothing_to_gain_leaves_everything_as_it_was(damaged: CornerSet) -> None
     assert redetect_views(complete, result) == (complete, ())
     registered = calibrate_views(damaged, Settings(cost=Cost.REFERENCE))
     assert redetect_views(damaged, registered) == (damaged, ())
+
+
+def test_a_whole_view_is_searched_again_where_few_corners_have_bent_edges(
+    damaged: CornerSet, tmp_path: Path
+) -> None:
+    board = Board(rows=3, cols=4, square=60.0)
+    pose = scenes.looking(CAMERA, np.random.default_rng(1), fill=(0.6, 0.6), board=board)
+    file = tmp_path / "few.png"
+    write_image(file, render_view(CAMERA, pose, board, blur=0.7, noise=1.0, seed=0))
+    corners = find_corners(read_image(file).pixels, (3, 4))
+    off = replace(corners, uv=corners.uv + np.array([0.03, 0.0]))
+    view = View(str(file), ViewStatus.FOUND, corners=off)
+    calibration = replace(calibrate_views(damaged).calibration, poses=(pose,))
+    result = Result(calibration, (view,), board)
+    more, sentences = redetect_views(CornerSet(CAMERA.size, (view,), board), result)
+    again = more.views[0]
+    assert again.corners is not None
+    np.testing.assert_allclose(again.corners.uv, corners.uv, atol=0.01)
+    assert "corners moved by up to 0.03" in again.note
+    assert "corners placed better in 1 image" in sentences[0]
 
 
 def test_what_other_processes_return_unchanged_is_no_gain(

@@ -20,12 +20,13 @@ from calibgui.engine.redetection.labelling import (
     has_open_labels,
     label_corners,
 )
-from calibgui.engine.redetection.redetect_corners import redetect_corners
+from calibgui.engine.redetection.redetect_corners import are_edges_bent, redetect_corners
 
 __all__ = [
     "CornerLabels",
     "align_board_turns",
     "apply_labels",
+    "are_edges_bent",
     "calibrate_on_nominal_board",
     "carry_labels",
     "carry_places",

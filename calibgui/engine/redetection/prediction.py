@@ -16,6 +16,7 @@ extrapolated far from what was seen of it, or the lens beyond where it was calib
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
@@ -34,8 +35,10 @@ from calibgui.engine.calibration.result import Calibration, Cost
 from calibgui.engine.camera.models import find_model
 from calibgui.engine.detection.checkerboard.board_priors import compute_curvatures
 
-_DIFFERENCE_STEP = 0.05
-"""Step on the board with which derivatives by the place are formed, squares."""
+_DIFFERENCE_STEP = 0.6**0.5 / 2
+"""Step on the board with which derivatives by the place are formed, squares. Over arms of length L,
+half a square, a curvature kappa and a fourth derivative q move the mean of an edge by
+kappa L^2 / 6 + q L^4 / 120, which is what differences over h = sqrt(0.6) L make of both."""
 _MEDIAN_SQUARED_LENGTH = 2 * float(np.log(2))
 """Median of the squared length of a 2-D normal deviate of unit variance (Rayleigh)."""
 
@@ -76,21 +79,29 @@ class ResectedView:
         return linearised.residual[0].reshape(xy.shape), cov.reshape(*xy.shape, 2)
 
     def predict_edges(self, xy: Array, square: float) -> tuple[Array, Array]:
-        """Predict how the board's edges run and bend, by differences over a twentieth of a square.
+        """Predict how the board's edges run and bend; see `differentiate_edges`."""
+        return differentiate_edges(lambda points: self.predict_corners(points)[0], xy, square)
 
-        Args:
-            xy: (n, 2) corners on the board.
-            square: the side of a square, in the same unit.
 
-        Returns:
-            (n, 2, 2) steps and (n, 2) curvatures, as the board priors of the detector have them
-            (``detection/checkerboard/board_priors.py``).
-        """
-        around = _DIFFERENCE_STEP * square * np.array([(0, 0), (1, 0), (-1, 0), (0, 1), (0, -1)])
-        at, right, left, down, up = np.moveaxis(self.predict_corners(xy[:, None] + around)[0], 1, 0)
-        first = np.stack([right - left, down - up], axis=1) / (2 * _DIFFERENCE_STEP)
-        second = np.stack([right + left - 2 * at, down + up - 2 * at], axis=1) / _DIFFERENCE_STEP**2
-        return first, compute_curvatures(first, second)
+def differentiate_edges(
+    locate: Callable[[Array], Array], xy: Array, square: float
+) -> tuple[Array, Array]:
+    """Differentiate how edges run and bend, as a fit that reads them half a square far feels it.
+
+    Args:
+        locate: takes points (..., 2) of the board to the image, px.
+        xy: (n, 2) corners on the board.
+        square: the side of a square, in the same unit.
+
+    Returns:
+        (n, 2, 2) steps and (n, 2) curvatures, as the board priors of the detector have them
+        (``detection/checkerboard/board_priors.py``).
+    """
+    around = _DIFFERENCE_STEP * square * np.array([(0, 0), (1, 0), (-1, 0), (0, 1), (0, -1)])
+    at, right, left, down, up = np.moveaxis(locate(xy[:, None] + around), 1, 0)
+    first = np.stack([right - left, down - up], axis=1) / (2 * _DIFFERENCE_STEP)
+    second = np.stack([right + left - 2 * at, down + up - 2 * at], axis=1) / _DIFFERENCE_STEP**2
+    return first, compute_curvatures(first, second)
 
 
 def resect_view(calibration: Calibration, uv: Array, xy: Array, cov: Array) -> ResectedView:

@@ -20,7 +20,7 @@ from calibgui.engine.detection.find_corners import find_corners
 from calibgui.engine.errors import NoBoardError
 from calibgui.engine.geometry.pose import Pose
 from calibgui.engine.images.rendering import render_view
-from calibgui.engine.redetection.redetect_corners import redetect_corners
+from calibgui.engine.redetection.redetect_corners import are_edges_bent, redetect_corners
 from tests.engine import scenes
 
 BOARD = Board(rows=6, cols=9, square=30.0)
@@ -183,3 +183,17 @@ def test_what_the_fit_rejects_goes_although_the_lens_is_in_doubt() -> None:
     away = np.abs(lost - before.grid[hidden]).max(axis=1)
     assert min(away) == 0
     assert max(away) <= 1  # the disc hides ends of the neighbours' edges
+
+
+def test_the_camera_places_few_corners_of_bent_edges_better(calibration: Calibration) -> None:
+    board = Board(rows=3, cols=4, square=60.0)
+    pose = scenes.looking(CAMERA, np.random.default_rng(2), fill=(0.6, 0.6), board=board)
+    truth = scenes.imaged(CAMERA, pose, board.points())
+    image = render_view(CAMERA, pose, board, blur=0.7, noise=1.0, seed=1)
+    first = find_corners(image, (3, 4))
+    assert are_edges_bent(first, calibration, pose, board)
+    second = redetect_corners(image, calibration, (3, 4), replace(first, uv=first.uv + 0.03))
+    np.testing.assert_allclose(second.uv, truth, atol=0.01)
+    straight = replace(calibration, camera=replace(CAMERA, params=[*CAMERA.params[:4], *[0.0] * 6]))
+    assert not are_edges_bent(first, straight, pose, board)
+    assert not are_edges_bent(first, replace(calibration, lens_error=1.0), pose, board)
