@@ -143,6 +143,21 @@ class BoardPriors:
             )
         return np.asarray(np.linalg.solve(steps, slopes).transpose(0, 2, 1))
 
+    def estimate_gradient_covariance(self, steps: Array, values: Array) -> Array:
+        """Estimate the covariance (n, 2, 2) over the image, per px^2, that the gradient of `values`
+        (n,) has from their scatter about the polynomial.
+
+        Args:
+            steps: (n, 2, 2) to the next column and row, px.
+        """
+        Q, derivatives, _ = self._terms
+        weights = Q.T @ values
+        count = int(self._choose_counts(values[:, None], weights[:, None])[0][0])
+        rss = np.sum((values - Q[:, :count] @ weights[:count]) ** 2)
+        variance = rss / max(len(values) - count, 1)
+        slopes = np.linalg.solve(steps, derivatives[:2, :, :count].transpose(1, 0, 2))
+        return np.asarray(variance * slopes @ slopes.transpose(0, 2, 1))
+
     def _take_differences(self, values: Array) -> tuple[Array, Array, Array]:
         """Take differences of `values` (n, k) along the lines.
 
@@ -173,15 +188,24 @@ class BoardPriors:
             (4, n, k) the derivatives `_ORDERS`, and (k,) the rms by which the polynomials would
             miss a value left out.
         """
-        Q, derivatives, counts = self._terms
+        Q, derivatives, _ = self._terms
         weights = Q.T @ values
+        best, misfit = self._choose_counts(values, weights)
+        weights[np.arange(len(weights))[:, None] >= best] = 0.0
+        return derivatives @ weights, misfit
+
+    def _choose_counts(self, values: Array, weights: Array) -> tuple[IntArray, Array]:
+        """Choose how many terms, of `weights` (terms, k), the polynomials of `values` (n, k) have.
+
+        Returns:
+            (k,) the numbers, and (k,) the rms by which the polynomials would miss a value left out.
+        """
+        counts = self._terms.counts
         # Dropping the last terms leaves the others' weights on Q unchanged.
         explained = np.cumsum(weights**2, axis=0)[counts - 1]
         rss = np.maximum(np.sum(values**2, axis=0) - explained, 0.0)
         score = rss / (1 - _THRESHOLDS.term_cost * counts[:, None] / (len(values) + 1)) ** 2
-        best = counts[np.argmin(score, axis=0)]
-        weights[np.arange(len(weights))[:, None] >= best] = 0.0
-        return derivatives @ weights, np.sqrt(score.min(axis=0) / len(values))
+        return counts[np.argmin(score, axis=0)], np.sqrt(score.min(axis=0) / len(values))
 
 
 class PredictedBoardPriors(BoardPriors):

@@ -11,16 +11,17 @@ For the same reason only the odd part of what the model leaves unexplained says 
 known: a blur that is not Gaussian leaves an even one. So noise^2 is half the mean square
 difference of opposite pixels, unless that is more than the mean square itself: in a sharp image
 no two pixels are quite opposite. It is at least that of rounded grey levels: a drawn or saturated
-image has no other. The covariance is that of the noise alone: it does not contain
-what the model gets wrong in the same way at every corner.
+image has no other. The covariance does not contain what the model gets wrong in the same way at
+every corner.
 
 What is odd too and would not decouple - curvature and the light's gradients gm, ga - comes from
 the whole board (`board_priors`), as does the spread w of the ink.
 
 Two steps near the corners give what the board needs, and the last one reads whole edges. Where
 these are longer, the board is asked once more, and the corners follow without reading the image
-again. Few corners do not tell how long edges bend: then the edges' directions do (`edge_map`), and
-what they leave open of the curvatures is added to the covariance.
+again. Few corners do not tell how long edges bend: then the edges' directions do (`edge_map`). What
+the board leaves open of the curvatures and of the light's gradient gm, which grows with the arms'
+length, is added to the covariance.
 
 **Light.** The model lights the blurred pattern, where a camera blurs the lit one. Under light L
 that rises by l = grad L / L,
@@ -173,6 +174,8 @@ def fit_x_corners(
         edges = _follow_edges(model, board)
         model = _correct_for_priors(model, inverse, _update_priors(model, board, arm, edges))
         covariance = covariance + _compute_bend_covariance(model, edges.variance)
+        light = board.estimate_gradient_covariance(edges.steps, model.unknowns[M])
+        covariance += _compute_light_covariance(model, inverse, light)
     model = _correct_for_light(model)
     return XCornerFit(model, covariance, np.sqrt(square))
 
@@ -247,6 +250,15 @@ def _compute_bend_covariance(model: XCornerModel, variance: Array) -> Array:
     of the corners."""
     moved = np.linalg.inv(model.normals()) * (model.arm**2 / 6)[:, None]
     return np.asarray(np.einsum("nij,nj,nkj->nik", moved, variance, moved))
+
+
+def _compute_light_covariance(model: XCornerModel, inverse: Array, gradient: Array) -> Array:
+    """Compute what the covariance of the level's `gradient` (n, 2, 2) adds to that of the corners
+    (n, 2, 2); see `_correct_for_priors`."""
+    swing = 2 * model.sign * model.unknowns[A]
+    by_gradient = np.einsum("ni,nij,nik->njk", model.arm**2, model.normals(), model.tangents())
+    moved = inverse @ (swing[:, None, None] * by_gradient)
+    return np.asarray(moved @ gradient @ moved.transpose(0, 2, 1))
 
 
 def _update_priors(

@@ -45,3 +45,20 @@ def test_light_that_breaks_does_not_ring() -> None:
     np.testing.assert_allclose(whole[:, 0], 2 / 30, atol=2e-3)
     expected = np.where(shadow, 0.4, 1.0)[:, None] * whole
     np.testing.assert_allclose(broken, expected, atol=0.01)
+
+
+@pytest.mark.parametrize("degree", [1, 4])
+def test_gradients_scatter_as_their_covariance_says(degree: int) -> None:
+    found = np.ones((6, 9), np.bool_)
+    row, col = np.argwhere(found).T.astype(np.float64)
+    steps = np.broadcast_to(np.array([[30.0, 5.0], [-8.0, 25.0]]), (len(row), 2, 2))
+    smooth = 20 * (col / 8) ** degree + 30 * (row / 5) ** degree
+    priors, rng = BoardPriors(found), np.random.default_rng(0)
+    right = priors.estimate_gradients(steps, smooth[:, None])[:, 0]
+    deviations = []
+    for _ in range(300):
+        values = smooth + 0.05 * rng.standard_normal(len(smooth))
+        error = priors.estimate_gradients(steps, values[:, None])[:, 0] - right
+        inverse = np.linalg.inv(priors.estimate_gradient_covariance(steps, values))
+        deviations.append(np.mean(np.einsum("ni,nij,nj->n", error, inverse, error) / 2))
+    assert 0.8 < np.mean(deviations) < 1.25
