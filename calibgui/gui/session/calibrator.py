@@ -9,7 +9,7 @@ from functools import partial
 
 from PySide6.QtCore import QObject, Signal
 
-from calibgui.app.project import find_free_name, record_result
+from calibgui.app.project import Project, find_free_name, record_result
 from calibgui.app.redetection import calibrate_twice
 from calibgui.dataset import CornerSet, Result
 from calibgui.engine.calibration import Iteration, Status
@@ -72,15 +72,11 @@ class Calibrator(QObject):
 
     def _solve(self) -> None:
         project = self._session.project
-        if project.size is None:
-            self._session.failed.emit(
-                CalibrationError(
-                    self.tr("There is no image to calibrate from."),
-                    self.tr("Add photographs of a checkerboard."),
-                )
-            )
+        if (error := self._find_what_is_missing(project)) is not None:
+            self._session.failed.emit(error)
             self.ended.emit()
             return
+        assert project.size is not None
         corner_set = CornerSet(project.size, project.views, project.board)
         # Images that the user has not marked are not searched with the calibrated camera either.
         settings = replace(project.settings, once=project.settings.once or project.by_hand)
@@ -110,6 +106,23 @@ class Calibrator(QObject):
             inputs=self._session.question,
         )
         self.began.emit()
+
+    def _find_what_is_missing(self, project: Project) -> CalibrationError | None:
+        """Return why a project cannot be calibrated, with the remedy; None if it can be tried."""
+        if project.views and project.by_hand and not project.usable:
+            return CalibrationError(
+                self.tr("No board is marked yet, and the search is off."),
+                self.tr(
+                    "Mark the four outermost corners in at least three photographs (Mark board), "
+                    "or turn “Mark all by hand” off."
+                ),
+            )
+        if project.size is None:
+            return CalibrationError(
+                self.tr("There is no image to calibrate from."),
+                self.tr("Add photographs of a checkerboard."),
+            )
+        return None
 
     def _done(self, asked: CornerSet, result: Result) -> None:
         name = find_free_name(self._session.project, self.tr("Calibration"))

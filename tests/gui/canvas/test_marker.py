@@ -93,6 +93,21 @@ def test_all_boards_by_hand_from_the_first_click_to_the_camera(
     hand.wait(lambda: not session.jobs.running)
 
 
+def test_calibrating_without_a_marked_board_says_that_it_must_be_marked(
+    window: MainWindow, qtbot: QtBot
+) -> None:
+    paths = sorted(find_resource("sample").glob("*.png"))[:2]
+    window.session.begin(Document(Project(by_hand=True)))
+    window.files.open_paths(list(map(str, paths)))
+    qtbot.waitUntil(lambda: not window.session.jobs.running)
+    qtbot.mouseClick(window.calibrate, Qt.MouseButton.LeftButton)
+    qtbot.waitUntil(window.banner.isVisible)
+    assert "Mark the four outermost corners" in window.banner.text.text()
+    window.inspector.show_setup()
+    box = window.board.by_hand
+    assert box.text().replace("&", "") in window.banner.text.text()
+
+
 def test_enter_goes_on_to_images_with_corners_where_all_are_marked(
     window: MainWindow, qtbot: QtBot
 ) -> None:
