@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 import numpy as np
-from PySide6.QtCore import QEvent, QPointF, QRectF, Qt, Signal
+from PySide6.QtCore import QEvent, QPointF, QRect, QRectF, Qt, Signal
 from PySide6.QtGui import (
     QColor,
     QKeyEvent,
@@ -49,7 +49,9 @@ _SMOOTHED = 200
 """Outlines up to which they are smoothed: more take longer than a frame while one turns them."""
 _NUMBERED = 60
 """Nearest views that have numbers; of more than that all the numbers would hide the boards."""
-_BELOW = Qt.AlignmentFlag.AlignLeft | Qt.AlignmentFlag.AlignBottom
+_BELOW = Qt.AlignmentFlag.AlignLeft | Qt.AlignmentFlag.AlignBottom | Qt.TextFlag.TextWordWrap
+_MARGIN = 4
+"""Room around the sentence below the scene, px."""
 _ONE_LINE = Qt.AlignmentFlag.AlignCenter | Qt.TextFlag.TextSingleLine
 
 
@@ -126,14 +128,12 @@ class SceneView(QWidget):
 
     def to_widget(self, points: Array) -> list[QPointF]:
         """Points (n, 2) of the drawing plane in the widget."""
-        scale = _SHARE * min(self.width(), self.height())
-        middle = np.array([self.width(), self.height()]) / 2
+        scale, middle = self._place_scene()
         return [QPointF(*p) for p in points * scale + middle]
 
     def view_under(self, position: QPointF) -> int:
         """The view at a place of the widget; -1 if none."""
-        scale = _SHARE * min(self.width(), self.height())
-        middle = np.array([self.width(), self.height()]) / 2
+        scale, middle = self._place_scene()
         return find_view_at(self._drawn, (np.array([position.x(), position.y()]) - middle) / scale)
 
     def paintEvent(self, event: QPaintEvent) -> None:  # noqa: N802, ARG002 - Qt's name
@@ -151,7 +151,22 @@ class SceneView(QWidget):
         painter.setRenderHint(QPainter.RenderHint.Antialiasing)
         self._paint_numbers(painter)
         painter.setPen(QColor(theme.current().muted))
-        painter.drawText(self.rect().adjusted(4, 2, -4, -2), _BELOW, self._condition)
+        painter.drawText(self._find_room_below(), _BELOW, self._condition)
+
+    def _find_room_below(self) -> QRect:
+        """Return the room of the sentence below the scene, which has none if it is empty."""
+        room = self.rect().adjusted(_MARGIN, 0, -_MARGIN, 0)
+        if self._condition:
+            text = self.fontMetrics().boundingRect(room, _BELOW, self._condition)
+            room.setTop(text.top() - _MARGIN)
+        else:
+            room.setTop(room.bottom() + 1)
+        return room
+
+    def _place_scene(self) -> tuple[float, Array]:
+        """Return the scale of the drawing plane, px, and the place (2,) of its middle."""
+        width, height = self.width(), self._find_room_below().top()
+        return _SHARE * min(width, height), np.array([width, height]) / 2
 
     def _rank(self, view: int) -> int:
         """2 for the selected view, 1 for the one under the cursor, 0 for all others."""
@@ -258,9 +273,10 @@ class SceneView(QWidget):
         painter.drawText(box, Qt.AlignmentFlag.AlignCenter, text)
 
     def _keep_inside(self, box: QRectF) -> QRectF:
-        """Return the box moved as little as it takes to lie in the widget."""
+        """Return the box moved as little as it takes to lie in the widget, above the sentence."""
+        bottom = self._find_room_below().top()
         x = min(max(box.x(), 0.0), max(self.width() - box.width(), 0.0))
-        y = min(max(box.y(), 0.0), max(self.height() - box.height(), 0.0))
+        y = min(max(box.y(), 0.0), max(bottom - box.height(), 0.0))
         return QRectF(x, y, box.width(), box.height())
 
     def _point_at(self, view: int) -> None:

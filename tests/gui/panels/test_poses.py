@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import numpy as np
-from PySide6.QtCore import QPoint, QPointF, Qt
+from PySide6.QtCore import QPoint, QPointF, QRectF, Qt
 from PySide6.QtGui import QWheelEvent
 from PySide6.QtWidgets import QApplication
 from pytestqt.qtbot import QtBot
@@ -11,6 +11,7 @@ from pytestqt.qtbot import QtBot
 from calibgui.dataset import Result
 from calibgui.engine.geometry import rotations
 from calibgui.gui.panels.poses import PosesPanel
+from calibgui.gui.widgets import theme
 from calibgui.report.scene3d import (
     Observer,
     PolygonKind,
@@ -31,6 +32,29 @@ def test_a_board_picks_its_view(shown: Shown[PosesPanel], result: Result, qtbot:
     with qtbot.waitSignal(panel.picked) as signal:
         qtbot.mouseClick(panel.space, Qt.MouseButton.LeftButton, pos=at)
     assert result.views[signal.args[0]] is result.used[front.polygon.view]
+
+
+def test_the_sentence_on_lengths_has_the_room_below_to_itself(
+    shown: Shown[PosesPanel], result: Result
+) -> None:
+    panel = shown(PosesPanel, result)
+    space = panel.space
+    numbers = [str(k) for k in range(len(result.used))]
+    sentence = "Lengths hold if squares are 30 mm. " * 4
+    space.resize(300, 200)
+    scene = build_scene(result, SceneCentre.CAMERA)
+    colours = [theme.view_colour(k) for k in range(len(numbers))]
+    space.show_scene(scene, numbers, colours, "")
+    whole = space.grab().toImage()
+    space.show_scene(scene, numbers, colours, sentence)
+    room = space._find_room_below()
+    assert room.height() > 2 * space.fontMetrics().height(), "it is longer than a line"
+    assert room.bottom() == space.rect().bottom()
+    assert space.grab().toImage() != whole
+    boxes = space.numbers_shown.values()
+    assert boxes and all(box.bottom() <= room.top() for box in boxes)
+    far = space._keep_inside(QRectF(0, 500, 20, 10))
+    assert far.bottom() <= room.top()
 
 
 def test_a_click_beside_the_boards_picks_nothing(
