@@ -26,6 +26,8 @@ _OUTLYING = 3.0
 """Distances between the quartiles beyond them that mark a view (Tukey's "far out")."""
 _SEARCHED = np.linspace(0.6, 1.4, 401)
 """Aspect ratios over which g(r) is drawn."""
+_OPTIONAL = ("fy", "iterations")
+"""Columns that a narrow table does without: fy is fx times the ratio."""
 _RAISED = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 
 _TABLE_HEIGHT = 160
@@ -78,7 +80,9 @@ class StageOnePanel(Panel):
         self._line.setSymbolPen(None)
         for marks in (self._root, self._current):
             marks.setSymbolPen(pg.mkPen(colours.bad, width=2))
-        self._line.setData(np.arange(1, len(rows) + 1), [row.aspect for row in rows])
+        aspects = np.array([row.aspect for row in rows])
+        known = np.isfinite(aspects).any()  # a line of no points at all has no extent
+        self._line.setData(np.arange(1, len(rows) + 1) if known else [], aspects if known else [])
 
     def _select(self, k: int, corner: int) -> None:  # noqa: ARG002 - a view has one row
         self.table.select(k)
@@ -144,7 +148,14 @@ class StageOnePanel(Panel):
         return [
             Column(self.tr("View"), names, (lambda name: PurePath(name).stem) if alike else str),
             *(
-                Column(t, [getattr(r, name) for r in rows], text, tip, heading=headings.get(t, ""))
+                Column(
+                    t,
+                    [getattr(r, name) for r in rows],
+                    text,
+                    tip,
+                    heading=headings.get(t, ""),
+                    optional=name in _OPTIONAL,
+                )
                 for t, name, text, tip in shown
             ),
         ]
