@@ -129,6 +129,7 @@ def test_a_view_pointed_at_stands_out_in_plots(shown: MainWindow, qtbot: QtBot) 
 
 def test_a_view_and_its_row_stand_out_together(shown: MainWindow, qtbot: QtBot) -> None:
     panel = shown.need_analysis().show_panel(StageOnePanel)
+    QApplication.processEvents()  # it is painted a turn after it was filled
     assert shown.session.result is not None
     used = [view.image for view in shown.session.result.used]
     plain, selected = panel.table.grab().toImage(), panel._current.getData()

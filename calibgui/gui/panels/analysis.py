@@ -5,7 +5,7 @@ from __future__ import annotations
 from functools import partial
 from typing import TypeVar, cast
 
-from PySide6.QtCore import QEvent, Signal
+from PySide6.QtCore import QEvent, QTimer, Signal
 from PySide6.QtWidgets import (
     QComboBox,
     QHBoxLayout,
@@ -143,11 +143,25 @@ class Analysis(QWidget):
         panel = self.panel(kind)
         group = next(group for group, kinds in GROUPS.items() if kind in kinds)
         self._last[group] = kind
-        self.stack.setCurrentWidget(self._areas[kind])
+        self._bring_to_front(self._areas[kind])
         self.choosers[group].show_chosen(kind)
         self._names.setCurrentWidget(self.choosers[group])
         self.group_shown.emit(group)
         return panel
+
+    def _bring_to_front(self, area: PanelArea) -> None:
+        """Fill a panel now and paint it in the next turn: together they take too long for one."""
+        if self.stack.currentWidget() is not area:
+            area.setUpdatesEnabled(False)
+            self.stack.setCurrentWidget(area)
+            QTimer.singleShot(0, area, lambda: area.setUpdatesEnabled(True))
+
+    def build_next(self) -> bool:
+        """Build the first panel that is not there yet; return False if all are."""
+        missing = next((kind for kind in PANELS if kind not in self._built), None)
+        if missing is not None:
+            self.panel(missing)
+        return missing is not None
 
     @property
     def shown(self) -> Panel:

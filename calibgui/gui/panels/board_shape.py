@@ -110,7 +110,7 @@ class BoardShapePanel(Panel):
         reach = float(np.abs(d[:, 2]).max()) or 1e-3
         brushes = self.colours.map((d[:, 2] / reach + 1) / 2, mode="qcolor")
         self.dots.setData(*at.T, brush=list(brushes))
-        self.bar.setLevels((-reach, reach))
+        self.bar.set_levels(-reach, reach)
         nearest = scipy.spatial.cKDTree(at).query(at, k=2)[0]
         pitch = self._pitch = float(np.asarray(nearest)[:, 1].min())
         longest = float(np.linalg.norm(d[:, :2], axis=1).max()) or 1e-3

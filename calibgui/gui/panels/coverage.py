@@ -57,8 +57,7 @@ class CoveragePanel(Panel):
                 "Points on all sides, 20° to 45° out, determine the focal length best."
             )
         )
-        for ring in _RINGS:
-            self._add_ring(ring)
+        self._add_rings()
         self.distances = Plot(self.tr("view"), self.tr("distance"))
         self.distances.setToolTip(self.tr("From the camera to the middle of the corners seen."))
         self._planned: Result | None = None
@@ -149,14 +148,16 @@ class CoveragePanel(Panel):
             ring.setData(*at[k : k + 1].T if k >= 0 else ([], []))
             ring.setPen(pg.mkPen(theme.current().text, width=2))
 
-    def _add_ring(self, degrees: int) -> None:
-        turn = np.linspace(0, 2 * np.pi, 73)
+    def _add_rings(self) -> None:
+        turn = np.append(np.linspace(0, 2 * np.pi, 73), np.nan)  # NaN parts one from the next
         grey = QColor(128, 128, 128, 220)
         self.tilts.plot(
-            degrees * np.cos(turn),
-            degrees * np.sin(turn),
+            np.outer(_RINGS, np.cos(turn)).ravel(),
+            np.outer(_RINGS, np.sin(turn)).ravel(),
+            connect="finite",
             pen=pg.mkPen(grey, style=Qt.PenStyle.DotLine),
         )
-        label = pg.TextItem(f"{degrees}°", color=grey, anchor=(0.5, 0.5))
-        label.setPos(degrees * np.sqrt(0.5), degrees * np.sqrt(0.5))
-        self.tilts.addItem(label)
+        for degrees in _RINGS:
+            label = pg.TextItem(f"{degrees}°", color=grey, anchor=(0.5, 0.5))
+            label.setPos(degrees * np.sqrt(0.5), degrees * np.sqrt(0.5))
+            self.tilts.addItem(label)

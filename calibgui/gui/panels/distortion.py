@@ -20,7 +20,7 @@ from calibgui.gui.panels.panel import Panel
 from calibgui.gui.panels.services import Services
 from calibgui.gui.widgets.levels import choose_levels
 
-_CELLS = 240
+_CELLS = 160
 """Values along the image's longer side."""
 _ARROWS = 14
 """Arrows along the image's longer side."""

@@ -51,7 +51,7 @@ class HeatMap(Plot):
             top = float(np.nanmax(values, initial=0.0))
         self.image.setImage(values, autoLevels=False)
         self.image.setRect(area)
-        self.bar.setLevels((0.0, max(top, 1e-9)))
+        self.bar.set_levels(0.0, max(top, 1e-9))
 
     def fit(self, size: Size) -> None:
         """Bring the whole pixel array into view."""

@@ -4,14 +4,18 @@ from __future__ import annotations
 
 from pathlib import Path
 
+import numpy as np
 import pyqtgraph as pg
 from PySide6.QtCore import QCoreApplication, QEvent, QPoint, QRectF, Qt
 from PySide6.QtGui import (
     QAction,
+    QColor,
     QContextMenuEvent,
+    QGradient,
     QGuiApplication,
     QImage,
     QKeySequence,
+    QLinearGradient,
     QMouseEvent,
     QPainter,
 )
@@ -29,6 +33,12 @@ _MANY_DECADES = 4
 """From which on there is room for the powers of ten only."""
 _LEAST_HEIGHT = 160
 """Height below which the numbers of an axis run into each other, px."""
+_BAR_WIDTH = 14.0
+"""Width of a bar of colours, px."""
+_BAR_ROW, _BAR_COLUMN = 2, 5
+"""Place of a bar of colours in a plot's grid: beside what is plotted."""
+_STOPS = 33
+"""Colours that a bar is blended from: with them it cannot be told from the map itself."""
 _RIM = 8.0
 """Above axes that end with what they enclose: half a line for their topmost number, px."""
 
@@ -171,8 +181,11 @@ class _Axis(pg.AxisItem):  # type: ignore[misc]  # pyqtgraph is not typed
         return [t if int(first) in shown else "" for t, first in zip(texts, leading, strict=True)]
 
 
-class ColourBar(pg.ColorBarItem):  # type: ignore[misc]  # pyqtgraph is not typed
+class ColourBar(pg.GraphicsWidget):  # type: ignore[misc]  # pyqtgraph is not typed
     """What the colours of a plot mean, beside it.
+
+    Pyqtgraph's own bar is a whole plot with four axes and a menu, and takes as long to make as the
+    plot that it belongs to.
 
     Args:
         plot: that the bar belongs to.
@@ -184,11 +197,34 @@ class ColourBar(pg.ColorBarItem):  # type: ignore[misc]  # pyqtgraph is not type
     def __init__(
         self, plot: Plot, quantity: str, colours: pg.ColorMap, image: pg.ImageItem | None = None
     ) -> None:
-        super().__init__(width=14, interactive=False, colorMap=colours)
+        super().__init__()
         self._quantity = quantity
-        self.setImageItem([] if image is None else image, insert_in=plot.getPlotItem())
+        self._image = image
+        self.levels = (0.0, 1.0)
+        """Values of the lowest and of the highest colour."""
+        self._gradient = QLinearGradient(0, 1, 0, 0)
+        self._gradient.setCoordinateMode(QGradient.CoordinateMode.ObjectMode)
+        for position in np.linspace(0, 1, _STOPS):
+            self._gradient.setColorAt(position, colours.mapToQColor(position))
+        if image is not None:
+            image.setColorMap(colours)
+        self.axis = _Axis("right")
+        self.axis.enableAutoSIPrefix(False)
+        layout = plot.getPlotItem().layout
+        # The right axis of the plot, which is not shown, has the columns before these.
+        layout.setColumnFixedWidth(_BAR_COLUMN - 1, _BAR_WIDTH / 2)
+        layout.setColumnFixedWidth(_BAR_COLUMN, _BAR_WIDTH)
+        layout.addItem(self, _BAR_ROW, _BAR_COLUMN)
+        layout.addItem(self.axis, _BAR_ROW, _BAR_COLUMN + 1)
         plot.colour_bar = self
         self.restyle()
+
+    def set_levels(self, low: float, high: float) -> None:
+        """Give the lowest and the highest colour these values, in the image as well."""
+        self.levels = (low, high)
+        self.axis.setRange(low, high)
+        if self._image is not None:
+            self._image.setLevels(self.levels)
 
     def set_quantity(self, quantity: str) -> None:
         """Say anew what the colours show, with its unit."""
@@ -200,8 +236,16 @@ class ColourBar(pg.ColorBarItem):  # type: ignore[misc]  # pyqtgraph is not type
         colours = theme.current()
         self.axis.setPen(colours.line)
         self.axis.setTextPen(colours.text)
-        self.getAxis("left").setLabel(self._quantity, color=colours.text)
+        self.axis.setLabel(self._quantity, color=colours.text)
+        self.axis.setToolTip(explain(self._quantity))
         self.setToolTip(explain(self._quantity))
+        self.update()
+
+    def paint(self, painter: QPainter, *_: object) -> None:
+        """Draw the colours, the lowest at the bottom."""
+        painter.setPen(QColor(theme.current().line))
+        painter.setBrush(self._gradient)
+        painter.drawRect(self.rect())
 
 
 def save_picture(widget: QWidget, path: str | Path) -> None:

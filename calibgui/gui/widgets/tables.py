@@ -158,7 +158,8 @@ class _Titles(QHeaderView):
         self.setHighlightSections(False)  # every row is selected as a whole
         # Columns as wide as what is in sight: measuring thousands of rows would be felt.
         self.setResizeContentsPrecision(0)
-        self.setSectionResizeMode(QHeaderView.ResizeMode.ResizeToContents)
+        # The table measures its columns when that is due: Qt would at every change.
+        self.setSectionResizeMode(QHeaderView.ResizeMode.Fixed)
 
     def sectionSizeFromContents(self, column: int) -> QSize:  # noqa: N802 - Qt's name
         size = super().sectionSizeFromContents(column)
@@ -283,7 +284,8 @@ class Table(QTableView):
 
     def resizeEvent(self, event: QResizeEvent) -> None:  # noqa: N802 - Qt's name
         super().resizeEvent(event)
-        self._fit()
+        if event.size().width() != event.oldSize().width():
+            self._fit()
 
     def _fit(self) -> None:
         """Spare the user sideways scrolling: leave columns out, then narrow the first one."""
@@ -292,14 +294,12 @@ class Table(QTableView):
             self.setColumnHidden(place, column.hidden)
         if not columns or not self.isVisible():
             return
-        header.setSectionResizeMode(0, QHeaderView.ResizeMode.ResizeToContents)
         header.resizeSections(QHeaderView.ResizeMode.ResizeToContents)
         room = self.viewport().width()
         for place, column in enumerate(columns):
             if column.optional and header.length() > room:
                 self.setColumnHidden(place, True)
         if (excess := header.length() - room) > 0:
-            header.setSectionResizeMode(0, QHeaderView.ResizeMode.Interactive)
             whole = header.sectionSize(0)
             least = min(whole, _LEGIBLE * self.fontMetrics().averageCharWidth())
             header.resizeSection(0, max(least, whole - excess))

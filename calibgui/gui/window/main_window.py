@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 from PySide6.QtCore import QEvent, QSettings, QSize, Qt, QTimer
 from PySide6.QtGui import QCloseEvent, QDragEnterEvent, QDropEvent
 from PySide6.QtWidgets import (
+    QApplication,
     QMainWindow,
     QPushButton,
     QSizePolicy,
@@ -71,6 +72,8 @@ class MainWindow(QMainWindow):
         self.settings = SettingsPanel(self.session)
         self.analysis: Analysis | None = None
         self._empty = True
+        self._building = QTimer(self, interval=_PAUSE)
+        self._building.timeout.connect(self._build_ahead)
         self._at = (self.session.document, 0)
         self.welcome = Welcome(self.session.jobs)
         self.banner = Banner()
@@ -196,6 +199,8 @@ class MainWindow(QMainWindow):
     def prepare(self) -> None:
         """Import beside the main thread what will be needed: SciPy, the panels, the solver.
 
+        Once there is a result, the panels on it are built before they are asked for.
+
         What is there by then stays: going through it at every full collection of garbage would
         stop the window for longer than a frame.
         """
@@ -207,6 +212,13 @@ class MainWindow(QMainWindow):
                 )
 
         qt_names.make_classes(self, load)
+        self.session.result_changed.connect(lambda _: self._building.start())
+
+    def _build_ahead(self) -> None:
+        """Build one panel that was not shown yet, unless somebody works."""
+        busy = self.session.jobs.running or QApplication.mouseButtons()
+        if self.analysis is not None and not busy and not self.analysis.build_next():
+            self._building.stop()
 
     def _result_changed(self, result: Result | None) -> None:
         if result is not None and self.analysis is None:
@@ -349,6 +361,8 @@ _NEEDED_SOON = (
 """Modules that are imported beside the main thread once the window is open."""
 _FRAME = 16
 """Time between two pictures on the screen, ms."""
+_PAUSE = 150
+"""Time between two panels that are built ahead, ms: what the user does comes between them."""
 _SHARE_OF_SCREEN = 0.8
 _SMALL_SCREEN = 1600
 """Width of a screen below which the window fills it, px."""

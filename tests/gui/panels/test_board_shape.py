@@ -49,7 +49,7 @@ def test_colours_are_symmetric_about_the_plane(
 ) -> None:
     panel = shown(BoardShapePanel, bent)
     reach = np.abs(board_shape.deviation[:, 2]).max()
-    assert panel.bar.levels() == pytest.approx((-reach, reach))
+    assert panel.bar.levels == pytest.approx((-reach, reach))
     brushes = [spot.brush().color() for spot in panel.dots.points()]
     far, near = int(board_shape.deviation[:, 2].argmax()), int(board_shape.deviation[:, 2].argmin())
     assert brushes[far].red() > brushes[far].blue()

@@ -63,7 +63,7 @@ def test_values_are_eq_10(
         qtbot.keyClick(panel.part, Qt.Key.Key_Down)
     expected = np.linalg.norm(eq10(printed, pixels_of(panel), **parts), axis=-1)
     np.testing.assert_allclose(panel.plot.image.image, expected, atol=1e-9)
-    low, high = panel.plot.bar.levels()
+    low, high = panel.plot.bar.levels
     assert low == 0 and high == panel.plot.image.image.max()
 
 

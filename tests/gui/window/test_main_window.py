@@ -1,13 +1,37 @@
-"""The window as a whole: what it imports beside the main thread."""
+"""The window as a whole: what it prepares before it is asked for."""
 
 from __future__ import annotations
 
 from importlib.util import find_spec
 
+from PySide6.QtWidgets import QApplication
+from pytestqt.qtbot import QtBot
+
+from calibgui.gui.panels.coverage import CoveragePanel
+from calibgui.gui.panels.panel import Panel
 from calibgui.gui.window import main_window
+from calibgui.gui.window.main_window import MainWindow
 
 
 def test_every_module_that_is_imported_soon_exists() -> None:
     missing = [name for name in main_window._NEEDED_SOON if find_spec(name) is None]
     assert missing == []
     assert len(main_window._NEEDED_SOON) > 2
+
+
+def test_panels_are_built_one_by_one_in_pauses(full: MainWindow, qtbot: QtBot) -> None:
+    panels = full.need_analysis().findChildren(Panel)
+    full.prepare()
+    full.session.show_result(next(iter(full.session.project.results)))
+    for count in (len(panels) + 1, len(panels) + 2):
+        qtbot.waitUntil(lambda: len(full.need_analysis().findChildren(Panel)) >= count)  # noqa: B023
+    assert full.need_analysis().shown is panels[0], "what is seen stays"
+
+
+def test_a_panel_is_filled_in_one_turn_and_painted_in_the_next(full: MainWindow) -> None:
+    analysis = full.need_analysis()
+    panel = analysis.show_panel(CoveragePanel)
+    assert panel.isVisible() and panel.advice.text(), "it is filled at once"
+    assert not panel.updatesEnabled()
+    QApplication.processEvents()
+    assert panel.updatesEnabled()
