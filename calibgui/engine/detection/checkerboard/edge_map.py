@@ -122,7 +122,7 @@ def fit_edge_map(
         terms, across, J = terms[..., independent], across[..., independent], J[:, independent]
         axes, degree = axes[independent], degree[independent]
         R = _factorise(J.T @ J)
-    tried = np.arange(_THRESHOLDS.min_edge_degree, degree[-1] + 1)
+    tried = np.arange(min(_THRESHOLDS.min_edge_degree, degree[-1]), degree[-1] + 1)
     counts = np.searchsorted(degree, tried, side="right")
     inverse = np.linalg.inv(R)
     share = inverse.T @ (J.T @ rest)

@@ -76,3 +76,13 @@ def test_corners_that_a_wrong_curvature_moved_tell_the_same() -> None:
     shift = (wrong.curvature - right.curvature) * arm**2 / 6
     assert np.abs(kappa * arm**2 / 6).max() > 0.03
     assert np.abs(shift).max() < 2e-3
+
+
+def test_a_handful_of_corners_has_a_geometry_too() -> None:
+    """Six corners in three lines carry no cubic."""
+    found = np.array([[1, 1, 0], [1, 1, 1], [0, 0, 1]], np.bool_)
+    camera = Camera(Conditions(grid_size=(3, 3), square=100.0), np.random.default_rng(1))
+    at, normals, kappa, arm = (values[found.ravel()] for values in draw_edges(camera, (3, 3)))
+    got = fit_edge_map(found, at, normals, arm, kappa)
+    assert np.abs(got.curvature * arm**2 / 6).max() < 1e-3
+    assert np.isfinite(got.variance).all()
