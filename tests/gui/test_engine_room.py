@@ -1,4 +1,4 @@
-"""What must hold whatever happens: odd files, the keyboard alone, and being killed at any step."""
+"""What must hold whatever happens: odd files, and being killed at any step."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from pathlib import Path
 import pytest
 from PySide6.QtCore import Qt
 from PySide6.QtTest import QTest
-from PySide6.QtWidgets import QApplication, QComboBox, QFileDialog, QInputDialog
+from PySide6.QtWidgets import QComboBox, QInputDialog
 from pytestqt.qtbot import QtBot
 
 from calibgui.app.autosave import find_unsaved_work, get_autosave_path, read_unsaved_work
@@ -24,8 +24,6 @@ from calibgui.app.resources import find_resource
 from calibgui.dataset import ViewStatus
 from calibgui.engine.calibration.result import Cost
 from calibgui.formats.json_document import dumps
-from calibgui.formats.result_json import read_result
-from calibgui.gui.dialogs.export_dialog import ExportDialog
 from calibgui.gui.window.main_window import MainWindow
 from tests.gui.hand import Hand
 
@@ -59,49 +57,6 @@ def test_a_project_that_names_devices_and_pipes_as_images(
     for view in window.session.project.views:
         window.session.select(view.image)
         qtbot.waitUntil(lambda: not window.session.jobs.running, timeout=10_000)
-
-
-def test_the_keyboard_alone_from_start_to_export(
-    window: MainWindow,
-    qtbot: QtBot,
-    tmp_path: Path,
-    folder: Path,
-    monkeypatch: pytest.MonkeyPatch,
-) -> None:
-    out, hand, session = tmp_path / "camera.json", Hand(window, qtbot), window.session
-    monkeypatch.setattr(QFileDialog, "getExistingDirectory", lambda *_: str(folder))
-    monkeypatch.setattr(QFileDialog, "getSaveFileName", lambda *_: (str(out), ""))
-    window.activateWindow()
-    for _ in range(20):
-        if QApplication.focusWidget() is window.welcome.buttons[0]:
-            break
-        hand.key(Qt.Key.Key_Tab)
-    hand.key(Qt.Key.Key_Space)
-    hand.wait(lambda: session.result is not None)
-    hand.wait(lambda: not session.jobs.running)
-
-    # An image is left out, and the rest calibrated again.
-    for _ in range(60):
-        if QApplication.focusWidget() is window.images.list:
-            break
-        hand.key(Qt.Key.Key_Tab)
-    hand.key(Qt.Key.Key_Down)
-    hand.key(Qt.Key.Key_Space)
-    assert len(session.project.usable) == 4
-    hand.key(Qt.Key.Key_F9)
-    hand.wait(lambda: len(session.project.results) == 2)
-    hand.wait(lambda: not session.jobs.running)
-
-    hand.key(Qt.Key.Key_E, Qt.KeyboardModifier.ControlModifier)
-    dialog = QApplication.activeModalWidget()
-    assert isinstance(dialog, ExportDialog)
-    hand.wait(dialog.save.isEnabled)
-    QTest.keyClick(dialog.focusWidget() or dialog, Qt.Key.Key_Return)
-    hand.wait(out.exists)
-    assert len(read_result(out).used) == 4
-    hand.wait(lambda: not session.jobs.running)
-    QTest.keyClick(dialog, Qt.Key.Key_Escape)
-    assert QApplication.activeModalWidget() is None
 
 
 _STEPS = """
