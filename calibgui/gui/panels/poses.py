@@ -12,6 +12,7 @@ from calibgui.gui.panels.panel import Panel
 from calibgui.gui.panels.scene_view import SceneView
 from calibgui.gui.panels.services import Services
 from calibgui.gui.widgets import theme
+from calibgui.gui.widgets.elided import elide_name
 from calibgui.gui.widgets.lengths import describe_condition, state_condition
 from calibgui.report.coverage import measure_attitudes
 from calibgui.report.names import number_names
@@ -60,7 +61,7 @@ class PosesPanel(Panel):
     def _refresh(self, result: Result) -> None:
         self._attitudes = measure_attitudes(result.calibration, result.observations())
         self._condition = describe_condition(result)
-        self._names = shorten_names(result.used)
+        self._names = [elide_name(name) for name in shorten_names(result.used)]
         numbers = number_names([view.image for view in result.views])
         self.space.show_scene(
             build_scene(result, SceneCentre(self.centre.currentData())),

@@ -19,6 +19,7 @@ from calibgui.gui.panels.panel import Panel
 from calibgui.gui.panels.services import Services
 from calibgui.gui.panels.split import Split
 from calibgui.gui.widgets import theme
+from calibgui.gui.widgets.elided import elide_name
 from calibgui.gui.widgets.plots import Plot
 from calibgui.gui.widgets.tables import Column, Table, with_decimals
 
@@ -102,11 +103,11 @@ class StageOnePanel(Panel):
         known = np.isfinite(row.aspect)
         self._root.setData([row.aspect] if known else [], [0.0] if known else [])
         self._current.setData([max(k, 0) + 1] if known else [], [row.aspect] if known else [])
-        name = shorten_names(self._result.used)[max(k, 0)]
+        name = elide_name(shorten_names(self._result.used)[max(k, 0)])
         self.equation.set_title(
-            self.tr("{0}: r = {1:.4f}").format(name, row.aspect)
+            self.tr("{0}<br>r = {1:.4f}").format(name, row.aspect)
             if known
-            else self.tr("{0}: aspect ratio not determined").format(name)
+            else self.tr("{0}<br>aspect ratio not determined").format(name)
         )
 
     def _columns(self, result: Result) -> list[Column]:

@@ -26,6 +26,7 @@ from calibgui.gui.panels.divided_images import DividedImages, Grey
 from calibgui.gui.panels.latest import Latest
 from calibgui.gui.panels.panel import Panel
 from calibgui.gui.panels.services import Services
+from calibgui.gui.widgets.elided import elide_name
 from calibgui.gui.widgets.narrow_combo import NarrowCombo
 from calibgui.report.coverage import find_shown_extent, measure_natural_scale
 
@@ -170,7 +171,7 @@ class UndistortPanel(Panel):
         assert self._result is not None
         result, choice = self._result, self.choice
         self._shown = max(k, 0)
-        name = shorten_names(result.used)[self._shown]
+        name = elide_name(shorten_names(result.used)[self._shown])
         self.words.setText(self.tr("{0}: working…").format(name))
         shown = self._shown
         self._work.start(

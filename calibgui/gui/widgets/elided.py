@@ -1,10 +1,24 @@
-"""A line of text that gives up its end, not its neighbours' room."""
+"""Text that gives up a part of itself, not its neighbours' room."""
 
 from __future__ import annotations
 
 from PySide6.QtCore import Qt
 from PySide6.QtGui import QPainter, QPaintEvent
 from PySide6.QtWidgets import QLabel, QSizePolicy
+
+_NAME_LENGTH = 30
+"""Characters of a name that leave room for some words in the narrowest panel (chosen)."""
+
+
+def elide_name(name: str) -> str:
+    """Return a file's name, "…" for its middle if it is too long for a panel.
+
+    Qt breaks a line between words only: a name is one, and would be cut or widen a plot.
+    """
+    if len(name) <= _NAME_LENGTH:
+        return name
+    kept = (_NAME_LENGTH - 1) // 2
+    return f"{name[:kept]}…{name[-kept:]}"
 
 
 class ElidedLabel(QLabel):

@@ -9,10 +9,12 @@ from dataclasses import replace
 import numpy as np
 import pytest
 from PySide6.QtCore import Qt
+from PySide6.QtWidgets import QApplication
 from pytestqt.qtbot import QtBot
 
 from calibgui.dataset import Result
 from calibgui.engine.calibration.initialisation.single_view_pose import evaluate_cosines_equation
+from calibgui.gui.panels.analysis import PANEL_WIDTH
 from calibgui.gui.panels.stage_one import StageOnePanel
 from tests.gui.panels.conftest import Shown, click
 
@@ -100,3 +102,15 @@ def test_the_whole_table_is_seen_in_the_least_width(
 
 
 _PLAIN = str.maketrans("⁰¹²³⁴⁵⁶⁷⁸⁹", "0123456789")
+
+
+def test_a_long_name_does_not_widen_the_plot(shown: Shown[StageOnePanel], result: Result) -> None:
+    views = tuple(replace(view, image=80 * "n" + view.image) for view in result.views)
+    panel = shown(StageOnePanel, replace(result, views=views))
+    panel.resize(PANEL_WIDTH, 600)
+    for k in range(len(result.used)):
+        panel._select(k, -1)
+        QApplication.processEvents()
+        plot = panel.equation
+        assert plot.getPlotItem().minimumWidth() <= plot.getPlotItem().size().width()
+        assert plot.getPlotItem().size().width() <= plot.width()
