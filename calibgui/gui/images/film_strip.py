@@ -6,6 +6,7 @@ from collections.abc import Callable
 from dataclasses import replace
 from pathlib import PurePath
 
+import numpy as np
 from PySide6.QtCore import (
     QItemSelection,
     QItemSelectionModel,
@@ -210,9 +211,12 @@ class FilmStrip(QWidget):
 
     def _result_changed(self, _: Result | None) -> None:
         """Put the threshold above all errors again."""
+        top = self.list.top
         self.list.set_threshold(None)
-        self._show_threshold(self.list.top)
-        self.threshold.setEnabled(self.list.top > 0)
+        if top > 0:  # three digits of the largest error are as fine as it can be dragged
+            self.threshold.setDecimals(int(np.clip(2 - np.floor(np.log10(top)), 1, 4)))
+        self._show_threshold(top)
+        self.threshold.setEnabled(top > 0)
 
     def _show_threshold(self, error: float) -> None:
         """Show the threshold as a number, and what excluding by it would do."""

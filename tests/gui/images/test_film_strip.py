@@ -90,6 +90,7 @@ def test_dragging_the_threshold_selects_the_images_above_and_a_button_excludes_t
 ) -> None:
     strip, view = full.images, full.images.list
     assert strip.above == [] and not strip.exclude_above.isEnabled()
+    assert 1 <= len(strip.threshold.cleanText().strip("0.").replace(".", "")) <= 3
     rms = dict(zip(listed(full, Role.PATH), listed(full, Role.RMS), strict=True))
     errors = sorted((error for error in rms.values() if error is not None), reverse=True)
     between = (errors[1] + errors[2]) / 2
