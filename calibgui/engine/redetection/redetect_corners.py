@@ -130,6 +130,9 @@ def redetect_corners(
 def are_edges_bent(corners: Corners, calibration: Calibration, pose: Pose, board: Board) -> bool:
     """Return whether few corners have edges so bent that the camera places them better.
 
+    A camera that misses corners by more than they are known to, as one from a board that is not as
+    it was drawn, does not.
+
     Args:
         corners: the corners of a view, with places on the board.
         calibration: the calibration of the camera.
@@ -146,6 +149,8 @@ def are_edges_bent(corners: Corners, calibration: Calibration, pose: Pose, board
     steps, curvature = differentiate_edges(locate, board.points(corners.grid), board.square)
     bend = abs(curvature) * np.sum(steps**2, axis=2) / 24  # over arms of half a square
     sigma = np.sqrt(np.trace(corners.cov, axis1=1, axis2=2) / 2)
+    if calibration.model_error > np.median(sigma):
+        return False
     return bool(np.any(bend > _MAX_BEND * sigma[:, None]))
 
 

@@ -197,3 +197,4 @@ def test_the_camera_places_few_corners_of_bent_edges_better(calibration: Calibra
     straight = replace(calibration, camera=replace(CAMERA, params=[*CAMERA.params[:4], *[0.0] * 6]))
     assert not are_edges_bent(first, straight, pose, board)
     assert not are_edges_bent(first, replace(calibration, lens_error=1.0), pose, board)
+    assert not are_edges_bent(first, replace(calibration, model_error=0.1), pose, board)
