@@ -10,10 +10,10 @@ from calibgui.engine.numbers import format_two_digits
 @pytest.mark.parametrize(
     ("value", "text"),
     [
-        (0.01, "0.01"),
+        (0.01, "0.010"),
         (0.0444, "0.044"),
         (0.99, "0.99"),
-        (0.999, "1"),
+        (0.999, "1.0"),
         (9.94, "9.9"),
         (9.96, "10"),
         (271.3, "270"),
