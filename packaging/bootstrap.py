@@ -24,6 +24,7 @@ from __future__ import annotations
 
 import argparse
 import hashlib
+import itertools
 import json
 import os
 import shlex
@@ -41,6 +42,7 @@ WINDOW = ROOT / "calibgui" / "gui" / "__main__.py"
 CONSTRAINTS = ROOT / "packaging" / "constraints"
 NEXT_EXTRA = "# What the next extra needs besides:\n"
 """Line between the parts of a constraint file, one for each of EXTRAS."""
+SYSTEM = Path("/")
 SYSTEM_CERTIFICATES = Path("/etc/ssl/certs/ca-certificates.crt")
 
 LACKING = """
@@ -215,7 +217,7 @@ class Environment:
 
     def create(self) -> None:
         """Put Python and pip in the folder that `begin` left."""
-        wheel = next(self.debian.glob("usr/share/python-wheels/pip-*.whl"), None)
+        wheel = self.find_pip_wheel() if venv_package() else None
         options = ["--without-pip"] if wheel else []
         command = [base_python(), "-m", "venv", *options, str(self.folder)]
         made = subprocess.run(
@@ -225,6 +227,11 @@ class Environment:
             raise SetupError(f"no virtual environment could be made:\n{made.stdout}{made.stderr}")
         if wheel:
             self.pip_from(wheel)
+
+    def find_pip_wheel(self) -> Path | None:
+        """Return Debian's copy of pip: unpacked here, unless the system has it already."""
+        wheels = (root.glob("usr/share/python-wheels/pip-*.whl") for root in (self.debian, SYSTEM))
+        return next(itertools.chain.from_iterable(wheels), None)
 
     def pip_from(self, wheel: Path) -> None:
         """Install pip by its copy in Debian's `wheel`, which insists on Debian's certificates."""

@@ -222,6 +222,18 @@ class TestEnvironment:
         expected = ("-m", "pip", "install", "--editable", f"{bootstrap.ROOT}[dev]")
         assert steps == [expected, expected]
 
+    def test_takes_the_systems_copy_of_pip_where_only_its_module_is_missing(
+        self, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+    ) -> None:
+        environment = bootstrap.Environment(tmp_path / "venv")
+        monkeypatch.setattr(bootstrap, "SYSTEM", tmp_path / "system")
+        assert environment.find_pip_wheel() is None
+        for root in (bootstrap.SYSTEM, environment.debian):
+            wheel = root / "usr" / "share" / "python-wheels" / "pip-23.0-py3-none-any.whl"
+            wheel.parent.mkdir(parents=True)
+            wheel.touch()
+            assert environment.find_pip_wheel() == wheel, "what was unpacked comes first"
+
     def test_finds_libraries_unpacked_for_it(self, tmp_path: Path) -> None:
         libraries = tmp_path / "debian" / "usr" / "lib" / "x86_64-linux-gnu"
         libraries.mkdir(parents=True)
