@@ -17,8 +17,10 @@ import shlex
 import signal
 import sys
 import traceback
+import warnings
 from collections.abc import Iterator, Sequence
 from importlib import import_module
+from typing import Any
 
 from calibgui.cli.parser import COMMANDS, build_parser, configure, describe_misuse
 
@@ -80,10 +82,30 @@ def _run(arguments: list[str]) -> int:
         # SIGTERM ends the program as Ctrl-C does: workers and temporary files are removed.
         signal.signal(signal.SIGTERM, signal.default_int_handler)
     try:
-        return int(command.run(options, console) or 0)
+        with _print_our_warnings_plainly():
+            return int(command.run(options, console) or 0)
     except errors.CalibrationError as error:
         console.print_problem(f"calibgui: {error}")
         return _CANNOT
+
+
+@contextlib.contextmanager
+def _print_our_warnings_plainly() -> Iterator[None]:
+    """Print warnings of this project without the line of code, which tells a user nothing."""
+    usual = warnings.formatwarning
+
+    def print_plainly(
+        message: Warning | str, category: type[Warning], *place: Any, **line: Any
+    ) -> str:
+        if category.__module__.startswith("calibgui."):
+            return f"calibgui: {message}\n"
+        return usual(message, category, *place, **line)
+
+    warnings.formatwarning = print_plainly
+    try:
+        yield
+    finally:
+        warnings.formatwarning = usual
 
 
 @contextlib.contextmanager

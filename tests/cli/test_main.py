@@ -11,6 +11,7 @@ import signal
 import struct
 import subprocess
 import sys
+import warnings
 from collections.abc import Iterator
 from importlib import import_module
 from pathlib import Path
@@ -22,6 +23,7 @@ from calibgui.app.missing_library import describe_missing_library
 from calibgui.cli import detect
 from calibgui.cli.main import main
 from calibgui.cli.parser import COMMANDS
+from calibgui.engine.kernels import NumbaWarning
 from tests.photographs import COUNT
 
 Capture = pytest.CaptureFixture[str]
@@ -51,6 +53,20 @@ def test_its_version(capsys: Capture) -> None:
         main(["--version"])
     assert ended.value.code == 0
     assert __version__ in capsys.readouterr().out
+
+
+def test_a_warning_of_ours_is_a_sentence_without_lines_of_code(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: Capture
+) -> None:
+    def warn(*_: object) -> None:
+        for category in (NumbaWarning, RuntimeWarning):
+            print(warnings.formatwarning("something is slow", category, "a.py", 7))
+
+    monkeypatch.setattr(detect, "run", warn)
+    assert main(["detect", str(tmp_path), "-o", str(tmp_path / "corners.json")]) == 0
+    ours, other = capsys.readouterr().out.split("\n\n", 1)
+    assert ours == "calibgui: something is slow"
+    assert other.startswith("a.py:7: RuntimeWarning: something is slow")
 
 
 @pytest.mark.parametrize("command", COMMANDS)
