@@ -22,18 +22,11 @@ from calibgui.app.sensor_frame import share_frame
 from calibgui.app.workers import Crashed, map_in_processes
 from calibgui.dataset import CornerSet, View, ViewStatus
 from calibgui.engine.arrays import Array, GridSize, Size
-from calibgui.engine.boards import CHECKERBOARD, KINDS, Board, Pattern
-from calibgui.engine.detection import METHODS, Corners, find_corners, look_for_marks
+from calibgui.engine.boards import CHECKERBOARD, Board, Pattern
+from calibgui.engine.detection import METHODS, Corners, find_corners
 from calibgui.engine.errors import CalibrationError, NoBoardError
 from calibgui.engine.images import Image, read_image
-from calibgui.report.boards import name_kind
 
-_KINDS_MARKED_IN_SQUARES = ("charuco", "tagged-checkerboard")
-"""Kinds of boards with marks in their squares that a search for plain checkerboards may find."""
-_KINDS_MARKED_ON_EDGES = ("puzzleboard",)
-"""Kinds of boards with marks on the squares' edges that it may find."""
-_SAMPLES = 2
-"""Number of images in which other boards are looked for, which takes seconds in each."""
 Progress = Callable[[int, int, View], None]
 """Function that is called with the number of finished images, of all images, and the last view."""
 
@@ -67,7 +60,7 @@ class Detection:
                 neither given nor seen.
         """
         if self.size is None:
-            raise _refuse_unreadable(self.views)
+            raise refuse_unreadable(self.views)
         seen = [view.corners for view in self.views if view.corners is not None]
         if self.grid_size is None and (largest := measure_largest_part(seen)) is not None:
             rows, cols = largest
@@ -174,131 +167,10 @@ def _describe_zero_tail(image: Image) -> str:
     )
 
 
-def explain_missing_board(
-    detection: Detection,
-    pattern: Pattern,
-    grid_size: GridSize | None,
-    is_any_looked_for: bool = False,
-) -> tuple[CalibrationError | None, tuple[View, ...]]:
-    """Explain why none of the photographs shows the board, and what they show instead.
-
-    Args:
-        detection: what was found.
-        pattern: of the board that was looked for.
-        grid_size: of that board, if stated.
-        is_any_looked_for: True if boards of all other patterns were looked for as well.
-
-    Returns:
-        The error, None if the board was found or no image could be read, and the views with other
-        faults than that.
-    """
-    views = detection.views
-    if any(view.usable for view in views) or detection.size is None:
-        return None, ()
-    samples = choose_samples(views)
-    if not samples:
-        return _refuse_unreadable(views), ()
-    size = None if grid_size is None else find_grid_size(samples, pattern)
-    other = None if size or is_any_looked_for else find_other_pattern(samples, pattern)
-    if grid_size is not None and size is not None:
-        problem = (
-            f"The images show a board of {_format_size(size)}, not of {_format_size(grid_size)}."
-        )
-        hint = f"State --board {_format_size(size)}, or leave --board out."
-    elif other is not None:
-        problem = f"The images show {name_kind(other)}, not {name_kind(pattern)}."
-        hint = f"State --target {other.kind}; if another board is meant, --roi says where it is."
-    else:
-        problem = "The board was found in none of the images."
-        hint = (
-            "Photograph the whole board, sharp and evenly lit; state what is printed on it with "
-            "--target, or mark its corners with --roi."
-        )
-    is_explained = size is not None or other is not None
-    faults = [v for v in views if not (is_explained and v.status is ViewStatus.NO_BOARD)]
-    return CalibrationError(problem, hint), tuple(faults)
-
-
-def _refuse_unreadable(views: Sequence[View]) -> CalibrationError:
+def refuse_unreadable(views: Sequence[View]) -> CalibrationError:
     """Return the error that none of the images can be read."""
     problem = "None of the files can be read as an image."
     return CalibrationError(problem, f"The first: {views[0].reason}")
-
-
-def _format_size(size: GridSize) -> str:
-    return f"{size[0]}x{size[1]}"
-
-
-def choose_samples(views: Iterable[View]) -> list[str]:
-    """Return the images in which other boards are looked for where the stated one is in none."""
-    searched = (ViewStatus.FOUND, ViewStatus.NO_BOARD)
-    return [view.image for view in views if view.status in searched][:_SAMPLES]
-
-
-def find_grid_size(
-    images: Sequence[str], pattern: Pattern, stop: Event | None = None
-) -> GridSize | None:
-    """Return the size of the board that some of the `images` show, None if that is none.
-
-    Raises:
-        Cancelled: if `stop` was set.
-    """
-    found = map_in_processes(partial(search_view, pattern=pattern), [View(i) for i in images], stop)
-    return infer_grid_size(view for _, view in found if isinstance(view, View))
-
-
-def recognise_pattern(views: Sequence[View]) -> Pattern | None:
-    """Return the pattern that photographs show in which a plain checkerboard was looked for.
-
-    Where one was found it may bear marks, which are read if a look at it shows any; where none was
-    found, all other kinds are tried.
-
-    Returns:
-        None if it is a plain checkerboard, or nothing that can be found.
-    """
-    found = [(view, view.corners) for view in views if view.corners is not None]
-    if not found:
-        return find_other_pattern(choose_samples(views), CHECKERBOARD)
-    view, corners = max(found, key=lambda pair: len(pair[1]))
-    try:
-        marks = look_for_marks(read_image(view.image, view.orientation).pixels, corners)
-    except CalibrationError:  # the file has changed since it was searched
-        return None
-    marked = (
-        *(_KINDS_MARKED_IN_SQUARES if marks.in_squares else ()),
-        *(_KINDS_MARKED_ON_EDGES if marks.on_edges else ()),
-    )
-    tries = (search_view(View(view.image), pattern=KINDS[kind]) for kind in marked)
-    kinds = (tried.corners.pattern.kind for tried in tries if tried.corners is not None)
-    return next((KINDS[kind] for kind in kinds), None)
-
-
-def find_other_pattern(
-    images: Iterable[str], stated: Pattern, stop: Event | None = None
-) -> Pattern | None:
-    """Return another pattern than `stated` that is found in some of the `images`, else None.
-
-    Of several, the one found in most images is returned, then the one with most corners.
-
-    Raises:
-        Cancelled: if `stop` was set.
-    """
-    others = [pattern for pattern in KINDS.values() if pattern.kind != stated.kind]
-    tries = [(image, pattern) for image in images for pattern in others]
-    found: Counter[str] = Counter()
-    corners: Counter[str] = Counter()
-    for i, view in map_in_processes(_try_pattern, tries, stop):
-        if isinstance(view, View) and view.corners is not None:
-            kind = tries[i][1].kind
-            found[kind] += 1
-            corners[kind] += len(view.corners)
-    best = max(found, key=lambda kind: (found[kind], corners[kind]), default=None)
-    return None if best is None else KINDS[best]
-
-
-def _try_pattern(attempt: tuple[str, Pattern]) -> View:
-    image, pattern = attempt
-    return search_view(View(image), pattern=pattern)
 
 
 def infer_grid_size(views: Iterable[View]) -> GridSize | None:

@@ -12,11 +12,10 @@ import tempfile
 from collections.abc import Iterable, Iterator, Sequence
 from pathlib import Path
 
+from calibgui.app.board_recognition import explain_missing_board, recognise_pattern
 from calibgui.app.detection import (
     Detection,
-    explain_missing_board,
     find_views,
-    recognise_pattern,
 )
 from calibgui.app.paths import find_images
 from calibgui.app.regions import read_regions

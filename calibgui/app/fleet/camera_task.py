@@ -19,11 +19,10 @@ from urllib.parse import quote
 
 import numpy as np
 
+from calibgui.app.board_recognition import explain_missing_board, recognise_pattern
 from calibgui.app.detection import (
     Detection,
-    explain_missing_board,
     find_views,
-    recognise_pattern,
     search_view,
 )
 from calibgui.app.fleet.manifest import BoardSought, CameraTask

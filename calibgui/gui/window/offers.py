@@ -4,11 +4,17 @@ from __future__ import annotations
 
 from collections.abc import Callable, Hashable
 from pathlib import Path
+from typing import NamedTuple
 
 from PySide6.QtCore import QFileInfo, QLocale, QObject
 
 from calibgui.app.autosave import find_unsaved_work
-from calibgui.app.detection import choose_samples, find_grid_size, find_other_pattern
+from calibgui.app.board_recognition import (
+    choose_samples,
+    find_grid_size,
+    find_mirrored_pattern,
+    find_other_pattern,
+)
 from calibgui.app.document import Document
 from calibgui.app.project import set_grid_size, set_pattern
 from calibgui.dataset import ViewStatus
@@ -21,6 +27,17 @@ from calibgui.gui.session.detector import Detector
 from calibgui.gui.session.session import Session
 from calibgui.gui.widgets.pattern_texts import list_pattern_texts
 from calibgui.gui.window.banner import Banner
+
+
+class _OtherBoard(NamedTuple):
+    """What photographs show in which the board that was looked for is nowhere."""
+
+    pattern: Pattern | None = None
+    """Another pattern, or the same; None if nothing was found or `grid_size` is another."""
+    is_mirrored: bool = False
+    """True if its marks can be read in a mirror only."""
+    grid_size: GridSize | None = None
+    """Another number of corners."""
 
 
 class Offers(QObject):
@@ -126,12 +143,14 @@ class Offers(QObject):
             return
         samples, pattern = choose_samples(searched), project.pattern
 
-        def look(job: Job) -> GridSize | Pattern | None:
+        def look(job: Job) -> _OtherBoard:
             if project.grid_size is not None:
                 grid_size = find_grid_size(samples, pattern, job.cancelling)
                 if grid_size not in (None, project.grid_size):
-                    return grid_size
-            return find_other_pattern(samples, pattern, job.cancelling)
+                    return _OtherBoard(grid_size=grid_size)
+            if (mirrored := find_mirrored_pattern(samples, job.cancelling)) is not None:
+                return _OtherBoard(mirrored, is_mirrored=True)
+            return _OtherBoard(find_other_pattern(samples, pattern, job.cancelling))
 
         self._looking_for = self._get_question()
         self._looking = self._session.jobs.start(
@@ -156,11 +175,18 @@ class Offers(QObject):
     def _end_look(self) -> None:
         self._looking = None
 
-    def _offer_another(self, found: GridSize | Pattern | None) -> None:
-        if isinstance(found, tuple):
-            self._offer_size(found)
-        elif found is not None:
-            self._offer_pattern(found)
+    def _offer_another(self, found: _OtherBoard) -> None:
+        if found.grid_size is not None:
+            self._offer_size(found.grid_size)
+        elif found.is_mirrored:
+            self._banner.show_text(
+                self.tr(
+                    "The photographs are mirrored, so that the marks on the board cannot be read. "
+                    "Turn mirroring off in the camera or in its program, and take them again."
+                )
+            )
+        elif found.pattern is not None:
+            self._offer_pattern(found.pattern)
 
     def _offer_size(self, grid_size: GridSize) -> None:
         stated = self._session.project.grid_size

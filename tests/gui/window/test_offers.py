@@ -11,9 +11,9 @@ import pytest
 from PySide6.QtCore import Qt
 from pytestqt.qtbot import QtBot
 
-from calibgui.app.detection import find_other_pattern
+from calibgui.app.board_recognition import find_other_pattern
 from calibgui.app.document import Document
-from calibgui.app.project import Project, add_images, set_grid_size
+from calibgui.app.project import Project, add_images, set_grid_size, set_pattern
 from calibgui.app.settings import DEFAULT_SETTINGS
 from calibgui.app.workers import do_tasks_here
 from calibgui.dataset import View, ViewStatus
@@ -24,7 +24,7 @@ from calibgui.engine.boards.circle_grid import Circles
 from calibgui.engine.boards.kinds import KINDS
 from calibgui.engine.boards.pattern import Pattern
 from calibgui.engine.errors import CalibrationError, Cancelled
-from calibgui.engine.images.reading import write_image
+from calibgui.engine.images.reading import read_image, write_image
 from calibgui.gui.window import offers
 from calibgui.gui.window.main_window import MainWindow
 from tests.engine.detection.conftest import Scene
@@ -90,6 +90,18 @@ def test_circles_are_searched_for_with_one_click(
     window.session.document.undo()
     window.session.document.undo()
     assert window.session.project.pattern == CHECKERBOARD
+
+
+def test_mirrored_pictures_are_told(window: MainWindow, qtbot: QtBot, tmp_path: Path) -> None:
+    pattern = Charuco("DICT_5X5_100", 0.75)
+    photographs(tmp_path, pattern, (6, 8))
+    file = tmp_path / "0.png"
+    write_image(file, read_image(file).pixels[:, ::-1])
+    window.session.begin(Document(set_pattern(Project(settings=DEFAULT_SETTINGS), Charuco())))
+    window.files.open_paths([str(file)])
+    told = "The photographs are mirrored"
+    qtbot.waitUntil(lambda: window.banner.text.text().startswith(told), timeout=60_000)
+    assert not window.banner.buttons
 
 
 def test_a_wrong_size_is_told_from_the_images(

@@ -6,13 +6,21 @@ from pathlib import Path
 
 import pytest
 
-from calibgui.app import detection
-from calibgui.app.detection import find_views, recognise_pattern
+from calibgui.app import board_recognition
+from calibgui.app.board_recognition import (
+    explain_missing_board,
+    find_mirrored_pattern,
+    recognise_pattern,
+)
+from calibgui.app.detection import find_views
 from calibgui.dataset import View
+from calibgui.engine.boards import KINDS
+from calibgui.engine.boards.april_grid import AprilGrid
 from calibgui.engine.boards.board import Board
 from calibgui.engine.boards.charuco import Charuco
 from calibgui.engine.boards.checkerboard import CHECKERBOARD
 from calibgui.engine.boards.pattern import Pattern
+from calibgui.engine.boards.puzzleboard import PuzzleBoard
 from calibgui.engine.boards.tagged_checkerboard import TaggedCheckerboard
 from calibgui.engine.camera.camera import Camera
 from calibgui.engine.images.reading import write_image
@@ -33,7 +41,7 @@ def test_a_plain_checkerboard_is_told_by_a_look(
 ) -> None:
     views = _search_for_checkerboard(CHECKERBOARD, tmp_path)
     assert views[0].corners is not None
-    monkeypatch.delattr(detection, "search_view")
+    monkeypatch.delattr(board_recognition, "search_view")
     assert recognise_pattern(views) is None
 
 
@@ -52,3 +60,24 @@ def test_a_file_that_has_gone(tmp_path: Path) -> None:
     views = _search_for_checkerboard(CHECKERBOARD, tmp_path)
     (tmp_path / "view.png").unlink()
     assert recognise_pattern(views) is None
+
+
+@pytest.mark.parametrize(
+    "pattern",
+    [
+        Charuco("DICT_4X4_50", 0.7, legacy=False),
+        AprilGrid("t36h11", 0.3, 2, from_top=False),
+        PuzzleBoard(),
+    ],
+)
+def test_pictures_of_marks_in_a_mirror_are_told(pattern: Pattern, tmp_path: Path) -> None:
+    scene = Scene(Board(8, 10, 20.0, pattern), _CAMERA, (0.4, 0.25, 0.2), 330.0)
+    write_image(tmp_path / "view.png", scene.image())
+    assert find_mirrored_pattern([str(tmp_path / "view.png")]) is None
+    write_image(tmp_path / "mirrored.png", scene.image()[:, ::-1])
+    detection = find_views([tmp_path / "mirrored.png"], pattern=KINDS[pattern.kind])
+    error, faults = explain_missing_board(detection, KINDS[pattern.kind], None)
+    assert error is not None
+    assert "mirrored: left is right" in error.message
+    assert "Turn mirroring off" in error.hint
+    assert not faults, "the cause is told once, not for every photograph"

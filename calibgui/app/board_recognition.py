@@ -1,0 +1,191 @@
+"""Recognition of the board that photographs show, where it is not the one that was looked for.
+
+Nothing may have been said of the board: a plain checkerboard was looked for, and its squares may
+bear marks, or nothing was found. Or something wrong was said: the board has another size or is of
+another kind. Or the pictures are mirrored, so that no marks can be read.
+"""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Callable, Iterable, Sequence
+from functools import partial
+from threading import Event
+
+from calibgui.app.detection import Detection, infer_grid_size, refuse_unreadable, search_view
+from calibgui.app.workers import map_in_processes
+from calibgui.dataset import View, ViewStatus
+from calibgui.engine.arrays import GridSize
+from calibgui.engine.boards import CHECKERBOARD, KINDS, Pattern
+from calibgui.engine.detection import Corners, find_corners, look_for_marks
+from calibgui.engine.errors import CalibrationError
+from calibgui.engine.images import read_image
+from calibgui.report.boards import name_kind
+
+_KINDS_MARKED_IN_SQUARES = ("charuco", "tagged-checkerboard")
+"""Kinds of boards with marks in their squares that a search for plain checkerboards may find."""
+_KINDS_MARKED_ON_EDGES = ("puzzleboard",)
+"""Kinds of boards with marks on the squares' edges that it may find."""
+_SAMPLES = 2
+"""Number of images in which other boards are looked for, which takes seconds in each."""
+
+
+def explain_missing_board(
+    detection: Detection,
+    pattern: Pattern,
+    grid_size: GridSize | None,
+    is_any_looked_for: bool = False,
+) -> tuple[CalibrationError | None, tuple[View, ...]]:
+    """Explain why none of the photographs shows the board, and what they show instead.
+
+    Args:
+        detection: what was found.
+        pattern: of the board that was looked for.
+        grid_size: of that board, if stated.
+        is_any_looked_for: True if boards of all other patterns were looked for as well.
+
+    Returns:
+        The error, None if the board was found or no image could be read, and the views with other
+        faults than that.
+    """
+    views = detection.views
+    if any(view.usable for view in views) or detection.size is None:
+        return None, ()
+    samples = choose_samples(views)
+    if not samples:
+        return refuse_unreadable(views), ()
+    size = None if grid_size is None else find_grid_size(samples, pattern)
+    mirrored = None if size else find_mirrored_pattern(samples)
+    is_other_looked_for = not (size or mirrored or is_any_looked_for)
+    other = find_other_pattern(samples, pattern) if is_other_looked_for else None
+    if grid_size is not None and size is not None:
+        problem = (
+            f"The images show a board of {_format_size(size)}, not of {_format_size(grid_size)}."
+        )
+        hint = f"State --board {_format_size(size)}, or leave --board out."
+    elif mirrored is not None:
+        problem = f"The images show {name_kind(mirrored)} mirrored: left is right."
+        hint = (
+            "Turn mirroring off in the camera or in the program that takes the pictures, and take "
+            "them again."
+        )
+    elif other is not None:
+        problem = f"The images show {name_kind(other)}, not {name_kind(pattern)}."
+        hint = f"State --target {other.kind}; if another board is meant, --roi says where it is."
+    else:
+        problem = "The board was found in none of the images."
+        hint = (
+            "Photograph the whole board, sharp and evenly lit; state what is printed on it with "
+            "--target, or mark its corners with --roi."
+        )
+    is_explained = any(seen is not None for seen in (size, mirrored, other))
+    faults = [v for v in views if not (is_explained and v.status is ViewStatus.NO_BOARD)]
+    return CalibrationError(problem, hint), tuple(faults)
+
+
+def _format_size(size: GridSize) -> str:
+    return f"{size[0]}x{size[1]}"
+
+
+def choose_samples(views: Iterable[View]) -> list[str]:
+    """Return the images in which other boards are looked for where the stated one is in none."""
+    searched = (ViewStatus.FOUND, ViewStatus.NO_BOARD)
+    return [view.image for view in views if view.status in searched][:_SAMPLES]
+
+
+def find_grid_size(
+    images: Sequence[str], pattern: Pattern, stop: Event | None = None
+) -> GridSize | None:
+    """Return the size of the board that some of the `images` show, None if that is none.
+
+    Raises:
+        Cancelled: if `stop` was set.
+    """
+    found = map_in_processes(partial(search_view, pattern=pattern), [View(i) for i in images], stop)
+    return infer_grid_size(view for _, view in found if isinstance(view, View))
+
+
+def recognise_pattern(views: Sequence[View]) -> Pattern | None:
+    """Return the pattern that photographs show in which a plain checkerboard was looked for.
+
+    Where one was found it may bear marks, which are read if a look at it shows any; where none was
+    found, all other kinds are tried.
+
+    Returns:
+        None if it is a plain checkerboard, or nothing that can be found.
+    """
+    found = [(view, view.corners) for view in views if view.corners is not None]
+    if not found:
+        return find_other_pattern(choose_samples(views), CHECKERBOARD)
+    view, corners = max(found, key=lambda pair: len(pair[1]))
+    try:
+        marks = look_for_marks(read_image(view.image, view.orientation).pixels, corners)
+    except CalibrationError:  # the file has changed since it was searched
+        return None
+    marked = (
+        *(_KINDS_MARKED_IN_SQUARES if marks.in_squares else ()),
+        *(_KINDS_MARKED_ON_EDGES if marks.on_edges else ()),
+    )
+    tries = (search_view(View(view.image), pattern=KINDS[kind]) for kind in marked)
+    kinds = (tried.corners.pattern.kind for tried in tries if tried.corners is not None)
+    return next((KINDS[kind] for kind in kinds), None)
+
+
+def find_other_pattern(
+    images: Iterable[str], stated: Pattern, stop: Event | None = None
+) -> Pattern | None:
+    """Return another pattern than `stated` that is found in some of the `images`, else None.
+
+    Of several, the one found in most images is returned, then the one with most corners.
+
+    Raises:
+        Cancelled: if `stop` was set.
+    """
+    others = [pattern for pattern in KINDS.values() if pattern.kind != stated.kind]
+    return _find_best_pattern(images, others, _search_image, stop)
+
+
+def find_mirrored_pattern(images: Iterable[str], stop: Event | None = None) -> Pattern | None:
+    """Return the pattern whose marks can be read in mirror images of some `images`, else None.
+
+    Programs for video calls mirror pictures, which no mark on a board survives. Patterns without
+    marks look alike in a mirror: they are found as they are, and none is returned.
+
+    Raises:
+        Cancelled: if `stop` was set.
+    """
+    marked = [pattern for pattern in KINDS.values() if pattern.identifies_points]
+    return _find_best_pattern(images, marked, _search_mirror_image, stop)
+
+
+def _find_best_pattern(
+    images: Iterable[str],
+    patterns: Sequence[Pattern],
+    search: Callable[[tuple[str, Pattern]], Corners | None],
+    stop: Event | None,
+) -> Pattern | None:
+    """Return the pattern that `search` finds in most images, of several that with most corners."""
+    tries = [(image, pattern) for image in images for pattern in patterns]
+    found: Counter[str] = Counter()
+    corners: Counter[str] = Counter()
+    for i, seen in map_in_processes(search, tries, stop):
+        if isinstance(seen, Corners):
+            kind = tries[i][1].kind
+            found[kind] += 1
+            corners[kind] += len(seen)
+    best = max(found, key=lambda kind: (found[kind], corners[kind]), default=None)
+    return None if best is None else KINDS[best]
+
+
+def _search_image(attempt: tuple[str, Pattern]) -> Corners | None:
+    image, pattern = attempt
+    return search_view(View(image), pattern=pattern).corners
+
+
+def _search_mirror_image(attempt: tuple[str, Pattern]) -> Corners | None:
+    """Search an image with left and right exchanged; the corners are in that one's frame."""
+    image, pattern = attempt
+    try:
+        return find_corners(read_image(image).pixels[:, ::-1], pattern=pattern)
+    except CalibrationError:
+        return None
