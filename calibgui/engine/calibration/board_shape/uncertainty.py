@@ -89,6 +89,8 @@ _ROUNDING = 1e-12
 """Stiffness, relative to the information of the views, that rounding errors leave meaningful."""
 _MIN_VIEWS_OF_CORNER = 3
 """Number of views that must show a corner for it to enter the test."""
+_MIN_EIGENVALUE = 1e-9
+"""Part of the largest eigenvalue of a corner's H below which the views leave a direction open."""
 _MIN_EXCESS = 5.0
 """Excess of chi^2, in its standard deviations, from which the board counts as imperfect."""
 
@@ -179,10 +181,12 @@ def suspect_board(board: LinearisedBoard, sigma2: float) -> float:
     tested = board.seen >= _MIN_VIEWS_OF_CORNER
     if not tested.any() or not sigma2 > 0:
         return 0.0
-    g = board.g[tested]
-    terms = g * np.linalg.solve(board.H[tested], g[..., None])[..., 0]
-    expected = 3 * int(tested.sum())
-    excess = float(terms.sum()) / sigma2 - expected
+    # Copies of a view see a corner from one side only, which leaves a direction of it open.
+    values, vectors = np.linalg.eigh(board.H[tested])
+    is_known = values > _MIN_EIGENVALUE * values[:, -1:]
+    along = (board.g[tested, None] @ vectors)[:, 0]
+    expected = int(is_known.sum())
+    excess = float(np.sum(along[is_known] ** 2 / values[is_known])) / sigma2 - expected
     if excess < _MIN_EXCESS * np.sqrt(2 * expected):
         return 0.0
     return excess * sigma2

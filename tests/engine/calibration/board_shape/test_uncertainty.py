@@ -33,7 +33,7 @@ from tests.engine.calibration.board_shape.test_parametrisation import (
     deviation,
     photographed,
 )
-from tests.engine.scenes import TRUE_BOARD, stored
+from tests.engine.scenes import TRUE_BOARD, barrel, scene, stored
 
 TRUTH_OF_THE_25 = np.array([658.65, 659.12, 301.69, 243.52])
 """fx, fy, cx, cy of the paper's camera from all 25 images, the board's shape estimated, px."""
@@ -241,3 +241,11 @@ def test_subsets_of_the_papers_photographs_hold_the_value_from_all(
     assert (np.array(z) < 2.5).mean(axis=0).min() >= 0.9
     assert 0.2 < np.median(z, axis=0).min()
     assert np.median(z, axis=0).max() < 1.35
+
+
+def test_a_corner_may_be_seen_from_one_side_only() -> None:
+    """In four copies of one view, which leave open how far away it is."""
+    first, *others = scene(barrel(), 3, seed=4).noisy(0.1, np.random.default_rng(1))
+    views = [first, *(Observation(view.uv[1:], view.xy[1:]) for view in others)]
+    calibration = calibrate(views * 4, barrel().size)
+    assert np.isfinite(calibration.sigma).all()
