@@ -45,6 +45,7 @@ FAULTS = {
     "1%-of-all-5px": Fault(corners.misplace_everywhere, ("misplaced-corners",), _MISPLACED),
     "rolling-shutter": Fault(cameras.roll_shutter, ("rolling-shutter",), ("shutter",)),
     "focus-change": Fault(cameras.refocus, ("focus",), ("focus", "zoom")),
+    "stabilisation": Fault(cameras.stabilise, ("moving-centre",), ("stabilis",)),
     "zoom-change": Fault(cameras.zoom, ("mixed-views", "focus", "views-disagree"), ("zoom",)),
     "mixed-cameras": Fault(cameras.mix_cameras, ("mixed-views", "views-disagree"), ("camera",)),
     "blur": Fault(corners.blur_views, ("blur",), ("blur", "sharp")),

@@ -67,6 +67,15 @@ def zoom(rng: Rng) -> FaultySet:
     return _photograph_with_focal_lengths(photographed, factors, f"zoom by {factor:.3f} halfway")
 
 
+def stabilise(rng: Rng) -> FaultySet:
+    """Shift every image, as stabilisation does that holds the picture still."""
+    photographed = draw_set(rng)
+    size = draw_log(rng, 0.5, 30.0)
+    shifts = rng.normal(0, size, (len(photographed.poses), 2))
+    views = photograph(photographed, shift=lambda k, uv: np.asarray(uv + shifts[k]))
+    return state_fault(photographed, views, f"images shifted by {size:.1f} px rms")
+
+
 def _photograph_with_focal_lengths(
     photographed: PhotographedSet, factors: Array, story: str
 ) -> FaultySet:

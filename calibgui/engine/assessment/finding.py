@@ -24,6 +24,8 @@ class Cause(StrEnum):
     LENS = "lens"
     BOARD_SHAPE = "board-shape"
     FOCUS = "focus"
+    MOVING_CENTRE = "moving-centre"
+    """The principal point differs between the views, as that of stabilised images."""
     BENDING_BOARD = "bending-board"
     ROLLING_SHUTTER = "rolling-shutter"
     LINE_JITTER = "line-jitter"

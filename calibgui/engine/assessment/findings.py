@@ -13,7 +13,8 @@ without those behind it, and what one explains is taken out before the next is a
    explains, causes that differ from view to view explain as well, since they have unknowns of
    their own in each view.
 4. **Two kinds of views** (``mixed_views.py``), which have twice the unknowns of one.
-5. **Focus, bending, motion**, which differ from view to view; then **blur**, which moves nothing.
+5. **Focus, centre, bending, motion**, which differ from view to view; then **blur**, which moves
+   nothing.
 6. **Views** that are too much alike, or that disagree for no cause that is known.
 
 A finding is of use only if the answer depends on it. The harm of a cause is the part of the error
@@ -114,6 +115,7 @@ _CHECKS_OF_BOARD = ("squares", "bow", "board")
 """Tests of a board that is the same in all views."""
 _CHECKS_OF_VIEWS = {
     "focus": (0.05, 0.7),
+    "centre": (0.05, 0.9),
     "bending": (0.05, 0.7),
     "rows": (0.05, 0.9),
     "lines": (0.3, 1.0),
@@ -125,6 +127,7 @@ _CAUSES_OF_CHECKS = {
     **dict.fromkeys(_CHECKS_OF_BOARD, Cause.BOARD_SHAPE),
     "lens": Cause.LENS,
     "focus": Cause.FOCUS,
+    "centre": Cause.MOVING_CENTRE,
     "bending": Cause.BENDING_BOARD,
     "rows": Cause.ROLLING_SHUTTER,
     "lines": Cause.LINE_JITTER,
@@ -134,8 +137,11 @@ _CAUSES_OF_CHECKS = {
 _MESSAGES = {
     Cause.BOARD_SHAPE: "The board is not as it was drawn.",
     Cause.FOCUS: "The focal length differs between the views.",
+    Cause.MOVING_CENTRE: "The principal point differs between the views, as if the images were "
+    "stabilised or cropped.",
     Cause.BENDING_BOARD: "The board bends from view to view.",
-    Cause.ROLLING_SHUTTER: "Camera or board moved while the image's rows were read.",
+    Cause.ROLLING_SHUTTER: "Camera or board moved while the image's rows were read, or the "
+    "images were warped.",
     Cause.LINE_JITTER: "The image's rows are shifted sideways against each other.",
     Cause.BLUR: "Some views are less sharp than the others.",
 }
@@ -378,7 +384,8 @@ def _describe_two_kinds(case: _Case, split: Split) -> Finding:
     harm = _measure_harm(case, split.share)
     return Finding(
         Cause.MIXED_VIEWS,
-        f"The photographs are of two kinds: {', '.join(case.names[k] for k in odd)} disagree with "
+        f"The photographs are of two kinds: {', '.join(case.names[k] for k in odd)} "
+        f"{'disagree' if len(odd) > 1 else 'disagrees'} with "
         f"the others about the {split.what}.",
         f"If each kind had its own, {left:.2g} px would be left of {case.rms:.2g} px RMS; "
         f"{describe_harm(harm)}.",

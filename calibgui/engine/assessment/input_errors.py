@@ -243,7 +243,7 @@ def describe_misplaced_corners(
         for r in worst[:_MAX_LISTED]
     )
     others = len(worst) - _MAX_LISTED
-    more = f" and {others} other views" if others > 0 else ""
+    more = f" and {others} other view{'s' * (others > 1)}" if others > 0 else ""
     before, after = (
         summarise_residuals(c.residuals).rms for c in (calibration, screening.calibration)
     )

@@ -10,8 +10,9 @@ squares     the board's squares are not as wide as high, or askew
 bow         the board is bowed or twisted
 lens        a smooth displacement of the image that all views share
 focus       a focal length of each view's own
+centre      a principal point of each view's own
 bending     a curved board, each view's own
-rows        a steady motion while the rows are read, each view's own
+rows        a steady motion while the rows are read, each view's own, or as in a warped image
 lines       a shift along the rows that wanders from row to row, each view's own
 board       corners of the board that are not where they should be
 
@@ -23,7 +24,7 @@ neighbours  correlation of the residuals of neighbouring corners, SD 1 / sqrt(2 
 directions  covariance C of the residuals is isotropic: -n ln(4 det C / tr^2 C) ~ chi^2(2)
 
 By chance each test fails at most once in a thousand sound calibrations, and any of them once in
-ninety. Several fail together, because a bent board also moves neighbours alike and looks a little
+eighty. Several fail together, because a bent board also moves neighbours alike and looks a little
 like a lens. The cause is the first that explains nearly as much as any does.
 
 Many corners reveal harmless deviations, too. A displacement that corners share moves the camera
@@ -64,7 +65,7 @@ from calibgui.engine.errors import Progress
 
 _MAX_FALSE_ALARM_RATE = 1e-3
 """Probability under noise below which a test fails."""
-_MIN_SHARE_OF_BEST = 0.7
+_MIN_SHARE_OF_BEST = 0.8
 """Share of what the best cause explains, from which an earlier one is taken for the cause."""
 _MIN_GAIN_OF_WEIGHING = 1.1
 """Ratio by which standard deviations must shrink for weighing the views to be worth it."""
@@ -82,6 +83,7 @@ _SHARED_CAUSES = {
 """Causes that all views share, by the names of their tests."""
 _VIEW_CAUSES: dict[str, Callable[[LinearisedFit], Explanation]] = {
     "focus": systematic_errors.explain_by_focus,
+    "centre": systematic_errors.explain_by_centre,
     "bending": systematic_errors.explain_by_bending,
     "rows": systematic_errors.explain_by_rows,
     "lines": systematic_errors.explain_by_lines,
@@ -96,10 +98,13 @@ _ADVICE_ON_CAUSES = {
     "another model.",
     "focus": "The focal length differs between the views: switch autofocus and stabilisation off, "
     "and do not touch zoom and focus.",
+    "centre": "The principal point differs between the views: switch image stabilisation off, and "
+    "do not crop or straighten the photographs.",
     "bending": "The board bends from view to view, as paper in the hand does: mount it on "
     "something stiff.",
-    "rows": "Camera or board moved while a rolling shutter read the rows: put both on a stand, or "
-    "expose all rows at once.",
+    "rows": "Camera or board moved while a rolling shutter read the rows, or a program has warped "
+    "the photographs: put both on a stand, or expose all rows at once, and switch off what "
+    "stabilises or straightens.",
     "lines": "The image's rows are shifted sideways against each other: an analogue camera's lines "
     "do not start evenly, or the camera trembled while a rolling shutter read them. Many views "
     "average it; a digital or steady camera avoids it.",

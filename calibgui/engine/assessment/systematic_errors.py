@@ -82,6 +82,19 @@ def explain_by_focus(fit: LinearisedFit) -> Explanation:
     return _judge_products(multiply_by_focus(fit))
 
 
+def explain_by_centre(fit: LinearisedFit) -> Explanation:
+    """Explain the residuals by a principal point of each view's own.
+
+    A rotation of the camera hides most of it; what is left is that of an image in perspective, so
+    that an image that was straightened is explained as well as one that was shifted or cropped.
+    """
+
+    def columns(linear: Linearised, _: Array, __: slice) -> Array:
+        return linear.by_params[..., 2:4]
+
+    return _judge_products(_multiply_view_columns(fit, columns))
+
+
 def explain_by_bending(fit: LinearisedFit) -> Explanation:
     """Explain the residuals by a board that bends anew in each view, quadratically."""
     xy = fit.observations.xy[..., :2]

@@ -114,6 +114,19 @@ def test_corners_are_misplaced_where_other_views_have_motion_and_long_tails() ->
     assert set(finding.views[:2]) == {2, 5}
 
 
+def test_stabilised_images_are_no_rolling_shutter() -> None:
+    """The principal point wanders with the image; motion within a view has more unknowns."""
+    rng = np.random.default_rng(5)
+    stabilised = []
+    for view in scene(barrel(), 15, seed=3).noisy(0.1, rng):
+        uv = view.uv + rng.normal(scale=10.0, size=2)
+        inside = ((uv >= 0) & (uv < barrel().size)).all(axis=1)
+        stabilised.append(Observation(uv[inside], view.xy[inside]))
+    found = list_findings(calibrate(stabilised, barrel().size), stabilised)
+    assert [finding.cause for finding in found] == [Cause.MOVING_CENTRE]
+    assert "stabilisation off" in found[0].remedy
+
+
 def test_a_bent_board_is_named_if_it_matters() -> None:
     def bent(height: float) -> list[Observation]:
         made = scene(barrel(), 10, seed=3)

@@ -57,6 +57,7 @@ def _images(fault: str, rng: np.random.Generator) -> list[Array]:
             SCENE.camera.centre
             + (_solid(pose, np.hstack([XY, Z])) - SCENE.camera.centre) * rng.normal(1, 0.005)
         ),
+        "centre": lambda pose: _solid(pose, np.hstack([XY, Z])) + rng.normal(scale=8.0, size=2),
     }
     if fault == "board":
         true = np.hstack([XY, Z]) + rng.normal(scale=0.1, size=(len(XY), 3))
@@ -75,7 +76,8 @@ def _images(fault: str, rng: np.random.Generator) -> list[Array]:
 
 @pytest.mark.parametrize("seed", range(3))
 @pytest.mark.parametrize(
-    "fault", ["squares", "bow", "lens", "focus", "bending", "rows", "lines", "board", "views"]
+    "fault",
+    ["squares", "bow", "lens", "focus", "centre", "bending", "rows", "lines", "board", "views"],
 )
 def test_a_fault_is_named(fault: str, seed: int) -> None:
     rng = np.random.default_rng(seed)
@@ -221,4 +223,4 @@ def test_it_can_be_abandoned() -> None:
 
     with pytest.raises(Cancelled):
         check_residuals(calibrate(SCENE.views, SIZE), SCENE.views, progress=twice)
-    assert calls == [(0, 8), (1, 8)]
+    assert calls == [(0, 9), (1, 9)]
