@@ -12,6 +12,8 @@ is at fault
   something that a board with unequal sides, shear and bow leaves. (These four unknowns are enough
   for most boards that are off, and a lens can look like any of them over few views.)
 
+In either case the views must agree about it.
+
 On 222 synthetic calibrations in which ``board_shape/uncertainty.py`` suspects the board (lenses of
 50 to 186 degrees; 5 to 25 views; noise of 0.05 to 0.3 px; boards true, or off by 0.05 to 1 mm:
 bowed, twisted, askew, wavy, printed unevenly, rough) the lens was blamed in 0 of 88 with the true
@@ -30,6 +32,7 @@ from calibgui.engine.calibration.refinement.residuals import compute_image_resid
 from calibgui.engine.calibration.score_tests import (
     LENS,
     LENS_CELLS,
+    MIN_AGREEMENT,
     LinearisedFit,
     SharedCauses,
 )
@@ -71,6 +74,8 @@ def measure_lens_error(fit: LinearisedFit, by_board: float) -> float:
         causes.explain(free, LENS).probability < MAX_FALSE_ALARM_RATE
         or causes.explain(LENS, *simple).probability >= MAX_FALSE_ALARM_RATE
     ):
+        return 0.0
+    if causes.measure_agreement(LENS) < MIN_AGREEMENT:
         return 0.0
     lens = SharedCauses(fit, [LENS], cells=count_fine_cells(fit)).explain(LENS)
     residual = compute_image_residuals(

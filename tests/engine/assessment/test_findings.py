@@ -127,6 +127,15 @@ def test_stabilised_images_are_no_rolling_shutter() -> None:
     assert "stabilisation off" in found[0].remedy
 
 
+def test_a_blurred_edge_of_the_image_is_no_other_lens() -> None:
+    rng, views = np.random.default_rng(2), []
+    for view in scene(barrel(), 20, seed=2).views:
+        radius = np.linalg.norm(view.uv - np.array(barrel().size) / 2, axis=1) / 400
+        noise = (0.1 + radius**3)[:, None] * rng.normal(size=view.uv.shape)
+        views.append(Observation(view.uv + noise, view.xy))
+    assert list_findings(calibrate(views, barrel().size), views) == ()
+
+
 def test_a_bent_board_is_named_if_it_matters() -> None:
     def bent(height: float) -> list[Observation]:
         made = scene(barrel(), 10, seed=3)

@@ -96,11 +96,15 @@ def _dense_columns(fit: LinearisedFit, cause: str) -> Array:
     return np.asarray(weight @ X).reshape(-1, X.shape[-1])
 
 
+def _fit(r: Array, columns: Array) -> Array:
+    """What of r, (n,) or (n, K), the columns follow, by least squares."""
+    scale = np.maximum(np.linalg.norm(columns, axis=0), 1e-300)
+    return np.asarray(columns / scale @ np.linalg.lstsq(columns / scale, r, rcond=1e-7)[0])
+
+
 def _cost_left(r: Array, columns: Array) -> float:
     """Sum of squares that the columns leave, by least squares."""
-    scale = np.maximum(np.linalg.norm(columns, axis=0), 1e-300)
-    found = np.linalg.lstsq(columns / scale, r, rcond=1e-7)[0]
-    return float(np.sum((r - columns / scale @ found) ** 2))
+    return float(np.sum((r - _fit(r, columns)) ** 2))
 
 
 def test_reductions_are_those_of_dense_least_squares() -> None:
@@ -120,6 +124,29 @@ def test_reductions_are_those_of_dense_least_squares() -> None:
         left = _cost_left(r.ravel(), np.hstack([own, *(dense[cause] for cause in chosen)]))
         T, _ = causes.reduce_cost(*chosen)
         assert T == pytest.approx(least - left, rel=2e-4)
+
+    by_view = (np.eye(5)[:, None] * r.reshape(5, -1)[..., None]).reshape(-1, 5)
+    for chosen in ([LENS], [FREE, LENS]):
+        after = np.hstack([own, *(dense[cause] for cause in chosen[1:])])
+        Q = by_view.T @ (_fit(by_view, np.hstack([after, dense[chosen[0]]])) - _fit(by_view, after))
+        Q -= np.diag(np.diag(Q))
+        expected = Q.sum() / np.sqrt(2 * np.sum(Q**2))
+        assert causes.measure_agreement(*chosen) == pytest.approx(expected, rel=1e-3)
+
+
+def test_views_do_not_agree_about_noise_that_is_larger_at_the_edges() -> None:
+    for seed in range(4):
+        rng, agreements = np.random.default_rng(seed), []
+        for model in ("lucchese", "pinhole"):
+            views = []
+            for view in scene(barrel(), 12, seed).views:
+                radius = np.linalg.norm(view.uv - np.array(SIZE) / 2, axis=1) / 400
+                noise = (0.1 + radius**3)[:, None] * rng.normal(size=view.uv.shape)
+                views.append(Observation(view.uv + noise, view.xy))
+            causes = SharedCauses(prepare_fit(calibrate(views, SIZE, model=model), views), [LENS])
+            assert causes.explain(LENS).probability < 1e-3, "taken for equal errors"
+            agreements.append(causes.measure_agreement(LENS))
+        assert agreements[0] < score_tests.MIN_AGREEMENT < agreements[1]
 
 
 def test_what_a_cause_explains_beyond_another_is_judged_by_what_that_leaves() -> None:
