@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from enum import StrEnum
 
 from calibgui.engine.arrays import Size
@@ -35,7 +35,8 @@ class FleetEntry:
     """Serial number; several entries of one serial number are one camera at several dates. Empty if
     it is not known."""
     date: str = ""
-    """Date of the photographs, as YYYY-MM-DD or with a time; empty if it is not known."""
+    """Date of the photographs, as YYYY-MM-DD or with a time: that of their EXIF where the manifest
+    gives none; empty if it is not known."""
     temperature: float | None = None
     """Temperature of the camera, degrees Celsius; None if it is not known."""
 
@@ -122,6 +123,9 @@ class FleetCamera:
     """What to do about that."""
     photographs: int = 0
     """Number of photographs that were searched for the board."""
+    exif_date: str = ""
+    """Median of the dates that the photographs state in EXIF, local time; empty if they state none.
+    """
     figures: FleetFigures | None = None
     """The figures of its calibration; None if it was refused."""
     change: Change | None = None
@@ -142,6 +146,10 @@ class FleetCamera:
     """
     cpu_seconds: float = field(default=math.nan, compare=False)
     """Processor time that it took, s: the one figure that is another at each run."""
+
+    def take_entry(self, stated: FleetEntry) -> FleetCamera:
+        """Return the camera with what a manifest says of it, and the date of EXIF without one."""
+        return replace(self, entry=replace(stated, date=stated.date or self.exif_date))
 
     @property
     def id(self) -> str:

@@ -2,8 +2,9 @@
 
 Reader: `open_ledger`, and SQLite. Table ``cameras``: pixels, millimetres and degrees Celsius as the
 columns' names say; ``parameters`` is a JSON object of [value, sigma] by name, ``failures`` a JSON
-list of sentences, ``versions`` a JSON object. NULL is what is not known, and what is infinite is
-Inf. ``result`` is the path of the camera's result.json from the folder of the ledger.
+list of sentences, ``versions`` a JSON object. ``date`` is the manifest's, or that of the
+photographs' EXIF, which ``exif_date`` is in any case. NULL is what is not known, and what is
+infinite is Inf. ``result`` is the path of the camera's result.json from the folder of the ledger.
 Cannot hold: corners, covariances and findings (they are in result.json); two cameras of one id.
 
 Rows are written one camera at a time or many, each call in one transaction, in SQLite's
@@ -38,7 +39,7 @@ from calibgui.dataset.fleet import (
 from calibgui.engine.assessment import Grade, PixelError
 from calibgui.engine.errors import CalibrationError
 
-VERSION = 1
+VERSION = 2
 _APPLICATION = 0x43414C46
 """Mark of a ledger among SQLite's files: "CALF"."""
 _BUSY_S = 60.0
@@ -55,6 +56,7 @@ _COLUMNS: Mapping[str, str] = MappingProxyType(
         "passed": "INTEGER NOT NULL",
         "failures": "TEXT NOT NULL",
         "photographs": "INTEGER NOT NULL",
+        "exif_date": "TEXT NOT NULL",
         "width_px": "INTEGER",
         "height_px": "INTEGER",
         "board": "TEXT",
@@ -238,6 +240,7 @@ def encode_row(camera: FleetCamera) -> dict[str, Any]:
         "passed": int(camera.passed),
         "failures": _dump(camera.failures),
         "photographs": camera.photographs,
+        "exif_date": camera.exif_date,
         "digest": camera.digest,
         "state": camera.state,
         "versions": _dump(dict(camera.versions)),
@@ -288,6 +291,7 @@ def decode_row(row: Mapping[str, Any]) -> FleetCamera:
         problem=row["problem"],
         remedy=row["remedy"],
         photographs=row["photographs"],
+        exif_date=row["exif_date"],
         figures=None if row["grade"] is None else _decode_figures(row),
         change=None if row["change_against"] is None else _decode_change(row),
         failures=tuple(json.loads(row["failures"])),

@@ -47,6 +47,7 @@ DONE = FleetCamera(
     FleetEntry("line 2/0815", "S-17", "2026-03-01", 21.5),
     FleetStatus.DONE,
     photographs=12,
+    exif_date="2026-03-01T08:30:00",
     figures=FIGURES,
     change=Change("line 2/0404", "ab" * 32, 0.1, 0.3, 0.05, 0.001),
     failures=("The edge is known to 0.2 px, beyond the limit of 0.1 px.",),

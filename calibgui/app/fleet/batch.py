@@ -101,7 +101,7 @@ def _find_row(work: Work) -> FleetCamera | None:
         return refuse_camera(work.task, error.message, error.hint)
     if work.known is None or not is_done(work, photographs):
         return None
-    return replace(work.known, entry=work.task.entry)
+    return work.known.take_entry(work.task.entry)
 
 
 def _calibrate_all(waiting: Sequence[Work], scheduler: Scheduler) -> Iterator[FleetCamera]:

@@ -32,6 +32,7 @@ from calibgui.app.fleet.photographs import (
     compute_digest,
     fetch_photographs,
     list_photographs,
+    read_exif_date,
 )
 from calibgui.app.outputs import make_folder
 from calibgui.app.redetection import calibrate_twice
@@ -198,22 +199,23 @@ def _calibrate(work: Work) -> FleetCamera:
     task, known = work.task, work.known
     photographs = list_photographs(task.paths)
     if known is not None and is_done(work, photographs):
-        return replace(known, entry=task.entry)
+        return known.take_entry(task.entry)
     state = compute_state(task, photographs)
     with fetch_photographs(photographs) as files:
         contents = [compute_digest(file) for file in files]
         names = [photograph.name for photograph in photographs]
         digest = combine_digests([_describe_task(task), *names, *contents])
         if known is not None and known.digest == digest and _is_kept(known, work):
-            return replace(known, entry=task.entry, state=state)
+            return replace(known, state=state).take_entry(task.entry)
         camera = FleetCamera(
             task.entry,
             FleetStatus.DONE,
             photographs=len(files),
+            exif_date=read_exif_date(files),
             digest=digest,
             state=state,
             versions=list_installed_versions(),
-        )
+        ).take_entry(task.entry)
         names_of_copies = {str(f): n for f, n in zip(files, names, strict=True) if str(f) != n}
         search = _Search(work.folder.locate_detections(task.entry.id), files, contents)
         try:

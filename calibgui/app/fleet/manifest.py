@@ -9,7 +9,7 @@ Columns, of which ``id`` and ``paths`` must be there:
                  side of a square, as "charuco 5x7 30mm"
     model        name of the lens model, or auto
     serial       serial number of the camera
-    date         of the photographs, as 2026-03-01 or 2026-03-01T08:30
+    date         of the photographs, as 2026-03-01 or 2026-03-01T08:30; without it that of EXIF
     temperature  degrees Celsius
 
 In a folder of folders each folder with photographs is a camera, whose id is the folder's name.

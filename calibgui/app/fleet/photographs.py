@@ -1,4 +1,4 @@
-"""The photographs of a camera of a fleet: where they are, whether they changed, copies of them.
+"""The photographs of a camera of a fleet: where and of when they are, what changed, copies of them.
 
 They are files, or objects that fsspec reads where it is installed (s3://, http://, memory://). The
 latter are copied to a temporary folder for as long as a camera is worked on.
@@ -7,6 +7,7 @@ latter are copied to a temporary folder for as long as a camera is worked on.
 from __future__ import annotations
 
 import hashlib
+import statistics
 import tempfile
 from collections.abc import Iterable, Iterator, Sequence
 from contextlib import contextmanager
@@ -17,7 +18,7 @@ from typing import Any
 from calibgui.app.image_store import compute_file_digest
 from calibgui.app.paths import find_images, make_natural_key
 from calibgui.engine.errors import CalibrationError
-from calibgui.engine.images import FORMATS
+from calibgui.engine.images import FORMATS, read_image_header
 
 _MARKS_OF_CHANGE = ("ETag", "etag", "mtime", "LastModified", "last_modified", "created")
 """Names under which file systems of fsspec state what changes with an object."""
@@ -64,6 +65,22 @@ def compute_digest(path: Path) -> str:
         return compute_file_digest(path)
     except OSError:
         return ""
+
+
+def read_exif_date(files: Iterable[Path]) -> str:
+    """Return the median of the dates that photographs state in EXIF; empty if none states one.
+
+    It is a local time in ISO's form, of one of them: an even number has no mean of the middle two.
+    """
+    dates = []
+    for file in files:
+        try:
+            date = read_image_header(file).exif.date
+        except CalibrationError:
+            continue  # the search of the photograph says what is wrong with it
+        if date is not None:
+            dates.append(date)
+    return statistics.median_low(dates).isoformat() if dates else ""
 
 
 def combine_digests(parts: Iterable[str]) -> str:

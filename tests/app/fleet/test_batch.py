@@ -33,6 +33,7 @@ from calibgui.engine.assessment import (
 )
 from calibgui.engine.images.reading import read_image, write_image
 from calibgui.formats.result_json import read_result
+from calibgui.report.fleet_overview import make_overview
 from tests.app.fleet.conftest import BOARD, Here, read_results, read_rows, run
 from tests.scenes.fleet import make_camera, write_camera
 
@@ -336,6 +337,54 @@ def test_changes_are_against_the_last_date_of_a_serial_number(
     moved = {row.id: row.change.against for row in read_rows(ledger) if row.change is not None}
     assert moved == {"c0": "c1", "c3": "c0"}
     assert here.done == 2
+
+
+def test_dates_that_the_manifest_does_not_give_are_those_of_exif(
+    fleet: Path, tmp_path: Path, searched: list[str]
+) -> None:
+    taken = {"c0": "2026:03:01", "c1": "2025:12:31", "c2": "2026:02:01"}
+    for name, day in taken.items():
+        folder = tmp_path / name
+        folder.mkdir()
+        for hour, path in enumerate(sorted((fleet / name).iterdir())):
+            exif = Pillow.Exif()
+            if hour > 0:  # one has lost its EXIF, another is of another year
+                year = "2020" if hour == 1 else day[:4]
+                exif.get_ifd(0x8769)[0x9003] = f"{year}{day[4:]} {8 + hour:02}:30:00"
+            Pillow.open(path).save(folder / f"{path.stem}.jpg", quality=98, exif=exif)
+    manifest, ledger = tmp_path / "manifest.csv", tmp_path / "f.db"
+
+    def run_on(*lines: str) -> BatchSummary:
+        manifest.write_text("\n".join(["id,paths,serial,date", *lines]))
+        return run(read_manifest(manifest, BOARD, Settings()), ledger, Here())
+
+    undated = [f"{name},{name},S," for name in taken]
+    assert run_on(*undated).worked_on == 3
+    rows = read_rows(ledger)
+    dates = ["2026-03-01T11:30:00", "2025-12-31T11:30:00", "2026-02-01T11:30:00"]
+    assert [row.entry.date for row in rows] == dates
+    against = [None if row.change is None else row.change.against for row in rows]
+    assert against == ["c2", None, "c1"]
+    (history,) = make_overview(rows).histories.values()
+    assert [one.camera.id for one in history] == ["c1", "c2", "c0"]
+
+    # The found dates stay where the driver knows that a camera is done, and where a worker does.
+    searched.clear()
+    assert run_on(*undated) == BatchSummary(3, 0, ())
+    os.utime(tmp_path / "c1" / "view1.jpg", (1, 1))
+    assert run_on(*undated).worked_on == 1
+    assert not searched
+    assert [replace(row, state="") for row in read_rows(ledger)] == [
+        replace(row, state="") for row in rows
+    ]
+
+    # What the manifest says counts more, for as long as it says it.
+    assert run_on(*undated[:2], "c2,c2,S,2024-01-01").worked_on == 0
+    after = read_rows(ledger)
+    assert [row.entry.date for row in after] == [*dates[:2], "2024-01-01"]
+    assert after[2].change is None and after[1].change is not None
+    assert run_on(*undated).worked_on == 0
+    assert [row.change for row in read_rows(ledger)] == [row.change for row in rows]
 
 
 def test_an_unchanged_camera_keeps_the_limit(tmp_path: Path) -> None:
