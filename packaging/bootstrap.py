@@ -244,7 +244,7 @@ class Environment:
 
     def install(self, extra: str) -> None:
         """Install the project, editable, with its dependencies."""
-        say("installing calibgui and what it needs (700 to 900 MB on the disk)")
+        say("installing calibgui and what it needs (700 to 1,200 MB on the disk)")
         project = f"{ROOT}[{extra}]" if extra else str(ROOT)
         options = []
         if (constraints := constraint_file()) is not None:

@@ -20,8 +20,18 @@ from calibgui.app.paths import find_images, make_natural_key
 from calibgui.engine.errors import CalibrationError
 from calibgui.engine.images import FORMATS, read_image_header
 
-_MARKS_OF_CHANGE = ("ETag", "etag", "mtime", "LastModified", "last_modified", "created")
+_MARKS_OF_CHANGE = (
+    "ETag",
+    "etag",
+    "mtime",
+    "LastModified",
+    "last_modified",
+    "Last-Modified",
+    "created",
+)
 """Names under which file systems of fsspec state what changes with an object."""
+_OF_EXTRA = ("fsspec", "aiohttp")
+"""What the extra batch installs for addresses; the rest is for the user to choose."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -127,8 +137,9 @@ def _list_remote(address: str) -> list[Photograph]:
             infos = [system.info(path)]
         else:
             pattern = path if "*" in path else f"{path.rstrip('/')}/*"
+            # A web server's list of a folder is names alone: each file is asked for its state.
             infos = [
-                info
+                info if _describe_state(info) else system.info(info["name"])
                 for info in system.glob(pattern, detail=True).values()
                 if info["type"] == "file" and PurePosixPath(info["name"]).suffix.lower() in FORMATS
             ]
@@ -171,10 +182,16 @@ def _explain_remote(address: str) -> Iterator[None]:
     except CalibrationError:
         raise
     except ImportError as error:
-        what = "fsspec is not installed" if error.name == "fsspec" else str(error)
+        # fsspec raises an error of its own because of the one that names the package.
+        missing = error.name or getattr(error.__cause__, "name", None)
+        if missing in _OF_EXTRA:
+            raise CalibrationError(
+                f"{address} cannot be read: {missing} is not installed.",
+                "pip install 'calibgui[batch]'.",
+            ) from error
         raise CalibrationError(
-            f"{address} cannot be read: {what}.",
-            "pip install 'calibgui[batch]', and the package of fsspec for this kind of address.",
+            f"{address} cannot be read: {str(error).rstrip('.')}.",
+            "pip install what is missing: fsspec has a package for each kind of address.",
         ) from error
     except Exception as error:  # each file system raises errors of its own
         raise CalibrationError(

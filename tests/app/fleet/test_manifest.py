@@ -4,7 +4,9 @@ from __future__ import annotations
 
 from pathlib import Path
 
+import pyarrow
 import pytest
+from pyarrow import parquet
 
 from calibgui.app.fleet.manifest import BoardSought, read_board_words, read_manifest
 from calibgui.app.settings import Settings
@@ -106,9 +108,6 @@ def test_parquet_is_read_or_the_library_is_named(
         with pytest.raises(CalibrationError, match="pyarrow is not installed") as caught:
             read_manifest(file, BOARD, SETTINGS)
     assert "CSV" in caught.value.hint
-    pyarrow = pytest.importorskip("pyarrow", reason="pyarrow is not installed")
-    from pyarrow import parquet
-
     parquet.write_table(
         pyarrow.table({"id": ["a", "b"], "paths": ["x", "y"], "temperature": [21.5, None]}), file
     )
