@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from datetime import datetime
@@ -11,8 +12,9 @@ from pathlib import Path
 import numpy as np
 
 from calibgui.app.paths import make_natural_key
-from calibgui.dataset import Result
+from calibgui.dataset import LeftOut, Result
 from calibgui.engine.assessment import (
+    MIN_SETTINGS,
     Drift,
     Series,
     Setting,
@@ -47,7 +49,13 @@ class SeriesResult:
     path: Path
     result: Result
     value: float
-    """Value of the scalar; of a date, days since 1970."""
+    """Value of the scalar; of a date, days since 1970. NaN if it is not known, which only a result
+    may have that does not determine its camera."""
+
+    @property
+    def is_determined(self) -> bool:
+        """True if the photographs determine the camera, and no part of it is assumed."""
+        return self.result.calibration.diagnosis is None
 
     def make_setting(self, is_same_board: bool = True) -> Setting:
         """Return the camera with its uncertainty beside other results."""
@@ -62,7 +70,9 @@ class AnalysedSeries:
 
     scalar: Scalar
     results: tuple[SeriesResult, ...]
-    """The results, by ascending values."""
+    """The results that the series is made of, by ascending values."""
+    left_out: tuple[LeftOut, ...]
+    """The results whose photographs do not determine the camera, by ascending values."""
     series: Series
     """The camera as a function of the scalar."""
     drifts: tuple[Drift, ...]
@@ -79,16 +89,26 @@ def analyse_series(
         paths, scalar, values: as for `read_series`.
 
     Raises:
-        CalibrationError: as `read_series` and ``engine.assessment.fit_series``.
+        CalibrationError: as `read_series` and ``engine.assessment.fit_series``, or if too few
+            results determine their cameras.
     """
-    results = read_series(paths, scalar, values)
+    found = read_series(paths, scalar, values)
+    results = tuple(one for one in found if one.is_determined)
+    left_out = tuple(_leave_out(one) for one in found if not one.is_determined)
+    if left_out and len(results) < MIN_SETTINGS:
+        named = " ".join(f"{one.file} is left out: {one.reason}" for one in left_out)
+        raise CalibrationError(
+            f"{len(results)} of {len(found)} results can be used, and a series needs "
+            f"{MIN_SETTINGS}. {named}",
+            left_out[0].remedy,
+        )
     alike = are_boards_alike(results)
     series = fit_series([one.make_setting(alike) for one in results])
     if scalar is Scalar.ZOOM:
-        return AnalysedSeries(scalar, results, series, ())
+        return AnalysedSeries(scalar, results, left_out, series, ())
     first, *others = (setting.known for setting in series.settings)
     drifts = tuple(measure_drift(first, other) for other in others)
-    return AnalysedSeries(scalar, results, series, drifts)
+    return AnalysedSeries(scalar, results, left_out, series, drifts)
 
 
 def find_results(names: Iterable[str]) -> tuple[Path, ...]:
@@ -115,6 +135,8 @@ def read_series(
 ) -> tuple[SeriesResult, ...]:
     """Read results and the value of the scalar of each, in the order of the values.
 
+    Results that do not determine their cameras are among them; without a value they stand last.
+
     Args:
         paths: the files.
         scalar: the quantity that varies.
@@ -122,23 +144,30 @@ def read_series(
             it stands beside the table; None to read focal lengths or dates from the photographs.
 
     Raises:
-        CalibrationError: if a file is no result, is a partial one or has no value.
+        CalibrationError: if a file is no result, or has no value and determines its camera.
     """
     table = {} if values is None else _read_values(values, scalar)
     found = []
     for path in paths:
         result = read_result(path)
-        if result.calibration.diagnosis is not None:
-            raise CalibrationError(
-                f"{path} is a partial calibration: a part of its camera is assumed.",
-                "Leave it out, or add photographs to it and calibrate again.",
-            )
-        if values is not None:
-            value = _find_value(table, path, values)
-        else:
-            value = _read_from_photographs(path, result, scalar)
+        try:
+            if values is not None:
+                value = _find_value(table, path, values)
+            else:
+                value = _read_from_photographs(path, result, scalar)
+        except CalibrationError:
+            if result.calibration.diagnosis is None:
+                raise
+            value = math.nan
         found.append(SeriesResult(path, result, value))
-    return tuple(sorted(found, key=lambda one: one.value))
+    return tuple(sorted(found, key=lambda one: (math.isnan(one.value), one.value)))
+
+
+def _leave_out(one: SeriesResult) -> LeftOut:
+    """Return the record of a result that does not determine its camera."""
+    diagnosis = one.result.calibration.diagnosis
+    assert diagnosis is not None
+    return LeftOut(str(one.path), one.value, diagnosis.message, diagnosis.hint)
 
 
 def are_boards_alike(results: Sequence[SeriesResult]) -> bool:
@@ -171,7 +200,9 @@ def export_from_series(
 
 
 def format_value(value: float, scalar: Scalar) -> str:
-    """Format a value of the scalar, with its unit where it has one."""
+    """Format a value of the scalar, with its unit where it has one; a dash if it is not known."""
+    if math.isnan(value):
+        return "–"
     if scalar is Scalar.DATE:
         return datetime.fromtimestamp(value * _SECONDS_OF_DAY).isoformat(" ", "minutes")
     return f"{value:g}{' mm' if scalar is Scalar.ZOOM else ''}"

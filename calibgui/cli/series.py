@@ -3,12 +3,14 @@
 Every parameter becomes a function of the scalar, chosen by its error on settings that it has not
 seen. Between the settings the camera is known with its uncertainty, and can be exported; whether it
 has changed at all is answered in pixels. Focal lengths (zoom) and dates are read from the
-photographs if these are where they were; focus and temperature need a table.
+photographs if these are where they were; focus and temperature need a table. Results whose
+photographs do not determine the camera are left out by name.
 """
 
 from __future__ import annotations
 
 import argparse
+import math
 from pathlib import Path
 from typing import Any
 
@@ -16,6 +18,7 @@ import numpy as np
 
 from calibgui.app.outputs import check_figures, check_outputs, save_figure
 from calibgui.app.series import (
+    AnalysedSeries,
     Scalar,
     analyse_series,
     export_from_series,
@@ -26,10 +29,7 @@ from calibgui.app.series import (
 from calibgui.cli.arguments import add_export_option
 from calibgui.cli.console import Console
 from calibgui.cli.outputs import add_overwrite_option
-from calibgui.engine.assessment import (
-    Series,
-    UncertainCamera,
-)
+from calibgui.engine.assessment import UncertainCamera
 from calibgui.formats import EXPORTERS
 from calibgui.formats.origin import SERIES_CSV
 from calibgui.formats.series_csv import write_series_csv
@@ -75,10 +75,11 @@ def run(options: argparse.Namespace, console: Console) -> None:
     analysed = analyse_series(paths, options.by, options.values)
     results, series, drifts = analysed.results, analysed.series, analysed.drifts
     values = [format_value(one.value, options.by) for one in results]
+    missing = [format_value(one.value, options.by) for one in analysed.left_out]
     texts = [
-        words.tabulate_settings(series, values, drifts, options.by),
+        words.tabulate_settings(series, values, drifts, options.by, missing),
         words.tabulate_functions(series),
-        words.describe_series(series, drifts),
+        words.describe_series(series, drifts, analysed.left_out),
     ]
     answer: dict[str, Any] = {
         "by": options.by,
@@ -88,6 +89,14 @@ def run(options: argparse.Namespace, console: Console) -> None:
         "settings": [
             {"file": str(one.path), "value": one.value} | _encode_camera(setting.known)
             for one, setting in zip(results, series.settings, strict=True)
+        ],
+        "left_out": [
+            {
+                "file": one.file,
+                "value": None if math.isnan(one.value) else one.value,
+                "reason": one.reason,
+            }
+            for one in analysed.left_out
         ],
         "from_first": [
             {"rms_px": drift.difference.rms, "probability": drift.probability} for drift in drifts
@@ -100,7 +109,7 @@ def run(options: argparse.Namespace, console: Console) -> None:
     for name, path in options.export:
         note = export_from_series(series, at, EXPORTERS[name], path).note
         texts.append(f"Wrote {path}. {note}")
-    texts += _write_files(options, series, [str(one.path) for one in results])
+    texts += _write_files(options, analysed)
     console.print_json(answer)
     console.print_text("\n\n".join(texts))
 
@@ -132,11 +141,12 @@ def _check_files(options: argparse.Namespace, inputs: tuple[Path, ...]) -> None:
         check_figures([options.output], inputs, options.overwrite)
 
 
-def _write_files(options: argparse.Namespace, series: Series, files: list[str]) -> list[str]:
+def _write_files(options: argparse.Namespace, analysed: AnalysedSeries) -> list[str]:
     """Write table and figure, and return the sentences that say so."""
-    texts = []
+    texts, series = [], analysed.series
     if options.table:
-        write_series_csv(series.settings, files, options.table)
+        files = [str(one.path) for one in analysed.results]
+        write_series_csv(series.settings, files, analysed.left_out, options.table)
         texts.append(f"Wrote {options.table}.")
     if options.output:
         from calibgui.report import series_figures  # matplotlib takes a while to import

@@ -2,18 +2,20 @@
 
 `View` is one photograph with its corners, or with the reason why there are none. `CornerSet` is
 what a calibration is made from: the views of one camera, and the board that they show. `Result`
-is what it leads to: the calibration, with the views that it was made from. The records know no
-file format (``calibgui.formats``) and no window.
+is what it leads to: the calibration, with the views that it was made from; `LeftOut` is one that
+a series of them cannot use. The records know no file format (``calibgui.formats``) and no window.
 """
 
 from __future__ import annotations
 
 from calibgui.dataset.corner_set import CornerSet
+from calibgui.dataset.left_out import LeftOut
 from calibgui.dataset.result import Result, list_installed_versions
 from calibgui.dataset.view import View, ViewStatus, find_orientation
 
 __all__ = [
     "CornerSet",
+    "LeftOut",
     "Result",
     "View",
     "ViewStatus",

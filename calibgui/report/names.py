@@ -22,6 +22,21 @@ def shorten_name(path: str) -> str:
     return name if len(name) <= _MAX_NAME_CHARACTERS else f"{name[:half]}..{name[-half:]}"
 
 
+def tell_apart(paths: Sequence[str]) -> list[str]:
+    """Return the ends of paths, of as few folders and names as tell all of them apart.
+
+    >>> tell_apart(["18mm/result.json", "35mm/result.json"])
+    ['18mm/result.json', '35mm/result.json']
+    """
+    parts = [PurePath(path).parts for path in paths]
+    most = max(map(len, parts), default=1)
+    for count in range(1, most + 1):
+        ends = [PurePath(*part[-count:]).as_posix() for part in parts]
+        if len(set(ends)) == len(set(paths)):
+            return ends
+    return list(paths)
+
+
 def number_names(paths: Sequence[str]) -> list[str]:
     """Return a short number for each file: the one that its name ends with, or its place.
 

@@ -6,6 +6,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
+from calibgui.dataset import LeftOut
 from calibgui.engine.assessment import SPLINE, Drift, Series, UncertainCamera
 from calibgui.report.numbers import format_with_sigma
 from calibgui.report.tables import align_columns, format_bullet
@@ -15,7 +16,11 @@ _PARAMETERS_IN_ROW = 3
 
 
 def tabulate_settings(
-    series: Series, values: Sequence[str], drifts: Sequence[Drift], scalar: str
+    series: Series,
+    values: Sequence[str],
+    drifts: Sequence[Drift],
+    scalar: str,
+    left_out: Sequence[str] = (),
 ) -> str:
     """Tabulate the parameters of all settings, and how far each camera is from the first.
 
@@ -24,6 +29,7 @@ def tabulate_settings(
         values: words for the value of each setting.
         drifts: the differences from the first setting, of all but the first; none to say nothing.
         scalar: name of the quantity that varies.
+        left_out: words for the values of the settings that are left out, which stand last.
     """
     names = _list_free(series.settings[0].known)
     tables = []
@@ -33,6 +39,7 @@ def tabulate_settings(
             [value, *_format_parameters(setting.known, listed)]
             for value, setting in zip(values, series.settings, strict=True)
         ]
+        rows += [[value, *["left out"] * len(listed)] for value in left_out]
         tables.append(align_columns([[scalar, *listed], *rows], left=(0,)))
     if drifts:
         rows = [
@@ -56,18 +63,35 @@ def tabulate_functions(series: Series) -> str:
     return align_columns([head, *rows], left=(0, 2))
 
 
-def describe_series(series: Series, drifts: Sequence[Drift]) -> str:
-    """Describe for a terminal how well the function follows, and whether the camera has changed."""
-    return "\n".join(map(format_bullet, list_sentences(series, drifts)))
+def describe_series(
+    series: Series, drifts: Sequence[Drift], left_out: Sequence[LeftOut] = ()
+) -> str:
+    """Describe for a terminal what `list_sentences` lists."""
+    sentences = list_sentences(series, drifts, [(one.file, one.reason) for one in left_out])
+    return "\n".join(map(format_bullet, sentences))
 
 
-def list_sentences(series: Series, drifts: Sequence[Drift]) -> list[str]:
+def list_sentences(
+    series: Series, drifts: Sequence[Drift], left_out: Sequence[tuple[str, str]] = ()
+) -> list[str]:
     """List sentences on how well the function follows, and whether the camera has changed.
 
     Args:
         series: the series.
         drifts: the differences from the first setting, of all but the first; none to say nothing.
+        left_out: names of the results that are left out, each with the reason.
     """
+    return [
+        *_judge_function(series),
+        *_judge_changes(drifts),
+        *(
+            f"{name} is left out, as its photographs do not determine the camera. {reason}"
+            for name, reason in left_out
+        ),
+    ]
+
+
+def _judge_function(series: Series) -> list[str]:
     name, error = _name_function(series.function), series.errors[series.function]
     sentences = [
         f"{name[0].upper()}{name[1:]} describes the camera: at settings that it has not seen it is "
@@ -78,20 +102,20 @@ def list_sentences(series: Series, drifts: Sequence[Drift]) -> list[str]:
             f"That is {np.sqrt(series.inflation):.1f} times what the calibrations' "
             "uncertainties explain; every ± between settings includes it."
         )
-    if not drifts:
-        return sentences
-    changed = [drift for drift in drifts if drift.has_changed]
-    if changed:
-        most = max(drift.difference.rms for drift in changed)
-        sentences.append(
-            f"{len(changed)} of {len(drifts)} cameras differ from the first by more than their "
-            f"uncertainties explain, by up to {most:.2g} px rms."
-        )
-    else:
-        sentences.append(
-            "No camera differs from the first by more than their uncertainties explain."
-        )
     return sentences
+
+
+def _judge_changes(drifts: Sequence[Drift]) -> list[str]:
+    if not drifts:
+        return []
+    changed = [drift for drift in drifts if drift.has_changed]
+    if not changed:
+        return ["No camera differs from the first by more than their uncertainties explain."]
+    most = max(drift.difference.rms for drift in changed)
+    return [
+        f"{len(changed)} of {len(drifts)} cameras differ from the first by more than their "
+        f"uncertainties explain, by up to {most:.2g} px rms."
+    ]
 
 
 def tabulate_camera_at(known: UncertainCamera, value: str) -> str:

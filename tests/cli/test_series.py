@@ -135,6 +135,68 @@ def test_wrong_usage_is_explained(
     assert text in capsys.readouterr().err
 
 
+@pytest.fixture
+def partial(folder: Path, corners_file: Path) -> Path:
+    """One more result in the folder, at 25 degrees, of one view."""
+    corners = json.loads(corners_file.read_text())
+    corners["views"] = [view for view in corners["views"] if "uv" in view][:1]
+    one_view = folder.parent / "one-view.json"
+    one_view.write_text(json.dumps(corners))
+    file = folder / "e.json"
+    assert main(["calibrate", str(one_view), "-q", "-o", str(file)]) == 1
+    with (folder / "values.csv").open("a") as table:
+        table.write("e.json,25\n")
+    return file
+
+
+def test_a_result_that_is_not_determined_is_left_out_by_name(
+    partial: Path, folder: Path, capsys: Capture
+) -> None:
+    capsys.readouterr()
+    table = folder.parent / "table.csv"
+    assert run(folder, "--at", "25", "--table", str(table)) == 0
+    printed = capsys.readouterr().out
+    said = " ".join(printed.split())
+    assert (
+        f"{partial} is left out, as its photographs do not determine the camera. One view" in said
+    )
+    assert [line.split() for line in printed.splitlines()].count(["25", *["left", "out"] * 3]) == 3
+    with table.open() as file:
+        *used, last = csv.DictReader(file)
+    assert [row["left_out"] for row in used] == [""] * 4
+    assert (last["value"], last["file"], last["fx"]) == ("25.0", str(partial), "")
+    assert "One view" in last["left_out"]
+    # The rest is as it would be without it.
+    assert run(folder, "--at", "25", "--json") == 0
+    answer = json.loads(capsys.readouterr().out)
+    (left_out,) = answer.pop("left_out")
+    assert (left_out["file"], left_out["value"]) == (str(partial), 25.0)
+    partial.unlink()
+    assert run(folder, "--at", "25", "--json") == 0
+    assert json.loads(capsys.readouterr().out) == answer | {"left_out": []}
+
+
+def test_what_is_left_out_needs_no_value(partial: Path, folder: Path, capsys: Capture) -> None:
+    rows = (folder / "values.csv").read_text().replace("e.json,25\n", "")
+    (folder / "values.csv").write_text(rows)
+    capsys.readouterr()
+    assert run(folder, "--json") == 0
+    (left_out,) = json.loads(capsys.readouterr().out)["left_out"]
+    assert (left_out["file"], left_out["value"]) == (str(partial), None)
+
+
+def test_too_few_results_that_are_determined_are_refused(
+    partial: Path, folder: Path, capsys: Capture
+) -> None:
+    for name in "ab":
+        (folder / f"{name}.json").unlink()
+    capsys.readouterr()
+    assert run(folder) == 1
+    problem = " ".join(capsys.readouterr().err.split())
+    assert "2 of 3 results can be used, and a series needs 3" in problem
+    assert f"{partial} is left out: One view" in problem
+
+
 def test_a_date_is_a_date(folder: Path, capsys: Capture) -> None:
     rows = "".join(f"{name}.json,2026-0{k}-01\n" for k, name in enumerate(VALUES, start=1))
     (folder / "values.csv").write_text(f"file,value\n{rows}")

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from calibgui.report.names import number_names
+from calibgui.report.names import number_names, tell_apart
 
 
 @pytest.mark.parametrize(
@@ -21,3 +21,18 @@ from calibgui.report.names import number_names
 )
 def test_a_number_is_the_names_own_or_its_place(names: list[str], numbers: list[str]) -> None:
     assert number_names(names) == numbers
+
+
+@pytest.mark.parametrize(
+    ("paths", "ends"),
+    [
+        (["/x/18.json", "/x/35.json"], ["18.json", "35.json"]),
+        (["/x/18/result.json", "35/result.json"], ["18/result.json", "35/result.json"]),
+        (["a/18/r.json", "b/18/r.json", "c/r.json"], ["a/18/r.json", "b/18/r.json", "c/r.json"]),
+        (["r.json", "a/r.json"], ["r.json", "a/r.json"]),
+        (["a/r.json", "a/r.json"], ["r.json", "r.json"]),
+        ([], []),
+    ],
+)
+def test_paths_are_as_long_as_tells_them_apart(paths: list[str], ends: list[str]) -> None:
+    assert tell_apart(paths) == ends

@@ -76,7 +76,7 @@ from calibgui.engine.assessment.residual_statistics import (
     stack_residuals,
     summarise_residuals,
 )
-from calibgui.engine.assessment.series import SPLINE, Series, Setting, fit_series
+from calibgui.engine.assessment.series import MIN_SETTINGS, SPLINE, Series, Setting, fit_series
 from calibgui.engine.assessment.verdict import Grade, PixelError, Verdict, judge_calibration
 from calibgui.engine.assessment.view_weights import calibrate_weighted
 
@@ -85,6 +85,7 @@ __all__ = [
     "CONFIDENCE",
     "DEFAULT_LIMIT",
     "MIN_FLEET",
+    "MIN_SETTINGS",
     "OUTLIER_Z",
     "SIGNIFICANCE",
     "SIMPLEST_MODEL",

@@ -43,6 +43,7 @@ from calibgui.gui.widgets.actions import add_close_button
 from calibgui.gui.widgets.plots import Plot
 from calibgui.gui.widgets.save_names import ask_for_name
 from calibgui.gui.widgets.tables import Column, Table, with_decimals, with_digits
+from calibgui.report.names import tell_apart
 from calibgui.report.numbers import format_with_sigma
 from calibgui.report.series import list_sentences
 
@@ -199,7 +200,9 @@ class SeriesDialog(QDialog):
 
     def _show(self, analysed: AnalysedSeries) -> None:
         self.analysed = analysed
-        self.words.setText("\n".join(list_sentences(analysed.series, analysed.drifts)))
+        names = _name_files(analysed)[len(analysed.results) :]
+        left_out = [(n, one.reason) for n, one in zip(names, analysed.left_out, strict=True)]
+        self.words.setText("\n".join(list_sentences(analysed.series, analysed.drifts, left_out)))
         self._tabulate(analysed)
         known = analysed.series.settings[0].known
         free = np.flatnonzero(np.diag(known.covariance) > 0).tolist()
@@ -219,25 +222,27 @@ class SeriesDialog(QDialog):
         self._show_camera()
 
     def _tabulate(self, analysed: AnalysedSeries) -> None:
+        """Show the results of the series, and below them those that are left out."""
+        used, reasons = analysed.results, [one.reason for one in analysed.left_out]
         columns = [
             Column(
                 self.tr("File"),
-                [one.path.name for one in analysed.results],
-                lambda name: PurePath(name).stem,  # all are .json
+                _name_files(analysed),
+                lambda name: str(PurePath(name).with_suffix("")),  # all are .json
             ),
             Column(
                 self.scalar.currentText(),
-                [one.value for one in analysed.results],
+                [*(one.value for one in used), *(one.value for one in analysed.left_out)],
                 lambda value: format_value(value, analysed.scalar),
             ),
         ]
         if analysed.drifts:
-            drifts = [None, *analysed.drifts]
+            drifts = [None, *analysed.drifts, *[None] * len(reasons)]
             px = self.tr("px")
             columns += [
                 Column(
                     self.tr("From the first"),
-                    [0.0 if d is None else d.difference.rms for d in drifts],
+                    [0.0, *(math.nan if d is None else d.difference.rms for d in drifts[1:])],
                     with_decimals(3),
                     self.tr("Difference from the first camera after a rotation, rms"),
                     unit=px,
@@ -259,6 +264,15 @@ class SeriesDialog(QDialog):
                     self.tr("Changed"),
                     ["" if d is None else self._answer(d.has_changed) for d in drifts],
                 ),
+            ]
+        if reasons:
+            columns += [
+                Column(
+                    self.tr("Used"),
+                    [*[self.tr("yes")] * len(used), *[self.tr("left out")] * len(reasons)],
+                    tips=[*[""] * len(used), *reasons],
+                ),
+                Column(self.tr("Reason"), [*[""] * len(used), *reasons], hidden=True),
             ]
         marked = [k for k, d in enumerate(analysed.drifts, start=1) if d.has_changed]
         self.results.show_columns(columns, marked)
@@ -376,6 +390,12 @@ class SeriesDialog(QDialog):
             failed=lambda error: self.said.setText(str(error)),
             owner=self,
         )
+
+
+def _name_files(analysed: AnalysedSeries) -> list[str]:
+    """Return names of the results of a series, and of those that are left out."""
+    files = [str(one.path) for one in analysed.results]
+    return tell_apart([*files, *(one.file for one in analysed.left_out)])
 
 
 def _find_unit(scalar: Scalar) -> str:

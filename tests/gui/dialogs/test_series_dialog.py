@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+import csv
 import json
+import shutil
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -12,6 +15,7 @@ from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QFileDialog
 from pytestqt.qtbot import QtBot
 
+from calibgui import engine
 from calibgui.app.series import Scalar, analyse_series
 from calibgui.dataset import Result
 from calibgui.formats import EXPORTERS, export, read_camera
@@ -124,6 +128,39 @@ def test_what_cannot_be_read_is_explained(window: MainWindow, folder: Path, qtbo
     dialog.show_results([folder / "a.json"], Scalar.FOCUS, None)
     qtbot.waitUntil(lambda: "do not state the focus" in dialog.words.text(), timeout=30_000)
     assert dialog.analysed is None
+
+
+def test_a_result_that_is_not_determined_is_listed_and_left_out(
+    window: MainWindow, result: Result, folder: Path, tmp_path: Path, qtbot: QtBot
+) -> None:
+    with pytest.raises(engine.calibration.DegenerateError) as caught:
+        engine.calibrate(result.observations()[:1], result.calibration.camera.size)
+    partial = caught.value.partial
+    assert partial is not None
+    for name in VALUES:
+        (tmp_path / name).mkdir()
+        shutil.copy(folder / f"{name}.json", tmp_path / name / "result.json")
+    one_view = replace(result, calibration=partial, views=result.views[:1])
+    export(one_view, "result", tmp_path / "b" / "result.json")
+    rows = "".join(f"{name}/result.json,{value}\n" for name, value in VALUES.items())
+    (tmp_path / "values.csv").write_text(f"file,value\n{rows}")
+    dialog = SeriesDialog(window.session.jobs, window)
+    qtbot.addWidget(dialog)
+    paths = [tmp_path / name / "result.json" for name in VALUES]
+    dialog.show_results(paths, Scalar.TEMPERATURE, tmp_path / "values.csv")
+    qtbot.waitUntil(lambda: dialog.analysed is not None, timeout=30_000)
+    assert "b/result.json is left out" in dialog.words.text()
+    assert caught.value.message in dialog.words.text()
+    lines = list(csv.reader(dialog.results.as_csv().splitlines()))
+    assert [line[0] for line in lines[1:]] == [f"{name}/result.json" for name in "acdb"]
+    assert lines[4][-2:] == ["left out", caught.value.message]
+    assert lines[1][-2:] == ["yes", ""]
+    (points,) = [
+        item
+        for item in dialog.plot.getPlotItem().items
+        if isinstance(item, pg.PlotDataItem) and item.opts["symbol"]
+    ]
+    assert points.getData()[0].tolist() == [10.0, 30.0, 40.0]
 
 
 def test_the_command_opens_it(window: MainWindow) -> None:

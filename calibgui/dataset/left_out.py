@@ -1,0 +1,19 @@
+"""A result that a series cannot use."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+
+@dataclass(frozen=True, slots=True)
+class LeftOut:
+    """A result of a series whose photographs do not determine its camera."""
+
+    file: str
+    """Path of the result."""
+    value: float
+    """Value of the scalar; NaN if it is not known."""
+    reason: str
+    """What is wrong with the photographs, in sentences."""
+    remedy: str
+    """What to photograph."""
