@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from datetime import datetime
 from enum import StrEnum
@@ -31,6 +31,8 @@ from calibgui.formats.csv_table import read_csv_rows
 from calibgui.formats.result_json import read_result
 
 _SECONDS_OF_DAY = 86400.0
+_FEW_DAYS = 5.0
+"""Length of a series, days, up to which the times of its dates matter."""
 
 
 class Scalar(StrEnum):
@@ -206,6 +208,18 @@ def format_value(value: float, scalar: Scalar) -> str:
     if scalar is Scalar.DATE:
         return datetime.fromtimestamp(value * _SECONDS_OF_DAY).isoformat(" ", "minutes")
     return f"{value:g}{' mm' if scalar is Scalar.ZOOM else ''}"
+
+
+def choose_axis_text(analysed: AnalysedSeries) -> Callable[[float], str] | None:
+    """Return what writes values of the scalar on an axis; None if they are read as numbers.
+
+    Of a date it is the day, or day and time without the year where all lie within a few days.
+    """
+    if analysed.scalar is not Scalar.DATE:
+        return None
+    first, *_, last = (setting.value for setting in analysed.series.settings)
+    part = slice(0, 10) if last - first > _FEW_DAYS else slice(5, None)
+    return lambda value: format_value(value, Scalar.DATE)[part]
 
 
 def parse_value(text: str, scalar: Scalar) -> float:

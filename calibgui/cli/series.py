@@ -21,6 +21,7 @@ from calibgui.app.series import (
     AnalysedSeries,
     Scalar,
     analyse_series,
+    choose_axis_text,
     export_from_series,
     find_results,
     format_value,
@@ -152,8 +153,9 @@ def _write_files(options: argparse.Namespace, analysed: AnalysedSeries) -> list[
         from calibgui.report import series_figures  # matplotlib takes a while to import
 
         unit = ", mm" if options.by is Scalar.ZOOM else ""
-        unit = ", days since 1970" if options.by is Scalar.DATE else unit
-        save_figure(series_figures.draw_series(series, options.by + unit), options.output)
+        write = choose_axis_text(analysed)
+        figure = series_figures.draw_series(series, options.by + unit, write)
+        save_figure(figure, options.output)
         texts.append(f"Wrote {options.output}.")
     return texts
 

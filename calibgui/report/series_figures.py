@@ -2,22 +2,27 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
 import numpy as np
 from matplotlib.figure import Figure
 
 from calibgui.engine.assessment import Series
 
 _COLUMNS, _PANEL_INCHES = 3, (3.2, 2.4)
+_DATES = 3
+"""Largest number of spaces between dates below a panel."""
 _STEPS = 200
 """Number of values at which the function is drawn."""
 
 
-def draw_series(series: Series, label: str) -> Figure:
+def draw_series(series: Series, label: str, write: Callable[[float], str] | None = None) -> Figure:
     """Draw the estimated parameters with one standard deviation, and the function between them.
 
     Args:
         series: the series.
         label: name and unit of the scalar.
+        write: writes a value of the scalar on the axes, as a date; as a number if None.
     """
     known = series.settings[0].known
     free = np.flatnonzero(np.diag(known.covariance) > 0)
@@ -40,6 +45,9 @@ def draw_series(series: Series, label: str) -> Figure:
             fmt="k.",
             capsize=2,
         )
+        if write is not None:
+            panel.locator_params(axis="x", nbins=_DATES)
+            panel.xaxis.set_major_formatter(lambda value, _: write(value))
         panel.set_title(known.camera.names[i] + (", px" if i < 4 else ""))
     for panel in panels[len(free) :]:
         panel.set_visible(False)

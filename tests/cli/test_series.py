@@ -10,10 +10,17 @@ from typing import Any
 import pytest
 from PIL import Image
 
-from calibgui.app.series import Scalar, read_series
+from calibgui.app.series import (
+    Scalar,
+    analyse_series,
+    choose_axis_text,
+    parse_value,
+    read_series,
+)
 from calibgui.cli.main import main
 from calibgui.engine.errors import CalibrationError
 from calibgui.formats import read_camera
+from calibgui.report.series_figures import draw_series
 
 Capture = pytest.CaptureFixture[str]
 VALUES = {"a": 10.0, "b": 20.0, "c": 30.0, "d": 40.0}
@@ -204,3 +211,25 @@ def test_a_date_is_a_date(folder: Path, capsys: Capture) -> None:
     assert main(["series", str(folder), "--by", "date", *table, "--at", "2026-02-15"]) == 0
     out = capsys.readouterr().out
     assert "2026-02-15 00:00" in out
+
+
+@pytest.mark.parametrize(
+    ("dates", "text"),
+    [
+        (["2026-01-01", "2026-02-01", "2026-03-01", "2026-04-01"], "2026-02-01"),
+        ([f"2026-02-01 0{hour}:30" for hour in range(6, 10)], "02-01 00:00"),
+    ],
+)
+def test_dates_are_written_on_axes_as_dates(folder: Path, dates: list[str], text: str) -> None:
+    rows = "".join(f"{name}.json,{date}\n" for name, date in zip(VALUES, dates, strict=True))
+    (folder / "values.csv").write_text(f"file,value\n{rows}")
+    results = [folder / f"{name}.json" for name in VALUES]
+    analysed = analyse_series(results, Scalar.DATE, folder / "values.csv")
+    write = choose_axis_text(analysed)
+    assert write is not None
+    assert write(parse_value("2026-02-01", Scalar.DATE)) == text
+    figure = draw_series(analysed.series, "date", write)
+    figure.draw_without_rendering()
+    (bottom,) = [panel for panel in figure.axes if panel.get_title() == "p2"]
+    labels = [label.get_text() for label in bottom.get_xticklabels()]
+    assert labels == [write(at) for at in bottom.get_xticks()]

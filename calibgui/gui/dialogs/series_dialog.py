@@ -28,6 +28,7 @@ from calibgui.app.series import (
     AnalysedSeries,
     Scalar,
     analyse_series,
+    choose_axis_text,
     export_from_series,
     format_value,
     parse_value,
@@ -49,6 +50,8 @@ from calibgui.report.series import list_sentences
 
 _STEPS = 100
 """Number of values at which the function is drawn."""
+_DATE_CHARACTERS = 20
+"""Number of characters in whose room a date with its time can be written."""
 _BAND_OPACITY = 60
 """Opacity of the band of one standard deviation, of 255."""
 
@@ -96,7 +99,7 @@ class SeriesDialog(QDialog):
         self.plot = Plot("", "")
         self.at = QLineEdit()
         self.at.setAccessibleName(self.tr("Value at which the camera is shown"))
-        self.at.setMaximumWidth(14 * self.fontMetrics().averageCharWidth())
+        self.at.setMaximumWidth(_DATE_CHARACTERS * self.fontMetrics().averageCharWidth())
         self.at.textChanged.connect(self._show_camera)
         self.format = QComboBox()
         self.format.setAccessibleName(self.tr("Format"))
@@ -293,6 +296,7 @@ class SeriesDialog(QDialog):
             _find_unit(self.analysed.scalar),
             self.tr("px") if k < 4 else "",
         )
+        self.plot.write_numbers(choose_axis_text(self.analysed))
         x = np.linspace(series.settings[0].value, series.settings[-1].value, _STEPS)
         middle, sigma = _evaluate(series, x.tolist(), k)
         band = QColor(colours.accent)
@@ -400,7 +404,7 @@ def _name_files(analysed: AnalysedSeries) -> list[str]:
 
 def _find_unit(scalar: Scalar) -> str:
     """Return the unit of a quantity on an axis, empty where the user knows it."""
-    return {Scalar.ZOOM: "mm", Scalar.DATE: "days since 1970"}.get(scalar, "")
+    return "mm" if scalar is Scalar.ZOOM else ""
 
 
 def _evaluate(series: Series, values: Sequence[float], k: int) -> tuple[np.ndarray, np.ndarray]:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
@@ -98,6 +99,13 @@ class Plot(pg.PlotWidget):  # type: ignore[misc]  # pyqtgraph is not typed
         self._labels = _labels(x, y, x_unit, y_unit)
         self._restyle()
 
+    def write_numbers(self, write: Callable[[float], str] | None) -> None:
+        """Write the numbers below the plot by a function, as dates; by None as numbers."""
+        axis = self.getPlotItem().getAxis("bottom")
+        axis.write_number = write
+        axis.picture = None  # which holds the texts as they were
+        axis.update()
+
     def enclose(self, area: QRectF) -> None:
         """Show all of `area` of a square plot, with axes that end where it ends."""
         self._area = area
@@ -172,6 +180,14 @@ class Plot(pg.PlotWidget):  # type: ignore[misc]  # pyqtgraph is not typed
 
 class _Axis(pg.AxisItem):  # type: ignore[misc]  # pyqtgraph is not typed
     """An axis that, if it is logarithmic, has numbers at powers of ten, and few between them."""
+
+    write_number: Callable[[float], str] | None = None
+    """What writes the numbers, if they are not to be read as such."""
+
+    def tickStrings(self, values: list[float], scale: float, spacing: float) -> list[str]:  # noqa: N802 - pyqtgraph's name
+        if self.write_number is None:
+            return list(super().tickStrings(values, scale, spacing))
+        return [self.write_number(value) for value in values]
 
     def logTickStrings(self, values: list[float], scale: float, spacing: float) -> list[str]:  # noqa: N802 - pyqtgraph's name
         decades = abs(self.range[1] - self.range[0])

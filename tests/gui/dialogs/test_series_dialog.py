@@ -16,7 +16,7 @@ from PySide6.QtWidgets import QFileDialog
 from pytestqt.qtbot import QtBot
 
 from calibgui import engine
-from calibgui.app.series import Scalar, analyse_series
+from calibgui.app.series import Scalar, analyse_series, parse_value
 from calibgui.dataset import Result
 from calibgui.formats import EXPORTERS, export, read_camera
 from calibgui.gui.dialogs.series_dialog import SeriesDialog
@@ -119,6 +119,25 @@ def test_a_zoom_lens_is_written_as_a_profile(
     qtbot.waitUntil(lambda: "Saved as profile.json" in dialog.said.text(), timeout=30_000)
     profile = json.loads((tmp_path / "profile.json").read_text())
     assert list(profile["interpolations"]) == ["10", "20", "30", "40"]
+
+
+def test_dates_are_written_below_the_plot_and_fit_into_their_field(
+    dialog: SeriesDialog, tmp_path: Path, folder: Path, qtbot: QtBot
+) -> None:
+    rows = "".join(f"{folder / name}.json,2026-0{k}-01\n" for k, name in enumerate(VALUES, 1))
+    (tmp_path / "dates.csv").write_text(f"file,value\n{rows}")
+    paths = [folder / f"{name}.json" for name in VALUES]
+    dialog.show_results(paths, Scalar.DATE, tmp_path / "dates.csv")
+    qtbot.waitUntil(lambda: dialog.analysed is not None, timeout=30_000)
+    axis = dialog.plot.getPlotItem().getAxis("bottom")
+    middle = dialog.at.text()
+    assert axis.tickStrings([parse_value(middle, Scalar.DATE)], 1.0, 1.0) == [middle[:10]]
+    wide = dialog.at.fontMetrics().horizontalAdvance(middle)
+    assert dialog.at.cursorRect().width() + wide < dialog.at.width()
+    dialog.scalar.setCurrentIndex(dialog.scalar.findData(Scalar.ZOOM))
+    dialog.show_results(paths, Scalar.ZOOM, folder / "values.csv")
+    qtbot.waitUntil(lambda: dialog.analysed is not None, timeout=30_000)
+    assert axis.tickStrings([20.0], 1.0, 1.0) == ["20"]
 
 
 def test_what_cannot_be_read_is_explained(window: MainWindow, folder: Path, qtbot: QtBot) -> None:
