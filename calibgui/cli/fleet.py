@@ -16,6 +16,7 @@ from calibgui.cli.outputs import add_overwrite_option
 from calibgui.formats.fleet_ledger import open_ledger
 from calibgui.formats.origin import FLEET_PAGE
 from calibgui.report.fleet_overview import make_overview
+from calibgui.report.numbers import format_count
 
 
 def configure(parser: argparse.ArgumentParser) -> None:
@@ -49,7 +50,7 @@ def run(options: argparse.Namespace, console: Console) -> None:
     }
     console.print_json(counts)
     console.print_text(
-        f"{len(overview.placed)} cameras: {len(overview.failed)} fail, {len(overview.outliers)} "
-        f"are unlike the others, {len(overview.changed)} have changed.\n"
+        f"{format_count(len(overview.placed), 'camera')}. Failing: {len(overview.failed)}. Unlike "
+        f"the others: {len(overview.outliers)}. Changed: {len(overview.changed)}.\n"
         f"Wrote {options.output} and {folder}."
     )

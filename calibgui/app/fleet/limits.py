@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import tomllib
 from collections.abc import Iterator
 from dataclasses import dataclass, fields
@@ -11,6 +12,7 @@ from calibgui.dataset.fleet import FleetCamera, FleetFigures
 from calibgui.engine.assessment import Grade
 from calibgui.engine.errors import CalibrationError
 from calibgui.engine.files import read_regular
+from calibgui.report.numbers import format_count
 
 _MAX_SIZE = 1 << 20
 """Size of the largest file of limits that is read, bytes."""
@@ -88,12 +90,11 @@ def _list_broken(found: FleetFigures, limits: Limits) -> Iterator[str]:
         yield f"The calibration is not usable: {found.reason}"
     edge, limit = found.error.edge, limits.largest_edge_error_px
     if limit is not None and not edge <= limit:
-        yield (
-            f"The error of a pixel at the image's edge is {edge:.3g} px, beyond the limit of "
-            f"{limit:g} px."
-        )
+        found_px = f"{edge:.3g} px, beyond" if math.isfinite(edge) else "not determined, against"
+        yield f"The error of a pixel at the image's edge is {found_px} the limit of {limit:g} px."
     if limits.fewest_views is not None and found.views < limits.fewest_views:
-        yield f"{found.views} views are used, fewer than the limit of {limits.fewest_views:g}."
+        used = f"{format_count(found.views, 'view')} {'is' if found.views == 1 else 'are'} used"
+        yield f"{used}, fewer than the limit of {limits.fewest_views:g}."
     if limits.least_coverage is not None and found.coverage < limits.least_coverage:
         yield (
             f"Corners cover {100 * found.coverage:.0f} % of the sensor, less than the limit of "

@@ -73,5 +73,12 @@ def test_a_camera_that_is_no_use_fails_without_limits() -> None:
     assert list_failures(REFUSED) == (REFUSED.problem,)
     bad = replace(DONE, figures=replace(FIGURES, grade=Grade.NOT_USABLE, reason="Too few views."))
     assert list_failures(bad) == ("The calibration is not usable: Too few views.",)
-    unknown = replace(DONE, figures=replace(FIGURES, error=PixelError(*[float("nan")] * 6)))
-    assert len(list_failures(unknown, KEPT)) == 1
+
+
+@pytest.mark.parametrize("error", [float("nan"), float("inf")])
+def test_what_one_view_does_not_tell_is_no_number(error: float) -> None:
+    figures = replace(FIGURES, error=PixelError(*[error] * 6), views=1)
+    assert list_failures(replace(DONE, figures=figures), KEPT) == (
+        "The error of a pixel at the image's edge is not determined, against the limit of 0.2 px.",
+        "1 view is used, fewer than the limit of 11.",
+    )
