@@ -35,6 +35,11 @@ def find_images(names: Iterable[str]) -> tuple[Path, ...]:
     return tuple(sorted(found.values(), key=make_natural_key))
 
 
+def is_remote(path: str) -> bool:
+    """Return whether a path is an address, as s3:// or http://, where a fleet's photographs are."""
+    return "://" in path
+
+
 def make_natural_key(path: Path) -> list[tuple[str, int]]:
     """Return a sorting key that compares runs of digits as numbers and ignores case."""
     text = unicodedata.normalize("NFC", str(path)).casefold()

@@ -16,7 +16,8 @@
     views               as in ``views_json.py``, and sha256 of the image file where known
     results             by name, each as a result.json is (``result_json.py``)
 
-Paths are relative to the folder of the file, with "/", so that folder and project move together.
+Paths are relative to the folder of the file, with "/", so that folder and project move together;
+addresses of photographs, as http://, stay as they are.
 Cannot hold: the images; undone edits.
 
 A change that old programs could misread takes a new version: raise `VERSION` and add to
@@ -32,6 +33,7 @@ from pathlib import Path, PurePath
 from types import MappingProxyType
 from typing import Any
 
+from calibgui.app.paths import is_remote
 from calibgui.app.project import GRID_LINES, Project, Unit, relocate_images
 from calibgui.app.settings import (
     AUTO_MODEL,
@@ -165,7 +167,7 @@ def read_project(path: Path, folder: Path | None = None) -> Project:
     check_format(node, FORMAT, VERSION)
     project = _decode_project(_migrate(node))
     base = (folder or path.parent).absolute()
-    return _change_paths(project, lambda image: os.path.normpath(base / image))
+    return _change_paths(project, lambda image: _make_absolute(image, base))
 
 
 def _migrate(node: Node) -> Node:
@@ -299,7 +301,13 @@ def _change_paths(project: Project, change: Callable[[str], str]) -> Project:
     return relocate_images(project, {image: change(image) for image in images})
 
 
+def _make_absolute(image: str, folder: Path) -> str:
+    return image if is_remote(image) else os.path.normpath(folder / image)
+
+
 def _make_relative(image: str, folder: Path) -> str:
+    if is_remote(image):
+        return image
     try:
         return PurePath(os.path.relpath(image, folder)).as_posix()
     except ValueError:  # on another drive

@@ -6,6 +6,7 @@ from dataclasses import replace
 from pathlib import Path
 from types import MappingProxyType
 
+from calibgui.app.paths import is_remote
 from calibgui.app.project import Project
 from calibgui.formats.result_json import read_result
 
@@ -21,7 +22,10 @@ def make_project(path: Path, name: str) -> Project:
         CalibrationError: if it cannot be read, or is no result.
     """
     result = read_result(path)
-    views = tuple(replace(view, image=str(path.parent / view.image)) for view in result.views)
+    views = tuple(
+        view if is_remote(view.image) else replace(view, image=str(path.parent / view.image))
+        for view in result.views
+    )
     result = replace(result, views=views)
     project = Project(
         views=views,

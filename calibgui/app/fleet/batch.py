@@ -23,8 +23,9 @@ from calibgui.app.fleet.camera_task import (
 )
 from calibgui.app.fleet.limits import NO_LIMITS, Limits, list_failures
 from calibgui.app.fleet.manifest import CameraTask
-from calibgui.app.fleet.photographs import is_remote, list_photographs
+from calibgui.app.fleet.photographs import list_photographs
 from calibgui.app.fleet.schedulers import Scheduler
+from calibgui.app.paths import is_remote
 from calibgui.app.workers import Crashed
 from calibgui.dataset.fleet import FleetCamera
 from calibgui.engine.arrays import Size

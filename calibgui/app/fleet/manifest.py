@@ -26,6 +26,7 @@ from datetime import UTC, date, datetime
 from pathlib import Path
 from typing import Any
 
+from calibgui.app.paths import is_remote
 from calibgui.app.settings import AUTO_MODEL, Settings, check_settings, resolve_model_choice
 from calibgui.dataset.fleet import FleetEntry
 from calibgui.engine.arrays import GridSize
@@ -176,7 +177,7 @@ def _read_task(
         raise CalibrationError("its name is not valid Unicode.", "Rename it.") from error
     folder = path if path.is_dir() else path.parent
     paths = tuple(
-        name if "://" in name else os.path.abspath(folder / name)  # noqa: PTH100 - keeps links
+        name if is_remote(name) else os.path.abspath(folder / name)  # noqa: PTH100 - keeps links
         for name in (part.strip() for part in cells["paths"].split(";"))
         if name
     )

@@ -16,7 +16,7 @@ from pathlib import Path, PurePosixPath
 from typing import Any
 
 from calibgui.app.image_store import compute_file_digest
-from calibgui.app.paths import find_images, make_natural_key
+from calibgui.app.paths import find_images, is_remote, make_natural_key
 from calibgui.engine.errors import CalibrationError
 from calibgui.engine.images import FORMATS, read_image_header
 
@@ -42,11 +42,6 @@ class Photograph:
     """Its path, or its address."""
     state: str
     """What changes when it is written to; empty if that is not known without reading it."""
-
-
-def is_remote(path: str) -> bool:
-    """Return whether a path is an address for fsspec."""
-    return "://" in path
 
 
 def list_photographs(paths: Iterable[str]) -> tuple[Photograph, ...]:

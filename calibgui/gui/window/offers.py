@@ -16,6 +16,7 @@ from calibgui.app.board_recognition import (
     find_other_pattern,
 )
 from calibgui.app.document import Document
+from calibgui.app.paths import is_remote
 from calibgui.app.project import set_grid_size, set_pattern
 from calibgui.dataset import ViewStatus
 from calibgui.engine.arrays import GridSize
@@ -122,10 +123,14 @@ class Offers(QObject):
         )
 
     def _offer_relocation(self, missing: list[str]) -> None:
+        said = self.tr("{0} of {1} images are not where they were, among them {2}.")
+        if is_remote(missing[0]):
+            said = self.tr(
+                "{0} of {1} images are at addresses, among them {2}. Download them, and locate the "
+                "copies."
+            )
         self._offer(
-            self.tr("{0} of {1} images are not where they were, among them {2}.").format(
-                len(missing), len(self._session.project.views), missing[0]
-            ),
+            said.format(len(missing), len(self._session.project.views), missing[0]),
             self.tr("&Locate…"),
             lambda: self._files.ask_for_moved(missing),
         )

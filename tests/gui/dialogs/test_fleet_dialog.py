@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -10,6 +11,7 @@ from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QFileDialog
 from pytestqt.qtbot import QtBot
 
+from calibgui.app.project_file import read_project, write_project
 from calibgui.dataset import Result
 from calibgui.dataset.fleet import Estimate, FleetCamera, FleetEntry, FleetFigures, FleetStatus
 from calibgui.engine.assessment import Grade, PixelError
@@ -95,3 +97,20 @@ def test_a_camera_opens_as_a_project(
     assert np.array_equal(opened.calibration.camera.params, result.calibration.camera.params)
     assert window.session.project.is_current(opened)
     assert all(Path(view.image).is_absolute() for view in window.session.project.views)
+
+
+def test_a_camera_whose_photographs_are_at_addresses_opens_and_is_saved(
+    window: MainWindow, result: Result, tmp_path: Path, qtbot: QtBot
+) -> None:
+    address = "http://127.0.0.1:9/shots"
+    views = tuple(
+        replace(view, image=f"{address}/{Path(view.image).name}") for view in result.views
+    )
+    export(replace(result, views=views), "result", tmp_path / "far.json")
+    assert window.files.open_result(tmp_path / "far.json", "far")
+    qtbot.waitUntil(lambda: "are at addresses" in window.banner.text.text(), timeout=30_000)
+    assert views[0].image in window.banner.text.text()
+    write_project(window.session.project, tmp_path / "project.json")
+    saved = read_project(tmp_path / "project.json")
+    assert [view.image for view in saved.views] == [view.image for view in views]
+    assert saved.is_current(saved.results["far"])
