@@ -1,7 +1,7 @@
 """Check with one or a few pictures of a board whether a stored calibration is still good.
 
-The exit code is 0 if the calibration is still good, and 1 if the camera has changed or the pictures
-cannot tell. The verdict does not depend on the size of the squares.
+The exit code is 0 if the calibration is still good, 3 if the camera has changed, and 1 if the
+pictures cannot tell. The verdict does not depend on the size of the squares.
 """
 
 from __future__ import annotations
@@ -32,8 +32,11 @@ from calibgui.report.calibration_check import describe_check, describe_verdict
 _USUAL_OVERDISPERSION = 2.0
 """Ratio by which views of a printed board disagree more than noise explains, where the file does
 not say; calibrations from photographs find 1 to 4."""
-_NOT_GOOD = 1
-"""Exit code unless the calibration is still good."""
+_EXIT_CODES = {
+    CheckVerdict.STILL_GOOD: 0,
+    CheckVerdict.CANNOT_TELL: 1,
+    CheckVerdict.HAS_CHANGED: 3,
+}
 
 
 def configure(parser: argparse.ArgumentParser) -> None:
@@ -99,7 +102,7 @@ def run(options: argparse.Namespace, console: Console) -> int:
     if unused:
         console.print_text(unused)
     console.print_line(describe_verdict(check))
-    return 0 if check.verdict is CheckVerdict.STILL_GOOD else _NOT_GOOD
+    return _EXIT_CODES[check.verdict]
 
 
 def _read_overdispersion(path: Path, stored: ImportedCamera) -> float:

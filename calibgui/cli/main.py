@@ -1,8 +1,8 @@
 """Entry point: choose the subcommand, run it, and return an exit code.
 
 The exit codes are 0 success; 1 the task is impossible, for the reason on stderr, or a check has
-failed; 2 wrong usage; 70 a bug; 130 interrupted (Ctrl-C, SIGTERM); 141 the program that read our
-output has ended.
+failed; 2 wrong usage; 3 a camera has changed, or one of a fleet fails; 70 a bug; 130 interrupted
+(Ctrl-C, SIGTERM); 141 the program that read our output has ended.
 
 To add a subcommand, write a module in this folder with `configure(parser)` and
 `run(options, console)`, which may return an exit code, and name it in `COMMANDS` of ``parser``.

@@ -62,7 +62,7 @@ def test_check_of_a_changed_camera(
     result_file: Path, corners_file: Path, tmp_path: Path, capsys: Capture
 ) -> None:
     wrong = changed(result_file, tmp_path, 1.02)
-    assert main(["check", str(corners_file), "--with", str(wrong), "-q"]) == 1
+    assert main(["check", str(corners_file), "--with", str(wrong), "-q"]) == 3
     captured = capsys.readouterr()
     assert not captured.err
     assert captured.out.startswith("The camera has changed") and captured.out.count("\n") == 1
