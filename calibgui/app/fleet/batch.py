@@ -40,7 +40,7 @@ class BatchSummary:
     cameras: int
     """Number of cameras in the manifest."""
     worked_on: int
-    """Number of cameras that workers were given in this run: not those known to be done."""
+    """Number of cameras that were calibrated in this run, or refused: not those that were done."""
     failed: tuple[FleetCamera, ...]
     """The cameras that fail, in the order of the manifest."""
 
@@ -67,7 +67,11 @@ def run_batch(
     folder = FleetFolder(ledger.path)
     folder.make()
     waiting = list(_find_waiting(tasks, ledger, folder))
+    spent = {work.task.entry.id: work.known.cpu_seconds for work in waiting if work.known}
+    worked_on = 0
     for done, camera in enumerate(_calibrate_all(waiting, scheduler), start=1):
+        # A worker that finds a camera done leaves the time as an earlier run has measured it.
+        worked_on += camera.cpu_seconds != spent.get(camera.id)
         ledger.write([camera])
         if progress is not None:
             progress(done, len(waiting))
@@ -75,7 +79,7 @@ def run_batch(
     ledger.write(_judge(tasks, ledger, limits))
     rows = (ledger.find(task.entry.id) for task in tasks)
     failed = tuple(row for row in rows if row is not None and not row.passed)
-    return BatchSummary(len(tasks), len(waiting), failed)
+    return BatchSummary(len(tasks), worked_on, failed)
 
 
 def _find_waiting(

@@ -141,13 +141,15 @@ def test_touched_photographs_are_read_but_not_searched(
     (before,) = read_rows(ledger)
     os.utime(tmp_path / "fleet" / "c0" / "view1.png", (1, 1))
     searched.clear()
-    assert run(tasks, ledger, Here()).worked_on == 1
+    here = Here()
+    assert run(tasks, ledger, here).worked_on == 0
     (after,) = read_rows(ledger)
-    assert not searched
+    assert (here.done, searched) == (1, [])
     assert after.state != before.state
     assert replace(after, state=before.state) == before
     assert after.cpu_seconds == before.cpu_seconds
-    assert run(tasks, ledger, Here()).worked_on == 0
+    assert run(tasks, ledger, here) == BatchSummary(1, 0, ())
+    assert here.done == 1
 
 
 def test_only_what_changed_is_searched(fleet: Path, tmp_path: Path, searched: list[str]) -> None:
@@ -372,7 +374,7 @@ def test_dates_that_the_manifest_does_not_give_are_those_of_exif(
     searched.clear()
     assert run_on(*undated) == BatchSummary(3, 0, ())
     os.utime(tmp_path / "c1" / "view1.jpg", (1, 1))
-    assert run_on(*undated).worked_on == 1
+    assert run_on(*undated).worked_on == 0
     assert not searched
     assert [replace(row, state="") for row in read_rows(ledger)] == [
         replace(row, state="") for row in rows
@@ -427,8 +429,9 @@ def test_photographs_may_be_where_fsspec_reaches(
         assert not any(os.path.dirname(image) in text for image in searched)  # noqa: PTH120
         # A worker asks whether anything has changed, and does nothing if not.
         searched.clear()
-        assert run([far], ledger, Here()).worked_on == 1
-        assert not searched
+        here = Here()
+        assert run([far], ledger, here).worked_on == 0
+        assert (here.done, searched) == (1, [])
         memory.pipe("/bucket/c0/view2.png", (fleet / "c1" / "view2.png").read_bytes())
         run([far], ledger, Here())
         assert len(searched) == 1
