@@ -166,7 +166,8 @@ def _open_file_system(address: str) -> tuple[Any, str]:
     """Return the file system of an address, and the path in it."""
     import fsspec.core
 
-    return fsspec.core.url_to_fs(address)
+    # A worker that lives on would miss photographs that are added between two runs.
+    return fsspec.core.url_to_fs(address, use_listings_cache=False)
 
 
 @contextmanager

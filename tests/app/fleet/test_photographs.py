@@ -13,6 +13,7 @@ from http.server import SimpleHTTPRequestHandler, ThreadingHTTPServer
 from pathlib import Path
 
 import pytest
+from fsspec.config import conf
 from fsspec.registry import _registry
 
 from calibgui.app.fleet.manifest import CameraTask
@@ -101,6 +102,17 @@ def test_a_camera_at_a_web_server_is_calibrated_as_one_here(
     run([far], ledger, Here())
     assert sorted(server.fetched) == names
     assert read_results(ledger) == before
+
+
+def test_new_photographs_are_seen_by_a_worker_that_lives_on(
+    server: Server, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """File systems may remember what a folder held, as that of s3:// does unless told otherwise."""
+    monkeypatch.setitem(conf, "http", {"use_listings_cache": True})
+    address = f"{server.address}/shots/"
+    assert len(list_photographs([address])) == 6
+    shutil.copy(tmp_path / "web" / "shots" / "view1.png", tmp_path / "web" / "shots" / "view7.png")
+    assert len(list_photographs([address])) == 7
 
 
 def test_what_a_web_server_lacks_is_named(server: Server) -> None:
