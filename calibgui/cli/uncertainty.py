@@ -18,6 +18,8 @@ from calibgui.engine.assessment import (
     check_residuals,
     choose_board_shape,
     cross_validate,
+    find_explanation,
+    list_findings,
 )
 from calibgui.engine.boards import BoardShapeModel
 from calibgui.engine.calibration import recover_arguments
@@ -54,10 +56,13 @@ def run(options: argparse.Namespace, console: Console) -> None:
     views = result.observations()
     with limit_blas_threads():
         found = estimate_projection_uncertainty(result.calibration, views, options.distance)
-        report = check_residuals(result.calibration, views, shorten_names(result.used))
+        names = shorten_names(result.used)
+        report = check_residuals(result.calibration, views, names)
+        findings = () if report.passed else list_findings(result.calibration, views, names)
+        explanation = find_explanation(findings)
         sections = [
             quality.tabulate_projection_uncertainty(found, options.limit, result.condition),
-            quality.tabulate_noise_report(report),
+            quality.tabulate_noise_report(report, explanation),
         ]
         if options.validate:
             sections += _validate(result)
@@ -68,7 +73,6 @@ def run(options: argparse.Namespace, console: Console) -> None:
             quality_figures.draw_projection_uncertainty(found, views, options.limit), options.output
         )
         sections.append(f"Wrote {options.output}.")
-    cause = report.cause
     console.print_json(
         {
             "distance_mm": found.distance if math.isfinite(found.distance) else None,
@@ -81,7 +85,9 @@ def run(options: argparse.Namespace, console: Console) -> None:
             "v": found.v,
             "worst_direction_px": found.worst_direction,
             "noise": {check.name: check.passed for check in report.checks},
-            "cause": None if cause is None else {"name": cause.name, "advice": cause.advice},
+            "cause": None
+            if explanation is None
+            else {"name": explanation.cause, "advice": explanation.remedy},
         }
     )
     console.print_text("\n\n".join(sections))

@@ -12,6 +12,7 @@ from calibgui.engine.assessment import (
     Bootstrap,
     CameraDifference,
     CrossValidation,
+    Finding,
     NoiseReport,
 )
 from calibgui.engine.calibration import Calibration
@@ -76,15 +77,19 @@ def tabulate_projection_uncertainty(
     return f"{title}\n{align_columns([head, *rows], left=(0,))}\n{format_bullet(inside)}"
 
 
-def tabulate_noise_report(report: NoiseReport) -> str:
-    """Tabulate the tests of the residuals for noise, with the cause where one fails."""
+def tabulate_noise_report(report: NoiseReport, explanation: Finding | None) -> str:
+    """Tabulate the tests of the residuals for noise, with the `explanation` where one fails."""
     rows = [
         [check.name, "as noise" if check.passed else "NOT noise", check.finding]
         for check in report.checks
     ]
     text = "Do the residuals look like noise?\n" + align_columns(rows, left=(0, 1, 2))
-    cause = report.cause
-    remark = "Nothing speaks against the standard deviations." if cause is None else cause.advice
+    if report.passed:
+        remark = "Nothing speaks against the standard deviations."
+    elif explanation is None:
+        remark = "The residuals are not just noise, but no cause of it stands out that matters."
+    else:
+        remark = f"{explanation.message} {explanation.remedy}"
     return f"{text}\n{format_bullet(remark)}"
 
 

@@ -12,6 +12,8 @@ from calibgui.engine.assessment.cross_validation import (
     choose_board_shape,
     cross_validate,
 )
+from calibgui.engine.assessment.finding import find_explanation
+from calibgui.engine.assessment.findings import list_findings
 from calibgui.engine.assessment.noise_test import check_residuals
 from calibgui.engine.calibration.calibrate import calibrate
 from calibgui.engine.calibration.observations import Observation
@@ -37,7 +39,7 @@ def test_tables_fit_a_terminal(calibrated: Calibrated) -> None:
         quality.tabulate_projection_uncertainty(
             estimate_projection_uncertainty(result, views, 500.0), 0.1
         ),
-        quality.tabulate_noise_report(check_residuals(result, views)),
+        quality.tabulate_noise_report(check_residuals(result, views), None),
         quality.tabulate_cross_validation(cross_validate(views, size, 4)),
         quality.tabulate_board_shape_choice(choose_board_shape(views, size, 3)),
         quality.tabulate_bootstrap(bootstrap_views(views, size, 12), result),
@@ -47,6 +49,21 @@ def test_tables_fit_a_terminal(calibrated: Calibrated) -> None:
     for text in texts:
         assert max(map(len, text.splitlines())) <= 80, text
     assert "Nothing speaks against" in texts[1]
+
+
+def test_the_cause_of_residuals_is_that_of_the_findings() -> None:
+    views = scene(barrel(), 8, seed=1).noisy(0.2, np.random.default_rng(2))
+    errors = np.random.default_rng(3).normal(scale=8.0, size=views[3].uv.shape)
+    views[3] = Observation(views[3].uv + errors, views[3].xy)
+    result = calibrate(views, barrel().size)
+    report = check_residuals(result, views)
+    finding = find_explanation(list_findings(result, views))
+    assert finding is not None
+    text = quality.tabulate_noise_report(report, finding)
+    assert "NOT noise" in text
+    assert "Corners are not where the others say, in View 4" in text
+    assert "rolling shutter" not in text
+    assert "no cause" in quality.tabulate_noise_report(report, None)
 
 
 def test_a_held_parameter_is_not_resampled(calibrated: Calibrated) -> None:

@@ -1,7 +1,8 @@
 """Assessment of a calibration: residuals, outliers, errors on unseen views, comparison.
 
 `judge_calibration` says what a calibration is worth and what makes it better, `list_findings` what
-is wrong with it and matters, the most harmful first.
+is wrong with it and matters, the most harmful first; `find_explanation` picks the one of them that
+explains residuals which are not noise.
 `summarise_residuals` states how well the model fits, `check_residuals` whether what is left is
 noise or has a cause, `separate_error_sources` how many pixels lens, board, single views and noise
 contribute; `screen_outliers` leaves wrong corners out, `calibrate_weighted` weighs views
@@ -42,7 +43,13 @@ from calibgui.engine.assessment.drift import (
     measure_drift,
 )
 from calibgui.engine.assessment.error_sources import ErrorSources, separate_error_sources
-from calibgui.engine.assessment.finding import Action, ActionKind, Cause, Finding
+from calibgui.engine.assessment.finding import (
+    Action,
+    ActionKind,
+    Cause,
+    Finding,
+    find_explanation,
+)
 from calibgui.engine.assessment.findings import list_findings
 from calibgui.engine.assessment.fleet_spread import (
     MIN_FLEET,
@@ -135,6 +142,7 @@ __all__ = [
     "compare_cameras",
     "compare_methods",
     "cross_validate",
+    "find_explanation",
     "fit_series",
     "judge_calibration",
     "list_findings",

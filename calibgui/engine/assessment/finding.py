@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from dataclasses import dataclass
 from enum import StrEnum
 
@@ -109,3 +110,12 @@ class Finding:
 def describe_harm(harm: float) -> str:
     """Describe what a cause does to pixels, px, as the end of a sentence."""
     return f"it adds {format_two_digits(harm)} px to the error of pixels where there are corners"
+
+
+_CAUSES_OF_NO_RESIDUALS = (Cause.UNDETERMINED, Cause.FEW_VIEWS)
+"""Causes of an uncertain camera that leave no traces in the residuals."""
+
+
+def find_explanation(findings: Iterable[Finding]) -> Finding | None:
+    """Return the first finding that explains residuals which are not noise; None if none does."""
+    return next((f for f in findings if f.cause not in _CAUSES_OF_NO_RESIDUALS), None)

@@ -167,7 +167,10 @@ class NoiseReport:
 
     @property
     def cause(self) -> NoiseCheck | None:
-        """Failed test to attend to first; None if all are passed."""
+        """Failed test to attend to first, by the tests alone; None if all are passed.
+
+        What is to be said to users is in ``findings.py``, where one cause is chosen among all.
+        """
         failed = [check for check in self.checks if not check.passed]
         most = max((check.share for check in failed), default=0.0)
         return next((check for check in failed if check.share >= _MIN_SHARE_OF_BEST * most), None)

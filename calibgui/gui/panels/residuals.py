@@ -9,7 +9,14 @@ from PySide6.QtWidgets import QLabel, QVBoxLayout
 
 from calibgui.app.calibration import shorten_names
 from calibgui.dataset import Result
-from calibgui.engine.assessment import NoiseReport, check_residuals, summarise_residuals
+from calibgui.dataset.judging import judge_result
+from calibgui.engine.assessment import (
+    NoiseReport,
+    Verdict,
+    check_residuals,
+    find_explanation,
+    summarise_residuals,
+)
 from calibgui.gui.panels.latest import Latest
 from calibgui.gui.panels.panel import Panel
 from calibgui.gui.panels.plane import PlaneChoice
@@ -73,7 +80,7 @@ class ResidualsPanel(Panel):
             lambda job: check_residuals(
                 result.calibration, result.observations(), shorten_names(result.used), job.advance
             ),
-            self._judge,
+            lambda report: self._show_report(report, result),
             lambda error: self.verdict.setText(str(error)),
             self._forgo,
         )
@@ -83,22 +90,43 @@ class ResidualsPanel(Panel):
         self._examined = None
         self.verdict.setText(self.tr("Whether the residuals look like noise was not examined."))
 
-    def _judge(self, report: NoiseReport) -> None:
-        """Say what the residuals look like; every check's finding is in the tooltip."""
-        cause = report.cause
-        self.verdict.setText(
-            self.tr("The residuals look like noise: nothing speaks against the ± of the result.")
-            if cause is None
-            else self.tr("The residuals are not just noise ({0}: {1}). {2}").format(
-                cause.name, cause.finding, cause.advice
-            )
-        )
+    def _show_report(self, report: NoiseReport, result: Result) -> None:
+        """Say what the residuals look like; what every test found is in the tooltip.
+
+        One trouble makes several tests fail, so the cause is taken from the verdict.
+        """
         rows = "".join(
             f"<tr><td>{_MARKS[check.passed]}&nbsp;</td><td>{escape(check.name)}&nbsp;</td>"
             f"<td>{escape(check.finding)}</td></tr>"
             for check in report.checks
         )
         self.verdict.setToolTip(f"<table>{rows}</table>")
+        if report.passed:
+            self.verdict.setText(
+                self.tr(
+                    "The residuals look like noise: nothing speaks against the ± of the result."
+                )
+            )
+            return
+        self.verdict.setText(self.tr("The residuals are not just noise. Why? Working…"))
+        self._work.start(
+            self.tr("Judging the calibration"),
+            lambda job: judge_result(result, job.check),
+            self._explain,
+            lambda error: self.verdict.setText(str(error)),
+            self._forgo,
+        )
+
+    def _explain(self, verdict: Verdict) -> None:
+        """Name the cause that the verdict singles out, or none."""
+        finding = find_explanation(verdict.findings)
+        self.verdict.setText(
+            self.tr("The residuals are not just noise, but no cause of it stands out that matters.")
+            if finding is None
+            else self.tr("The residuals are not just noise. {0} {1}").format(
+                finding.message, finding.remedy
+            )
+        )
 
     def _select(self, k: int, corner: int) -> None:
         self.scatter.select(k, corner)

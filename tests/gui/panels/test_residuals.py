@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable
+from dataclasses import replace
 from typing import cast
 
 import numpy as np
@@ -13,9 +14,12 @@ from pytestqt.qtbot import QtBot
 
 from calibgui.app.calibration import shorten_names
 from calibgui.dataset import Result
+from calibgui.dataset.judging import judge_result
 from calibgui.engine.arrays import Array
+from calibgui.engine.assessment.finding import Cause
 from calibgui.engine.assessment.noise_test import NoiseReport, check_residuals
 from calibgui.engine.assessment.residual_statistics import stack_residuals, summarise_residuals
+from calibgui.engine.calibration.calibrate import calibrate
 from calibgui.gui.jobs.jobs import Jobs
 from calibgui.gui.panels import residuals
 from calibgui.gui.panels.residuals import ResidualsPanel
@@ -85,18 +89,53 @@ def test_selection_is_highlighted(show: Show, result: Result) -> None:
     assert len(panel.scatter._view.getData()[0]) == 0
 
 
-def test_what_the_residuals_look_like_is_said_with_its_cause(
-    shown: Shown[ResidualsPanel], jobs: Jobs, qtbot: QtBot
+def disturb(result: Result, view: int, sigma: float) -> Result:
+    """The result with random errors of `sigma` px added to the corners of one view."""
+    views = list(result.views)
+    corners = views[view].corners
+    assert corners is not None
+    errors = np.random.default_rng(1).normal(scale=sigma, size=corners.uv.shape)
+    views[view] = replace(views[view], corners=replace(corners, uv=corners.uv + errors))
+    assert result.board is not None
+    seen = [each.observation(result.board) for each in views if each.usable]
+    return Result(calibrate(seen, result.calibration.camera.size), tuple(views), result.board)
+
+
+@pytest.mark.parametrize(
+    ("disturbed", "cause"),
+    [
+        (lambda _: made(bow=0.6), Cause.BOARD_SHAPE),
+        (lambda sound: disturb(sound, 3, 8.0), Cause.MISPLACED_CORNERS),
+        (lambda _: made(bow=0.06), None),
+    ],
+    ids=["bowed board", "one view of 8 px", "harmless bow"],
+)
+def test_the_cause_of_residuals_is_that_of_the_verdict(
+    shown: Shown[ResidualsPanel],
+    result: Result,
+    jobs: Jobs,
+    qtbot: QtBot,
+    disturbed: Callable[[Result], Result],
+    cause: Cause | None,
 ) -> None:
-    bent = made(bow=0.6)
-    panel = shown(ResidualsPanel, bent)
+    found = disturbed(result)
+    panel = shown(ResidualsPanel, found)
     assert "Working" in panel.verdict.text()
     qtbot.waitUntil(lambda: not jobs.running, timeout=60_000)
-    report = check_residuals(bent.calibration, bent.observations(), shorten_names(bent.used))
-    assert report.cause is not None
-    assert report.cause.advice in panel.verdict.text()
-    assert report.cause.finding in panel.verdict.text()
+    text = panel.verdict.text()
+    assert text.startswith("The residuals are not just noise")
+    report = check_residuals(found.calibration, found.observations(), shorten_names(found.used))
+    failed = [check for check in report.checks if not check.passed]
+    assert failed
+    assert not any(check.advice in text for check in failed), "tests blame any cause"
     assert all(check.name in panel.verdict.toolTip() for check in report.checks)
+    findings = judge_result(found).findings
+    assert [finding.cause for finding in findings[:1]] == [cause] * (cause is not None)
+    if findings:
+        assert findings[0].message in text
+        assert findings[0].remedy in text
+    else:
+        assert "no cause" in text
     panel.plane.setCurrentIndex(1)
     assert not jobs.running, "another plane asks nothing new"
 
