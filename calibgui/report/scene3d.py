@@ -22,7 +22,7 @@ import numpy as np
 from calibgui.dataset import Result
 from calibgui.engine.arrays import Array, freeze
 from calibgui.engine.camera import Camera
-from calibgui.engine.geometry import Pose, rotation_from_vector
+from calibgui.engine.geometry import rotation_from_vector
 from calibgui.report.coverage import find_shown_extent
 
 _OBSERVER_DISTANCE = 3.0
@@ -68,19 +68,19 @@ def build_scene(result: Result, centre: SceneCentre) -> tuple[Polygon, ...]:
     """Build the scene: the views' boards around the camera, or their cameras around the board."""
     camera, poses = result.calibration.camera, result.calibration.poses
     outline = _make_board_outline(result)
-    size = _RELATIVE_CAMERA_LENGTH * float(np.mean([np.linalg.norm(pose.tvec) for pose in poses]))
+    R = rotation_from_vector(np.array([pose.rvec for pose in poses]))
+    T = np.array([pose.tvec for pose in poses])
+    size = _RELATIVE_CAMERA_LENGTH * float(np.linalg.norm(T, axis=1).mean())
     body = _make_camera_faces(camera, size)
     if centre is SceneCentre.CAMERA:
         shared = [Polygon(face, PolygonKind.CAMERA, -1) for face in body]
-        placed = [
-            Polygon(_transform_to_camera(outline, pose), PolygonKind.BOARD, k)
-            for k, pose in enumerate(poses)
-        ]
+        boards = outline @ R.swapaxes(1, 2) + T[:, None]
+        placed = [Polygon(points, PolygonKind.BOARD, k) for k, points in enumerate(boards)]
     else:
         shared = [Polygon(outline, PolygonKind.BOARD, -1)]
         placed = [
-            Polygon(_transform_to_board(face, pose), PolygonKind.CAMERA, k)
-            for k, pose in enumerate(poses)
+            Polygon((face - T[k]) @ R[k], PolygonKind.CAMERA, k)
+            for k in range(len(poses))
             for face in body
         ]
     return (*shared, *placed)
@@ -179,15 +179,16 @@ def draw_scene(polygons: Sequence[Polygon], observer: Observer) -> tuple[DrawnPo
         return ()
     everything = np.concatenate([polygon.points for polygon in polygons])
     points, depth = project_into_scene(polygons, everything, observer)
-    ends = np.cumsum([len(polygon.points) for polygon in polygons])[:-1]
-    drawn = [
-        DrawnPolygon(polygon, at, float(far.mean()))
-        for polygon, at, far in zip(
-            polygons, np.split(points, ends), np.split(depth, ends), strict=True
-        )
-        if far.min() > _NEAREST_DEPTH
-    ]
-    return tuple(sorted(drawn, key=lambda d: -d.depth))
+    lengths = np.array([len(polygon.points) for polygon in polygons])
+    ends = np.cumsum(lengths)
+    begins = ends - lengths
+    is_seen = np.minimum.reduceat(depth, begins) > _NEAREST_DEPTH
+    mean = np.add.reduceat(depth, begins) / lengths
+    return tuple(
+        DrawnPolygon(polygons[k], points[begins[k] : ends[k]], float(mean[k]))
+        for k in np.argsort(-mean, kind="stable").tolist()
+        if is_seen[k]
+    )
 
 
 def fit_zoom(polygons: Sequence[Polygon], observer: Observer) -> Observer:
@@ -197,7 +198,7 @@ def fit_zoom(polygons: Sequence[Polygon], observer: Observer) -> Observer:
     for axis in make_axes(polygons):
         points, depth = project_into_scene(polygons, axis.points, observer)
         drawn.append(points[depth > _NEAREST_DEPTH])
-    reach = max((float(np.abs(points).max(initial=0.0)) for points in drawn), default=1.0)
+    reach = float(np.abs(np.concatenate(drawn)).max(initial=0.0)) if drawn else 1.0
     return replace(observer, zoom=1.0 / reach)
 
 
@@ -243,13 +244,3 @@ def _make_camera_faces(camera: Camera, length: float) -> list[Array]:
     base = np.column_stack([rays, np.ones(4)]) * length
     apex = np.zeros(3)
     return [base, *(np.array([apex, base[i], base[(i + 1) % 4]]) for i in range(4))]
-
-
-def _transform_to_camera(points: Array, pose: Pose) -> Array:
-    """Transform points (n, 3) from the board\'s to the camera\'s frame, mm."""
-    return np.asarray(points @ rotation_from_vector(pose.rvec).T + pose.tvec)
-
-
-def _transform_to_board(points: Array, pose: Pose) -> Array:
-    """Transform points (n, 3) from the camera\'s to the board\'s frame, mm."""
-    return np.asarray((points - pose.tvec) @ rotation_from_vector(pose.rvec))

@@ -59,7 +59,7 @@ def summarise_residuals(residuals: Sequence[ViewResiduals]) -> ResidualSummary:
     image = np.concatenate([view.image for view in residuals])
     length = np.linalg.norm(np.concatenate([view.reference for view in residuals]), axis=1)
     sigma = image.std(axis=0)
-    typical = np.median([view.image.std(axis=0) for view in residuals], axis=0)
+    typical = np.median(_measure_sigma(image, [len(view.image) for view in residuals]), axis=0)
     return ResidualSummary(
         rms=float(np.sqrt(np.mean(np.sum(image**2, axis=1)))),
         sigma_x=float(sigma[0]),
@@ -70,6 +70,15 @@ def summarise_residuals(residuals: Sequence[ViewResiduals]) -> ResidualSummary:
         reference_sd=float(np.nanstd(length)),
         count=len(image),
     )
+
+
+def _measure_sigma(residual: Array, counts: Sequence[int]) -> Array:
+    """Measure the standard deviation (K, 2) of residuals (n, 2) of views of so many corners."""
+    corners = np.array(counts, dtype=np.int64)[:, None]
+    begins = np.cumsum(corners) - corners[:, 0]
+    mean = np.add.reduceat(residual, begins) / corners
+    off = residual - np.repeat(mean, counts, axis=0)
+    return np.sqrt(np.add.reduceat(off**2, begins) / corners)
 
 
 @dataclass(frozen=True, eq=False, slots=True)

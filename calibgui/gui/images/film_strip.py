@@ -200,8 +200,9 @@ class FilmStrip(QWidget):
 
     def _enable_actions(self) -> None:
         why = self.tr("No image is selected in the list.")
+        is_any_chosen = self.list.selectionModel().hasSelection()
         for action in self.actions_for_menu:
-            enable_action(action, bool(self.chosen), why)
+            enable_action(action, is_any_chosen, why)
 
     def _toggle(self) -> None:
         chosen = set(self.chosen)

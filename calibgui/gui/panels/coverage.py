@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
+
 import numpy as np
 import pyqtgraph as pg
 import scipy
 from PySide6.QtCore import QT_TRANSLATE_NOOP, Qt
-from PySide6.QtGui import QColor
+from PySide6.QtGui import QBrush, QColor
 from PySide6.QtWidgets import QLabel, QVBoxLayout
 
 from calibgui.dataset import Result
@@ -91,8 +93,9 @@ class CoveragePanel(Panel):
             np.stack([np.arange(1, len(tilt) + 1), attitude.distance], axis=1),
         )
         views = np.arange(len(tilt))
+        brushes = _make_brushes(self._indices)
         for points, at in zip(self._points, self._at, strict=True):
-            points.setData(*at.T, data=views, brush=[theme.view_colour(i) for i in self._indices])
+            points.setData(*at.T, data=views, brush=brushes)
         self.distances.set_labels(self.tr("view"), self.tr("distance"), y_unit=name_unit(result))
         self.distances.getPlotItem().getViewBox().setYRange(0, 1.1 * attitude.distance.max())
         reach = max(48.0, 1.05 * float(np.abs(self._at[0]).max()))
@@ -161,3 +164,10 @@ class CoveragePanel(Panel):
             label = pg.TextItem(f"{degrees}°", color=grey, anchor=(0.5, 0.5))
             label.setPos(degrees * np.sqrt(0.5), degrees * np.sqrt(0.5))
             self.tilts.addItem(label)
+
+
+def _make_brushes(views: Iterable[int]) -> list[QBrush]:
+    """Return the brush of each view: pyqtgraph draws one symbol for each object, not colour."""
+    brushes: dict[int, QBrush] = {}
+    colours = (theme.view_colour(view) for view in views)
+    return [brushes.setdefault(colour.rgba(), QBrush(colour)) for colour in colours]

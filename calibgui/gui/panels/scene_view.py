@@ -13,7 +13,7 @@ from PySide6.QtGui import (
     QPainter,
     QPaintEvent,
     QPen,
-    QPolygonF,
+    QResizeEvent,
     QWheelEvent,
 )
 from PySide6.QtWidgets import QWidget
@@ -44,7 +44,7 @@ _KEYS = {
 _SHARE = 0.44
 """Half the drawn scene in shorter sides of the widget: the rest is for numbers around it."""
 _FADED = 0.45
-"""Opacity of the farthest outline; that of the nearest is 1."""
+"""Share of its colour that the farthest outline has; that of the nearest is 1."""
 _SMOOTHED = 200
 """Outlines up to which they are smoothed: more take longer than a frame while one turns them."""
 _NUMBERED = 60
@@ -80,6 +80,8 @@ class SceneView(QWidget):
         self._numbers: Sequence[str] = ()
         self._colours: Sequence[QColor] = ()
         self._condition = ""
+        self._room_below: QRect | None = None
+        """Room of the sentence below the scene; None until it is measured."""
         self._selected = self._under_cursor = -1
         self._pressed: QPointF | None = None
         self._last = QPointF()
@@ -100,7 +102,7 @@ class SceneView(QWidget):
             colours: of the views.
             condition: a sentence on what lengths rest on; empty if they are confirmed.
         """
-        self._condition = condition
+        self._condition, self._room_below = condition, None
         self._polygons, self._numbers, self._colours = polygons, numbers, colours
         self._under_cursor = -1
         self.look_from(fit_zoom(polygons, self.observer))
@@ -155,13 +157,24 @@ class SceneView(QWidget):
 
     def _find_room_below(self) -> QRect:
         """Return the room of the sentence below the scene, which has none if it is empty."""
-        room = self.rect().adjusted(_MARGIN, 0, -_MARGIN, 0)
-        if self._condition:
-            text = self.fontMetrics().boundingRect(room, _BELOW, self._condition)
-            room.setTop(text.top() - _MARGIN)
-        else:
-            room.setTop(room.bottom() + 1)
-        return room
+        if self._room_below is None:
+            room = self.rect().adjusted(_MARGIN, 0, -_MARGIN, 0)
+            if self._condition:
+                text = self.fontMetrics().boundingRect(room, _BELOW, self._condition)
+                room.setTop(text.top() - _MARGIN)
+            else:
+                room.setTop(room.bottom() + 1)
+            self._room_below = room
+        return self._room_below
+
+    def resizeEvent(self, event: QResizeEvent) -> None:  # noqa: N802 - Qt's name
+        super().resizeEvent(event)
+        self._room_below = None
+
+    def changeEvent(self, event: QEvent) -> None:  # noqa: N802 - Qt's name
+        super().changeEvent(event)
+        if event.type() == QEvent.Type.FontChange:
+            self._room_below = None
 
     def _place_scene(self) -> tuple[float, Array]:
         """Return the scale of the drawing plane, px, and the place (2,) of its middle."""
@@ -178,13 +191,14 @@ class SceneView(QWidget):
         view = item.polygon.view
         rank = self._rank(view)
         colour = QColor(theme.current().muted) if view < 0 else self._colours[view]
-        outline, inside = QColor(colour), QColor(colour)
-        outline.setAlphaF(1.0 if rank else self._opacity(item.depth))
+        # Mixed with the ground, not translucent: those are drawn in a third of the time.
+        outline = _mix(colour, theme.current().base, 1.0 if rank else self._opacity(item.depth))
+        inside = QColor(colour)
         inside.setAlpha((0, 70, 140)[rank])
         painter.setPen(QPen(outline, (1.0, 1.8, 2.5)[rank]))
         painter.setBrush(inside if rank else Qt.BrushStyle.NoBrush)
         points = self.to_widget(item.points)
-        painter.drawPolygon(QPolygonF(points))
+        painter.drawPolygon(points)
         if item.polygon.kind is PolygonKind.BOARD and rank:
             self._paint_board_axes(painter, points)
 
@@ -317,3 +331,13 @@ class SceneView(QWidget):
             self.look_from(self.observer.zoomed(1.2 if event.text() == "+" else 1 / 1.2))
         else:
             super().keyPressEvent(event)
+
+
+def _mix(colour: QColor, ground: str, share: float) -> QColor:
+    """Return a colour of which `share` is `colour` and the rest is that of the ground."""
+    under, rest = QColor(ground), 1 - share
+    return QColor.fromRgbF(
+        share * colour.redF() + rest * under.redF(),
+        share * colour.greenF() + rest * under.greenF(),
+        share * colour.blueF() + rest * under.blueF(),
+    )

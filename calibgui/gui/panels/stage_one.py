@@ -72,9 +72,10 @@ class StageOnePanel(Panel):
         layout.addWidget(Split(900, (self.table, 1), (plots, 1)))
 
     def _refresh(self, result: Result) -> None:
-        rows = result.calibration.stage_one
-        colours = theme.current()
-        self.table.show_columns(self._columns(result), self._outlying(rows))
+        self._rows = tuple(result.calibration.stage_one)
+        self._names = shorten_names(result.used)
+        rows, colours = self._rows, theme.current()
+        self.table.show_columns(self._list_columns(), self._outlying(rows))
         self._curve.setPen(pg.mkPen(colours.accent, width=2))
         self._line.setPen(pg.mkPen(colours.line))
         self._line.setSymbolBrush(colours.accent)
@@ -96,22 +97,22 @@ class StageOnePanel(Panel):
     def _show_equation(self, k: int) -> None:
         """Draw the equation of calibrated view k, of the first if k is -1, and mark its root."""
         assert self._result is not None
-        calibration = self._result.calibration
-        row = calibration.stage_one[max(k, 0)]
-        g = evaluate_cosines_equation(row.backward, _SEARCHED, calibration.cost is Cost.PAPER)
+        is_paper = self._result.calibration.cost is Cost.PAPER
+        row = self._rows[max(k, 0)]
+        g = evaluate_cosines_equation(row.backward, _SEARCHED, is_paper)
         self._curve.setData(_SEARCHED, g, connect="finite")
         known = np.isfinite(row.aspect)
         self._root.setData([row.aspect] if known else [], [0.0] if known else [])
         self._current.setData([max(k, 0) + 1] if known else [], [row.aspect] if known else [])
-        name = elide_name(shorten_names(self._result.used)[max(k, 0)])
+        name = elide_name(self._names[max(k, 0)])
         self.equation.set_title(
             self.tr("{0}<br>r = {1:.4f}").format(name, row.aspect)
             if known
             else self.tr("{0}<br>aspect ratio not determined").format(name)
         )
 
-    def _columns(self, result: Result) -> list[Column]:
-        rows, names = result.calibration.stage_one, shorten_names(result.used)
+    def _list_columns(self) -> list[Column]:
+        rows, names = self._rows, self._names
         steps = self.tr("Steps")
         power = _power([row.k1 for row in rows])
         shown: tuple[tuple[str, str, Callable[[Any], str], str], ...] = (

@@ -14,6 +14,7 @@ from calibgui.engine.uncertainty.next_view import NextView, propose_views
 from calibgui.gui.jobs.jobs import Jobs
 from calibgui.gui.panels import coverage
 from calibgui.gui.panels.coverage import CoveragePanel
+from calibgui.gui.widgets import theme
 from calibgui.report.coverage import measure_attitudes
 from tests.gui.panels.conftest import Shown, click
 
@@ -53,6 +54,15 @@ def test_tilts_and_distances(panel: CoveragePanel, result: Result) -> None:
     views, distance = panel._points[1].getData()
     np.testing.assert_array_equal(views, np.arange(1, 10))
     np.testing.assert_array_equal(distance, attitude.distance)
+
+
+def test_views_of_one_colour_share_their_symbol(panel: CoveragePanel) -> None:
+    brushes = coverage._make_brushes(range(300))
+    colours = [theme.view_colour(view) for view in range(300)]
+    assert [brush.color() for brush in brushes] == colours
+    assert len(set(map(id, brushes))) == len({colour.rgba() for colour in colours}) < 100
+    for points in panel._points:
+        assert len(points.fragmentAtlas) == len(points.getData()[0]) == 9, "each is drawn once"
 
 
 def test_points_pick_their_view(panel: CoveragePanel, qtbot: QtBot) -> None:
