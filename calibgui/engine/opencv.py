@@ -1,7 +1,8 @@
 """OpenCV's image processing behind functions that hide its versions.
 
 No other module imports cv2, because its shapes and names differ between 4.x and 5.x. Points come
-back as (n, 2) float64 whatever the version.
+back as (n, 2) float64 whatever the version. It is loaded when it is first used: the window is on
+the screen before it is.
 """
 
 from __future__ import annotations
@@ -9,19 +10,35 @@ from __future__ import annotations
 import contextlib
 from collections.abc import Iterator, Mapping, Sequence
 from functools import cache
+from importlib import import_module
 from types import MappingProxyType
-from typing import Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
-import cv2
 import numpy as np
 import numpy.typing as npt
 
 from calibgui.engine.arrays import Array, BoolArray, FloatImage, GreyImage, IntArray, Size
 
-VERSION: str = cv2.__version__
+if TYPE_CHECKING:
+    import cv2
+else:
 
-# The caller reports failures and names the file; OpenCV would print them as well.
-cv2.utils.logging.setLogLevel(cv2.utils.logging.LOG_LEVEL_SILENT)
+    class _NotLoaded:
+        """Stands for cv2 until something of it is asked for, by any thread."""
+
+        def __getattr__(self, name: str) -> Any:
+            module = import_module("cv2")
+            # The caller reports failures and names the file; OpenCV would print them as well.
+            module.utils.logging.setLogLevel(module.utils.logging.LOG_LEVEL_SILENT)
+            globals()["cv2"] = module
+            return getattr(module, name)
+
+    cv2 = _NotLoaded()
+
+
+def get_version() -> str:
+    """Return the version of OpenCV."""
+    return str(cv2.__version__)
 
 
 @contextlib.contextmanager
@@ -252,15 +269,17 @@ class CalibratedCamera(NamedTuple):
     """(K, 3) translations, in the unit of the board's points."""
 
 
-FIX_FLAGS: Mapping[tuple[str, ...], int] = {
-    ("fx", "fy"): cv2.CALIB_FIX_FOCAL_LENGTH,
-    ("cx", "cy"): cv2.CALIB_FIX_PRINCIPAL_POINT,
-    ("k1",): cv2.CALIB_FIX_K1,
-    ("k2",): cv2.CALIB_FIX_K2,
-    ("k3",): cv2.CALIB_FIX_K3,
-    ("p1", "p2"): cv2.CALIB_FIX_TANGENT_DIST,
+_FIX_FLAGS = {
+    ("fx", "fy"): "CALIB_FIX_FOCAL_LENGTH",
+    ("cx", "cy"): "CALIB_FIX_PRINCIPAL_POINT",
+    ("k1",): "CALIB_FIX_K1",
+    ("k2",): "CALIB_FIX_K2",
+    ("k3",): "CALIB_FIX_K3",
+    ("p1", "p2"): "CALIB_FIX_TANGENT_DIST",
 }
-"""The flags of `calibrate_camera` that hold parameters, by the names that each one holds."""
+"""Names of the flags that hold parameters, by the names that each one holds."""
+HELD_TOGETHER = tuple(_FIX_FLAGS)
+"""Names of the parameters that `calibrate_camera` can hold, those in one tuple only together."""
 
 
 def calibrate_camera(
@@ -268,7 +287,7 @@ def calibrate_camera(
     xy: Sequence[Array],
     size: Size,
     guess: Array | None,
-    flags: int,
+    held: Sequence[tuple[str, ...]],
     max_iterations: int,
 ) -> CalibratedCamera | None:
     """Calibrate a camera with `cv2.calibrateCamera` and its five coefficients.
@@ -282,7 +301,7 @@ def calibrate_camera(
         xy: per view the same corners (n, 2) on the board.
         size: width and height of the images, px.
         guess: (9,) parameters to start from, as in `CalibratedCamera`; None for OpenCV's own start.
-        flags: sum of `FIX_FLAGS`, which need a guess.
+        held: those of `HELD_TOGETHER` that are held, which need a guess.
         max_iterations: largest number of its iterations.
 
     Returns:
@@ -295,6 +314,7 @@ def calibrate_camera(
         max_iterations,
         float(np.finfo(np.float64).eps),
     )
+    flags = sum(getattr(cv2, _FIX_FLAGS[names]) for names in held)
     matrix, coefficients = None, None
     if guess is not None:
         fx, fy, cx, cy = guess[:4]
