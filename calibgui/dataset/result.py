@@ -23,7 +23,7 @@ def list_installed_versions() -> dict[str, str]:
         "calibgui": calibgui.__version__,
         "numpy": np.__version__,
         "scipy": scipy.__version__,
-        "opencv": opencv.get_version(),
+        "opencv": opencv.VERSION,
         "python": platform.python_version(),
     }
 

@@ -1,8 +1,7 @@
 """OpenCV's image processing behind functions that hide its versions.
 
 No other module imports cv2, because its shapes and names differ between 4.x and 5.x. Points come
-back as (n, 2) float64 whatever the version. It is loaded when it is first used: the window is on
-the screen before it is.
+back as (n, 2) float64 whatever the version.
 """
 
 from __future__ import annotations
@@ -10,35 +9,19 @@ from __future__ import annotations
 import contextlib
 from collections.abc import Iterator, Mapping, Sequence
 from functools import cache
-from importlib import import_module
 from types import MappingProxyType
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import Any, NamedTuple
 
+import cv2
 import numpy as np
 import numpy.typing as npt
 
 from calibgui.engine.arrays import Array, BoolArray, FloatImage, GreyImage, IntArray, Size
 
-if TYPE_CHECKING:
-    import cv2
-else:
+VERSION: str = cv2.__version__
 
-    class _NotLoaded:
-        """Stands for cv2 until something of it is asked for, by any thread."""
-
-        def __getattr__(self, name: str) -> Any:
-            module = import_module("cv2")
-            # The caller reports failures and names the file; OpenCV would print them as well.
-            module.utils.logging.setLogLevel(module.utils.logging.LOG_LEVEL_SILENT)
-            globals()["cv2"] = module
-            return getattr(module, name)
-
-    cv2 = _NotLoaded()
-
-
-def get_version() -> str:
-    """Return the version of OpenCV."""
-    return str(cv2.__version__)
+# The caller reports failures and names the file; OpenCV would print them as well.
+cv2.utils.logging.setLogLevel(cv2.utils.logging.LOG_LEVEL_SILENT)
 
 
 @contextlib.contextmanager
@@ -269,17 +252,15 @@ class CalibratedCamera(NamedTuple):
     """(K, 3) translations, in the unit of the board's points."""
 
 
-_FIX_FLAGS = {
-    ("fx", "fy"): "CALIB_FIX_FOCAL_LENGTH",
-    ("cx", "cy"): "CALIB_FIX_PRINCIPAL_POINT",
-    ("k1",): "CALIB_FIX_K1",
-    ("k2",): "CALIB_FIX_K2",
-    ("k3",): "CALIB_FIX_K3",
-    ("p1", "p2"): "CALIB_FIX_TANGENT_DIST",
+FIX_FLAGS: Mapping[tuple[str, ...], int] = {
+    ("fx", "fy"): cv2.CALIB_FIX_FOCAL_LENGTH,
+    ("cx", "cy"): cv2.CALIB_FIX_PRINCIPAL_POINT,
+    ("k1",): cv2.CALIB_FIX_K1,
+    ("k2",): cv2.CALIB_FIX_K2,
+    ("k3",): cv2.CALIB_FIX_K3,
+    ("p1", "p2"): cv2.CALIB_FIX_TANGENT_DIST,
 }
-"""Names of the flags that hold parameters, by the names that each one holds."""
-HELD_TOGETHER = tuple(_FIX_FLAGS)
-"""Names of the parameters that `calibrate_camera` can hold, those in one tuple only together."""
+"""The flags of `calibrate_camera` that hold parameters, by the names that each one holds."""
 
 
 def calibrate_camera(
@@ -287,7 +268,7 @@ def calibrate_camera(
     xy: Sequence[Array],
     size: Size,
     guess: Array | None,
-    held: Sequence[tuple[str, ...]],
+    flags: int,
     max_iterations: int,
 ) -> CalibratedCamera | None:
     """Calibrate a camera with `cv2.calibrateCamera` and its five coefficients.
@@ -301,7 +282,7 @@ def calibrate_camera(
         xy: per view the same corners (n, 2) on the board.
         size: width and height of the images, px.
         guess: (9,) parameters to start from, as in `CalibratedCamera`; None for OpenCV's own start.
-        held: those of `HELD_TOGETHER` that are held, which need a guess.
+        flags: sum of `FIX_FLAGS`, which need a guess.
         max_iterations: largest number of its iterations.
 
     Returns:
@@ -314,7 +295,6 @@ def calibrate_camera(
         max_iterations,
         float(np.finfo(np.float64).eps),
     )
-    flags = sum(getattr(cv2, _FIX_FLAGS[names]) for names in held)
     matrix, coefficients = None, None
     if guess is not None:
         fx, fy, cx, cy = guess[:4]

@@ -137,7 +137,7 @@ def test_an_empty_window_is_there_at_once(tmp_path: Path) -> None:
         "import sys\n"
         "parts = ('linalg', 'ndimage', 'optimize', 'sparse', 'spatial', 'special', 'stats')\n"
         "heavy = {'scipy.' + part for part in parts}\n"
-        "heavy |= {'numba', 'pyqtgraph', 'matplotlib', 'cv2', 'urllib.request'}\n"
+        "heavy |= {'numba', 'pyqtgraph', 'matplotlib', 'urllib.request'}\n"
         "heavy &= set(sys.modules)\n"
         "assert not heavy, heavy\n"
     )

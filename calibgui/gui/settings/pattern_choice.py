@@ -56,6 +56,8 @@ class PatternChoice(QWidget):
         self.dictionary = QComboBox()
         self.dictionary.setToolTip(self.tr("The set of markers on the board, by OpenCV's name."))
         self.dictionary.addItem(undecided, None)
+        for name in opencv.list_dictionaries():
+            self.dictionary.addItem(name.removeprefix("DICT_"), name)
         self.layout_used = QComboBox()
         self.layout_used.setToolTip(
             self.tr("Boards with an even number of rows of squares changed with OpenCV 4.6.")
@@ -179,7 +181,6 @@ class PatternChoice(QWidget):
             self.form.setRowVisible(field, shown)
         self.kind.setCurrentIndex(self.kind.findData(pattern.kind))
         if isinstance(pattern, Charuco):
-            self._list_dictionaries()
             self.dictionary.setCurrentIndex(self.dictionary.findData(pattern.dictionary))
             self.layout_used.setCurrentIndex(self.layout_used.findData(pattern.legacy))
             _show(self.marker, (pattern.marker or 0.0) * side)
@@ -198,12 +199,6 @@ class PatternChoice(QWidget):
             for line, number in zip((self.first_row, self.first_col), pattern.origin, strict=True):
                 with QSignalBlocker(line):
                     line.setValue(number)
-
-    def _list_dictionaries(self) -> None:
-        """List the dictionaries when they are needed first: OpenCV has them, which loads late."""
-        if self.dictionary.count() == 1:
-            for name in opencv.list_dictionaries():
-                self.dictionary.addItem(name.removeprefix("DICT_"), name)
 
     def _edit(self) -> None:
         pattern = KINDS[self.kind.currentData()]

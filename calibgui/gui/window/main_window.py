@@ -354,7 +354,6 @@ def _accept_copy(event: QDropEvent) -> None:
 _SOLVER_KERNELS = ("board_shape", "homography", "normal_equations", "stage_one")
 """Modules of ``engine.kernels`` that a calibration uses."""
 _NEEDED_SOON = (
-    "cv2",
     "scipy.stats",
     "calibgui.gui.panels.analysis",
     *(f"calibgui.engine.kernels.{name}" for name in _SOLVER_KERNELS if COMPILED),

@@ -64,7 +64,7 @@ def _initialise(given: Given) -> Initialisation:
         raise CalibrationError(
             "OpenCV's calibration knows no skew.", "Hold it at 0, or choose another method."
         )
-    for names in opencv.HELD_TOGETHER:
+    for names in opencv.FIX_FLAGS:
         if held & set(names) and not held >= set(names):
             raise CalibrationError(
                 f"OpenCV's calibration holds {' and '.join(names)} only together.",
@@ -81,14 +81,14 @@ def _refine(
     max_iterations: int,
 ) -> Refinement:
     """Call OpenCV, and evaluate what it returns."""
-    held = [names for names in opencv.HELD_TOGETHER if names[0] in options.held]
+    fixed = [flag for names, flag in opencv.FIX_FLAGS.items() if names[0] in options.held]
     counted = [observations.corners_of(k) for k in range(len(observations.uv))]
     found = opencv.calibrate_camera(
         [uv[corners] for uv, corners in zip(observations.uv, counted, strict=True)],
         [xy[corners] for xy, corners in zip(observations.xy, counted, strict=True)],
         options.size,
-        start.params[:9] if held else None,
-        held,
+        start.params[:9] if fixed else None,
+        sum(fixed),
         max_iterations,
     )
     if found is None or not all(np.isfinite(values).all() for values in found):

@@ -135,5 +135,5 @@ def test_views_that_opencv_refuses(
     monkeypatch.setattr(cv2, "calibrateCamera", refuse)
     with pytest.raises(StartError, match="OpenCV finds no camera in these views"):
         calibrate(views, VGA, method=OPENCV)
-    nothing = opencv.calibrate_camera([views[0].uv], [views[0].xy], VGA, None, (), 30)
+    nothing = opencv.calibrate_camera([views[0].uv], [views[0].xy], VGA, None, 0, 30)
     assert nothing is None
