@@ -15,7 +15,7 @@ _MAX_LISTED = 20
 def summarise_batch(cameras: int, worked_on: int, failed: int) -> str:
     """Summarise in a sentence how many cameras there are, were worked on, and fail."""
     return (
-        f"{format_count(cameras, 'camera')}: {cameras - worked_on} were done before, "
+        f"{format_count(cameras, 'camera')}: {cameras - worked_on} done before, "
         f"{cameras - failed} pass, {failed} fail."
     )
 

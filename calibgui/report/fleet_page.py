@@ -38,6 +38,7 @@ th.text, td.text { text-align: left } .bad { color: var(--bad) } .good { color: 
 .tiles { display: flex; flex-wrap: wrap; gap: 1rem; margin: 1rem 0 }
 .tile { border: 1px solid var(--line); border-radius: 6px; padding: .5rem 1rem }
 .tile b { display: block; font-size: 1.5rem } .scroll { overflow-x: auto }
+.date { white-space: nowrap }
 svg text { font: 10px sans-serif; fill: var(--soft) }
 svg .title { font-size: 12px; fill: CanvasText }
 svg .bar { fill: var(--bar) } svg .axis { fill: none; stroke: var(--line) }
@@ -95,7 +96,7 @@ class FleetPages:
             parts.append(f'<div class="plots">{plots}</div>')
         parts.append("<h2>All cameras</h2>")
         rows = [[*_name_camera(one, links), *_list_figures(one)] for one in overview.placed]
-        parts.append(_make_table([*_NAMES, *_FIGURES], rows, texts=(0, 1, 2, 3)))
+        parts.append(_make_table([*_NAMES, *_FIGURES], rows, texts=(0, 1, 2, 3, 4)))
         return _make_page(self._name, parts)
 
     def make_cameras(self) -> Iterator[tuple[str, str]]:
@@ -269,7 +270,7 @@ def _measure(one: PlacedCamera) -> dict[str, float]:
     figures = one.camera.figures
     assert figures is not None
     measured = {
-        "difference from the median camera [px rms]": one.difference,
+        "from the median camera [px rms]": one.difference,
         "residuals [px rms]": figures.rms,
         "error at the edge [px]": figures.error.edge,
         "coverage": figures.coverage,
@@ -300,7 +301,7 @@ def _list_facts(one: PlacedCamera) -> list[list[str]]:
     if figures is not None:
         error = figures.error
         facts |= {
-            "Grade": str(figures.grade),
+            "Grade": _name_grade(figures),
             "Reason": figures.reason,
             "Image size": f"{figures.size[0]} × {figures.size[1]} px",
             "Lens model": figures.lens_model,
@@ -325,7 +326,8 @@ def _name_camera(one: PlacedCamera, links: Mapping[str, str]) -> list[str]:
     """Return the cells of a camera's link, serial number and date."""
     camera = one.camera
     link = f'<a href="{escape(links[camera.id])}">{escape(camera.id)}</a>'
-    return [link, escape(camera.entry.serial), escape(camera.entry.date)]
+    date = f'<span class="date">{escape(camera.entry.date)}</span>'
+    return [link, escape(camera.entry.serial), date]
 
 
 def _list_figures(one: PlacedCamera) -> list[str]:
@@ -336,7 +338,7 @@ def _list_figures(one: PlacedCamera) -> list[str]:
         return [verdict, "–", *["–"] * (len(_FIGURES) - 2)]
     return [
         verdict,
-        escape(str(figures.grade)),
+        _name_grade(figures),
         str(figures.views),
         _format(figures.rms, 3),
         _format(figures.error.edge, 3),
@@ -364,6 +366,10 @@ def _list_change(one: PlacedCamera, links: Mapping[str, str]) -> list[str]:
     ]
 
 
+def _name_grade(figures: FleetFigures) -> str:
+    return str(figures.grade).replace("-", " ")
+
+
 def _format_estimate(value: Estimate) -> str:
     if value.sigma == 0:
         return f"held at {value.value:.6g}"
@@ -374,7 +380,9 @@ def _format(value: float, decimals: int) -> str:
     """Format a number, which may be infinite or unknown."""
     if math.isnan(value):
         return "–"
-    return f"{value:.{decimals}f}" if math.isfinite(value) else "∞"
+    if math.isinf(value):
+        return "∞"
+    return f"{round(value, decimals) + 0.0:.{decimals}f}"  # no minus before nothing
 
 
 def _name_kind(kind: Kind) -> str:

@@ -41,7 +41,7 @@ def test_everything_done_is_said_and_nothing_is_started(
 ) -> None:
     assert main(["batch", str(fleet), "-o", str(finished), *BOARD]) == 0
     printed = capsys.readouterr().out
-    assert "2 cameras: 2 were done before, 2 pass, 0 fail." in printed
+    assert "2 cameras: 2 done before, 2 pass, 0 fail." in printed
     assert "dashboard" not in printed
     with open_ledger(finished) as ledger:
         assert [camera.id for camera in ledger.read()] == ["c0", "c1"]
@@ -61,7 +61,7 @@ def test_a_broken_limit_is_named_and_ends_with_3(
     failed = json.loads(capsys.readouterr().out)["failed"]
     assert failed["c1"] == ["6 views are used, fewer than the limit of 7."]
     assert main([*command, "-q"]) == 0
-    assert capsys.readouterr().out.startswith("2 cameras: 2 were done before, 2 pass")
+    assert capsys.readouterr().out.startswith("2 cameras: 2 done before, 2 pass")
     limits.write_text("fewest = 7\n")
     assert main([*command, "--limits", str(limits)]) == 1
     assert "no limit 'fewest'" in capsys.readouterr().err

@@ -66,12 +66,16 @@ def run_batch(
     """
     folder = FleetFolder(ledger.path)
     folder.make()
-    waiting = list(_find_waiting(tasks, ledger, folder))
-    spent = {work.task.entry.id: work.known.cpu_seconds for work in waiting if work.known}
-    worked_on = 0
-    for done, camera in enumerate(_calibrate_all(waiting, scheduler), start=1):
-        # A worker that finds a camera done leaves the time as an earlier run has measured it.
-        worked_on += camera.cpu_seconds != spent.get(camera.id)
+    waiting, worked_on = [], 0
+    for work, camera in _look_at_cameras(tasks, ledger, folder):
+        if camera is None:
+            waiting.append(work)
+            continue
+        worked_on += not _is_of_earlier_run(camera, work.known)
+        if camera != work.known:
+            ledger.write([camera])
+    for done, (work, camera) in enumerate(_calibrate_all(waiting, scheduler), start=1):
+        worked_on += not _is_of_earlier_run(camera, work.known)
         ledger.write([camera])
         if progress is not None:
             progress(done, len(waiting))
@@ -82,20 +86,27 @@ def run_batch(
     return BatchSummary(len(tasks), worked_on, failed)
 
 
-def _find_waiting(
+def _look_at_cameras(
     tasks: Iterable[CameraTask], ledger: Ledger, folder: FleetFolder
-) -> Iterator[Work]:
-    """Yield the cameras that a worker has to look at.
+) -> Iterator[tuple[Work, FleetCamera | None]]:
+    """Yield the cameras with their rows, None for those that a worker has to look at.
 
     Files are looked at here, which takes little; addresses are left to the workers.
     """
     for task in tasks:
         work = Work(task, ledger.find(task.entry.id), folder)
-        row = None if any(map(is_remote, task.paths)) else _find_row(work)
-        if row is None:
-            yield work
-        elif row != work.known:
-            ledger.write([row])
+        yield work, None if any(map(is_remote, task.paths)) else _find_row(work)
+
+
+def _is_of_earlier_run(camera: FleetCamera, known: FleetCamera | None) -> bool:
+    """Return whether a row says no more than an earlier run has `known`.
+
+    A camera that is calibrated again takes another time.
+    """
+    return known is not None and (camera.status, camera.cpu_seconds) == (
+        known.status,
+        known.cpu_seconds,
+    )
 
 
 def _find_row(work: Work) -> FleetCamera | None:
@@ -109,23 +120,24 @@ def _find_row(work: Work) -> FleetCamera | None:
     return work.known.take_entry(work.task.entry)
 
 
-def _calibrate_all(waiting: Sequence[Work], scheduler: Scheduler) -> Iterator[FleetCamera]:
-    """Yield the rows of cameras as they end; those whose process died are tried once more."""
+def _calibrate_all(
+    waiting: Sequence[Work], scheduler: Scheduler
+) -> Iterator[tuple[Work, FleetCamera]]:
+    """Yield cameras with their rows as they end; those whose process died are tried once more."""
     crashed = []
     for k, camera in scheduler.run(calibrate_camera, waiting):
         if isinstance(camera, Crashed):
             crashed.append(waiting[k])
         else:
-            yield camera
+            yield waiting[k], camera
     for k, camera in scheduler.run(calibrate_camera, crashed):
         if isinstance(camera, Crashed):
-            yield refuse_camera(
+            camera = refuse_camera(
                 crashed[k].task,
                 "The process that worked on it died twice.",
                 "Give workers more memory, or calibrate it by itself to see why.",
             )
-        else:
-            yield camera
+        yield crashed[k], camera
 
 
 def _measure_changes(

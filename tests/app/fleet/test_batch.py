@@ -250,6 +250,7 @@ def test_bad_cameras_are_named_and_stop_nobody(fleet: Path, tmp_path: Path) -> N
     summary = run(tasks, ledger, Here())
     rows = {row.id: row for row in read_rows(ledger)}
     assert rows["good"].passed
+    assert summary.worked_on == len(tasks), "one without photographs was not done before either"
     assert {camera.id for camera in summary.failed} == expected.keys()
     for name, words in expected.items():
         assert words in rows[name].failures[0]
