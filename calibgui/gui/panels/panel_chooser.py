@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 
 from PySide6.QtCore import QCoreApplication, Signal
@@ -9,20 +10,21 @@ from PySide6.QtWidgets import QButtonGroup, QGridLayout, QSizePolicy, QToolButto
 
 from calibgui.gui.panels.panel import Panel
 
-_PER_ROW = 3
+_MAX_PER_ROW = 3
 _ROWS = 2
 """Of every group, so that choosing another one moves nothing."""
 
 
 class PanelChooser(QWidget):
-    """Shows every name at once, in rows of three."""
+    """Shows every name at once, in two rows of equally many, or nearly so."""
 
     chosen = Signal(object)
     """The kind of panel that the user chose."""
 
     def __init__(self, kinds: Sequence[type[Panel]]) -> None:
         super().__init__()
-        assert len(kinds) <= _PER_ROW * _ROWS
+        per_row = math.ceil(len(kinds) / _ROWS)
+        assert per_row <= _MAX_PER_ROW
         self.buttons: dict[type[Panel], QToolButton] = {}
         group = QButtonGroup(self)
         grid = QGridLayout(self)
@@ -36,12 +38,12 @@ class PanelChooser(QWidget):
             button.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Fixed)
             button.clicked.connect(lambda _=False, kind=kind: self.chosen.emit(kind))
             group.addButton(button)
-            grid.addWidget(button, k // _PER_ROW, k % _PER_ROW)
+            grid.addWidget(button, k // per_row, k % per_row)
             self.buttons[kind] = button
         height = next(iter(self.buttons.values())).sizeHint().height()
         for row in range(_ROWS):
             grid.setRowMinimumHeight(row, height)
-        for column in range(_PER_ROW):
+        for column in range(per_row):
             grid.setColumnStretch(column, 1)
 
     def show_chosen(self, kind: type[Panel]) -> None:

@@ -115,34 +115,38 @@ class StageOnePanel(Panel):
         rows, names = self._rows, self._names
         steps = self.tr("Steps")
         power = _power([row.k1 for row in rows])
-        shown: tuple[tuple[str, str, Callable[[Any], str], str], ...] = (
+        shown: tuple[tuple[str, str, Callable[[Any], str], str, str], ...] = (
             (
                 "xp",
                 "xp",
                 with_decimals(1),
-                self.tr("Principal point right of the array's centre, px"),
+                "px",
+                self.tr("Principal point right of the array's centre"),
             ),
-            ("yp", "yp", with_decimals(1), self.tr("Principal point above the array's centre, px")),
+            ("yp", "yp", with_decimals(1), "px", self.tr("Principal point above the centre")),
             (
                 "k1",
                 "k1",
                 lambda k1: f"{k1 / 10.0**power:.2f}",
-                self.tr("First radial coefficient, 1/px²"),
+                "1/px²",
+                self.tr("First radial coefficient"),
             ),
             (
                 "fy/fx",
                 "aspect",
                 with_decimals(4),
+                "",
                 self.tr("Aspect ratio: root of the cosines' equation"),
             ),
-            ("fx", "fx", with_decimals(0), self.tr("Focal length, px")),
-            ("fy", "fy", with_decimals(0), self.tr("Focal length, px")),
-            (steps, "iterations", str, self.tr("Iterations of Levenberg-Marquardt")),
+            ("fx", "fx", with_decimals(0), "px", self.tr("Focal length")),
+            ("fy", "fy", with_decimals(0), "px", self.tr("Focal length")),
+            (steps, "iterations", str, "", self.tr("Iterations of Levenberg-Marquardt")),
             (
                 "RMS",
                 "rms",
                 with_decimals(3),
-                self.tr("Residual on the reference plane, reference px"),
+                self.tr("px′"),
+                self.tr("Residual on the reference plane; px′ are its pixels, 30 to a square"),
             ),
         )
         headings = {"k1": f"k1·10{str(-power).translate(_RAISED)}", steps: "n"}
@@ -157,8 +161,9 @@ class StageOnePanel(Panel):
                     tip,
                     heading=headings.get(t, ""),
                     optional=name in _OPTIONAL,
+                    unit=unit,
                 )
-                for t, name, text, tip in shown
+                for t, name, text, unit, tip in shown
             ),
         ]
 

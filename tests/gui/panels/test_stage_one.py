@@ -22,7 +22,10 @@ from tests.gui.panels.conftest import Shown, click
 def test_table_holds_stage_one(shown: Shown[StageOnePanel], result: Result) -> None:
     panel = shown(StageOnePanel, result)
     rows = list(csv.reader(io.StringIO(panel.table.as_csv())))
-    assert rows[0] == ["View", "xp", "yp", "k1", "fy/fx", "fx", "fy", "Steps", "RMS"]
+    units = {"px": ("xp", "yp", "fx", "fy"), "1/px²": ("k1",), "px′": ("RMS",)}
+    unit_of = {name: f" [{unit}]" for unit, names in units.items() for name in names}
+    names = ["View", "xp", "yp", "k1", "fy/fx", "fx", "fy", "Steps", "RMS"]
+    assert rows[0] == [name + unit_of.get(name, "") for name in names]
     for row, view, name in zip(
         rows[1:], result.calibration.stage_one, [v.image for v in result.used], strict=True
     ):
@@ -96,7 +99,9 @@ def test_the_whole_table_is_seen_in_the_least_width(
     assert panel.table.horizontalHeader().length() <= panel.table.viewport().width()
     texts = [panel.table.model().index(3, column).data() for column in range(9)]
     view = result.calibration.stage_one[3]
-    power = int(panel.table.model().headerData(3, Qt.Orientation.Horizontal)[-1:].translate(_PLAIN))
+    heading, _, unit = panel.table.model().headerData(3, Qt.Orientation.Horizontal).partition("\n")
+    assert unit == "[1/px²]"
+    power = int(heading[-1:].translate(_PLAIN))
     assert float(texts[3]) * 10.0**-power == pytest.approx(view.k1, abs=0.005 * 10.0**-power)
     assert texts[0] == "view4"
 
