@@ -255,9 +255,13 @@ def draw_polyline(painter: QPainter, at: Array, colour: QColor) -> None:
 
 
 def draw_label(painter: QPainter, at: Array, text: str, colour: QColor) -> None:
-    """Text beside a screen position (2,), on a dark patch."""
+    """Text beside a screen position (2,), on a dark patch: whole, if the position is in sight."""
     box = QRectF(painter.fontMetrics().boundingRect(text)).adjusted(-3, -1, 3, 1)
     box.moveTopLeft(QPointF(at[0] + 8, at[1] + 4))
+    room = QRectF(painter.viewport())
+    if room.contains(QPointF(*at)):
+        box.moveRight(min(box.right(), room.right()))
+        box.moveBottom(min(box.bottom(), room.bottom()))
     painter.setPen(Qt.PenStyle.NoPen)
     painter.setBrush(theme.HALO)
     painter.drawRoundedRect(box, 3, 3)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 from PySide6.QtCore import QPoint, QPointF, Qt
-from PySide6.QtGui import QColor, QWheelEvent
+from PySide6.QtGui import QColor, QImage, QPainter, QWheelEvent
 from PySide6.QtWidgets import QApplication
 from pytestqt.qtbot import QtBot
 
@@ -194,3 +194,24 @@ def test_a_residual_is_drawn_as_many_times_as_long_as_asked(canvas: Canvas) -> N
         canvas.show_marks(Marks(CORNERS, None, CORNERS.uv, CORNERS.uv - [0.2, -0.1]))
         canvas.grab()
     np.testing.assert_allclose(drawn[-1], np.tile([6.0, -3.0], (12, 1)), atol=1e-9)
+
+
+@pytest.mark.parametrize(
+    ("u", "v", "is_whole"),
+    [(60, 40, True), (195, 40, True), (60, 96, True), (199, 99, True), (-40, 40, False)],
+)
+def test_a_label_is_whole_where_its_place_is_in_sight(
+    qapp: QApplication, u: float, v: float, is_whole: bool
+) -> None:
+    def count_painted(u: float, v: float) -> int:
+        picture = QImage(200, 100, QImage.Format.Format_Grayscale8)
+        picture.fill(255)
+        painter = QPainter(picture)
+        layers.draw_label(painter, np.array([u, v]), "20 px", theme.MAGNITUDE)
+        painter.end()
+        grey = np.frombuffer(picture.constBits(), np.uint8).reshape(100, -1)[:, :200]
+        return int((grey < 255).sum())
+
+    whole = count_painted(20.0, 20.0)
+    assert whole > 200
+    assert (abs(count_painted(u, v) - whole) < 0.02 * whole) is is_whole
