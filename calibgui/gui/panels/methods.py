@@ -23,6 +23,8 @@ from calibgui.report.methods import MethodRow, describe_method_comparison, list_
 
 _WIDE = 820
 """Width from which on the map is beside the table, px."""
+_TABLES_HEIGHT = 180
+"""Least height of the tables, px: some methods to compare, whatever the map below needs."""
 
 
 class MethodsPanel(OnDemandPanel[MethodComparison]):
@@ -47,6 +49,7 @@ class MethodsPanel(OnDemandPanel[MethodComparison]):
         self.use = QPushButton(self.tr("&Use this method"))
         self.use.clicked.connect(self._use)
         self.tables = MethodTables()
+        self.tables.setMinimumHeight(_TABLES_HEIGHT)
         self.tables.picked.connect(self._show_row)
         self.map = DifferenceMap()
         self.about = QTextBrowser()

@@ -94,6 +94,15 @@ def tip(table: Table, row: int, title: str) -> str:
     return str(index.data(Qt.ItemDataRole.ToolTipRole))
 
 
+def test_some_methods_are_seen_beside_the_map_in_a_low_panel(panel: MethodsPanel) -> None:
+    panel.resize(380, 340)  # what a window of 1280 x 720 leaves
+    QApplication.processEvents()
+    table = panel.tables.errors
+    fourth = table.visualRect(table.model().index(3, 0))
+    assert table.viewport().rect().contains(fourth)
+    assert panel.map.height() > 100
+
+
 def test_the_button_compares_and_the_tables_hold_the_figures(
     shown: Shown[MethodsPanel], few_views: Result, comparison: MethodComparison, qtbot: QtBot
 ) -> None:
