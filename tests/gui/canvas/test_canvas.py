@@ -196,13 +196,12 @@ def test_a_residual_is_drawn_as_many_times_as_long_as_asked(canvas: Canvas) -> N
     np.testing.assert_allclose(drawn[-1], np.tile([6.0, -3.0], (12, 1)), atol=1e-9)
 
 
+@pytest.mark.usefixtures("qapp")
 @pytest.mark.parametrize(
     ("u", "v", "is_whole"),
     [(60, 40, True), (195, 40, True), (60, 96, True), (199, 99, True), (-40, 40, False)],
 )
-def test_a_label_is_whole_where_its_place_is_in_sight(
-    qapp: QApplication, u: float, v: float, is_whole: bool
-) -> None:
+def test_a_label_is_whole_where_its_place_is_in_sight(u: float, v: float, is_whole: bool) -> None:
     def count_painted(u: float, v: float) -> int:
         picture = QImage(200, 100, QImage.Format.Format_Grayscale8)
         picture.fill(255)
