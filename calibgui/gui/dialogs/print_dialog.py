@@ -140,6 +140,9 @@ class PrintDialog(QDialog):
             counted, side = self.tr("Circles"), self.tr("Distance")
         self.counted.setText(counted)
         self.side.setText(side)
+        widest = max(self.side.sizeHint().width(), self.pattern.label.minimumWidth())
+        for label in (self.side, self.pattern.label):  # the fields stand under one another
+            label.setMinimumWidth(widest)
         self.odd_and_even.setVisible(chosen.has_squares and not chosen.identifies_points)
         self.pattern.show_pattern(self.pattern.pattern, self.square.value())
         try:

@@ -123,9 +123,10 @@ class PatternChoice(QWidget):
         beside.addWidget(self.first_col, 1)
         self.form = QFormLayout(self)
         self.form.setContentsMargins(0, 0, 0, 0)
-        label = QLabel(self.tr("Pattern"))
-        label.setMinimumWidth(self.fontMetrics().horizontalAdvance(self.tr("Inner corners")))
-        self.form.addRow(label, self.kind)
+        self.label = QLabel(self.tr("Pattern"))
+        """The first label; the fields begin where the widest one ends."""
+        self.label.setMinimumWidth(self.fontMetrics().horizontalAdvance(self.tr("Inner corners")))
+        self.form.addRow(self.label, self.kind)
         self.form.addRow(self.tr("Dictionary"), self.dictionary)
         self.form.addRow(self.tr("Marker"), self.marker)
         self.form.addRow(self.tr("Layout"), self.layout_used)

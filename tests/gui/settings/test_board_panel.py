@@ -7,7 +7,7 @@ from dataclasses import replace
 from pathlib import Path
 
 import pytest
-from PySide6.QtCore import Qt
+from PySide6.QtCore import QPoint, Qt
 from PySide6.QtTest import QSignalSpy, QTest
 from PySide6.QtWidgets import QApplication, QComboBox
 from pytestqt.qtbot import QtBot
@@ -109,6 +109,8 @@ def test_every_pattern_can_be_printed(qapp: QApplication) -> None:
         assert dialog.save.isEnabled()
         assert bool(content.discs) == (row >= 2)
         assert dialog.preview._drawing.isValid()
+        fields = (dialog.pattern.kind, dialog.rows, dialog.square, dialog.paper)
+        assert len({field.mapTo(dialog, QPoint()).x() for field in fields}) == 1
     dialog.close()
     dialog.deleteLater()
 
