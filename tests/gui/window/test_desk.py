@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import contextlib
 from collections.abc import Iterator
+from pathlib import Path
 
 import pytest
 from PySide6.QtCore import QByteArray, QPoint, QSettings, Qt
@@ -13,6 +14,7 @@ from PySide6.QtWidgets import (
     QCheckBox,
     QComboBox,
     QLabel,
+    QStyle,
     QTabBar,
     QWidget,
 )
@@ -27,6 +29,7 @@ from calibgui.gui.panels.result import ResultPanel
 from calibgui.gui.panels.stage_one import StageOnePanel
 from calibgui.gui.widgets.elided import ElidedLabel
 from calibgui.gui.window.main_window import MainWindow
+from tests.app import examples
 from tests.gui.hand import Hand
 
 SIZES = [(1280, 720), (1366, 768), (1920, 1080), (960, 1000)]
@@ -93,6 +96,33 @@ def test_no_text_is_clipped(full: MainWindow, qtbot: QtBot, width: int, height: 
         assert list_clipped(full, qtbot) == [], kind.__name__
         assert (full.width(), full.height()) == (width, height), kind.__name__
     qtbot.waitUntil(lambda: not full.session.jobs.running, timeout=60_000)
+
+
+def test_every_panel_has_its_room_in_a_window_that_starts_with_photographs(
+    qtbot: QtBot, tmp_path: Path
+) -> None:
+    """As with a folder on the command line: they come before the window was ever painted."""
+    window = MainWindow()
+    qtbot.addWidget(window)
+    window.resize(960, 720)
+    window.show()
+    project = examples.calibrated(tmp_path)
+    window.session.begin(Document(project))
+    qtbot.waitUntil(lambda: not window.session.jobs.running, timeout=60_000)
+    analysis = window.need_analysis()
+    assert window.inspector.width() >= window.inspector.minimumSizeHint().width()
+    for kind in PANELS:
+        panel = analysis.show_panel(kind)
+        assert panel.isVisible() and panel.width() >= panel.minimumSizeHint().width(), kind
+        qtbot.waitUntil(lambda: not window.session.jobs.running, timeout=60_000)
+    table = analysis.show_panel(StageOnePanel).table
+    names = [str(table.model().index(row, 0).data()) for row in range(table.model().rowCount())]
+    room = table.columnWidth(0) - 2 * table.style().pixelMetric(
+        QStyle.PixelMetric.PM_FocusFrameHMargin
+    )
+    assert all(table.fontMetrics().horizontalAdvance(name) <= room for name in names)
+    window.session.document.mark_saved(project, window.files.saver.file)
+    window.close()
 
 
 @pytest.mark.parametrize(("width", "least"), [(1280, 800), (1366, 880), (1920, 1200), (960, 540)])
