@@ -55,7 +55,7 @@ class SyntheticPanel(OnDemandPanel[SyntheticCheck]):
         self._draw: dict[QWidget, Callable[[SyntheticCheck], None]] = {}
         """Function that draws each tab."""
         for widget, name, draw in (
-            (self.table, self.tr("Table 3"), self.table.show_check),
+            (self.table, self.tr("Table"), self.table.show_check),
             (self.images, self.tr("Images"), self._render),
             (self.errors, self.tr("Poses"), self.errors.show_check),
             (self.scatters, self.tr("Residuals"), self._scatter),
@@ -63,6 +63,7 @@ class SyntheticPanel(OnDemandPanel[SyntheticCheck]):
         ):
             self.tabs.addTab(widget, name)
             self._draw[widget] = draw
+        self.tabs.setTabToolTip(0, self.tr("Table 3 of the paper"))
         self.tabs.currentChanged.connect(self._draw_tab)
         self._lay_out(self.tabs)
 

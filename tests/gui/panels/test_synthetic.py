@@ -10,6 +10,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 from PySide6.QtCore import Qt
+from PySide6.QtWidgets import QApplication
 from pytestqt.qtbot import QtBot
 
 from calibgui.app.synthetic import BLUR_PX, SyntheticCheck, run_synthetic_check
@@ -69,6 +70,10 @@ def test_tables_and_plots_hold_its_numbers(
     panel._done(check)
     for tab in range(panel.tabs.count()):
         panel.tabs.setCurrentIndex(tab)
+    panel.resize(380, 600)
+    QApplication.processEvents()
+    wide = panel.tabs.tabBar().sizeHint().width()
+    assert wide <= panel.tabs.width(), "the names of the tabs need not be scrolled"
     rows = list(csv.reader(io.StringIO(panel.table.as_csv())))[1:]
     numbers = np.array([[float(row[i]) for i in (1, 2, 3, 4)] for row in rows]).T
     real, made = check.real.calibration, check.synthetic.calibration
