@@ -143,6 +143,7 @@ def complete_pattern(pattern: Pattern, grid_size: GridSize) -> Pattern:
             pattern.spacing or 0.3,
             pattern.border or 2,
             bool(pattern.from_top),
+            pattern.corner_squares is not False,
         )
     if isinstance(pattern, TaggedCheckerboard):
         return TaggedCheckerboard(

@@ -21,6 +21,7 @@ _PATTERN_OPTIONS = {
     "border": "aprilgrid or tagged-checkerboard",
     "from_top": "aprilgrid or tagged-checkerboard",
     "spacing": "aprilgrid",
+    "corner_squares": "aprilgrid",
     "step": "tagged-checkerboard",
     "origin": "puzzleboard",
 }
@@ -95,6 +96,13 @@ def add_board_options(parser: argparse.ArgumentParser) -> None:
         action="store_true",
         default=None,
         help="the tags are numbered from the top row, not from the bottom one as Kalibr's",
+    )
+    group.add_argument(
+        "--corner-squares",
+        action=argparse.BooleanOptionalAction,
+        default=None,
+        help="small dark squares stand between the corners of the tags of an AprilGrid, as on "
+        "Kalibr's, or do not",
     )
     group.add_argument(
         "--origin",

@@ -7,7 +7,8 @@ pattern         left out for a checkerboard; else its `kind` and its known prope
   circles             diameter (over the distance)
   asymmetric-circles  diameter (over the distance of the rows)
   aprilgrid           family and border (cells) of the tags, spacing (gap over a tag's side),
-                      from_top (the order of the tags)
+                      from_top (the order of the tags), corner_squares (whether small dark
+                      squares stand between their corners)
   tagged-checkerboard family, border, from_top, step (squares from one tag to the next)
   puzzleboard         origin (row and column of its first corner on the whole pattern)
 """
@@ -65,6 +66,7 @@ _FIELD_READERS: Mapping[str, Callable[[Node], str | float | bool | GridSize]] = 
     "border": Node.integer,
     "step": Node.integer,
     "from_top": Node.flag,
+    "corner_squares": Node.flag,
     "origin": _read_grid_index,
 }
 """Functions that read a pattern's field, by its name."""

@@ -42,6 +42,8 @@ def describe_board(board: Board) -> str:
     if isinstance(pattern, AprilGrid):
         text = f"AprilGrid of {rows / 2:g} x {cols / 2:g} tags, {rows} x {cols} corners"
         text += _describe_tags(pattern.family, pattern.border, pattern.from_top)
+        if pattern.corner_squares is False:
+            text += ", no dark squares between them"
         gap = pattern.spacing
         return text if gap is None else f"{text}, gap {gap:.3f} of a tag's side"
     if isinstance(pattern, TaggedCheckerboard):

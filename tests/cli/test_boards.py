@@ -27,6 +27,7 @@ BOARDS = {
     "charuco": Board(5, 7, 30.0, Charuco("DICT_4X4_50", 0.7)),
     "asymmetric-circles": Board(9, 4, 15.0, Circles(True, 0.8)),
     "aprilgrid": Board(8, 8, 30.0, AprilGrid("t36h11", 0.3, 2, False)),
+    "bare-aprilgrid": Board(8, 8, 30.0, AprilGrid("t36h11", 0.3, 2, False, False)),
 }
 _SCHEMA = Path(__file__).parents[2] / "resources" / "schema" / "result-1.schema.json"
 
@@ -52,7 +53,7 @@ def test_from_photographs_to_exports(
     kind: str, folder: Path, tmp_path: Path, capsys: pytest.CaptureFixture[str]
 ) -> None:
     grid_size = BOARDS[kind]
-    stated = ["--target", kind, "--square", str(grid_size.square)]
+    stated = ["--target", grid_size.pattern.kind, "--square", str(grid_size.square)]
     if kind != "charuco":
         stated += ["--board", f"{grid_size.rows}x{grid_size.cols}"]
     out, corners = tmp_path / "result.json", tmp_path / "corners.json"
@@ -66,7 +67,7 @@ def test_from_photographs_to_exports(
     assert result.calibration.noise < 0.02
     assert result.board is not None
     assert result.board.grid_size == grid_size.grid_size
-    assert result.board.pattern.kind == kind
+    assert result.board.pattern.kind == grid_size.pattern.kind
     # The corners alone, and rendered views of what was found, give the same camera.
     assert main(["calibrate", str(corners), "-q", "-o", str(tmp_path / "again.json")]) == 0
     again = read_result(tmp_path / "again.json").calibration.camera
@@ -85,7 +86,7 @@ def test_nothing_need_be_said_of_the_board(
     assert "The photographs show:" in capsys.readouterr().out
     corner_set = read_corners(out)
     assert corner_set.board is not None
-    assert corner_set.board.pattern.kind == kind
+    assert corner_set.board.pattern.kind == BOARDS[kind].pattern.kind
     assert corner_set.board.grid_size == BOARDS[kind].grid_size
     assert sum(view.usable for view in corner_set.views) >= 5
 

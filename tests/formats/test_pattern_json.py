@@ -28,6 +28,7 @@ PATTERNS = [
     Circles(False, 0.25),
     PuzzleBoard((50, 100)),
     AprilGrid("t25h9", 0.25, 1, True),
+    AprilGrid("t36h11", 0.3, 2, False, False),
     TaggedCheckerboard("t25h7", 2, 4, False),
 ]
 

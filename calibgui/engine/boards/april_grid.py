@@ -2,9 +2,10 @@
 
 The board of Kalibr (Furgale, Rehder and Siegwart, IROS 2013), also of EuRoC, TUM-VI and MATLAB. The
 points are the corners of the tags, two rows and two columns of them for every row and column of
-tags; the small squares make each a crossing of two edges, like a corner of a checkerboard. The
-pitch is the side of a tag, and the gap between tags is a fraction s of it, so that point
-(row, column) lies at
+tags; the small squares make each a crossing of two edges, like a corner of a checkerboard. Some
+are printed without them: then the outlines of the tags tell where their corners are. The pitch is
+the side of a tag, and the gap between tags is a fraction s of it, so that point (row, column) lies
+at
 
     X = (1 + s) floor(column / 2) + column mod 2,
 
@@ -58,6 +59,8 @@ class AprilGrid(CodedPattern):
     """Width of the black border of a tag, cells: 2 on the boards of Kalibr."""
     from_top: bool | None = None
     """True if the tags are numbered from the top row down, False if from the bottom row up."""
+    corner_squares: bool | None = None
+    """True if small dark squares stand between the corners of the tags, False if they do not."""
 
     def __post_init__(self) -> None:
         check_tags(self.family, self.border)
@@ -90,11 +93,15 @@ class AprilGrid(CodedPattern):
         boards = [pattern for pattern in seen if isinstance(pattern, AprilGrid)]
         if not boards:
             return self
-        most = Counter((board.family, board.border, board.from_top) for board in boards)
-        family, border, from_top = most.most_common(1)[0][0]
+        most = Counter(
+            (board.family, board.border, board.from_top, board.corner_squares) for board in boards
+        )
+        family, border, from_top, squares = most.most_common(1)[0][0]
         gaps = [board.spacing for board in boards if board.spacing]
         gap = round(float(np.median(gaps)), 3) if gaps else None
-        return self.fill_unknown(family=family, spacing=gap, border=border, from_top=from_top)
+        return self.fill_unknown(
+            family=family, spacing=gap, border=border, from_top=from_top, corner_squares=squares
+        )
 
     def draw(self, grid_size: GridSize) -> PrintedPattern:
         """See ``Pattern``.
@@ -112,7 +119,7 @@ class AprilGrid(CodedPattern):
         border = self.border or MAX_BORDER
         n = load_family(self.family).side + 2 * border
         dark = np.zeros((rows * (n + 1) + 1, cols * (n + 1) + 1), dtype=np.bool_)
-        dark[:: n + 1, :: n + 1] = True
+        dark[:: n + 1, :: n + 1] = self.corner_squares is not False
         layout = TagLayout(cols, bool(self.from_top))
         for number, (row, col) in enumerate(layout.locate_squares(np.arange(rows * cols)).tolist()):
             top = (row if self.from_top else row + rows - 1) * (n + 1) + 1

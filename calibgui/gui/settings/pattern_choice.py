@@ -101,6 +101,16 @@ class PatternChoice(QWidget):
             (self.tr("from the top"), True),
         ):
             self.order.addItem(text, from_top)
+        self.corner_squares = QComboBox()
+        self.corner_squares.setToolTip(
+            self.tr("Small dark squares between the corners of the tags, as on Kalibr's.")
+        )
+        for text, squares in (
+            (undecided, None),
+            (self.tr("between the tags"), True),
+            (self.tr("none"), False),
+        ):
+            self.corner_squares.addItem(text, squares)
         self.step = QSpinBox(minimum=0, maximum=64, singleStep=2)
         self.step.setToolTip(self.tr("The number of squares from one tag to the next in its row."))
         self.step.setSpecialValueText(undecided)
@@ -136,6 +146,7 @@ class PatternChoice(QWidget):
         self.form.addRow(self.tr("Tag border"), self.border)
         self.form.addRow(self.tr("Tag step"), self.step)
         self.form.addRow(self.tr("Numbered"), self.order)
+        self.form.addRow(self.tr("Small squares"), self.corner_squares)
         self.form.addRow(self.tr("First corner"), self.origin)
         self._pattern: Pattern = KINDS["checkerboard"]
         self._side = 1.0
@@ -146,6 +157,7 @@ class PatternChoice(QWidget):
             self.family,
             self.border,
             self.order,
+            self.corner_squares,
         ):
             combo.setSizeAdjustPolicy(
                 QComboBox.SizeAdjustPolicy.AdjustToMinimumContentsLengthWithIcon
@@ -177,6 +189,7 @@ class PatternChoice(QWidget):
             (self.border, grid or tagged),
             (self.step, tagged),
             (self.order, grid or tagged),
+            (self.corner_squares, grid),
             (self.origin, isinstance(pattern, PuzzleBoard)),
         ):
             self.form.setRowVisible(field, shown)
@@ -193,6 +206,9 @@ class PatternChoice(QWidget):
             self.order.setCurrentIndex(self.order.findData(pattern.from_top))
         if isinstance(pattern, AprilGrid):
             _show(self.spacing, pattern.spacing or 0.0)
+            self.corner_squares.setCurrentIndex(
+                self.corner_squares.findData(pattern.corner_squares)
+            )
         if isinstance(pattern, TaggedCheckerboard):
             with QSignalBlocker(self.step):
                 self.step.setValue(pattern.step or 0)
@@ -217,6 +233,7 @@ class PatternChoice(QWidget):
                     self.spacing.value() or None,
                     self.border.currentData(),
                     self.order.currentData(),
+                    self.corner_squares.currentData(),
                 )
             if isinstance(pattern, TaggedCheckerboard) and pattern.kind == self._pattern.kind:
                 pattern = TaggedCheckerboard(

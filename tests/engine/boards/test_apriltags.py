@@ -63,6 +63,10 @@ def test_print_of_an_april_grid(from_top: bool) -> None:
     # The small squares, and nothing else between the tags.
     assert ink.dark[::11, ::11].all()
     assert np.count_nonzero(ink.dark[::11]) == 3 * 4
+    bare = AprilGrid("t36h11", 0.3, 2, from_top, corner_squares=False).draw((4, 6))
+    assert isinstance(bare, PrintedRectangles)
+    assert not bare.dark[::11].any()
+    np.testing.assert_array_equal(bare.dark[1:11], ink.dark[1:11])
 
 
 @pytest.mark.parametrize("from_top", [False, True])

@@ -51,7 +51,8 @@ def test_tags_are_stated(session: Session, tmp_path: Path) -> None:
     choice.spacing.setFocus()
     choice.spacing.selectAll()
     QTest.keyClicks(choice.spacing, "0.25\r")
-    stated = AprilGrid("t25h9", 0.25, 1, True)
+    _choose(choice.corner_squares, False)
+    stated = AprilGrid("t25h9", 0.25, 1, True, False)
     assert session.project.pattern == stated
     write_project(session.project, tmp_path / "project.json")
     assert read_project(tmp_path / "project.json").pattern == stated

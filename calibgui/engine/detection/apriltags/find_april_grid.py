@@ -4,12 +4,11 @@
    order and size shows in them.
 2. The corners of all tags are predicted from the nearest ones that were read, and moved to their
    saddle points.
+   Where no small black squares touch the tags, their corners follow from the outlines of the tags
+   instead (`outlined_corners`).
 3. A corner has to look like the others, to lie where the map of all corners expects it, and to be
    described by two crossing edges. Around it a border of the tag, a part of the gap and the small
    black square are plain: nothing beyond them is looked at.
-
-The gap s between tags shows in four corners in a row, at 0, 1, 1 + s and 2 + s on the board: their
-cross-ratio (1 + s)^2 / (s (2 + s)) is the same from every side.
 """
 
 from __future__ import annotations
@@ -21,9 +20,14 @@ from calibgui.engine.arrays import Array, BoolArray, GreyImage, GridSize, IntArr
 from calibgui.engine.boards.april_grid import AprilGrid
 from calibgui.engine.detection import grid_map
 from calibgui.engine.detection import region_of_interest as region
+from calibgui.engine.detection.apriltags.gap import measure_gap
 from calibgui.engine.detection.apriltags.grid_tags import GridTags, find_grid_tags
 from calibgui.engine.detection.apriltags.near_priors import NearPriors
-from calibgui.engine.detection.charuco.assembly import assemble_corners
+from calibgui.engine.detection.apriltags.outlined_corners import (
+    has_corner_squares,
+    locate_outlined_corners,
+)
+from calibgui.engine.detection.charuco.assembly import FittedCorners, assemble_corners
 from calibgui.engine.detection.charuco.corners_between_markers import (
     predict_places,
     require_enough_corners,
@@ -88,11 +92,13 @@ def _explain_missing_board(
     tag_print, tags = read
     cols, rows = tags.layout.cols, _count_rows(tags.squares)
     order = "top row down" if tags.layout.from_top else "bottom row up"
+    has_squares = has_corner_squares(levels, tags, tag_print.border / tag_print.side)
     stated = "" if grid_size is None else f", not {grid_size[0]} x {grid_size[1]} corners"
     return NoBoardError(
         f"This is an AprilGrid of {tag_print.family} with borders of {tag_print.border} cells,"
         f" numbered from the {order}, of at least {rows} rows and exactly {cols} columns of tags,"
-        f" two corners each{stated}.",
+        f" two corners each{stated}, {'with' if has_squares else 'without'} dark squares between"
+        " the tags.",
         "State the board like this, or leave out what can be read.",
     )
 
@@ -118,27 +124,74 @@ def _locate_corners(
         if 2 * rows > grid_size[0]:
             raise _explain_missing_board(convert_for_reading(grey), grid_size, None)
         rows = grid_size[0] // 2
-    first = 0 if tags.layout.from_top else rows - 1
-    on_board = tags.squares + np.array([first, 0])
+    first = np.array([0 if tags.layout.from_top else rows - 1, 0])
+    on_board = tags.squares + first
     gap = 1 / tags.side - 1
-    lattice = _predict_corners(grey, tags.corners, on_board, (2 * rows, 2 * cols), gap, is_inverted)
+    size = 2 * rows, 2 * cols
+    lattice = _predict_corners(grey, tags.corners, on_board, size, gap, is_inverted)
     border = tag_print.border / tag_print.side
-    lattice = _refine_corners(grey, lattice, gap, border)
-    gap = _measure_gap(lattice, gap)
+    has_squares = has_corner_squares(grey, tags, border)
+    if stated.corner_squares not in (None, has_squares):
+        raise _explain_missing_board(grey, grid_size, None)
+    fit: XCornerFit | FittedCorners | None = None
+    if has_squares:
+        lattice = _refine_corners(grey, lattice, gap, border)
+        gap = measure_gap(lattice.uv, gap)
+        unit = 2 * min(border, gap / 2)
+        lattice, rejected = _verify_corners(grey, lattice, gap, unit)
+        if method == "edges":
+            lattice, fit, failing = _fit_corners(grey, lattice, gap, unit)
+            rejected += failing
+    else:
+        levels = convert_for_reading(grey)
+        levels = invert_levels(levels) if is_inverted else levels
+        gap = measure_gap(lattice.uv, gap)
+        lattice, fit, rejected = _fit_outlines(grey, levels, read, lattice, first, gap)
+        gap = measure_gap(lattice.uv, gap)
     if stated.spacing is not None and abs(gap - stated.spacing) > _MAX_SPACING_DIFFERENCE:
         raise NoBoardError(
             f"The gap between the tags is {gap:.3f} of their side, not {stated.spacing:g}.",
             "State gap and side as measured, or leave the gap out.",
         )
-    unit = 2 * min(border, gap / 2)
-    lattice, rejected = _verify_corners(grey, lattice, gap, unit)
-    fit = None
-    if method == "edges":
-        lattice, fit, failing = _fit_corners(grey, lattice, gap, unit)
-        rejected += failing
     require_enough_corners(lattice)
-    seen = AprilGrid(tag_print.family, round(gap, 4), tag_print.border, tags.layout.from_top)
+    seen = AprilGrid(
+        tag_print.family, round(gap, 4), tag_print.border, tags.layout.from_top, has_squares
+    )
     return assemble_corners(grey, lattice, fit, outline, rejected, seen)
+
+
+def _fit_outlines(
+    grey: GreyImage,
+    levels: GreyImage,
+    read: GridTags,
+    predicted: Lattice,
+    first: IntArray,
+    gap: float,
+) -> tuple[Lattice, FittedCorners, list[RejectedCorner]]:
+    """Fit the outlines of the tags, leaving out the corners that do not lie where the others expect
+    them.
+
+    Args:
+        grey: (h, w) grey levels.
+        levels: the same in 8 bits, tags dark on bright.
+        read: the tags that were read.
+        predicted: the lattice of the whole board.
+        first: (2,) row and column of tag 0 on the board.
+        gap: between tags, sides of a tag.
+    """
+    grid, fit, rejected = locate_outlined_corners(
+        grey, levels, read, first, predicted.shape[0] // 2, gap
+    )
+    order = np.lexsort(grid.T[::-1])
+    grid, fit = grid[order], fit.select(order)
+    places = AprilGrid(spacing=gap).locate_points(grid.astype(np.float64))
+    steps, _ = NearPriors(places, 2 * gap).estimate_geometry(fit.uv)
+    length = np.linalg.norm(steps, axis=2).min(axis=1)
+    good = _find_regular_corners(places, fit.uv, length, np.ones(len(grid), dtype=np.bool_))
+    rejected += list_rejected_corners(fit.uv[~good], "off place")
+    uv = np.full_like(predicted.uv, np.nan)
+    uv[tuple(grid[good].T)] = fit.uv[good]
+    return Lattice(uv, predicted.dark), fit.select(np.flatnonzero(good)), rejected
 
 
 def _locate_places(lattice: Lattice, gap: float) -> Array:
@@ -192,25 +245,6 @@ def _refine_corners(image: GreyImage, predicted: Lattice, gap: float, border: fl
     lattice = Lattice(refined, predicted.dark)
     require_enough_corners(lattice)
     return lattice
-
-
-def _measure_gap(lattice: Lattice, gap: float) -> float:
-    """Measure the gap between tags, sides of a tag, where four corners in a row show it."""
-    ratios = []
-    for uv in (lattice.uv, lattice.uv.transpose(1, 0, 2)):
-        a, b, c, d = (uv[:, k : uv.shape[1] - 2 + k : 2] for k in (0, 1, 2, 3))
-        a, b = a[:, : d.shape[1]], b[:, : d.shape[1]]
-        c = c[:, : d.shape[1]]
-        ac, bd, bc, ad = (
-            np.linalg.norm(p - q, axis=2) for p, q in ((a, c), (b, d), (b, c), (a, d))
-        )
-        ratios.append((ac * bd / (bc * ad)).ravel())
-    ratio = np.concatenate(ratios)
-    ratio = ratio[np.isfinite(ratio) & (ratio > 1)]
-    if not len(ratio):
-        return gap
-    cross = float(np.median(ratio))
-    return float(np.sqrt(cross / (cross - 1))) - 1
 
 
 def _verify_corners(

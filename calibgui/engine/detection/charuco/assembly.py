@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from typing import NamedTuple
 
 import numpy as np
 
-from calibgui.engine.arrays import Array, GreyImage
+from calibgui.engine.arrays import Array, GreyImage, IntArray
 from calibgui.engine.boards.pattern import Pattern
 from calibgui.engine.detection import region_of_interest as region
 from calibgui.engine.detection.checkerboard import harris
@@ -15,10 +16,29 @@ from calibgui.engine.detection.corners import Corners, RejectedCorner
 from calibgui.engine.detection.lattice import Lattice
 
 
+class FittedCorners(NamedTuple):
+    """What a fit tells of n corners, whatever was fitted."""
+
+    uv: Array
+    """(n, 2) px."""
+    covariance: Array
+    """(n, 2, 2) px^2."""
+    blur: Array
+    """(n,) px."""
+    contrast: Array
+    """(n,) bright minus dark, grey levels."""
+    residual: Array
+    """(n,) standard deviation of what the fit leaves unexplained, grey levels."""
+
+    def select(self, index: IntArray) -> FittedCorners:
+        """Select the corners `index` (m,)."""
+        return FittedCorners(*(values[index] for values in self))
+
+
 def assemble_corners(
     image: GreyImage,
     lattice: Lattice,
-    fit: XCornerFit | None,
+    fit: XCornerFit | FittedCorners | None,
     outline: Array | None,
     rejected: list[RejectedCorner],
     pattern: Pattern,

@@ -14,16 +14,24 @@ from calibgui.engine.camera.camera import Camera
 from calibgui.engine.detection.corners import Corners
 from calibgui.engine.detection.find_corners import find_corners
 from calibgui.engine.errors import NoBoardError
+from calibgui.engine.geometry.rotations import rotation_from_vector
 from tests.engine.detection.conftest import Scene
 
 CAMERA = Camera((640, 480), [560.0, 562.0, 322.0, 238.0, 0.1, 0.02, 0.0, 1e-4, 0.0, 0.0])
+WIDE = Camera((640, 480), [300.0, 300.0, 320.0, 240.0, 0.35, 0.1, 0.0, 0.0, 0.0, 0.0])
 KALIBR = Scene(
     Board(8, 10, 20.0, AprilGrid("t36h11", 0.3, 2, False)), camera=CAMERA, distance=300.0
 )
+BARE = replace(
+    KALIBR, board=replace(KALIBR.board, pattern=AprilGrid("t36h11", 0.3, 2, False, False))
+)
+"""The same without the small dark squares."""
 OTHERS = [
     Board(6, 8, 25.0, AprilGrid("t25h9", 0.25, 2, True)),
     Board(8, 6, 25.0, AprilGrid("t16h5", 0.3, 1, False)),
     Board(8, 8, 22.0, AprilGrid("t25h7", 0.2, 2, False)),
+    Board(6, 8, 25.0, AprilGrid("t25h9", 0.25, 2, True, False)),
+    Board(8, 6, 25.0, AprilGrid("t16h5", 0.3, 1, False, False)),
 ]
 
 
@@ -52,7 +60,7 @@ def test_all_is_inferred(inverted: bool) -> None:
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("board", OTHERS, ids=["25h9", "16h5", "25h7"])
+@pytest.mark.parametrize("board", OTHERS, ids=["25h9", "16h5", "25h7", "bare 25h9", "bare 16h5"])
 def test_other_families_orders_and_gaps(board: Board) -> None:
     scene = Scene(board, camera=CAMERA, distance=300.0)
     corners = find_corners(scene.image(), pattern=AprilGrid())
@@ -63,7 +71,9 @@ def test_other_families_orders_and_gaps(board: Board) -> None:
     assert isinstance(seen, AprilGrid)
     assert isinstance(stated, AprilGrid)
     assert seen.spacing == pytest.approx(stated.spacing, abs=0.001)
-    assert replace(seen, spacing=stated.spacing) == stated
+    assert replace(seen, spacing=stated.spacing) == replace(
+        stated, corner_squares=stated.corner_squares is not False
+    )
 
 
 @pytest.mark.slow
@@ -74,13 +84,65 @@ def test_other_families_orders_and_gaps(board: Board) -> None:
         (KALIBR, 0.7, 15.0, 78),
         (replace(KALIBR, rvec=(1.05, 0.1, 0.3)), 0.7, 2.0, 74),
         (replace(KALIBR, distance=500.0), 0.7, 2.0, 78),
+        (BARE, 0.4, 2.0, 78),
+        (BARE, 2.0, 2.0, 40),
+        (BARE, 0.7, 15.0, 78),
+        (replace(BARE, rvec=(1.05, 0.1, 0.3)), 0.7, 2.0, 74),
+        (replace(BARE, distance=500.0), 0.7, 2.0, 78),
+        (replace(BARE, camera=WIDE, distance=150.0), 0.7, 2.0, 74),
     ],
-    ids=["blurred", "noisy", "tilted", "far"],
+    ids=[
+        "blurred",
+        "noisy",
+        "tilted",
+        "far",
+        "bare, sharp",
+        "bare, blurred",
+        "bare, noisy",
+        "bare, tilted",
+        "bare, far",
+        "bare, fisheye",
+    ],
 )
 def test_hard_conditions(scene: Scene, blur: float, noise: float, least: int) -> None:
     corners = find_corners(scene.image(blur, noise), pattern=AprilGrid())
     assert len(corners) >= least
     assert_at_bound(scene, corners, (0.7, 1.4))
+
+
+@pytest.mark.parametrize("inverted", [False, True], ids=["", "inverted"])
+def test_tags_alone_have_their_corners_where_their_edges_meet(inverted: bool) -> None:
+    image = BARE.image()
+    corners = find_corners(255 - image if inverted else image, pattern=AprilGrid())
+    assert corners.complete
+    assert len(corners) == 80
+    assert np.sqrt(np.mean(BARE.error(corners) ** 2)) < 0.009
+    assert_at_bound(BARE, corners, (0.8, 1.3))
+    seen = corners.pattern
+    assert isinstance(seen, AprilGrid)
+    assert seen.corner_squares is False
+    assert seen.spacing == pytest.approx(0.3, abs=0.001)
+
+
+def test_blur_does_not_move_the_corners_of_tags_alone_outwards() -> None:
+    for blur in (0.4, 2.0):
+        corners = find_corners(BARE.image(blur, noise=0.3), pattern=AprilGrid())
+        sides = np.where(corners.grid % 2 == 0, -1, 1)[:, ::-1]
+        R = rotation_from_vector(np.array(BARE.rvec))
+        outwards = sides @ R[:2, :2].T
+        moved = np.sum(BARE.error(corners) * outwards, axis=1) / np.linalg.norm(outwards, axis=1)
+        assert abs(moved.mean()) < 0.006
+
+
+def test_a_tag_that_is_covered_is_left_out() -> None:
+    image = BARE.image()
+    whole = find_corners(image, pattern=AprilGrid())
+    at = whole.uv[(whole.grid == (3, 4)).all(axis=1)][0].astype(int)
+    image[at[1] - 6 : at[1] + 6, at[0] - 6 : at[0] + 6] = 128
+    corners = find_corners(image, pattern=AprilGrid())
+    assert 60 <= len(corners) < 80
+    assert not (corners.grid == (3, 4)).all(axis=1).any()
+    assert_at_bound(BARE, corners, (0.7, 1.4))
 
 
 def test_parts_have_the_ids_of_the_whole() -> None:
@@ -101,6 +163,7 @@ def test_parts_have_the_ids_of_the_whole() -> None:
         (AprilGrid(border=1), None, "borders of 2|too few corners"),
         (AprilGrid(from_top=True), None, "bottom row up"),
         (AprilGrid(spacing=0.2), None, "0.300 of their side"),
+        (AprilGrid(corner_squares=False), None, "with dark squares between the tags"),
         (AprilGrid(), (8, 8), "exactly 5 columns"),
         (AprilGrid(), (6, 10), "at least 4 rows"),
     ],
@@ -110,6 +173,11 @@ def test_what_is_wrongly_stated_is_told(
 ) -> None:
     with pytest.raises(NoBoardError, match=says):
         find_corners(KALIBR.image(), grid_size, pattern=stated)
+
+
+def test_missing_small_squares_are_told() -> None:
+    with pytest.raises(NoBoardError, match="without dark squares between the tags"):
+        find_corners(BARE.image(), pattern=AprilGrid(corner_squares=True))
 
 
 def test_no_grid() -> None:

@@ -1,0 +1,35 @@
+"""The gap between the tags of an AprilGrid.
+
+It shows, s sides of a tag, in four corners in a row, at 0, 1, 1 + s and 2 + s on the board: their
+cross-ratio (1 + s)^2 / (s (2 + s)) is the same from every side.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from calibgui.engine.arrays import Array
+
+
+def measure_gap(uv: Array, gap: float) -> float:
+    """Measure the gap between tags, sides of a tag, where four corners in a row show it.
+
+    Args:
+        uv: (rows, cols, 2) px of the corners of a board's tags, NaN where unknown.
+        gap: what is returned where nothing shows it.
+    """
+    ratios = []
+    for lines in (uv, uv.transpose(1, 0, 2)):
+        a, b, c, d = (lines[:, k : lines.shape[1] - 2 + k : 2] for k in (0, 1, 2, 3))
+        a, b = a[:, : d.shape[1]], b[:, : d.shape[1]]
+        c = c[:, : d.shape[1]]
+        ac, bd, bc, ad = (
+            np.linalg.norm(p - q, axis=2) for p, q in ((a, c), (b, d), (b, c), (a, d))
+        )
+        ratios.append((ac * bd / (bc * ad)).ravel())
+    ratio = np.concatenate(ratios)
+    ratio = ratio[np.isfinite(ratio) & (ratio > 1)]
+    if not len(ratio):
+        return gap
+    cross = float(np.median(ratio))
+    return float(np.sqrt(cross / (cross - 1))) - 1
