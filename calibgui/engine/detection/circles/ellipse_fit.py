@@ -35,6 +35,8 @@ _BAND_HALF_WIDTHS = (3.0, 2.3)
 """Half widths of the bands that are read, in the first step and in later ones, blurs."""
 _GAUSS_NEWTON_STEPS = 6
 """Number of steps."""
+_MAX_RELATIVE_STEP = 0.3
+"""Greatest change of S in one step, over itself."""
 _MIN_BLUR = 0.3
 """Least blur, px: that of the pixel alone is 0.29."""
 _MAX_PIXELS_AT_ONCE = 400_000
@@ -230,9 +232,12 @@ def _limit_step(step: Array, x: Array) -> Array:
     bounded[_BLUR] = np.clip(
         step[_BLUR], np.maximum(-x[_BLUR] / 3, _MIN_BLUR - x[_BLUR]), x[_BLUR] / 2
     )
-    # S may change by a part of itself, lest it lose its sign.
-    limit = 0.3 * np.minimum(x[:, 2], x[:, 4])
-    bounded[_S] = np.clip(step[_S], -limit[:, None], limit[:, None])
+    # S may change by a part of itself in every direction, lest it lose its sign: along the longer
+    # axis of a slender ellipse it is much smaller than its entries.
+    part = np.linalg.solve(_assemble_matrix(x[_S]), _assemble_matrix(step[_S]))
+    half = np.einsum("nii->n", part) / 2
+    most = abs(half) + np.sqrt(np.maximum(half**2 - np.linalg.det(part), 0.0))
+    bounded[_S] = step[_S] * (_MAX_RELATIVE_STEP / np.maximum(most, _MAX_RELATIVE_STEP))[:, None]
     return bounded
 
 

@@ -113,8 +113,10 @@ def _find_grid(
     )
     largest = np.zeros((0, 0, 2))
     for depth in reversed(range(len(levels))):
+        # What the coarsest level does not show is small, and lies in a small window.
+        divisors = _WINDOW_DIVISORS if depth == len(levels) - 1 else _WINDOW_DIVISORS[-1:]
         for seen in (levels[depth], 255 - levels[depth]):
-            for divisor in _WINDOW_DIVISORS:
+            for divisor in divisors:
                 points = find_blobs(seen, max(int(min(seen.shape) / divisor), 9), most)
                 grid = label_grid(points, grid_size, asymmetric=pattern.asymmetric)
                 if grid is None or (grid.shape != grid_size and 2 * grid.size <= largest.size):

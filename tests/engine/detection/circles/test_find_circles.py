@@ -235,3 +235,26 @@ def test_a_hidden_circle_might_be_a_mark() -> None:
     corners = find_corners(image, (7, 7), pattern=Circles())
     assert len(corners.rejected) == 1
     assert corners.ambiguity is Symmetry.QUARTER_TURN
+
+
+def test_slender_spots_are_no_circles() -> None:
+    """Their ellipses are askew and hard to fit, and must not turn into hyperbolas on the way."""
+    rng = np.random.default_rng(3)
+    v, u = np.indices((260, 360))
+    image = np.full(u.shape, 220.0)
+    for row, col in np.ndindex(7, 10):
+        x, y = u - 40 - 30 * col - rng.normal(0, 0.3), v - 40 - 30 * row
+        along, across = (x + y) / np.sqrt(2), (x - y) / np.sqrt(2)
+        rho = np.hypot(along / (13 * rng.uniform(0.8, 1.2)), across / (2 * rng.uniform(0.8, 1.2)))
+        image -= 190 * np.clip(3 * (1 - rho) + 0.5, 0, 1)
+    noisy = image + rng.normal(0, 10, image.shape)
+    with pytest.raises(NoBoardError, match="not regular enough"):
+        find_corners(noisy.clip(0, 255).astype(np.uint8), (7, 10), pattern=Circles())
+
+
+def test_small_circles_are_found_in_a_large_picture() -> None:
+    scene = Scene(Board(7, 10, 20.0, Circles(False, 0.5)), distance=1200.0)
+    image = np.pad(scene.image(), ((900, 900), (1200, 1200)), mode="edge")
+    corners = find_corners(image, pattern=Circles())
+    assert corners.complete
+    assert np.abs(scene.error(corners) - [1200, 900]).max() < 0.2
