@@ -25,8 +25,8 @@ _PROFILE_OFFSETS = np.array([0.2, 0.3, 0.4, -0.2, -0.3, -0.4])
 """(k,) where on the two arms profiles are taken, squares from the corner."""
 _NEAREST, _FARTHEST = np.array([0, 3]), np.array([2, 5])
 """Indices of the profiles nearest to the corner and farthest from it."""
-_REACH = 0.35
-"""R, squares across the edge."""
+REACH_SHARE = 0.7
+"""R, over how far from its edges a square is of one colour."""
 _BLUR_REACH = 6.0
 """Half width of the profile that the blur is measured on, px: the samples of a whole profile of
 large squares lie too far apart."""
@@ -74,7 +74,7 @@ def measure_edge_profiles(
         plain: how far from its edges a square is of one colour, squares.
     """
     edges = image, uv, along, across, _PROFILE_OFFSETS
-    reach = _REACH * 2 * plain
+    reach = REACH_SHARE * plain
     first, last, total = _measure_ends(*edges, reach, _SAMPLES, _END_SAMPLES)
     rising = sign[:, None] * np.sign(_PROFILE_OFFSETS)
     rise = (last - first) * rising

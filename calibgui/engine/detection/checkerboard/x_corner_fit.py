@@ -55,6 +55,7 @@ from calibgui.engine.arrays import Array, BoolArray, GreyImage
 from calibgui.engine.detection.checkerboard import edge_profiles
 from calibgui.engine.detection.checkerboard.board_priors import BoardPriors, PredictedBoardPriors
 from calibgui.engine.detection.checkerboard.edge_map import EdgeGeometry
+from calibgui.engine.detection.checkerboard.edge_profiles import EdgeProfiles
 from calibgui.engine.detection.checkerboard.fit_thresholds import FIT_THRESHOLDS
 from calibgui.engine.detection.checkerboard.x_corner_model import (
     BLUR,
@@ -208,12 +209,16 @@ def _estimate_start(
         height_gradient=np.zeros((n, 2, 2)),
     )
     normals = model.normals()
-    profiles = [
-        edge_profiles.measure_edge_profiles(
-            image, unknowns[C], steps[:, i], steps[:, 1 - i], height[:, i], model.sign, plain
-        )
-        for i in (0, 1)
-    ]
+
+    def measure_profiles(plain: float) -> list[EdgeProfiles]:
+        return [
+            edge_profiles.measure_edge_profiles(
+                image, unknowns[C], steps[:, i], steps[:, 1 - i], height[:, i], model.sign, plain
+            )
+            for i in (0, 1)
+        ]
+
+    profiles = measure_profiles(plain)
     low = np.mean([profile.low for profile in profiles], axis=0)
     high = np.mean([profile.high for profile in profiles], axis=0)
     blur = np.median([profile.blur for profile in profiles], axis=1)
@@ -224,12 +229,18 @@ def _estimate_start(
         width = model.plain_width
         narrowed = width - _THRESHOLDS.blur_reach * unknowns[BLUR]
         model = replace(model, plain_width=np.maximum(narrowed, width / 2))
+        # It would pass for a spread, too: that is measured where nothing beyond is felt, or not.
+        blurs = float(np.median(unknowns[BLUR] / height))
+        clear = plain - _THRESHOLDS.spread_blur_reach * blurs
+        if clear < _THRESHOLDS.min_spread_blurs * blurs:
+            return model
+        profiles = measure_profiles(min(clear / edge_profiles.REACH_SHARE, plain))
+    return replace(model, ink_spread=_estimate_ink_spread(profiles))
+
+
+def _estimate_ink_spread(profiles: list[EdgeProfiles]) -> Array:
+    """Estimate the board's spread (n,) from the profiles of all edges, 0 unless it is clear."""
     spreads = np.column_stack([profile.spread for profile in profiles])
-    return replace(model, ink_spread=_estimate_ink_spread(spreads))
-
-
-def _estimate_ink_spread(spreads: Array) -> Array:
-    """Estimate the board's spread (n,) from those of all edges (n, 2), 0 unless it is clear."""
     known = spreads[np.isfinite(spreads)]
     if len(known) < len(spreads):  # fewer than half of the edges
         return np.zeros(len(spreads))

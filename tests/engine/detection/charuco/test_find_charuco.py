@@ -116,6 +116,23 @@ def test_without_its_sides_a_board_is_not_numbered_by_guess(first_dark: bool) ->
     _assert_right(scene, find_corners(image, (5, 8), pattern=pattern))
 
 
+@pytest.mark.parametrize(("blur", "distance"), [(0.7, 760.0), (0.7, 400.0), (2.0, 400.0)])
+def test_markers_do_not_pass_for_spread_ink(blur: float, distance: float) -> None:
+    """They are in all white squares alike, and their blur reaches the profiles across the edges."""
+    board = Board(5, 8, 30.0, Charuco("DICT_4X4_50", 0.75, False))
+    chi2 = []
+    for seed in range(3):
+        scene = Scene(board, _CAMERA, (0.2 + 0.1 * seed, -0.2, 0.1), distance)
+        corners = find_corners(scene.image(blur, seed=seed), pattern=Charuco())
+        assert len(corners) >= 35
+        assert corners.cov is not None
+        error = scene.error(corners)
+        chi2.append(np.einsum("ni,nij,nj->n", error, np.linalg.inv(corners.cov), error) / 2)
+        # With spread ink that is none the edges are described badly.
+        assert np.median(corners.residual) < 2.0 + 3.0 * blur
+    assert 0.7 < np.mean(np.concatenate(chi2)) < 1.3  # of 216 to 240 residuals
+
+
 def test_dim_pictures_are_read() -> None:
     image = _WHITE_FIRST.image(noise=0.0) / 12 + 5
     image += np.random.default_rng(0).normal(0, 0.7, image.shape)
