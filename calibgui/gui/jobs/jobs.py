@@ -24,7 +24,7 @@ from typing import Any, TypedDict, Unpack
 
 from PySide6.QtCore import QObject, QTimer, Signal
 
-from calibgui.app.memory import return_free_memory, return_large_blocks
+from calibgui.app.memory import return_large_blocks
 from calibgui.engine.errors import Cancelled
 from calibgui.engine.threads import limit_blas_threads
 from calibgui.gui.jobs.garbage import Collector
@@ -159,7 +159,6 @@ class Jobs(QObject):
             while True:
                 item, digest = waiting.popleft()
                 self._queue.put(partial(self._settle, job, item, digest, job.outcome(item)))
-        return_free_memory()  # of every job's temporaries: each thread has a heap of its own
 
     def _settle(self, job: Job, item: Any, digest: Hashable, outcome: Outcome) -> None:
         """Deliver the outcome of the work on one item."""
