@@ -158,15 +158,17 @@ READERS: dict[str, dict[str, Reader]] = {
     "checkerboard": {"ours": ours},
     "charuco": {"ours": ours, "OpenCV": opencv_charuco},
     "aprilgrid": {"ours": ours, "OpenCV": opencv_tags},
+    "bare-aprilgrid": {"ours": ours, "OpenCV": opencv_tags},
     "puzzleboard": {"ours": ours},
     "circles": {"ours": ours, "OpenCV": opencv_circles},
     "asymmetric-circles": {"ours": ours, "OpenCV": opencv_circles},
 }
-"""The readers of each kind of pattern, by name."""
+"""The readers of each board, by name."""
 MISSING = [name for name in ("aprilgrid", "calib_targets") if not find_spec(name)]
 """Other libraries that are not installed."""
 if "aprilgrid" not in MISSING:
     READERS["aprilgrid"]["aprilgrid"] = aprilgrid
+    READERS["bare-aprilgrid"]["aprilgrid"] = aprilgrid
 if "calib_targets" not in MISSING:
     READERS["charuco"]["calib-targets"] = calib_targets_charuco
     READERS["puzzleboard"]["calib-targets"] = calib_targets_puzzleboard
@@ -174,8 +176,9 @@ BOARDS: dict[str, Board] = {
     "checkerboard": Board(7, 10, 26.0, CHECKERBOARD),
     "charuco": Board(7, 10, 26.0, Charuco("DICT_4X4_50", 0.75, False)),
     "aprilgrid": Board(8, 10, 22.0, AprilGrid("t36h11", 0.3, 2, False)),
+    "bare-aprilgrid": Board(8, 10, 22.0, AprilGrid("t36h11", 0.3, 2, False, False)),
     "puzzleboard": Board(7, 10, 26.0, PuzzleBoard((50, 101))),
     "circles": Board(7, 10, 26.0, Circles(False, 0.5)),
     "asymmetric-circles": Board(11, 4, 26.0, Circles(True, 0.8)),
 }
-"""The board of each kind."""
+"""The boards by name; the bare AprilGrid has no small squares between its tags."""

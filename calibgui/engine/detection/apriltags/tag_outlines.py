@@ -39,8 +39,8 @@ from calibgui.engine.detection.detector_io import estimate_least_noise
 from calibgui.engine.detection.edge_intensity import EdgeIntensity, compute_edge
 from calibgui.engine.images.sampling import sample_image
 
-_GAUSS_NEWTON_STEPS = 4
-"""Number of steps."""
+_GAUSS_NEWTON_STEPS = 3
+"""Number of steps. A fourth changes the errors of no condition of the benchmark by 0.1 %."""
 _START_ROUNDS = 2
 """Number of times that edges are moved to where their profiles rise before the first step."""
 _SAMPLES_ALONG, _SAMPLES_ACROSS = 24, 33
