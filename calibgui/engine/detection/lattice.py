@@ -20,10 +20,13 @@ DIRECTIONS = np.array([(0, 1), (1, 0), (0, -1), (-1, 0)])
 MAX_DEVIATION = 0.3
 """Greatest distance of a corner from its neighbours' prediction, steps of the lattice; a corner
 farther away is a stray. A plausibility limit."""
-MIN_CORNERS = 12
-"""Number of corners of the smallest board, whatever its pattern."""
 MIN_LINES = 3
-"""Number of rows, and of columns, of the smallest board."""
+"""Number of rows, and of columns, of the smallest board, whatever its pattern."""
+MIN_CORNERS = MIN_LINES**2
+"""Number of corners of the smallest board."""
+MIN_SCATTERED_CORNERS = 12
+"""Number of corners from which on a board may have gaps anywhere; fewer have to fill the smallest
+board: ragged parts of textures do not."""
 MAX_GAP = 3
 """Width of the widest gap over which steps and predictions of a lattice are carried, steps."""
 
@@ -79,7 +82,15 @@ def _find_strays(lattice: Lattice) -> BoolArray:
 
 def is_large_enough(lattice: Lattice) -> bool:
     """Return whether a lattice has corners and lines enough for a board."""
-    return len(lattice) >= MIN_CORNERS and min(lattice.shape) >= MIN_LINES
+    if min(lattice.shape) < MIN_LINES or len(lattice) < MIN_CORNERS:
+        return False
+    return len(lattice) >= MIN_SCATTERED_CORNERS or _has_full_block(lattice.found)
+
+
+def _has_full_block(found: BoolArray) -> bool:
+    """Return whether the corners `found` (rows, cols) fill the smallest board somewhere."""
+    blocks = np.lib.stride_tricks.sliding_window_view(found, (MIN_LINES, MIN_LINES))
+    return bool(blocks.all(axis=(2, 3)).any())
 
 
 def drop_isolated_and_crop(lattice: Lattice) -> Lattice:

@@ -22,7 +22,6 @@ from calibgui.engine.detection.checkerboard.thresholds import THRESHOLDS
 from calibgui.engine.detection.lattice import (
     MAX_DEVIATION,
     MAX_GAP,
-    MIN_CORNERS,
     Lattice,
     add_border,
     estimate_steps,
@@ -104,7 +103,7 @@ def _predict_by_grid_map(uv: Array) -> Array:
     where there is a corner, and everywhere if these are too few."""
     lattice = Lattice(uv, dark=True)
     expected = np.full_like(uv, np.nan)
-    if len(lattice) >= MIN_CORNERS:
+    if len(lattice) >= THRESHOLDS.growth.min_corners_over_gaps:
         missing = ~lattice.found
         expected[missing] = grid_map.fit_grid_map(lattice).locate(
             np.argwhere(missing).astype(np.float64)

@@ -47,7 +47,7 @@ from calibgui.engine.detection.checkerboard.verification import (
     does_pattern_continue,
     stands_alone,
 )
-from calibgui.engine.detection.lattice import MIN_CORNERS, Lattice
+from calibgui.engine.detection.lattice import Lattice
 
 
 @dataclass(frozen=True, slots=True)
@@ -69,7 +69,7 @@ def is_hopeless(lattice: Lattice, image: GreyImage, plain: float = 0.5) -> bool:
 def find_early_objection(lattice: Lattice, image: GreyImage, plain: float = 0.5) -> str:
     """Find the rule by which a lattice that may still grow is no board's; empty if it could be one,
     or is too small to tell. The arguments are those of `find_objection`."""
-    if len(lattice) < MIN_CORNERS:
+    if len(lattice) < THRESHOLDS.prefilter.min_corners_to_tell:
         return ""
     return find_objection(lattice, image, is_grown=False, plain=plain)
 

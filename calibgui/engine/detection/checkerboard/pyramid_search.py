@@ -27,12 +27,14 @@ import scipy
 from calibgui.engine import opencv
 from calibgui.engine.arrays import Array, GreyImage
 from calibgui.engine.detection.checkerboard import prefilter, verification
+from calibgui.engine.detection.checkerboard.fit_thresholds import FIT_THRESHOLDS
 from calibgui.engine.detection.checkerboard.lattice_growth import PointIndex, grow_lattice
 from calibgui.engine.detection.checkerboard.neighbour_graph import find_lattices
 from calibgui.engine.detection.checkerboard.prefilter import Refusal
 from calibgui.engine.detection.checkerboard.saddle import refine_lattice
 from calibgui.engine.detection.checkerboard.thresholds import THRESHOLDS, JunctionTolerance
 from calibgui.engine.detection.checkerboard.x_junctions import (
+    Junctions,
     Saddles,
     classify_saddles,
     find_saddles,
@@ -56,7 +58,8 @@ class Candidate:
 
     lattice: Lattice
     others: int
-    """Number of X-junctions seen beside its own corners in the level that it was found in."""
+    """Number of X-junctions seen beside its own corners in the level that it was found in, but for
+    those too faint to be corners of the same board."""
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -65,7 +68,7 @@ class _LevelContent:
 
     image: GreyImage
     saddles: Saddles
-    junctions: Saddles
+    junctions: Junctions
     """The saddles that are X-junctions."""
     lattices: list[Lattice]
     """The junctions' lattices that could be boards, largest first."""
@@ -211,10 +214,10 @@ def _analyse_level(
     saddles = find_saddles(image, min_contrast)
     if outline is not None:
         saddles = saddles.select(are_inside(outline, saddles.uv))
-    passed, junctions = classify_saddles(saddles, tolerance)
+    _, junctions = classify_saddles(saddles, tolerance)
     most = THRESHOLDS.search.max_grown_lattices
     lattices = find_lattices(saddles, junctions, most, tolerance, plain)
-    content = _LevelContent(image, saddles, saddles.select(passed), lattices, plain, on_refusal)
+    content = _LevelContent(image, saddles, junctions, lattices, plain, on_refusal)
     return replace(content, lattices=[each for each in lattices if not _refuse(each, content)])
 
 
@@ -231,7 +234,7 @@ def _grow_lattices(
 ) -> list[Candidate]:
     """Grow lattices of one level; return those that are sufficient, largest first."""
     is_hopeless = partial(prefilter.is_hopeless, image=content.image, plain=content.plain)
-    smooth, junctions = content.saddles.smooth, len(content.junctions.uv)
+    smooth = content.saddles.smooth
     nearby, beyond = (
         PointIndex(smooth, points.uv) for points in (content.saddles, content.junctions)
     )
@@ -247,11 +250,23 @@ def _grow_lattices(
             hopeful.append(verification.drop_stray_lines(lattice, smooth))
     return _drop_parts(
         [
-            Candidate(lattice, max(junctions - len(lattice), 0))
+            Candidate(lattice, _count_others(lattice, content.junctions))
             for lattice in hopeful
             if is_sufficient(lattice)
         ]
     )
+
+
+def _count_others(lattice: Lattice, junctions: Junctions) -> int:
+    """Count the junctions that are none of a lattice's, to half a step, and not too faint beside
+    these: noise where nothing is printed has any number of such."""
+    tree = scipy.spatial.cKDTree(lattice.uv[lattice.found])
+    distance, nearest = tree.query(junctions.uv)
+    own = distance < lattice.spacing()[lattice.found][nearest] / 2
+    if not own.any():
+        return len(junctions)
+    least = FIT_THRESHOLDS.template.min_relative_contrast * np.median(junctions.contrast[own])
+    return int(np.count_nonzero(~own & (junctions.contrast > least)))
 
 
 def _select_missed(

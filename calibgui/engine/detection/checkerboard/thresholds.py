@@ -108,6 +108,8 @@ class GrowthThresholds:
 
     max_points_per_place: int = 6
     """Number of saddle points near a predicted corner, the nearest, that are compared with it."""
+    min_corners_over_gaps: int = 12
+    """Number of corners from which on their grid map is trusted beyond a gap."""
     max_gap_deviation: float = 0.2
     """Greatest distance of a corner beyond a gap from where the grid map places it, steps."""
     min_growth_for_template: float = 1.2
@@ -126,6 +128,8 @@ class GrowthThresholds:
 class PrefilterThresholds:
     """Thresholds of the test of a lattice's edges before it is refined (`prefilter`)."""
 
+    min_corners_to_tell: int = 12
+    """Number of corners from which on a lattice that may still grow is tested."""
     max_tested_corners: int = 64
     """Number of corners, spread over the lattice, whose edges are measured: as many as boards
     have."""

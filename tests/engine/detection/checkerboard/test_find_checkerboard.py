@@ -16,6 +16,7 @@ from calibgui.engine.detection.corners import Corners
 from calibgui.engine.detection.find_corners import find_corners
 from calibgui.engine.errors import NoBoardError
 from calibgui.engine.images.reading import read_image
+from tests.scenes.without_board import draw_without_board
 
 
 def truth_of(corners: Corners, uv: np.ndarray[Any, Any]) -> np.ndarray[Any, Any]:
@@ -49,6 +50,22 @@ def test_finds_every_corner_in_its_place(
     noise = scene.get("noise", 0.0) / (np.diff(scene.get("levels", (40.0, 210.0)))[0])
     assert np.abs(error).max() < 0.05 + 2 * noise
     assert np.abs(corners.estimate - corners.uv).max() < 4
+
+
+@pytest.mark.parametrize("given_size", [True, False])
+@pytest.mark.parametrize("grid_size", [(3, 3), (3, 4)])
+@pytest.mark.parametrize("step", [8.0, 30.0, 90.0])
+def test_the_smallest_boards_are_found(
+    draw: Any, step: float, grid_size: tuple[int, int], given_size: bool
+) -> None:
+    """Of the smallest squares the board is so small that noise has corners of its own around."""
+    drawn = draw(grid_size, step=step, turn=20.0, tilt=(0.2, 0.1), barrel=0.2, noise=2.0)
+    corners = find_corners(drawn.image, grid_size if given_size else None)
+    assert corners.shape == grid_size
+    assert corners.complete
+    distance = np.linalg.norm(corners.uv[:, None] - drawn.uv.reshape(-1, 2), axis=2)
+    assert distance.min(axis=1).max() < 0.1
+    assert sorted(distance.argmin(axis=1)) == list(range(len(corners)))
 
 
 @settings(max_examples=25)
@@ -205,6 +222,17 @@ def test_part_of_a_board_is_returned_as_part(draw: Any) -> None:
     np.testing.assert_allclose(corners.uv, truth_of(corners, drawn.uv), atol=0.3)
 
 
+def test_nine_corners_of_a_board_are_a_part(draw: Any) -> None:
+    drawn = draw((6, 9), step=80.0, shift=(400.0, 265.0))
+    visible = ((drawn.uv < (634, 474)) & (drawn.uv > 5)).all(axis=2)
+    assert visible.sum() == 9
+    for stated in ((6, 9), None):
+        corners = find_corners(drawn.image, stated)
+        distance = np.linalg.norm(corners.uv[:, None] - drawn.uv[visible], axis=2).min(axis=1)
+        assert len(corners) == 9
+        assert distance.max() < 0.1
+
+
 @pytest.mark.parametrize("kind", ["black", "noise", "ramp", "stripes", "fine checkers", "discs"])
 def test_no_board_is_said_not_imagined(kind: str) -> None:
     rng = np.random.default_rng(5)
@@ -220,6 +248,11 @@ def test_no_board_is_said_not_imagined(kind: str) -> None:
     with pytest.raises(NoBoardError) as caught:
         find_corners(image.astype(np.uint8))
     assert caught.value.hint
+
+
+def test_ragged_corners_of_a_houndstooth_are_no_board() -> None:
+    with pytest.raises(NoBoardError):
+        find_corners(draw_without_board(556))
 
 
 @pytest.mark.parametrize("dtype", [np.uint16, np.float32, np.float64])
