@@ -57,11 +57,11 @@ _MAX_MISFIT_RATIO = 0.5
 """Greatest ratio of the rms distance that a lens leaves to that without one at which it is kept."""
 _MIN_LENS_POINTS = 16
 """Least number of points that a lens is fitted to."""
-_MIN_EXACT_POINTS = 12
+_MIN_EXACT_POINTS = 9
 """The same of exact points: the corners of the smallest board."""
 _MIN_EXACT_MISFIT = 0.0007
-"""The misfit of exact points below which no lens is fitted, as `_MIN_RELATIVE_MISFIT`. With 0.002,
-corners of 150 px squares in four lines lay 1.2 times off the bound at k1 = -0.1; now 1.05."""
+"""The misfit of exact points below which no lens is fitted, as `_MIN_RELATIVE_MISFIT`. With 0.0001
+corners are no better."""
 _MAX_LENS_POINTS = 400
 """Number of points, spread over the grid, that a lens is fitted to."""
 _COEFFICIENTS = 3
@@ -189,12 +189,9 @@ def fit_radial_homography(cells: Array, uv: Array, are_exact: bool = False) -> R
         cells: (n, 2) = (col, row).
         uv: (n, 2) px, where they are seen.
         are_exact: whether they are known to a fraction of a pixel, so that a lens is worth its time
-            for less misfit and with fewer points.
+            for less misfit and with fewer points; it then has one coefficient, for a start.
     """
-    none = np.zeros(_COEFFICIENTS)
-    plain = RadialHomography(
-        homography.fit_homography(cells, uv, np.ones(len(uv))), np.zeros(2), none
-    )
+    plain = fit_plain_homography(cells, uv)
     misfit = _rms(plain.locate(cells) - uv)
     least, relative = (
         (_MIN_EXACT_POINTS, _MIN_EXACT_MISFIT)
@@ -206,7 +203,7 @@ def fit_radial_homography(cells: Array, uv: Array, are_exact: bool = False) -> R
     chosen = np.linspace(0, len(uv) - 1, min(len(uv), _MAX_LENS_POINTS)).astype(np.int64)
     (x, mean, scale), (u, origin, unit) = _normalise(cells[chosen]), _normalise(uv[chosen])
     bent = _solve_division_model(x, u)
-    bent = None if bent is None else _refine_lens(x, u, bent)
+    bent = bent if bent is None or are_exact else _refine_lens(x, u, bent)
     # Not finite is not better.
     if bent is None or not unit * _rms(bent.locate(x) - u) < _MAX_MISFIT_RATIO * misfit:
         return plain
@@ -217,6 +214,12 @@ def fit_radial_homography(cells: Array, uv: Array, are_exact: bool = False) -> R
         origin + unit * bent.centre,
         bent.coefficients / unit ** np.arange(2.0, 2 * _COEFFICIENTS + 1, 2),
     )
+
+
+def fit_plain_homography(cells: Array, uv: Array) -> RadialHomography:
+    """Fit a homography without a lens to cells (n, 2) = (col, row) seen at `uv` (n, 2) px."""
+    H = homography.fit_homography(cells, uv, np.ones(len(uv)))
+    return RadialHomography(H, np.zeros(2), np.zeros(_COEFFICIENTS))
 
 
 def _solve_division_model(x: Array, u: Array) -> RadialHomography | None:
@@ -244,7 +247,7 @@ def _solve_division_model(x: Array, u: Array) -> RadialHomography | None:
         centre = -np.array(minus_centre)
         l1 = 1 / (a + centre @ centre)
         A = np.column_stack([M[:, 1:3] + 2 * np.outer(M[:, 0], centre), M[:, 0] / l1])
-        return RadialHomography(np.linalg.inv(A), centre, np.array([l1, 0.0, 0.0]))
+        return InverseRadialHomography(A, centre, np.array([l1, 0.0, 0.0])).invert(u)
     except np.linalg.LinAlgError:
         return None
 
@@ -253,45 +256,83 @@ def _refine_lens(x: Array, u: Array, start: RadialHomography) -> RadialHomograph
     """Refine a map of cells `x` (n, 2) by least squares of the distances from `u` (n, 2), both
     normalised.
 
-    The cell q / w, (q, w) = A v, v = (d, 1 / k), that a point u shows is compared with the given
-    one; its derivative by u takes the difference to the image.
+    The cell that a point u shows is compared with the given one; its derivative by u takes the
+    difference to the image.
 
     Returns:
         None if the equations become singular.
     """
-    A, centre, bend = np.linalg.inv(start.H), start.centre, start.coefficients
-    A /= np.linalg.norm(A)
-    n, k = len(x), np.arange(1, _COEFFICIENTS + 1)
+    inverse = invert_radial_homography(start)
     for _ in range(_GAUSS_NEWTON_STEPS):
-        d = u - centre
+        cell, by_u, J = inverse.differentiate(u)
+        try:
+            both = np.linalg.solve(by_u, np.concatenate([J, (cell - x)[..., None]], axis=2))
+            inverse = inverse.take_step(
+                both[..., :-1].reshape(2 * len(x), -1), both[..., -1].ravel()
+            )
+        except np.linalg.LinAlgError:
+            return None
+    return inverse.invert(u)
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class InverseRadialHomography:
+    """The cells that points show: q / w, (q, w) = A v, v = (d, 1 / k)."""
+
+    A: Array
+    """(3, 3)"""
+    centre: Array
+    """(2,) of the lens."""
+    bend: Array
+    """(3,) l1 to l3."""
+
+    def differentiate(self, u: Array) -> tuple[Array, Array, Array]:
+        """Compute the cells (n, 2) of points `u` (n, 2), and their derivatives by these (n, 2, 2)
+        and by the 14 parameters (n, 2, 14): A row by row, centre, bend."""
+        A, k = self.A, np.arange(1, _COEFFICIENTS + 1)
+        d = u - self.centre
         r = np.sum(d * d, axis=1)
         powers = r[:, None] ** k
-        slope = (r[:, None] ** (k - 1) * k) @ bend
-        v = np.column_stack([d, 1 + powers @ bend])
+        slope = (r[:, None] ** (k - 1) * k) @ self.bend
+        v = np.column_stack([d, 1 + powers @ self.bend])
         q = v @ A.T
         w = q[:, 2:]
         cell = q[:, :2] / w
         # The derivatives of the cell q / w are those of q less the cell times those of w, over w.
         rows = (A[:2] - cell[..., None] * A[2]) / w[..., None]
         by_u = rows[..., :2] + 2 * rows[..., 2:] * (slope[:, None] * d)[:, None]
-        by_A = np.zeros((n, 2, 3, 3))
+        by_A = np.zeros((len(u), 2, 3, 3))
         by_A[:, 0, 0] = by_A[:, 1, 1] = v / w
         by_A[:, :, 2] = -cell[..., None] * (v / w)[:, None]
         by_bend = rows[..., 2:] * powers[:, None]
-        J = np.concatenate([by_A.reshape(n, 2, 9), -by_u, by_bend], axis=2)
-        try:
-            J, off = np.linalg.solve(by_u, J), np.linalg.solve(by_u, (cell - x)[..., None])
-            flat = J.reshape(2 * n, -1)
-            N = flat.T @ flat
-            step = np.linalg.solve(
-                N + _DAMPING * np.trace(N) * np.eye(len(N)), flat.T @ off.ravel()
-            )
-        except np.linalg.LinAlgError:
-            return None
-        A = A - step[:9].reshape(3, 3)
-        centre, bend = centre - step[9:11], bend - step[11:]
-    # What is seen of a board lies on one side of its plane's horizon: there w is positive.
-    return RadialHomography(np.linalg.inv(A * np.sign(np.median(w))), centre, bend)
+        return cell, by_u, np.concatenate([by_A.reshape(-1, 2, 9), -by_u, by_bend], axis=2)
+
+    def take_step(self, J: Array, off: Array) -> InverseRadialHomography:
+        """Take one Gauss-Newton step against the residuals `off` (m,) with derivatives (m, 14).
+
+        Raises:
+            numpy.linalg.LinAlgError: the equations are singular.
+        """
+        N = J.T @ J
+        step = np.linalg.solve(N + _DAMPING * np.trace(N) * np.eye(len(N)), J.T @ off)
+        return InverseRadialHomography(
+            self.A - step[:9].reshape(3, 3), self.centre - step[9:11], self.bend - step[11:]
+        )
+
+    def invert(self, u: Array) -> RadialHomography:
+        """Return the map to the image; `u` (n, 2) are points that are seen."""
+        d = u - self.centre
+        k = np.arange(1, _COEFFICIENTS + 1)
+        v = np.column_stack([d, 1 + np.sum(d * d, axis=1)[:, None] ** k @ self.bend])
+        # What is seen of a board lies on one side of its plane's horizon: there w is positive.
+        side = np.sign(np.median(v @ self.A[2]))
+        return RadialHomography(np.linalg.inv(self.A * side), self.centre, self.bend)
+
+
+def invert_radial_homography(seen: RadialHomography) -> InverseRadialHomography:
+    """Return the inverse of a map to the image, A of norm 1."""
+    A = np.linalg.inv(seen.H)
+    return InverseRadialHomography(A / np.linalg.norm(A), seen.centre, seen.coefficients)
 
 
 def _normalise(points: Array) -> tuple[Array, Array, float]:

@@ -83,9 +83,8 @@ _MIN_CORNERS = 6
 """Number of corners below which no pose is estimated."""
 _MAX_BEND = 3.0
 """Distance that edges of few corners are bent aside, in standard deviations of their corners,
-beyond which the camera knows the bend better. At 30 % barrel, where it is hundreds, the first
-search leaves errors of 1.2 to 1.4 times the bound on 12 corners of 150 to 300 px squares, the
-second of 1.0 to 1.15."""
+beyond which the camera knows the bend better. At 30 % barrel, where it is hundreds, both searches
+leave errors of 1.0 to 1.15 times the bound on 12 corners of 150 to 300 px squares."""
 _MAX_NOISE_RATIO = 3.0
 """Ratio of a new view's residuals to the calibration's beyond which the view is refused."""
 

@@ -6,16 +6,16 @@ change five, and small boards have no more. But the fit knows the directions of 
 as it knows their corners. With arms of half a square, the two directions at the ends of one edge
 tell its kappa L^2 / 6 to a fifth of a corner's standard deviation.
 
-So the map p of cells to the image is fitted to both, by least squares: with the corner c_i at the
-cell x_i, and the normals n_1 and n_2 of the edges there,
+So the map of cells to the image is fitted to both. It is a homography through a radial lens
+(``edge_lens``), linear in its parameters once these are near, plus a polynomial p: with the normals
+n_1 and n_2 of the edges at the cell x_i, p adds to their means and slopes
 
-    p(x_i) = c_i,      w n_1 . dp/dcol (x_i) = 0,      w n_2 . dp/drow (x_i) = 0.
+    n_1 . (p + A^2 / 6 d^2p/dcol^2),      w n_1 . dp/dcol,      and the like with n_2 and rows.
 
-Read over A squares to both sides, a direction has sqrt(3) / A times the standard deviation of its
-corner, in px per square; so w is A / sqrt(3). p is a homography through a radial lens
-(``grid_map``) plus a polynomial, whose degree is the one of the least generalised cross-validation
-score, as in ``board_priors``, but at least 3: so it holds what is uncertain of the homography and
-the lens, too. What it leaves unexplained says how well the curvatures are known.
+Read over A squares to both sides, a slope has sqrt(3) / A times the standard deviation of its mean,
+in px per square; so w is A / sqrt(3). Whether there is a lens, and a polynomial, and of what
+degree, is decided by the generalised cross-validation score, as in ``board_priors``. What the map
+leaves unexplained says how well its parameters are known, and with them the curvatures.
 
 Along a row only the corners tell how far a point lies, as many as there are columns; how far it
 lies across is told by the directions as well. So the polynomial has other powers along the mean
@@ -32,11 +32,16 @@ import numpy as np
 
 from calibgui.engine.arrays import Array, BoolArray, GridSize, IntArray
 from calibgui.engine.detection import grid_map
+from calibgui.engine.detection.checkerboard.edge_lens import EdgeLens, fit_edge_lenses
 from calibgui.engine.detection.checkerboard.fit_thresholds import FIT_THRESHOLDS
 
 _THRESHOLDS = FIT_THRESHOLDS.priors
 _ORDERS = ((0, 0), (1, 0), (0, 1), (2, 0), (0, 2))
 """Numbers of derivatives by column and by row that are needed."""
+_NO_DEGREE = -1
+"""Stands for the degree of the lens's parameters, which come before the polynomials'."""
+_MIN_PARAMETER = 1e-4
+"""Least part of a parameter of the lens that those before it do not have in common with it."""
 _DAMPING = 1e-12
 """What is added to the diagonal of the normal equations, over its own entries."""
 
@@ -66,8 +71,8 @@ class _Terms(NamedTuple):
 
 @lru_cache(maxsize=4)
 def _compute_terms(shape: GridSize, found: bytes) -> _Terms:
-    """Compute the terms for the corners found in a lattice of a shape, as many as their equations
-    carry; they are kept, since most images of a set show the same corners."""
+    """Compute the terms for the corners found in a lattice of a shape; they are kept, since most
+    images of a set show the same corners."""
     cells = np.argwhere(np.frombuffer(found, dtype=np.bool_).reshape(shape))[:, ::-1]
     extent = np.ptp(cells, axis=0)
     centre, half = cells.mean(axis=0), np.maximum(extent / 2, 1.0)
@@ -75,15 +80,11 @@ def _compute_terms(shape: GridSize, found: bytes) -> _Terms:
     powers = np.array([(d - r, r) for d in range(highest + 1) for r in range(d + 1)])
     limit = np.where(np.eye(2, dtype=np.bool_), extent, 2 * extent + 1)
     term, axis = np.nonzero(np.all(powers[:, None] <= limit, axis=2))
-    degree = powers.sum(axis=1)[term]
-    count = np.searchsorted(degree, degree + 1)
-    carried = count <= 2 * 4 * len(cells) / 3
-    term, axis, degree = term[carried], axis[carried], degree[carried]
     table = np.polynomial.polynomial.polyvander((cells - centre) / half, highest)
     values = [
         grid_map.compute_polynomial_terms(table, powers[term], half, order) for order in _ORDERS
     ]
-    return _Terms(np.stack(values), axis, degree)
+    return _Terms(np.stack(values), axis, powers.sum(axis=1)[term])
 
 
 def fit_edge_map(
@@ -100,42 +101,51 @@ def fit_edge_map(
         curvature: (n, 2) that the edges were taken to have there, 1/px.
     """
     cells = np.argwhere(found)[:, ::-1].astype(np.float64)
-    flat = grid_map.fit_radial_homography(cells, uv, are_exact=True)
-    first, second = flat.differentiate(cells)
-    along = np.sum(first * first, axis=2)
-    bend = np.sum(second * normals, axis=2) / along
-    third = arm**2 / 6
-    offset = np.sum(normals * (uv - flat.locate(cells))[:, None], axis=2)
-    offset += third * (curvature - bend)
-    weight = arm / np.sqrt(3 * along)
-    turn = -weight * np.sum(normals * first, axis=2)
-    rest = np.concatenate([*offset.T, *turn.T])
+    fits = [
+        _fit_polynomial(found, lens, normals, arm)
+        for lens in fit_edge_lenses(cells, uv, normals, arm, curvature)
+    ]
+    return min(fits, key=lambda fit: fit[0])[1]
+
+
+def _fit_polynomial(
+    found: BoolArray, lens: EdgeLens, normals: Array, arm: Array
+) -> tuple[float, EdgeGeometry]:
+    """Fit the polynomial that is added to a lens, if any, and return the score of both with the
+    geometry; arguments as in `fit_edge_map`."""
+    rest, count = lens.rest.ravel(), lens.columns.shape[-1]
+    third, along = arm.T**2 / 6, np.sum(lens.first**2, axis=2).T
     terms, axis, degree = _compute_terms(found.shape, found.tobytes())
-    axes = first.mean(axis=0)[axis]
-    across = np.einsum("naj,kj->ank", normals, axes)
-    mean = terms[0] + (third / along).T[..., None] * terms[3:]
-    J = np.concatenate([*(across * mean), *(weight.T[..., None] * across * terms[1:3])])
-    N = J.T @ J
-    R = _factorise(N)
-    independent = np.diag(R) ** 2 > _THRESHOLDS.min_edge_independence**2 * np.diag(N)
-    if not independent.all():  # lines with gaps do not tell all terms apart
-        terms, across, J = terms[..., independent], across[..., independent], J[:, independent]
-        axes, degree = axes[independent], degree[independent]
-        R = _factorise(J.T @ J)
-    tried = np.arange(min(_THRESHOLDS.min_edge_degree, degree[-1]), degree[-1] + 1)
+    across = np.einsum("naj,kj->ank", normals, lens.first.mean(axis=0)[axis])
+    bends = (third / along)[..., None] * across * terms[3:]
+    slopes = (arm.T / np.sqrt(3 * along))[..., None] * across * terms[1:3]
+    by_terms = np.stack([across * terms[0] + bends, slopes])
+    J = np.concatenate([lens.columns, by_terms], axis=3).reshape(len(rest), -1)
+    bends = np.concatenate([lens.bend_columns, bends], axis=2)
+    degree = np.concatenate([np.full(count, _NO_DEGREE), degree])
+    # Of the lens all but the scale of its equations counts; a polynomial has much of it in common.
+    least = np.where(degree == _NO_DEGREE, _MIN_PARAMETER, _THRESHOLDS.min_edge_independence)
+    scale = np.linalg.norm(J, axis=0)
+    J, bends = J / scale, bends / scale
+    independent = np.diag(_factorise(J.T @ J)) > least
+    J, bends, degree = J[:, independent], bends[..., independent], degree[independent]
+    tried = np.array([_NO_DEGREE, *range(_THRESHOLDS.min_edge_degree, degree[-1] + 1)])
     counts = np.searchsorted(degree, tried, side="right")
-    inverse = np.linalg.inv(R)
+    most = 2 * len(rest) // 3
+    counts = np.append(min(counts[0], most), counts[1:][counts[1:] <= most])
+    inverse = np.linalg.inv(_factorise(J.T @ J))
     share = inverse.T @ (J.T @ rest)
     rss = np.maximum(rest @ rest - np.cumsum(share**2)[counts - 1], 0.0)
-    best = np.argmin(rss / (1 - _THRESHOLDS.term_cost * counts / (len(rest) + 1)) ** 2)
+    scores = rss / (1 - _THRESHOLDS.term_cost * counts / (len(rest) + 1)) ** 2
+    best = int(np.argmin(scores))
     used = slice(counts[best])
-    inverse = inverse[used, used]
-    weights = inverse @ share[used]
-    steps = first + (terms[1:3, :, used] @ (weights[:, None] * axes[used])).transpose(1, 0, 2)
-    bends = across[..., used] * terms[3:, :, used]
-    curvature = bend + (bends @ weights).T / along
-    spread = np.sum((bends @ inverse) ** 2, axis=2).T / along**2
-    return EdgeGeometry(steps, curvature, rss[best] / (len(rest) - counts[best]) * spread)
+    inverse, bends = inverse[used, used], bends[..., used]
+    spread = np.sum((bends @ inverse) ** 2, axis=2) / third**2
+    return float(scores[best]), EdgeGeometry(
+        lens.first,
+        ((lens.bend + bends @ (inverse @ share[used])) / third).T,
+        rss[best] / (len(rest) - counts[best]) * spread.T,
+    )
 
 
 def _factorise(N: Array) -> Array:

@@ -73,7 +73,8 @@ class PriorThresholds:
     many_corners: int = 40
     """Number of corners from which on they tell how edges bend, without their directions."""
     min_edge_degree: int = 3
-    """Lowest degree of the polynomials tried that follow edges, too."""
+    """Lowest degree of the polynomials tried that follow edges, too, beside none: a lens and a
+    homography come before."""
     max_edge_degree: int = 5
     """The highest degree of those."""
     term_cost: float = 1.4
