@@ -43,9 +43,11 @@ None of this measures a camera: centre and coefficients of the lens take up what
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import NamedTuple
 
 import numpy as np
 
+from calibgui.engine import kernels
 from calibgui.engine.arrays import Array, IntArray
 from calibgui.engine.detection.lattice import Lattice
 from calibgui.engine.geometry import homography
@@ -151,26 +153,32 @@ class RadialHomography:
         return np.asarray(cells @ self.H[2, :2] + self.H[2, 2])
 
     def _invert_lens(self, e: Array, w: Array) -> Array:
-        """Compute d (n, 2) px from the centre, where the lens shows the ideal points `e` (n, 2) of
-        last coordinates `w` (n,).
+        """Compute d (n, 2) px from the centre, where it shows ideal points: `_invert_lens`."""
+        return _invert_lens(e, w, self.coefficients, _INVERSION_STEPS)
 
-        Newton's steps on |d| = |e| / k lead there from where l1 alone would show them. Beyond 90
-        degrees, which only l1 < 0 reaches, |e| counts as negative, as k is.
-        """
-        l1, l2, l3 = self.coefficients
-        far = np.linalg.norm(e, axis=1)
-        beyond = (w < 0) & (l1 < 0)
-        far[beyond] *= -1
-        root = 1 + np.sqrt(np.maximum(1 - 4 * l1 * far**2, 0.0))
-        x = 2 * far / root
-        x[beyond] = root[beyond] / (2 * l1 * far[beyond])
-        with np.errstate(all="ignore"):  # beyond where the lens reaches
-            for _ in range(_INVERSION_STEPS):
-                r = x * x
-                inverse = 1 + r * (l1 + r * (l2 + r * l3))
-                slope = 2 * x * (l1 + r * (2 * l2 + r * 3 * l3))
-                x = x - (x - far * inverse) / (1 - far * slope)
-        return np.asarray(e * (x / np.where(far == 0, 1.0, far))[:, None])
+
+@kernels.with_kernel("grid_map", "invert_lens")
+def _invert_lens(e: Array, w: Array, coefficients: Array, steps: int) -> Array:
+    """Compute d (n, 2) px from the centre, where a lens shows the ideal points `e` (n, 2) of last
+    coordinates `w` (n,).
+
+    Newton's steps on |d| = |e| / k lead there from where l1 alone would show them. Beyond 90
+    degrees, which only l1 < 0 reaches, |e| counts as negative, as k is.
+    """
+    l1, l2, l3 = coefficients
+    far = np.linalg.norm(e, axis=1)
+    beyond = (w < 0) & (l1 < 0)
+    far[beyond] *= -1
+    root = 1 + np.sqrt(np.maximum(1 - 4 * l1 * far**2, 0.0))
+    x = 2 * far / root
+    x[beyond] = root[beyond] / (2 * l1 * far[beyond])
+    with np.errstate(all="ignore"):  # beyond where the lens reaches
+        for _ in range(steps):
+            r = x * x
+            inverse = 1 + r * (l1 + r * (l2 + r * l3))
+            slope = 2 * x * (l1 + r * (2 * l2 + r * 3 * l3))
+            x = x - (x - far * inverse) / (1 - far * slope)
+    return np.asarray(e * (x / np.where(far == 0, 1.0, far))[:, None])
 
 
 def _compute_scale(r: Array, coefficients: Array) -> tuple[Array, Array, Array]:
@@ -202,10 +210,13 @@ def fit_radial_homography(cells: Array, uv: Array, are_exact: bool = False) -> R
         return plain
     chosen = np.linspace(0, len(uv) - 1, min(len(uv), _MAX_LENS_POINTS)).astype(np.int64)
     (x, mean, scale), (u, origin, unit) = _normalise(cells[chosen]), _normalise(uv[chosen])
-    bent = _solve_division_model(x, u)
-    bent = bent if bent is None or are_exact else _refine_lens(x, u, bent)
+    try:
+        inverse = _solve_division_model(x, u)
+        bent = (inverse if are_exact else _refine_lens(x, u, inverse)).invert(u)
+    except np.linalg.LinAlgError:
+        return plain
     # Not finite is not better.
-    if bent is None or not unit * _rms(bent.locate(x) - u) < _MAX_MISFIT_RATIO * misfit:
+    if not unit * _rms(bent.locate(x) - u) < _MAX_MISFIT_RATIO * misfit:
         return plain
     to_normal = np.diag([1 / scale, 1 / scale, 1.0])
     to_normal[:2, 2] = -mean / scale
@@ -222,15 +233,15 @@ def fit_plain_homography(cells: Array, uv: Array) -> RadialHomography:
     return RadialHomography(H, np.zeros(2), np.zeros(_COEFFICIENTS))
 
 
-def _solve_division_model(x: Array, u: Array) -> RadialHomography | None:
+def _solve_division_model(x: Array, u: Array) -> InverseRadialHomography:
     """Solve for the lens with one coefficient in closed form (Fitzgibbon 2001).
 
     Args:
         x: (n, 2) cells, normalised.
         u: (n, 2) their positions, normalised.
 
-    Returns:
-        None if the equations have no solution.
+    Raises:
+        numpy.linalg.LinAlgError: the equations have no solution.
     """
     lifted = np.column_stack([np.sum(u * u, axis=1), u, np.ones(len(u))])
     S, Sx, Sy, Sq = (
@@ -242,41 +253,50 @@ def _solve_division_model(x: Array, u: Array) -> RadialHomography | None:
     inverse = np.linalg.inv(S + _DAMPING * np.trace(S) * np.eye(4))
     third = np.linalg.eigh(Sq - Sx @ inverse @ Sx - Sy @ inverse @ Sy)[1][:, 0]
     M = np.stack([inverse @ Sx @ third, inverse @ Sy @ third, third])
-    try:
-        a, *minus_centre = np.linalg.solve(M[:, :3], M[:, 3])
-        centre = -np.array(minus_centre)
-        l1 = 1 / (a + centre @ centre)
-        A = np.column_stack([M[:, 1:3] + 2 * np.outer(M[:, 0], centre), M[:, 0] / l1])
-        return InverseRadialHomography(A, centre, np.array([l1, 0.0, 0.0])).invert(u)
-    except np.linalg.LinAlgError:
-        return None
+    a, *minus_centre = np.linalg.solve(M[:, :3], M[:, 3])
+    centre = -np.array(minus_centre)
+    l1 = 1 / (a + centre @ centre)
+    A = np.column_stack([M[:, 1:3] + 2 * np.outer(M[:, 0], centre), M[:, 0] / l1])
+    return InverseRadialHomography(A, centre, np.array([l1, 0.0, 0.0]))
 
 
-def _refine_lens(x: Array, u: Array, start: RadialHomography) -> RadialHomography | None:
+def _refine_lens(x: Array, u: Array, start: InverseRadialHomography) -> InverseRadialHomography:
     """Refine a map of cells `x` (n, 2) by least squares of the distances from `u` (n, 2), both
     normalised.
 
     The cell that a point u shows is compared with the given one; its derivative by u takes the
     difference to the image.
 
-    Returns:
-        None if the equations become singular.
+    Raises:
+        numpy.linalg.LinAlgError: the equations become singular; or what it returns is not finite.
     """
-    inverse = invert_radial_homography(start)
-    for _ in range(_GAUSS_NEWTON_STEPS):
+    A = start.A / np.linalg.norm(start.A)
+    return InverseRadialHomography(
+        *_refine_parameters(x, u, A, start.centre, start.bend, _GAUSS_NEWTON_STEPS, _DAMPING)
+    )
+
+
+@kernels.with_kernel("grid_map", "refine_lens")
+def _refine_parameters(
+    x: Array, u: Array, A: Array, centre: Array, bend: Array, steps: int, damping: float
+) -> tuple[Array, Array, Array]:
+    """Return the parameters of the inverse map of `_refine_lens` after so many `steps`, with so
+    much `damping`; their meaning as in `InverseRadialHomography`.
+
+    Raises:
+        numpy.linalg.LinAlgError: the equations are singular; or what it returns is not finite.
+    """
+    inverse = InverseRadialHomography(A, centre, bend)
+    for _ in range(steps):
         cell, by_u, J = inverse.differentiate(u)
-        try:
-            both = np.linalg.solve(by_u, np.concatenate([J, (cell - x)[..., None]], axis=2))
-            inverse = inverse.take_step(
-                both[..., :-1].reshape(2 * len(x), -1), both[..., -1].ravel()
-            )
-        except np.linalg.LinAlgError:
-            return None
-    return inverse.invert(u)
+        both = np.linalg.solve(by_u, np.concatenate([J, (cell - x)[..., None]], axis=2))
+        inverse = inverse.take_step(
+            both[..., :-1].reshape(2 * len(x), -1), both[..., -1].ravel(), damping
+        )
+    return inverse.A, inverse.centre, inverse.bend
 
 
-@dataclass(frozen=True, eq=False, slots=True)
-class InverseRadialHomography:
+class InverseRadialHomography(NamedTuple):
     """The cells that points show: q / w, (q, w) = A v, v = (d, 1 / k)."""
 
     A: Array
@@ -307,14 +327,14 @@ class InverseRadialHomography:
         by_bend = rows[..., 2:] * powers[:, None]
         return cell, by_u, np.concatenate([by_A.reshape(-1, 2, 9), -by_u, by_bend], axis=2)
 
-    def take_step(self, J: Array, off: Array) -> InverseRadialHomography:
+    def take_step(self, J: Array, off: Array, damping: float = _DAMPING) -> InverseRadialHomography:
         """Take one Gauss-Newton step against the residuals `off` (m,) with derivatives (m, 14).
 
         Raises:
             numpy.linalg.LinAlgError: the equations are singular.
         """
         N = J.T @ J
-        step = np.linalg.solve(N + _DAMPING * np.trace(N) * np.eye(len(N)), J.T @ off)
+        step = np.linalg.solve(N + damping * np.trace(N) * np.eye(len(N)), J.T @ off)
         return InverseRadialHomography(
             self.A - step[:9].reshape(3, 3), self.centre - step[9:11], self.bend - step[11:]
         )
