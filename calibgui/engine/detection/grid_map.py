@@ -48,7 +48,7 @@ from typing import NamedTuple
 import numpy as np
 
 from calibgui.engine import kernels
-from calibgui.engine.arrays import Array, IntArray
+from calibgui.engine.arrays import Array, IntArray, compute_median
 from calibgui.engine.detection.lattice import Lattice
 from calibgui.engine.geometry import homography
 
@@ -345,8 +345,9 @@ class InverseRadialHomography(NamedTuple):
         k = np.arange(1, _COEFFICIENTS + 1)
         v = np.column_stack([d, 1 + np.sum(d * d, axis=1)[:, None] ** k @ self.bend])
         # What is seen of a board lies on one side of its plane's horizon: there w is positive.
-        side = np.sign(np.median(v @ self.A[2]))
-        return RadialHomography(np.linalg.inv(self.A * side), self.centre, self.bend)
+        side = np.sign(compute_median(v @ self.A[2]))
+        H = np.asarray(np.linalg.inv(self.A * side), dtype=np.float64)
+        return RadialHomography(H, self.centre, self.bend)
 
 
 def invert_radial_homography(seen: RadialHomography) -> InverseRadialHomography:

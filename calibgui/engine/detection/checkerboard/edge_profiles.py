@@ -17,7 +17,7 @@ from typing import NamedTuple
 import numpy as np
 
 from calibgui.engine import kernels
-from calibgui.engine.arrays import Array, GreyImage
+from calibgui.engine.arrays import Array, GreyImage, compute_median
 from calibgui.engine.detection.checkerboard.fit_thresholds import FIT_THRESHOLDS
 from calibgui.engine.images.sampling import sample_image
 
@@ -78,7 +78,9 @@ def measure_edge_profiles(
     first, last, total = _measure_ends(*edges, reach, _SAMPLES, _END_SAMPLES)
     rising = sign[:, None] * np.sign(_PROFILE_OFFSETS)
     rise = (last - first) * rising
-    clear = rise > max(FIT_THRESHOLDS.profiles.min_relative_rise * float(np.median(rise)), 0.0)
+    clear = rise > max(
+        FIT_THRESHOLDS.profiles.min_relative_rise * float(compute_median(rise.ravel())), 0.0
+    )
     rise = np.where(clear, rise * rising, np.inf)
     integral = (total / (_SAMPLES - 1) - first) / rise * 2 * reach
     growth = np.where(clear.all(axis=1, keepdims=True), (reach - integral) * rising, np.nan)
@@ -86,9 +88,9 @@ def measure_edge_profiles(
     close = np.minimum(reach, _BLUR_REACH / size)
     middle = np.clip(reach - integral, close[:, None] - reach, reach - close[:, None])
     count = _count_between_quartiles(*edges, middle, close, _SAMPLES, first, rise)
-    blur = size * np.median(count, axis=1) * 2 * close / (_SAMPLES - 1) / _QUARTILE_WIDTH
-    low = np.median(np.where(rising > 0, first, last), axis=1)
-    high = np.median(np.where(rising > 0, last, first), axis=1)
+    blur = size * compute_median(count) * 2 * close / (_SAMPLES - 1) / _QUARTILE_WIDTH
+    low = compute_median(np.where(rising > 0, first, last))
+    high = compute_median(np.where(rising > 0, last, first))
     return EdgeProfiles(np.mean(growth, axis=1), bulge, blur, low, high)
 
 

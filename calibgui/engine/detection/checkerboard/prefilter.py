@@ -30,7 +30,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from calibgui.engine.arrays import Array, GreyImage
+from calibgui.engine.arrays import Array, GreyImage, compute_median
 from calibgui.engine.detection.checkerboard.corner_template import (
     OrientedCorners,
     check_crossing,
@@ -176,7 +176,8 @@ def _measure_width(edges: tuple[EdgeProfiles, EdgeProfiles], corners: OrientedCo
     """Measure the median blur of the edges in the direction in which they are wider, squares."""
     heights = _compute_heights(corners)
     return max(
-        float(np.median(edge.blur / height)) for edge, height in zip(edges, heights, strict=True)
+        float(compute_median(edge.blur / height))
+        for edge, height in zip(edges, heights, strict=True)
     )
 
 
@@ -219,4 +220,4 @@ def rise_steadily(spreads: Array, uv: Array) -> bool:
 def _compute_known_median(values: Array) -> float:
     """Return the median of the values that are known, 0 if none is."""
     known = values[np.isfinite(values)]
-    return float(np.median(known)) if len(known) else 0.0
+    return float(compute_median(known)) if len(known) else 0.0

@@ -1,0 +1,18 @@
+"""The median of few values against NumPy's."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from calibgui.engine.arrays import compute_median
+
+
+@pytest.mark.parametrize("shape", [(1,), (2,), (7,), (156,), (5, 8), (64, 3), (3, 1)])
+def test_the_median_is_numpys(shape: tuple[int, ...]) -> None:
+    rng = np.random.default_rng(0)
+    for values in (rng.standard_normal(shape), rng.integers(0, 3, shape).astype(np.float64)):
+        for axis in range(-1, len(shape) - 1):
+            np.testing.assert_array_equal(
+                compute_median(values, axis), np.median(values, axis=axis)
+            )
