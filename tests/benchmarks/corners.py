@@ -6,9 +6,10 @@ draws boards under many conditions (`tests.scenes`), locates their corners with 
 hand (`corner_methods`), and prints per condition the root mean square error per axis over the
 Cramer-Rao bound, the boards found in full, and the time. The engine is told nothing but the image;
 the others are told the board's size, which they need. Then ours alone are measured in images of 12
-megapixels, and counted where only a part of the board is seen (`corner_partial`), under conditions
-drawn at random (`corner_unseen`), and in images without a board. `--output` also gets all of it but
-the large images as JSON and a plot.
+megapixels and on boards of few corners under a lens that bends their edges, and counted where only
+a part of the board is seen (`corner_partial`), under conditions drawn at random (`corner_unseen`),
+and in images without a board. `--output` also gets all of it but the large images and the few
+corners as JSON and a plot.
 """
 
 from __future__ import annotations
@@ -84,6 +85,18 @@ LARGE: dict[str, dict[str, Any]] = {
     "hard light": {"square": 240.0, "light": 1.0},
 }
 """Conditions in images of 12 megapixels, which the others take seconds for."""
+SMALL: dict[str, dict[str, Any]] = {
+    f"{rows} x {cols}, {square} px": {
+        "grid_size": (rows, cols),
+        "square": float(square),
+        "size": (max(640, 8 * square), max(480, 6 * square)),
+        "distortion": 0.43,
+        "parts": 4 if square < 100 else 2,
+    }
+    for rows, cols in ((3, 3), (3, 4), (4, 5))
+    for square in (8, 90, 300)
+}
+"""Boards of few corners that fill the image, but for the smallest, at 30 % barrel."""
 
 
 def score(method: Method, scenes: list[Scene], draws: int) -> Score:
@@ -175,6 +188,15 @@ def main() -> None:
         large = Conditions(size=(4000, 3000), blur=1.2, parts=2, **settings)
         found = score(METHODS["ours"], [draw(large, seed) for seed in range(scenes)], draws)
         print(f"{name:14}ratio {found.ratio:.2f}, chi2/dof {found.chi2:.2f}", flush=True)
+
+    print("\nfew corners")
+    for name, settings in SMALL.items():
+        drawn = [draw(Conditions(**settings), seed) for seed in range(scenes)]
+        found = score(METHODS["ours"], drawn, draws if quick else max(6, enough(drawn)))
+        print(
+            f"{name:14}ratio {found.ratio:.2f}, chi2/dof {found.chi2:.2f}, {found.found:.0%} found",
+            flush=True,
+        )
 
     print("\nparts of boards: visible corners found, and wrong ones; size stated, size inferred")
     parts: dict[str, list[Count]] = {}

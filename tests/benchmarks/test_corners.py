@@ -26,6 +26,16 @@ def test_the_engine_reaches_the_bound(name: str) -> None:
     assert 0.75 < result.chi2 < 1.4
 
 
+@pytest.mark.slow
+@pytest.mark.parametrize("name", ["3 x 3, 8 px", "3 x 3, 90 px", "3 x 4, 90 px"])
+def test_few_corners_reach_it_too(name: str) -> None:
+    scene = draw(Conditions(**benchmark.SMALL[name]), 0)
+    result = benchmark.score(corner_methods.METHODS["ours"], [scene], 6)
+    assert result.found == 1
+    assert result.ratio < 1.3
+    assert 0.6 < result.chi2 < 1.5
+
+
 @pytest.mark.parametrize("seed", range(2 * len(KINDS)))
 def test_no_board_is_seen_where_there_is_none(seed: int) -> None:
     with pytest.raises(NoBoardError):
