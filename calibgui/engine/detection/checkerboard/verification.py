@@ -64,6 +64,8 @@ def find_sound_corners(lattice: Lattice, image: GreyImage, plain: float = 0.5) -
         A mask (rows, cols).
     """
     lattice = drop_isolated(lattice)
+    if not len(lattice):
+        return lattice.found
     good = _match_template(lattice, image, plain)
     if not good[lattice.found].all() and plain == 0.5 and stands_alone(lattice, image):
         # Marks in the squares differ; what is near the corners does not.

@@ -16,6 +16,8 @@ from calibgui.engine.detection.corners import Corners
 from calibgui.engine.detection.find_corners import find_corners
 from calibgui.engine.errors import NoBoardError
 from calibgui.engine.images.reading import read_image
+from tests.scenes.checkerboards import draw as draw_scene
+from tests.scenes.conditions import Conditions
 from tests.scenes.without_board import draw_without_board
 
 
@@ -248,6 +250,13 @@ def test_no_board_is_said_not_imagined(kind: str) -> None:
     with pytest.raises(NoBoardError) as caught:
         find_corners(image.astype(np.uint8))
     assert caught.value.hint
+
+
+def test_a_board_without_a_saddle_point_is_refused() -> None:
+    overlapping = draw_scene(Conditions(ink=0.08, parts=2), 0).photograph(0)
+    assert find_corners(overlapping).shape == (6, 9)
+    with pytest.raises(NoBoardError):
+        find_corners(overlapping, method="saddle")
 
 
 def test_ragged_corners_of_a_houndstooth_are_no_board() -> None:
