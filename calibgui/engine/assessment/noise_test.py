@@ -57,7 +57,6 @@ from calibgui.engine.calibration.result import Calibration
 from calibgui.engine.calibration.score_tests import (
     CURVED,
     LENS,
-    MIN_AGREEMENT,
     Explanation,
     LinearisedFit,
     SharedCauses,
@@ -246,7 +245,7 @@ def _check_causes(
         passed = found.probability >= _MAX_FALSE_ALARM_RATE
         if name in _SHARED_CAUSES and not passed:
             before = () if name == "lens" else after
-            passed = shared.measure_agreement(_SHARED_CAUSES[name], *before) < MIN_AGREEMENT
+            passed = not shared.do_views_agree(_SHARED_CAUSES[name], *before)
         finding = "nothing" if passed else f"{np.sqrt(share) * rms:.2g} px rms"
         yield NoiseCheck(name, passed, finding, _ADVICE_ON_CAUSES[name], 0.0 if passed else share)
 

@@ -32,7 +32,6 @@ from calibgui.engine.calibration.refinement.residuals import compute_image_resid
 from calibgui.engine.calibration.score_tests import (
     LENS,
     LENS_CELLS,
-    MIN_AGREEMENT,
     LinearisedFit,
     SharedCauses,
 )
@@ -75,7 +74,7 @@ def measure_lens_error(fit: LinearisedFit, by_board: float) -> float:
         or causes.explain(LENS, *simple).probability >= MAX_FALSE_ALARM_RATE
     ):
         return 0.0
-    if causes.measure_agreement(LENS) < MIN_AGREEMENT:
+    if not causes.do_views_agree(LENS):
         return 0.0
     lens = SharedCauses(fit, [LENS], cells=count_fine_cells(fit)).explain(LENS)
     residual = compute_image_residuals(

@@ -69,6 +69,8 @@ MIN_AGREEMENT = 2.5
 """Agreement of the views below which no cause that all share is named. Noise that grew tenfold
 towards the edges of the image had 0.3 with a standard deviation of 1, over 360 tests of sets of 6,
 10 and 20 views, and 1 % beyond 2.5; lenses and boards that were off had 2.7 to 17."""
+_MIN_PART_OF_AGREEMENT = 0.6
+"""The same, as part of the agreement of views that all say the same: that of few is small."""
 _MAX_KEPT_VIEWS = 256
 """Number of views whose derivatives are kept, 0.4 kB for each of their corners."""
 _MIN_PIVOT = 1e-9
@@ -227,7 +229,7 @@ class SharedCauses:
 
         Returns:
             The sum of what pairs of views explain together over its standard deviation under
-            independent errors; at most sqrt(K (K - 1) / 2) of K views.
+            independent errors; sqrt(K (K - 1) / 2) if all of K views say the same.
         """
         y, fitted = (
             self._solve(["", *names], self._b_of_views) for names in ((*after, cause), after)
@@ -236,6 +238,12 @@ class SharedCauses:
         np.fill_diagonal(Q, 0.0)
         spread = np.sqrt(2 * np.sum(Q**2))
         return float(Q.sum() / spread) if spread > 0 else 0.0
+
+    def do_views_agree(self, cause: str, *after: str) -> bool:
+        """Return whether the views agree about a cause, so that they may share it."""
+        K = self._b_of_views.shape[1]
+        least = min(MIN_AGREEMENT, _MIN_PART_OF_AGREEMENT * np.sqrt(K * (K - 1) / 2))
+        return self.measure_agreement(cause, *after) >= least
 
     def explain(self, cause: str, *after: str) -> Explanation:
         """Judge what a cause explains of the residuals, or of what other causes `after` leave."""

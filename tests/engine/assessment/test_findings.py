@@ -10,13 +10,14 @@ from calibgui.engine.assessment.comparison import compare_cameras
 from calibgui.engine.assessment.finding import Cause, Finding
 from calibgui.engine.assessment.findings import list_findings
 from calibgui.engine.assessment.input_errors import find_wrong_frame
+from calibgui.engine.boards.board import Board
 from calibgui.engine.calibration.calibrate import calibrate
 from calibgui.engine.calibration.observations import Observation
 from calibgui.engine.camera.camera import Camera
 from calibgui.engine.camera.projection import pixels_from_rays
 from calibgui.engine.errors import CalibrationError
 from calibgui.engine.geometry.rotations import rotation_from_vector
-from tests.engine.scenes import VGA, barrel, scene
+from tests.engine.scenes import VGA, barrel, looking, scene, seen
 from tests.faults.sets import draw_rendered_set, photograph
 
 CLEAN = scene(barrel(), 10, seed=3).noisy(0.1, np.random.default_rng(1))
@@ -122,9 +123,9 @@ def test_stabilised_images_are_no_rolling_shutter() -> None:
         uv = view.uv + rng.normal(scale=10.0, size=2)
         inside = ((uv >= 0) & (uv < barrel().size)).all(axis=1)
         stabilised.append(Observation(uv[inside], view.xy[inside]))
-    found = list_findings(calibrate(stabilised, barrel().size), stabilised)
-    assert [finding.cause for finding in found] == [Cause.MOVING_CENTRE]
-    assert "stabilisation off" in found[0].remedy
+    named = list_findings(calibrate(stabilised, barrel().size), stabilised)
+    assert [finding.cause for finding in named] == [Cause.MOVING_CENTRE]
+    assert "stabilisation off" in named[0].remedy
 
 
 def test_a_blurred_edge_of_the_image_is_no_other_lens() -> None:
@@ -134,6 +135,19 @@ def test_a_blurred_edge_of_the_image_is_no_other_lens() -> None:
         noise = (0.1 + radius**3)[:, None] * rng.normal(size=view.uv.shape)
         views.append(Observation(view.uv + noise, view.xy))
     assert list_findings(calibrate(views, barrel().size), views) == ()
+
+
+def test_few_views_of_a_stretched_board_agree_enough() -> None:
+    """Five views cannot agree by more than 3.2; motion in each has 30 unknowns for a board's 2."""
+    board = Board(rows=4, cols=5, square=30.0)
+    camera, rng = barrel(), np.random.default_rng(2)
+    poses = [looking(camera, rng, board=board, fill=(0.5, 0.6)) for _ in range(5)]
+    views = [
+        Observation(view.uv, view.xy / [1.0, 1.02])
+        for view in seen(camera, poses, board=board).noisy(0.05, rng)
+    ]
+    named = list_findings(calibrate(views, camera.size), views)
+    assert [finding.cause for finding in named] == [Cause.BOARD_SHAPE]
 
 
 def test_a_bent_board_is_named_if_it_matters() -> None:
