@@ -31,7 +31,7 @@ _MARKS_OF_CHANGE = (
 )
 """Names under which file systems of fsspec state what changes with an object."""
 _OF_EXTRA = ("fsspec", "aiohttp")
-"""What the extra batch installs for addresses; the rest is for the user to choose."""
+"""Packages for addresses that the extra batch installs; users choose any others."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from typing import Any
 
 from PySide6.QtCore import QSignalBlocker, Signal
 from PySide6.QtWidgets import (
@@ -53,64 +54,52 @@ class PatternChoice(QWidget):
         self.kind.setToolTip(self.tr("What is printed on the board."))
         for kind in KINDS:
             self.kind.addItem(texts[kind].name, kind)
-        self.dictionary = QComboBox()
-        self.dictionary.setToolTip(self.tr("The set of markers on the board, by OpenCV's name."))
-        self.dictionary.addItem(undecided, None)
-        for name in opencv.list_dictionaries():
-            self.dictionary.addItem(name.removeprefix("DICT_"), name)
-        self.layout_used = QComboBox()
-        self.layout_used.setToolTip(
-            self.tr("Boards with an even number of rows of squares changed with OpenCV 4.6.")
+        self.dictionary = _make_choice(
+            self.tr("The set of markers on the board, by OpenCV's name."),
+            (undecided, None),
+            *((name.removeprefix("DICT_"), name) for name in opencv.list_dictionaries()),
         )
-        for text, legacy in (
+        self.layout_used = _make_choice(
+            self.tr("Boards with an even number of rows of squares changed with OpenCV 4.6."),
             (undecided, None),
             (self.tr("first square dark"), False),
             (self.tr("as before OpenCV 4.6"), True),
-        ):
-            self.layout_used.addItem(text, legacy)
+        )
         self.marker, self.diameter = (
             QDoubleSpinBox(decimals=3, minimum=0.0, maximum=100_000.0) for _ in range(2)
         )
         for box in (self.marker, self.diameter):
             box.setSpecialValueText(undecided)
             box.setKeyboardTracking(False)
-        self.family = QComboBox()
-        self.family.setToolTip(self.tr("The family of the AprilTags on the board."))
-        self.family.addItem(undecided, None)
-        for name in FAMILIES:
-            self.family.addItem(name, name)
+        self.family = _make_choice(
+            self.tr("The family of the AprilTags on the board."),
+            (undecided, None),
+            *((name, name) for name in FAMILIES),
+        )
         self.spacing = QDoubleSpinBox(decimals=3, minimum=0.0, maximum=1.0, singleStep=0.05)
         self.spacing.setToolTip(
             self.tr("The gap between tags over the side of a tag: Kalibr's tagSpacing.")
         )
         self.spacing.setSpecialValueText(undecided)
         self.spacing.setKeyboardTracking(False)
-        self.border = QComboBox()
-        self.border.setToolTip(self.tr("The width of a tag's black border; 2 cells on Kalibr's."))
-        for text, border in (
+        self.border = _make_choice(
+            self.tr("The width of a tag's black border; 2 cells on Kalibr's."),
             (undecided, None),
             (self.tr("2 cells"), 2),
             (self.tr("1 cell"), 1),
-        ):
-            self.border.addItem(text, border)
-        self.order = QComboBox()
-        self.order.setToolTip(self.tr("The row of tags that holds the lowest numbers."))
-        for text, from_top in (
+        )
+        self.order = _make_choice(
+            self.tr("The row of tags that holds the lowest numbers."),
             (undecided, None),
             (self.tr("from the bottom, as Kalibr"), False),
             (self.tr("from the top"), True),
-        ):
-            self.order.addItem(text, from_top)
-        self.corner_squares = QComboBox()
-        self.corner_squares.setToolTip(
-            self.tr("Small dark squares between the corners of the tags, as on Kalibr's.")
         )
-        for text, squares in (
+        self.corner_squares = _make_choice(
+            self.tr("Small dark squares between the corners of the tags, as on Kalibr's."),
             (undecided, None),
             (self.tr("between the tags"), True),
             (self.tr("none"), False),
-        ):
-            self.corner_squares.addItem(text, squares)
+        )
         self.step = QSpinBox(minimum=0, maximum=64, singleStep=2)
         self.step.setToolTip(self.tr("The number of squares from one tag to the next in its row."))
         self.step.setSpecialValueText(undecided)
@@ -259,3 +248,12 @@ def _show(box: QDoubleSpinBox, value: float) -> None:
     if abs(box.value() - value) > 10.0 ** -box.decimals() / 2:
         box.setValue(value)
     box.blockSignals(False)
+
+
+def _make_choice(tip: str, *choices: tuple[str, Any]) -> QComboBox:
+    """Make a list to choose from, of texts with their values, and its tooltip."""
+    box = QComboBox()
+    box.setToolTip(tip)
+    for text, value in choices:
+        box.addItem(text, value)
+    return box

@@ -182,7 +182,7 @@ class _Axis(pg.AxisItem):  # type: ignore[misc]  # pyqtgraph is not typed
     """An axis that, if it is logarithmic, has numbers at powers of ten, and few between them."""
 
     write_number: Callable[[float], str] | None = None
-    """What writes the numbers, if they are not to be read as such."""
+    """A function that writes the numbers, as dates for example; None for plain numbers."""
 
     def tickStrings(self, values: list[float], scale: float, spacing: float) -> list[str]:  # noqa: N802 - pyqtgraph's name
         if self.write_number is None:

@@ -31,7 +31,7 @@ from calibgui.gui.window.banner import Banner
 
 
 class _OtherBoard(NamedTuple):
-    """What photographs show in which the board that was looked for is nowhere."""
+    """The board that photographs show in place of the one that was looked for, if any."""
 
     pattern: Pattern | None = None
     """Another pattern, or the same; None if nothing was found or `grid_size` is another."""

@@ -20,13 +20,13 @@ from calibgui.engine.arrays import Array, BoolArray, GreyImage, GridSize, IntArr
 from calibgui.engine.boards.april_grid import AprilGrid
 from calibgui.engine.detection import grid_map
 from calibgui.engine.detection import region_of_interest as region
-from calibgui.engine.detection.apriltags.gap import measure_gap
 from calibgui.engine.detection.apriltags.grid_tags import GridTags, find_grid_tags
 from calibgui.engine.detection.apriltags.near_priors import NearPriors
 from calibgui.engine.detection.apriltags.outlined_corners import (
     has_corner_squares,
     locate_outlined_corners,
 )
+from calibgui.engine.detection.apriltags.tag_gap import measure_gap
 from calibgui.engine.detection.charuco.assembly import FittedCorners, assemble_corners
 from calibgui.engine.detection.charuco.corners_between_markers import (
     predict_places,

@@ -34,7 +34,7 @@ import numpy as np
 
 from calibgui.engine.arrays import Array, BoolArray, FloatImage, GreyImage, IntArray
 from calibgui.engine.detection import grid_map
-from calibgui.engine.detection.apriltags.gap import measure_gap
+from calibgui.engine.detection.apriltags.tag_gap import measure_gap
 from calibgui.engine.detection.detector_io import estimate_least_noise
 from calibgui.engine.detection.edge_intensity import EdgeIntensity, compute_edge
 from calibgui.engine.images.sampling import sample_image
@@ -48,8 +48,8 @@ _SAMPLES_ALONG, _SAMPLES_ACROSS = 24, 33
 _ALONG_MARGIN = 0.15
 """Part of an edge at both ends that its profile leaves out, lengths: the corners are blurred."""
 _PROFILE_REACH = 0.75
-"""How far profiles reach to either side, over the narrower of border and gap: what follows them is
-blurred into their ends."""
+"""Reach of a profile to either side, over the narrower of border and gap: what follows these is
+blurred into its ends."""
 _BAND_BLURS, _BAND_MARGIN = 2.3, 0.7
 """Half width of the band that is read along an edge: blurs, and px in addition."""
 _BLUR_REACH = 3.0
@@ -66,7 +66,7 @@ _MAX_PIXELS_AT_ONCE = 40_000
 _UNKNOWNS = 16
 """Number of unknowns of a tag: corners 0 to 7, blurs 8 and 9, paper 10 to 12, ink 13 to 15."""
 _DAMPING = 1e-9
-"""What is added to the diagonal of the normal equations, over its largest entry."""
+"""Number that is added to the diagonal of the normal equations, over its largest entry."""
 AROUND = np.array([(0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0)])
 """(4, 2) corners of a tag from its upper left one, sides."""
 _NEXT, _LAST = np.array([1, 2, 3, 0]), np.array([3, 0, 1, 2])

@@ -17,7 +17,7 @@ from calibgui.engine.detection.lattice import Lattice
 
 
 class FittedCorners(NamedTuple):
-    """What a fit tells of n corners, whatever was fitted."""
+    """The places of n corners, with their covariances and what a fit says of the image there."""
 
     uv: Array
     """(n, 2) px."""

@@ -14,6 +14,6 @@ class LeftOut:
     value: float
     """Value of the scalar; NaN if it is not known."""
     reason: str
-    """What is wrong with the photographs, in sentences."""
+    """Sentences that say what is wrong with the photographs."""
     remedy: str
-    """What to photograph."""
+    """A sentence that says what to photograph."""
