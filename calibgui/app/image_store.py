@@ -17,7 +17,8 @@ from calibgui.engine.arrays import Size
 from calibgui.engine.images import Image, read_image, stretch_levels
 
 MAX_MEMORY_BYTES = 100_000_000
-"""Memory that whole images may take together, bytes: 8 of 12 megapixels."""
+"""Memory that whole images may take together, bytes: 8 of 12 megapixels. Chosen so that the window
+with 300 of these stays below 800 MB (`tests.benchmarks.responsiveness`)."""
 _MIN_THUMBNAIL_SIDE = 96
 """Least long side of a thumbnail, px, unless the image itself is smaller."""
 

@@ -24,6 +24,7 @@ from typing import Any, TypedDict, Unpack
 
 from PySide6.QtCore import QObject, QTimer, Signal
 
+from calibgui.app.memory import return_large_blocks
 from calibgui.engine.errors import Cancelled
 from calibgui.engine.threads import limit_blas_threads
 from calibgui.gui.jobs.garbage import Collector
@@ -65,6 +66,7 @@ class Jobs(QObject):
     def __init__(self, parent: QObject | None = None) -> None:
         super().__init__(parent)
         sys.setswitchinterval(_TURN)
+        return_large_blocks()
         self._pool = ThreadPoolExecutor(_PROCESSORS, "part", initializer=limit_blas_threads)
         self._single = ThreadPoolExecutor(4, "job", initializer=limit_blas_threads)
         self._queue: Queue = queue.SimpleQueue()
