@@ -30,10 +30,18 @@ factorises a matrix of the coefficients alone.
 
 One linear step from the nominal board's solution, with stiffness sigma^2 / s^2 on q, leads to the
 joint estimate of camera, poses and board. It moves camera and poses by b, and leaves them with the
-covariance C. The camera for the board as drawn is off by b with uncertainty C, so that its mean
-square error is C + b b^T; this is reported in place of sigma^2 (J^T J)^-1. The camera itself is not
-moved: a board shape is estimated only if the user asks for it. An estimate by another cost, which
-lies at a distance d from that of the image cost, has the mean square error C + (b - d) (b - d)^T.
+covariance C. The camera for the board as drawn is off by b with uncertainty C; this is reported as
+
+    C + gamma b b^T,      gamma = 1.292,
+
+in place of sigma^2 (J^T J)^-1. With gamma = 1 it is the mean square error; but of errors that are
+almost known, not normal about zero, half are beyond its root. The half width s that holds 68.3 % of
+the errors, as a standard deviation does, is found from the distance beta of a quantity's shift in
+its own standard deviations, Phi(s - beta) - Phi(-s - beta) = 0.683; gamma is the maximum of
+(s^2 - 1) / beta^2, which is reached at beta = 1.6, so that no quantity's interval holds less.
+
+The camera itself is not moved: a board shape is estimated only if the user asks for it. An estimate
+by another cost, which lies at a distance d from that of the image cost, has b - d in place of b.
 
 Test. If the board is as drawn, the residual of a corner, carried back to its place on the board,
 averages out over the views. With the derivatives J_ik of corner i's image in view k by its
@@ -85,6 +93,8 @@ _MAX_CHANGE = 1e-4
 """Relative change of every variance by a step below which they have settled."""
 _MAX_MIXING = 3.0
 """Change of a variance's logarithm by mixing, at most: changes that are nearly alike lead far."""
+_SHIFT_WEIGHT = 1.2922
+"""The factor gamma of a shift's square, see above."""
 _ROUNDING = 1e-12
 """Stiffness, relative to the information of the views, that rounding errors leave meaningful."""
 _MIN_VIEWS_OF_CORNER = 3
@@ -318,7 +328,7 @@ def _mix_steps(
 def add_board_error(
     estimate: Estimate, error: BoardError, offset: tuple[Array, Array] | None = None
 ) -> Estimate:
-    """Widen an estimate's covariances to its mean square errors on an imperfect board.
+    """Widen an estimate's covariances to what its errors on an imperfect board come to.
 
     Args:
         estimate: the estimate for the board as it is drawn.
@@ -330,8 +340,9 @@ def add_board_error(
     if offset is not None:
         camera, poses = camera - offset[0], poses - offset[1]
     return estimate._replace(
-        camera_covariance=error.covariance + np.outer(camera, camera),
-        pose_covariances=error.pose_covariances + poses[:, :, None] * poses[:, None, :],
+        camera_covariance=error.covariance + _SHIFT_WEIGHT * np.outer(camera, camera),
+        pose_covariances=error.pose_covariances
+        + _SHIFT_WEIGHT * poses[:, :, None] * poses[:, None, :],
     )
 
 
