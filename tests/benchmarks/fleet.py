@@ -21,6 +21,7 @@ import argparse
 import os
 import resource
 import shutil
+import subprocess
 import tempfile
 import time
 from collections.abc import Callable, Iterator, Sequence
@@ -87,10 +88,23 @@ def measure_processor() -> float:
     return sum(one.ru_utime + one.ru_stime for one in used)
 
 
-def measure_memory() -> float:
-    """Return the memory of this process, MB."""
-    pages = int(Path("/proc/self/statm").read_text().split()[1])
+def measure_memory(process: int) -> float:
+    """Return the memory of a process, by its number, MB; 0 of one that has ended."""
+    try:
+        pages = int(Path(f"/proc/{process}/statm").read_text().split()[1])
+    except OSError:
+        return 0.0
     return pages * os.sysconf("SC_PAGE_SIZE") / 1e6
+
+
+def measure_largest_worker() -> float:
+    """Return the memory of the largest of the processes that come from this one, MB."""
+    listed = subprocess.check_output(["ps", "-eo", "pid=,ppid="], text=True).split()
+    parents = dict(zip(map(int, listed[::2]), map(int, listed[1::2]), strict=True))
+    family = {os.getpid()}
+    while more := {child for child, parent in parents.items() if parent in family} - family:
+        family |= more
+    return max(map(measure_memory, family - {os.getpid()}), default=0.0)
 
 
 def loop(tasks: Sequence[CameraTask]) -> None:
@@ -103,7 +117,7 @@ def loop(tasks: Sequence[CameraTask]) -> None:
         clock, used = time.perf_counter(), measure_processor()
         for task in tasks[1:]:
             calibrate_camera(Work(task, None, folder))
-            memory.append(measure_memory())
+            memory.append(measure_memory(os.getpid()))
         clock, used = time.perf_counter() - clock, measure_processor() - used
     count = len(tasks) - 1
     print(f"plain loop          clock {clock / count:.3f}, processor {used / count:.3f} s a camera")
@@ -116,14 +130,19 @@ def loop(tasks: Sequence[CameraTask]) -> None:
 def batch(tasks: Sequence[CameraTask], name: str, workers: int, is_dask: bool) -> None:
     """Calibrate by `run_batch`, and print what it costs."""
     clocks: list[float] = []
+    memory: list[float] = []
+
+    def note(done: int, count: int) -> None:
+        clocks.append(time.perf_counter())
+        if done in (count // 4, count):
+            memory.append(measure_largest_worker())
+
     clock, used = time.perf_counter(), measure_processor()
     with tempfile.TemporaryDirectory() as folder, pytest.MonkeyPatch.context() as patch:
         patch.setattr(schedulers, "has_dask", lambda: is_dask)
         with open_ledger(Path(folder) / "fleet.db", create=True) as ledger:
             with open_scheduler(workers) as scheduler:
-                run_batch(
-                    tasks, ledger, scheduler, progress=lambda *_: clocks.append(time.perf_counter())
-                )
+                run_batch(tasks, ledger, scheduler, progress=note)
             cameras = sorted(row.cpu_seconds for row in ledger.read())
     used = measure_processor() - used
     # Each worker's first camera loads kernels.
@@ -133,7 +152,8 @@ def batch(tasks: Sequence[CameraTask], name: str, workers: int, is_dask: bool) -
     print(
         f"{name:<10}{workers} workers   clock {1 / rate:.3f}, processor {typical:.3f} s a camera; "
         f"start and end {clocks[0] - clock:.1f} s; beside the cameras {used - total:.1f} s of "
-        f"processor, {100 * (used - total) / total:.1f} %"
+        f"processor, {100 * (used - total) / total:.1f} %; largest worker after a quarter "
+        f"{memory[0]:.0f}, at the end {memory[-1]:.0f} MB"
     )
 
 

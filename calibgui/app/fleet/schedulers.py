@@ -139,6 +139,8 @@ class _Dask:
         try:
             if self._address is None:
                 prepare_finder()  # compiled once: the workers load it
+                # Workers would keep samples of their stacks for an hour: up to 2 GB of each.
+                dask.config.set({"distributed.worker.profile.enabled": False})
                 self._cluster = LocalCluster(
                     n_workers=self._count,
                     threads_per_worker=1,

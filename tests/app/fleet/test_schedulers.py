@@ -147,6 +147,9 @@ def test_daskss_own_workers_may_be_killed(
         assert told[0].startswith("Dask's dashboard: http://127.0.0.1:")
         with pytest.raises(ZeroDivisionError):
             list(scheduler.run(eval, ["1 / 0"]))
+        # What they would keep of their stacks takes 0.4 MB a second.
+        is_profiled = "__import__('dask').config.get('distributed.worker.profile.enabled')"
+        assert dict(scheduler.run(eval, [is_profiled])) == {0: False}
 
         def choose_worker() -> object:
             return next(iter(dict(scheduler.run(eval, ["__import__('os').getpid()"])).values()))
