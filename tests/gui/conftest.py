@@ -81,6 +81,8 @@ def clean(
         theme.apply(qapp, theme.Scheme.LIGHT)
         threads = set(threading.enumerate())
         yield
+        # The robot has closed what it was given; a plot must not be closed twice.
+        QApplication.sendPostedEvents(None, QEvent.Type.DeferredDelete)
         for widget in qapp.topLevelWidgets():
             widget.close()
         # Plots that are gone hang together in cycles: their end is not left to another test.
