@@ -9,28 +9,28 @@ program, as another thread of it may hold the interpreter's lock; and in process
 window's own thread. Only the first can be blamed on other programs. Then come the seconds that the
 task took, and the most memory that the window held so far; last the most that a worker held, MB.
 
-``--busy`` lets another process compute meanwhile; ``--trace`` prints what the window's thread did
-in each task's longest gap, as a sampler saw it, which makes the gaps longer. Goals of the project:
-at most 50 ms, 100 beside a busy process, and 800 MB.
+``--busy`` lets another process compute meanwhile; ``--trace`` prints what the threads did in each
+task's longest gap, by the program's processor time: one of them may have held the interpreter's
+lock. Goals of the project: at most 50 ms, 100 beside a busy process, and 800 MB.
 """
 
 from __future__ import annotations
 
 import argparse
+import faulthandler
 import os
-import signal
+import re
 import sys
 import tempfile
+import threading
 import time
 from collections import Counter
 from collections.abc import Callable, Iterator
-from contextlib import contextmanager, nullcontext
+from contextlib import contextmanager
 from functools import partial
-from itertools import pairwise
 from multiprocessing import active_children, get_context
 from multiprocessing.process import BaseProcess
 from pathlib import Path
-from types import FrameType
 
 os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 os.environ.setdefault("QT_QPA_PLATFORM", "offscreen")
@@ -57,6 +57,12 @@ TEXELS = 7.0
 """Resolution of the drawn board, per mm: about that of the photographs."""
 BEAT = 5
 """Interval of the timer, ms."""
+LATE = 0.03
+"""Time without a beat after which, and after which again, the threads are looked at, s."""
+INNERMOST = 6
+"""Number of functions that are named of each thread."""
+PLACE = re.compile(r'File ".*?([^/]+)", line (\d+) in (.*)')
+"""A function in what the interpreter's watchdog writes."""
 PATIENCE = 60.0
 """Time after which a task is stopped, s: to judge 300 views takes minutes."""
 
@@ -100,31 +106,36 @@ def resident(process: BaseProcess) -> float:
 
 
 class Trace:
-    """Samples what the main thread does, every 2 ms that it lets the interpreter look."""
+    """Tells what all threads do while the window's thread is late for a beat.
+
+    The interpreter's own watchdog looks at them: it needs no lock that one of them may hold.
+    """
 
     def __init__(self) -> None:
-        self._samples: list[tuple[float, str]] = []
+        self._file = tempfile.TemporaryFile()  # noqa: SIM115 - open as long as the program
 
-    def __enter__(self) -> Trace:
-        signal.signal(signal.SIGALRM, self._sample)
-        signal.setitimer(signal.ITIMER_REAL, 0.002, 0.002)
-        return self
+    def wait_for_beat(self) -> int:
+        """Begin to wait for the next beat; return the place of what is written if it is late."""
+        place = self._file.seek(0, os.SEEK_END)
+        faulthandler.dump_traceback_later(LATE, repeat=True, file=self._file)
+        return place
 
-    def __exit__(self, *_: object) -> None:
-        signal.setitimer(signal.ITIMER_REAL, 0)
+    def stop(self) -> None:
+        """Wait for no further beat."""
+        faulthandler.cancel_dump_traceback_later()
 
-    def _sample(self, _: int, frame: FrameType | None) -> None:
-        stack = []
-        while frame is not None and len(stack) < 8:
-            code = frame.f_code
-            stack.append(f"{code.co_filename.rpartition('/')[2]}:{frame.f_lineno} {code.co_name}")
-            frame = frame.f_back
-        self._samples.append((time.monotonic(), " < ".join(stack)))
-
-    def print_most(self, begin: float, end: float) -> None:
-        """Print what was seen most often between two times."""
-        seen = Counter(what for at, what in self._samples if begin <= at <= end)
-        for what, times in seen.most_common(4):
+    def print_stacks(self, begin: int, end: int) -> None:
+        """Print the innermost functions of each thread that did not wait, as often as seen."""
+        self._file.seek(begin)
+        seen: Counter[str] = Counter()
+        for text in self._file.read(end - begin).decode().split("Thread ")[1:]:
+            title, *frames = text.strip().split("\n")
+            places = [PLACE.sub(r"\1:\2 \3", frame.strip()) for frame in frames[:INNERMOST]]
+            if places and not places[0].endswith((" _worker", " wait")):
+                is_main = int(title.split()[0], 16) == threading.main_thread().ident
+                who = "the window" if is_main else "a thread"
+                seen[f"{who}: {' < '.join(places)}"] += 1
+        for what, times in seen.most_common(9):
             print(f"    {times:4} x {what}")
 
 
@@ -132,9 +143,12 @@ class Trace:
 def heartbeat(task: str, trace: Trace | None) -> Iterator[None]:
     """Print the longest gaps while the block runs the event loop."""
     beats: list[tuple[float, float, float]] = []
+    places: list[int] = []
 
     def beat() -> None:
         beats.append((time.monotonic(), time.process_time(), time.thread_time()))
+        if trace is not None:
+            places.append(trace.wait_for_beat())
 
     timer = QTimer(interval=BEAT)
     timer.timeout.connect(beat)
@@ -151,8 +165,9 @@ def heartbeat(task: str, trace: Trace | None) -> Iterator[None]:
         f"{task:34}{whole:8.0f}{program:10.0f}{thread:8.0f}{seconds:9.1f}{peak():9.0f}", flush=True
     )
     if trace is not None:
-        begin, end = max(pairwise(beats), key=lambda pair: pair[1][1] - pair[0][1])
-        trace.print_most(begin[0], end[0])
+        trace.stop()
+        longest = int(np.argmax(gaps[:, 1]))
+        trace.print_stacks(*places[longest : longest + 2])
 
 
 class User:
@@ -281,9 +296,7 @@ def main() -> None:
         other = get_context("spawn").Process(target=compute_for_ever, daemon=True)
         if arguments.busy:
             other.start()
-        trace = Trace() if arguments.trace else None
-        with trace or nullcontext():
-            measure(arguments.folder, Path(scratch), trace)
+        measure(arguments.folder, Path(scratch), Trace() if arguments.trace else None)
         if arguments.busy:
             other.kill()
 
