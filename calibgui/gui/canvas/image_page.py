@@ -33,6 +33,7 @@ from calibgui.gui.widgets.actions import enable_action, make_action
 from calibgui.gui.widgets.elided import ElidedLabel
 from calibgui.gui.widgets.overlay import Overlay
 from calibgui.gui.widgets.picture import Levels, stretch_levels
+from calibgui.gui.widgets.wrapped_label import WrappedLabel
 
 
 class ImagePage(QWidget):
@@ -50,7 +51,7 @@ class ImagePage(QWidget):
         self.canvas = Canvas()
         self.heading = ElidedLabel()
         # Over the image, which must not move when the next one is chosen.
-        self.reason = QLabel(wordWrap=True)
+        self.reason = WrappedLabel()
         self.reason.setAutoFillBackground(True)
         self.reason.setMargin(theme.SPACING)
         self.reason.hide()

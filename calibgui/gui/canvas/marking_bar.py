@@ -16,6 +16,7 @@ from PySide6.QtWidgets import (
 
 from calibgui.engine.arrays import GridSize
 from calibgui.gui.widgets import theme
+from calibgui.gui.widgets.wrapped_label import WrappedLabel
 
 
 class _Bar(QFrame):
@@ -27,8 +28,7 @@ class _Bar(QFrame):
         self.setFrameShape(QFrame.Shape.NoFrame)
         self.setAutoFillBackground(True)
         self.setBackgroundRole(self.backgroundRole().AlternateBase)
-        self.words = QLabel()
-        self.words.setWordWrap(True)
+        self.words = WrappedLabel()
         # Room for three lines: nothing must move between two clicks.
         self.words.setMinimumHeight(3 * self.words.fontMetrics().lineSpacing())
         self.words.setAlignment(Qt.AlignmentFlag.AlignTop)

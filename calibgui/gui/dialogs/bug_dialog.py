@@ -9,7 +9,6 @@ from PySide6.QtGui import QGuiApplication
 from PySide6.QtWidgets import (
     QDialog,
     QDialogButtonBox,
-    QLabel,
     QPlainTextEdit,
     QVBoxLayout,
     QWidget,
@@ -18,6 +17,7 @@ from PySide6.QtWidgets import (
 from calibgui.dataset import list_installed_versions
 from calibgui.gui.widgets import theme
 from calibgui.gui.widgets.actions import add_close_button
+from calibgui.gui.widgets.wrapped_label import WrappedLabel
 
 
 def describe(error: BaseException) -> str:
@@ -32,13 +32,12 @@ class BugDialog(QDialog):
     def __init__(self, error: BaseException, parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self.setWindowTitle(self.tr("Something went wrong"))
-        words = QLabel(
+        words = WrappedLabel(
             self.tr(
                 "This is a fault of the program, not of your images. Your work has been kept. "
                 "Please report the text below; you can go on, or save and start again."
             )
         )
-        words.setWordWrap(True)
         self.details = QPlainTextEdit(describe(error))
         self.details.setReadOnly(True)
         self.details.setFont(theme.fixed_font())

@@ -13,7 +13,6 @@ from PySide6.QtWidgets import (
     QDialogButtonBox,
     QFormLayout,
     QHBoxLayout,
-    QLabel,
     QListWidget,
     QPlainTextEdit,
     QPushButton,
@@ -29,6 +28,7 @@ from calibgui.gui.jobs.jobs import Jobs
 from calibgui.gui.widgets import theme
 from calibgui.gui.widgets.actions import add_close_button
 from calibgui.gui.widgets.save_names import ask_for_name
+from calibgui.gui.widgets.wrapped_label import WrappedLabel
 
 _NAME = "camera"
 """The name that a file is given unless the user chooses another."""
@@ -57,7 +57,7 @@ class ExportDialog(QDialog):
         self.formats.addItems([exporter.title for exporter in EXPORTERS.values()])
         self.formats.setAccessibleName(self.tr("Formats"))
         self.formats.setMaximumWidth(self.formats.sizeHintForColumn(0) + 4 * theme.SPACING)
-        self.limits, self.note, self.error, self.saved = (QLabel(wordWrap=True) for _ in range(4))
+        self.limits, self.note, self.error, self.saved = (WrappedLabel() for _ in range(4))
         self.text = QPlainTextEdit(readOnly=True)
         self.text.setFont(theme.fixed_font())
         self.text.setLineWrapMode(QPlainTextEdit.LineWrapMode.NoWrap)

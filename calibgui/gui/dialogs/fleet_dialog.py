@@ -11,7 +11,6 @@ from PySide6.QtWidgets import (
     QDialog,
     QDialogButtonBox,
     QHBoxLayout,
-    QLabel,
     QPushButton,
     QVBoxLayout,
     QWidget,
@@ -19,6 +18,7 @@ from PySide6.QtWidgets import (
 
 from calibgui.gui.widgets.actions import add_close_button
 from calibgui.gui.widgets.tables import Column, Table, with_decimals
+from calibgui.gui.widgets.wrapped_label import WrappedLabel
 from calibgui.report.fleet_overview import FleetOverview, PlacedCamera
 
 
@@ -43,7 +43,7 @@ class FleetDialog(QDialog):
         self.setWindowTitle(self.tr("Fleet {0}").format(ledger.name))
         self._folder, self._open_result = ledger.parent, open_result
         self.placed = sorted(overview.placed, key=_rank)
-        self.words = QLabel(wordWrap=True)
+        self.words = WrappedLabel()
         self.words.setText(
             self.tr(
                 "{0} cameras. Failing: {1}. Unlike the others of their image size and lens "
@@ -55,7 +55,7 @@ class FleetDialog(QDialog):
                 len(overview.changed),
             )
         )
-        self.reason = QLabel(wordWrap=True)
+        self.reason = WrappedLabel()
         self.reason.setMinimumHeight(2 * self.fontMetrics().lineSpacing())
         self.table = Table()
         self.table.show_columns(self._list_columns(), self._list_reasons())

@@ -34,6 +34,7 @@ from calibgui.gui.settings.pattern_choice import PatternChoice
 from calibgui.gui.widgets import theme
 from calibgui.gui.widgets.actions import add_close_button
 from calibgui.gui.widgets.save_names import ask_for_name
+from calibgui.gui.widgets.wrapped_label import WrappedLabel
 
 _DEFAULT = Board(7, 10, 25.0)
 
@@ -85,8 +86,7 @@ class PrintDialog(QDialog):
         self.paper = QComboBox()
         self.paper.addItems(list(PAPER_SIZES_MM))
         self.paper.setCurrentText(choose_paper(board))
-        self.words = QLabel()
-        self.words.setWordWrap(True)
+        self.words = WrappedLabel()
         self.preview = _Preview()
         squares = QHBoxLayout()
         squares.addWidget(self.rows)

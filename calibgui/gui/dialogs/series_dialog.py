@@ -44,6 +44,7 @@ from calibgui.gui.widgets.actions import add_close_button
 from calibgui.gui.widgets.plots import Plot
 from calibgui.gui.widgets.save_names import ask_for_name
 from calibgui.gui.widgets.tables import Column, Table, with_decimals, with_digits
+from calibgui.gui.widgets.wrapped_label import WrappedLabel
 from calibgui.report.names import tell_apart
 from calibgui.report.numbers import format_with_sigma
 from calibgui.report.series import list_sentences
@@ -91,7 +92,7 @@ class SeriesDialog(QDialog):
             )
         )
         self.table_of_values.clicked.connect(self._ask_for_values)
-        self.words = QLabel(wordWrap=True)
+        self.words = WrappedLabel()
         self.results, self.camera = Table(), Table()
         self.parameter = QComboBox()
         self.parameter.setAccessibleName(self.tr("Parameter"))
@@ -105,7 +106,7 @@ class SeriesDialog(QDialog):
         self.format.setAccessibleName(self.tr("Format"))
         self.export = QPushButton(self.tr("&Export…"), autoDefault=False)
         self.export.clicked.connect(self._ask_and_export)
-        self.said = QLabel(wordWrap=True)
+        self.said = WrappedLabel()
         self._lay_out()
         self.resize(1000, 620)
         self._clear(self.tr("Add the result.json of each setting of one camera: three or more."))

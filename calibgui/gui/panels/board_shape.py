@@ -20,6 +20,7 @@ from calibgui.gui.widgets import theme
 from calibgui.gui.widgets.lengths import describe_condition, name_unit, state_condition
 from calibgui.gui.widgets.plots import ColourBar, Plot
 from calibgui.gui.widgets.save_names import ask_for_name
+from calibgui.gui.widgets.wrapped_label import WrappedLabel
 from calibgui.report.summary import (
     describe_board_shape,
     describe_board_shape_error,
@@ -38,8 +39,7 @@ class BoardShapePanel(Panel):
 
     def __init__(self, services: Services) -> None:
         super().__init__(services)
-        self.words = QLabel()
-        self.words.setWordWrap(True)
+        self.words = WrappedLabel()
         self.save = QPushButton(self.tr("&Save shape…"))
         self.save.setToolTip(
             self.tr(

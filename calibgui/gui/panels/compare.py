@@ -26,6 +26,7 @@ from calibgui.gui.panels.panel import Panel
 from calibgui.gui.panels.services import Services
 from calibgui.gui.widgets.narrow_combo import NarrowCombo
 from calibgui.gui.widgets.tables import Column, Table, with_decimals, with_digits
+from calibgui.gui.widgets.wrapped_label import WrappedLabel
 from calibgui.report.comparison import ParameterChange, compare_parameters
 
 _MUCH_SIGMAS = 3.0
@@ -49,8 +50,7 @@ class ComparePanel(Panel):
         self._difference: CameraDifference | None = None
         self.left = self._make_choice(self.tr("Left result"))
         self.right = self._make_choice(self.tr("Right result"))
-        self.words = QLabel()
-        self.words.setWordWrap(True)
+        self.words = WrappedLabel()
         self.parameters = Table()
         self.parameters.setAccessibleName(self.tr("Parameters of both results"))
         self.map = DifferenceMap()

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pyqtgraph as pg
 from PySide6.QtCore import QT_TRANSLATE_NOOP
-from PySide6.QtWidgets import QLabel, QVBoxLayout
+from PySide6.QtWidgets import QVBoxLayout
 
 from calibgui.dataset import Result
 from calibgui.engine.calibration import Cost, Iteration, Status
@@ -13,6 +13,7 @@ from calibgui.gui.panels.panel import Panel
 from calibgui.gui.panels.services import Services
 from calibgui.gui.widgets import theme
 from calibgui.gui.widgets.plots import Plot
+from calibgui.gui.widgets.wrapped_label import WrappedLabel
 
 
 class ConvergencePanel(Panel):
@@ -22,8 +23,7 @@ class ConvergencePanel(Panel):
 
     def __init__(self, services: Services) -> None:
         super().__init__(services)
-        self.words = QLabel()
-        self.words.setWordWrap(True)
+        self.words = WrappedLabel()
         self.plot = Plot(self.tr("iteration"), self.tr("cost c"))
         self.plot.getPlotItem().setLogMode(y=True)
         self.plot.setToolTip(

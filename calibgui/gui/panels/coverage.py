@@ -9,7 +9,7 @@ import pyqtgraph as pg
 import scipy
 from PySide6.QtCore import QT_TRANSLATE_NOOP, Qt
 from PySide6.QtGui import QBrush, QColor
-from PySide6.QtWidgets import QLabel, QVBoxLayout
+from PySide6.QtWidgets import QVBoxLayout
 
 from calibgui.dataset import Result
 from calibgui.engine.uncertainty import NextView, propose_views
@@ -21,6 +21,7 @@ from calibgui.gui.panels.split import Split
 from calibgui.gui.widgets import theme
 from calibgui.gui.widgets.lengths import name_unit
 from calibgui.gui.widgets.plots import Plot
+from calibgui.gui.widgets.wrapped_label import WrappedLabel
 from calibgui.report.coverage import count_corners_per_cell, measure_attitudes
 
 _CELLS = (24, 18)
@@ -48,8 +49,7 @@ class CoveragePanel(Panel):
         self.next_board = self.density.plot(pen=pg.mkPen("#ff3b30", width=2.5))
         self.next_corners = pg.ScatterPlotItem(size=3, pen=None, brush="#ff3b30")
         self.density.addItem(self.next_corners)
-        self.advice = QLabel()
-        self.advice.setWordWrap(True)
+        self.advice = WrappedLabel()
         self.tilts = Plot(
             self.tr("tilt to the right"), self.tr("tilt upwards"), "°", "°", square=True
         )

@@ -15,6 +15,7 @@ from calibgui.gui.panels.heat import CORNERS, HeatMap, surround_places
 from calibgui.gui.widgets import theme
 from calibgui.gui.widgets.levels import choose_levels
 from calibgui.gui.widgets.point_cloud import PointCloud
+from calibgui.gui.widgets.wrapped_label import WrappedLabel
 
 _LEVELS = 4
 """Contour lines, at most: the map is small."""
@@ -61,9 +62,8 @@ class DifferenceMap(QWidget):
         self.corners = PointCloud(size=2)
         self.plot.addItem(self.corners)
         self.under_cursor = QLabel()
-        self.reason = QLabel()
+        self.reason = WrappedLabel()
         self.reason.setAlignment(Qt.AlignmentFlag.AlignCenter)
-        self.reason.setWordWrap(True)
         self.reason.setMargin(theme.SPACING)
         drawn = QWidget()
         layout = QVBoxLayout(drawn)

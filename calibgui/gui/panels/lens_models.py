@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from PySide6.QtCore import QT_TRANSLATE_NOOP
-from PySide6.QtWidgets import QLabel, QPushButton, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QPushButton, QVBoxLayout, QWidget
 
 from calibgui.app.lens_comparison import compare_lenses_again
 from calibgui.dataset import Result
@@ -12,6 +12,7 @@ from calibgui.engine.errors import Progress
 from calibgui.gui.panels.lens_tables import LensTables
 from calibgui.gui.panels.on_demand import OnDemandPanel, have_same_views
 from calibgui.gui.panels.services import Services
+from calibgui.gui.widgets.wrapped_label import WrappedLabel
 from calibgui.report.lens_choice import LensRow, describe_lens_choice, list_lens_rows
 from calibgui.report.lens_models import describe_lens_model, get_lens_title
 from calibgui.report.numbers import format_count
@@ -44,8 +45,7 @@ class LensModelsPanel(OnDemandPanel[LensChoice]):
         self.use.clicked.connect(self._use)
         self.tables = LensTables()
         self.tables.picked.connect(self._show_row)
-        self.remarks = QLabel()
-        self.remarks.setWordWrap(True)
+        self.remarks = WrappedLabel()
         compared = QWidget()
         layout = QVBoxLayout(compared)
         layout.setContentsMargins(0, 0, 0, 0)

@@ -19,6 +19,7 @@ from calibgui.gui.panels.on_demand import OnDemandPanel, have_same_views
 from calibgui.gui.panels.services import Services
 from calibgui.gui.panels.split import Split
 from calibgui.gui.widgets import theme
+from calibgui.gui.widgets.wrapped_label import join_values
 from calibgui.report.methods import MethodRow, describe_method_comparison, list_method_rows
 
 _WIDE = 820
@@ -147,7 +148,7 @@ class MethodsPanel(OnDemandPanel[MethodComparison]):
         return "".join(
             [
                 f"<b>{escape(row.title)}</b>",
-                *(f"<p style='margin:3px 0'>{escape(text)}</p>" for text in words),
+                *(f"<p style='margin:3px 0'>{escape(join_values(text))}</p>" for text in words),
                 f"<p style='color:{theme.current().muted}; margin:3px 0'>{escape(source)}</p>",
             ]
         )

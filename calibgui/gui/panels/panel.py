@@ -7,11 +7,12 @@ from typing import ClassVar
 
 from PySide6.QtCore import QT_TRANSLATE_NOOP, QEvent, Qt, Signal
 from PySide6.QtGui import QShowEvent
-from PySide6.QtWidgets import QLabel, QStackedLayout, QWidget
+from PySide6.QtWidgets import QStackedLayout, QWidget
 
 from calibgui.dataset import Result
 from calibgui.gui.panels.services import Services
 from calibgui.gui.widgets import theme
+from calibgui.gui.widgets.wrapped_label import WrappedLabel
 
 
 class Panel(QWidget):
@@ -54,9 +55,8 @@ class Panel(QWidget):
         self._indices: tuple[int, ...] = ()
         self._selected = (-1, -1)
         self._stale = self._behind = False
-        self._empty = QLabel(self.tr(self.hint))
+        self._empty = WrappedLabel(self.tr(self.hint))
         self._empty.setAlignment(Qt.AlignmentFlag.AlignCenter)
-        self._empty.setWordWrap(True)
         self._empty.setMargin(3 * theme.SPACING)
         self._stack = QStackedLayout(self)
         self._stack.addWidget(self._empty)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 from PySide6.QtCore import QT_TRANSLATE_NOOP
-from PySide6.QtWidgets import QComboBox, QHBoxLayout, QLabel, QPushButton, QVBoxLayout
+from PySide6.QtWidgets import QComboBox, QHBoxLayout, QPushButton, QVBoxLayout
 
 from calibgui.app.calibration import shorten_names
 from calibgui.dataset import Result
@@ -14,6 +14,7 @@ from calibgui.gui.panels.services import Services
 from calibgui.gui.widgets import theme
 from calibgui.gui.widgets.elided import elide_name
 from calibgui.gui.widgets.lengths import describe_condition, state_condition
+from calibgui.gui.widgets.wrapped_label import WrappedLabel
 from calibgui.report.coverage import measure_attitudes
 from calibgui.report.names import number_names
 from calibgui.report.scene3d import SceneCentre, build_scene
@@ -47,8 +48,7 @@ class PosesPanel(Panel):
         self.space.picked.connect(self._pick)
         self.space.hovered.connect(self._point_at)
         self.home.clicked.connect(self.space.go_home)
-        self.words = QLabel()
-        self.words.setWordWrap(True)
+        self.words = WrappedLabel()
         bar = QHBoxLayout()
         bar.addWidget(self.centre)
         bar.addStretch(1)

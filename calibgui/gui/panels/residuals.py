@@ -5,7 +5,7 @@ from __future__ import annotations
 from html import escape
 
 from PySide6.QtCore import QT_TRANSLATE_NOOP, Qt
-from PySide6.QtWidgets import QLabel, QVBoxLayout
+from PySide6.QtWidgets import QVBoxLayout
 
 from calibgui.app.calibration import shorten_names
 from calibgui.dataset import Result
@@ -22,6 +22,7 @@ from calibgui.gui.panels.panel import Panel
 from calibgui.gui.panels.plane import PlaneChoice
 from calibgui.gui.panels.scatter import ResidualScatter
 from calibgui.gui.panels.services import Services
+from calibgui.gui.widgets.wrapped_label import WrappedLabel
 
 _MARKS = {True: "✓", False: "✗"}
 
@@ -44,8 +45,7 @@ class ResidualsPanel(Panel):
         self.scatter = ResidualScatter()
         self.scatter.setToolTip(self.tr("Click a point to see its corner in the image."))
         self.scatter.picked.connect(self._pick)
-        self.verdict = QLabel()
-        self.verdict.setWordWrap(True)
+        self.verdict = WrappedLabel()
         layout = QVBoxLayout(self.body)
         layout.addWidget(self.verdict)
         layout.addWidget(self.plane, 0, Qt.AlignmentFlag.AlignLeft)

@@ -18,6 +18,7 @@ from calibgui.gui.panels.panel import Panel
 from calibgui.gui.panels.services import Services
 from calibgui.gui.widgets.lengths import describe_condition
 from calibgui.gui.widgets.point_cloud import PointCloud
+from calibgui.gui.widgets.wrapped_label import WrappedLabel
 from calibgui.report.quality import describe_distance
 
 _LIMIT = 0.1
@@ -64,8 +65,7 @@ class UncertaintyPanel(Panel):
         bar.addStretch(1)
         self.distance.valueChanged.connect(self._refresh_now)
         self.limit.valueChanged.connect(self._draw_limit)
-        self.words = QLabel()
-        self.words.setWordWrap(True)
+        self.words = WrappedLabel()
         self.plot = HeatMap(self.tr("one σ, worst direction [px]"))
         self.plot.setToolTip(
             self.tr(

@@ -8,7 +8,7 @@ from typing import cast
 
 import numpy as np
 from PySide6.QtCore import QT_TRANSLATE_NOOP
-from PySide6.QtWidgets import QComboBox, QHBoxLayout, QLabel, QPushButton, QSpinBox, QVBoxLayout
+from PySide6.QtWidgets import QComboBox, QHBoxLayout, QPushButton, QSpinBox, QVBoxLayout
 
 from calibgui.app.calibration import shorten_names
 from calibgui.app.resampling import Undistortion
@@ -28,6 +28,7 @@ from calibgui.gui.panels.panel import Panel
 from calibgui.gui.panels.services import Services
 from calibgui.gui.widgets.elided import elide_name
 from calibgui.gui.widgets.narrow_combo import NarrowCombo
+from calibgui.gui.widgets.wrapped_label import WrappedLabel
 from calibgui.report.coverage import find_shown_extent, measure_natural_scale
 
 RECTIFIED = "rectified"
@@ -73,10 +74,7 @@ class UndistortPanel(Panel):
         self.save_one.clicked.connect(lambda: self._save((self._indices[self._shown],)))
         self.save_all.clicked.connect(lambda: self._save(self._indices))
         self.images = DividedImages(self.tr("as taken"), self.tr("undistorted"))
-        self.lost = QLabel()
-        self.words = QLabel()
-        for label in (self.lost, self.words):
-            label.setWordWrap(True)
+        self.lost, self.words = WrappedLabel(), WrappedLabel()
         above = QHBoxLayout()
         above.addWidget(self.way, 3)
         above.addWidget(self.view, 2)

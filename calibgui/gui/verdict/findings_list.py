@@ -23,6 +23,7 @@ from calibgui.gui.verdict.drop_down import DropDown
 from calibgui.gui.verdict.texts import describe_button
 from calibgui.gui.widgets import theme
 from calibgui.gui.widgets.elided import ElidedLabel
+from calibgui.gui.widgets.wrapped_label import WrappedLabel
 from calibgui.report.verdict import format_times
 
 _SHARE = 0.6
@@ -122,10 +123,9 @@ class FindingRow(QWidget):
         action = finding.action
         self.button = QPushButton("" if action is None else describe_button(action, names))
         details = f"{finding.evidence}\n{finding.remedy}"
-        self.details = QLabel(
+        self.details = WrappedLabel(
             f"{details}\n{condition}" if condition and _LENGTH.search(details) else details
         )
-        self.details.setWordWrap(True)
         self.details.setTextFormat(Qt.TextFormat.PlainText)
         self.details.setTextInteractionFlags(Qt.TextInteractionFlag.TextSelectableByMouse)
         self.proof = QPushButton(self.tr("Show the evidence"))

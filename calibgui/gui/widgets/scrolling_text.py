@@ -8,6 +8,8 @@ from PySide6.QtCore import Qt
 from PySide6.QtGui import QResizeEvent
 from PySide6.QtWidgets import QFrame, QSizePolicy, QTextBrowser
 
+from calibgui.gui.widgets.wrapped_label import join_values
+
 
 class ScrollingText(QTextBrowser):
     """Shows text without a frame, that can be selected.
@@ -28,9 +30,7 @@ class ScrollingText(QTextBrowser):
     def show_text(self, text: str) -> None:
         """Show a text, from its beginning."""
         if text != self.toPlainText():  # which has plain spaces
-            for unit in (" px", " %"):
-                text = text.replace(unit, unit.replace(" ", "\N{NO-BREAK SPACE}"))
-            self.setPlainText(text)
+            self.setPlainText(join_values(text))
             self._fit()
 
     def resizeEvent(self, event: QResizeEvent) -> None:  # noqa: N802 - Qt's name

@@ -22,6 +22,7 @@ from calibgui.gui.jobs.jobs import Jobs
 from calibgui.gui.widgets import theme
 from calibgui.gui.widgets.focus_ring import FocusRing
 from calibgui.gui.widgets.picture import make_qimage
+from calibgui.gui.widgets.wrapped_label import WrappedLabel
 
 _SHOWN = 6
 _WIDTH, _RECENT_WIDTH = 520, 340
@@ -51,14 +52,13 @@ class Welcome(QWidget):
         font.setPointSizeF(1.8 * font.pointSizeF())
         font.setBold(True)
         title.setFont(font)
-        words = QLabel(
+        words = WrappedLabel(
             self.tr(
                 "Drop photographs of a flat checkerboard here: 10 to 30 of them, all of the "
                 "board in view, tilted in different directions, and reaching into the "
                 "image's corners. A saved project can be dropped as well."
             )
         )
-        words.setWordWrap(True)
         words.setAlignment(Qt.AlignmentFlag.AlignCenter)
         words.setMargin(3 * theme.SPACING)
         words.setStyleSheet("border: 2px dashed palette(mid); border-radius: 8px;")
