@@ -185,8 +185,9 @@ class SharedCauses:
         own: Array | None = None,
         cells: int = LENS_CELLS,
     ) -> None:
-        rows, poses = [], []
         index = index_board_points(fit.observations)
+        whole = left = np.zeros(())
+        parts_by_view = []
         for views in slice_views(len(fit.state.R)):
             residual, by_camera, by_pose, predicted = _linearise(fit, views)
             columns = [
@@ -197,18 +198,21 @@ class SharedCauses:
             ]
             dense = (by_camera.reshape(-1, len(fit.free)), residual.reshape(-1, 1))
             camera, error = map(scipy.sparse.csr_array, dense)
-            rows.append([camera, *columns, error])
-            poses.append(np.linalg.qr(by_pose.reshape(len(residual), -1, 6))[0])
-        blocks = [scipy.sparse.hstack(row, format="csr") for row in rows]
-        whole, left, by_view = _multiply(
-            scipy.sparse.vstack(blocks, format="csr"), np.concatenate(poses) if own is None else own
-        )
+            pose = by_pose.reshape(len(residual), -1, 6)
+            products = _multiply(
+                scipy.sparse.hstack([camera, *columns, error], format="csr"),
+                np.linalg.qr(pose)[0] if own is None else own[views],
+            )
+            whole, left = whole + products[0], left + products[1]
+            parts_by_view.append(products[2])
+            widths = [camera.shape[1], *(column.shape[1] for column in columns)]
+        by_view = np.concatenate(parts_by_view, axis=1)
         # Columns that no corner depends on would be divided by 0.
         square = np.diag(whole)[:-1]
         unit = 1 / np.sqrt(np.where(square > 0, square, np.inf))
         self._N, self._b = left[:-1, :-1] * np.outer(unit, unit), left[:-1, -1] * unit
         self._b_of_views = by_view[:-1] * unit[:, None]
-        self._names = np.repeat(["", *causes], [column.shape[1] for column in rows[0][:-1]])
+        self._names = np.repeat(["", *causes], widths)
         self.cost = float(whole[-1, -1])
         """The sum of squares r^T r."""
         self.cost_beside_views = float(left[-1, -1])
@@ -287,26 +291,22 @@ def _linearise(fit: LinearisedFit, views: slice) -> tuple[Array, Array, Array, A
 
 
 def _multiply(columns: scipy.sparse.csr_array, own: Array) -> tuple[Array, Array, Array]:
-    """Return products (m, m) of columns, and of what the views' own columns leave of them; and
-    each view's part (m, K) of the latter's products with the last column, the residuals."""
-    K, rows, m = own.shape
+    """Return products (m, m) of some views' columns, and of what the views' own columns (k, rows,
+    n) leave of them; and each view's part (m, k) of the latter's products with the last column,
+    the residuals."""
+    k, rows, n = own.shape
     count = columns.shape[1]
+    # In a matrix of blocks along the diagonal, one for each view, all are multiplied at once.
+    block = np.repeat(np.repeat(np.arange(k), rows), np.diff(columns.indptr))
+    blocks = scipy.sparse.csr_array(
+        (columns.data, columns.indices + count * block, columns.indptr), shape=(k * rows, k * count)
+    )
+    by_view = (blocks.T @ own.reshape(k * rows, n)).reshape(k, count, n)
+    by_own = by_view.swapaxes(0, 1).reshape(count, k * n)
+    product = (blocks.T @ columns[:, [-1]].toarray()).reshape(k, count)
+    with_residuals = product - (by_view @ by_view[:, -1, :, None])[..., 0]
     whole = (columns.T @ columns).toarray()
-    left, with_residuals = whole.copy(), np.empty((K, count))
-    for views in slice_views(K):
-        # In a matrix of blocks along the diagonal, one for each view, all are multiplied at once.
-        part = columns[views.start * rows : views.stop * rows]
-        k = views.stop - views.start
-        block = np.repeat(np.repeat(np.arange(k), rows), np.diff(part.indptr))
-        blocks = scipy.sparse.csr_array(
-            (part.data, part.indices + count * block, part.indptr), shape=(k * rows, k * count)
-        )
-        by_view = (blocks.T @ own[views].reshape(k * rows, m)).reshape(k, count, m)
-        by_own = by_view.swapaxes(0, 1).reshape(count, k * m)
-        left -= by_own @ by_own.T
-        product = (blocks.T @ part[:, [-1]].toarray()).reshape(k, count)
-        with_residuals[views] = product - (by_view @ by_view[:, -1, :, None])[..., 0]
-    return whole, left, with_residuals.T
+    return whole, whole - by_own @ by_own.T, with_residuals.T
 
 
 def _make_board_columns(
