@@ -17,20 +17,20 @@ lock. Goals of the project: at most 50 ms, 100 beside a busy process, and 800 MB
 from __future__ import annotations
 
 import argparse
-import faulthandler
 import os
-import re
+import signal
 import sys
 import tempfile
 import threading
 import time
 from collections import Counter
 from collections.abc import Callable, Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, nullcontext
 from functools import partial
 from multiprocessing import active_children, get_context
 from multiprocessing.process import BaseProcess
 from pathlib import Path
+from types import FrameType
 
 os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 os.environ.setdefault("QT_QPA_PLATFORM", "offscreen")
@@ -57,12 +57,12 @@ TEXELS = 7.0
 """Resolution of the drawn board, per mm: about that of the photographs."""
 BEAT = 5
 """Interval of the timer, ms."""
-LATE = 0.03
-"""Time without a beat after which, and after which again, the threads are looked at, s."""
+SAMPLE = 0.005
+"""Interval of the sampler, s."""
+LATE = 0.02
+"""Time without samples after which the other threads are looked at, s."""
 INNERMOST = 6
 """Number of functions that are named of each thread."""
-PLACE = re.compile(r'File ".*?([^/]+)", line (\d+) in (.*)')
-"""A function in what the interpreter's watchdog writes."""
 PATIENCE = 60.0
 """Time after which a task is stopped, s: to judge 300 views takes minutes."""
 
@@ -106,49 +106,56 @@ def resident(process: BaseProcess) -> float:
 
 
 class Trace:
-    """Tells what all threads do while the window's thread is late for a beat.
-
-    The interpreter's own watchdog looks at them: it needs no lock that one of them may hold.
-    """
+    """Samples what the threads do, whenever they let the window's thread look."""
 
     def __init__(self) -> None:
-        self._file = tempfile.TemporaryFile()  # noqa: SIM115 - open as long as the program
+        self._samples: list[tuple[float, str]] = []
 
-    def wait_for_beat(self) -> int:
-        """Begin to wait for the next beat; return the place of what is written if it is late."""
-        place = self._file.seek(0, os.SEEK_END)
-        faulthandler.dump_traceback_later(LATE, repeat=True, file=self._file)
-        return place
+    def __enter__(self) -> Trace:
+        signal.signal(signal.SIGALRM, self._sample)
+        signal.setitimer(signal.ITIMER_REAL, SAMPLE, SAMPLE)
+        return self
 
-    def stop(self) -> None:
-        """Wait for no further beat."""
-        faulthandler.cancel_dump_traceback_later()
+    def __exit__(self, *_: object) -> None:
+        signal.setitimer(signal.ITIMER_REAL, 0)
 
-    def print_stacks(self, begin: int, end: int) -> None:
-        """Print the innermost functions of each thread that did not wait, as often as seen."""
-        self._file.seek(begin)
-        seen: Counter[str] = Counter()
-        for text in self._file.read(end - begin).decode().split("Thread ")[1:]:
-            title, *frames = text.strip().split("\n")
-            places = [PLACE.sub(r"\1:\2 \3", frame.strip()) for frame in frames[:INNERMOST]]
-            if places and not places[0].endswith((" _worker", " wait")):
-                is_main = int(title.split()[0], 16) == threading.main_thread().ident
-                who = "the window" if is_main else "a thread"
-                seen[f"{who}: {' < '.join(places)}"] += 1
+    def _sample(self, _: int, frame: FrameType | None) -> None:
+        now, before = time.monotonic(), self._samples[-1][0] if self._samples else np.inf
+        self._samples.append((now, f"the window: {describe_stack(frame)}"))
+        if now - before > LATE:  # another thread may have held the interpreter's lock until now
+            late = f"a thread after {1e3 * (now - before):.0f} ms"
+            others = sys._current_frames()
+            del others[threading.get_ident()]
+            self._samples.extend(
+                (now, f"{late}: {describe_stack(other)}")
+                for other in others.values()
+                if other.f_code.co_name not in ("_worker", "wait")
+            )
+
+    def print_most(self, begin: float, end: float) -> None:
+        """Print what was seen most often between two times."""
+        seen = Counter(what for at, what in self._samples if begin <= at <= end + SAMPLE)
         for what, times in seen.most_common(9):
             print(f"    {times:4} x {what}")
+
+
+def describe_stack(frame: FrameType | None) -> str:
+    """Name the innermost functions that a thread is in."""
+    stack: list[str] = []
+    while frame is not None and len(stack) < INNERMOST:
+        code = frame.f_code
+        stack.append(f"{code.co_filename.rpartition('/')[2]}:{frame.f_lineno} {code.co_name}")
+        frame = frame.f_back
+    return " < ".join(stack)
 
 
 @contextmanager
 def heartbeat(task: str, trace: Trace | None) -> Iterator[None]:
     """Print the longest gaps while the block runs the event loop."""
     beats: list[tuple[float, float, float]] = []
-    places: list[int] = []
 
     def beat() -> None:
         beats.append((time.monotonic(), time.process_time(), time.thread_time()))
-        if trace is not None:
-            places.append(trace.wait_for_beat())
 
     timer = QTimer(interval=BEAT)
     timer.timeout.connect(beat)
@@ -165,9 +172,8 @@ def heartbeat(task: str, trace: Trace | None) -> Iterator[None]:
         f"{task:34}{whole:8.0f}{program:10.0f}{thread:8.0f}{seconds:9.1f}{peak():9.0f}", flush=True
     )
     if trace is not None:
-        trace.stop()
         longest = int(np.argmax(gaps[:, 1]))
-        trace.print_stacks(*places[longest : longest + 2])
+        trace.print_most(beats[longest][0], beats[longest + 1][0])
 
 
 class User:
@@ -296,7 +302,9 @@ def main() -> None:
         other = get_context("spawn").Process(target=compute_for_ever, daemon=True)
         if arguments.busy:
             other.start()
-        measure(arguments.folder, Path(scratch), Trace() if arguments.trace else None)
+        trace = Trace() if arguments.trace else None
+        with trace or nullcontext():
+            measure(arguments.folder, Path(scratch), trace)
         if arguments.busy:
             other.kill()
 
