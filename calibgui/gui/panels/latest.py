@@ -12,6 +12,10 @@ from calibgui.gui.jobs.jobs import Jobs
 
 T = TypeVar("T")
 
+_PICTURE = 0.06
+"""Time in which a panel is filled and painted, s: work that began at once would take turns with it
+at the interpreter, and a panel of 300 views would come twice as late."""
+
 
 class Latest:
     """A panel's work: what is asked for anew replaces what was asked for before.
@@ -33,7 +37,9 @@ class Latest:
         failed: Callable[[Exception], None],
         cancelled: Callable[[], None] = nothing,
     ) -> None:
-        """Run `work` in a thread; what it returns or raises is handed on unless it is outdated.
+        """Run `work` in a thread, once what the panel shows by now is on the screen.
+
+        What it returns or raises is handed on unless it is outdated.
 
         Args:
             label, work, done, failed: as for ``Jobs.start``.
@@ -41,12 +47,17 @@ class Latest:
         """
         self.cancel()
 
+        def begin(job: Job) -> T:
+            job.cancelling.wait(_PICTURE)
+            job.check()
+            return work(job)
+
         def ended() -> None:
             if job is self._job and job.cancelled:
                 cancelled()
 
         job = self._job = self._jobs.start(
-            label, work, done, failed=failed, ended=ended, owner=self._owner
+            label, begin, done, failed=failed, ended=ended, owner=self._owner
         )
 
     def cancel(self) -> None:
