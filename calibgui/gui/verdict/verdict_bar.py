@@ -53,6 +53,7 @@ class VerdictBar(QFrame):
         self.setObjectName("verdict")
         self._session = session
         self._result: Result | None = None
+        self._is_old = False
         self.verdict: Verdict | None = None
         self._work = Latest(session.jobs, self)
         self.remedier = Remedier(session)
@@ -80,7 +81,7 @@ class VerdictBar(QFrame):
         self.remedier.ended.connect(self._show_buttons)
         self.remedier.done.connect(self._compare)
         session.result_changed.connect(self._judge)
-        session.changed.connect(lambda *_: self._show())
+        session.changed.connect(lambda *_: self._show_age())
         self._judge(session.result)
 
     def _lay_out(self) -> None:
@@ -130,8 +131,17 @@ class VerdictBar(QFrame):
         self.verdict = verdict
         self._show()
 
+    def _show_age(self) -> None:
+        """Show whether the result is of the project as it is now, if that has changed."""
+        if self._is_old is not self._is_out_of_date():
+            self._show()
+
+    def _is_out_of_date(self) -> bool:
+        return self._result is not None and not self._session.project.is_current(self._result)
+
     def _show(self) -> None:
         verdict, result = self.verdict, self._result
+        self._is_old = self._is_out_of_date()
         self.mark.show_grade(None if verdict is None else verdict.grade)
         if verdict is None or result is None:
             nothing = self.tr("NOT CALIBRATED") if result is None else self.tr("JUDGING…")
@@ -142,8 +152,7 @@ class VerdictBar(QFrame):
             self.figures.setText("" if result is None else describe_fit(result))
         else:
             self.headline.setText(describe_grade(verdict.grade, verdict.times_better))
-            is_old = not self._session.project.is_current(result)
-            old = self.tr("Out of date: calibrate again. ") if is_old else ""
+            old = self.tr("Out of date: calibrate again. ") if self._is_old else ""
             diagnosis = result.calibration.diagnosis
             self.reason.setText(old + (diagnosis.message if diagnosis else verdict.reason))
             self.figures.setText(describe_figures(verdict, result))
