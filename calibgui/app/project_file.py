@@ -117,6 +117,7 @@ def encode_project(project: Project, folder: Path) -> dict[str, Any]:
     """Return the content of the file, with paths relative to `folder`."""
     project = _change_paths(project, lambda image: _make_relative(image, folder))
     rows, cols = project.grid_size or (None, None)
+    board = project.board or Board(2, 2, project.square, project.pattern)
     square = {"square_mm": project.square, "unit": project.unit}
     pattern = {"pattern": encode_pattern(project.pattern), "corners": project.method}
     return {
@@ -127,7 +128,7 @@ def encode_project(project: Project, folder: Path) -> dict[str, Any]:
         "size": project.size,
         "by_hand": project.by_hand,
         "settings": _encode_settings(project.settings),
-        "views": [_encode_view(view, project) for view in project.views],
+        "views": [_encode_view(view, project, board) for view in project.views],
         "results": {name: encode_result(result) for name, result in project.results.items()},
     }
 
@@ -176,15 +177,11 @@ def _migrate(node: Node) -> Node:
     return node
 
 
-def _encode_view(view: View, project: Project) -> dict[str, Any]:
-    record = encode_view(view, _make_board(project))
+def _encode_view(view: View, project: Project, board: Board) -> dict[str, Any]:
+    """Encode a view with corners of a board, whose grid size does not change their places."""
+    record = encode_view(view, board)
     digest = project.digests.get(view.image)
     return record if digest is None else record | {"sha256": digest}
-
-
-def _make_board(project: Project) -> Board:
-    """Return a board for the places of found corners, which its grid size does not change."""
-    return project.board or Board(2, 2, project.square, project.pattern)
 
 
 def _decode_project(node: Node) -> Project:
