@@ -26,6 +26,8 @@ from calibgui.report.coverage import count_corners_per_cell, measure_attitudes
 
 _CELLS = (24, 18)
 """Columns and rows of the density that is drawn."""
+_MAP_HEIGHT = 240
+"""Least height of the map, px: it is the panel's main thing, and as wide as a narrow panel then."""
 _RINGS = (15, 30, 45, 60)
 """Tilts that are marked by circles, degrees."""
 
@@ -43,6 +45,7 @@ class CoveragePanel(Panel):
         super().__init__(services)
         self._work = Latest(services.jobs, self)
         self.density = HeatMap(self.tr("corners in a cell"))
+        self.density.setMinimumHeight(_MAP_HEIGHT)
         self.density.setToolTip(
             self.tr("Where corners were seen. The lens correction is extrapolated beyond them.")
         )

@@ -31,7 +31,9 @@ from calibgui.gui.widgets.save_names import ask_for_name
 pg.setConfigOptions(antialias=True)
 
 _MANY_DECADES = 4
-"""From which on there is room for the powers of ten only."""
+"""Number of powers of ten beyond which there is room for these only; and their distance from 1, up
+to which they are written as plain numbers."""
+_SUPERSCRIPTS = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 _LEAST_HEIGHT = 160
 """Height below which the numbers of an axis run into each other, px."""
 _BAR_WIDTH = 14.0
@@ -189,12 +191,26 @@ class _Axis(pg.AxisItem):  # type: ignore[misc]  # pyqtgraph is not typed
             return list(super().tickStrings(values, scale, spacing))
         return [self.write_number(value) for value in values]
 
-    def logTickStrings(self, values: list[float], scale: float, spacing: float) -> list[str]:  # noqa: N802 - pyqtgraph's name
-        decades = abs(self.range[1] - self.range[0])
-        shown = (1,) if decades > _MANY_DECADES else (1, 2, 5)
-        texts = super().logTickStrings(values, scale, spacing)
-        leading = (f"{10.0**value:.0e}"[0] for value in values)
-        return [t if int(first) in shown else "" for t, first in zip(texts, leading, strict=True)]
+    def logTickStrings(  # noqa: N802 - pyqtgraph's name
+        self,
+        values: list[float],
+        scale: float,
+        spacing: float,  # noqa: ARG002
+    ) -> list[str]:
+        low, high = sorted(self.range)
+        shown = (1,) if high - low > _MANY_DECADES else (1, 2, 5)
+        is_plain = low >= -_MANY_DECADES and high <= _MANY_DECADES
+        texts = []
+        for value in values:
+            leading, power = f"{10.0**value * scale:.0e}".split("e")
+            if int(leading) not in shown:
+                texts.append("")
+            elif is_plain:
+                texts.append(f"{float(f'{leading}e{power}'):g}")
+            else:
+                factor = "" if leading == "1" else f"{leading}·"
+                texts.append(f"{factor}10{str(int(power)).translate(_SUPERSCRIPTS)}")
+        return texts
 
 
 class ColourBar(pg.GraphicsWidget):  # type: ignore[misc]  # pyqtgraph is not typed

@@ -6,7 +6,7 @@ import re
 
 from PySide6.QtWidgets import QLabel, QWidget
 
-_UNITS = ("px", "mm", "m", "s", "ms", "min", "MB", "MP", "dpi", "%", "°")
+_UNITS = ("px", "mm", "m", "s", "ms", "min", "MB", "MP", "dpi", "%", "°", "degrees")
 _SPACES_WITHIN_VALUES = re.compile(
     rf" (?=[=±] )|(?<= [=±]) |(?<=\d) (?=(?:{'|'.join(_UNITS)})(?!\w))"
 )

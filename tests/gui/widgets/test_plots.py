@@ -26,6 +26,17 @@ def test_axes_name_their_units(qtbot: QtBot) -> None:
     assert item.getAxis("bottom").labelText == "iteration"
 
 
+def test_numbers_of_a_logarithmic_axis_are_written_alike(qtbot: QtBot) -> None:
+    axis = example(qtbot).getPlotItem().getAxis("left")
+    values = [-1, 0, np.log10(3), np.log10(5), 1]
+    axis.setRange(-1.2, 1.3)
+    assert axis.logTickStrings(values, 1.0, 1.0) == ["0.1", "1", "", "5", "10"]
+    axis.setRange(-7, 2)
+    assert axis.logTickStrings(values, 1.0, 1.0) == ["10⁻¹", "10⁰", "", "", "10¹"]
+    axis.setRange(4, 7.5)
+    assert axis.logTickStrings([5, np.log10(2e6)], 1.0, 1.0) == ["10⁵", "2·10⁶"]
+
+
 def test_a_double_click_shows_all_again(qtbot: QtBot) -> None:
     plot = example(qtbot)
     plot.show()

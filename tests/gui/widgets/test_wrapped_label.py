@@ -16,7 +16,7 @@ from calibgui.gui.widgets.wrapped_label import WrappedLabel, join_values
         ("0.14 px in 2 % of them", "0.14_px in 2_% of them"),
         ("fx = 656.8 ± 6.1 px", "fx_=_656.8_±_6.1_px"),
         ("if squares are 30 mm.", "if squares are 30_mm."),
-        ("turned by 20 to 45 °", "turned by 20 to 45_°"),
+        ("tilted by 45 degrees", "tilted by 45_degrees"),
         ("12 mirrors and 3 sets of 5 pxs", "12 mirrors and 3 sets of 5 pxs"),
         ("the ± of the result", "the_±_of the result"),
     ],
