@@ -161,6 +161,7 @@ class StageOnePanel(Panel):
                     tip,
                     heading=headings.get(t, ""),
                     optional=name in _OPTIONAL,
+                    expendable=name == "fx",
                     unit=unit,
                 )
                 for t, name, text, unit, tip in shown

@@ -57,6 +57,8 @@ class Column:
     """Whether only copies and files hold it."""
     optional: bool = False
     """Whether it is left out where there is no room for all."""
+    expendable: bool = False
+    """Whether it is left out where even a narrow first column leaves no room for the others."""
     heading: str = ""
     """What stands over the texts, if not the title: with the unit that only they are in."""
     tips: Sequence[str] = ()
@@ -303,6 +305,9 @@ class Table(QTableView):
             whole = header.sectionSize(0)
             least = min(whole, _LEGIBLE * self.fontMetrics().averageCharWidth())
             header.resizeSection(0, max(least, whole - excess))
+        for place, column in enumerate(columns):
+            if column.expendable and header.length() > room:
+                self.setColumnHidden(place, True)
 
     def _current_changed(self, current: QModelIndex) -> None:
         if current.isValid():

@@ -106,3 +106,22 @@ def test_columns_give_way_before_the_user_must_scroll(qtbot: QtBot) -> None:
     assert header.sectionSize(0) > table.fontMetrics().horizontalAdvance("photog")
     assert table.as_csv().splitlines()[0] == "view,change,RMS"
     assert table.model().headerData(2, Qt.Orientation.Horizontal) == "RMS [px]"
+
+
+def test_an_expendable_column_goes_where_names_cannot_be_narrower(qtbot: QtBot) -> None:
+    table = Table()
+    qtbot.addWidget(table)
+    table.show_columns(
+        [
+            Column("view", ["photograph_of_a_board_001.png"]),
+            Column("fx", [4100.25], with_decimals(2), expendable=True),
+            Column("RMS", [0.25], with_decimals(2)),
+        ]
+    )
+    table.show()
+    header = table.horizontalHeader()
+    table.resize(200, 200)
+    assert not table.isColumnHidden(1)
+    table.resize(header.length() - header.sectionSize(0) + 40, 200)
+    assert table.isColumnHidden(1) and not table.isColumnHidden(2)
+    assert header.length() <= table.viewport().width()

@@ -16,6 +16,7 @@ from PySide6.QtWidgets import (
     QLabel,
     QStyle,
     QTabBar,
+    QTableView,
     QWidget,
 )
 from pytestqt.qtbot import QtBot
@@ -71,6 +72,9 @@ def find_clipped(root: QWidget) -> Iterator[str]:
                     widget.currentText(),
                     widget.height() < widget.minimumSizeHint().height(),
                 )
+            case QTableView():
+                text = widget.accessibleName()
+                clipped = widget.horizontalHeader().length() > widget.viewport().width()
             case _:
                 continue
         if clipped:
