@@ -37,6 +37,7 @@ from calibgui.engine.boards.board import Board
 from calibgui.engine.calibration.calibrate import calibrate
 from calibgui.engine.calibration.initialisation.stage_one import register_views
 from calibgui.engine.calibration.initialisation.start import (
+    check_facing,
     convert_to_paper_frame,
     initialise_stage_two,
 )
@@ -95,9 +96,8 @@ def started(views: list[Observation], model: str) -> tuple[Observations, State]:
     """The views as the solver takes them, and its start."""
     observations = pack_observations(views)
     scale = REFERENCE_PITCH / measure_pitch(observations)
-    first = register_views(
-        *convert_to_paper_frame(observations, scale, VGA, name_views(len(views)))
-    )
+    facing = check_facing(observations, name_views(len(views)))
+    first = register_views(*convert_to_paper_frame(observations, scale, VGA, facing))
     held = dict.fromkeys(find_model(model).held)
     start, _ = initialise_stage_two(observations, first, VGA, model, held)
     return observations, start

@@ -13,7 +13,7 @@ from __future__ import annotations
 
 import hashlib
 import time
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import replace
 from functools import partial
 from typing import Any
@@ -25,7 +25,7 @@ from calibgui.engine.boards.shape import BoardShape, BoardShapeModel, BoardShape
 from calibgui.engine.calibration.board_shape.parametrisation import place_on_board_shape
 from calibgui.engine.calibration.held_values import blame_held_values
 from calibgui.engine.calibration.initialisation.knots import check_knots, choose_knots
-from calibgui.engine.calibration.initialisation.start import convert_to_paper_frame
+from calibgui.engine.calibration.initialisation.start import check_facing
 from calibgui.engine.calibration.methods import DEFAULT_METHOD, check_method, find_method
 from calibgui.engine.calibration.methods.method import Given, Method
 from calibgui.engine.calibration.methods.simulated_covariance import simulate_covariances
@@ -53,10 +53,18 @@ from calibgui.engine.calibration.refinement import covariances
 from calibgui.engine.calibration.refinement.levenberg_marquardt import Solution
 from calibgui.engine.calibration.refinement.residuals import State
 from calibgui.engine.calibration.refinement.whitening import whiten_observations
-from calibgui.engine.calibration.result import Calibration, Cost, DegenerateError, Report
+from calibgui.engine.calibration.result import (
+    Calibration,
+    Cost,
+    DegenerateError,
+    Report,
+    StageOne,
+    StageOneTable,
+)
 from calibgui.engine.calibration.result_assembly import (
     assemble_calibration,
     make_estimate,
+    tabulate_stage_one,
 )
 from calibgui.engine.camera.camera import Camera, check_image_size
 from calibgui.engine.camera.models import PINHOLE, find_model, parameter_names, resolve_model_id
@@ -181,8 +189,7 @@ def calibrate(
     check_method(steps, model, cost)
     held = resolve_held_parameters(fix, free, model, size, steps.held)
     scale = REFERENCE_PITCH / measure_pitch(observations)
-    paper_corners = convert_to_paper_frame(observations, scale, size, names)
-    given = Given(observations, paper_corners, size, model, held)
+    given = Given(observations, scale, check_facing(observations, names), size, model, held)
     began = time.perf_counter()
     start, values, remarks = steps.initialise(given)
     seconds = time.perf_counter() - began
@@ -198,9 +205,8 @@ def calibrate(
     }
     if steps.name != DEFAULT_METHOD:  # results of the default stay as they were without others
         settings["method"] = steps.name
-    options = Options(
-        size, model, cost, scale, parameters, values, given.registration, held_shape, settings
-    )
+    table = StageOneTable(partial(_tabulate_stage_one, given, cost))
+    options = Options(size, model, cost, scale, parameters, values, table, held_shape, settings)
     if held_shape is not None:
         observations = place_on_board_shape(observations, held_shape)
     if cost is Cost.IMAGE:  # the covariances are of corners in the image
@@ -214,8 +220,9 @@ def calibrate(
     began = time.perf_counter()
     observations, solution = steps.refine(observations, start, options, report, max_iterations)
     seconds += time.perf_counter() - began
-    misfits = [names[k] for k in find_misfits(given.registration.rms).tolist()]
-    precision = _measure_precision(solution, observations, originals, options, misfits)
+    precision = _measure_precision(
+        solution, observations, originals, options, partial(_name_misfits, given, names)
+    )
     estimate = make_estimate(solution, observations, precision)
     if not steps.is_minimum:
         run = partial(_rerun_method, steps, given, options)
@@ -228,6 +235,16 @@ def calibrate(
         estimate, options, precision.undetermined, _compute_digest(observations, settings)
     )
     return replace(calibration, warnings=remarks, seconds=seconds)
+
+
+def _tabulate_stage_one(given: Given, cost: Cost) -> tuple[StageOne, ...]:
+    """Tabulate Stage I of all views, which the start may have done with fewer of."""
+    return tabulate_stage_one(given.registration, literal=cost is Cost.PAPER)
+
+
+def _name_misfits(given: Given, names: Sequence[str]) -> list[str]:
+    """Name the views whose corners fit no flat board in Stage I."""
+    return [names[k] for k in find_misfits(given.registration.rms).tolist()]
 
 
 def _rerun_method(
@@ -243,7 +260,7 @@ def _measure_precision(
     observations: Observations,
     originals: IntArray,
     options: Options,
-    misfits: Sequence[str],
+    name_misfits: Callable[[], list[str]],
 ) -> covariances.Precision:
     """Measure how precise the solution is, and raise if the views do not determine it.
 
@@ -252,7 +269,7 @@ def _measure_precision(
         observations: the views.
         originals: (K,) the view that each one copies, from `find_copies`.
         options: the options of the calibration.
-        misfits: names of the views that `find_misfits` found.
+        name_misfits: a function that returns the names of the views that fit no flat board.
 
     Raises:
         CalibrationError, DegenerateError: as `calibrate`.
@@ -261,7 +278,7 @@ def _measure_precision(
     camera = Camera(options.size, solution.state.params, options.model)
     tolerated = _compute_tolerated_deviations(camera, observations)[options.free]
     precision = covariances.measure_precision(solution.normal, names, observations.count, tolerated)
-    lost = find_undetermined(solution, names, precision, misfits, camera)
+    lost = find_undetermined(solution, names, precision, name_misfits, camera)
     if lost or is_in_one_spot(observations.uv, options.size):  # padding repeats a corner
         _raise_if_undetermined(observations, originals, options, solution.state, lost)
     return precision
@@ -308,6 +325,8 @@ def _raise_if_undetermined(
 def _check_size(observations: Observations, size: Size, names: Sequence[str]) -> None:
     """Refuse corners that an image of this size cannot show."""
     u, v = observations.uv[..., 0], observations.uv[..., 1]
+    if observations.uv.min() >= 0 and u.max() <= size[0] and v.max() <= size[1]:
+        return
     share = float(np.mean(((u < -1) | (v < -1))[observations.mask > 0]))
     if share > _MAX_SHARE_NEGATIVE:
         raise CalibrationError(

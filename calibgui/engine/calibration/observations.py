@@ -41,6 +41,10 @@ _MAX_UV, _MAX_XY = 1e7, 1e9
 """Largest coordinates, px and mm: no image and no board is larger."""
 _MIN_EXTENT = 1e-9
 """Extent of a board below which all its corners count as one place, mm."""
+_BEGINS, _ENDS = [0, 0, 1], [1, 2, 2]
+"""Numbers of the points through which the lines lead that may hold all others."""
+_POINTS_THAT_TELL = 12
+"""Number of points, spread over all, that mostly show that no line holds all points but one."""
 _MIN_VARIANCE = 1e-100
 """Variance of a corner below which its covariance cannot be inverted, px^2."""
 
@@ -131,6 +135,13 @@ def pack_observations(
     return packed
 
 
+def select_spread_views(views: Observations, count: int) -> Observations:
+    """Select up to `count` views, spread evenly over all."""
+    if len(views.uv) <= count:
+        return views
+    return views.select_views(np.unique(np.linspace(0, len(views.uv) - 1, count).astype(np.int64)))
+
+
 def slice_views(count: int) -> list[slice]:
     """Divide `count` views into consecutive slices of `VIEWS_PER_CHUNK`."""
     return [
@@ -171,8 +182,7 @@ def measure_pitch(observations: Observations) -> float:
     It is measured view by view, because views may give the same corner's place with different
     precision, and the least is taken, because a partly seen board can lack neighbours.
     """
-    chosen = np.unique(np.linspace(0, len(observations.xy) - 1, _MAX_PITCH_VIEWS).astype(int))
-    part = observations.select_views(chosen)
+    part = select_spread_views(observations, _MAX_PITCH_VIEWS)
     unlike = [part.xy[k, part.corners_of(k), :2] for k in group_equal_boards(part)[0].tolist()]
     nearest = [np.asarray(scipy.spatial.cKDTree(xy).query(xy, k=2)[0])[:, 1] for xy in unlike]
     return float(min(np.median(distance) for distance in nearest))
@@ -216,20 +226,22 @@ def _check_images(part: Observations, names: Sequence[str]) -> None:
             raise CalibrationError(f"{names[int(np.argmin(good))]}{what}", hint)
 
     uv, xy = part.uv.reshape(len(part.uv), -1), part.xy.reshape(len(part.uv), -1)
-    arrays = [uv, xy] if part.cov is None else [uv, xy, part.cov.reshape(len(uv), -1)]
-    finite = [np.isfinite(array).all(axis=1) for array in arrays]
+    farthest_uv, farthest_xy = np.abs(uv).max(axis=1), np.abs(xy).max(axis=1)
+    finite = np.isfinite(farthest_uv + farthest_xy)
+    if part.cov is not None:
+        finite &= np.isfinite(part.cov).all(axis=(1, 2, 3))
     require(
-        np.logical_and.reduce(finite),
+        finite,
         " holds a corner that is not a finite number.",
         "Remove that corner or the view.",
     )
     require(
-        np.abs(uv).max(axis=1) < _MAX_UV,
+        farthest_uv < _MAX_UV,
         f" has a corner farther than {_MAX_UV:.0e} px from the image's origin.",
         "Remove that corner or the view.",
     )
     require(
-        np.abs(xy).max(axis=1) < _MAX_XY,
+        farthest_xy < _MAX_XY,
         f" names a board point farther than {_MAX_XY:.0e} mm from the board's origin.",
         "Give places on the board in mm.",
     )
@@ -272,13 +284,19 @@ def _are_in_general_position(points: Array, mask: Array) -> BoolArray:
     """
     x, y = np.array(np.moveaxis(points, -1, 0), order="C")
     tolerance = 1e-6 * np.maximum(np.ptp(x, axis=1), np.ptp(y, axis=1))
-    good = np.ones(len(points), dtype=bool)
     # A line that holds all points but one holds two of the first three.
-    for i, j in ((0, 1), (0, 2), (1, 2)):
-        along = points[:, j] - points[:, i]
-        X, Y = along.T[..., None]
-        area = X * y - Y * x - (X[:, 0] * y[:, i] - Y[:, 0] * x[:, i])[:, None]
-        limit = tolerance * np.linalg.norm(along, axis=1)
-        off = (np.abs(area) > limit[:, None]) & (mask > 0)
-        good &= np.count_nonzero(off, axis=1) >= 2
+    X, Y = (a[:, _ENDS] - a[:, _BEGINS] for a in (x, y))
+    limit = tolerance[:, None] * np.hypot(X, Y)
+    offset = X * y[:, _BEGINS] - Y * x[:, _BEGINS]
+
+    def are_two_off(views: slice | IntArray, step: int) -> BoolArray:
+        by_y, by_x = (a[views, None, ::step] for a in (y, x))
+        area = X[views, :, None] * by_y - Y[views, :, None] * by_x - offset[views, :, None]
+        off = (np.abs(area) > limit[views, :, None]) & (mask[views, None, ::step] > 0)
+        return np.asarray((np.count_nonzero(off, axis=2) >= 2).all(axis=1))
+
+    # Mostly a few of the points tell.
+    good = are_two_off(slice(None), max(1, x.shape[1] // _POINTS_THAT_TELL))
+    doubtful = np.flatnonzero(~good)
+    good[doubtful] = are_two_off(doubtful, 1)
     return good

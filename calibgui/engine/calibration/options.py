@@ -9,8 +9,7 @@ import numpy as np
 
 from calibgui.engine.arrays import IntArray, Size
 from calibgui.engine.boards.shape import BoardShape
-from calibgui.engine.calibration.initialisation.stage_one import StageOneRegistration
-from calibgui.engine.calibration.result import Cost
+from calibgui.engine.calibration.result import Cost, StageOneTable
 from calibgui.engine.camera.models import find_model, parameter_names
 from calibgui.engine.errors import CalibrationError
 
@@ -33,8 +32,8 @@ class Options(NamedTuple):
     """(P,) names of the camera's parameters."""
     held: Mapping[str, float]
     """Parameters that are held, with their values."""
-    registration: StageOneRegistration
-    """Stage I of the views, which the start was made from."""
+    stage_one: StageOneTable
+    """Stage I of the views, for the result."""
     board_shape: BoardShape | None
     """A board shape to hold; None for the drawing, or if the shape is estimated."""
     settings: Mapping[str, Any]

@@ -7,7 +7,6 @@ paper's Table 1.
 
 from __future__ import annotations
 
-from functools import partial
 from typing import NamedTuple
 
 import numpy as np
@@ -25,7 +24,6 @@ from calibgui.engine.calibration.result import (
     Calibration,
     Cost,
     StageOne,
-    StageOneTable,
     Undetermined,
     ViewResiduals,
 )
@@ -108,9 +106,7 @@ def assemble_calibration(
         noise=float(np.sqrt(estimate.sigma2)),
         model_error=float(np.sqrt(observations.tau2)),
         reference_scale=options.scale,
-        stage_one=StageOneTable(
-            partial(tabulate_stage_one, options.registration, literal=cost is Cost.PAPER)
-        ),
+        stage_one=options.stage_one,
         history=estimate.solution.history,
         status=estimate.solution.status,
         cost=cost,

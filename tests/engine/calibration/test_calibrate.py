@@ -14,6 +14,8 @@ from threadpoolctl import threadpool_limits
 
 from calibgui.engine.arrays import Array
 from calibgui.engine.calibration.calibrate import calibrate
+from calibgui.engine.calibration.initialisation.stage_one import StageOneRegistration
+from calibgui.engine.calibration.methods import method
 from calibgui.engine.calibration.observations import Observation
 from calibgui.engine.calibration.result import (
     Calibration,
@@ -331,6 +333,20 @@ def test_the_table_of_stage_one_is_computed_once_and_when_it_is_read(
     assert len(asked) == 1
     copied = pickle.loads(pickle.dumps(expected)).stage_one  # other processes get it as well
     assert [row.xp for row in copied] == [row.xp for row in rows]
+
+
+def test_many_views_are_started_from_some_of_them(monkeypatch: pytest.MonkeyPatch) -> None:
+    registered, register = [], method.register_views
+
+    def count(xy: Array, reference: Array, mask: Array) -> StageOneRegistration:
+        registered.append(len(xy))
+        return register(xy, reference, mask)
+
+    monkeypatch.setattr(method, "register_views", count)
+    found = calibrate(scene(barrel(), 40).noisy(0.1, np.random.default_rng(2)), VGA)
+    assert registered == [25]
+    assert len(found.stage_one) == 40
+    assert registered == [25, 40]
 
 
 def test_arrays_of_results_are_frozen(expected: Calibration) -> None:

@@ -11,7 +11,7 @@ from collections.abc import Iterable
 import numpy as np
 
 from calibgui.engine.arrays import Array, IntArray, Size
-from calibgui.engine.calibration.observations import Observations
+from calibgui.engine.calibration.observations import Observations, select_spread_views
 from calibgui.engine.calibration.refinement.levenberg_marquardt import (
     Solution,
     StartError,
@@ -116,8 +116,3 @@ def _take_lowest(
     if len(state.R) == len(observations.uv):
         return state
     return estimate_poses(Camera(size, state.params, model), observations)
-
-
-def select_spread_views(views: Observations, count: int) -> Observations:
-    """Select up to `count` views, spread evenly over all."""
-    return views.select_views(np.unique(np.linspace(0, len(views.uv) - 1, count).astype(np.int64)))

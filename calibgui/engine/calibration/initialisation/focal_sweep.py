@@ -12,7 +12,7 @@ import numpy as np
 
 from calibgui.engine.arrays import Array, Size
 from calibgui.engine.calibration.initialisation import closed_form
-from calibgui.engine.calibration.observations import Observations
+from calibgui.engine.calibration.observations import Observations, select_spread_views
 from calibgui.engine.calibration.refinement.levenberg_marquardt import Solution, minimise
 from calibgui.engine.calibration.refinement.residuals import State, build_stage_two
 from calibgui.engine.calibration.result import Cost
@@ -38,8 +38,7 @@ def sweep_focal_lengths(
         size: width and height of the images, px.
         known: (4,) values of fx, fy, cx, cy that are held, px; NaN for those that are not.
     """
-    chosen = np.unique(np.linspace(0, len(observations.uv) - 1, _MAX_VIEWS).astype(np.int64))
-    sample = observations.select_views(chosen)
+    sample = select_spread_views(observations, _MAX_VIEWS)
     free = np.flatnonzero(np.append(np.isnan(known), True))
     normal_at = build_stage_two(sample, "lucchese", Cost.REFERENCE, 1.0, free)
     M = closed_form.fit_homographies(sample, centre, k1)

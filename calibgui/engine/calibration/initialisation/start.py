@@ -50,20 +50,12 @@ _MAX_START_MISS = 0.003
 tried."""
 
 
-def convert_to_paper_frame(
-    observations: Observations, scale: float, size: Size, names: Sequence[str]
-) -> tuple[Array, Array, Array]:
-    """Return the arguments of Stage I: measured corners, reference corners x', y' and mask.
+def check_facing(observations: Observations, names: Sequence[str]) -> float:
+    """Return the side of the board that all views show, see `find_facing`.
 
     Args:
         observations: the views.
-        scale: reference px per mm.
-        size: of the images, px.
-        names: of the views, for messages.
-
-    Returns:
-        (K, N, 2) corners in the paper's frame, (K, N, 2) the same on the reference image,
-        from the board's centre and y up, (K, N) mask.
+        names: names of the views for messages.
 
     Raises:
         CalibrationError: if some views show the board mirrored against the others.
@@ -76,6 +68,25 @@ def convert_to_paper_frame(
             f"The board is mirrored against the other views in {listed}.",
             "Number their corners in the same turning sense, or undo the image's mirroring.",
         )
+    return float(sign[0])
+
+
+def convert_to_paper_frame(
+    observations: Observations, scale: float, size: Size, facing: float
+) -> tuple[Array, Array, Array]:
+    """Return the arguments of Stage I: measured corners, reference corners x', y' and mask.
+
+    Args:
+        observations: the views.
+        scale: reference px per mm.
+        size: of the images, px.
+        facing: the side of the board that all views show, from `check_facing`.
+
+    Returns:
+        (K, N, 2) corners in the paper's frame, (K, N, 2) the same on the reference image,
+        from the board's centre and y up, (K, N) mask.
+    """
+    sign = np.full(len(observations.uv), facing)
     return (
         frames.paper_from_array(observations.uv, size),
         compute_reference_points(observations, scale, sign),

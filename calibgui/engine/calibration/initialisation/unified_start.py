@@ -17,8 +17,8 @@ from __future__ import annotations
 import numpy as np
 
 from calibgui.engine.arrays import Array, Size
-from calibgui.engine.calibration.initialisation.descent import descend, select_spread_views
-from calibgui.engine.calibration.observations import Observations
+from calibgui.engine.calibration.initialisation.descent import descend
+from calibgui.engine.calibration.observations import Observations, select_spread_views
 from calibgui.engine.calibration.refinement.levenberg_marquardt import StartError
 from calibgui.engine.calibration.refinement.residuals import State, predict_corners
 from calibgui.engine.calibration.resection import estimate_poses

@@ -26,10 +26,10 @@ from calibgui.engine.camera.models import MODELS
 
 
 def _initialise(given: Given) -> Initialisation:
-    """Make one camera from Stage I of all views (3.5)."""
+    """Make one camera from Stage I of views spread over all (3.5)."""
     return Initialisation(
         *initialise_stage_two(
-            given.observations, given.registration, given.size, given.model, given.held
+            given.observations, given.spread_registration, given.size, given.model, given.held
         )
     )
 

@@ -20,7 +20,8 @@ from calibgui.engine.calibration.initialisation.stage_one import (
     StageOneRegistration,
     register_views,
 )
-from calibgui.engine.calibration.observations import Observations
+from calibgui.engine.calibration.initialisation.start import convert_to_paper_frame
+from calibgui.engine.calibration.observations import Observations, select_spread_views
 from calibgui.engine.calibration.options import Options
 from calibgui.engine.calibration.refinement.bundle_adjustment import solve_stage_two
 from calibgui.engine.calibration.refinement.levenberg_marquardt import (
@@ -36,6 +37,10 @@ from calibgui.engine.camera.models import parameter_names
 from calibgui.engine.errors import CalibrationError
 from calibgui.engine.geometry.rotations import rotation_from_vector, vector_from_rotation
 
+_MAX_START_VIEWS = 25
+"""Number of views that Stage I is made of before the start, at most: their medians of centre and
+first coefficient serve all views."""
+
 
 @dataclass(frozen=True, eq=False)
 class Given:
@@ -43,8 +48,10 @@ class Given:
 
     observations: Observations
     """The views."""
-    paper_corners: tuple[Array, Array, Array]
-    """The views in the paper's frame: the arguments of Stage I."""
+    scale: float
+    """Scale of the virtual reference image, reference px per mm."""
+    facing: float
+    """The side of the board that all views show, from ``start.check_facing``."""
     size: Size
     """Width and height of the images, px."""
     model: str
@@ -54,8 +61,18 @@ class Given:
 
     @cached_property
     def registration(self) -> StageOneRegistration:
-        """Stage I of every view, by which outliers are told and reports drawn."""
-        return register_views(*self.paper_corners)
+        """Stage I of every view, by which misfits are told and reports drawn."""
+        return self._register(self.observations)
+
+    @cached_property
+    def spread_registration(self) -> StageOneRegistration:
+        """Stage I of some views, spread evenly over all: enough to start from."""
+        if len(self.observations.uv) <= _MAX_START_VIEWS:
+            return self.registration
+        return self._register(select_spread_views(self.observations, _MAX_START_VIEWS))
+
+    def _register(self, views: Observations) -> StageOneRegistration:
+        return register_views(*convert_to_paper_frame(views, self.scale, self.size, self.facing))
 
 
 class Initialisation(NamedTuple):

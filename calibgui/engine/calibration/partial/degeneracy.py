@@ -20,7 +20,7 @@ Parameters that planes of different directions still leave open are found by
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 
 import numpy as np
 
@@ -98,7 +98,7 @@ def find_undetermined(
     solution: Solution,
     names: tuple[str, ...],
     precision: Precision,
-    misfits: Sequence[str],
+    name_misfits: Callable[[], Sequence[str]],
     camera: Camera,
 ) -> tuple[str, ...]:
     """Find the focal lengths and coordinates of the centre that the views do not determine.
@@ -107,7 +107,7 @@ def find_undetermined(
         solution: the minimum.
         names: (P,) names of the free parameters.
         precision: the precision of the solution.
-        misfits: names of the views that `find_misfits` found.
+        name_misfits: a function that returns the names of the views that `find_misfits` finds.
         camera: the camera of the solution.
 
     Raises:
@@ -124,7 +124,7 @@ def find_undetermined(
     elif found := tuple(u.name for u in precision.undetermined if u.name in PINHOLE):
         traded = _find_traded_focal_lengths(camera, names, precision.shared)
         found = tuple(name for name in found if name not in traded)
-    if found and misfits:
+    if found and (misfits := name_misfits()):
         raise CalibrationError(
             f"No camera sees a flat board as in {', '.join(misfits)}, which leaves "
             f"{', '.join(found)} undetermined.",
@@ -161,9 +161,14 @@ def _find_traded_focal_lengths(
 
 def find_copies(views: Iterable[tuple[Array, Array]]) -> IntArray:
     """Return (K,) for each view (uv, xy) the index of the first with the same corners."""
-    first: dict[bytes, int] = {}
-    keys = [uv.tobytes() + xy.tobytes() for uv, xy in views]
-    return np.array([first.setdefault(key, k) for k, key in enumerate(keys)], dtype=np.int64)
+    alike: dict[bytes, list[tuple[int, Array, Array]]] = {}
+    originals = []
+    for k, (uv, xy) in enumerate(views):
+        before = alike.setdefault(uv[:1].tobytes(), [])  # mostly the first corner tells
+        same = (j for j, *corners in before if all(map(np.array_equal, corners, (uv, xy))))
+        originals.append(next(same, k))
+        before.append((k, uv, xy))
+    return np.array(originals, dtype=np.int64)
 
 
 def is_in_one_spot(uv: Array, size: Size) -> bool:

@@ -341,7 +341,7 @@ def compute_residuals(
         (K, N, 2) measured minus predicted corners, px, and registered minus nominal ones, mm.
     """
     seen, registered = _compute_residuals(state, observations, model, cost)
-    for view in _find_given_up(seen + registered):
+    for view in _find_given_up(seen, registered):
         seen[view], registered[view] = _compute_residuals.reference(
             state.select_views(view), observations.select_views(view), model, cost
         )
@@ -358,10 +358,12 @@ def compute_misses(state: State, observations: Observations, model: str, cost: C
     return missed
 
 
-def _find_given_up(found: Array) -> list[slice]:
+def _find_given_up(*found: Array) -> list[slice]:
     """Find the views that a kernel gives up for one corner that its Newton's method does not
     reach."""
-    given_up = ~np.isfinite(found).all(axis=(1, 2))
+    if all(np.isfinite(np.vdot(part, part)) for part in found):
+        return []
+    given_up = ~np.isfinite(sum(found)).all(axis=(1, 2))
     return [slice(k, k + 1) for k in np.flatnonzero(given_up).tolist()]
 
 

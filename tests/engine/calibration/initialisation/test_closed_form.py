@@ -12,7 +12,7 @@ from calibgui.engine.calibration.initialisation.stage_one import (
     StageOneRegistration,
     register_views,
 )
-from calibgui.engine.calibration.initialisation.start import convert_to_paper_frame
+from calibgui.engine.calibration.initialisation.start import check_facing, convert_to_paper_frame
 from calibgui.engine.calibration.observations import Observations, pack_observations
 from calibgui.engine.camera.camera import Camera
 from calibgui.engine.geometry import frames, rotations
@@ -25,8 +25,8 @@ def pinhole(aspect: float = 1.0, k1: float = 0.0) -> Camera:
 
 
 def first(observations: Observations) -> StageOneRegistration:
-    names = [str(k) for k in range(len(observations.uv))]
-    return register_views(*convert_to_paper_frame(observations, 1.0, VGA, names))
+    facing = check_facing(observations, [str(k) for k in range(len(observations.uv))])
+    return register_views(*convert_to_paper_frame(observations, 1.0, VGA, facing))
 
 
 def start(observations: Observations, centre: Array, k1: float) -> tuple[Array, Array, Array]:

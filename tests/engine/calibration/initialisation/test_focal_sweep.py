@@ -8,7 +8,7 @@ import pytest
 from calibgui.engine.arrays import Array
 from calibgui.engine.calibration.initialisation import closed_form, focal_sweep
 from calibgui.engine.calibration.initialisation.stage_one import register_views
-from calibgui.engine.calibration.initialisation.start import convert_to_paper_frame
+from calibgui.engine.calibration.initialisation.start import check_facing, convert_to_paper_frame
 from calibgui.engine.calibration.observations import (
     REFERENCE_PITCH,
     Observations,
@@ -27,7 +27,8 @@ def failing() -> tuple[Scene, Observations, Array, float]:
     made, views = problem(2093)
     observations = pack_observations(views)
     scale = REFERENCE_PITCH / measure_pitch(observations)
-    first = register_views(*convert_to_paper_frame(observations, scale, made.size, name_views(3)))
+    facing = check_facing(observations, name_views(3))
+    first = register_views(*convert_to_paper_frame(observations, scale, made.size, facing))
     return made, observations, *closed_form.estimate_centre_and_k1(first, made.size)
 
 

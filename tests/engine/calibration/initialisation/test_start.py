@@ -7,6 +7,7 @@ import pytest
 
 from calibgui.engine.calibration.initialisation.stage_one import register_views
 from calibgui.engine.calibration.initialisation.start import (
+    check_facing,
     convert_to_paper_frame,
     initialise_stage_two,
 )
@@ -40,9 +41,8 @@ def test_a_model_starts_alike_by_any_name(
     made = example_scene(scene)
     views = pack_observations(made.views)
     scale = REFERENCE_PITCH / measure_pitch(views)
-    first = register_views(
-        *convert_to_paper_frame(views, scale, made.size, name_views(len(made.views)))
-    )
+    facing = check_facing(views, name_views(len(made.views)))
+    first = register_views(*convert_to_paper_frame(views, scale, made.size, facing))
     starts = [
         initialise_stage_two(
             views, first, made.size, name, resolve_held_parameters(fix, (), name, made.size)
