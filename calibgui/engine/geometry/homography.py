@@ -50,20 +50,9 @@ def fit_homography(source: Array, destination: Array, mask: Array) -> Array:
         (..., 3, 3) with unit last entry, destination ~ H source.
     """
     shape, n = source.shape[:-2], source.shape[-2]
-    sums, to_source, to_destination = sum_moments(
+    return fit_homographies(
         source.reshape(-1, n, 2), destination.reshape(-1, n, 2), mask.reshape(-1, n)
-    )
-    S, Su, Sv, Sq = np.moveaxis(sums[..., _SYMMETRIC], 1, 0)
-    # For a given third row h3 the others are S^-1 Su h3 and S^-1 Sv h3: h3 is an eigenvector.
-    inverse = np.linalg.inv(S + 1e-15 * S[:, 2:, 2:] * np.eye(3))
-    first, second = inverse @ Su, inverse @ Sv
-    h3 = np.linalg.eigh(Sq - Su @ first - Sv @ second)[1][..., :1]
-    H = np.concatenate([first @ h3, second @ h3, h3], axis=-1).swapaxes(-1, -2)
-    return scale_to_unit_last(np.linalg.inv(to_destination) @ H @ to_source).reshape(*shape, 3, 3)
-
-
-_SYMMETRIC = np.array([[0, 1, 2], [1, 3, 4], [2, 4, 5]])
-"""Places of a symmetric matrix's entries in its upper triangle."""
+    ).reshape(*shape, 3, 3)
 
 
 def _has_many_sets(source: Array, *_: Array) -> bool:
@@ -74,28 +63,34 @@ def _has_many_sets(source: Array, *_: Array) -> bool:
     return len(source) > 1
 
 
-@with_kernel("homography", "sum_moments", _has_many_sets)
-def sum_moments(source: Array, destination: Array, mask: Array) -> tuple[Array, Array, Array]:
-    """Sum the products that the DLT needs, of points brought to zero mean and RMS sqrt(2).
+@with_kernel("homography", "fit_homographies", _has_many_sets)
+def fit_homographies(source: Array, destination: Array, mask: Array) -> Array:
+    """Fit K homographies (K, 3, 3), as `fit_homography`.
 
-    With s = (x, y, 1) the equations' rows are (s, 0, -u s) and (0, s, -v s), so that their
-    products are the sums of s s^T by 1, u, v and u^2 + v^2.
+    With s = (x, y, 1) the equations' rows are (s, 0, -u s) and (0, s, -v s), so that their products
+    are the sums S, Su, Sv and Sq of s s^T by 1, u, v and u^2 + v^2.
 
     Args:
         source: (K, n, 2) points (x, y).
         destination: (K, n, 2) points (u, v).
         mask: (K, n) weights of the points.
-
-    Returns:
-        (K, 4, 6) these sums, upper triangles of s s^T, and the similarities (K, 3, 3) that
-        normalise source and destination.
     """
     (x, y), to_source = _normalise(source, mask)
     (u, v), to_destination = _normalise(destination, mask)
     squares = mask * mask
     by = np.stack([squares, squares * u, squares * v, squares * (u * u + v * v)], axis=1)
     of = np.stack([x * x, x * y, x, y * y, y, np.ones_like(x)], axis=1)
-    return by @ np.swapaxes(of, 1, 2), to_source, to_destination
+    S, Su, Sv, Sq = np.moveaxis((by @ np.swapaxes(of, 1, 2))[..., _SYMMETRIC], 1, 0)
+    # For a given third row h3 the others are S^-1 Su h3 and S^-1 Sv h3: h3 is an eigenvector.
+    inverse = np.linalg.inv(S + 1e-15 * S[:, 2:, 2:] * np.eye(3))
+    first, second = inverse @ Su, inverse @ Sv
+    h3 = np.linalg.eigh(Sq - Su @ first - Sv @ second)[1][..., :1]
+    H = np.concatenate([first @ h3, second @ h3, h3], axis=-1).swapaxes(-1, -2)
+    return scale_to_unit_last(np.linalg.inv(to_destination) @ H @ to_source)
+
+
+_SYMMETRIC = np.array([[0, 1, 2], [1, 3, 4], [2, 4, 5]])
+"""Places of a symmetric matrix's entries in its upper triangle."""
 
 
 def _normalise(points: Array, mask: Array) -> tuple[Array, Array]:

@@ -85,7 +85,7 @@ def _sum_corner_views(
     D: Array,
     total: Array,
 ) -> None:
-    """Fill A (K, P + 7, P + 7) as in Stage II; add to D (K, 3, 6, n) and total (3, P + 4, n)."""
+    """Fill A (K, P + 7, P + 7) as in Stage II and D (K, 3, 6, n); add to total (3, P + 4, n)."""
     K, _, N = uv.shape
     P = rows.shape[0]
     work, J, C = make_workspace(N), np.empty((P + 7, 2 * N)), np.empty((3, 2 * N))
@@ -101,8 +101,10 @@ def _sum_corner_views(
         _add_products(C, J[P + 6], total, P)
         for m in range(3):
             _add_products(C, C[m], total, P + 1 + m)
-        for m in range(6 if D.size else 0):
-            _add_products(C, J[P + m], D[view], m)
+        if D.size:
+            D[view] = 0.0
+            for m in range(6):
+                _add_products(C, J[P + m], D[view], m)
 
 
 def _arrange_by_corner(views: Views, index: IntArray, count: int) -> Views:
@@ -148,7 +150,6 @@ def _sum_corner_products(
     """
     K, P, count = len(R), len(rows), D.shape[-1]
     A = np.empty((K, P + 7, P + 7))
-    D.fill(0.0)
     totals = np.zeros((-(-K // VIEWS_PER_BLOCK), 3, P + 4, count))
     R, T = make_contiguous(R), make_contiguous(T)
     uv, xyz, weight = _arrange_by_corner(views, index, count)

@@ -1,6 +1,7 @@
-"""The Schur complement where each view touches few of the shared parameters, compiled.
+"""The factors of the poses' blocks, compiled, and the Schur complement where each view touches few
+of the shared parameters.
 
-The readable reference is ``calibration.refinement.schur.subtract_squares``.
+The readable references are ``calibration.refinement.schur.invert_roots`` and ``subtract_squares``.
 
 A view whose block Wk has n rows that are not 0 changes n^2 entries of the (P, P) matrix. For a
 splined lens n is a sixth of P, while a product of dense matrices forms all P^2 for every view. The
@@ -13,6 +14,40 @@ import numpy as np
 
 from calibgui.engine.arrays import Array, IntArray
 from calibgui.engine.kernels.common import compiled, compiled_part, make_contiguous
+
+
+@compiled
+def _invert_roots(V: Array, roots: Array) -> bool:
+    """Fill in roots (K, 6, 6), 0 so far, from V (K, 6, 6); return whether all V are positive."""
+    for k in range(len(V)):
+        L, inverse = V[k], roots[k]
+        for j in range(6):
+            for i in range(j, 6):
+                total = L[i, j]
+                for m in range(j):
+                    total -= L[i, m] * L[j, m]
+                if i > j:
+                    L[i, j] = total / L[j, j]
+                elif total <= 0:
+                    return False
+                else:
+                    L[j, j] = np.sqrt(total)
+        for j in range(6):
+            inverse[j, j] = 1 / L[j, j]
+            for i in range(j + 1, 6):
+                total = 0.0
+                for m in range(j, i):
+                    total -= L[i, m] * inverse[m, j]
+                inverse[i, j] = total / L[i, i]
+    return True
+
+
+def invert_roots(V: Array) -> Array:
+    """Compute ``calibration.refinement.schur.invert_roots``."""
+    roots = np.zeros(V.shape)
+    if not _invert_roots(np.array(V, order="C"), roots):
+        raise np.linalg.LinAlgError("A matrix is not positive definite")
+    return roots
 
 
 @compiled_part

@@ -3,8 +3,28 @@
 from __future__ import annotations
 
 import numpy as np
+import pytest
 
 from calibgui.engine.calibration.refinement import schur
+
+
+def test_the_compiled_roots_are_the_readable_ones() -> None:
+    rng = np.random.default_rng(0)
+    J = rng.normal(size=(50, 20, 6)) * [1, 1, 1, 1e-3, 1e-3, 1e-3]
+    V = np.swapaxes(J, 1, 2) @ J
+    before = V.copy()
+    truth = schur.invert_roots.reference(V)
+    scale = np.abs(truth).max(axis=(1, 2), keepdims=True)
+    found = schur.invert_roots.kernel(V)
+    np.testing.assert_allclose(found / scale, truth / scale, atol=1e-13)
+    np.testing.assert_array_equal(V, before)
+    for hopeless in (0.0, -1.0):
+        V[30, 5, 5] = hopeless
+        for invert in (schur.invert_roots.kernel, schur.invert_roots.reference):
+            with pytest.raises(np.linalg.LinAlgError):
+                invert(V)
+    V[30, 5, 5] = np.nan  # which is told further on
+    assert np.isnan(schur.invert_roots.kernel(V)[30, 5, 5])
 
 
 def test_the_compiled_complement_is_the_readable_one() -> None:

@@ -168,8 +168,9 @@ def compute_pose_covariances(reduced: Reduced, shared: Array, rvecs: Array, sigm
         W, shared = W[:, is_touched], shared[np.ix_(is_touched, is_touched)]
     by_root = differentiate_poses(rvecs) @ np.swapaxes(roots, 1, 2)
     found = sigma2 * (by_root @ np.swapaxes(by_root, 1, 2))
+    by_gradient = by_root @ roots
     for views in slice_views(len(found)):
-        G = by_root[views] @ (roots[views] @ np.swapaxes(W[views], 1, 2))
+        G = by_gradient[views] @ np.swapaxes(W[views], 1, 2)
         carried = np.tensordot(G, shared, axes=1)  # one product for all views
         found[views] += carried @ np.swapaxes(G, 1, 2)
     return found

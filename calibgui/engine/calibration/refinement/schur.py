@@ -175,14 +175,24 @@ def eliminate_poses(normal: NormalEquations, damping: float = 0.0) -> Reduced:
     """
     V = normal.V if damping == 0 else normal.V * (1 + damping * np.eye(6))
     try:
-        roots = np.asarray(np.linalg.inv(np.linalg.cholesky(V)))
+        roots = invert_roots(V)
     except np.linalg.LinAlgError:  # a view leaves its pose open, such as far out of a poor camera
         V = V * (1 + _ROUNDING * np.eye(6)) + np.finfo(float).tiny * np.eye(6)
-        roots = np.asarray(np.linalg.inv(np.linalg.cholesky(V)))
+        roots = invert_roots(V)
     diagonal, S = np.diag(normal.U), subtract_squares(normal.U, normal.W, roots)
     S[np.diag_indices_from(S)] += damping * diagonal
     unit = 1 / np.sqrt(np.maximum(diagonal, 1e-300))
     return Reduced(S, normal.W, roots, unit)
+
+
+@with_kernel("schur", "invert_roots")
+def invert_roots(V: Array) -> Array:
+    """Compute L^-1 (K, 6, 6) for V = L L^T (K, 6, 6).
+
+    Raises:
+        LinAlgError: if a V is not positive definite.
+    """
+    return np.asarray(np.linalg.inv(np.linalg.cholesky(V)))
 
 
 def _touches_few_parameters(U: Array, W: Array, _roots: Array) -> bool:
