@@ -211,6 +211,8 @@ def _check_shapes(view: Observation, name: str) -> Observation:
 
 def _pad(rows: Sequence[Array], counts: IntArray) -> Array:
     """Pad rows (n, ...) of each view to (K, N, ...) with copies of the first row."""
+    if (counts == counts[0]).all():
+        return np.concatenate(rows).reshape(len(rows), *rows[0].shape)
     padded = np.empty((len(rows), counts.max(), *rows[0].shape[1:]))
     for k, given in enumerate(rows):
         padded[k, : len(given)] = given
@@ -248,10 +250,22 @@ def _check_images(part: Observations, names: Sequence[str]) -> None:
     require(_are_in_general_position(part.uv, part.mask), *_describe_one_line("corners"))
     if part.cov is not None:
         require(
-            np.all(np.linalg.eigvalsh(part.cov)[..., 0] > _MIN_VARIANCE, axis=1),
+            _are_positive_definite(part.cov).all(axis=1),
             " has a corner covariance that is not positive definite.",
             "Leave the covariances out or correct them.",
         )
+
+
+def _are_positive_definite(cov: Array) -> BoolArray:
+    """Return whether covariances (..., 2, 2) have eigenvalues above `_MIN_VARIANCE`.
+
+    Only their lower triangles count. As a quotient the smaller eigenvalue keeps its digits.
+    """
+    a, b, c = cov[..., 0, 0], cov[..., 1, 0], cov[..., 1, 1]
+    larger = (a + c) / 2 + np.hypot((a - c) / 2, b)
+    with np.errstate(divide="ignore", invalid="ignore"):  # of a covariance of 0
+        smaller = (a * c - b * b) / larger
+    return np.asarray((larger > 0) & (smaller > _MIN_VARIANCE))
 
 
 def _check_board(xy: Array, name: str) -> None:
@@ -297,6 +311,7 @@ def _are_in_general_position(points: Array, mask: Array) -> BoolArray:
 
     # Mostly a few of the points tell.
     good = are_two_off(slice(None), max(1, x.shape[1] // _POINTS_THAT_TELL))
-    doubtful = np.flatnonzero(~good)
-    good[doubtful] = are_two_off(doubtful, 1)
+    if not good.all():
+        doubtful = np.flatnonzero(~good)
+        good[doubtful] = are_two_off(doubtful, 1)
     return good

@@ -17,12 +17,11 @@ from calibgui.engine.arrays import Array
 
 def rotation_from_vector(rvec: Array) -> Array:
     """Return the rotations exp(rvec) (..., 3, 3) of vectors (..., 3), by Rodrigues' formula."""
-    angle = np.linalg.norm(rvec, axis=-1)[..., None, None]
+    half = np.linalg.norm(rvec, axis=-1)[..., None, None] / 2
     W = cross_matrix(rvec)
-    # np.sinc is sin(pi x) / (pi x), finite at 0.
-    a = np.sinc(angle / np.pi)
-    b = 0.5 * np.sinc(angle / (2 * np.pi)) ** 2
-    return np.eye(3) + a * W + b * (W @ W)
+    # np.sinc is sin(pi x) / (pi x), finite at 0, and sin x = 2 sin(x / 2) cos(x / 2).
+    sinc = np.sinc(half / np.pi)
+    return np.eye(3) + sinc * np.cos(half) * W + 0.5 * sinc**2 * (W @ W)
 
 
 def vector_from_rotation(R: Array) -> Array:

@@ -351,7 +351,7 @@ def _accept_copy(event: QDropEvent) -> None:
     event.accept()
 
 
-_SOLVER_KERNELS = ("board_shape", "homography", "normal_equations", "stage_one")
+_SOLVER_KERNELS = ("board_shape", "homography", "normal_equations", "schur", "stage_one")
 """Modules of ``engine.kernels`` that a calibration uses."""
 _NEEDED_SOON = (
     "scipy.stats",

@@ -319,7 +319,7 @@ def _mix_steps(
             break
         x = after
         if len(points) > 1:
-            by_point, by_change = np.diff(points, axis=0), np.diff(changes, axis=0)
+            by_point, by_change = (a[1:] - a[:-1] for a in map(np.array, (points, changes)))
             weights = scipy.linalg.lapack.dgelss(by_change.T, changes[-1])[1][: len(by_change)]
             x = after - np.clip(weights @ (by_point + by_change), -_MAX_MIXING, _MAX_MIXING)
     return found
