@@ -3,8 +3,9 @@
 Two comparisons, all programs on one thread.
 
 whole: from corners to result. Ours is ``calibrate`` with everything that it returns: checks,
-Stage I, start, standard deviations of camera and poses, doubt about the plate, residuals in the
-image and on the plate. OpenCV is timed as users call it, without standard deviations, and with
+Stage I of up to 25 views, from which it starts (that of all is done when somebody reads it),
+standard deviations of camera and poses, doubt about the plate, residuals in the image and on the
+plate. OpenCV is timed as users call it, without standard deviations, and with
 them as long as that takes less than 20 seconds.
 
 solve: from one start, ours, to the minimum. Ours includes the standard deviations of camera and

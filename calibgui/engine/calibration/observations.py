@@ -250,7 +250,7 @@ def _check_images(part: Observations, names: Sequence[str]) -> None:
     require(_are_in_general_position(part.uv, part.mask), *_describe_one_line("corners"))
     if part.cov is not None:
         require(
-            _are_positive_definite(part.cov).all(axis=1),
+            np.all(_are_positive_definite(part.cov), axis=1),
             " has a corner covariance that is not positive definite.",
             "Leave the covariances out or correct them.",
         )

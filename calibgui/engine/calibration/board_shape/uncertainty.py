@@ -99,8 +99,8 @@ _ROUNDING = 1e-12
 """Stiffness, relative to the information of the views, that rounding errors leave meaningful."""
 _MIN_VIEWS_OF_CORNER = 3
 """Number of views that must show a corner for it to enter the test."""
-_MIN_EIGENVALUE = 1e-9
-"""Part of the largest eigenvalue of a corner's H below which the views leave a direction open."""
+_STIFFNESS = 1e-9
+"""Part of the trace of a corner's H below which the views leave a direction open."""
 _MIN_EXCESS = 5.0
 """Excess of chi^2, in its standard deviations, from which the board counts as imperfect."""
 
@@ -191,12 +191,13 @@ def suspect_board(board: LinearisedBoard, sigma2: float) -> float:
     tested = board.seen >= _MIN_VIEWS_OF_CORNER
     if not tested.any() or not sigma2 > 0:
         return 0.0
-    # Copies of a view see a corner from one side only, which leaves a direction of it open.
-    values, vectors = np.linalg.eigh(board.H[tested])
-    is_known = values > _MIN_EIGENVALUE * values[:, -1:]
-    along = (board.g[tested, None] @ vectors)[:, 0]
-    expected = int(is_known.sum())
-    excess = float(np.sum(along[is_known] ** 2 / values[is_known])) / sigma2 - expected
+    # Copies of a view see a corner from one side only, which leaves a direction of it open: with a
+    # trace of stiffness it adds nothing to chi^2, nor to what is expected of it.
+    H, g = board.H[tested], board.g[tested, :, None]
+    stiffness = _STIFFNESS * np.trace(H, axis1=1, axis2=2)[:, None, None] * np.eye(3)
+    solved = np.linalg.solve(H + stiffness, np.concatenate([g, H], axis=2))
+    expected = float(np.einsum("nii->", solved[..., 1:]))
+    excess = float(np.sum(g[..., 0] * solved[..., 0])) / sigma2 - expected
     if excess < _MIN_EXCESS * np.sqrt(2 * expected):
         return 0.0
     return excess * sigma2

@@ -144,7 +144,7 @@ def _invert_scaled(scaled: Array) -> tuple[Array, float]:
     if not failed:
         lower = lapack.dpotri(factor, overwrite_c=True)[0].T  # zero above the diagonal
         inverse = lower + lower.T
-        inverse[np.diag_indices_from(inverse)] /= 2
+        inverse.flat[:: len(inverse) + 1] /= 2
         left = 1 / float(np.linalg.norm(inverse))
         if left > _MIN_CERTAIN_INFORMATION:
             return inverse, left

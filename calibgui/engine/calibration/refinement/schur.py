@@ -180,7 +180,7 @@ def eliminate_poses(normal: NormalEquations, damping: float = 0.0) -> Reduced:
         V = V * (1 + _ROUNDING * np.eye(6)) + np.finfo(float).tiny * np.eye(6)
         roots = invert_roots(V)
     diagonal, S = np.diag(normal.U), subtract_squares(normal.U, normal.W, roots)
-    S[np.diag_indices_from(S)] += damping * diagonal
+    S.flat[:: len(S) + 1] += damping * diagonal
     unit = 1 / np.sqrt(np.maximum(diagonal, 1e-300))
     return Reduced(S, normal.W, roots, unit)
 
