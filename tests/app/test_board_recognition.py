@@ -26,6 +26,8 @@ from calibgui.engine.camera.camera import Camera
 from calibgui.engine.images.reading import write_image
 from tests.engine.detection.conftest import Scene
 
+pytestmark = pytest.mark.usefixtures("search_here")
+
 _CAMERA = Camera((640, 480), [640.0, 642.0, 320.0, 240.0, 0.1, 0.02, 0.0, 1e-4, 0.0, 0.0])
 
 

@@ -197,6 +197,7 @@ def test_no_plate_is_chosen_for_a_lens_that_is_not_followed() -> None:
 
 
 @pytest.mark.slow
+@pytest.mark.usefixtures("search_here")
 def test_what_is_left_of_the_sample_looks_like_noise() -> None:
     """Its photographs are rendered: nothing is wrong with board, camera or lens."""
     images = sorted(find_resource("sample").glob("*.png"))

@@ -145,7 +145,8 @@ def test_a_partly_seen_board_is_counted_on_the_usual_one(photographs: Path, tmp_
     moved = np.roll(pixels, shift, axis=1)
     moved[:, :shift] = pixels[:, :1].mean()
     write_image(tmp_path / "view1.png", moved)
-    found = find_views(find_images([str(tmp_path)]))
+    with workers.do_tasks_here():
+        found = find_views(find_images([str(tmp_path)]))
     view = found.views[0]
     assert found.grid_size == (6, 7)
     assert view.corners is not None

@@ -18,6 +18,8 @@ from calibgui.engine.camera.distortion import project_points
 from calibgui.engine.images.reading import read_image
 from tests.photographs import BOARD, CAMERA, COUNT, draw_poses
 
+pytestmark = pytest.mark.usefixtures("search_here")
+
 UPRIGHT, UPSIDE_DOWN, PORTRAIT = 1, 3, 6
 """EXIF orientations of a telephone: held level, level the other way round, and upright."""
 

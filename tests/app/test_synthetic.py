@@ -15,6 +15,8 @@ from calibgui.engine.errors import CalibrationError, Cancelled
 from calibgui.engine.geometry.pose import Pose
 from tests.app.rendered import BOARD, small_result
 
+pytestmark = pytest.mark.usefixtures("search_here")
+
 
 @pytest.fixture(scope="module")
 def result() -> Result:

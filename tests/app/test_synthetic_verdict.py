@@ -17,6 +17,8 @@ from calibgui.app.synthetic_verdict import describe_synthetic_verdict, judge_syn
 from calibgui.dataset import Result
 from tests.app.rendered import CAMERA, small_result
 
+pytestmark = pytest.mark.usefixtures("search_here")
+
 NOISE = 0.05
 """Of the corners of `small_result`, px."""
 
