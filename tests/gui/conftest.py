@@ -40,6 +40,14 @@ def imported() -> None:
     gc.freeze()
 
 
+@pytest.fixture(scope="session", autouse=True)
+def keep_large_blocks() -> Iterator[None]:
+    """The window does not undo for all later tests what `pytest_configure` has set."""
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr("calibgui.gui.jobs.jobs.return_large_blocks", lambda: None)
+        yield
+
+
 @pytest.fixture
 def qtbot(qtbot: QtBot, monkeypatch: pytest.MonkeyPatch) -> QtBot:
     """Keep the widgets that a test hands over until they are closed.

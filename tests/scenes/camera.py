@@ -34,14 +34,17 @@ class Camera:
         self._H = np.column_stack([R[:, 0], R[:, 1], t])
 
     def board_from_image(self, u: Array, v: Array) -> tuple[Array, Array]:
+        """The board's points at pixels: `u` (1, w) and `v` (h, 1) stand for a whole image."""
         qx, qy = u - self._centre[0], v - self._centre[1]
         r2 = qx * qx + qy * qy
         if self._conditions.fisheye:
             theta = np.sqrt(r2) / self._f
             scale, depth = np.sinc(theta / np.pi) / self._f, np.cos(theta)
-        else:
+        elif self._conditions.distortion:
             scale = (1 + self._conditions.distortion * r2 / self._half**2) / self._f
-            depth = np.ones_like(r2)
+            depth = 1.0
+        else:
+            scale, depth = 1 / self._f, 1.0
         ray = (scale * qx, scale * qy, depth)
         px, py, pz = (a * ray[0] + b * ray[1] + c * ray[2] for a, b, c in np.linalg.inv(self._H))
         with np.errstate(divide="ignore", invalid="ignore"):

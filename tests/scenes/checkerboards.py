@@ -85,7 +85,7 @@ def draw(conditions: Conditions, seed: int) -> Scene:
     parts = conditions.parts
     fine_u = (np.arange(width * parts) + 0.5) / parts - 0.5
     fine_v = (np.arange(height * parts) + 0.5) / parts - 0.5
-    x, y = camera.board_from_image(*np.meshgrid(fine_u, fine_v))
+    x, y = camera.board_from_image(fine_u[None], fine_v[:, None])
     irradiance = _paper(x, y, conditions, rng)
     if conditions.marks:
         irradiance[marks(x, y, conditions.grid_size, np.random.default_rng([seed, 2]))] = 0.0
@@ -140,7 +140,6 @@ def _cover(c: Array, ink: float) -> tuple[Array, Array]:
     """
     slopes = np.gradient(c)
     reach = (np.abs(slopes[0]) + np.abs(slopes[1])) / 2
-    steep = np.hypot(*slopes)
     place = c - 2 * np.floor(c / 2)
     within = place - (place >= 1)
     to_edge = np.minimum(within, 1 - within)
@@ -149,8 +148,10 @@ def _cover(c: Array, ink: float) -> tuple[Array, Array]:
     def cover(distance: Array) -> Array:
         share = (distance > 0).astype(np.float64)
         cut = np.abs(distance) < reach  # no edge goes through the others
-        d = distance[cut] / steep[cut]
-        a, b = (np.maximum(np.abs(slope[cut]) / steep[cut], 1e-3) for slope in slopes)
+        normal = np.array([slope[cut] for slope in slopes])
+        steep = np.hypot(*normal)
+        d = distance[cut] / steep
+        a, b = np.maximum(np.abs(normal) / steep, 1e-3)
         total = np.zeros_like(d)
         for sa, sb in ((1, 1), (1, -1), (-1, 1), (-1, -1)):
             total += sa * sb * np.maximum(d + (sa * a + sb * b) / 2, 0) ** 2 / 2
