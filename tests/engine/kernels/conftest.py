@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from functools import cache
 from typing import Any
 
 import pytest
@@ -10,6 +11,7 @@ import pytest
 from calibgui.engine import kernels
 
 
+@cache
 def make_callable(part: Callable[..., Any]) -> Callable[..., Any]:
     """A part of kernels, compiled so that Python can call it too."""
     from calibgui.engine.kernels import common
