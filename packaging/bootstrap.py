@@ -428,6 +428,8 @@ def test(arguments: list[str], yes: bool) -> int:
     """Run the test suite on all processors and return pytest's exit code."""
     environment = set_up("dev", {"qt"}, yes)
     env = {"QT_QPA_PLATFORM": "offscreen", **environment.variables()}
+    # Each of the many processes that tests start would compile the whole program anew.
+    env.pop("PYTHONDONTWRITEBYTECODE", None)
     cache = [] if os.access(ROOT, os.W_OK) else ["-p", "no:cacheprovider"]
     parallel = ["-n", "auto", "--maxprocesses", "8", "--dist", "worksteal"]
     command = [environment.python, "-m", "pytest", *parallel, *cache, *arguments]

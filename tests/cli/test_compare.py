@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 import json
+from functools import partial
 from pathlib import Path
 from typing import Any
 
 import pytest
 
 from calibgui.cli.main import main
+from calibgui.engine import assessment
 from calibgui.engine.assessment import method_comparison
 from calibgui.formats.result_json import read_result
 from calibgui.report.methods import QUANTITIES
@@ -123,7 +125,11 @@ def test_poses_in_millimetres_need_the_square(photographs: Path, capsys: Capture
 
 
 @pytest.mark.slow
-def test_all_methods_are_compared(corners_file: Path, capsys: Capture) -> None:
+def test_all_methods_are_compared(
+    corners_file: Path, capsys: Capture, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    all_with_two_folds = partial(assessment.compare_methods, folds=2)
+    monkeypatch.setattr(assessment, "compare_methods", all_with_two_folds)
     assert main(["compare", str(corners_file), "--json"]) == 0
     found = json.loads(capsys.readouterr().out)
     assert [row["name"] for row in found["methods"]] == list(

@@ -113,7 +113,11 @@ def test_a_splined_model_of_any_numbers_can_be_named(corners_file: Path, tmp_pat
 
 
 @pytest.mark.slow
-def test_all_lens_models_are_compared(corners_file: Path, capsys: Capture) -> None:
+def test_all_lens_models_are_compared(
+    corners_file: Path, capsys: Capture, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    all_with_two_folds = partial(choose_lens, folds=2)
+    monkeypatch.setattr("calibgui.app.lens_comparison.choose_lens", all_with_two_folds)
     assert main(["models", str(corners_file), "--json"]) == 0
     found = json.loads(capsys.readouterr().out)
     tried = {row["model"] for row in found["models"]} | found["refused"].keys()

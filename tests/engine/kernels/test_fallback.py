@@ -14,27 +14,30 @@ import pytest
 ROOT = Path(__file__).parents[3]
 
 
-def demo(folder: Path, *paths: Path) -> dict[str, Any]:
-    """The camera of the bundled sample, from photographs to the result."""
+def calibrate(photographs: Path, folder: Path, *paths: Path) -> dict[str, Any]:
+    """The camera of photographs, from their pixels to the result."""
+    result = folder / "result.json"
+    command = ["calibrate", str(photographs), "--square", "30", "--quiet", "-o", str(result)]
     search = os.pathsep.join(map(str, [*paths, ROOT]))
     subprocess.run(
-        [sys.executable, "-m", "calibgui", "demo", "--quiet", "-o", str(folder)],
+        [sys.executable, "-m", "calibgui", *command],
         cwd=folder,
         env=os.environ | {"PYTHONPATH": search},
         check=True,
     )
-    content = json.loads((folder / "result.json").read_text(encoding="utf-8"))
+    content = json.loads(result.read_text(encoding="utf-8"))
     return content["camera"]
 
 
 @pytest.mark.slow
-def test_without_numba_the_result_is_the_same(tmp_path: Path) -> None:
+def test_without_numba_the_result_is_the_same(photographs: Path, tmp_path: Path) -> None:
     """In all processes: their interpreters start with numba hidden."""
     for name in ("with", "without", "hiding"):
         (tmp_path / name).mkdir()
     text = "import sys; sys.modules['numba'] = None"
     (tmp_path / "hiding" / "sitecustomize.py").write_text(text, encoding="utf-8")
-    ours, theirs = demo(tmp_path / "with"), demo(tmp_path / "without", tmp_path / "hiding")
+    ours = calibrate(photographs, tmp_path / "with")
+    theirs = calibrate(photographs, tmp_path / "without", tmp_path / "hiding")
     for name, sigma in ours["sigma"].items():
         assert abs(ours["params"][name] - theirs["params"][name]) <= 0.01 * sigma, name
 
