@@ -43,12 +43,13 @@ None of this measures a camera: centre and coefficients of the lens take up what
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import lru_cache
 from typing import NamedTuple
 
 import numpy as np
 
 from calibgui.engine import kernels
-from calibgui.engine.arrays import Array, IntArray, compute_median
+from calibgui.engine.arrays import Array, IntArray
 from calibgui.engine.detection.lattice import Lattice
 from calibgui.engine.geometry import homography
 
@@ -93,8 +94,7 @@ class RadialHomography:
 
     def locate(self, cells: Array) -> Array:
         """Compute positions (n, 2) px of the cells (n, 2) = (col, row)."""
-        e = homography.apply_homography(self.H, cells)
-        return self.distort(e, self._compute_last(cells))
+        return _locate_cells(self.H, self.centre, self.coefficients, cells, _INVERSION_STEPS)
 
     def distort(self, e: Array, w: Array) -> Array:
         """Compute positions (n, 2) px of ideal points.
@@ -109,20 +109,8 @@ class RadialHomography:
         """Compute first and second derivatives (n, 2, 2) of `locate` by column and by row.
 
         The first axis after n is that of the cell, the last that of the image.
-
-        With e = a / w, a and w linear in the cell, e' = (a' - e w') / w and e'' = -2 e' w' / w.
-        Through the lens u' = D' e' and u'' = D' e'' + D''(e', e').
         """
-        H = self.H
-        e, last = homography.apply_homography(H, cells), self._compute_last(cells)
-        w = last[:, None, None]
-        e1 = (H[:2, :2].T - e[:, None] * H[2, :2, None]) / w
-        e2 = -2 * e1 * H[2, :2, None] / w
-        if not self.coefficients.any():
-            return e1, e2
-        D1, D2 = self.differentiate_lens(e, last)
-        second = np.einsum("nijk,naj,nak->nai", D2, e1, e1)
-        return np.einsum("nij,naj->nai", D1, e1), np.einsum("nij,naj->nai", D1, e2) + second
+        return _differentiate_map(self.H, self.coefficients, cells, _INVERSION_STEPS)
 
     def differentiate_lens(self, e: Array, w: Array) -> tuple[Array, Array]:
         """Compute D' (n, 2, 2) and D'' (n, 2, 2, 2) of `distort` by the ideal points `e` (n, 2) of
@@ -136,25 +124,62 @@ class RadialHomography:
         1_ij being 1 where i = j and else 0. From E(D(e)) = e follow D' = E'^-1 and
         D'' = -D' E''(D', D').
         """
-        d = self._invert_lens(e, w) if self.coefficients.any() else e
-        k, by_r, by_r2 = _compute_scale(np.sum(d * d, axis=1), self.coefficients)
-        one = np.eye(2)
-        first = k[:, None, None] * one + 2 * by_r[:, None, None] * d[:, :, None] * d[:, None]
-        mixed = one[:, :, None] * d[:, None, None]
-        mixed = mixed + mixed.transpose(0, 1, 3, 2) + mixed.transpose(0, 3, 1, 2)
-        cubic = np.einsum("ni,nj,nk->nijk", d, d, d)
-        second = 4 * by_r2[:, None, None, None] * cubic + 2 * by_r[:, None, None, None] * mixed
-        D1 = np.asarray(np.linalg.inv(first), dtype=np.float64)
-        D2 = -np.einsum("nil,nlab,naj,nbk->nijk", D1, second, D1, D1, optimize=True)
-        return D1, np.asarray(D2)
-
-    def _compute_last(self, cells: Array) -> Array:
-        """Compute w (n,), the last coordinates of the ideal points of cells (n, 2) = (col, row)."""
-        return np.asarray(cells @ self.H[2, :2] + self.H[2, 2])
+        return _differentiate_lens(
+            self._invert_lens(e, w) if self.coefficients.any() else e, self.coefficients
+        )
 
     def _invert_lens(self, e: Array, w: Array) -> Array:
         """Compute d (n, 2) px from the centre, where it shows ideal points: `_invert_lens`."""
         return _invert_lens(e, w, self.coefficients, _INVERSION_STEPS)
+
+
+@kernels.with_kernel("grid_map", "locate_cells")
+def _locate_cells(H: Array, centre: Array, coefficients: Array, cells: Array, steps: int) -> Array:
+    """Compute positions (n, 2) px of cells (n, 2) by the map of `RadialHomography`, the lens
+    inverted in so many `steps`."""
+    e = homography.apply_homography(H, cells)
+    if coefficients.any():
+        e = _invert_lens(e, _compute_last(H, cells), coefficients, steps)
+    return np.asarray(centre + e)
+
+
+@kernels.with_kernel("grid_map", "differentiate_map")
+def _differentiate_map(
+    H: Array, coefficients: Array, cells: Array, steps: int
+) -> tuple[Array, Array]:
+    """Compute `RadialHomography.differentiate`, the lens inverted in so many `steps`.
+
+    With e = a / w, a and w linear in the cell, e' = (a' - e w') / w and e'' = -2 e' w' / w.
+    Through the lens u' = D' e' and u'' = D' e'' + D''(e', e').
+    """
+    e, last = homography.apply_homography(H, cells), _compute_last(H, cells)
+    w = last[:, None, None]
+    e1 = (H[:2, :2].T - e[:, None] * H[2, :2, None]) / w
+    e2 = -2 * e1 * H[2, :2, None] / w
+    if not coefficients.any():
+        return e1, e2
+    D1, D2 = _differentiate_lens(_invert_lens(e, last, coefficients, steps), coefficients)
+    second = np.einsum("nijk,naj,nak->nai", D2, e1, e1)
+    return np.einsum("nij,naj->nai", D1, e1), np.einsum("nij,naj->nai", D1, e2) + second
+
+
+def _compute_last(H: Array, cells: Array) -> Array:
+    """Compute w (n,), the last coordinates of the ideal points of cells (n, 2) = (col, row)."""
+    return np.asarray(cells @ H[2, :2] + H[2, 2])
+
+
+def _differentiate_lens(d: Array, coefficients: Array) -> tuple[Array, Array]:
+    """Compute `RadialHomography.differentiate_lens` where the lens shows `d` (n, 2) px."""
+    k, by_r, by_r2 = _compute_scale(np.sum(d * d, axis=1), coefficients)
+    one = np.eye(2)
+    first = k[:, None, None] * one + 2 * by_r[:, None, None] * d[:, :, None] * d[:, None]
+    mixed = one[:, :, None] * d[:, None, None]
+    mixed = mixed + mixed.transpose(0, 1, 3, 2) + mixed.transpose(0, 3, 1, 2)
+    cubic = np.einsum("ni,nj,nk->nijk", d, d, d)
+    second = 4 * by_r2[:, None, None, None] * cubic + 2 * by_r[:, None, None, None] * mixed
+    D1 = np.asarray(np.linalg.inv(first), dtype=np.float64)
+    D2 = -np.einsum("nil,nlab,naj,nbk->nijk", D1, second, D1, D1, optimize=True)
+    return D1, np.asarray(D2)
 
 
 @kernels.with_kernel("grid_map", "invert_lens")
@@ -199,28 +224,74 @@ def fit_radial_homography(cells: Array, uv: Array, are_exact: bool = False) -> R
         are_exact: whether they are known to a fraction of a pixel, so that a lens is worth its time
             for less misfit and with fewer points; it then has one coefficient, for a start.
     """
-    plain = fit_plain_homography(cells, uv)
-    misfit = _rms(plain.locate(cells) - uv)
-    least, relative = (
-        (_MIN_EXACT_POINTS, _MIN_EXACT_MISFIT)
+    least, relative, steps = (
+        (_MIN_EXACT_POINTS, _MIN_EXACT_MISFIT, 0)
         if are_exact
-        else (_MIN_LENS_POINTS, _MIN_RELATIVE_MISFIT)
+        else (_MIN_LENS_POINTS, _MIN_RELATIVE_MISFIT, _GAUSS_NEWTON_STEPS)
     )
-    if len(uv) < least or misfit < relative * _rms(uv - uv.mean(axis=0)):
-        return plain
-    chosen = np.linspace(0, len(uv) - 1, min(len(uv), _MAX_LENS_POINTS)).astype(np.int64)
+    return RadialHomography(
+        *_fit_map(
+            cells,
+            uv,
+            least,
+            relative,
+            _MAX_MISFIT_RATIO,
+            _MAX_LENS_POINTS,
+            steps,
+            _INVERSION_STEPS,
+            _DAMPING,
+        )
+    )
+
+
+@kernels.with_kernel("grid_map", "fit_map")
+def _fit_map(
+    cells: Array,
+    uv: Array,
+    min_points: int,
+    min_misfit: float,
+    max_ratio: float,
+    max_points: int,
+    steps: int,
+    inversion_steps: int,
+    damping: float,
+) -> tuple[Array, Array, Array]:
+    """Fit the map of `fit_radial_homography`.
+
+    Args:
+        cells: (n, 2) = (col, row).
+        uv: (n, 2) px.
+        min_points: least number of points that a lens is fitted to.
+        min_misfit: misfit without a lens, over the spread of the points, that one is fitted for.
+        max_ratio: of the misfit with a lens to that without at which the lens is kept.
+        max_points: number of points, spread over the grid, that a lens is fitted to.
+        steps: of Gauss and Newton from the closed solution; 0 for that itself.
+        inversion_steps: of Newton to invert the lens.
+        damping: what is added to the diagonal of equations, over its sum.
+
+    Returns:
+        The homography, the lens's centre and its coefficients, as `RadialHomography`.
+    """
+    plain = fit_plain_homography(cells, uv)
+    without = plain.H, plain.centre, plain.coefficients
+    misfit = _rms(_locate_cells(*without, cells, inversion_steps) - uv)
+    if len(uv) < min_points or misfit < min_misfit * _rms(uv - uv.mean(axis=0)):
+        return without
+    count = min(len(uv), max_points)
+    chosen = np.arange(count) * (len(uv) - 1) // (count - 1)
     (x, mean, scale), (u, origin, unit) = _normalise(cells[chosen]), _normalise(uv[chosen])
     try:
-        inverse = _solve_division_model(x, u)
-        bent = (inverse if are_exact else _refine_lens(x, u, inverse)).invert(u)
+        inverse = _solve_division_model(x, u, damping)
+        bent = (_refine_lens(x, u, inverse, steps, damping) if steps else inverse).invert(u)
     except np.linalg.LinAlgError:
-        return plain
+        return without
     # Not finite is not better.
-    if not unit * _rms(bent.locate(x) - u) < _MAX_MISFIT_RATIO * misfit:
-        return plain
+    seen = _locate_cells(bent.H, bent.centre, bent.coefficients, x, inversion_steps)
+    if not unit * _rms(seen - u) < max_ratio * misfit:
+        return without
     to_normal = np.diag([1 / scale, 1 / scale, 1.0])
     to_normal[:2, 2] = -mean / scale
-    return RadialHomography(
+    return (
         np.diag([unit, unit, 1.0]) @ bent.H @ to_normal,
         origin + unit * bent.centre,
         bent.coefficients / unit ** np.arange(2.0, 2 * _COEFFICIENTS + 1, 2),
@@ -233,12 +304,13 @@ def fit_plain_homography(cells: Array, uv: Array) -> RadialHomography:
     return RadialHomography(H, np.zeros(2), np.zeros(_COEFFICIENTS))
 
 
-def _solve_division_model(x: Array, u: Array) -> InverseRadialHomography:
+def _solve_division_model(x: Array, u: Array, damping: float) -> InverseRadialHomography:
     """Solve for the lens with one coefficient in closed form (Fitzgibbon 2001).
 
     Args:
         x: (n, 2) cells, normalised.
         u: (n, 2) their positions, normalised.
+        damping: as in `_fit_map`.
 
     Raises:
         numpy.linalg.LinAlgError: the equations have no solution.
@@ -250,7 +322,7 @@ def _solve_division_model(x: Array, u: Array) -> InverseRadialHomography:
     )
     # For a given third row of M the others follow: it is an eigenvector, as in the equations of a
     # homography (Hartley 1997).
-    inverse = np.linalg.inv(S + _DAMPING * np.trace(S) * np.eye(4))
+    inverse = np.linalg.inv(S + damping * np.trace(S) * np.eye(4))
     third = np.linalg.eigh(Sq - Sx @ inverse @ Sx - Sy @ inverse @ Sy)[1][:, 0]
     M = np.stack([inverse @ Sx @ third, inverse @ Sy @ third, third])
     a, *minus_centre = np.linalg.solve(M[:, :3], M[:, 3])
@@ -260,9 +332,11 @@ def _solve_division_model(x: Array, u: Array) -> InverseRadialHomography:
     return InverseRadialHomography(A, centre, np.array([l1, 0.0, 0.0]))
 
 
-def _refine_lens(x: Array, u: Array, start: InverseRadialHomography) -> InverseRadialHomography:
+def _refine_lens(
+    x: Array, u: Array, start: InverseRadialHomography, steps: int, damping: float
+) -> InverseRadialHomography:
     """Refine a map of cells `x` (n, 2) by least squares of the distances from `u` (n, 2), both
-    normalised.
+    normalised, in so many `steps`.
 
     The cell that a point u shows is compared with the given one; its derivative by u takes the
     difference to the image.
@@ -270,30 +344,14 @@ def _refine_lens(x: Array, u: Array, start: InverseRadialHomography) -> InverseR
     Raises:
         numpy.linalg.LinAlgError: the equations become singular; or what it returns is not finite.
     """
-    A = start.A / np.linalg.norm(start.A)
-    return InverseRadialHomography(
-        *_refine_parameters(x, u, A, start.centre, start.bend, _GAUSS_NEWTON_STEPS, _DAMPING)
-    )
-
-
-@kernels.with_kernel("grid_map", "refine_lens")
-def _refine_parameters(
-    x: Array, u: Array, A: Array, centre: Array, bend: Array, steps: int, damping: float
-) -> tuple[Array, Array, Array]:
-    """Return the parameters of the inverse map of `_refine_lens` after so many `steps`, with so
-    much `damping`; their meaning as in `InverseRadialHomography`.
-
-    Raises:
-        numpy.linalg.LinAlgError: the equations are singular; or what it returns is not finite.
-    """
-    inverse = InverseRadialHomography(A, centre, bend)
+    inverse = start._replace(A=start.A / np.linalg.norm(start.A))
     for _ in range(steps):
         cell, by_u, J = inverse.differentiate(u)
         both = np.linalg.solve(by_u, np.concatenate([J, (cell - x)[..., None]], axis=2))
         inverse = inverse.take_step(
             both[..., :-1].reshape(2 * len(x), -1), both[..., -1].ravel(), damping
         )
-    return inverse.A, inverse.centre, inverse.bend
+    return inverse
 
 
 class InverseRadialHomography(NamedTuple):
@@ -345,7 +403,7 @@ class InverseRadialHomography(NamedTuple):
         k = np.arange(1, _COEFFICIENTS + 1)
         v = np.column_stack([d, 1 + np.sum(d * d, axis=1)[:, None] ** k @ self.bend])
         # What is seen of a board lies on one side of its plane's horizon: there w is positive.
-        side = np.sign(compute_median(v @ self.A[2]))
+        side = 1.0 if 2 * np.count_nonzero(v @ self.A[2] > 0) >= len(u) else -1.0
         H = np.asarray(np.linalg.inv(self.A * side), dtype=np.float64)
         return RadialHomography(H, self.centre, self.bend)
 
@@ -396,22 +454,47 @@ def fit_grid_map(lattice: Lattice) -> GridMap:
 def fit_cells(cells: Array, uv: Array) -> GridMap:
     """Fit the map to the cells (n, 2) = (row, col), whole or not, seen at `uv` (n, 2) px."""
     flat = fit_radial_homography(cells[:, ::-1], uv)
-    carried = _MIN_POINTS_OF_DEGREE[_MIN_POINTS_OF_DEGREE[:, 1] <= len(cells), 0]
+    residual = _prepare_residual(cells.tobytes())
+    coefficients = residual.inverse @ (uv - flat.locate(cells[:, ::-1]))
+    return GridMap(flat, residual.centre, residual.half, residual.powers, coefficients)
+
+
+class _Residual(NamedTuple):
+    """What the smooth residual of a lattice is fitted by, whatever its n cells' positions."""
+
+    centre: Array
+    half: Array
+    powers: IntArray
+    """As in `GridMap`."""
+    inverse: Array
+    """(terms, n) from positions to the least-squares solution, that of least norm where the cells
+    do not tell powers apart."""
+
+
+@lru_cache(maxsize=8)
+def _prepare_residual(cells: bytes) -> _Residual:
+    """Prepare the fit to cells (n, 2) = (row, col); it is kept, since the lattices that an image is
+    verified by, and most images of a set, have the same."""
+    at = np.frombuffer(cells).reshape(-1, 2)
+    carried = _MIN_POINTS_OF_DEGREE[_MIN_POINTS_OF_DEGREE[:, 1] <= len(at), 0]
     degree = int(carried.max(initial=0))
     powers = np.argwhere(np.ones((degree + 1, degree + 1)))
     powers = powers[powers.sum(axis=1) <= degree]
-    centre = cells.mean(axis=0)
-    half = np.maximum(np.ptp(cells, axis=0) / 2, 1.0)
-    terms = _compute_terms(cells, centre, half, powers)
-    # Of powers that the cells do not tell apart the least-squares solution of least norm.
-    coefficients = np.linalg.lstsq(terms, uv - flat.locate(cells[:, ::-1]))[0]
-    return GridMap(flat, centre, half, powers, np.asarray(coefficients, dtype=np.float64))
+    centre = at.mean(axis=0)
+    half = np.maximum(np.ptp(at, axis=0) / 2, 1.0)
+    terms = _compute_terms(at, centre, half, powers)
+    least = np.finfo(np.float64).eps * max(terms.shape)
+    inverse = np.asarray(np.linalg.pinv(terms, rcond=least), dtype=np.float64)
+    return _Residual(centre, half, powers, inverse)
 
 
 def _compute_terms(cells: Array, centre: Array, half: Array, powers: IntArray) -> Array:
     """Compute the terms (n, terms) of a lattice's polynomial."""
-    table = np.polynomial.polynomial.polyvander((cells - centre) / half, int(powers.max()))
-    return compute_polynomial_terms(np.asarray(table, dtype=np.float64), powers, half)
+    x = (cells - centre) / half
+    table = np.ones((len(x), 2, int(powers.max()) + 1))
+    for k in range(1, table.shape[2]):
+        table[..., k] = table[..., k - 1] * x
+    return compute_polynomial_terms(table, powers, half)
 
 
 def compute_polynomial_terms(

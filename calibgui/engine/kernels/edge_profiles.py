@@ -74,27 +74,66 @@ def _fill_ends(
                 last[i, k] += grey[samples - 1 - j] / ends
 
 
+@compiled_part
+def _compute_median(values: Array) -> float:
+    """Compute the median of a few values, which are sorted in place."""
+    n = len(values)
+    for i in range(1, n):
+        value, j = values[i], i
+        while j > 0 and values[j - 1] > value:
+            values[j] = values[j - 1]
+            j -= 1
+        values[j] = value
+    median: float = (values[(n - 1) // 2] + values[n // 2]) / 2
+    return median
+
+
 @compiled
-def _count(
+def _describe_profiles(
     image: GreyImage,
     uv: Array,
     along: Array,
     across: Array,
     s: Array,
-    middle: Array,
-    half: Array,
+    reach: float,
     samples: int,
-    first: Array,
-    rise: Array,
+    size: Array,
+    sign: Array,
+    ends: Array,
+    min_rise: float,
+    blur_reach: float,
     out: Array,
 ) -> None:
-    """Add to out (n, k)."""
-    grey = np.empty(samples)
-    for i in range(uv.shape[0]):
-        for k in range(s.shape[0]):
-            _sample_profile(image, uv[i], along[i], across[i], s[k], middle[i, k], half[i], grey)
-            for j in range(samples):
-                out[i, k] += 0.25 < (grey[j] - first[i, k]) / rise[i, k] < 0.75
+    """Fill out (5, n); ends (3, n, k) are the results of `_measure_ends`."""
+    grey, k = np.empty(samples), len(s)
+    growth, counts, low, high = np.empty(k), np.empty(k), np.empty(k), np.empty(k)
+    for i in range(len(uv)):
+        close = min(reach, blur_reach / size[i])
+        is_clear = True
+        for j in range(k):
+            first, last, total = ends[0, i, j], ends[1, i, j], ends[2, i, j]
+            turn = sign[i] if s[j] > 0 else -sign[i]
+            low[j], high[j] = (first, last) if turn > 0 else (last, first)
+            rise = last - first
+            if turn * rise <= min_rise:
+                is_clear, rise = False, np.inf
+            integral = (total / (samples - 1) - first) / rise * 2 * reach
+            growth[j] = (reach - integral) * turn
+            middle = min(max(reach - integral, close - reach), reach - close)
+            _sample_profile(image, uv[i], along[i], across[i], s[j], middle, close, grey)
+            counts[j] = 0.0
+            for g in grey:
+                counts[j] += 0.25 < (g - first) / rise < 0.75
+        out[0, i] = out[1, i] = 0.0 if is_clear else np.nan
+        for j in range(k):
+            out[0, i] += growth[j] / k
+            # The profiles of an arm begin with the nearest and end with the farthest.
+            if j % (k // 2) == k // 2 - 1:
+                out[1, i] += growth[j] / 2
+            elif j % (k // 2) == 0:
+                out[1, i] -= growth[j] / 2
+        out[2, i] = size[i] * _compute_median(counts) * 2 * close / (samples - 1)
+        out[3, i], out[4, i] = _compute_median(low), _compute_median(high)
 
 
 def measure_ends(
@@ -106,28 +145,33 @@ def measure_ends(
     reach: float,
     samples: int,
     ends: int,
-) -> tuple[Array, Array, Array]:
+) -> Array:
     """Compute ``_measure_ends`` of the reference."""
-    first, last, total = np.zeros((3, len(uv), len(s)))
+    out = np.zeros((3, len(uv), len(s)))
     image, (uv, along, across) = make_read_only(image), map(make_contiguous, (uv, along, across))
-    _fill_ends(image, uv, along, across, s, reach, samples, ends, first, last, total)
-    return first, last, total
+    _fill_ends(image, uv, along, across, s, reach, samples, ends, out[0], out[1], out[2])
+    return out
 
 
-def count_between_quartiles(
+def describe_profiles(
     image: GreyImage,
     uv: Array,
     along: Array,
     across: Array,
     s: Array,
-    middle: Array,
-    half: Array,
+    reach: float,
     samples: int,
-    first: Array,
-    rise: Array,
+    size: Array,
+    sign: Array,
+    ends: Array,
+    min_rise: float,
+    blur_reach: float,
 ) -> Array:
-    """Compute ``_count_between_quartiles`` of the reference."""
-    out = np.zeros((len(uv), len(s)))
-    image, (uv, along, across) = make_read_only(image), map(make_contiguous, (uv, along, across))
-    _count(image, uv, along, across, s, middle, half, samples, first, rise, out)
+    """Compute ``_describe_profiles`` of the reference."""
+    out = np.empty((5, len(uv)))
+    image = make_read_only(image)
+    uv, along, across, size, sign = map(make_contiguous, (uv, along, across, size, sign))
+    _describe_profiles(
+        image, uv, along, across, s, reach, samples, size, sign, ends, min_rise, blur_reach, out
+    )
     return out

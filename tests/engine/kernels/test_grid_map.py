@@ -1,4 +1,4 @@
-"""The compiled lens of a grid map against the readable one."""
+"""The compiled map of a grid, homography and radial lens, against the readable one."""
 
 from __future__ import annotations
 
@@ -6,26 +6,54 @@ import numpy as np
 import pytest
 
 from calibgui.engine.detection import grid_map
+from calibgui.engine.detection.grid_map import RadialHomography
 
-X = np.argwhere(np.ones((6, 9)))[:, ::-1] / 3.0 - [1.3, 0.8]
-A = np.array([[1.0, 0.1, 0.05], [-0.05, 0.9, 0.1], [0.02, -0.03, 1.0]])
-CENTRE = np.array([0.1, -0.2])
+CELLS = np.argwhere(np.ones((6, 9)))[:, ::-1].astype(np.float64)
+H = np.array([[52.0, 3.0, -210.0], [-4.0, 50.0, -130.0], [0.002, -0.012, 1.0]])
+CENTRE = np.array([320.0, 240.0])
+LENSES = [(0.0, 0.0, 0.0), (-2e-6, 0.0, 0.0), (-3e-6, 1e-11, -2e-17), (1.5e-6, 0.0, 0.0)]
 
 
-@pytest.mark.parametrize(
-    "bend", [(-0.05, 0.0, 0.0), (-0.08, 0.01, -0.001), (0.03, 0.0, 0.0)], ids=str
-)
-def test_the_same_lens_is_refined(bend: tuple[float, float, float]) -> None:
-    seen = grid_map.InverseRadialHomography(A, CENTRE, np.array(bend)).invert(CENTRE[None])
-    u = seen.locate(X) + 1e-3 * np.random.default_rng(0).standard_normal(X.shape)
-    start = np.array([0.9 * bend[0], 0.0, 0.0])
-    results = [
-        grid_map.InverseRadialHomography(*refine(X, u, A, CENTRE + 0.05, start, 3, 1e-13))
-        for refine in (grid_map._refine_parameters.kernel, grid_map._refine_parameters.reference)
-    ]
-    ours, truth = (result.invert(u).locate(X) for result in results)
-    np.testing.assert_allclose(ours, truth, atol=1e-9)
-    assert np.abs(truth - u).max() < 0.01
+@pytest.mark.parametrize("steps", [3, 0])
+@pytest.mark.parametrize("bend", LENSES, ids=str)
+@pytest.mark.parametrize("most", [400, 30])
+def test_the_same_map_is_fitted(bend: tuple[float, ...], steps: int, most: int) -> None:
+    seen = RadialHomography(H, CENTRE, np.array(bend))
+    uv = seen.locate(CELLS) + 0.02 * np.random.default_rng(0).standard_normal(CELLS.shape)
+    ours, truth = (
+        RadialHomography(*fit(CELLS, uv, 16, 0.005, 0.5, most, steps, 5, 1e-13))
+        for fit in (grid_map._fit_map.kernel, grid_map._fit_map.reference)
+    )
+    assert truth.coefficients.any() == any(bend)
+    np.testing.assert_allclose(ours.locate(CELLS), truth.locate(CELLS), atol=1e-7)
+    np.testing.assert_allclose(ours.centre, truth.centre, atol=1e-4)
+    np.testing.assert_allclose(np.sign(ours.H[2, 2]), np.sign(truth.H[2, 2]))
+    assert np.abs(truth.locate(CELLS) - uv).max() < (0.2 if steps else 5)
+
+
+def test_no_lens_is_fitted_to_few_points() -> None:
+    uv = RadialHomography(H, CENTRE, np.array(LENSES[1])).locate(CELLS)
+    for fit in (grid_map._fit_map.kernel, grid_map._fit_map.reference):
+        assert not fit(CELLS, uv, len(uv) + 1, 0.005, 0.5, 400, 3, 5, 1e-13)[2].any()
+
+
+@pytest.mark.parametrize("bend", LENSES, ids=str)
+def test_the_same_places_and_derivatives(bend: tuple[float, ...]) -> None:
+    coefficients = np.array(bend)
+    ours, truth = (
+        locate(H, CENTRE, coefficients, CELLS, 5)
+        for locate in (grid_map._locate_cells.kernel, grid_map._locate_cells.reference)
+    )
+    np.testing.assert_allclose(ours, truth, rtol=1e-12)
+    compiled, readable = (
+        differentiate(H, coefficients, CELLS, 5)
+        for differentiate in (
+            grid_map._differentiate_map.kernel,
+            grid_map._differentiate_map.reference,
+        )
+    )
+    for one, other in zip(compiled, readable, strict=True):
+        np.testing.assert_allclose(one, other, atol=1e-11)
 
 
 def test_the_same_lens_is_inverted() -> None:

@@ -26,7 +26,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from calibgui.engine.arrays import Array, BoolArray, GridSize, IntArray
+from calibgui.engine.arrays import Array, BoolArray, GridSize, IntArray, compute_median
 from calibgui.engine.detection import grid_map
 from calibgui.engine.detection.checkerboard.edge_map import EdgeGeometry, fit_edge_map
 from calibgui.engine.detection.checkerboard.fit_thresholds import FIT_THRESHOLDS
@@ -134,13 +134,13 @@ class BoardPriors:
         derivatives, misfit = self._differentiate(values)
         slopes = derivatives[:2].transpose(1, 0, 2)
         before, after, second = self._take_differences(values)
-        known = np.isfinite(second[..., 0])
-        if known.any():
-            noise = _NOISE_PER_DIFFERENCE * np.median(abs(second[known]), axis=0)
-            lesser = np.where(abs(before) < abs(after), before, after)
-            slopes = np.where(
-                misfit > _THRESHOLDS.max_relative_misfit * noise, np.nan_to_num(lesser), slopes
-            )
+        known = second[np.isfinite(second[..., 0])]
+        if len(known):
+            noise = _NOISE_PER_DIFFERENCE * compute_median(np.ascontiguousarray(abs(known).T))
+            is_broken = misfit > _THRESHOLDS.max_relative_misfit * noise
+            if is_broken.any():
+                lesser = np.where(abs(before) < abs(after), before, after)
+                slopes = np.where(is_broken, np.nan_to_num(lesser), slopes)
         return np.asarray(np.linalg.solve(steps, slopes).transpose(0, 2, 1))
 
     def estimate_gradient_covariance(self, steps: Array, values: Array) -> Array:

@@ -27,6 +27,9 @@ from calibgui.engine.detection.lattice import (
     is_large_enough,
 )
 
+_NEGLIGIBLE_MISFIT = 1e-6
+"""Rms distance from a grid map, steps, below which nothing but rounding tells maps apart."""
+
 
 def separate_boards(lattice: Lattice, image: GreyImage) -> list[Lattice]:
     """Separate a lattice into parts that may be boards; the lattice alone if it may be one itself,
@@ -77,7 +80,8 @@ def _cut_at_crease(lattice: Lattice, misfit: float) -> tuple[Lattice, Lattice] |
     least = min((off for off, _ in cuts), default=np.inf)
     if least > limits.max_misfit_ratio * misfit:
         return None
-    good = [parts for off, parts in cuts if off <= limits.max_excess_misfit * least]
+    limit = limits.max_excess_misfit * max(least, _NEGLIGIBLE_MISFIT)
+    good = [parts for off, parts in cuts if off <= limit]
     return max(good, key=lambda parts: len(parts[0]) + len(parts[1]))
 
 

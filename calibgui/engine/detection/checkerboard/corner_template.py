@@ -29,7 +29,7 @@ import numpy as np
 import scipy
 
 from calibgui.engine import kernels
-from calibgui.engine.arrays import Array, BoolArray, GreyImage, IntArray
+from calibgui.engine.arrays import Array, BoolArray, GreyImage, IntArray, compute_median
 from calibgui.engine.detection.checkerboard.fit_thresholds import FIT_THRESHOLDS
 from calibgui.engine.detection.lattice import Lattice, estimate_steps
 from calibgui.engine.images.sampling import sample_image
@@ -159,12 +159,14 @@ def estimate_template_of(corners: OrientedCorners, image: GreyImage) -> CornerTe
     patches = _compute_patches(image, *corners, PATCH_POSITIONS, _LINEAR_LIGHT)
     patch = _compute_median_patch(patches)
     dissimilarity = 1 - np.mean(patches * patch, axis=1)
-    return CornerTemplate(float(np.median(contrast)), patch, float(np.median(dissimilarity)))
+    return CornerTemplate(
+        float(compute_median(contrast)), patch, float(compute_median(dissimilarity))
+    )
 
 
 def _compute_median_patch(patches: Array) -> Array:
     """Compute the median (k,) of patches (n, k), standardised."""
-    return _standardise(np.median(patches, axis=0), _LINEAR_LIGHT)
+    return _standardise(compute_median(np.ascontiguousarray(patches.T)), _LINEAR_LIGHT)
 
 
 def orient_corners(lattice: Lattice) -> OrientedCorners:
@@ -250,10 +252,12 @@ def sample_around(
 
 
 def _standardise(values: Array, light: Array) -> Array:
-    """Subtract from `values` (..., k) what the columns of `light` (k, m) explain, and divide by the
-    rest's standard deviation."""
+    """Subtract from `values` (..., k) what the columns of `light` (k, m) explain, the first of them
+    constant, and divide by the rest's standard deviation."""
     rest = values - values @ light @ light.T
-    return np.asarray(rest / np.maximum(rest.std(axis=-1, keepdims=True), 1e-12))
+    # The first column of `light` is constant: the rest has no mean.
+    square = np.sum(rest * rest, axis=-1, keepdims=True) / rest.shape[-1]
+    return np.asarray(rest / np.maximum(np.sqrt(square), 1e-12))
 
 
 _CROSSING_BLURS = np.array([0.005, 0.02, 0.04, 0.07, 0.1, 0.14, 0.18, 0.22, 0.27])

@@ -73,25 +73,16 @@ def measure_edge_profiles(
         sign: (n,) p, +1 where the square towards both steps is bright.
         plain: how far from its edges a square is of one colour, squares.
     """
-    edges = image, uv, along, across, _PROFILE_OFFSETS
     reach = REACH_SHARE * plain
-    first, last, total = _measure_ends(*edges, reach, _SAMPLES, _END_SAMPLES)
-    rising = sign[:, None] * np.sign(_PROFILE_OFFSETS)
-    rise = (last - first) * rising
-    clear = rise > max(
-        FIT_THRESHOLDS.profiles.min_relative_rise * float(compute_median(rise.ravel())), 0.0
+    edges = image, uv, along, across, _PROFILE_OFFSETS, reach, _SAMPLES
+    ends = _measure_ends(*edges, _END_SAMPLES)
+    rise = (ends[1] - ends[0]) * sign[:, None] * np.sign(_PROFILE_OFFSETS)
+    typical = float(compute_median(rise.ravel()))
+    min_rise = max(FIT_THRESHOLDS.profiles.min_relative_rise * typical, 0.0)
+    spread, bulge, width, low, high = _describe_profiles(
+        *edges, size, sign, ends, min_rise, _BLUR_REACH
     )
-    rise = np.where(clear, rise * rising, np.inf)
-    integral = (total / (_SAMPLES - 1) - first) / rise * 2 * reach
-    growth = np.where(clear.all(axis=1, keepdims=True), (reach - integral) * rising, np.nan)
-    bulge = np.mean(growth[:, _FARTHEST] - growth[:, _NEAREST], axis=1)
-    close = np.minimum(reach, _BLUR_REACH / size)
-    middle = np.clip(reach - integral, close[:, None] - reach, reach - close[:, None])
-    count = _count_between_quartiles(*edges, middle, close, _SAMPLES, first, rise)
-    blur = size * compute_median(count) * 2 * close / (_SAMPLES - 1) / _QUARTILE_WIDTH
-    low = compute_median(np.where(rising > 0, first, last))
-    high = compute_median(np.where(rising > 0, last, first))
-    return EdgeProfiles(np.mean(growth, axis=1), bulge, blur, low, high)
+    return EdgeProfiles(spread, bulge, width / _QUARTILE_WIDTH, low, high)
 
 
 @kernels.with_kernel("edge_profiles", "measure_ends")
@@ -104,7 +95,7 @@ def _measure_ends(
     reach: float,
     samples: int,
     ends: int,
-) -> tuple[Array, Array, Array]:
+) -> Array:
     """Measure the grey levels at both ends of profiles, and their sums.
 
     Args:
@@ -115,34 +106,59 @@ def _measure_ends(
         ends: number of samples averaged at either end.
 
     Returns:
-        Means of the first and of the last samples, and the sum of all by the trapezoidal rule,
-        each (n, k).
+        (3, n, k) means of the first and of the last samples, and the sum of all by the trapezoidal
+        rule.
     """
     n = len(uv)
     middle, half = np.zeros((n, len(offsets))), np.full(n, reach)
     values = _sample_profiles(image, uv, along, across, offsets, middle, half, samples)
     total = values.sum(axis=2) - values[..., [0, -1]].mean(axis=2)
-    return values[..., :ends].mean(axis=2), values[..., -ends:].mean(axis=2), total
+    return np.stack([values[..., :ends].mean(axis=2), values[..., -ends:].mean(axis=2), total])
 
 
-@kernels.with_kernel("edge_profiles", "count_between_quartiles")
-def _count_between_quartiles(
+@kernels.with_kernel("edge_profiles", "describe_profiles")
+def _describe_profiles(
     image: GreyImage,
     uv: Array,
     along: Array,
     across: Array,
     offsets: Array,
-    middle: Array,
-    half: Array,
+    reach: float,
     samples: int,
-    first: Array,
-    rise: Array,
+    size: Array,
+    sign: Array,
+    ends: Array,
+    min_rise: float,
+    blur_reach: float,
 ) -> Array:
-    """Count the samples (n, k) around `middle` (n, k), up to `half` (n,) squares to both sides,
-    that lie between 25 and 75 % of the `rise` (n, k) from `first` (n, k)."""
-    values = _sample_profiles(image, uv, along, across, offsets, middle, half, samples)
+    """Compute `measure_edge_profiles` from the `ends` (3, n, k) of the profiles.
+
+    Args:
+        image, uv, along, across, offsets, reach, samples: as `_measure_ends`.
+        size, sign: as `measure_edge_profiles`.
+        ends: the result of `_measure_ends`.
+        min_rise: least rise of a clear profile, grey levels.
+        blur_reach: half width of the profile that the blur is measured on, px.
+
+    Returns:
+        (5, n) spread and bulge, squares; distance of the quartiles, px; low and high level.
+    """
+    first, last, total = ends
+    rising = sign[:, None] * np.sign(offsets)
+    clear = (last - first) * rising > min_rise
+    rise = np.where(clear, last - first, np.inf)
+    integral = (total / (samples - 1) - first) / rise * 2 * reach
+    growth = np.where(clear.all(axis=1, keepdims=True), (reach - integral) * rising, np.nan)
+    bulge = np.mean(growth[:, _FARTHEST] - growth[:, _NEAREST], axis=1)
+    close = np.minimum(reach, blur_reach / size)
+    middle = np.clip(reach - integral, close[:, None] - reach, reach - close[:, None])
+    values = _sample_profiles(image, uv, along, across, offsets, middle, close, samples)
     share = (values - first[..., None]) / rise[..., None]
-    return np.asarray(((share > 0.25) & (share < 0.75)).sum(axis=2), dtype=np.float64)
+    count = np.asarray(((share > 0.25) & (share < 0.75)).sum(axis=2), dtype=np.float64)
+    width = size * compute_median(count) * 2 * close / (samples - 1)
+    low = compute_median(np.where(rising > 0, first, last))
+    high = compute_median(np.where(rising > 0, last, first))
+    return np.stack([np.mean(growth, axis=1), bulge, width, low, high])
 
 
 def _sample_profiles(

@@ -44,8 +44,8 @@ from calibgui.engine.detection.region_of_interest import are_inside
 
 _RANGE_PERCENTILES = (0.5, 99.5)
 """Percentiles of the grey levels between which their range is measured, %."""
-_SPACING_PERCENTILE = 5
-"""Percentile of a lattice's spacings that counts as the side of its small squares, %."""
+_SMALL_SQUARES = 0.05
+"""Share of a lattice's spacings up to which they count as those of its small squares."""
 
 
 OnRefusal = Callable[[Refusal], object]
@@ -311,7 +311,9 @@ def _is_surely_complete(lattice: Lattice) -> bool:
 
 def _is_resolved(lattice: Lattice, min_square: float = THRESHOLDS.search.min_square) -> bool:
     """Return whether the squares of a lattice are larger than `min_square` px."""
-    return bool(np.nanpercentile(lattice.spacing(), _SPACING_PERCENTILE) > min_square)
+    spacing = lattice.spacing()
+    known = np.sort(spacing[np.isfinite(spacing)])
+    return bool(known[int(_SMALL_SQUARES * (len(known) - 1))] > min_square)
 
 
 def _carry_down(candidate: Candidate, finer: list[GreyImage]) -> Candidate:

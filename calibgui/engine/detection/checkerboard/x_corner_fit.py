@@ -51,7 +51,7 @@ from dataclasses import dataclass, fields, replace
 import numpy as np
 
 from calibgui.engine import kernels
-from calibgui.engine.arrays import Array, BoolArray, GreyImage
+from calibgui.engine.arrays import Array, BoolArray, GreyImage, compute_median
 from calibgui.engine.detection.checkerboard import edge_profiles
 from calibgui.engine.detection.checkerboard.board_priors import BoardPriors, PredictedBoardPriors
 from calibgui.engine.detection.checkerboard.edge_map import EdgeGeometry
@@ -221,7 +221,7 @@ def _estimate_start(
     profiles = measure_profiles(plain)
     low = np.mean([profile.low for profile in profiles], axis=0)
     high = np.mean([profile.high for profile in profiles], axis=0)
-    blur = np.median([profile.blur for profile in profiles], axis=1)
+    blur = compute_median(np.stack([profile.blur for profile in profiles]))
     unknowns[BLUR] = np.clip(blur, MIN_BLUR, height / 4)
     unknowns[M], unknowns[A] = (high + low) / 2, (high - low) / 2
     unknowns[RHO] = np.sum(normals[:, 0] * normals[:, 1], axis=1)
@@ -230,7 +230,7 @@ def _estimate_start(
         narrowed = width - _THRESHOLDS.blur_reach * unknowns[BLUR]
         model = replace(model, plain_width=np.maximum(narrowed, width / 2))
         # It would pass for a spread, too: that is measured where nothing beyond is felt, or not.
-        blurs = float(np.median(unknowns[BLUR] / height))
+        blurs = float(compute_median((unknowns[BLUR] / height).ravel()))
         clear = plain - _THRESHOLDS.spread_blur_reach * blurs
         if clear < _THRESHOLDS.min_spread_blurs * blurs:
             return model
@@ -244,8 +244,8 @@ def _estimate_ink_spread(profiles: list[EdgeProfiles]) -> Array:
     known = spreads[np.isfinite(spreads)]
     if len(known) < len(spreads):  # fewer than half of the edges
         return np.zeros(len(spreads))
-    middle = float(np.median(known))
-    error = 1.5 * float(np.median(abs(known - middle))) / np.sqrt(len(known) / 2)
+    middle = float(compute_median(known))
+    error = 1.5 * float(compute_median(abs(known - middle))) / np.sqrt(len(known) / 2)
     least = max(3 * error, _THRESHOLDS.min_ink_spread)
     clear = _THRESHOLDS.max_ink_spread > abs(middle) > least
     return np.full(len(spreads), middle if clear else 0.0)
@@ -334,7 +334,7 @@ def _add_priors(model: XCornerModel, products: Array) -> None:
     g[:, 8] += weight * (np.sum(normals[:, 0] * normals[:, 1], axis=1) - model.unknowns[RHO])
     difference = np.array([1.0, -1.0])  # by the blurs
     variance = _THRESHOLDS.blur_difference_sigma**2 * np.mean(blurs**2, axis=1)
-    weight = np.median(square) / variance
+    weight = compute_median(square) / variance
     N[:, 4:6, 4:6] += weight[:, None, None] * np.outer(difference, difference)
     lack = estimate_blur_difference(normals, blurs) - blurs @ difference
     g[BLUR] += (weight * lack)[:, None] * difference
@@ -379,7 +379,7 @@ def _estimate_noise(square: Array, odd_part: Array) -> Array:
     total, pairs = odd_part.T
     enough = pairs > _THRESHOLDS.min_opposite_pixels
     noise = np.where(enough, total / np.maximum(pairs - 2, 1), square)
-    return square if np.median(noise) > np.median(square) else noise
+    return square if compute_median(noise) > compute_median(square) else noise
 
 
 @kernels.with_kernel("x_corner_model", "solve_normal_equations")

@@ -166,12 +166,19 @@ class XCornerModel:
     def tangents(self) -> Array:
         """Compute (n, 2, 2) t_1 and t_2."""
         angle = self.unknowns[THETA]
-        return np.stack([np.cos(angle), np.sin(angle)], axis=2)
+        t = np.empty((len(angle), 2, 2))
+        np.cos(angle, out=t[..., 0])
+        np.sin(angle, out=t[..., 1])
+        return t
 
     def normals(self) -> Array:
         """Compute (n, 2, 2) n_1 towards the next row and n_2 towards the next column."""
-        t = self.tangents()
-        return np.stack([-t[..., 1], t[..., 0]], axis=2) * np.array([[1.0], [-1.0]])
+        angle = self.unknowns[THETA]
+        cosine, sine = np.cos(angle), np.sin(angle)
+        n = np.empty((len(angle), 2, 2))
+        n[:, 0, 0], n[:, 0, 1] = -sine[:, 0], cosine[:, 0]
+        n[:, 1, 0], n[:, 1, 1] = sine[:, 1], -cosine[:, 1]
+        return n
 
     def pixel_half_widths(self) -> Array | None:
         """Compute the half widths (n, 2) px of a pixel across edges 1 and 2; None if the blur is so
