@@ -64,11 +64,7 @@ def explain_missing_board(
         )
         hint = f"State --board {_format_size(size)}, or leave --board out."
     elif mirrored is not None:
-        problem = f"The images show {name_kind(mirrored)} mirrored: left is right."
-        hint = (
-            "Turn mirroring off in the camera or in the program that takes the pictures, and take "
-            "them again."
-        )
+        problem, hint = _describe_mirroring(mirrored)
     elif other is not None:
         problem = f"The images show {name_kind(other)}, not {name_kind(pattern)}."
         hint = f"State --target {other.kind}; if another board is meant, --roi says where it is."
@@ -81,6 +77,15 @@ def explain_missing_board(
     is_explained = any(seen is not None for seen in (size, mirrored, other))
     faults = [v for v in views if not (is_explained and v.status is ViewStatus.NO_BOARD)]
     return CalibrationError(problem, hint), tuple(faults)
+
+
+def _describe_mirroring(pattern: Pattern) -> tuple[str, str]:
+    """Return the problem that the images show a board mirrored, and what to do about it."""
+    return (
+        f"The images show {name_kind(pattern)} mirrored: left is right.",
+        "Turn mirroring off in the camera or in the program that takes the pictures, and take "
+        "them again.",
+    )
 
 
 def _format_size(size: GridSize) -> str:
@@ -113,6 +118,9 @@ def recognise_pattern(views: Sequence[View]) -> Pattern | None:
 
     Returns:
         None if it is a plain checkerboard, or nothing that can be found.
+
+    Raises:
+        CalibrationError: one was found whose marks can be read in a mirror only.
     """
     found = [(view, view.corners) for view in views if view.corners is not None]
     if not found:
@@ -122,13 +130,16 @@ def recognise_pattern(views: Sequence[View]) -> Pattern | None:
         marks = look_for_marks(read_image(view.image, view.orientation).pixels, corners)
     except CalibrationError:  # the file has changed since it was searched
         return None
-    marked = (
+    kinds = (
         *(_KINDS_MARKED_IN_SQUARES if marks.in_squares else ()),
         *(_KINDS_MARKED_ON_EDGES if marks.on_edges else ()),
     )
-    tries = (search_view(View(view.image), pattern=KINDS[kind]) for kind in marked)
-    kinds = (tried.corners.pattern.kind for tried in tries if tried.corners is not None)
-    return next((KINDS[kind] for kind in kinds), None)
+    tries = [(view.image, KINDS[kind]) for kind in kinds]
+    if (read := next(filter(None, map(_search_image, tries)), None)) is not None:
+        return KINDS[read.pattern.kind]
+    if (mirrored := next(filter(None, map(_search_mirror_image, tries)), None)) is not None:
+        raise CalibrationError(*_describe_mirroring(mirrored.pattern))
+    return None
 
 
 def find_other_pattern(

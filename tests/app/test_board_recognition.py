@@ -23,6 +23,7 @@ from calibgui.engine.boards.pattern import Pattern
 from calibgui.engine.boards.puzzleboard import PuzzleBoard
 from calibgui.engine.boards.tagged_checkerboard import TaggedCheckerboard
 from calibgui.engine.camera.camera import Camera
+from calibgui.engine.errors import CalibrationError
 from calibgui.engine.images.reading import write_image
 from tests.engine.detection.conftest import Scene
 
@@ -83,3 +84,19 @@ def test_pictures_of_marks_in_a_mirror_are_told(pattern: Pattern, tmp_path: Path
     assert "mirrored: left is right" in error.message
     assert "Turn mirroring off" in error.hint
     assert not faults, "the cause is told once, not for every photograph"
+
+
+def test_marks_in_a_mirror_are_told_where_a_plain_board_is_found(tmp_path: Path) -> None:
+    """The corners of such a board are found whichever way its tags are to be read."""
+    scene = Scene(
+        Board(8, 10, 20.0, TaggedCheckerboard("t36h11", 1, 2, from_top=True)),
+        _CAMERA,
+        (0.4, 0.25, 0.2),
+        330.0,
+    )
+    write_image(tmp_path / "mirrored.png", scene.image()[:, ::-1])
+    views = find_views([tmp_path / "mirrored.png"]).views
+    assert views[0].corners is not None
+    with pytest.raises(CalibrationError, match="mirrored: left is right") as caught:
+        recognise_pattern(views)
+    assert "Turn mirroring off" in caught.value.hint
