@@ -32,6 +32,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from calibgui.engine import kernels
 from calibgui.engine.arrays import Array, BoolArray, FloatImage, GreyImage, IntArray
 from calibgui.engine.detection import grid_map
 from calibgui.engine.detection.apriltags.tag_gap import measure_gap
@@ -133,6 +134,11 @@ class _Model:
         t = along / length[..., None]
         return length, t, np.stack([-t[..., 1], t[..., 0]], axis=2)
 
+    def measure_bands(self) -> Array:
+        """Measure how far (k, 4, 2) px the edges are read outwards and inwards."""
+        width = _BAND_BLURS * self.blurs[:, [0, 1, 0, 1], None] + _BAND_MARGIN
+        return np.minimum(width, np.column_stack([self.outwards, self.inwards])[:, None])
+
 
 def fit_tag_outlines(
     image: GreyImage, corners: Array, squares: IntArray, border: float, gap: float
@@ -153,7 +159,8 @@ def fit_tag_outlines(
     places = _locate_corners(squares, measure_gap(seen, gap))
     for _ in range(_GAUSS_NEWTON_STEPS):
         model = replace(model, curvature=_estimate_curvatures(model.corners, places))
-        products = _accumulate_normal_equations(image, model)
+        is_sharp = bool(np.median(model.blurs) < _MAX_SHARP_BLUR)
+        products = _accumulate_normal_equations(image, model, is_sharp)
         model, inverse, square = _take_step(model, products)
     noise = np.maximum(square, estimate_least_noise(image))
     pairs = inverse[:, :8, :8].reshape(-1, 4, 2, 4, 2)
@@ -239,15 +246,8 @@ def _measure_profiles(image: GreyImage, model: _Model, reach: Array) -> tuple[Ar
         Levels (n, 2) of paper and ink, offsets (n, 4, 2) px inwards of the edges at their beginning
         and end, and variances (n, 4) px^2 of their blur.
     """
-    length, t, normal = model.measure_edges()
     share = np.linspace(_ALONG_MARGIN, 1 - _ALONG_MARGIN, _SAMPLES_ALONG)
-    s = length[..., None] * share
-    bow = -model.curvature[..., None] * s * (length[..., None] - s) / 2
-    d = reach[:, None, None, None] * np.linspace(-1, 1, _SAMPLES_ACROSS)
-    at = model.corners[:, :, None] + s[..., None] * t[:, :, None]
-    at = at[..., None, :] + (bow[..., None] + d)[..., None] * normal[:, :, None, None]
-    halves = (*at.shape[:2], 2, _SAMPLES_ALONG // 2, _SAMPLES_ACROSS)
-    seen = sample_image(image, at).reshape(halves).mean(axis=3)
+    seen = _average_profiles(image, model, reach, share, _SAMPLES_ACROSS)
     quarter = _SAMPLES_ACROSS // 4
     paper = np.median(seen[..., :quarter], axis=(1, 2, 3))
     ink = np.median(seen[..., -quarter:], axis=(1, 2, 3))
@@ -263,6 +263,32 @@ def _measure_profiles(image: GreyImage, model: _Model, reach: Array) -> tuple[Ar
     return np.column_stack([paper, ink]), ends, variance
 
 
+@kernels.with_kernel("tag_outlines", "average_profiles")
+def _average_profiles(
+    image: GreyImage, model: _Model, reach: Array, share: Array, samples: int
+) -> Array:
+    """Average the grey levels of profiles across the edges over either half of these.
+
+    Args:
+        image: (h, w) grey levels.
+        model: of n tags.
+        reach: (n,) px, how far profiles reach to both sides.
+        share: (m,) where along an edge they are taken, lengths.
+        samples: number of samples of each.
+
+    Returns:
+        (n, 4, 2, samples)
+    """
+    length, t, normal = model.measure_edges()
+    s = length[..., None] * share
+    bow = -model.curvature[..., None] * s * (length[..., None] - s) / 2
+    d = reach[:, None, None, None] * np.linspace(-1, 1, samples)
+    at = model.corners[:, :, None] + s[..., None] * t[:, :, None]
+    at = at[..., None, :] + (bow[..., None] + d)[..., None] * normal[:, :, None, None]
+    halves = (*at.shape[:2], 2, len(share) // 2, samples)
+    return np.asarray(sample_image(image, at).reshape(halves).mean(axis=3))
+
+
 def _move_edges(model: _Model, offset: Array) -> Array:
     """Return the corners (n, 4, 2) after edges were moved inwards by `offset` (n, 4, 2) px at their
     beginning and end."""
@@ -272,10 +298,17 @@ def _move_edges(model: _Model, offset: Array) -> Array:
     return np.asarray(model.corners + np.linalg.solve(both, moved[..., None])[..., 0])
 
 
-def _accumulate_normal_equations(image: GreyImage, model: _Model) -> Array:
+@kernels.with_kernel("tag_outlines", "accumulate_normal_equations")
+def _accumulate_normal_equations(image: GreyImage, model: _Model, is_sharp: bool) -> Array:
     """Accumulate the products (n, 17, 17) of the columns [J r]: derivatives of the model by the
     unknowns, and what it leaves unexplained; the products of paper's and ink's levels (10 and 13)
-    sum up to the number of pixels."""
+    sum up to the number of pixels.
+
+    Args:
+        image: (h, w) grey levels.
+        model: of n tags.
+        is_sharp: whether the blurs are so small that the pixel's own shape matters.
+    """
     n = len(model.corners)
     products = np.zeros((n, _UNKNOWNS + 1, _UNKNOWNS + 1))
     order = np.argsort(model.half, kind="stable")
@@ -283,7 +316,7 @@ def _accumulate_normal_equations(image: GreyImage, model: _Model) -> Array:
     for index in np.array_split(order, min(max(n * pixels // _MAX_PIXELS_AT_ONCE, 1), n)):
         portion = model.select(index)
         for edge in range(4):
-            columns = _compute_columns(image, portion, edge)
+            columns = _compute_columns(image, portion, edge, is_sharp)
             products[index] += columns @ columns.transpose(0, 2, 1)
     return products
 
@@ -296,7 +329,7 @@ def _list_pixels(model: _Model, edge: int) -> IntArray:
     """
     length, t, _ = model.measure_edges()
     length, t = length[:, edge, None], t[:, edge]
-    width = _compute_band(model, edge).max(axis=1)
+    width = model.measure_bands()[:, edge].max(axis=1)
     tag = np.arange(len(t))
     main = np.where(abs(t[:, 0]) >= abs(t[:, 1]), 0, 1)
     along, across = t[tag, main, None], t[tag, 1 - main, None]
@@ -317,12 +350,6 @@ def _list_pixels(model: _Model, edge: int) -> IntArray:
     return uv.reshape(len(t), -1, 2).astype(np.int64)
 
 
-def _compute_band(model: _Model, edge: int) -> Array:
-    """Compute how far (k, 2) px an edge is read outwards and inwards."""
-    width = _BAND_BLURS * model.blurs[:, edge % 2, None] + _BAND_MARGIN
-    return np.minimum(width, np.column_stack([model.outwards, model.inwards]))
-
-
 def _measure_distances(model: _Model, uv: IntArray) -> tuple[FloatImage, FloatImage]:
     """Measure s over the length, and d px, (k, 4, P) of points (k, P, 2) along and within edges."""
     length, t, normal = model.measure_edges()
@@ -341,10 +368,10 @@ def _measure_distances(model: _Model, uv: IntArray) -> tuple[FloatImage, FloatIm
 
 def _find_own_pixels(model: _Model, share: FloatImage, d: FloatImage, edge: int) -> BoolArray:
     """Return which pixels (k, P) lie in the band of an edge and in that of none before it."""
-    length = model.measure_edges()[0]
+    length, bands = model.measure_edges()[0], model.measure_bands().astype(np.float32)
     own = np.ones(d[:, 0].shape, dtype=np.bool_)
     for which in range(edge + 1):
-        out, inside = _compute_band(model, which).astype(np.float32).T[..., None]
+        out, inside = bands[:, which].T[..., None]
         beyond = out / length[:, which, None].astype(np.float32)
         within = (d[:, which] >= -out) & (d[:, which] <= inside)
         within &= abs(share[:, which] - 0.5) <= 0.5 + beyond
@@ -352,7 +379,7 @@ def _find_own_pixels(model: _Model, share: FloatImage, d: FloatImage, edge: int)
     return own
 
 
-def _compute_columns(image: GreyImage, model: _Model, edge: int) -> FloatImage:
+def _compute_columns(image: GreyImage, model: _Model, edge: int, is_sharp: bool) -> FloatImage:
     """Compute the derivatives of the model by the unknowns, and the residual, (k, 17, P) at the
     pixels of one edge; 0 for those that do not count."""
     uv = _list_pixels(model, edge)
@@ -365,12 +392,12 @@ def _compute_columns(image: GreyImage, model: _Model, edge: int) -> FloatImage:
     last, following = int(_LAST[edge]), int(_NEXT[edge])
     normal = model.measure_edges()[2].astype(np.float32)
     turns = [np.sum(normal[:, edge] * normal[:, which], axis=1) for which in (last, following)]
-    mine = _compute_edge(model, edge, d[:, edge])
+    mine = _compute_edge(model, edge, d[:, edge], is_sharp)
     is_first = share[:, edge] < 0.5
     rho = np.where(is_first, *(turn[:, None] for turn in turns))
     # The other edge of the nearer corner is parallel to its opposite: both have one blur.
     distance = np.where(is_first, d[:, last], d[:, following])
-    its = _compute_edge(model, last, distance)
+    its = _compute_edge(model, last, distance, is_sharp)
     s1, s2 = model.blurs[:, [edge % 2, last % 2]].astype(np.float32).T[..., None]
     ink_beside, ink_here = (1 + its.value) / 2, (1 + mine.value) / 2
     x, y = d[:, edge] / s1, distance / s2
@@ -401,10 +428,10 @@ def _compute_columns(image: GreyImage, model: _Model, edge: int) -> FloatImage:
     return J
 
 
-def _compute_edge(model: _Model, edge: int, distance: FloatImage) -> EdgeIntensity:
+def _compute_edge(model: _Model, edge: int, distance: FloatImage, is_sharp: bool) -> EdgeIntensity:
     """Compute the blurred edge at the distances (k, P) px from an edge."""
     blur = model.blurs[:, edge % 2, None].astype(np.float32)
-    if np.median(model.blurs) >= _MAX_SHARP_BLUR:
+    if not is_sharp:
         return compute_edge(distance, blur)
     normal = model.measure_edges()[2][:, edge]
     return compute_edge(distance, blur, (abs(normal).max(axis=1) / 2).astype(np.float32)[:, None])
