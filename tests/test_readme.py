@@ -6,12 +6,15 @@ import json
 import re
 import shlex
 import shutil
+from functools import partial
 from pathlib import Path
 from typing import Any
 
 import pytest
 
 from calibgui.cli.main import main
+from calibgui.engine.assessment import method_comparison
+from calibgui.engine.assessment.lens_choice import choose_lens
 from calibgui.formats import EXPORTERS
 
 ROOT = Path(__file__).resolve().parents[1]
@@ -31,7 +34,18 @@ def elsewhere(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     return tmp_path
 
 
+@pytest.fixture
+def few_candidates(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Lens models and methods to compare are few, which is quick; tests/cli compares all."""
+    few_lenses = partial(choose_lens, candidates=("lucchese", "pinhole"), folds=2)
+    monkeypatch.setattr("calibgui.app.lens_comparison.choose_lens", few_lenses)
+    listed = method_comparison.list_compared_methods()
+    few_methods = {name: listed[name] for name in ("lucchese", "bouguet", "stein")}
+    monkeypatch.setattr(method_comparison, "list_compared_methods", lambda: few_methods)
+
+
 @pytest.mark.slow
+@pytest.mark.usefixtures("search_here", "few_candidates")
 def test_command_lines(elsewhere: Path, capsys: pytest.CaptureFixture[str]) -> None:
     lines = re.findall(r"^calibgui (.+)$", "".join(blocks("sh")), re.MULTILINE)
     window, *lines = lines
