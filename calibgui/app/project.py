@@ -9,6 +9,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from enum import StrEnum
+from functools import cached_property
 from types import MappingProxyType
 
 from calibgui.app.detection import infer_grid_size, infer_pattern, measure_largest_part
@@ -38,7 +39,7 @@ class Unit(StrEnum):
         return {"mm": 1.0, "cm": 10.0, "inch": 25.4}[self]
 
 
-@dataclass(frozen=True, eq=False, slots=True)
+@dataclass(frozen=True, eq=False)
 class Project:
     """Images of a board, the corners found in them, and the calibrations from these."""
 
@@ -65,9 +66,10 @@ class Project:
     digests: Mapping[str, str] = field(default_factory=lambda: MappingProxyType({}))
     """SHA-256 of the image files that have been read, by path."""
 
-    @property
+    @cached_property
     def board(self) -> Board | None:
-        """Return the board as stated or as seen; None while nothing is known of it."""
+        """The board as stated or as seen, inferred from all views once; None while nothing is known
+        of it."""
         found = [view.corners for view in self.views if view.corners is not None]
         grid_size = self.grid_size or infer_grid_size(self.views) or measure_largest_part(found)
         pattern = infer_pattern(self.views, self.pattern)
