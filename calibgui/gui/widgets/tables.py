@@ -305,9 +305,11 @@ class Table(QTableView):
             whole = header.sectionSize(0)
             least = min(whole, _LEGIBLE * self.fontMetrics().averageCharWidth())
             header.resizeSection(0, max(least, whole - excess))
-        for place, column in enumerate(columns):
-            if column.expendable and header.length() > room:
-                self.setColumnHidden(place, True)
+            for place, column in enumerate(columns):
+                if column.expendable and header.length() > room:
+                    self.setColumnHidden(place, True)
+            left = room - header.length()
+            header.resizeSection(0, max(least, min(whole, header.sectionSize(0) + left)))
 
     def _current_changed(self, current: QModelIndex) -> None:
         if current.isValid():
