@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from typing import NamedTuple
 
 import numpy as np
 from PySide6.QtCore import QEvent, QPointF, QRect, QRectF, Qt, Signal
@@ -55,6 +56,15 @@ _MARGIN = 4
 _ONE_LINE = Qt.AlignmentFlag.AlignCenter | Qt.TextFlag.TextSingleLine
 
 
+class AxisNumber(NamedTuple):
+    """A number beside an axis."""
+
+    place: QRectF
+    """Its room in the widget."""
+    text: str
+    colour: QColor
+
+
 class SceneView(QWidget):
     """Outlines in space, painted from the farthest to the nearest, farther ones fainter.
 
@@ -73,6 +83,8 @@ class SceneView(QWidget):
         self.setMouseTracking(True)
         self.setMinimumSize(160, 120)
         self.observer = Observer()
+        self.axis_numbers: list[AxisNumber] = []
+        """Numbers beside the axes, as they were painted last."""
         self.numbers_shown: dict[int, QRectF] = {}
         """Places of the views' numbers, as painted last."""
         self._polygons: tuple[Polygon, ...] = ()
@@ -144,13 +156,16 @@ class SceneView(QWidget):
         painter.fillRect(self.rect(), QColor(theme.current().base))
         if not self._drawn:
             return
-        self._paint_axes(painter)
+        self.axis_numbers = self._paint_axes(painter)
         # What is pointed at shows through all that stands before it.
         for item in sorted(self._drawn, key=lambda item: self._rank(item.polygon.view)):
             is_smooth = len(self._drawn) <= _SMOOTHED or self._rank(item.polygon.view) > 0
             painter.setRenderHint(QPainter.RenderHint.Antialiasing, is_smooth)
             self._paint_polygon(painter, item)
         painter.setRenderHint(QPainter.RenderHint.Antialiasing)
+        for number in self.axis_numbers:  # over the boards, which stand before most of them
+            painter.setPen(number.colour)
+            painter.drawText(number.place, _ONE_LINE, number.text)
         self._paint_numbers(painter)
         painter.setPen(QColor(theme.current().muted))
         painter.drawText(self._find_room_below(), _BELOW, self._condition)
@@ -214,8 +229,9 @@ class SceneView(QWidget):
             painter.setPen(QPen(QColor(colour), 2))
             painter.drawLine(origin, origin + (end - origin) * 0.3)
 
-    def _paint_axes(self, painter: QPainter) -> None:
-        """The world's axes, with numbers in mm."""
+    def _paint_axes(self, painter: QPainter) -> list[AxisNumber]:
+        """Paint the world's axes; return their numbers, in mm, which are painted later."""
+        numbers = []
         colours = theme.current()
         axis_colours = (colours.bad, colours.good, colours.accent)
         metrics = painter.fontMetrics()
@@ -237,12 +253,17 @@ class SceneView(QWidget):
                 painter.drawEllipse(place, 2, 2)
                 box = QRectF(0, 0, metrics.horizontalAdvance(text), metrics.height())
                 box.moveTopLeft(place + QPointF(4, 2))
-                painter.drawText(self._keep_inside(box), _ONE_LINE, text)
+                numbers.append(AxisNumber(self._keep_inside(box), text, QColor(colour)))
                 last = place
+        return numbers
 
     def _paint_numbers(self, painter: QPainter) -> None:
-        """The views' numbers, the selected one's first, then from the nearest to the farthest."""
+        """The views' numbers, the selected one's first, then from the nearest to the farthest.
+
+        They leave the axes' numbers their places.
+        """
         self.numbers_shown = {}
+        on_axes = [number.place for number in self.axis_numbers]
         metrics = painter.fontMetrics()
         # The faces of one camera are drawn one by one: the nearest has the number.
         nearest = {
@@ -254,12 +275,12 @@ class SceneView(QWidget):
         for view, item in in_order[:_NUMBERED]:
             text = self._numbers[view]
             box = QRectF(0, 0, metrics.horizontalAdvance(text) + 6, metrics.height())
-            place = self._find_room(box, item)
+            place = self._find_room(box, item, [*on_axes, *self.numbers_shown.values()])
             if place is not None:
                 self.numbers_shown[view] = place
                 self._paint_number(painter, place, text, item)
 
-    def _find_room(self, box: QRectF, item: DrawnPolygon) -> QRectF | None:
+    def _find_room(self, box: QRectF, item: DrawnPolygon, taken: Sequence[QRectF]) -> QRectF | None:
         """Return the box at a place on the polygon that no number has taken; None if there is none.
 
         The selected view has its number even if it covers another.
@@ -269,7 +290,7 @@ class SceneView(QWidget):
         for corner in corners:
             box.moveCenter(corner + (middle - corner) * 0.15)
             inside = self._keep_inside(box)
-            if not any(inside.intersects(other) for other in self.numbers_shown.values()):
+            if not any(inside.intersects(other) for other in taken):
                 return inside
         return self._keep_inside(box) if self._rank(item.polygon.view) else None
 

@@ -131,6 +131,17 @@ def test_every_board_has_its_number(shown: Shown[PosesPanel], result: Result) ->
     assert all(panel.space.rect().contains(place.toAlignedRect()) for place in places)
 
 
+def test_numbers_leave_the_axes_theirs(shown: Shown[PosesPanel], result: Result) -> None:
+    space = shown(PosesPanel, result).space
+    for turn in np.linspace(0, 2 * np.pi, 24):
+        space.look_from(Observer().turned(turn, 0.0))
+        space.grab()
+        places = [*space.numbers_shown.values()]
+        on_axes = [number.place for number in space.axis_numbers]
+        assert places and on_axes
+        assert not any(a.intersects(b) for a in places for b in on_axes)
+
+
 def test_the_cursor_announces_and_describes_a_board(
     shown: Shown[PosesPanel], result: Result, qtbot: QtBot
 ) -> None:
