@@ -9,6 +9,9 @@ distances of its lines, and from polynomials in the place on the board.
 
 from __future__ import annotations
 
+from functools import cached_property
+from typing import NamedTuple
+
 import numpy as np
 
 from calibgui.engine.arrays import Array
@@ -18,10 +21,25 @@ from calibgui.engine.detection.checkerboard.edge_map import EdgeGeometry
 
 _DIFFERENCE_STEP = 0.5
 """Step of the central differences of the grid map, units."""
+_AROUND = np.array([(0, 0), (0, -1), (0, 1), (-1, 0), (1, 0)])
+"""(5, 2) the places (row, column) around a corner that they are taken at, and its own."""
 _MAX_DEGREE = 4
 """Greatest degree of the polynomials that gradients are taken from."""
 _TERM_COST = 1.4
 """Cost of a term in the generalised cross-validation of their degrees (Kim and Gu 2004)."""
+
+
+class _Polynomial(NamedTuple):
+    """A polynomial of k terms in the places of n corners."""
+
+    terms: Array
+    """(n, k)"""
+    inverse: Array
+    """(k, n) from values to the terms' weights, by least squares."""
+    derivatives: Array
+    """(n, 2, k) of the terms by X and by Y."""
+    share: float
+    """Cost of its terms, of all that the values allow."""
 
 
 class NearPriors(BoardPriors):
@@ -38,16 +56,13 @@ class NearPriors(BoardPriors):
     def estimate_geometry(self, uv: Array) -> tuple[Array, Array]:
         """Estimate steps (n, 2, 2) px along X and Y, one unit long, and curvatures (n, 2), 1/px, of
         the edges along both; see ``BoardPriors.estimate_geometry``."""
-        board = grid_map.fit_cells(self._places[:, ::-1], uv)
-        here = board.locate(self._places[:, ::-1])
-        first, second = [], []
-        for axis in (1, 0):  # the map counts (row, column)
-            step = _DIFFERENCE_STEP * np.eye(2)[axis]
-            before, after = (board.locate(self._places[:, ::-1] + s * step) for s in (-1, 1))
-            first.append((after - before) / (2 * _DIFFERENCE_STEP))
-            second.append((after - 2 * here + before) / _DIFFERENCE_STEP**2)
-        steps = np.stack(first, axis=1)
-        return steps, compute_curvatures(steps, np.stack(second, axis=1))
+        cells = self._places[:, ::-1]  # the map counts (row, column)
+        board = grid_map.fit_cells(cells, uv)
+        around = np.concatenate([cells + step for step in _DIFFERENCE_STEP * _AROUND])
+        here, left, right, up, down = board.locate(around).reshape(5, -1, 2)
+        steps = np.stack([right - left, down - up], axis=1) / (2 * _DIFFERENCE_STEP)
+        second = np.stack([right - 2 * here + left, down - 2 * here + up], axis=1)
+        return steps, compute_curvatures(steps, second / _DIFFERENCE_STEP**2)
 
     def follow_edges(self, uv: Array, normals: Array, arm: Array, curvature: Array) -> EdgeGeometry:
         """Estimate the geometry from the corners alone, which do not lie in even rows."""
@@ -60,26 +75,38 @@ class NearPriors(BoardPriors):
         Args:
             steps: (n, 2, 2) px along X and Y, one unit long.
         """
-        centre = self._places.mean(axis=0)
-        half = np.maximum(np.ptp(self._places, axis=0) / 2, 1.0)
-        table = ((self._places - centre) / half)[..., None] ** np.arange(_MAX_DEGREE + 1)
         best = np.full(values.shape[1], np.inf)
         slopes = np.zeros((len(values), 2, values.shape[1]))
-        for degree in range(_MAX_DEGREE + 1):
-            powers = np.argwhere(np.ones((degree + 1, degree + 1)))
-            powers = powers[powers.sum(axis=1) <= degree]
-            share = _TERM_COST * len(powers) / len(values)
-            if share >= 1:
-                break
-            terms = grid_map.compute_polynomial_terms(table, powers, half)
-            weights = np.linalg.lstsq(terms, values)[0]
+        for terms, inverse, derivatives, share in self._polynomials:
+            weights = inverse @ values
             score = np.sum((values - terms @ weights) ** 2, axis=0) / (1 - share) ** 2
             better = score < best
             best = np.where(better, score, best)
-            for axis, order in enumerate(((1, 0), (0, 1))):
-                derivative = grid_map.compute_polynomial_terms(table, powers, half, order)
-                slopes[:, axis] = np.where(better, derivative @ weights, slopes[:, axis])
+            slopes = np.where(better, derivatives @ weights, slopes)
         return np.asarray(np.linalg.solve(steps, slopes).transpose(0, 2, 1))
+
+    @cached_property
+    def _polynomials(self) -> list[_Polynomial]:
+        """The polynomials of all degrees that the number of places allows."""
+        n = len(self._places)
+        centre = self._places.mean(axis=0)
+        half = np.maximum(np.ptp(self._places, axis=0) / 2, 1.0)
+        table = ((self._places - centre) / half)[..., None] ** np.arange(_MAX_DEGREE + 1)
+        polynomials = []
+        for degree in range(_MAX_DEGREE + 1):
+            powers = np.argwhere(np.ones((degree + 1, degree + 1)))
+            powers = powers[powers.sum(axis=1) <= degree]
+            share = _TERM_COST * len(powers) / n
+            if share >= 1:
+                break
+            terms, *derivatives = (
+                grid_map.compute_polynomial_terms(table, powers, half, order)
+                for order in ((0, 0), (1, 0), (0, 1))
+            )
+            least = np.finfo(np.float64).eps * max(terms.shape)
+            inverse = np.asarray(np.linalg.pinv(terms, rcond=least), dtype=np.float64)
+            polynomials.append(_Polynomial(terms, inverse, np.stack(derivatives, axis=1), share))
+        return polynomials
 
     def estimate_gradient_covariance(self, steps: Array, values: Array) -> Array:
         """Return zeros (n, 2, 2): over the short arms that are read here it does not matter."""
