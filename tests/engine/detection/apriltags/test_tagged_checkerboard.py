@@ -3,13 +3,17 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from itertools import pairwise
 from pathlib import Path
 
+import cv2
 import numpy as np
 import pytest
+from numpy.typing import NDArray
 
 from calibgui.engine.boards.board import Board
 from calibgui.engine.boards.tagged_checkerboard import TaggedCheckerboard
+from calibgui.engine.camera.distortion import project_points
 from calibgui.engine.detection.find_corners import find_corners
 from calibgui.engine.errors import NoBoardError
 from calibgui.engine.images.reading import read_image
@@ -81,6 +85,30 @@ def test_a_plain_checkerboard_is_refused() -> None:
         find_corners(Scene(Board(5, 8, 20.0), camera=CAMERA).image(), pattern=TaggedCheckerboard())
 
 
+def test_a_frame_beside_the_outermost_corners() -> None:
+    """Seen from aside, squares are small where it leaves only a quarter of one in white."""
+    scene = replace(BOARD, rvec=(1.05, 0.1, 0.3))
+    corners = find_corners(_draw_frame(scene, 0.3), pattern=TaggedCheckerboard())
+    assert len(corners) >= 138
+    assert_at_bound(scene, corners, (0.7, 1.5))
+
+
+def _draw_frame(scene: Scene, gap: float) -> NDArray[np.uint8]:
+    """A photograph of a board with a dark frame around it, `gap` squares from its corners."""
+    rows, cols = scene.board.grid_size
+    along = np.linspace(0, 1, 40, endpoint=False)[:, None]
+    ends = np.array([(0, 0), (cols - 1, 0), (cols - 1, rows - 1), (0, rows - 1)])
+    ends = ends + gap * np.array([(-1, -1), (1, -1), (1, 1), (-1, 1)])
+    outline = np.concatenate([a + (b - a) * along for a, b in pairwise([*ends, ends[0]])])
+    uv = project_points(scene.board.square * outline, scene.camera, scene.pose)
+    parts, image = 8, scene.image()
+    inside = np.zeros([parts * side for side in image.shape], np.uint8)
+    cv2.fillPoly(inside, [np.rint((uv + 0.5) * parts * 16 - 8).astype(np.int32)], 255, shift=4)
+    size = image.shape[::-1]
+    share = cv2.GaussianBlur(cv2.resize(inside, size, interpolation=cv2.INTER_AREA), (0, 0), 0.6)
+    return np.asarray(np.rint(30 + (image - 30.0) * (share / 255.0)), dtype=np.uint8)
+
+
 @pytest.mark.data
 def test_photographs_of_a_fisheye(data_dir: Path) -> None:
     """BabelCalib's: corners found by Deltille, numbered row by row from the upper left one.
@@ -109,5 +137,5 @@ def test_photographs_of_a_fisheye(data_dir: Path) -> None:
         inside = off[1:-1, 1:-1]
         compared += np.count_nonzero(np.isfinite(inside))
         near += np.count_nonzero(inside < 0.3)
-    assert located > 0.97 * stored_count
+    assert located > 0.99 * stored_count
     assert near > 0.96 * compared
