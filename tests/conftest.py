@@ -44,13 +44,14 @@ _M_TRIM_THRESHOLD, _M_MMAP_THRESHOLD = -1, -3
 """Options of glibc's ``mallopt``: beyond how many bytes it returns what is free, and a block."""
 
 
-def pytest_configure() -> None:
+def pytest_configure(config: pytest.Config) -> None:
     """Keep the memory of freed arrays for later ones.
 
     A drawn photograph has arrays of 40 MB. To have each of them from the system anew takes half
-    of the time of drawing. Other C libraries than glibc are left as they are.
+    of the time of drawing. Other C libraries than glibc are left as they are, and so is the
+    program where its speed is measured.
     """
-    if sys.platform == "linux":
+    if sys.platform == "linux" and not config.getoption("benchmark_only"):
         with contextlib.suppress(AttributeError):  # only glibc has it
             for option in (_M_TRIM_THRESHOLD, _M_MMAP_THRESHOLD):
                 ctypes.CDLL(None).mallopt(option, _KEPT_BYTES)
