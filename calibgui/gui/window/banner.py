@@ -16,7 +16,8 @@ from calibgui.gui.widgets.wrapped_label import WrappedLabel
 class Banner(QFrame):
     """Shown until it is dismissed or the next message comes; a failure until work goes on.
 
-    A question, which has choices, comes back after what covered it, another question too.
+    A question, which has choices, comes back after what covered it, another question too. So does a
+    message that a question covered.
     """
 
     def __init__(self, parent: QWidget | None = None) -> None:
@@ -35,32 +36,28 @@ class Banner(QFrame):
         self._row.addWidget(self.text, 1)
         self._row.addWidget(self.dismiss, 0, Qt.AlignmentFlag.AlignTop)
         self._failure = False
-        self._questions: dict[str, Mapping[str, Callable[[], None]]] = {}
-        """The choices of questions that are open, the latest last."""
+        self._kept: dict[str, Mapping[str, Callable[[], None]]] = {}
+        """What comes back, the latest last: open questions with their choices, and messages."""
         self.hide()
 
     def show_error(self, error: CalibrationError) -> None:
         """Show what cannot be done, and the remedy."""
-        self._show(f"{error.message}\n{error.hint}".strip(), failure=True)
+        self._show(f"{error.message}\n{error.hint}".strip(), {}, failure=True)
 
     def show_text(
         self, text: str, choices: Mapping[str, Callable[[], None]] = MappingProxyType({})
     ) -> None:
         """Show a message; each choice is a button with its text and what it does."""
-        self._show(text, failure=False)
         if choices:
-            self._questions.pop(text, None)
-            self._questions[text] = choices
-        for name, does in choices.items():
-            button = QPushButton(name)
-            button.clicked.connect(self._end)
-            button.clicked.connect(lambda _=False, does=does: does())
-            self._row.insertWidget(self._row.count() - 1, button)
-            self.buttons.append(button)
+            if not self.isHidden() and not self._failure:
+                self._kept.setdefault(self.text.text(), {})
+            self._kept.pop(text, None)
+            self._kept[text] = choices
+        self._show(text, choices)
 
     def withdraw(self, text: str) -> None:
         """Take the question `text` back, shown or covered; others stay."""
-        if self._questions.pop(text, None) is not None and self.text.text() == text:
+        if self._kept.pop(text, None) is not None and self.text.text() == text:
             self._show_next()
 
     def hide_failure(self) -> None:
@@ -69,22 +66,29 @@ class Banner(QFrame):
             self._end()
 
     def _end(self) -> None:
-        """End what is shown; a question that it covered comes back."""
-        if self.buttons:
-            self._questions.pop(self.text.text(), None)
+        """End what is shown; what it covered comes back."""
+        self._kept.pop(self.text.text(), None)
         self._show_next()
 
     def _show_next(self) -> None:
-        """Show the latest question that is open, or nothing."""
-        if self._questions:
-            self.show_text(*list(self._questions.items())[-1])
+        """Show the latest of what comes back, or nothing."""
+        if self._kept:
+            self._show(*list(self._kept.items())[-1])
         else:
             self.hide()
 
-    def _show(self, text: str, *, failure: bool) -> None:
+    def _show(
+        self, text: str, choices: Mapping[str, Callable[[], None]], *, failure: bool = False
+    ) -> None:
         for button in self.buttons:
             button.deleteLater()
         self.buttons = []
+        for name, does in choices.items():
+            button = QPushButton(name)
+            button.clicked.connect(self._end)
+            button.clicked.connect(lambda _=False, does=does: does())
+            self._row.insertWidget(self._row.count() - 1, button)
+            self.buttons.append(button)
         self.text.setText(text)
         self._failure = failure
         self._restyle()

@@ -261,7 +261,8 @@ def test_two_windows_on_one_project_keep_their_work_apart(
     theirs.edit("Add", lambda p: add_images(p, [str(tmp_path / "theirs.png")]))
     other.autosave_now()
     window.files.open_project(path)
-    qtbot.waitUntil(window.banner.isVisible)
+    qtbot.waitUntil(lambda: bool(window.banner.buttons))  # it asks for the images, which are gone
+    window.banner.dismiss.click()
     assert "open in another window" in window.banner.text.text() and not window.banner.buttons
     window.session.edit("Add", lambda p: add_images(p, [str(tmp_path / "mine.png")]))
     window.files.keep_work()

@@ -20,6 +20,7 @@ from calibgui.app.project import Project, record_result
 from calibgui.app.settings import Settings
 from calibgui.dataset import CornerSet, View
 from calibgui.engine.assessment import Cause, Grade
+from calibgui.engine.numbers import format_two_digits
 from calibgui.gui.panels.coverage import CoveragePanel
 from calibgui.gui.panels.residuals import ResidualsPanel
 from calibgui.gui.verdict.before_after import BeforeAndAfter
@@ -92,9 +93,8 @@ def test_a_sound_result_has_its_figures_and_no_button(plain: Project, open_proje
     verdict = bar.verdict
     assert verdict is not None and bar.mark.grade is verdict.grade
     assert bar.headline.text() in ("GOOD", "USABLE")
-    assert (
-        f"edge {verdict.error.edge:.2g}, worst {verdict.error.worst:.2g} px" in bar.figures.text()
-    )
+    edge, worst = map(format_two_digits, (verdict.error.edge, verdict.error.worst))
+    assert f"edge {edge}, worst {worst} px" in bar.figures.text()
     assert "RMS 0.0" in bar.figures.text() and "of 252 corners" in bar.figures.text()
     assert "if squares" not in bar.figures.text()
     assert not bar.button.isVisible() and not bar.unfold.isVisible()

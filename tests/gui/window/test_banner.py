@@ -42,3 +42,13 @@ def test_a_dismissed_question_is_gone(banner: Banner) -> None:
     banner.show_text("Stopped.")
     banner.dismiss.click()
     assert not banner.isVisible()
+
+
+def test_a_message_that_a_question_covers_comes_back(banner: Banner) -> None:
+    banner.show_text("It is open in another window.")
+    banner.show_text("Locate the images?", {"Locate": lambda: None})
+    banner.dismiss.click()
+    assert banner.text.text() == "It is open in another window." and banner.isVisible()
+    assert not banner.buttons
+    banner.dismiss.click()
+    assert not banner.isVisible()
