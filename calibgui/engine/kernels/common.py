@@ -36,6 +36,10 @@ THREADS = min(os.cpu_count() or 1, 8)
 """Number of threads that kernels share their views among."""
 VIEWS_PER_BLOCK = 64
 """Number of views that one thread takes at a time."""
+_MAX_SWEEPS = 30
+"""Number of sweeps of rotations that an eigenvector may take; five are usual."""
+_NEGLIGIBLE = 1e-36
+"""Sum of squares aside the diagonal, over that on it, at which a matrix counts as diagonal."""
 _MIN_BLOCKS_FOR_THREADS = 4
 """Number of blocks below which starting threads costs more than they save."""
 
@@ -176,3 +180,43 @@ def substitute(L: Array, b: Array) -> None:
         b[i] /= L[i, i]
         for k in range(i + 1, n):
             b[i] -= L[k, i] * b[k]
+
+
+@compiled_part
+def find_least_eigenvector(N: Array, V: Array) -> int:
+    """Fill the columns of V (n, n) with the eigenvectors of the symmetric N (n, n); return the
+    number of that for its least eigenvalue.
+
+    Jacobi's rotations (Golub and Van Loan 2013, section 8.5) leave the eigenvalues on the diagonal
+    of N.
+    """
+    n = N.shape[0]
+    for p in range(n):
+        for q in range(n):
+            V[p, q] = 1.0 if p == q else 0.0
+    for _ in range(_MAX_SWEEPS):
+        aside = total = 0.0
+        for p in range(n):
+            total += N[p, p] * N[p, p]
+            for q in range(p):
+                aside += N[p, q] * N[p, q]
+        if aside <= _NEGLIGIBLE * total:
+            break
+        for p in range(n):
+            for q in range(p):
+                if N[p, q] == 0:
+                    continue
+                theta = (N[q, q] - N[p, p]) / (2 * N[p, q])
+                t = 1 / (abs(theta) + np.sqrt(theta * theta + 1))
+                c = 1 / np.sqrt(t * t + 1)
+                s = t * c if theta >= 0 else -t * c
+                for k in range(n):
+                    N[k, p], N[k, q] = c * N[k, p] - s * N[k, q], s * N[k, p] + c * N[k, q]
+                for k in range(n):
+                    N[p, k], N[q, k] = c * N[p, k] - s * N[q, k], s * N[p, k] + c * N[q, k]
+                    V[k, p], V[k, q] = c * V[k, p] - s * V[k, q], s * V[k, p] + c * V[k, q]
+    least = 0
+    for k in range(1, n):
+        if N[k, k] < N[least, least]:
+            least = k
+    return least

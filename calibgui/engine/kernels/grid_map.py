@@ -9,17 +9,14 @@ from calibgui.engine.kernels.common import (
     compiled,
     compiled_part,
     factor,
+    find_least_eigenvector,
     gram,
     make_contiguous,
     substitute,
 )
 
-_MAX_SWEEPS = 30
-"""Number of sweeps of rotations that an eigenvector may take; five are usual."""
 _HOMOGRAPHY_DAMPING = 1e-15 / 3
-"""What ``geometry.homography`` adds to the diagonal of equations, over its sum."""
-_NEGLIGIBLE = 1e-36
-"""Sum of squares aside the diagonal, over that on it, at which a matrix counts as diagonal."""
+"""The part of the trace that ``geometry.homography`` adds to the diagonal of equations."""
 
 
 @compiled_part
@@ -162,42 +159,6 @@ def _differentiate_map(
 
 
 @compiled_part
-def _find_least_eigenvector(N: Array, V: Array) -> int:
-    """Return which column of V (n, n) is the eigenvector of the symmetric N (n, n) for its least
-    eigenvalue. Jacobi's rotations leave the eigenvalues on the diagonal of N."""
-    n = N.shape[0]
-    for p in range(n):
-        for q in range(n):
-            V[p, q] = 1.0 if p == q else 0.0
-    for _ in range(_MAX_SWEEPS):
-        aside = total = 0.0
-        for p in range(n):
-            total += N[p, p] * N[p, p]
-            for q in range(p):
-                aside += N[p, q] * N[p, q]
-        if aside <= _NEGLIGIBLE * total:
-            break
-        for p in range(n):
-            for q in range(p):
-                if N[p, q] == 0:
-                    continue
-                theta = (N[q, q] - N[p, p]) / (2 * N[p, q])
-                t = 1 / (abs(theta) + np.sqrt(theta * theta + 1))
-                c = 1 / np.sqrt(t * t + 1)
-                s = t * c if theta >= 0 else -t * c
-                for k in range(n):
-                    N[k, p], N[k, q] = c * N[k, p] - s * N[k, q], s * N[k, p] + c * N[k, q]
-                for k in range(n):
-                    N[p, k], N[q, k] = c * N[p, k] - s * N[q, k], s * N[p, k] + c * N[q, k]
-                    V[k, p], V[k, q] = c * V[k, p] - s * V[k, q], s * V[k, p] + c * V[k, q]
-    least = 0
-    for k in range(1, n):
-        if N[k, k] < N[least, least]:
-            least = k
-    return least
-
-
-@compiled_part
 def _solve_ratios(s: Array, t: Array, damping: float, M: Array) -> None:
     """Fill M (3, k) such that the places t (n, 2) are (M s)[:2] / (M s)[2], by least squares, for
     the rows s (n, k)."""
@@ -231,7 +192,7 @@ def _solve_ratios(s: Array, t: Array, damping: float, M: Array) -> None:
             for c in range(k):
                 N[a, b] -= sums[1, a, c] * solved[0, b, c] + sums[2, a, c] * solved[1, b, c]
     V = sums[3]
-    least = _find_least_eigenvector(N, V)
+    least = find_least_eigenvector(N, V)
     for a in range(k):
         M[2, a] = V[a, least]
         M[0, a] = M[1, a] = 0.0

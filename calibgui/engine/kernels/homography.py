@@ -1,7 +1,6 @@
 """The direct linear transformation, compiled: ``geometry.homography.fit_homographies``.
 
-The symbols are that module's. Sums of s s^T by a weight are symmetric (3, 3) matrices; the
-eigenvector of one is found by Jacobi's rotations (Golub and Van Loan 2013, section 8.5).
+The symbols are that module's. Sums of s s^T by a weight are symmetric (3, 3) matrices.
 """
 
 from __future__ import annotations
@@ -13,15 +12,11 @@ from calibgui.engine.kernels.common import (
     compiled,
     compiled_part,
     factor,
+    find_least_eigenvector,
     make_contiguous,
     run_in_blocks,
     substitute,
 )
-
-_MAX_SWEEPS = 20
-"""Number of sweeps over all entries, of which Jacobi's method needs some five."""
-_MIN_SQUARE = 1e-34
-"""Square of what is off the diagonal, relative to that on it, that rounding errors leave."""
 
 
 @compiled_part
@@ -70,41 +65,6 @@ def _sum_moments(s: Array, d: Array, weight: Array, by: Array, sums: Array) -> N
         S[0, 1] = S[1, 0] = xy
         S[0, 2] = S[2, 0] = x1
         S[1, 2] = S[2, 1] = y1
-
-
-@compiled_part
-def find_least_eigenvector(A: Array, V: Array) -> int:
-    """Fill the columns of V (3, 3) with the eigenvectors of a symmetric A (3, 3), which becomes
-    diagonal; return the number of the column of the least eigenvalue."""
-    for i in range(3):
-        for j in range(3):
-            V[i, j] = 1.0 if i == j else 0.0
-    for _ in range(_MAX_SWEEPS):
-        beside = A[0, 1] ** 2 + A[0, 2] ** 2 + A[1, 2] ** 2
-        if beside <= _MIN_SQUARE * (A[0, 0] ** 2 + A[1, 1] ** 2 + A[2, 2] ** 2):
-            break
-        for p in range(2):
-            for q in range(p + 1, 3):
-                if A[p, q] == 0:
-                    continue
-                cotangent = (A[q, q] - A[p, p]) / (2 * A[p, q])  # of twice the angle
-                t = 1 / (abs(cotangent) + np.sqrt(cotangent * cotangent + 1))
-                t = t if cotangent >= 0 else -t
-                c = 1 / np.sqrt(t * t + 1)
-                s = t * c
-                for k in range(3):
-                    a, b = A[k, p], A[k, q]
-                    A[k, p], A[k, q] = c * a - s * b, s * a + c * b
-                for k in range(3):
-                    a, b = A[p, k], A[q, k]
-                    A[p, k], A[q, k] = c * a - s * b, s * a + c * b
-                    a, b = V[k, p], V[k, q]
-                    V[k, p], V[k, q] = c * a - s * b, s * a + c * b
-    least = 0
-    for i in range(1, 3):
-        if A[i, i] < A[least, least]:
-            least = i
-    return least
 
 
 @compiled

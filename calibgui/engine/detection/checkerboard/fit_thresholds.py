@@ -116,7 +116,8 @@ class EdgeFitThresholds:
     """Distance, in blurs, over which the blur of what follows a square's colour is felt. With 1.5
     the covariances of corners between markers were 1.2 to 1.4 times too large."""
     spread_blur_reach: float = 3.0
-    """The same distance for the spread of the ink, which is far smaller than a blur."""
+    """Distance, in blurs, over which the blur of what follows the ink's spread is felt; the spread
+    is far smaller than a blur."""
     min_spread_blurs: float = 2.0
     """Least width, in blurs, on either side of an edge that the spread is measured over."""
 
