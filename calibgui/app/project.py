@@ -75,7 +75,7 @@ class Project:
         pattern = infer_pattern(self.views, self.pattern)
         return None if grid_size is None else Board(*grid_size, self.square, pattern)
 
-    @property
+    @cached_property
     def usable(self) -> tuple[View, ...]:
         """Views that a calibration would use."""
         return tuple(view for view in self.views if view.usable)

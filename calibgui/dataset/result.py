@@ -41,8 +41,12 @@ class Result:
     """Versions of the programs that made the calibration, by name."""
     lengths_confirmed: bool = True
     """False if nobody has stated the side of a square: all lengths then hold if it is that."""
+    places: tuple[int, ...] = field(init=False, repr=False)
+    """Indices in `views` of those that take part, in the order of the calibration's poses."""
 
     def __post_init__(self) -> None:
+        places = tuple(k for k, view in enumerate(self.views) if view.usable)
+        object.__setattr__(self, "places", places)
         if len(self.used) != len(self.calibration.poses):
             raise ValueError(
                 f"{len(self.calibration.poses)} poses do not answer {len(self.used)} usable views"
@@ -51,7 +55,7 @@ class Result:
     @property
     def used(self) -> tuple[View, ...]:
         """Views that take part, in the order of the calibration's poses."""
-        return tuple(view for view in self.views if view.usable)
+        return tuple(self.views[k] for k in self.places)
 
     def observations(self) -> list[Observation]:
         """Return the corners of the used views, with their points on the board."""

@@ -378,7 +378,7 @@ def _describe_other_boards(view: View) -> str:
 
 def _list_view_numbers(result: Result) -> list[int]:
     """List the number of each used view in the list of all, counted from 1."""
-    return [number for number, view in enumerate(result.views, start=1) if view.usable]
+    return [place + 1 for place in result.places]
 
 
 def _format_parameter(calibration: Calibration, name: str, value: float, sigma: float) -> str:

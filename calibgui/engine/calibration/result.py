@@ -176,7 +176,7 @@ class ViewResiduals:
     @property
     def rms(self) -> float:
         """Root mean square length of the residual in the image, px."""
-        return float(np.sqrt(np.mean(np.sum(self.image**2, axis=1))))
+        return float(np.sqrt(np.vdot(self.image, self.image) / len(self.image)))
 
 
 @dataclass(frozen=True, eq=False, slots=True)

@@ -134,7 +134,7 @@ class Evidence(QObject):
 
 def _draw_coverage(result: Result, _: Job) -> Drawing:
     """Draw the corners of all views, each view's in its colour."""
-    used = [i for i, view in enumerate(result.views) if view.usable]
+    used = result.places
     dots = tuple(
         (observation.uv, theme.view_colour(i))
         for i, observation in zip(used, result.observations(), strict=True)

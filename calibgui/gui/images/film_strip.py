@@ -48,8 +48,14 @@ class _Order(QSortFilterProxyModel):
         super().__init__(model)
         self._model = model
         self.setSourceModel(model)
-        self.setDynamicSortFilter(True)
+        self.sort_by(Criterion.NAME)
         self.sort(0)
+
+    def sort_by(self, criterion: Criterion) -> None:
+        """Sort by another criterion, and anew when an image changes; only names never do."""
+        self.criterion = criterion
+        self.setDynamicSortFilter(criterion is not Criterion.NAME)
+        self.invalidate()
 
     def lessThan(self, left: Index, right: Index) -> bool:  # noqa: N802 - Qt's name
         key = self._model.sort_key
@@ -247,8 +253,7 @@ class FilmStrip(QWidget):
         self.list.selectionModel().select(chosen, QItemSelectionModel.SelectionFlag.ClearAndSelect)
 
     def _sort_by(self, criterion: int) -> None:
-        self._order.criterion = Criterion(criterion)
-        self._order.invalidate()
+        self._order.sort_by(Criterion(criterion))
 
     def _current_changed(self, current: QModelIndex) -> None:
         if current.isValid() and current.data(Role.PATH) != self._session.image:

@@ -219,7 +219,8 @@ class Analysis(QWidget):
         return bar
 
     def _project_changed(self, before: Project, after: Project) -> None:
-        if before.results is not after.results:
+        is_another_due = self._session.result is not self._shown  # which lists them itself
+        if before.results is not after.results and not is_another_due:
             self._list_results()
         self._show_state()
 

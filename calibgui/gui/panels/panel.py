@@ -69,8 +69,7 @@ class Panel(QWidget):
         """Show this result; None for none."""
         self._result = result
         self._selected = (-1, -1)
-        views = () if result is None else result.views
-        self._indices = tuple(i for i, view in enumerate(views) if view.usable)
+        self._indices = () if result is None else result.places
         missing = self.tr(self.hint) if result is None else self._missing(result)
         self._empty.setText(missing)
         self._stack.setCurrentIndex(0 if missing else 1)

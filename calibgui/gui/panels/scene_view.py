@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from itertools import islice
 from typing import NamedTuple
 
 import numpy as np
@@ -158,15 +159,16 @@ class SceneView(QWidget):
             return
         self.axis_numbers = self._paint_axes(painter)
         # What is pointed at shows through all that stands before it.
-        for item in sorted(self._drawn, key=lambda item: self._rank(item.polygon.view)):
+        placed = self._place_polygons()
+        for item, corners in sorted(placed, key=lambda pair: self._rank(pair[0].polygon.view)):
             is_smooth = len(self._drawn) <= _SMOOTHED or self._rank(item.polygon.view) > 0
             painter.setRenderHint(QPainter.RenderHint.Antialiasing, is_smooth)
-            self._paint_polygon(painter, item)
+            self._paint_polygon(painter, item, corners)
         painter.setRenderHint(QPainter.RenderHint.Antialiasing)
         for number in self.axis_numbers:  # over the boards, which stand before most of them
             painter.setPen(number.colour)
             painter.drawText(number.place, _ONE_LINE, number.text)
-        self._paint_numbers(painter)
+        self._paint_numbers(painter, placed)
         painter.setPen(QColor(theme.current().muted))
         painter.drawText(self._find_room_below(), _BELOW, self._condition)
 
@@ -202,17 +204,23 @@ class SceneView(QWidget):
             return 0
         return 2 if view == self._selected else int(view == self._under_cursor)
 
-    def _paint_polygon(self, painter: QPainter, item: DrawnPolygon) -> None:
-        view = item.polygon.view
+    def _place_polygons(self) -> list[tuple[DrawnPolygon, list[QPointF]]]:
+        """Return what is drawn, the farthest first, with its corners in the widget."""
+        places = iter(self.to_widget(np.concatenate([item.points for item in self._drawn])))
+        return [(item, list(islice(places, len(item.points)))) for item in self._drawn]
+
+    def _paint_polygon(
+        self, painter: QPainter, item: DrawnPolygon, points: Sequence[QPointF]
+    ) -> None:
+        view, colours = item.polygon.view, theme.current()
         rank = self._rank(view)
-        colour = QColor(theme.current().muted) if view < 0 else self._colours[view]
+        colour = QColor(colours.muted) if view < 0 else self._colours[view]
         # Mixed with the ground, not translucent: those are drawn in a third of the time.
-        outline = _mix(colour, theme.current().base, 1.0 if rank else self._opacity(item.depth))
+        outline = _mix(colour, colours.base, 1.0 if rank else self._opacity(item.depth))
         inside = QColor(colour)
         inside.setAlpha((0, 70, 140)[rank])
         painter.setPen(QPen(outline, (1.0, 1.8, 2.5)[rank]))
         painter.setBrush(inside if rank else Qt.BrushStyle.NoBrush)
-        points = self.to_widget(item.points)
         painter.drawPolygon(points)
         if item.polygon.kind is PolygonKind.BOARD and rank:
             self._paint_board_axes(painter, points)
@@ -222,7 +230,7 @@ class SceneView(QWidget):
         far, near = self._drawn[0].depth, self._drawn[-1].depth  # the farthest is painted first
         return 1.0 - (1.0 - _FADED) * (depth - near) / max(far - near, 1e-9)
 
-    def _paint_board_axes(self, painter: QPainter, points: list[QPointF]) -> None:
+    def _paint_board_axes(self, painter: QPainter, points: Sequence[QPointF]) -> None:
         """The board's origin, with the beginnings of its X (red) and Y axis (green)."""
         origin, along_x, _, along_y = points
         for end, colour in ((along_x, theme.current().bad), (along_y, theme.current().good)):
@@ -257,7 +265,9 @@ class SceneView(QWidget):
                 last = place
         return numbers
 
-    def _paint_numbers(self, painter: QPainter) -> None:
+    def _paint_numbers(
+        self, painter: QPainter, placed: Sequence[tuple[DrawnPolygon, list[QPointF]]]
+    ) -> None:
         """The views' numbers, the selected one's first, then from the nearest to the farthest.
 
         They leave the axes' numbers their places.
@@ -267,32 +277,35 @@ class SceneView(QWidget):
         metrics = painter.fontMetrics()
         # The faces of one camera are drawn one by one: the nearest has the number.
         nearest = {
-            item.polygon.view: item
-            for item in self._drawn
+            item.polygon.view: (item, corners)
+            for item, corners in placed
             if 0 <= item.polygon.view < len(self._numbers)
         }
-        in_order = sorted(nearest.items(), key=lambda pair: (-self._rank(pair[0]), pair[1].depth))
-        for view, item in in_order[:_NUMBERED]:
+        in_order = sorted(nearest.items(), key=lambda n: (-self._rank(n[0]), n[1][0].depth))
+        for view, (item, corners) in in_order[:_NUMBERED]:
             text = self._numbers[view]
             box = QRectF(0, 0, metrics.horizontalAdvance(text) + 6, metrics.height())
-            place = self._find_room(box, item, [*on_axes, *self.numbers_shown.values()])
+            place = self._find_room(box, corners, [*on_axes, *self.numbers_shown.values()])
+            if place is None and self._rank(view):
+                place = self._keep_inside(box)  # it has a number even if it covers another
             if place is not None:
                 self.numbers_shown[view] = place
                 self._paint_number(painter, place, text, item)
 
-    def _find_room(self, box: QRectF, item: DrawnPolygon, taken: Sequence[QRectF]) -> QRectF | None:
+    def _find_room(
+        self, box: QRectF, corners: Sequence[QPointF], taken: Sequence[QRectF]
+    ) -> QRectF | None:
         """Return the box at a place on the polygon that no number has taken; None if there is none.
 
-        The selected view has its number even if it covers another.
+        The box itself is moved to the last place tried.
         """
-        corners = self.to_widget(item.points)
-        middle = QPointF(*np.mean([(p.x(), p.y()) for p in corners], axis=0))
+        middle = sum(corners, QPointF()) / len(corners)
         for corner in corners:
             box.moveCenter(corner + (middle - corner) * 0.15)
             inside = self._keep_inside(box)
             if not any(inside.intersects(other) for other in taken):
                 return inside
-        return self._keep_inside(box) if self._rank(item.polygon.view) else None
+        return None
 
     def _paint_number(self, painter: QPainter, box: QRectF, text: str, item: DrawnPolygon) -> None:
         colours, rank = theme.current(), self._rank(item.polygon.view)

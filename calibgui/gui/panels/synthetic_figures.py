@@ -23,6 +23,8 @@ from calibgui.gui.widgets.tables import Column, Table, with_decimals, with_digit
 from calibgui.report.comparison import compare_parameters
 
 _BINS = 50
+_LEAST_BESIDE = 500
+"""Least width of two plots side by side, px."""
 _COMPONENTS = ("Δx′", "Δy′", "e′")
 
 
@@ -75,16 +77,22 @@ class PoseErrors(Plot):
         )
 
 
-class Scatters(Split):
+class Scatters(QWidget):
     """Figure 15: the residuals of real and synthetic views."""
 
     def __init__(self) -> None:
-        self.plots = ResidualScatter(), ResidualScatter()
-        super().__init__(500, *((plot, 1) for plot in self.plots))
+        super().__init__()
+        self.plots: tuple[ResidualScatter, ...] = ()
+        """The two plots, once there is something to show: to make them takes a while."""
+        self._layout = QVBoxLayout(self)
+        self._layout.setContentsMargins(0, 0, 0, 0)
 
     def show_check(self, check: SyntheticCheck) -> None:
         """Show the residuals on the reference plane."""
-        real = [i for i, view in enumerate(check.real.views) if view.usable]
+        if not self.plots:
+            self.plots = ResidualScatter(), ResidualScatter()
+            self._layout.addWidget(Split(_LEAST_BESIDE, *((plot, 1) for plot in self.plots)))
+        real = check.real.places
         found_again = [i for i, v in zip(real, check.synthetic.views, strict=True) if v.usable]
         for result, views, plot, name in (
             (check.real, real, self.plots[0], self.tr("real")),
@@ -115,15 +123,18 @@ class Histograms(QWidget):
             self.tr("The residuals' components on the reference plane, or their length e′.")
         )
         self.component.currentIndexChanged.connect(self._draw)
-        self.plots = HistogramPlot(), HistogramPlot()
+        self.plots: tuple[HistogramPlot, ...] = ()
+        """The two plots, once there is something to show: to make them takes a while."""
         self._check: SyntheticCheck | None = None
-        layout = QVBoxLayout(self)
-        layout.setContentsMargins(0, theme.SPACING, 0, 0)
-        layout.addWidget(self.component, 0, Qt.AlignmentFlag.AlignLeft)
-        layout.addWidget(Split(500, *((plot, 1) for plot in self.plots)), 1)
+        self._layout = QVBoxLayout(self)
+        self._layout.setContentsMargins(0, theme.SPACING, 0, 0)
+        self._layout.addWidget(self.component, 0, Qt.AlignmentFlag.AlignLeft)
 
     def show_check(self, check: SyntheticCheck) -> None:
         """Show the component that is chosen."""
+        if not self.plots:
+            self.plots = HistogramPlot(), HistogramPlot()
+            self._layout.addWidget(Split(_LEAST_BESIDE, *((plot, 1) for plot in self.plots)), 1)
         self._check = check
         self._draw()
 

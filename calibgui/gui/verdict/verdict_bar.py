@@ -132,8 +132,11 @@ class VerdictBar(QFrame):
         self._show()
 
     def _show_age(self) -> None:
-        """Show whether the result is of the project as it is now, if that has changed."""
-        if self._is_old is not self._is_out_of_date():
+        """Show whether the result is of the project as it is now, if that has changed.
+
+        A result that is about to take its place is shown then.
+        """
+        if self._session.result is self._result and self._is_old is not self._is_out_of_date():
             self._show()
 
     def _is_out_of_date(self) -> bool:

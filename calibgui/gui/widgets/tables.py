@@ -7,22 +7,30 @@ import io
 import math
 from collections.abc import Callable, Collection, Sequence
 from dataclasses import dataclass
+from numbers import Real
 from pathlib import Path
 from typing import Any
 
 from PySide6.QtCore import (
-    QAbstractTableModel,
     QEvent,
     QItemSelectionModel,
     QModelIndex,
-    QPersistentModelIndex,
     QPoint,
     QSize,
     QSortFilterProxyModel,
     Qt,
     Signal,
 )
-from PySide6.QtGui import QAction, QColor, QGuiApplication, QKeySequence, QResizeEvent, QShowEvent
+from PySide6.QtGui import (
+    QAction,
+    QColor,
+    QGuiApplication,
+    QKeySequence,
+    QResizeEvent,
+    QShowEvent,
+    QStandardItem,
+    QStandardItemModel,
+)
 from PySide6.QtWidgets import (
     QAbstractItemView,
     QHeaderView,
@@ -37,7 +45,6 @@ from calibgui.gui.widgets.actions import COPY_TABLE
 from calibgui.gui.widgets.glossary import explain, list_terms
 from calibgui.gui.widgets.save_names import ask_for_name
 
-Index = QModelIndex | QPersistentModelIndex
 _SORT_ROLE = Qt.ItemDataRole.UserRole
 
 
@@ -90,58 +97,77 @@ def with_decimals(decimals: int) -> Callable[[float], str]:
     return text
 
 
-class _Model(QAbstractTableModel):
-    def __init__(self, parent: QWidget) -> None:
-        super().__init__(parent)
-        self.columns: tuple[Column, ...] = ()
-        self.marked: dict[int, str] = {}
-        self.hovered = -1
+class _Model(QStandardItemModel):
+    """Holds what a table shows of each value, and what it is sorted by.
 
-    def show(self, columns: Sequence[Column], marked: dict[int, str]) -> None:
-        self.beginResetModel()
-        self.columns, self.marked, self.hovered = tuple(columns), marked, -1
-        self.endResetModel()
+    Qt asks for that dozens of times when it measures and paints a cell, and would wait for the
+    interpreter each time while another thread computes: so all of it is handed over at once.
+    """
 
-    def rowCount(self, parent: Index = QModelIndex()) -> int:  # noqa: N802, B008 - Qt's signature
-        return 0 if parent.isValid() or not self.columns else len(self.columns[0].values)
+    def __init__(
+        self, columns: Sequence[Column] = (), marked: dict[int, str] | None = None
+    ) -> None:
+        super().__init__()
+        self.columns, self._marked, self._hovered = tuple(columns), marked or {}, -1
+        for place, column in enumerate(columns):
+            tips = self._list_tips(place)
+            self.appendColumn(
+                list(map(_make_cell, column.values, map(column.text, column.values), tips))
+            )
+            heading = QStandardItem(_join_heading(column))
+            heading.setToolTip(column.tip or explain(column.title))
+            self.setHorizontalHeaderItem(place, heading)
+        self.tint()
 
-    def columnCount(self, parent: Index = QModelIndex()) -> int:  # noqa: N802, B008
-        return 0 if parent.isValid() else len(self.columns)
+    def hover(self, row: int) -> None:
+        """Tint the row that the cursor is over; none if it is negative."""
+        before, self._hovered = self._hovered, row
+        for changed in (before, row):
+            self._tint_row(changed)
 
-    def data(self, index: Index, role: int = Qt.ItemDataRole.DisplayRole) -> Any:
-        column = self.columns[index.column()]
-        value = column.values[index.row()]
-        if role == Qt.ItemDataRole.DisplayRole:
-            return column.text(value)
-        if role == _SORT_ROLE:
-            # NaN has no order: it goes to the end.
-            return math.inf if isinstance(value, float) and math.isnan(value) else value
-        if role == Qt.ItemDataRole.TextAlignmentRole:
-            side = Qt.AlignmentFlag.AlignLeft if isinstance(value, str) else _RIGHT
-            return int(side | Qt.AlignmentFlag.AlignVCenter)
-        if role == Qt.ItemDataRole.BackgroundRole:
-            if index.row() == self.hovered:
-                tint = QColor(theme.current().accent)
-                tint.setAlpha(_TINT)
-                return tint
-            return QColor(theme.current().bad_base) if index.row() in self.marked else None
-        if role == Qt.ItemDataRole.ToolTipRole:
-            own = column.tips[index.row()] if column.tips else ""
-            tip = own or column.tip or (list_terms().get(value) if index.column() == 0 else "")
-            return self.marked.get(index.row()) or tip or None
-        return None
+    def tint(self) -> None:
+        """Tint the rows that stand out, in the present colours."""
+        for row in {*self._marked, self._hovered}:
+            self._tint_row(row)
 
-    def headerData(  # noqa: N802 - Qt's name
-        self, section: int, orientation: Qt.Orientation, role: int = Qt.ItemDataRole.DisplayRole
-    ) -> Any:
-        if orientation == Qt.Orientation.Horizontal and section < len(self.columns):
-            column = self.columns[section]
-            if role == Qt.ItemDataRole.DisplayRole:
-                heading = column.heading or column.title
-                return f"{heading}\n[{column.unit}]" if column.unit else heading
-            if role == Qt.ItemDataRole.ToolTipRole:
-                return column.tip or explain(column.title) or None
-        return None
+    def _tint_row(self, row: int) -> None:
+        colours, ground = theme.current(), None
+        if row == self._hovered:
+            ground = QColor(colours.accent)
+            ground.setAlpha(_TINT)
+        elif row in self._marked:
+            ground = QColor(colours.bad_base)
+        for place in range(self.columnCount()):
+            if (cell := self.item(row, place)) is not None:
+                cell.setData(ground, Qt.ItemDataRole.BackgroundRole)
+
+    def _list_tips(self, place: int) -> list[str]:
+        """List the tooltips of a column's cells."""
+        column = self.columns[place]
+        own = column.tips or [""] * len(column.values)
+        terms = list_terms() if place == 0 else {}
+        return [
+            self._marked.get(row) or tip or column.tip or terms.get(value, "")
+            for row, (value, tip) in enumerate(zip(column.values, own, strict=True))
+        ]
+
+
+def _make_cell(value: Any, text: str, tip: str) -> QStandardItem:
+    cell = QStandardItem(text)
+    cell.setFlags(Qt.ItemFlag.ItemIsEnabled | Qt.ItemFlag.ItemIsSelectable)
+    cell.setToolTip(tip)
+    side = Qt.AlignmentFlag.AlignLeft if isinstance(value, str) else _RIGHT
+    cell.setTextAlignment(side | Qt.AlignmentFlag.AlignVCenter)
+    if isinstance(value, Real):  # NaN has no order: it goes to the end
+        value = math.inf if math.isnan(value) else float(value)
+    cell.setData(value, _SORT_ROLE)
+    return cell
+
+
+def _join_heading(column: Column) -> str:
+    """Join the heading of a column and the unit below it."""
+    heading = column.heading or column.title
+    return f"{heading}\n[{column.unit}]" if column.unit else heading
 
 
 _RIGHT = Qt.AlignmentFlag.AlignRight
@@ -182,7 +208,7 @@ class Table(QTableView):
 
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
-        self._model = _Model(self)
+        self._model = _Model()
         self._order = QSortFilterProxyModel(self)
         self._order.setSourceModel(self._model)
         self._order.setSortRole(_SORT_ROLE)
@@ -195,6 +221,7 @@ class Table(QTableView):
         self.sortByColumn(-1, Qt.SortOrder.AscendingOrder)
         self.setSelectionBehavior(QAbstractItemView.SelectionBehavior.SelectRows)
         self.setAlternatingRowColors(True)
+        self.setEditTriggers(QAbstractItemView.EditTrigger.NoEditTriggers)
         self.setAccessibleName(self.tr("Table"))
         self.setWordWrap(False)
         self.setTextElideMode(Qt.TextElideMode.ElideMiddle)
@@ -222,7 +249,8 @@ class Table(QTableView):
     ) -> None:
         """Show these columns; `marked` rows stand out, each with its reason as the tooltip."""
         reasons = marked if isinstance(marked, dict) else dict.fromkeys(marked, "")
-        self._model.show(columns, reasons)
+        self._model = _Model(columns, reasons)
+        self._order.setSourceModel(self._model)
         self.setAccessibleName(
             self.tr("Table of {0}").format(", ".join(c.title for c in columns if not c.hidden))
         )
@@ -245,8 +273,7 @@ class Table(QTableView):
 
     def hover(self, row: int) -> None:
         """Tint a row that the cursor is over, here or elsewhere; none if it is negative."""
-        self._model.hovered = row
-        self.viewport().update()
+        self._model.hover(row)
         if row >= 0 and not self.underMouse():  # nothing moves under the cursor
             self.scrollTo(self._order.mapFromSource(self._model.index(row, 0)))
 
@@ -279,6 +306,11 @@ class Table(QTableView):
     def leaveEvent(self, event: QEvent) -> None:  # noqa: N802 - Qt's name
         super().leaveEvent(event)
         self.hovered.emit(-1)
+
+    def changeEvent(self, event: QEvent) -> None:  # noqa: N802 - Qt's name
+        super().changeEvent(event)
+        if event.type() == QEvent.Type.PaletteChange and hasattr(self, "_model"):
+            self._model.tint()
 
     def showEvent(self, event: QShowEvent) -> None:  # noqa: N802 - Qt's name
         super().showEvent(event)

@@ -110,7 +110,7 @@ def test_only_the_tab_in_front_is_drawn(
     panel = panel_of(small, jobs, qtbot)
     panel._done(check)
     assert panel.table.model().rowCount() == 10
-    assert not panel.scatters.plots[0]._points
+    assert not panel.scatters.plots
     panel.tabs.setCurrentWidget(panel.scatters)
     assert len(panel.scatters.plots[0]._points) == 5
     assert not jobs.running
