@@ -7,10 +7,10 @@ import io
 import math
 from collections.abc import Callable, Collection, Sequence
 from dataclasses import dataclass
-from numbers import Real
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 from PySide6.QtCore import (
     QEvent,
     QItemSelectionModel,
@@ -154,12 +154,11 @@ class _Model(QStandardItemModel):
 
 def _make_cell(value: Any, text: str, tip: str) -> QStandardItem:
     cell = QStandardItem(text)
-    cell.setFlags(Qt.ItemFlag.ItemIsEnabled | Qt.ItemFlag.ItemIsSelectable)
-    cell.setToolTip(tip)
-    side = Qt.AlignmentFlag.AlignLeft if isinstance(value, str) else _RIGHT
-    cell.setTextAlignment(side | Qt.AlignmentFlag.AlignVCenter)
-    if isinstance(value, Real):  # NaN has no order: it goes to the end
-        value = math.inf if math.isnan(value) else float(value)
+    if tip:
+        cell.setToolTip(tip)
+    if isinstance(value, int | float | np.number):
+        cell.setTextAlignment(_NUMBERS)
+        value = math.inf if math.isnan(value) else float(value)  # NaN, without order, comes last
     cell.setData(value, _SORT_ROLE)
     return cell
 
@@ -170,7 +169,8 @@ def _join_heading(column: Column) -> str:
     return f"{heading}\n[{column.unit}]" if column.unit else heading
 
 
-_RIGHT = Qt.AlignmentFlag.AlignRight
+_NUMBERS = Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter
+"""Where numbers stand in their cells."""
 _LEGIBLE = 8
 """Characters of the first column that are shown however narrow the table is."""
 _TINT = 60
