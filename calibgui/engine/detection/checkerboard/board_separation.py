@@ -62,11 +62,13 @@ def _measure_misfit(parts: list[Lattice]) -> float:
 
 
 def _measure_offsets(lattice: Lattice) -> Array:
-    """Measure the distances (n,) of a lattice's corners from its smooth grid map, steps."""
+    """Measure the distances (n,) of a lattice's corners from its smooth grid map, steps of the map:
+    those between the corners are 0 where two of them coincide."""
     found = lattice.found
-    expected = grid_map.fit_grid_map(lattice).locate(np.argwhere(found).astype(np.float64))
-    off = np.linalg.norm(lattice.uv[found] - expected, axis=1)
-    return np.asarray(off / lattice.spacing()[found])
+    uv = lattice.uv.copy()
+    uv[found] = grid_map.fit_grid_map(lattice).locate(np.argwhere(found).astype(np.float64))
+    off = np.linalg.norm(lattice.uv[found] - uv[found], axis=1)
+    return np.asarray(off / Lattice(uv, lattice.dark).spacing()[found])
 
 
 def _cut_at_crease(lattice: Lattice, misfit: float) -> tuple[Lattice, Lattice] | None:

@@ -62,6 +62,14 @@ def test_one_board_is_left_as_it_is(conditions: Conditions) -> None:
     assert separate_boards(lattice, NOWHERE) == [lattice]
 
 
+def test_corners_that_coincide_are_no_crease() -> None:
+    """Where the end of a line coincides with its neighbour the step there is 0."""
+    uv = draw(Conditions(grid_size=(4, 5), parts=1), 3).uv
+    uv[0, 0] = uv[0, 1]
+    (part,) = separate_boards(Lattice(uv, True), NOWHERE)
+    assert part.shape == (4, 5)
+
+
 def test_what_a_board_has_grown_into_is_left_out() -> None:
     scene = draw(Conditions(parts=2), 3)
     uv = np.full((8, 11, 2), np.nan)
