@@ -1,32 +1,47 @@
 """The normal equations of the outlines of tags, compiled: see ``detection.apriltags.tag_outlines``.
 
-The columns of a few pixels at a time are kept, so that their products are formed from what the
-processor's first cache holds.
+The pixels of an edge are sorted by the edge that they see beside it, its neighbour at either end or
+none, and taken in blocks that the processor's first cache holds, so that all of a block have the
+same columns and the loops over it turn into vector instructions: see ``x_corner_model``, whose
+blurred edge is taken. All but the sums over blocks is float32.
 """
 
 from __future__ import annotations
 
-from math import erf, exp
-from typing import Protocol
+from typing import Any, Protocol
 
 import numpy as np
+import numpy.typing as npt
 
 from calibgui.engine.arrays import Array, GreyImage
 from calibgui.engine.kernels.common import (
     bilinear,
     compiled,
     compiled_part,
-    gram,
     make_contiguous,
     make_read_only,
 )
+from calibgui.engine.kernels.x_corner_model import BLOCK, fill_edge
 
+_Floats = npt.NDArray[np.floating[Any]]
+"""Arrays of float32."""
+_Ints = npt.NDArray[np.signedinteger[Any]]
+"""Arrays of int64."""
 _COLUMNS = 17
 """Number of columns: sixteen unknowns and the residual."""
-_BLOCK = 64
-"""Number of pixels taken at once."""
-_ROOT2, _ROOT_PI, _ROOT2_PI = np.sqrt(2.0), np.sqrt(np.pi), np.sqrt(2 / np.pi)
-_MIN_GAUSSIAN2 = 0.01
+_D, _DO, _S, _SO, _X, _Y, _GREY, _B, _BO, _ZERO, _E, _EO, _J = (
+    BLOCK * row for row in (0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 13, 16)
+)
+"""Where the rows of a block begin: distances from the edge and from the one beside it, shares along
+both, places in halves of the tag's side from its middle, grey levels, blurs of both edges, zeros;
+value, slope and derivative by the blur of both; the columns of the normal equations."""
+_ROWS = 16 + _COLUMNS
+"""Number of rows."""
+_FAR = 5.7
+"""Distance from an edge, in blurs and half widths of a pixel, at which nothing of its blur is left
+in a float32."""
+_F = np.float32
+_HALF, _ONE, _NO = _F(0.5), _F(1), _F(0)
 
 
 class _Model(Protocol):
@@ -47,101 +62,143 @@ class _Model(Protocol):
 
 
 @compiled_part
-def _compute_edge(d: float, s: float, box: float) -> tuple[float, float, float]:
-    """Compute value, slope and derivative by the blur s of ``compute_edge`` at the distance d; the
-    half width box of the pixel is 0 where it is part of the blur."""
-    if box == 0:
-        x = d / (_ROOT2 * s)
-        slope = exp(-x * x) * (_ROOT2_PI / s)
-        return erf(x), slope, -d / s * slope
-    g = np.sqrt(max(s * s - box * box / 3, _MIN_GAUSSIAN2))
-    a, b = (d + box) / (_ROOT2 * g), (d - box) / (_ROOT2 * g)
-    fall = exp(-a * a) - exp(-b * b)
-    erf_a, erf_b = erf(a), erf(b)
-    value = (a * erf_a - b * erf_b + fall / _ROOT_PI) * (g / (_ROOT2 * box))
-    return value, (erf_a - erf_b) / (2 * box), fall * (_ROOT2_PI / (2 * box) * (s / g))
-
-
-@compiled_part
 def _measure(
-    p: float, q: float, corners: Array, edges: Array, curvature: Array, s: Array, d: Array
-) -> None:
-    """Fill s over the length and d (4,) px with the place of (p, q) along and within the edges,
-    whose length, tangent and inward normal are edges (4, 5)."""
+    p: float, q: float, k: int, corners: Array, edges: Array, curvature: Array
+) -> tuple[float, float]:
+    """Compute s over the length, and d px, of (p, q) along and within edge k, whose length, tangent
+    and inward normal are edges (4, 5)."""
+    length = edges[k, 0]
+    x, y = p - corners[k, 0], q - corners[k, 1]
+    s = (edges[k, 1] * x + edges[k, 2] * y) / length
+    bow = curvature[k] * length * length / 2
+    return s, edges[k, 3] * x + edges[k, 4] * y + bow * s * (1 - s)
+
+
+@compiled_part
+def _is_within(s: float, d: float, length: float, band: Array) -> bool:
+    """Return whether a pixel lies in the band (2,) of an edge."""
+    return -band[0] <= d <= band[1] and abs(s - 0.5) <= 0.5 + band[0] / length
+
+
+@compiled_part
+def _is_earlier(
+    p: float, q: float, edge: int, corners: Array, edges: Array, curvature: Array, bands: Array
+) -> bool:
+    """Return whether a pixel lies in the band of an edge before this one."""
+    for k in range(edge):
+        s, d = _measure(p, q, k, corners, edges, curvature)
+        if _is_within(s, d, edges[k, 0], bands[k]):
+            return True
+    return False
+
+
+@compiled_part
+def _fill_columns(w: _Floats, edge: int, other: int, edges: Array, levels: Array, m: int) -> None:
+    """Fill rows J of m pixels of an edge that see another beside it; -1 if they see none."""
+    n0, n1 = _F(edges[edge, 3]), _F(edges[edge, 4])
+    o0, o1, rho, both = _NO, _NO, _NO, _NO
+    if other >= 0:
+        o0, o1 = _F(edges[other, 3]), _F(edges[other, 4])
+        rho = n0 * o0 + n1 * o1
+        both = w[_B] * w[_BO] * rho / _F(4)
+    turn = rho / (_F(2) * w[_B] * w[_BO])
+    p0, p1, p2 = _F(levels[0, 0]), _F(levels[0, 1]), _F(levels[0, 2])
+    i0, i1, i2 = _F(levels[1, 0]), _F(levels[1, 1]), _F(levels[1, 2])
+    begin, end = _J + 2 * edge * BLOCK, _J + 2 * ((edge + 1) % 4) * BLOCK
+    mine, its = _J + (8 + edge % 2) * BLOCK, _J + (9 - edge % 2) * BLOCK
+    for p in range(m):
+        x, y = w[_X + p], w[_Y + p]
+        paper, ink = p0 + p1 * x + p2 * y, i0 + i1 * x + i2 * y
+        swing = (ink - paper) * _HALF
+        here, beside = (w[_E + p] + _ONE) * _HALF, (w[_EO + p] + _ONE) * _HALF
+        slope, other_slope = w[_E + BLOCK + p], w[_EO + BLOCK + p]
+        rounding = both * slope * other_slope * (_ONE + turn * w[_D + p] * w[_DO + p])
+        Q = here * beside + rounding
+        pull = -swing * beside * slope
+        first, last = pull * (_ONE - w[_S + p]), pull * w[_S + p]
+        w[begin + p], w[begin + BLOCK + p] = first * n0, first * n1
+        w[end + p], w[end + BLOCK + p] = last * n0, last * n1
+        w[mine + p] = swing * beside * w[_E + 2 * BLOCK + p]
+        w[its + p] = swing * here * w[_EO + 2 * BLOCK + p]
+        w[_J + 16 * BLOCK + p] = w[_GREY + p] - (paper + (ink - paper) * Q)
+        w[_J + 13 * BLOCK + p] = Q
+    for p in range(m):
+        x, y, Q = w[_X + p], w[_Y + p], w[_J + 13 * BLOCK + p]
+        w[_J + 10 * BLOCK + p] = _ONE - Q
+        w[_J + 11 * BLOCK + p], w[_J + 12 * BLOCK + p] = (_ONE - Q) * x, (_ONE - Q) * y
+        w[_J + 14 * BLOCK + p], w[_J + 15 * BLOCK + p] = Q * x, Q * y
+    if other < 0:
+        return
+    # The other edge ends where this one begins, or begins where it ends.
+    begin, end = _J + 2 * other * BLOCK, _J + 2 * ((other + 1) % 4) * BLOCK
+    shared = end if end == _J + 2 * edge * BLOCK else begin
+    alone = begin if shared == end else end
+    for p in range(m):
+        x, y = w[_X + p], w[_Y + p]
+        swing = (i0 - p0 + (i1 - p1) * x + (i2 - p2) * y) * _HALF
+        here = (w[_E + p] + _ONE) * _HALF
+        pull = -swing * here * w[_EO + BLOCK + p]
+        first, last = pull * (_ONE - w[_SO + p]), pull * w[_SO + p]
+        near, away = (last, first) if shared == end else (first, last)
+        w[alone + p], w[alone + BLOCK + p] = away * o0, away * o1
+        w[shared + p] += near * o0
+        w[shared + BLOCK + p] += near * o1
+
+
+@compiled_part
+def _list_columns(edge: int, other: int, columns: _Ints) -> int:
+    """Fill in the numbers, in order, of the columns that are not 0 where an edge and another one
+    beside it, or none, are seen; return their count."""
+    count = 0
     for k in range(4):
-        length = edges[k, 0]
-        x, y = p - corners[k, 0], q - corners[k, 1]
-        s[k] = (edges[k, 1] * x + edges[k, 2] * y) / length
-        bow = curvature[k] * length * length / 2
-        d[k] = edges[k, 3] * x + edges[k, 4] * y + bow * s[k] * (1 - s[k])
+        is_seen = k == edge or k == (edge + 1) % 4
+        if is_seen or (other >= 0 and (k == other or k == (other + 1) % 4)):
+            columns[count], columns[count + 1] = 2 * k, 2 * k + 1
+            count += 2
+    for k in range(8, _COLUMNS):
+        if other >= 0 or k != 9 - edge % 2:
+            columns[count] = k
+            count += 1
+    return count
 
 
 @compiled_part
-def _is_own(s: Array, d: Array, edges: Array, bands: Array, edge: int) -> bool:
-    """Return whether a pixel lies in the band of an edge and in that of none before it."""
-    for k in range(edge + 1):
-        out, inside = bands[k, 0], bands[k, 1]
-        within = -out <= d[k] <= inside and abs(s[k] - 0.5) <= 0.5 + out / edges[k, 0]
-        if within != (k == edge):
-            return False
-    return True
-
-
-@compiled_part
-def _fill_column(
+def _add_block(
+    w: _Floats,
     edge: int,
-    s: Array,
-    d: Array,
+    end: int,
     edges: Array,
     blurs: Array,
     box: Array,
     levels: Array,
-    x: float,
-    y: float,
-    grey: float,
-    J: Array,
-    column: int,
+    columns: _Ints,
+    m: int,
+    out: Array,
 ) -> None:
-    """Fill a column of J (17, ...) at a pixel of an edge, (x, y) halves of the tag's side from its
-    middle."""
-    last, following = (edge + 3) % 4, (edge + 1) % 4
-    other = last if s[edge] < 0.5 else following
-    rho = edges[edge, 3] * edges[other, 3] + edges[edge, 4] * edges[other, 4]
-    s1, s2 = blurs[edge % 2], blurs[last % 2]
-    mine, slope, by_blur = _compute_edge(d[edge], s1, box[edge])
-    its, its_slope, its_by_blur = _compute_edge(d[other], s2, box[last])
-    beside, here = (1 + its) / 2, (1 + mine) / 2
-    turn = rho * d[edge] / s1 * d[other] / s2
-    Q = here * beside + s1 * s2 * slope * its_slope / 4 * rho * (1 + turn / 2)
-    paper = levels[0, 0] + levels[0, 1] * x + levels[0, 2] * y
-    ink = levels[1, 0] + levels[1, 1] * x + levels[1, 2] * y
-    swing = (ink - paper) / 2
-    for k in range(8):
-        J[k, column] = 0.0
-    for which in (edge, other):
-        by_distance = swing * (beside * slope if which == edge else here * its_slope)
-        end = (which + 1) % 4
-        for axis in range(2):
-            pull = -by_distance * edges[which, 3 + axis]
-            J[2 * which + axis, column] += pull * (1 - s[which])
-            J[2 * end + axis, column] += pull * s[which]
-    J[8 + edge % 2, column] = swing * beside * by_blur
-    J[8 + last % 2, column] = swing * here * its_by_blur
-    J[10, column], J[11, column], J[12, column] = 1 - Q, (1 - Q) * x, (1 - Q) * y
-    J[13, column], J[14, column], J[15, column] = Q, Q * x, Q * y
-    J[16, column] = grey - (paper * (1 - Q) + ink * Q)
-
-
-@compiled_part
-def _add_products(J: Array, count: int, N: Array, out: Array) -> None:
-    """Add the products of the first columns of J to out (17, 17); N is for use."""
-    for k in range(_COLUMNS):
-        for i in range(count, _BLOCK):
-            J[k, i] = 0.0
-    gram(J, N)
-    for i in range(_COLUMNS):
-        for j in range(_COLUMNS):
-            out[i, j] += N[i, j]
+    """Add the products of m pixels of an edge to the lower triangle of out (17, 17); near its
+    beginning (0), near its end (1), or far from both (2)."""
+    last = (edge + 3) % 4
+    other = last if end == 0 else (edge + 1) % 4 if end == 1 else -1
+    for p in range(m):
+        w[_B + p], w[_BO + p], w[_ZERO + p] = _F(blurs[edge % 2]), _F(blurs[last % 2]), _NO
+    fill_edge(w[_D:], _ONE, w[_ZERO:], _NO, w[_B:], _F(box[edge]), w[_E:], m)
+    if other < 0:
+        for p in range(m):
+            w[_EO + p], w[_EO + BLOCK + p], w[_EO + 2 * BLOCK + p] = _ONE, _NO, _NO
+    else:
+        fill_edge(w[_DO:], _ONE, w[_ZERO:], _NO, w[_BO:], _F(box[last]), w[_EO:], m)
+    _fill_columns(w, edge, other, edges, levels, m)
+    count = _list_columns(edge, other, columns)
+    for i in range(count):
+        a = columns[i]
+        one = w[_J + a * BLOCK : _J + (a + 1) * BLOCK]
+        for j in range(i + 1):
+            b = columns[j]
+            two = w[_J + b * BLOCK : _J + (b + 1) * BLOCK]
+            total = _NO
+            for p in range(m):
+                total += one[p] * two[p]
+            out[a, b] += total
 
 
 @compiled
@@ -159,14 +216,13 @@ def _accumulate(
 ) -> None:
     """Add to out (n, 17, 17)."""
     height, width = image.shape
-    J, N = np.empty((_COLUMNS, _BLOCK)), np.empty((_COLUMNS, _COLUMNS))
-    s, d = np.empty(4), np.empty(4)
+    w, counts = np.zeros((3, _ROWS * BLOCK), dtype=_F), np.zeros(3, dtype=np.int64)
+    columns = np.empty(_COLUMNS, dtype=np.int64)
     for i in range(len(corners)):
         middle_u = middle_v = 0.0
         for k in range(4):
             middle_u += corners[i, k, 0] / 4
             middle_v += corners[i, k, 1] / 4
-        count = 0
         for edge in range(4):
             length, tu, tv = edges[i, edge, 0], edges[i, edge, 1], edges[i, edge, 2]
             flat = abs(tu) >= abs(tv)
@@ -176,6 +232,7 @@ def _accumulate(
             x1 = end[0] if flat else end[1]
             wide = max(bands[i, edge, 0], bands[i, edge, 1])
             reach = int(np.ceil(wide / abs(along) + 0.5))
+            far = _FAR * blurs[i, (edge + 1) % 2] + box[i, (edge + 1) % 4]
             for x in range(int(np.floor(min(x0, x1) - wide)), int(np.ceil(max(x0, x1) + wide)) + 1):
                 way = (x - x0) / along
                 bow = -curvature[i, edge] * way * (length - way) / 2
@@ -185,18 +242,38 @@ def _accumulate(
                     u, v = (x, y) if flat else (y, x)
                     if u < 1 or v < 1 or u > width - 2 or v > height - 2:
                         continue
-                    _measure(u, v, corners[i], edges[i], curvature[i], s, d)
-                    if not _is_own(s, d, edges[i], bands[i], edge):
+                    s, d = _measure(u, v, edge, corners[i], edges[i], curvature[i])
+                    if not _is_within(s, d, length, bands[i, edge]) or _is_earlier(
+                        u, v, edge, corners[i], edges[i], curvature[i], bands[i]
+                    ):
                         continue
-                    _fill_column(
-                        edge, s, d, edges[i], blurs[i], box[i], levels[i],
-                        (u - middle_u) / half[i], (v - middle_v) / half[i], image[v, u], J, count,
+                    which = 0 if s < 0.5 else 1
+                    other = (edge + 3 + 2 * which) % 4
+                    s2, d2 = _measure(u, v, other, corners[i], edges[i], curvature[i])
+                    if d2 > far:
+                        which = 2
+                    m, block = counts[which], w[which]
+                    block[_D + m], block[_DO + m], block[_S + m], block[_SO + m] = d, d2, s, s2
+                    block[_X + m] = (u - middle_u) / half[i]
+                    block[_Y + m] = (v - middle_v) / half[i]
+                    block[_GREY + m] = image[v, u]
+                    counts[which] += 1
+                    if counts[which] == BLOCK:
+                        _add_block(
+                            block, edge, which, edges[i], blurs[i], box[i], levels[i], columns,
+                            BLOCK, out[i],
+                        )  # fmt: skip
+                        counts[which] = 0
+            for which in range(3):
+                if counts[which]:
+                    _add_block(
+                        w[which], edge, which, edges[i], blurs[i], box[i], levels[i], columns,
+                        counts[which], out[i],
                     )  # fmt: skip
-                    count += 1
-                    if count == _BLOCK:
-                        _add_products(J, count, N, out[i])
-                        count = 0
-        _add_products(J, count, N, out[i])
+                    counts[which] = 0
+        for a in range(_COLUMNS):
+            for b in range(a):
+                out[i, b, a] = out[i, a, b]
 
 
 def accumulate_normal_equations(image: GreyImage, model: _Model, is_sharp: bool) -> Array:

@@ -34,10 +34,10 @@ _Ints = npt.NDArray[np.signedinteger[Any]]
 _Single = np.floating[Any]
 """A float32."""
 _F = np.float32
-_BLOCK = 256
+BLOCK = 256
 """Number of pixels taken at once."""
 _S1, _S2, _D1, _D2, _B1, _B2, _W1, _W2, _E1, _E2, _F1, _F2, _G, _J = (
-    _BLOCK * row for row in (0, 1, 2, 3, 4, 5, 6, 7, 8, 11, 14, 17, 20, 26)
+    BLOCK * row for row in (0, 1, 2, 3, 4, 5, 6, 7, 8, 11, 14, 17, 20, 26)
 )
 """Where rows begin: along, distance, blur and spread of edges 1 and 2; an edge's value, slope and
 derivative by the blur, shrunk by w and grown; G and its derivatives by d_1, d_2, s_1, s_2 and
@@ -241,7 +241,7 @@ def _fill_geometry(
 
 
 @compiled_part
-def _fill_edge(
+def fill_edge(
     distance: _Floats,
     turn: _Single,
     spread: _Floats,
@@ -260,8 +260,8 @@ def _fill_edge(
             bell = _bell(x)
             slope = bell * _ROOT2_PI * s
             to[p] = _erf(x, bell)
-            to[_BLOCK + p] = slope
-            to[2 * _BLOCK + p] = -y * slope
+            to[BLOCK + p] = slope
+            to[2 * BLOCK + p] = -y * slope
         return
     over = _HALF / box
     for p in range(m):
@@ -274,51 +274,51 @@ def _fill_edge(
         erf_a, erf_b = _erf(a, bell_a), _erf(b, bell_b)
         fall = bell_a - bell_b
         to[p] = (a * erf_a - b * erf_b + fall / _ROOT_PI) * (over / narrow)
-        to[_BLOCK + p] = (erf_a - erf_b) * over
-        to[2 * _BLOCK + p] = fall * (_ROOT2_PI * over * s / g)
+        to[BLOCK + p] = (erf_a - erf_b) * over
+        to[2 * BLOCK + p] = fall * (_ROOT2_PI * over * s / g)
 
 
 @compiled_part
 def _fill_crossing(w: _Floats, rho: _Single, box: _Floats, m: int) -> None:
     """Fill rows G as ``compute_crossing``."""
-    _fill_edge(w[_D1:], _ONE, w[_W1:], _ZERO, w[_B1:], box[0], w[_E1:], m)
-    _fill_edge(w[_D2:], _ONE, w[_W2:], _ZERO, w[_B2:], box[1], w[_E2:], m)
+    fill_edge(w[_D1:], _ONE, w[_W1:], _ZERO, w[_B1:], box[0], w[_E1:], m)
+    fill_edge(w[_D2:], _ONE, w[_W2:], _ZERO, w[_B2:], box[1], w[_E2:], m)
     half = _HALF * rho * rho
     for p in range(m):
         v1, v2 = w[_E1 + p], w[_E2 + p]
-        d1, d2 = w[_E1 + _BLOCK + p], w[_E2 + _BLOCK + p]
+        d1, d2 = w[_E1 + BLOCK + p], w[_E2 + BLOCK + p]
         both = w[_B1 + p] * w[_B2 + p]
         by_rho = both * d1 * d2
         w[_G + p] = v1 * v2 + by_rho * (rho + half * w[_D1 + p] * w[_D2 + p] / both)
-        w[_G + _BLOCK + p], w[_G + 2 * _BLOCK + p] = d1 * v2, v1 * d2
-        w[_G + 3 * _BLOCK + p] = w[_E1 + 2 * _BLOCK + p] * v2
-        w[_G + 4 * _BLOCK + p] = v1 * w[_E2 + 2 * _BLOCK + p]
-        w[_G + 5 * _BLOCK + p] = by_rho
+        w[_G + BLOCK + p], w[_G + 2 * BLOCK + p] = d1 * v2, v1 * d2
+        w[_G + 3 * BLOCK + p] = w[_E1 + 2 * BLOCK + p] * v2
+        w[_G + 4 * BLOCK + p] = v1 * w[_E2 + 2 * BLOCK + p]
+        w[_G + 5 * BLOCK + p] = by_rho
 
 
 @compiled_part
 def _fill_spread_crossing(w: _Floats, rho: _Single, box: _Floats, mirror: _Single, m: int) -> None:
     """Fill rows G as ``compute_spread_crossing``, for spreads w of the sign of mirror."""
-    _fill_edge(w[_D1:], _ONE, w[_W1:], -mirror, w[_B1:], box[0], w[_E1:], m)
-    _fill_edge(w[_D2:], mirror, w[_W2:], -mirror, w[_B2:], box[1], w[_E2:], m)
-    _fill_edge(w[_D1:], _ONE, w[_W1:], mirror, w[_B1:], box[0], w[_F1:], m)
-    _fill_edge(w[_D2:], mirror, w[_W2:], mirror, w[_B2:], box[1], w[_F2:], m)
+    fill_edge(w[_D1:], _ONE, w[_W1:], -mirror, w[_B1:], box[0], w[_E1:], m)
+    fill_edge(w[_D2:], mirror, w[_W2:], -mirror, w[_B2:], box[1], w[_E2:], m)
+    fill_edge(w[_D1:], _ONE, w[_W1:], mirror, w[_B1:], box[0], w[_F1:], m)
+    fill_edge(w[_D2:], mirror, w[_W2:], mirror, w[_B2:], box[1], w[_F2:], m)
     half = _HALF * mirror
     for p in range(m):
         e1, e2, f1, f2 = w[_E1 + p], w[_E2 + p], w[_F1 + p], w[_F2 + p]
-        de1, de2 = w[_E1 + _BLOCK + p], w[_E2 + _BLOCK + p]
-        df1, df2 = w[_F1 + _BLOCK + p], w[_F2 + _BLOCK + p]
+        de1, de2 = w[_E1 + BLOCK + p], w[_E2 + BLOCK + p]
+        df1, df2 = w[_F1 + BLOCK + p], w[_F2 + BLOCK + p]
         by_rho = _HALF * w[_B1 + p] * w[_B2 + p] * (de1 * de2 + df1 * df2)
         w[_G + p] = half * (e1 * e2 + f1 * f2 + e1 - f1 + e2 - f2) + rho * by_rho
-        w[_G + _BLOCK + p] = half * (de1 * (e2 + _ONE) + df1 * (f2 - _ONE))
-        w[_G + 2 * _BLOCK + p] = _HALF * (de2 * (e1 + _ONE) + df2 * (f1 - _ONE))
-        w[_G + 5 * _BLOCK + p] = by_rho
+        w[_G + BLOCK + p] = half * (de1 * (e2 + _ONE) + df1 * (f2 - _ONE))
+        w[_G + 2 * BLOCK + p] = _HALF * (de2 * (e1 + _ONE) + df2 * (f1 - _ONE))
+        w[_G + 5 * BLOCK + p] = by_rho
     for p in range(m):
         e1, e2, f1, f2 = w[_E1 + p], w[_E2 + p], w[_F1 + p], w[_F2 + p]
-        be1, be2 = w[_E1 + 2 * _BLOCK + p], w[_E2 + 2 * _BLOCK + p]
-        bf1, bf2 = w[_F1 + 2 * _BLOCK + p], w[_F2 + 2 * _BLOCK + p]
-        w[_G + 3 * _BLOCK + p] = half * (be1 * (e2 + _ONE) + bf1 * (f2 - _ONE))
-        w[_G + 4 * _BLOCK + p] = half * (be2 * (e1 + _ONE) + bf2 * (f1 - _ONE))
+        be1, be2 = w[_E1 + 2 * BLOCK + p], w[_E2 + 2 * BLOCK + p]
+        bf1, bf2 = w[_F1 + 2 * BLOCK + p], w[_F2 + 2 * BLOCK + p]
+        w[_G + 3 * BLOCK + p] = half * (be1 * (e2 + _ONE) + bf1 * (f2 - _ONE))
+        w[_G + 4 * BLOCK + p] = half * (be2 * (e1 + _ONE) + bf2 * (f1 - _ONE))
 
 
 @compiled_part
@@ -339,28 +339,28 @@ def _fill_columns(
     for p in range(m):
         a = sign * (swing[0] + swing[1] * u[p] + swing[2] * v[p])
         g = w[_G + p]
-        w[_J + 7 * _BLOCK + p] = sign * g
-        w[_J + 9 * _BLOCK + p] = grey[p] - level[0] - level[1] * u[p] - level[2] * v[p] - a * g
-        by1, by2 = a * w[_G + _BLOCK + p], a * w[_G + 2 * _BLOCK + p]
+        w[_J + 7 * BLOCK + p] = sign * g
+        w[_J + 9 * BLOCK + p] = grey[p] - level[0] - level[1] * u[p] - level[2] * v[p] - a * g
+        by1, by2 = a * w[_G + BLOCK + p], a * w[_G + 2 * BLOCK + p]
         w[_J + p] = -by1 * n[0] - by2 * n[2]
-        w[_J + _BLOCK + p] = -by1 * n[1] - by2 * n[3]
-        w[_J + 2 * _BLOCK + p] = -by1 * w[_S1 + p]  # t_1 turns n_1 away from itself,
-        w[_J + 3 * _BLOCK + p] = by2 * w[_S2 + p]  # and n_2 towards it
+        w[_J + BLOCK + p] = -by1 * n[1] - by2 * n[3]
+        w[_J + 2 * BLOCK + p] = -by1 * w[_S1 + p]  # t_1 turns n_1 away from itself,
+        w[_J + 3 * BLOCK + p] = by2 * w[_S2 + p]  # and n_2 towards it
     for p in range(m):
         a = sign * (swing[0] + swing[1] * u[p] + swing[2] * v[p])
-        w[_J + 4 * _BLOCK + p] = a * w[_G + 3 * _BLOCK + p]
-        w[_J + 5 * _BLOCK + p] = a * w[_G + 4 * _BLOCK + p]
-        w[_J + 6 * _BLOCK + p] = _ONE
-        w[_J + 8 * _BLOCK + p] = a * w[_G + 5 * _BLOCK + p]
+        w[_J + 4 * BLOCK + p] = a * w[_G + 3 * BLOCK + p]
+        w[_J + 5 * BLOCK + p] = a * w[_G + 4 * BLOCK + p]
+        w[_J + 6 * BLOCK + p] = _ONE
+        w[_J + 8 * BLOCK + p] = a * w[_G + 5 * BLOCK + p]
 
 
 @compiled_part
 def _add_products(w: _Floats, m: int, out: Array) -> None:
     """Add the products of the rows J to the lower triangle of out (10, 10)."""
     for a in range(_COLUMNS):
-        one = w[_J + a * _BLOCK : _J + (a + 1) * _BLOCK]
+        one = w[_J + a * BLOCK : _J + (a + 1) * BLOCK]
         for b in range(a + 1):
-            other = w[_J + b * _BLOCK : _J + (b + 1) * _BLOCK]
+            other = w[_J + b * BLOCK : _J + (b + 1) * BLOCK]
             total = _ZERO
             for p in range(m):
                 total += one[p] * other[p]
@@ -384,8 +384,8 @@ def _add_corner(
     t, n, kappa = near[0:4], near[4:8], near[8:10]
     blur, size, level, swing = near[10:16], near[16:22], near[22:25], near[25:28]
     rho, sign, growth, box = near[28], near[29], near[30], near[31:33]
-    for begin in range(0, grey.shape[0], _BLOCK):
-        m = min(grey.shape[0] - begin, _BLOCK)
+    for begin in range(0, grey.shape[0], BLOCK):
+        m = min(grey.shape[0] - begin, BLOCK)
         for p in range(m):
             u[p], v[p] = offset[0, begin + p] + du, offset[1, begin + p] + dv
         _fill_geometry(w, u, v, t, n, kappa, blur, size, growth, m)
@@ -396,7 +396,7 @@ def _add_corner(
         _fill_columns(w, u, v, grey[begin:], n, level, swing, sign, m)
         _add_products(w, m, out)
         for p in range(m):
-            grey[begin + p] = w[_J + 9 * _BLOCK + p]
+            grey[begin + p] = w[_J + 9 * BLOCK + p]
     for a in range(_COLUMNS):
         for b in range(a):
             out[b, a] = out[a, b]
@@ -438,8 +438,8 @@ def _accumulate(
 ) -> None:
     """Fill out (n, 10, 10) and, unless it is empty, odd (n, 2)."""
     offset, grey = np.empty((2, room), dtype=np.int32), np.empty(room, dtype=_F)
-    w = np.empty(_ROWS * _BLOCK, dtype=_F)
-    u, v = np.empty(_BLOCK, dtype=_F), np.empty(_BLOCK, dtype=_F)
+    w = np.empty(_ROWS * BLOCK, dtype=_F)
+    u, v = np.empty(BLOCK, dtype=_F), np.empty(BLOCK, dtype=_F)
     for i in range(uv.shape[0]):
         count = _read(image, uv[i], bands[i], offset, grey)
         du, dv = np.rint(uv[i, 0]) - centre[i, 0], np.rint(uv[i, 1]) - centre[i, 1]

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from typing import Any
-
 import numpy as np
 import pytest
 import scipy
@@ -11,7 +9,6 @@ import scipy
 from calibgui.engine import kernels
 from calibgui.engine.detection.apriltags import tag_outlines
 from calibgui.engine.detection.apriltags.tag_outlines import TagOutlines, fit_tag_outlines
-from tests.engine.kernels.conftest import make_callable
 
 SQUARES = np.argwhere(np.ones((3, 4)))
 SIDE, GAP, BORDER = 40.0, 0.3, 0.2
@@ -65,15 +62,3 @@ def test_the_same_outlines(
     np.testing.assert_allclose(compiled.contrast, readable.contrast, rtol=1e-3)
     off = np.abs(compiled.covariance - readable.covariance).max(axis=(2, 3))
     assert (off < 0.02 * readable.covariance.max(axis=(2, 3))).all()
-
-
-@pytest.mark.parametrize("box", [0.0, 0.5])
-def test_the_same_edge(box: float) -> None:
-    from calibgui.engine.detection.edge_intensity import compute_edge
-    from calibgui.engine.kernels import tag_outlines as compiled
-
-    edge: Any = make_callable(compiled._compute_edge)
-    d = np.linspace(-3, 3, 25)
-    truth = compute_edge(d, np.full(25, 0.7), np.full(25, box) if box else None)
-    got = np.array([edge(x, 0.7, box) for x in d.tolist()]).T
-    np.testing.assert_allclose(got, np.stack(truth), atol=1e-6)
