@@ -20,7 +20,7 @@ from calibgui.engine.arrays import Array, BoolArray, GreyImage, GridSize, IntArr
 from calibgui.engine.boards.april_grid import AprilGrid
 from calibgui.engine.detection import grid_map
 from calibgui.engine.detection import region_of_interest as region
-from calibgui.engine.detection.apriltags.grid_tags import GridTags, find_grid_tags
+from calibgui.engine.detection.apriltags.grid_tags import GridTagFinder, GridTags
 from calibgui.engine.detection.apriltags.near_priors import NearPriors
 from calibgui.engine.detection.apriltags.outlined_corners import (
     has_corner_squares,
@@ -71,19 +71,21 @@ def find_april_grid(
     outline = None if roi is None else region.check_outline(roi)
     searched = None if outline is None else region.enlarge_outline(outline)
     levels = convert_for_reading(grey)
-    read = find_grid_tags(levels, pattern, grid_size, searched)
+    finder = GridTagFinder(levels, searched)
+    read = finder.find(pattern, grid_size)
     is_inverted = read is None
-    read = read or find_grid_tags(invert_levels(levels), pattern, grid_size, searched)
     if read is None:
-        raise _explain_missing_board(levels, grid_size, searched)
-    return _locate_corners(grey, read, is_inverted, pattern, grid_size, outline, method)
+        read = GridTagFinder(invert_levels(levels), searched).find(pattern, grid_size)
+    if read is None:
+        raise _explain_missing_board(levels, grid_size, finder)
+    return _locate_corners(grey, levels, read, is_inverted, pattern, grid_size, outline, method)
 
 
 def _explain_missing_board(
-    levels: GreyImage, grid_size: GridSize | None, outline: Array | None
+    levels: GreyImage, grid_size: GridSize | None, finder: GridTagFinder
 ) -> NoBoardError:
-    """Return the error that says what the image shows instead of the stated board."""
-    read = find_grid_tags(levels, AprilGrid(), None, outline)
+    """Return the error that says what an image, in 8 bits, shows instead of the stated board."""
+    read = finder.find(AprilGrid(), None)
     if read is None:
         return NoBoardError(
             "No AprilGrid was found.",
@@ -110,6 +112,7 @@ def _count_rows(squares: IntArray) -> int:
 
 def _locate_corners(
     grey: GreyImage,
+    levels: GreyImage,
     read: GridTags,
     is_inverted: bool,
     stated: AprilGrid,
@@ -117,12 +120,12 @@ def _locate_corners(
     outline: Array | None,
     method: str,
 ) -> Corners:
-    """Locate the corners of a board whose tags were read."""
+    """Locate the corners of a board whose tags were read in `levels`, the image in 8 bits."""
     tag_print, tags = read
     rows, cols = _count_rows(tags.squares), tags.layout.cols
     if grid_size is not None:
         if 2 * rows > grid_size[0]:
-            raise _explain_missing_board(convert_for_reading(grey), grid_size, None)
+            raise _explain_missing_board(levels, grid_size, GridTagFinder(levels, None))
         rows = grid_size[0] // 2
     first = np.array([0 if tags.layout.from_top else rows - 1, 0])
     on_board = tags.squares + first
@@ -132,7 +135,7 @@ def _locate_corners(
     border = tag_print.border / tag_print.side
     has_squares = has_corner_squares(grey, tags, border)
     if stated.corner_squares not in (None, has_squares):
-        raise _explain_missing_board(grey, grid_size, None)
+        raise _explain_missing_board(levels, grid_size, GridTagFinder(levels, None))
     fit: XCornerFit | FittedCorners | None = None
     if has_squares:
         lattice = _refine_corners(grey, lattice, gap, border)
@@ -143,10 +146,9 @@ def _locate_corners(
             lattice, fit, failing = _fit_corners(grey, lattice, gap, unit)
             rejected += failing
     else:
-        levels = convert_for_reading(grey)
-        levels = invert_levels(levels) if is_inverted else levels
+        dark_tags = invert_levels(levels) if is_inverted else levels
         gap = measure_gap(lattice.uv, gap)
-        lattice, fit, rejected = _fit_outlines(grey, levels, read, lattice, first, gap)
+        lattice, fit, rejected = _fit_outlines(grey, dark_tags, read, lattice, first, gap)
         gap = measure_gap(lattice.uv, gap)
     if stated.spacing is not None and abs(gap - stated.spacing) > _MAX_SPACING_DIFFERENCE:
         raise NoBoardError(

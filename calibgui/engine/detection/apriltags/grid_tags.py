@@ -1,8 +1,9 @@
 """The tags of an AprilGrid: found in an image, read, and placed on the board.
 
-Tags are looked for among the dark quadrilaterals of the image, of its coarsest size first. The
-small black squares touch the corners of the tags, and blur may join them; so the image is also
-searched after each pixel took the brightest level around it, which parts them.
+Tags are looked for among the dark quadrilaterals of the image, of its coarsest size first, and
+quickly at the others, where it takes long. The small black squares touch the corners of the tags,
+and blur may join them; so the image is also searched after each pixel took the brightest level
+around it, which parts them.
 """
 
 from __future__ import annotations
@@ -14,7 +15,12 @@ from calibgui.engine.arrays import Array, GreyImage, GridSize, IntArray
 from calibgui.engine.boards.april_grid import AprilGrid, TagLayout
 from calibgui.engine.boards.apriltags import load_family
 from calibgui.engine.detection.apriltags.tag_places import MAX_COLS, list_layouts
-from calibgui.engine.detection.apriltags.tag_reader import TagPrint, TagReader, list_prints
+from calibgui.engine.detection.apriltags.tag_reader import (
+    TagPrint,
+    TagReader,
+    are_patterned,
+    list_prints,
+)
 from calibgui.engine.detection.charuco.markers import Markers, identify_board
 from calibgui.engine.detection.checkerboard import saddle
 from calibgui.engine.detection.region_of_interest import are_inside
@@ -43,43 +49,69 @@ GridTags = tuple[TagPrint, Markers[TagLayout]]
 """The print of the tags of a board, and the tags that were read on it."""
 
 
-def find_grid_tags(
-    image: GreyImage, pattern: AprilGrid, grid_size: GridSize | None, outline: Array | None
-) -> GridTags | None:
-    """Find the tags of an AprilGrid in an 8-bit image (h, w), dark on bright.
+class GridTagFinder:
+    """A finder of the tags of an AprilGrid in one 8-bit image, dark on bright.
 
-    Args:
-        image: grey levels.
-        pattern: what is stated of the board.
-        grid_size: rows and columns of corners, if stated.
-        outline: (m, 2) px, outline that the tags must not leave, if there is one.
-
-    Returns:
-        None if there is no such board.
+    What the image shows is read once, for whichever boards it is asked.
     """
-    levels = [image]
-    while max(levels[-1].shape) > _MAX_COARSE_SIDE:
-        levels.append(opencv.halve_image(levels[-1]))
-    for depth in reversed(range(len(levels))):
-        parted = opencv.dilate_image(levels[depth], np.ones((3, 3), dtype=np.bool_))
-        quads = np.zeros((0, 4, 2))
-        board = None
-        for level, more in ((np.asarray(parted, dtype=np.uint8), _PARTED_BY), (levels[depth], 0)):
-            found = _widen(opencv.detect_dark_quads(level), more)
+
+    def __init__(self, image: GreyImage, outline: Array | None) -> None:
+        """
+        Args:
+            image: (h, w) 8-bit grey levels.
+            outline: (m, 2) px, outline that the tags must not leave, if there is one.
+        """
+        self._outline = outline
+        self._levels = [image]
+        while max(self._levels[-1].shape) > _MAX_COARSE_SIDE:
+            self._levels.append(opencv.halve_image(self._levels[-1]))
+        self._readers: dict[tuple[int, bool], TagReader] = {}
+
+    def find(self, pattern: AprilGrid, grid_size: GridSize | None) -> GridTags | None:
+        """Find the tags of a board.
+
+        Args:
+            pattern: what is stated of the board.
+            grid_size: rows and columns of corners, if stated.
+
+        Returns:
+            None if there is no such board.
+        """
+        for depth in reversed(range(len(self._levels))):
+            board = None
+            for is_parted in (True, False):
+                board = _read_board(self._make_reader(depth, is_parted), pattern, grid_size)
+                if board is not None and _is_mostly_read(board[1]):
+                    break
+            if board is not None:
+                return board
+        return None
+
+    def _make_reader(self, depth: int, is_parted: bool) -> TagReader:
+        """Make the reader of the quadrilaterals of one size of the image, once: of those seen after
+        each pixel took the brightest level around it, or of these and those seen before."""
+        if (depth, is_parted) not in self._readers:
+            image, level = self._levels[0], self._levels[depth]
+            searched = level
+            if is_parted:
+                parted = opencv.dilate_image(level, np.ones((3, 3), dtype=np.bool_))
+                searched = np.asarray(parted, dtype=np.uint8)
+            is_coarsest = depth == len(self._levels) - 1
+            found = opencv.detect_dark_quads(searched, is_quick=not is_coarsest)
+            found = _widen(found, _PARTED_BY if is_parted else 0)
+            found = found[are_patterned(level, found)]
             found = _refine_quads(image, (found + 0.5) * 2**depth - 0.5)
-            if outline is not None:
-                found = found[are_inside(outline, found.mean(axis=1))]
-            quads = np.concatenate([quads, found])
-            board = _read_board(TagReader(image, quads), quads, pattern, grid_size)
-            if board is not None and _is_mostly_read(board[1]):
-                break
-        if board is not None:
-            return board
-    return None
+            if self._outline is not None:
+                found = found[are_inside(self._outline, found.mean(axis=1))]
+            reader = TagReader(image, found)
+            if not is_parted:
+                reader = self._make_reader(depth, is_parted=True).join(reader)
+            self._readers[depth, is_parted] = reader
+        return self._readers[depth, is_parted]
 
 
 def _read_board(
-    reader: TagReader, quads: Array, pattern: AprilGrid, grid_size: GridSize | None
+    reader: TagReader, pattern: AprilGrid, grid_size: GridSize | None
 ) -> GridTags | None:
     """Read the tags of a board: the first of a family whose tags are hardly mistaken, else that of
     most tags; None if there is none."""
@@ -87,8 +119,10 @@ def _read_board(
     boards: list[GridTags] = []
     for tag_print in list_prints(pattern.family, pattern.border):
         tags = reader.read(tag_print)
+        if not len(tags.numbers):
+            continue
         turned = (np.arange(4) + tags.turns[:, None]) % 4
-        numbers, corners = _drop_repeated(tags.numbers, quads[tags.which[:, None], turned])
+        numbers, corners = _drop_repeated(tags.numbers, reader.quads[tags.which[:, None], turned])
         known = _list_likely_layouts(numbers, corners)
         allowed = [
             layout

@@ -17,9 +17,20 @@ from calibgui.engine.arrays import Array, BoolArray, FloatImage, GreyImage, IntA
 from calibgui.engine.boards.april_grid import MAX_BORDER
 from calibgui.engine.boards.apriltags import FAMILIES, load_family
 from calibgui.engine.detection.charuco.marker_cells import find_dark_cells
+from calibgui.engine.images.sampling import make_mesh, sample_image
 
 _MAX_BRIGHT_BORDER_SHARE = 0.2
 """Greatest share of a border's cells that may look bright. A plausibility limit."""
+
+_SAMPLES = 10
+"""Number of places along a side at which a quadrilateral is looked at before it is read."""
+_MIN_BRIGHT_SHARE = 0.05
+"""Share of these places that are bright in every tag, whose border takes half of them or more."""
+_PAPER_DISTANCE = 0.08
+"""Distance from a quadrilateral at which there is paper around a tag, sides."""
+_MIN_RELATIVE_SWING = 0.2
+"""Least rise of the level within a quadrilateral, over that to the paper around it: what is filled
+evenly is no tag. A plausibility limit."""
 
 
 class TagPrint(NamedTuple):
@@ -71,17 +82,26 @@ class TagReader:
             quads: (m, 4, 2) px, corners in the sense from u to v.
         """
         self._image = image
-        self._quads = quads
+        self.quads = quads
         self._cells: dict[int, BoolArray] = {}
+
+    def join(self, more: TagReader) -> TagReader:
+        """Return a reader of its quadrilaterals and then those of another, in the same image, which
+        keeps what it has sampled."""
+        joined = TagReader(self._image, np.concatenate([self.quads, more.quads]))
+        joined._cells = {
+            n: np.concatenate([cells, more._find_dark_cells(n)]) for n, cells in self._cells.items()
+        }
+        return joined
 
     def read(self, tag_print: TagPrint) -> ReadTags:
         """Read the quadrilaterals as tags of a print; those that are none are left out."""
+        if not len(self.quads):
+            return ReadTags(*np.zeros((3, 0), dtype=np.int64))
         n, b = tag_print.side, tag_print.border
-        if n not in self._cells:
-            self._cells[n] = find_dark_cells(self._image, self._quads, n)
-        dark = self._cells[n]
+        dark = self._find_dark_cells(n)
         data = dark[:, b:-b, b:-b]
-        around = n * n - data[0].size if len(data) else 1
+        around = n * n - data[0].size
         bright = around - (dark.sum(axis=(1, 2)) - data.sum(axis=(1, 2)))
         which = np.flatnonzero(bright <= _MAX_BRIGHT_BORDER_SHARE * around)
         codes = _encode_turned_tags(tag_print.family)
@@ -92,6 +112,32 @@ class TagReader:
         turns, numbers = np.divmod(best, len(codes) // 4)
         tags = ReadTags(which, numbers, turns)
         return tags.select(misread <= (load_family(tag_print.family).distance - 3) // 2)
+
+    def _find_dark_cells(self, n: int) -> BoolArray:
+        """Find the dark cells (m, n, n) of the quadrilaterals, once."""
+        if n not in self._cells:
+            self._cells[n] = find_dark_cells(self._image, self.quads, n)
+        return self._cells[n]
+
+
+def are_patterned(image: GreyImage, quads: Array) -> BoolArray:
+    """Return which dark quadrilaterals (m, 4, 2) px are not filled evenly, and so may be tags."""
+    centres = (np.arange(_SAMPLES) + 0.5) / _SAMPLES
+    low, high = (np.full(_SAMPLES, end) for end in (-_PAPER_DISTANCE, 1 + _PAPER_DISTANCE))
+    inside = make_mesh(centres, centres).reshape(-1, 2)
+    around = [(centres, low), (centres, high), (low, centres), (high, centres)]
+    at = np.concatenate([inside, *map(np.column_stack, around)])
+    a, b, c, d = np.moveaxis(quads[:, :, None], 1, 0)
+    u, v = at[:, :1], at[:, 1:]
+    uv = (1 - v) * ((1 - u) * a + u * b) + v * ((1 - u) * d + u * c)
+    levels = sample_image(image, uv)
+    inner, paper = (
+        np.sort(levels[:, : len(inside)], axis=1),
+        np.median(levels[:, len(inside) :], axis=1),
+    )
+    dark = inner[:, len(inside) // 2]
+    bright = inner[:, -int(_MIN_BRIGHT_SHARE * len(inside)) :].mean(axis=1)
+    return np.asarray(bright - dark >= _MIN_RELATIVE_SWING * (paper - dark))
 
 
 @lru_cache(maxsize=len(FAMILIES))

@@ -1,0 +1,73 @@
+"""What may be a tag, and how often an image is searched for them."""
+
+from __future__ import annotations
+
+import cv2
+import numpy as np
+import pytest
+
+from calibgui.engine import opencv
+from calibgui.engine.arrays import Array, GreyImage
+from calibgui.engine.boards.april_grid import AprilGrid
+from calibgui.engine.boards.apriltags import FAMILIES, load_family
+from calibgui.engine.detection.apriltags.tag_reader import TagPrint, TagReader, are_patterned
+from calibgui.engine.detection.find_corners import find_corners
+from calibgui.engine.errors import NoBoardError
+from tests.scenes.without_board import draw_without_board
+
+SIDE, PITCH = 40, 56
+"""Of the tags and from one to the next, px."""
+
+
+def draw_tags(family: str, border: int, numbers: range, blur: float) -> tuple[GreyImage, Array]:
+    """A row of tags, and their corners (n, 4, 2) px."""
+    image = np.full((PITCH, PITCH * len(numbers)), 190.0)
+    at = np.array([(0, 0), (SIDE, 0), (SIDE, SIDE), (0, SIDE)]) + (PITCH - SIDE) / 2 - 0.5
+    for k, number in enumerate(numbers):
+        dark = np.pad(load_family(family).cells[number], border, constant_values=True)
+        tag = np.where(dark, 40.0, 190.0).repeat(12, axis=0).repeat(12, axis=1)
+        tag = cv2.resize(tag, (SIDE, SIDE), interpolation=cv2.INTER_AREA)
+        left, top = k * PITCH + (PITCH - SIDE) // 2, (PITCH - SIDE) // 2
+        image[top : top + SIDE, left : left + SIDE] = tag
+    image = cv2.GaussianBlur(image, (0, 0), blur)
+    image += np.random.default_rng(0).normal(0, 3, image.shape)
+    quads = at + PITCH * np.array([(k, 0) for k in range(len(numbers))])[:, None]
+    return np.clip(image, 0, 255).astype(np.uint8), quads
+
+
+@pytest.mark.parametrize("family", FAMILIES)
+@pytest.mark.parametrize("border", [1, 2])
+def test_whatever_can_be_read_may_be_a_tag(family: str, border: int) -> None:
+    for blur in (0.7, 2.5):
+        image, quads = draw_tags(family, border, range(len(load_family(family).cells)), blur)
+        read = TagReader(image, quads).read(TagPrint(family, border))
+        assert are_patterned(image, quads)[read.which].all()
+        assert len(read.which) > 0.9 * len(quads) or blur > 1
+
+
+def test_what_is_filled_evenly_is_no_tag() -> None:
+    image = np.full((100, 200), 190, np.uint8)
+    image[20:60, 30:80] = 40
+    noisy = np.random.default_rng(0).normal(image, 3).astype(np.uint8)
+    quad = np.array([[(30.0, 20.0), (80.0, 20.0), (80.0, 60.0), (30.0, 60.0)]]) - 0.5
+    assert not are_patterned(noisy, quad).any()
+
+
+def test_an_image_is_searched_once_for_each_colour(monkeypatch: pytest.MonkeyPatch) -> None:
+    """The explanation of what is missing looks at what the search has seen."""
+    searched = []
+    search = opencv.detect_dark_quads
+
+    def count(image: GreyImage, is_quick: bool = False) -> Array:
+        searched.append(is_quick)
+        return search(image, is_quick)
+
+    monkeypatch.setattr(opencv, "detect_dark_quads", count)
+    image = draw_without_board(3)
+    with pytest.raises(NoBoardError, match="No AprilGrid"):
+        find_corners(image, (8, 10), pattern=AprilGrid("t36h11"))
+    assert searched == [False] * 4
+    searched.clear()
+    with pytest.raises(NoBoardError, match="No AprilGrid"):
+        find_corners(cv2.resize(image, (1920, 1440)), pattern=AprilGrid())
+    assert searched == [False, False, True, True] * 2
