@@ -38,6 +38,12 @@ _MAX_COARSE_SIDE = 1200
 """Longer side of the image in which the grid is looked for first, px."""
 _WINDOW_DIVISORS = (4, 16)
 """The image's shorter side over the windows tried: ink is darker than the mean of the window."""
+_SAMPLE = 40
+"""Number of circles, spread over the grid, that are fitted before all of a grid of more than twice
+as many."""
+_MAX_SAMPLE_EXCESS = 2.0
+"""Greatest misfit of these, over that of all that is allowed, at which the rest is fitted. Bricks
+have 3.5 to 4, drawn circles less than 1."""
 _CENTRE_ITERATIONS = 3
 """Number of times that the map and the centres are computed from each other."""
 
@@ -62,6 +68,13 @@ def find_circles(
     if not pattern.asymmetric:
         paper = np.array([(0.5, 0.5), (-0.5, 0.5), (0.5, -0.5), (-0.5, -0.5)])
     steps = start.differentiate(xy)
+    if len(first) > 2 * _SAMPLE:
+        some = np.linspace(0, len(first) - 1, _SAMPLE).astype(np.int64)
+        tried = ellipse_fit.fit_ellipses(
+            grey, first[some], steps[some], pattern.half_distance, paper
+        )
+        if _measure_misfit(tried) > _MAX_SAMPLE_EXCESS * CIRCLE_THRESHOLDS.max_relative_residual:
+            raise _distrust()
     fit = ellipse_fit.fit_ellipses(grey, first, steps, pattern.half_distance, paper)
     verified = _verify_circles(fit, xy, grey)
     radius = verified.radius
@@ -237,11 +250,16 @@ def _verify_circles(fit: EllipseFit, xy: Array, image: GreyImage) -> _VerifiedCi
         good = good & (np.linalg.norm(off, axis=1) < limits.max_misplacement)
         good = good & (shape < limits.max_shape_difference)
     enough = np.count_nonzero(~good) <= limits.max_rejected_share * len(good)
-    if not enough or np.median(residual / contrast) > limits.max_relative_residual:
+    if not enough or _measure_misfit(fit) > limits.max_relative_residual:
         raise _distrust()
     if np.count_nonzero(are_marks & good) > limits.max_marked_share * len(good):
         raise _distrust()
     return _VerifiedCircles(good, uv, radius, are_marks & good)
+
+
+def _measure_misfit(fit: EllipseFit) -> float:
+    """Measure the median of what ellipses leave unexplained, over their contrast."""
+    return float(np.median(fit.residual / fit.contrast))
 
 
 def _distrust() -> NoBoardError:

@@ -2,19 +2,24 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 import pytest
 
-from calibgui.engine.arrays import GridSize
+from calibgui.engine.arrays import Array, GreyImage, GridSize
 from calibgui.engine.boards.board import Board
 from calibgui.engine.boards.circle_grid import Circles
 from calibgui.engine.boards.pattern import Symmetry
 from calibgui.engine.camera.camera import Camera
+from calibgui.engine.detection.circles import ellipse_fit
 from calibgui.engine.detection.circles.circle_map import fit_circle_map
+from calibgui.engine.detection.circles.ellipse_fit import EllipseFit
 from calibgui.engine.detection.find_corners import find_corners
 from calibgui.engine.errors import CalibrationError, NoBoardError
 from tests.engine.detection.conftest import CAMERA, Scene
 from tests.scenes.marked_circles import MarkedCircles
+from tests.scenes.without_board import draw_without_board
 
 NO_LENS = Camera(CAMERA.size, [*CAMERA.params[:4], *np.zeros(6)])
 BENT = Camera(CAMERA.size, [*CAMERA.params[:4], 0.25, 0.02, 0.0, 0.0, 0.0, 0.0])
@@ -147,6 +152,26 @@ def test_square_spots_are_not_circles() -> None:
             image[60 + 70 * i : 90 + 70 * i, 80 + 70 * j : 110 + 70 * j] = 30
     with pytest.raises(NoBoardError):
         find_corners(image, (5, 7), pattern=Circles())
+
+
+def test_a_sample_of_many_spots_tells_that_they_are_no_circles(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    counts = []
+    fit = ellipse_fit.fit_ellipses
+
+    def count(image: GreyImage, uv: Array, *rest: Any) -> EllipseFit:
+        counts.append(len(uv))
+        return fit(image, uv, *rest)
+
+    monkeypatch.setattr(ellipse_fit, "fit_ellipses", count)
+    with pytest.raises(NoBoardError, match="not regular enough"):
+        find_corners(draw_without_board(3), pattern=Circles(asymmetric=True))
+    assert counts == [40]
+    counts.clear()
+    scene = Scene(Board(9, 12, 20.0, Circles(False, 0.5)), distance=500.0)
+    assert find_corners(scene.image(), pattern=Circles()).complete
+    assert counts == [40, 108]
 
 
 def test_what_is_wrongly_stated_is_told() -> None:
