@@ -97,6 +97,10 @@ SMALL: dict[str, dict[str, Any]] = {
     for square in (8, 90, 300)
 }
 """Boards of few corners that fill the image, but for the smallest, at 30 % barrel."""
+SMALL |= {
+    f"{rows} x {cols}, aside": SMALL[f"{rows} x {cols}, 300 px"] | {"centre": (420.0, 210.0)}
+    for rows, cols in ((3, 3), (3, 4))
+}
 
 
 def score(method: Method, scenes: list[Scene], draws: int) -> Score:

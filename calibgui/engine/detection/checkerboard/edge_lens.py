@@ -35,8 +35,13 @@ _WEIGHTS = np.array([5.0, 8.0, 5.0]) / 18
 """(3,) weights of these."""
 _PRODUCTS = np.stack([_WEIGHTS, 3**0.5 * _PLACES * _WEIGHTS])
 """(2, 3) weights in the mean and in the slope."""
-_STEPS = 2
-"""Number of Gauss-Newton steps from the lens that the corners show."""
+_MAX_STEPS = 30
+"""Number of steps, tried ones included, from the lens that the corners show; two are usual."""
+_LEAST_DAMPING, _FIRST_DAMPING, _DAMPING_FACTOR = 1e-13, 1e-11, 10.0
+"""What is added to the diagonal of a step's equations, over its sum: always, and once a step has
+failed; and the factor by which it changes with each step that fails or does not."""
+_CONVERGED_SHARE = 0.9
+"""Share of the sum of squares that a step leaves at which it was the last."""
 _BY_LAST_COLUMN = np.array([2, 5, 8])
 """Which of the derivatives by the parameters are those by the last column of A."""
 
@@ -98,7 +103,11 @@ def fit_edge_lenses(
 def _refine_lens(
     inverse: InverseRadialHomography, offset: Array, columns: Array, points: Array, cells: Array
 ) -> tuple[InverseRadialHomography, Array, Array]:
-    """Refine a map as long as that leaves less of the means and slopes.
+    """Refine a map by damped Gauss-Newton steps (Marquardt 1963) as long as that leaves less of the
+    means and slopes.
+
+    Under a strong lens the map of few corners is hardly determined along one direction, and an
+    undamped step from the lens that the corners show leads far beyond.
 
     Args:
         inverse: the map.
@@ -109,16 +118,22 @@ def _refine_lens(
     Returns:
         The map, with its offsets and columns.
     """
-    for _ in range(_STEPS):
+    damping = 0.0
+    for _ in range(_MAX_STEPS):
         rest, J = _average(offset).ravel(), _average(columns).reshape(-1, columns.shape[-1])
         try:
-            stepped = inverse.take_step(J, rest)
+            stepped = inverse.take_step(J, rest, damping + _LEAST_DAMPING)
         except np.linalg.LinAlgError:
             break
         off, by_parameters = _measure_offsets(stepped, points, cells)
-        if not np.sum(_average(off) ** 2) < rest @ rest:
-            break
+        before, after = rest @ rest, np.sum(_average(off) ** 2)
+        if not after < before:
+            damping = max(_DAMPING_FACTOR * damping, _FIRST_DAMPING)
+            continue
         inverse, offset, columns = stepped, off, by_parameters
+        if damping <= _FIRST_DAMPING and after > _CONVERGED_SHARE * before:
+            break
+        damping /= _DAMPING_FACTOR
     return inverse, offset, columns
 
 

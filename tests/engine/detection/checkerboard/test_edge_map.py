@@ -56,10 +56,14 @@ def read_edges(
 
 
 def measure(
-    grid_size: tuple[int, int], square: float, rng: np.random.Generator, **lens: Any
+    grid_size: tuple[int, int],
+    square: float,
+    rng: np.random.Generator,
+    sigma: float = SIGMA,
+    **lens: Any,
 ) -> list[Array]:
-    """The corners' errors, and the standard deviations that are claimed for what errors of the
-    curvatures add, both in standard deviations of the corners."""
+    """The errors of corners that are known to `sigma` px, and the standard deviations that are
+    claimed for what errors of the curvatures add, both in standard deviations of the corners."""
     height = 6.3 * square
     conditions = Conditions(
         grid_size=grid_size, square=square, size=(int(4 / 3 * height), int(height)), **lens
@@ -67,8 +71,8 @@ def measure(
     camera = Camera(conditions, rng)
     at, normals, kappa, arm = draw_edges(camera, grid_size)
     mean, slope = read_edges(camera, grid_size, normals, kappa, arm)
-    off = mean + SIGMA * rng.standard_normal(arm.shape)
-    turned = 3**0.5 * SIGMA / arm * rng.standard_normal(arm.shape) - slope
+    off = mean + sigma * rng.standard_normal(arm.shape)
+    turned = 3**0.5 * sigma / arm * rng.standard_normal(arm.shape) - slope
     tangents = np.stack([normals[..., 1], -normals[..., 0]], axis=2)
     got = fit_edge_map(
         np.ones(grid_size, np.bool_),
@@ -79,7 +83,7 @@ def measure(
     )
     third = arm**2 / 6
     error = off - (got.curvature - kappa) * third
-    return [error / SIGMA, np.sqrt(got.variance) * third / SIGMA]
+    return [error / sigma, np.sqrt(got.variance) * third / sigma]
 
 
 @pytest.mark.parametrize("distortion", [0.0, 0.065, 0.43])
@@ -93,6 +97,17 @@ def test_a_few_edges_tell_how_they_bend(
     error, claimed = (np.concatenate(values) for values in zip(*results, strict=True))
     assert np.sqrt(np.mean(error**2)) < 1.2
     assert 0.8 < np.mean(error**2 / (1 + claimed**2)) < 1.2
+
+
+@pytest.mark.parametrize("grid_size", [(3, 3), (3, 4), (4, 4)])
+def test_edges_beside_the_axis_of_a_strong_lens_tell_it_too(grid_size: tuple[int, int]) -> None:
+    """There a first step towards the lens leads far beyond it."""
+    rng, square = np.random.default_rng(5), 300.0
+    conditions = {"distortion": 0.43, "shift": 90.0, "centre": (1.4 * square, 0.7 * square)}
+    results = [measure(grid_size, square, rng, sigma=0.0014, **conditions) for _ in range(30)]
+    error, claimed = (np.concatenate(values) for values in zip(*results, strict=True))
+    assert np.sqrt(np.mean(error**2)) < 1.12
+    assert 0.8 < np.mean(error**2 / (1 + claimed**2)) < 1.15
 
 
 def test_corners_that_a_wrong_curvature_moved_tell_the_same() -> None:
