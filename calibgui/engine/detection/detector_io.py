@@ -63,7 +63,7 @@ def estimate_least_noise(image: GreyImage) -> float:
 def convert_for_reading(image: GreyImage) -> npt.NDArray[np.uint8]:
     """Return an image (h, w) in 8 bits with contrast enough for markers to be read."""
     if image.dtype == np.uint8 and np.ptp(image) < _MIN_READABLE_RANGE:
-        return stretch_levels(image.astype(np.float32))
+        return stretch_levels(image.astype(np.uint16))  # these are stretched by a table
     return stretch_levels(image)
 
 
