@@ -9,6 +9,7 @@ them in a fixed order: nothing depends on the number of threads.
 
 from __future__ import annotations
 
+import contextlib
 import hashlib
 import os
 from collections.abc import Callable
@@ -19,6 +20,8 @@ from typing import Any, ParamSpec, TypeVar
 
 import numpy as np
 from numba import config, njit
+from numba.core.caching import FunctionCache
+from numba.core.runtime import rtsys
 
 from calibgui.engine.arrays import Array, GreyImage
 
@@ -44,18 +47,33 @@ _MIN_BLOCKS_FOR_THREADS = 4
 """Number of blocks below which starting threads costs more than they save."""
 
 
+class _KernelCache(FunctionCache):  # type: ignore[misc]  # numba is not typed
+    """Numba's place of compiled functions on disk, read without all that compiling takes.
+
+    Numba's own declares to its compiler everything that compiled functions may call before it reads
+    one, which takes longer than to read all kernels of a calibration. Its compiler declares the
+    same again when it is needed; what is read needs the runtime, by which memory is allocated.
+    """
+
+    def load_overload(self, sig: Any, target_context: Any) -> Any:
+        """Load a kernel for a signature; return None if there is none."""
+        rtsys.initialize(target_context)
+        with self._guard_against_spurious_io_errors():
+            return self._load_overload(sig, target_context)
+
+
 def compiled(function: Callable[_P, _T]) -> Callable[_P, _T]:
     """Compile a function, and keep the result for the next start if there is a place to keep it."""
-    options = _OPTIONS | {"nogil": True}
+    compiled_function: Any = njit(nogil=True, **_OPTIONS)(function)
     usual, config.CACHE_DIR = config.CACHE_DIR, _find_cache_folder()
-    compiled_function: Callable[_P, _T]
     try:
-        compiled_function = njit(cache=True, **options)(function)
-    except RuntimeError:  # neither the package's folder nor the user's cache can be written
-        compiled_function = njit(**options)(function)
+        # Neither the package's folder nor the user's cache may be one that can be written.
+        with contextlib.suppress(RuntimeError):
+            compiled_function._cache = _KernelCache(function)
     finally:
         config.CACHE_DIR = usual
-    return compiled_function
+    kernel: Callable[_P, _T] = compiled_function
+    return kernel
 
 
 def compiled_part(function: Callable[_P, _T]) -> Callable[_P, _T]:

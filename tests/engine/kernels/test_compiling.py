@@ -67,3 +67,34 @@ def test_a_change_to_what_a_kernel_calls_in_another_file_is_noticed(tmp_path: Pa
             check=True,
         )
         assert done.stdout.strip() == answer
+
+
+def test_a_kept_kernel_is_loaded_without_what_compiling_takes(tmp_path: Path) -> None:
+    (tmp_path / "asks.py").write_text(
+        "from calibgui.engine.kernels.common import compiled\n"
+        "@compiled\n"
+        "def double(x):\n"
+        "    return 2 * x\n",
+        encoding="utf-8",
+    )
+    program = (
+        "import sys, asks, numpy as np\n"
+        "assert (asks.double(np.ones(3)) == 2).all()\n"
+        "print('numba.np.arraymath' in sys.modules)"
+    )
+    ours = Path(calibgui.__file__).parents[1]
+    places = {
+        "PYTHONPATH": os.pathsep.join(map(str, (tmp_path, ours))),
+        "NUMBA_CACHE_DIR": str(tmp_path / "kept"),
+    }
+    said = [
+        subprocess.run(
+            [sys.executable, "-c", program],
+            env=os.environ | places,
+            capture_output=True,
+            text=True,
+            check=True,
+        ).stdout.strip()
+        for _ in range(2)
+    ]
+    assert said == ["True", "False"]

@@ -45,13 +45,10 @@ def test_without_numba_the_result_is_the_same(photographs: Path, tmp_path: Path)
 def test_kernels_compile_where_nothing_can_be_kept(monkeypatch: pytest.MonkeyPatch) -> None:
     from calibgui.engine.kernels import common
 
-    def unkept(**options: object):  # type: ignore[no-untyped-def]
-        if options.pop("cache", False):
-            raise RuntimeError("cannot cache function: no locator available")
-        return njit(**options)
+    def find_no_place(_: object) -> None:
+        raise RuntimeError("cannot cache function: no locator available")
 
-    njit = common.njit
-    monkeypatch.setattr(common, "njit", unkept)
+    monkeypatch.setattr(common, "_KernelCache", find_no_place)
 
     def doubled(x):  # type: ignore[no-untyped-def]
         return 2 * x
