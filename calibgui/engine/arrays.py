@@ -60,13 +60,21 @@ def freeze(record: object, *names: str) -> None:
             object.__setattr__(record, name, frozen)
 
 
+def compute_lengths(vectors: Array) -> Array:
+    """Compute the lengths (...,) of vectors (..., 2): as ``np.linalg.norm``, in a third of the time
+    that it takes for a few hundred."""
+    return np.asarray(np.hypot(vectors[..., 0], vectors[..., 1]))
+
+
 def compute_median(values: Array, axis: int = -1) -> Array:
     """Compute the median along an axis of values that hold no NaN: as ``np.median``, which spends
     most of its time on what a few hundred values do not need, in a fifth of the time."""
     half, is_odd = divmod(values.shape[axis], 2)
+    parted = values.copy()
     if is_odd:
-        return np.asarray(np.partition(values, half, axis=axis).take(half, axis=axis))
-    parted = np.partition(values, (half - 1, half), axis=axis)
+        parted.partition(half, axis=axis)
+        return np.asarray(parted.take(half, axis=axis))
+    parted.partition((half - 1, half), axis=axis)
     return np.asarray((parted.take(half - 1, axis=axis) + parted.take(half, axis=axis)) / 2)
 
 

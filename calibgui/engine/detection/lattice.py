@@ -8,12 +8,12 @@ place is taken from the few places around it.
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 
 from calibgui.engine import kernels
-from calibgui.engine.arrays import Array, BoolArray, IntArray
+from calibgui.engine.arrays import Array, BoolArray, IntArray, compute_lengths
 
 DIRECTIONS = np.array([(0, 1), (1, 0), (0, -1), (-1, 0)])
 """(4, 2) steps in row and column of the board's directions 0 to 3."""
@@ -39,6 +39,8 @@ class Lattice:
     """(rows, cols, 2) px, NaN where nothing was found."""
     dark: bool
     """True if the square before cell (0, 0), above its row and left of its column, is dark."""
+    _steps: tuple[Array, Array] | None = field(default=None, init=False, repr=False)
+    """What `steps` returns, once it was asked."""
 
     @property
     def shape(self) -> tuple[int, int]:
@@ -56,10 +58,18 @@ class Lattice:
         """Return the lattice with the corners under a mask (rows, cols) only."""
         return Lattice(np.where(mask[..., None], self.uv, np.nan), self.dark)
 
+    def steps(self) -> tuple[Array, Array]:
+        """Return the steps (rows, cols, 2) px to the next column and to the next row, estimated
+        once: see `estimate_steps`."""
+        if self._steps is None:
+            object.__setattr__(self, "_steps", estimate_steps(self.uv))
+        assert self._steps is not None
+        return self._steps
+
     def spacing(self) -> Array:
         """Return (rows, cols) the shorter of the steps to the neighbours, px; NaN where unknown."""
-        right, down = estimate_steps(self.uv)
-        return np.fmin(np.linalg.norm(right, axis=2), np.linalg.norm(down, axis=2))
+        right, down = self.steps()
+        return np.fmin(compute_lengths(right), compute_lengths(down))
 
 
 def trim_lattice(lattice: Lattice) -> Lattice | None:
@@ -75,7 +85,7 @@ def _find_strays(lattice: Lattice) -> BoolArray:
     """Return a mask (rows, cols) of the corners off their neighbours' prediction."""
     found = lattice.found
     offset = lattice.uv[found] - predict_places(lattice.uv)[found]
-    right, down = (step[found] for step in estimate_steps(lattice.uv))
+    right, down = (step[found] for step in lattice.steps())
     found[found] = measure_in_steps(offset, right, down) > MAX_DEVIATION
     return found
 
@@ -101,7 +111,7 @@ def drop_isolated_and_crop(lattice: Lattice) -> Lattice:
 def drop_isolated(lattice: Lattice) -> Lattice:
     """Drop the corners that are too far from all others for the steps there to be known."""
     while True:
-        right, down = estimate_steps(lattice.uv)
+        right, down = lattice.steps()
         known = np.isfinite(right[..., 0] + down[..., 0])
         if known[lattice.found].all():
             return lattice
@@ -114,6 +124,8 @@ def crop_lattice(lattice: Lattice) -> Lattice:
         return Lattice(lattice.uv[:0, :0], lattice.dark)
     rows, cols = (np.flatnonzero(lattice.found.any(axis=axis)) for axis in (1, 0))
     r, c = int(rows[0]), int(cols[0])
+    if (len(rows), len(cols)) == lattice.shape:
+        return lattice
     dark = lattice.dark ^ bool((r + c) % 2)
     return Lattice(lattice.uv[r : rows[-1] + 1, c : cols[-1] + 1], dark)
 

@@ -1,7 +1,7 @@
 """Samples around corners, compiled; see ``detection.checkerboard.corner_template``.
 
-Only `_fill_samples` reads the image: what is computed from the samples would be compiled anew for
-each type of image.
+Only `_fill_samples` and `_fill_sectors` read the image: what else is computed from the samples
+would be compiled anew for each type of image.
 """
 
 from __future__ import annotations
@@ -9,7 +9,16 @@ from __future__ import annotations
 import numpy as np
 
 from calibgui.engine.arrays import Array, BoolArray, GreyImage
-from calibgui.engine.kernels.common import bilinear, compiled, compiled_part, make_read_only
+from calibgui.engine.kernels.common import (
+    bilinear,
+    compiled,
+    compiled_part,
+    make_contiguous,
+    make_read_only,
+)
+
+_LEAST_REACH = 1e-9
+"""As that of the reference."""
 
 
 @compiled_part
@@ -40,6 +49,44 @@ def sample_around(
     """Compute ``sample_around`` of the reference."""
     out = np.empty((len(uv), len(positions)))
     _fill_samples(make_read_only(image), uv, right, down, positions, out)
+    return out
+
+
+@compiled
+def _fill_sectors(
+    image: GreyImage, uv: Array, right: Array, down: Array, places: Array, out: Array
+) -> None:
+    """Fill out (n, count) with the means of as many runs of samples."""
+    height, width = image.shape
+    n, count = out.shape
+    k = places.shape[0] // count
+    reach = 0.0
+    for j in range(places.shape[0]):
+        reach = max(reach, places[j, 0], places[j, 1])
+    samples, near = np.empty(places.shape[0]), np.empty((2, 2))
+    for i in range(n):
+        u, v = uv[i, 0], uv[i, 1]
+        across = max(reach * (abs(right[i, 0]) + abs(down[i, 0])), _LEAST_REACH)
+        along = max(reach * (abs(right[i, 1]) + abs(down[i, 1])), _LEAST_REACH)
+        share = min(min(u, width - 1 - u) / across, min(v, height - 1 - v) / along)
+        share = min(max(share, 0.1), 1.0)
+        for axis in range(2):
+            near[0, axis], near[1, axis] = share * right[i, axis], share * down[i, axis]
+        _sample_row(image, u, v, near[0], near[1], places, samples)
+        for sector in range(count):
+            total = 0.0
+            for j in range(sector * k, (sector + 1) * k):
+                total += samples[j]
+            out[i, sector] = total / k
+
+
+def average_sectors(
+    image: GreyImage, uv: Array, right: Array, down: Array, positions: Array, count: int
+) -> Array:
+    """Compute ``_average_sectors`` of the reference."""
+    out = np.empty((len(uv), count))
+    uv, right, down = map(make_contiguous, (uv, right, down))
+    _fill_sectors(make_read_only(image), uv, right, down, positions, out)
     return out
 
 

@@ -51,16 +51,25 @@ def test_compiled_and_readable_find_the_same(
         np.testing.assert_allclose(*pair, rtol=1e-3)
 
 
-def test_the_same_solution_of_the_normal_equations() -> None:
+def test_the_same_step_of_the_unknowns() -> None:
     rng = np.random.default_rng(0)
-    J = rng.normal(size=(50, 20, 9)) * 10.0 ** rng.uniform(-2, 2, 9)
-    J[0, :, 3] = J[0, :, 4]  # not to be told apart
-    N, g = J.transpose(0, 2, 1) @ J, rng.normal(size=(50, 9))
-    solve = x_corner_fit._solve_normal_equations
-    (step, inverse), expected = solve.kernel(N, g, 1e-9), solve.reference(N, g, 1e-9)
-    np.testing.assert_allclose(step[1:], expected[0][1:], rtol=1e-6)
-    np.testing.assert_allclose(inverse, expected[1], rtol=1e-6)
-    assert np.isfinite(step).all()
+    n = 50
+    J = rng.normal(size=(n, 30, 10)) * 10.0 ** rng.uniform(-2, 2, 10)
+    J[..., 6] = 1.0  # the derivative by m
+    J[0, :, 3] = J[0, :, 2]  # not to be told apart
+    products = J.transpose(0, 2, 1) @ J
+    x = rng.normal(size=(n, 9))
+    x[:, 4:6] = rng.uniform(0.3, 2.0, (n, 2))
+    x[:, 8] = rng.uniform(-0.9, 0.9, n)
+    upright = [0.0, np.pi / 2]  # one difference of the blurs cannot be seen then
+    for directions in (rng.uniform(-np.pi, np.pi, (n, 2)), np.tile(upright, (n, 1))):
+        x[:, 2:4] = directions
+        arguments = x, products, 1e-9, 0.3, 0.03, 0.95, 0.3
+        step = x_corner_fit._step_unknowns
+        mine, its = step.kernel(*arguments), step.reference(*arguments)
+        assert np.isfinite(mine[0]).all()
+        for one, other in zip(mine, its, strict=True):
+            np.testing.assert_allclose(one[1:], other[1:], rtol=1e-6, atol=1e-12)
 
 
 @pytest.mark.parametrize("bent", [0.0, 0.002, 0.02])

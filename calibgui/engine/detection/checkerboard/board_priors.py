@@ -141,7 +141,7 @@ class BoardPriors:
             if is_broken.any():
                 lesser = np.where(abs(before) < abs(after), before, after)
                 slopes = np.where(is_broken, np.nan_to_num(lesser), slopes)
-        return np.asarray(np.linalg.solve(steps, slopes).transpose(0, 2, 1))
+        return _solve_steps(steps, slopes).transpose(0, 2, 1)
 
     def estimate_gradient_covariance(self, steps: Array, values: Array) -> Array:
         """Estimate the covariance (n, 2, 2) over the image, per px^2, that the gradient of `values`
@@ -155,7 +155,7 @@ class BoardPriors:
         count = int(self._choose_counts(values[:, None], weights[:, None])[0][0])
         rss = np.sum((values - Q[:, :count] @ weights[:count]) ** 2)
         variance = rss / max(len(values) - count, 1)
-        slopes = np.linalg.solve(steps, derivatives[:2, :, :count].transpose(1, 0, 2))
+        slopes = _solve_steps(steps, derivatives[:2, :, :count].transpose(1, 0, 2))
         return np.asarray(variance * slopes @ slopes.transpose(0, 2, 1))
 
     def _take_differences(self, values: Array) -> tuple[Array, Array, Array]:
@@ -206,6 +206,18 @@ class BoardPriors:
         rss = np.maximum(np.sum(values**2, axis=0) - explained, 0.0)
         score = rss / (1 - _THRESHOLDS.term_cost * counts[:, None] / (len(values) + 1)) ** 2
         return counts[np.argmin(score, axis=0)], np.sqrt(score.min(axis=0) / len(values))
+
+
+def _solve_steps(steps: Array, slopes: Array) -> Array:
+    """Solve ``steps[i] @ x[i] = slopes[i]`` for x (n, 2, k), given steps (n, 2, 2) and slopes
+    (n, 2, k): gradients over the image from derivatives by column and by row."""
+    (a, b), (c, d) = steps.transpose(1, 2, 0)[..., None]
+    by_col, by_row = slopes[:, 0], slopes[:, 1]
+    solution = np.empty(slopes.shape)
+    np.subtract(d * by_col, b * by_row, out=solution[:, 0])
+    np.subtract(a * by_row, c * by_col, out=solution[:, 1])
+    solution /= (a * d - b * c)[:, None]
+    return solution
 
 
 class PredictedBoardPriors(BoardPriors):

@@ -31,7 +31,7 @@ import scipy
 from calibgui.engine import kernels
 from calibgui.engine.arrays import Array, BoolArray, GreyImage, IntArray, compute_median
 from calibgui.engine.detection.checkerboard.fit_thresholds import FIT_THRESHOLDS
-from calibgui.engine.detection.lattice import Lattice, estimate_steps
+from calibgui.engine.detection.lattice import Lattice
 from calibgui.engine.images.sampling import sample_image
 
 _THRESHOLDS = FIT_THRESHOLDS.template
@@ -42,6 +42,8 @@ _SECTOR_POSITIONS = np.array(
     [(i * a, j * b) for i, j in _SECTOR_SIGNS for b in _SECTOR_OFFSETS for a in _SECTOR_OFFSETS]
 )
 """(36, 2) samples of the four sectors, one after the other, steps."""
+_LEAST_REACH = 1e-9
+"""Reach of sectors, px, below which their corners have no squares."""
 _PATCH_OFFSETS = np.array([-0.3, -0.2, -0.1, 0.1, 0.2, 0.3])
 PATCH_POSITIONS = np.array([(a, b) for a in _PATCH_OFFSETS for b in _PATCH_OFFSETS])
 """(k, 2) where a corner's patch is sampled, steps."""
@@ -171,7 +173,7 @@ def _compute_median_patch(patches: Array) -> Array:
 
 def orient_corners(lattice: Lattice) -> OrientedCorners:
     """Return the corners of `lattice` with their steps and colours."""
-    right, down = estimate_steps(lattice.uv)
+    right, down = lattice.steps()
     at = np.nonzero(lattice.found)
     dark = lattice.dark ^ ((at[0] + at[1]) % 2 == 1)
     return OrientedCorners(lattice.uv[at], right[at], down[at], dark)
@@ -190,21 +192,47 @@ def compare_sectors(
         Gap between the darkest bright and the brightest dark sector (n,), and the difference
         of bright and dark on average (n,), both grey levels and negative where exchanged.
     """
-    values = _sample_sectors(image, uv, right, down).mean(axis=2)
-    values = np.where(dark[:, None], values, -values)
-    low, high = values[:, :2], values[:, 2:]
-    difference = high.mean(axis=1) - low.mean(axis=1)
-    return high.min(axis=1) - low.max(axis=1), difference
+    values = _average_sectors(image, uv, right, down, _SECTOR_POSITIONS, len(_SECTOR_SIGNS))
+    values = np.where(dark[:, None], values, -values).T
+    low, high = np.maximum(values[0], values[1]), np.minimum(values[2], values[3])
+    return high - low, (values[2] + values[3] - values[0] - values[1]) / 2
+
+
+@kernels.with_kernel("corner_template", "average_sectors")
+def _average_sectors(
+    image: GreyImage, uv: Array, right: Array, down: Array, positions: Array, count: int
+) -> Array:
+    """Average the grey levels (n, count) of the sectors around corners.
+
+    At the border of the image the sectors are sampled nearer to the corner.
+
+    Args:
+        image: (h, w) grey levels.
+        uv, right, down: the corners, as `OrientedCorners`.
+        positions: (count * k, 2) samples of the sectors, one sector after the other, steps.
+        count: number of sectors.
+    """
+    nearer = _shorten_at_border(image, uv, right, down, float(positions.max()))
+    values = sample_around(image, uv, nearer * right, nearer * down, positions)
+    return np.asarray(values.reshape(len(uv), count, -1).mean(axis=2))
+
+
+def _shorten_at_border(
+    image: GreyImage, uv: Array, right: Array, down: Array, reach: float
+) -> Array:
+    """Return the share (n, 1) of steps by which samples `reach` steps along both from the corners
+    lie in the image, as far as that is sensible."""
+    distance = np.minimum(uv, np.array(image.shape[::-1]) - 1.0 - uv)
+    farthest = np.maximum(reach * (abs(right) + abs(down)), _LEAST_REACH)
+    return np.asarray(np.clip(distance / farthest, 0.1, 1.0).min(axis=1, keepdims=True))
 
 
 def _sample_sectors(image: GreyImage, uv: Array, right: Array, down: Array) -> Array:
-    """Sample grey levels (n, 4, k) in the squares (+, +), (-, -), (+, -) and (-, +) of corners."""
-    # At the border of the image the sectors are sampled nearer to the corner.
-    distance = np.minimum(uv, np.array(image.shape[::-1]) - 1.0 - uv)
-    reach = _SECTOR_OFFSETS.max() * (abs(right) + abs(down))
-    nearer = np.clip(distance / np.maximum(reach, 1e-9), 0.1, 1.0).min(axis=1, keepdims=True)
+    """Sample grey levels (n, 4, k) in the squares (+, +), (-, -), (+, -) and (-, +) of corners, as
+    `_average_sectors` does."""
+    nearer = _shorten_at_border(image, uv, right, down, float(_SECTOR_POSITIONS.max()))
     values = sample_around(image, uv, nearer * right, nearer * down, _SECTOR_POSITIONS)
-    return values.reshape(len(uv), len(_SECTOR_SIGNS), _SECTOR_OFFSETS.size**2)
+    return values.reshape(len(uv), len(_SECTOR_SIGNS), -1)
 
 
 @kernels.with_kernel("corner_template", "compute_patches")

@@ -71,8 +71,8 @@ def find_sound_corners(lattice: Lattice, image: GreyImage, plain: float = 0.5) -
         # Marks in the squares differ; what is near the corners does not.
         good |= _match_template(lattice, image, _PLAIN_IF_MARKED)
     # What does not look like a corner says nothing about where its neighbours should be.
-    uv = lattice.select(good).uv
-    steps = estimate_steps(uv)
+    alike = lattice.select(good)
+    uv, steps = alike.uv, alike.steps()
     deviation = measure_in_steps(uv - predict_places(uv), *steps)
     astray = good & (deviation >= THRESHOLDS.verification.max_deviation)
     if astray.any() and not astray[good].all():
@@ -136,6 +136,13 @@ def drop_broken_lines(lattice: Lattice, image: GreyImage) -> Lattice:
 def drop_stray_lines(lattice: Lattice, image: GreyImage) -> Lattice:
     """Drop border lines of few corners before which the board is seen to end, one on each side."""
     limits = THRESHOLDS.verification
+    found = lattice.found
+    if not found.size:
+        return lattice
+    least = [limits.min_border_corners * count for count in lattice.shape]
+    across, along = np.count_nonzero(found, axis=1), np.count_nonzero(found, axis=0)
+    if (across[[0, -1]] >= least[1]).all() and (along[[0, -1]] >= least[0]).all():
+        return lattice
     for quarters in range(4):
         turned = turn_lattice(lattice, quarters)
         if not len(turned.uv):
@@ -149,7 +156,7 @@ def drop_stray_lines(lattice: Lattice, image: GreyImage) -> Lattice:
 
 def _find_broken_places(lattice: Lattice, image: GreyImage) -> BoolArray:
     """Find the places (rows, cols) inside a lattice where squares are seen but no corner."""
-    right, down = estimate_steps(lattice.uv)
+    right, down = lattice.steps()
     broken = ~lattice.found & np.isfinite(right + down).all(axis=2)
     places = np.argwhere(broken)
     if not len(places):

@@ -51,7 +51,7 @@ from dataclasses import dataclass, fields, replace
 import numpy as np
 
 from calibgui.engine import kernels
-from calibgui.engine.arrays import Array, BoolArray, GreyImage, compute_median
+from calibgui.engine.arrays import Array, BoolArray, GreyImage, compute_lengths, compute_median
 from calibgui.engine.detection.checkerboard import edge_profiles
 from calibgui.engine.detection.checkerboard.board_priors import BoardPriors, PredictedBoardPriors
 from calibgui.engine.detection.checkerboard.edge_map import EdgeGeometry
@@ -68,6 +68,7 @@ from calibgui.engine.detection.checkerboard.x_corner_model import (
     M,
     XCornerModel,
     accumulate_normal_equations,
+    compute_normals,
 )
 from calibgui.engine.detection.detector_io import estimate_least_noise
 from calibgui.engine.detection.lattice import Lattice
@@ -189,7 +190,7 @@ def _estimate_start(
     cells = np.argwhere(found)
     n = len(cells)
     steps, curvature = board.estimate_geometry(lattice.uv[found])
-    length = np.linalg.norm(steps, axis=2)
+    length = compute_lengths(steps)
     height = _compute_heights(steps)
     longest = np.minimum(np.maximum(bare_edge * length, _THRESHOLDS.min_arm), length / 2)
     unknowns = np.zeros((n, UNKNOWNS))
@@ -303,7 +304,8 @@ def _update_priors(
 def _compute_heights(steps: Array) -> Array:
     """Compute the heights (n, 2) of a square over edges 1 and 2 from the `steps` (n, 2, 2) along
     them."""
-    return np.asarray(abs(np.linalg.det(steps))[:, None] / np.linalg.norm(steps, axis=2))
+    (a, b), (c, d) = steps.transpose(1, 2, 0)
+    return np.asarray(abs(a * d - b * c)[:, None] / compute_lengths(steps))
 
 
 def _take_step(model: XCornerModel, products: Array) -> tuple[XCornerModel, Array, Array]:
@@ -313,31 +315,63 @@ def _take_step(model: XCornerModel, products: Array) -> tuple[XCornerModel, Arra
         The model after it, the part (n, 2, 2) of the equations' inverse for c, and the mean square
         (n,) of what is left unexplained.
     """
-    N, g = products[:, :UNKNOWNS, :UNKNOWNS], products[:, :UNKNOWNS, UNKNOWNS]
-    _add_priors(model, products)
-    step, inverse = _solve_normal_equations(N, g, _DAMPING)
-    square = np.maximum(products[:, UNKNOWNS, UNKNOWNS] - np.sum(step * g, axis=1), 0.0)
-    count = N[:, 6, 6]  # each pixel's derivative by m is 1
-    square /= np.maximum(count - UNKNOWNS, 1)
-    unknowns = model.unknowns + _limit_step(step, model.unknowns)
+    unknowns, inverse, square = _step_unknowns(
+        model.unknowns,
+        products,
+        _DAMPING,
+        _THRESHOLDS.rho_sigma,
+        _THRESHOLDS.blur_difference_sigma,
+        _THRESHOLDS.max_rho,
+        MIN_BLUR,
+    )
     return replace(model, unknowns=unknowns), inverse, square
 
 
-def _add_priors(model: XCornerModel, products: Array) -> None:
-    """Add to the `products` (n, 10, 10) what is known of rho and of the blurs' difference."""
-    N, g = products[:, :UNKNOWNS, :UNKNOWNS], products[:, :UNKNOWNS, UNKNOWNS]
-    normals, blurs = model.normals(), model.unknowns[BLUR]
-    square = products[:, UNKNOWNS, UNKNOWNS] / N[:, 6, 6]
+@kernels.with_kernel("x_corner_model", "step_unknowns")
+def _step_unknowns(
+    unknowns: Array,
+    products: Array,
+    damping: float,
+    rho_sigma: float,
+    blur_difference_sigma: float,
+    max_rho: float,
+    min_blur: float,
+) -> tuple[Array, Array, Array]:
+    """Take one Gauss-Newton step from the `unknowns` (n, 9).
+
+    Args:
+        unknowns: of every corner.
+        products: (n, 10, 10) of the columns [J r].
+        damping: what is added to the diagonal of the equations, over its largest entry.
+        rho_sigma: standard deviation of rho around that of an isotropic blur.
+        blur_difference_sigma: standard deviation of the blurs' difference around what the board
+            shows, blurs.
+        max_rho: largest rho.
+        min_blur: least blur, px.
+
+    Returns:
+        The unknowns (n, 9) after it, the part (n, 2, 2) of the equations' inverse for c, and the
+        mean square (n,) of what is left unexplained.
+    """
+    N, g = products[:, :UNKNOWNS, :UNKNOWNS].copy(), products[:, :UNKNOWNS, UNKNOWNS].copy()
+    squares, count = products[:, UNKNOWNS, UNKNOWNS], N[:, 6, 6]  # the derivative by m is 1
+    normals, blurs = compute_normals(unknowns[THETA]), unknowns[BLUR]
     # In a sharp image few pixels depend on rho: it stays near that of an isotropic blur.
-    weight = square / _THRESHOLDS.rho_sigma**2
+    weight = squares / count / rho_sigma**2
     N[:, 8, 8] += weight
-    g[:, 8] += weight * (np.sum(normals[:, 0] * normals[:, 1], axis=1) - model.unknowns[RHO])
+    g[:, 8] += weight * (np.sum(normals[:, 0] * normals[:, 1], axis=1) - unknowns[RHO])
     difference = np.array([1.0, -1.0])  # by the blurs
-    variance = _THRESHOLDS.blur_difference_sigma**2 * np.mean(blurs**2, axis=1)
-    weight = compute_median(square) / variance
+    variance = blur_difference_sigma**2 * np.mean(blurs**2, axis=1)
+    weight = compute_median(squares / count) / variance
     N[:, 4:6, 4:6] += weight[:, None, None] * np.outer(difference, difference)
     lack = estimate_blur_difference(normals, blurs) - blurs @ difference
     g[BLUR] += (weight * lack)[:, None] * difference
+
+    largest = np.einsum("nkk->nk", N).max(axis=1) + 1e-300
+    inverse = np.linalg.inv(N + damping * largest[:, None, None] * np.eye(UNKNOWNS))
+    step = np.einsum("nij,nj->ni", inverse, g)
+    square = np.maximum(squares - np.sum(step * g, axis=1), 0.0) / np.maximum(count - UNKNOWNS, 1)
+    return unknowns + _limit_step(step, unknowns, max_rho, min_blur), inverse[:, :2, :2], square
 
 
 def _correct_for_priors(model: XCornerModel, inverse: Array, better: XCornerModel) -> XCornerModel:
@@ -382,31 +416,14 @@ def _estimate_noise(square: Array, odd_part: Array) -> Array:
     return square if compute_median(noise) > compute_median(square) else noise
 
 
-@kernels.with_kernel("x_corner_model", "solve_normal_equations")
-def _solve_normal_equations(N: Array, g: Array, damping: float) -> tuple[Array, Array]:
-    """Solve the normal equations of every corner.
-
-    Args:
-        N: (n, 9, 9), to whose diagonal `damping` times its largest entry is added.
-        g: (n, 9)
-        damping: over the largest entry.
-
-    Returns:
-        N^-1 g (n, 9), and the part (n, 2, 2) of N^-1 for c.
-    """
-    largest = np.einsum("nkk->nk", N).max(axis=1) + 1e-300
-    inverse = np.linalg.inv(N + damping * largest[:, None, None] * np.eye(UNKNOWNS))
-    return np.einsum("nij,nj->ni", inverse, g), inverse[:, :2, :2]
-
-
-def _limit_step(step: Array, x: Array) -> Array:
+def _limit_step(step: Array, x: Array, max_rho: float, min_blur: float) -> Array:
     """Limit a Gauss-Newton step (n, 9) from `x` (n, 9) to where the linear model may hold."""
     limited = np.array(step)
     limited[C] = np.clip(step[C], -1.0, 1.0)
     limited[THETA] = np.clip(step[THETA], -0.1, 0.1)
-    s, rho, greatest = x[BLUR], x[RHO], _THRESHOLDS.max_rho
-    limited[BLUR] = np.clip(step[BLUR], np.maximum(-s / 3, MIN_BLUR - s), s / 2)
-    limited[RHO] = np.clip(step[RHO], -greatest - rho, greatest - rho)
+    s, rho = x[BLUR], x[RHO]
+    limited[BLUR] = np.clip(step[BLUR], np.maximum(-s / 3, min_blur - s), s / 2)
+    limited[RHO] = np.clip(step[RHO], -max_rho - rho, max_rho - rho)
     return limited
 
 

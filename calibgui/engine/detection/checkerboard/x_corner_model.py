@@ -173,12 +173,7 @@ class XCornerModel:
 
     def normals(self) -> Array:
         """Compute (n, 2, 2) n_1 towards the next row and n_2 towards the next column."""
-        angle = self.unknowns[THETA]
-        cosine, sine = np.cos(angle), np.sin(angle)
-        n = np.empty((len(angle), 2, 2))
-        n[:, 0, 0], n[:, 0, 1] = -sine[:, 0], cosine[:, 0]
-        n[:, 1, 0], n[:, 1, 1] = sine[:, 1], -cosine[:, 1]
-        return n
+        return compute_normals(self.unknowns[THETA])
 
     def pixel_half_widths(self) -> Array | None:
         """Compute the half widths (n, 2) px of a pixel across edges 1 and 2; None if the blur is so
@@ -199,6 +194,16 @@ class XCornerModel:
             self.arm,
             np.minimum(width, self.plain_width),
         )
+
+
+def compute_normals(theta: Array) -> Array:
+    """Compute the normals (n, 2, 2) of edges of the directions `theta` (n, 2), as
+    `XCornerModel.normals`."""
+    cosine, sine = np.cos(theta), np.sin(theta)
+    n = np.empty((len(theta), 2, 2))
+    n[:, 0, 0], n[:, 0, 1] = -sine[:, 0], cosine[:, 0]
+    n[:, 1, 0], n[:, 1, 1] = sine[:, 1], -cosine[:, 1]
+    return n
 
 
 @dataclass(frozen=True, eq=False, slots=True)
