@@ -10,13 +10,10 @@ from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import Any
 
-from tqdm import tqdm
-
 from calibgui.engine.errors import CalibrationError
 from calibgui.formats.json_document import dumps
 from calibgui.report.names import make_printable
 
-tqdm.monitor_interval = 0  # its thread would keep workers from being forked (app.workers)
 Advance = Callable[[int, int], None]
 """Function that is called with the number of finished items and the number of all."""
 
@@ -69,7 +66,7 @@ class Console:
     def print_notice(self, text: str) -> None:
         """Print on stderr the reason for a wait, unless nobody watches."""
         if not self._is_unwatched:
-            tqdm.write(escape_controls(text), file=sys.stderr)
+            _load_tqdm().write(escape_controls(text), file=sys.stderr)
 
     @property
     def _is_unwatched(self) -> bool:
@@ -79,15 +76,24 @@ class Console:
     @contextlib.contextmanager
     def show_progress(self, what: str, unit: str = "image") -> Iterator[Advance]:
         """Show a progress bar on stderr, unless nobody watches."""
-        with tqdm(
-            desc=what, unit=unit, disable=self._is_unwatched, leave=False, file=sys.stderr
-        ) as bar:
+        if self._is_unwatched:
+            yield lambda done, total: None  # noqa: ARG005 - nobody is told
+            return
+        with _load_tqdm()(desc=what, unit=unit, leave=False, file=sys.stderr) as bar:
 
             def advance(done: int, total: int) -> None:
                 bar.total = total
                 bar.update(done - bar.n)
 
             yield advance
+
+
+def _load_tqdm() -> Any:
+    """Load progress bars, where somebody watches: it takes as long as all our files of formats."""
+    from tqdm import tqdm
+
+    tqdm.monitor_interval = 0  # its thread would keep workers from being forked (app.workers)
+    return tqdm
 
 
 def escape_controls(text: str) -> str:
