@@ -26,7 +26,14 @@ from typing import NamedTuple
 
 import numpy as np
 
-from calibgui.engine.arrays import Array, BoolArray, GridSize, IntArray, compute_median
+from calibgui.engine.arrays import (
+    Array,
+    BoolArray,
+    GridSize,
+    IntArray,
+    compute_lengths,
+    compute_median,
+)
 from calibgui.engine.detection import grid_map
 from calibgui.engine.detection.checkerboard.edge_map import EdgeGeometry, fit_edge_map
 from calibgui.engine.detection.checkerboard.fit_thresholds import FIT_THRESHOLDS
@@ -45,6 +52,9 @@ class _Terms(NamedTuple):
     """(n, terms)"""
     derivatives: Array
     """(4, n, terms) derivatives of these, in the order of `_ORDERS`."""
+    neighbours: IntArray
+    """(5, n, 2) numbers of the corners from two places before to two after, by column and by row;
+    n where there is none."""
     counts: IntArray
     """(degrees,) numbers of the terms that make up the polynomials of one degree after another."""
 
@@ -77,7 +87,16 @@ def _compute_terms(shape: GridSize, found: bytes) -> _Terms:
     derivatives = [
         grid_map.compute_polynomial_terms(table, powers, half, order) @ inverse for order in _ORDERS
     ]
-    return _Terms(Q, np.stack(derivatives), counts)
+    return _Terms(Q, np.stack(derivatives), _list_neighbours(shape, at), counts)
+
+
+def _list_neighbours(shape: GridSize, at: IntArray) -> IntArray:
+    """List `_Terms.neighbours` of the corners at (n, 2) places of a lattice of a shape."""
+    numbers = np.full((shape[0] + 4, shape[1] + 4), len(at))
+    numbers[tuple(at.T + 2)] = np.arange(len(at))
+    row, col = at.T + 2
+    places = [[numbers[row, col + k], numbers[row + k, col]] for k in range(-2, 3)]
+    return np.moveaxis(np.array(places), 1, 2)
 
 
 class BoardPriors:
@@ -150,7 +169,7 @@ class BoardPriors:
         Args:
             steps: (n, 2, 2) to the next column and row, px.
         """
-        Q, derivatives, _ = self._terms
+        Q, derivatives = self._terms.orthonormal, self._terms.derivatives
         weights = Q.T @ values
         count = int(self._choose_counts(values[:, None], weights[:, None])[0][0])
         rss = np.sum((values - Q[:, :count] @ weights[:count]) ** 2)
@@ -166,18 +185,9 @@ class BoardPriors:
             neighbours after, at the ends of lines the next ones instead, and second differences;
             NaN where there is none.
         """
-        rows, cols = self._found.shape
-        around = np.full((rows + 4, cols + 4, values.shape[1]), np.nan)
-        around[2:-2, 2:-2][self._found] = values
-        lines = [
-            [
-                around[r : r + rows, 2 : cols + 2] if axis else around[2 : rows + 2, r : r + cols]
-                for r in range(5)
-            ]
-            for axis in (0, 1)
-        ]
-        steps = [np.diff([place[self._found] for place in line], axis=0) for line in lines]
-        earlier, before, after, later = np.stack(steps, axis=2)
+        nothing = np.full((1, values.shape[1]), np.nan)
+        around = np.concatenate([values, nothing])[self._terms.neighbours]
+        earlier, before, after, later = around[1:] - around[:-1]
         start, end = np.isnan(before), np.isnan(after)
         return np.where(start, later, before), np.where(end, earlier, after), after - before
 
@@ -188,7 +198,7 @@ class BoardPriors:
             (4, n, k) the derivatives `_ORDERS`, and (k,) the rms by which the polynomials would
             miss a value left out.
         """
-        Q, derivatives, _ = self._terms
+        Q, derivatives = self._terms.orthonormal, self._terms.derivatives
         weights = Q.T @ values
         best, misfit = self._choose_counts(values, weights)
         weights[np.arange(len(weights))[:, None] >= best] = 0.0
@@ -255,4 +265,4 @@ def _compute_normal(along: Array, across: Array) -> Array:
     """Compute the unit normal of `along` on the side of `across`."""
     normal = np.stack([-along[..., 1], along[..., 0]], axis=-1)
     side = np.sign(np.sum(normal * across, axis=-1, keepdims=True))
-    return np.asarray(side * normal / np.linalg.norm(normal, axis=-1, keepdims=True))
+    return np.asarray(side * normal / compute_lengths(normal)[..., None])

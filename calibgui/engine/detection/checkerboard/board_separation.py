@@ -14,7 +14,7 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from calibgui.engine.arrays import Array, GreyImage
+from calibgui.engine.arrays import Array, GreyImage, compute_lengths
 from calibgui.engine.detection import grid_map
 from calibgui.engine.detection.checkerboard.numbering import turn_lattice
 from calibgui.engine.detection.checkerboard.thresholds import THRESHOLDS
@@ -67,7 +67,7 @@ def _measure_offsets(lattice: Lattice) -> Array:
     found = lattice.found
     uv = lattice.uv.copy()
     uv[found] = grid_map.fit_grid_map(lattice).locate(np.argwhere(found).astype(np.float64))
-    off = np.linalg.norm(lattice.uv[found] - uv[found], axis=1)
+    off = compute_lengths(lattice.uv[found] - uv[found])
     return np.asarray(off / Lattice(uv, lattice.dark).spacing()[found])
 
 

@@ -15,7 +15,7 @@ from collections.abc import Callable
 import numpy as np
 import scipy
 
-from calibgui.engine.arrays import Array, BoolArray, GreyImage, IntArray
+from calibgui.engine.arrays import Array, BoolArray, GreyImage, IntArray, compute_lengths
 from calibgui.engine.detection import grid_map
 from calibgui.engine.detection.checkerboard.corner_template import CornerTemplate, estimate_template
 from calibgui.engine.detection.checkerboard.thresholds import THRESHOLDS
@@ -159,5 +159,5 @@ def _are_free(uv: Array, right: Array, down: Array, lattice: Lattice) -> BoolArr
     """Return a mask (n,) of the points `uv` (n, 2) px that are no corners of a lattice, to half of
     the shorter of the steps `right` and `down` (n, 2) px."""
     distance, _ = scipy.spatial.cKDTree(lattice.uv[lattice.found]).query(uv)
-    step = np.minimum(np.linalg.norm(right, axis=1), np.linalg.norm(down, axis=1))
+    step = np.minimum(compute_lengths(right), compute_lengths(down))
     return np.asarray(distance > step / 2)

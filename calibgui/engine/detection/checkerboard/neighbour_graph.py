@@ -28,7 +28,14 @@ import numpy as np
 import scipy
 
 from calibgui.engine import kernels
-from calibgui.engine.arrays import Array, BoolArray, GreyImage, Int32Array, IntArray
+from calibgui.engine.arrays import (
+    Array,
+    BoolArray,
+    GreyImage,
+    Int32Array,
+    IntArray,
+    compute_lengths,
+)
 from calibgui.engine.detection.checkerboard.thresholds import THRESHOLDS, JunctionTolerance
 from calibgui.engine.detection.checkerboard.x_junctions import Junctions, Saddles
 from calibgui.engine.detection.lattice import DIRECTIONS, Lattice, trim_lattice
@@ -136,7 +143,7 @@ def _choose_neighbours(
     other = np.asarray(tree.query(uv, ranks)[1], dtype=np.int64).ravel()
     me = np.repeat(np.arange(n), len(ranks))
     d = uv[other] - uv[me]
-    distance = np.linalg.norm(d, axis=1)
+    distance = compute_lengths(d)
     apart = distance > 0
     me, other, distance = me[apart], other[apart], distance[apart]
     d = d[apart] / distance[:, None]

@@ -30,7 +30,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from calibgui.engine.arrays import Array, GreyImage, compute_median
+from calibgui.engine.arrays import Array, GreyImage, compute_lengths, compute_median
 from calibgui.engine.detection.checkerboard.corner_template import (
     OrientedCorners,
     check_crossing,
@@ -184,7 +184,7 @@ def _measure_width(edges: tuple[EdgeProfiles, EdgeProfiles], corners: OrientedCo
 def _compute_heights(corners: OrientedCorners) -> tuple[Array, Array]:
     """Return the heights (n,) px of the squares over the edges along either direction."""
     area, (_, right, down, _) = _compute_areas(corners), corners
-    return area / np.linalg.norm(right, axis=1), area / np.linalg.norm(down, axis=1)
+    return area / compute_lengths(right), area / compute_lengths(down)
 
 
 def have_same_spread(spreads: Array, max_deviation: float) -> bool:

@@ -28,7 +28,7 @@ from __future__ import annotations
 import numpy as np
 
 from calibgui.engine import kernels, opencv
-from calibgui.engine.arrays import Array, BoolArray, GreyImage
+from calibgui.engine.arrays import Array, BoolArray, GreyImage, compute_lengths, compute_median
 from calibgui.engine.detection.checkerboard.corner_template import (
     OrientedCorners,
     orient_corners,
@@ -99,9 +99,9 @@ def _iterate(
     for _ in range(most):
         step, is_saddle = _compute_step(image, uv[active], sigma[active])
         uv[active] += step
-        near = np.linalg.norm(uv[active] - start[active], axis=1) <= limit[active]
+        near = compute_lengths(uv[active] - start[active]) <= limit[active]
         good[active] = is_saddle & near
-        active = active[good[active] & (np.linalg.norm(step, axis=1) > tolerance)]
+        active = active[good[active] & (compute_lengths(step) > tolerance)]
         if not len(active):
             break
     good[active] = False
@@ -137,7 +137,7 @@ def _compute_step(image: GreyImage, uv: Array, sigma: Array) -> tuple[Array, Boo
     det = np.where(is_saddle, det, -1.0)
     step = np.column_stack([b * e - 2 * c * d, b * d - 2 * a * e]) / det[:, None]
     step *= (sigma * is_saddle)[:, None]
-    longest = np.maximum(np.linalg.norm(step, axis=1), sigma)
+    longest = np.maximum(compute_lengths(step), sigma)
     return step * (sigma / longest)[:, None], is_saddle
 
 
@@ -157,7 +157,7 @@ def refine_lattice(
         keep their places.
     """
     corners = orient_corners(lattice)
-    spacing = np.fmin(np.linalg.norm(corners.right, axis=1), np.linalg.norm(corners.down, axis=1))
+    spacing = np.fmin(compute_lengths(corners.right), compute_lengths(corners.down))
     limit = np.minimum(spacing / 4, farthest)
     sigma = choose_weight_sigma(2 * plain * spacing)
     moved, good = refine_saddles(image, corners.uv, sigma, limit)
@@ -176,4 +176,4 @@ def _do_squares_overlap_or_part(image: GreyImage, corners: OrientedCorners) -> b
     contrast = abs(squares @ np.array([0.5, 0.5, -0.5, -0.5]))
     level = sample_around(image, uv, right, down, _CORNER_POSITIONS).mean(axis=1)
     off = level - squares.mean(axis=1)
-    return bool(abs(np.median(off)) > _THRESHOLDS.max_off_middle * np.median(contrast))
+    return bool(abs(compute_median(off)) > _THRESHOLDS.max_off_middle * compute_median(contrast))

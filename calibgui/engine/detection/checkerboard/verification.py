@@ -23,7 +23,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from calibgui.engine.arrays import Array, BoolArray, GreyImage
+from calibgui.engine.arrays import Array, BoolArray, GreyImage, compute_lengths, compute_median
 from calibgui.engine.detection import grid_map
 from calibgui.engine.detection.checkerboard.corner_template import estimate_template, orient_corners
 from calibgui.engine.detection.checkerboard.numbering import Sides, turn_lattice
@@ -113,9 +113,7 @@ def drop_broken_lines(lattice: Lattice, image: GreyImage) -> Lattice:
     """
     limits = THRESHOLDS.verification
     cells = np.argwhere(lattice.found).astype(np.float64)
-    off = np.linalg.norm(
-        grid_map.fit_grid_map(lattice).locate(cells) - lattice.uv[lattice.found], axis=1
-    )
+    off = compute_lengths(grid_map.fit_grid_map(lattice).locate(cells) - lattice.uv[lattice.found])
     if np.sqrt(np.mean((off / lattice.spacing()[lattice.found]) ** 2)) > limits.max_grid_map_rms:
         return drop_isolated_and_crop(lattice.select(np.zeros(lattice.shape, dtype=np.bool_)))
     broken = _find_broken_places(lattice, image)
@@ -203,13 +201,13 @@ def find_described_corners(
     """
     limits = THRESHOLDS.verification
     found = lattice.found
-    shift = np.linalg.norm(fit.uv - lattice.uv[found], axis=1)
-    typical = float(np.median(fit.residual))
+    shift = compute_lengths(fit.uv - lattice.uv[found])
+    typical = float(compute_median(fit.residual))
     around = lattice.uv if expected is None else expected
     right, down = (step[found] for step in estimate_steps(around))
     steps = np.stack([right, down], axis=1)
-    spacing = np.fmin(np.linalg.norm(right, axis=1), np.linalg.norm(down, axis=1))
-    sine = np.abs(np.sum(fit.model.normals() * steps, axis=2)) / np.linalg.norm(steps, axis=2)
+    spacing = np.fmin(compute_lengths(right), compute_lengths(down))
+    sine = np.abs(np.sum(fit.model.normals() * steps, axis=2)) / compute_lengths(steps)
     max_sine = np.maximum(
         limits.max_edge_angle_sine, limits.max_relative_edge_angle * np.median(sine, axis=0)
     )
@@ -220,7 +218,7 @@ def find_described_corners(
     return np.asarray(
         (shift <= _limit_fit_shift(spacing))
         & ~(askew & (fit.residual > limits.suspect_relative_residual * typical))
-        & (fit.contrast > limits.min_relative_contrast * np.median(fit.contrast))
+        & (fit.contrast > limits.min_relative_contrast * compute_median(fit.contrast))
         & (fit.residual <= max_residual)
         & find_usable_covariances(fit.covariance)
     )
@@ -241,7 +239,7 @@ def find_displaced_corners(fit: XCornerFit, lattice: Lattice) -> BoolArray:
         A mask (n,).
     """
     limits = THRESHOLDS.verification
-    good = fit.residual <= limits.suspect_relative_residual * np.median(fit.residual)
+    good = fit.residual <= limits.suspect_relative_residual * compute_median(fit.residual)
     if good.all():
         return ~good
     mask = lattice.found
@@ -268,7 +266,7 @@ def measure_displacements(fitted: Array, lattice: Lattice, undisturbed: BoolArra
     expected = grid_map.fit_grid_map(Lattice(uv, lattice.dark).select(undisturbed)).locate(
         np.argwhere(lattice.found).astype(np.float64)
     )
-    return np.asarray(np.linalg.norm(fitted - expected, axis=1))
+    return np.asarray(compute_lengths(fitted - expected))
 
 
 def find_tolerable_displacements(displacement: Array, lattice: Lattice) -> BoolArray:
@@ -289,11 +287,11 @@ def has_step_edges(fit: XCornerFit, is_alone: bool = False) -> bool:
     have edges that are less like steps, and wider, unless its squares overlap or part by much: that
     may be discs."""
     limits = THRESHOLDS.verification
-    blur = np.median(fit.model.unknowns[:, 4:6] / fit.model.square_height, axis=0).max()
-    misfit = np.median(fit.residual / fit.contrast)
+    blur = compute_median(fit.model.unknowns[:, 4:6] / fit.model.square_height, axis=0).max()
+    misfit = compute_median(fit.residual / fit.contrast)
     if not is_alone:
         return bool(blur < limits.max_edge_blur and misfit < limits.max_median_misfit)
-    is_even = abs(np.median(fit.model.ink_spread)) < limits.max_spread_if_blurred
+    is_even = abs(compute_median(fit.model.ink_spread)) < limits.max_spread_if_blurred
     max_blur = THRESHOLDS.prefilter.max_edge_blur_alone if is_even else limits.max_edge_blur
     return bool(blur < max_blur and misfit < limits.max_median_misfit_alone)
 

@@ -220,8 +220,8 @@ def _estimate_start(
         ]
 
     profiles = measure_profiles(plain)
-    low = np.mean([profile.low for profile in profiles], axis=0)
-    high = np.mean([profile.high for profile in profiles], axis=0)
+    one, other = profiles
+    low, high = (one.low + other.low) / 2, (one.high + other.high) / 2
     blur = compute_median(np.stack([profile.blur for profile in profiles]))
     unknowns[BLUR] = np.clip(blur, MIN_BLUR, height / 4)
     unknowns[M], unknowns[A] = (high + low) / 2, (high - low) / 2

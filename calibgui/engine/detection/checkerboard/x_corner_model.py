@@ -27,7 +27,14 @@ from dataclasses import dataclass, fields
 import numpy as np
 
 from calibgui.engine import kernels
-from calibgui.engine.arrays import Array, BoolArray, FloatImage, GreyImage, IntArray
+from calibgui.engine.arrays import (
+    Array,
+    BoolArray,
+    FloatImage,
+    GreyImage,
+    IntArray,
+    compute_median,
+)
 from calibgui.engine.detection.edge_intensity import (
     CrossingIntensity,
     Floats,
@@ -178,7 +185,7 @@ class XCornerModel:
     def pixel_half_widths(self) -> Array | None:
         """Compute the half widths (n, 2) px of a pixel across edges 1 and 2; None if the blur is so
         large that its shape does not matter."""
-        if np.median(self.unknowns[BLUR]) >= _MAX_SHARP_BLUR:
+        if compute_median(self.unknowns[BLUR].ravel()) >= _MAX_SHARP_BLUR:
             return None
         return np.asarray(abs(self.normals()).max(axis=2) / 2)
 
