@@ -62,7 +62,7 @@ def can_compile() -> bool:
     global COMPILED
     if COMPILED:
         try:
-            import_module(f"{__name__}.common")  # imports numba, and what we need of its inside
+            import numba  # noqa: F401
         except Exception as error:  # its versions of NumPy, its compiler's library
             COMPILED = False
             warnings.warn(

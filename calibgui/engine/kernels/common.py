@@ -18,10 +18,9 @@ from functools import cache
 from pathlib import Path
 from typing import Any, ParamSpec, TypeVar
 
-import llvmlite.binding
 import numpy as np
 from numba import config, njit
-from numba.core.caching import CompileResultCacheImpl, FunctionCache
+from numba.core.caching import FunctionCache
 from numba.core.runtime import rtsys
 
 from calibgui.engine.arrays import Array, GreyImage
@@ -48,28 +47,6 @@ _MIN_BLOCKS_FOR_THREADS = 4
 """Number of blocks below which starting threads costs more than they save."""
 
 
-class _KeptKernel(CompileResultCacheImpl):  # type: ignore[misc]  # numba is not typed
-    """A compiled kernel as it is kept on disk: its machine code alone.
-
-    Numba keeps LLVM's code beside it, for functions that call it to be compiled, and reads all
-    names in that at every start, which takes longer than the machine code. No kernel calls another:
-    they share parts.
-    """
-
-    def reduce(self, data: Any) -> Any:
-        """Return what is kept of a compiled kernel."""
-        (name, kind, (machine_code, _)), *rest = super().reduce(data)
-        nothing = llvmlite.binding.parse_assembly("").as_bitcode()
-        return (name, kind, (machine_code, nothing)), *rest
-
-    def rebuild(self, target_context: Any, reduced_data: Any) -> Any:
-        """Return a kernel from what was kept."""
-        # The name of what Python calls would have been read from LLVM's code.
-        name = reduced_data[1].llvm_cpython_wrapper_name
-        target_context.codegen()._engine._defined_symbols.add(name)
-        return super().rebuild(target_context, reduced_data)
-
-
 class _KernelCache(FunctionCache):  # type: ignore[misc]  # numba is not typed
     """Numba's place of compiled functions on disk, read without all that compiling takes.
 
@@ -77,8 +54,6 @@ class _KernelCache(FunctionCache):  # type: ignore[misc]  # numba is not typed
     one, which takes longer than to read all kernels of a calibration. Its compiler declares the
     same again when it is needed; what is read needs the runtime, by which memory is allocated.
     """
-
-    _impl_class = _KeptKernel
 
     def load_overload(self, sig: Any, target_context: Any) -> Any:
         """Load a kernel for a signature; return None if there is none."""

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import ast
 import os
 import shutil
 import subprocess
@@ -68,29 +67,6 @@ def test_a_change_to_what_a_kernel_calls_in_another_file_is_noticed(tmp_path: Pa
             check=True,
         )
         assert done.stdout.strip() == answer
-
-
-def test_no_kernel_calls_another() -> None:
-    """What is kept of a kernel is machine code, which others cannot be compiled with."""
-    functions = [
-        function
-        for file in sorted(Path(kernels.__file__).parent.glob("*.py"))
-        for function in ast.parse(file.read_text(encoding="utf-8")).body
-        if isinstance(function, ast.FunctionDef)
-    ]
-    marks = {
-        function.name: {ast.unparse(mark) for mark in function.decorator_list}
-        for function in functions
-    }
-    calls = {
-        (function.name, call.func.id)
-        for function in functions
-        if marks[function.name] & {"compiled", "compiled_part"}
-        for call in ast.walk(function)
-        if isinstance(call, ast.Call) and isinstance(call.func, ast.Name)
-    }
-    assert len(calls) > 50
-    assert not [pair for pair in calls if "compiled" in marks.get(pair[1], ())]
 
 
 def test_a_kept_kernel_is_loaded_without_what_compiling_takes(tmp_path: Path) -> None:
