@@ -26,7 +26,7 @@ which stays at s0^2 where the views say nothing of the coefficients, and is what
 say much. Few coefficients that are determined draw the variance of the others down slowly, by a
 tenth of the way in a step: Anderson's (1965) mixing of the last steps, in the logarithms of
 sigma^2 / s^2, leads to the end. The camera is eliminated first, after the poses, so that a step
-factorises a matrix of the coefficients alone.
+factorises a matrix of the coefficients alone, and most of that is tridiagonal (`Information`).
 
 One linear step from the nominal board's solution, with stiffness sigma^2 / s^2 on q, leads to the
 joint estimate of camera, poses and board. It moves camera and poses by b, and leaves them with the
@@ -283,38 +283,118 @@ def _estimate_coefficients(
         estimate_sigma2: a function from the decrease of the cost and the number of coefficients
             that the views determine to the variance of one residual coordinate.
     """
-    diagonal, counts = np.diag_indices(len(S)), np.bincount(kind, minlength=3)
-    least = _ROUNDING * float(S[diagonal].max(initial=0.0))
+    counts, information = np.bincount(kind, minlength=3), turn_rough_axes(S, right, kind)
+    least = _ROUNDING * float(S.diagonal().max(initial=0.0))
 
-    def take_step(logarithms: Array) -> tuple[Array, _Coefficients]:
-        stiffness, stiffened = np.exp(logarithms)[kind], S.copy()
-        stiffened[diagonal] += stiffness
-        factor, _ = scipy.linalg.lapack.dpotrf(stiffened)
-        root, _ = scipy.linalg.lapack.dtrtri(factor)
-        inverse, q = np.sum(root * root, axis=1), -root @ (right @ root)
-        sigma2 = estimate_sigma2(-float(right @ q), len(S) - float(stiffness @ inverse))
+    def take_step(logarithms: Array) -> tuple[Array, float]:
+        stiffness = np.exp(logarithms)
+        squares, inverses, gained = information.solve(stiffness)
+        sigma2 = estimate_sigma2(gained, len(S) - float(stiffness @ inverses))
         variances = expected
         if is_learnt:
-            total = np.bincount(kind, q * q + sigma2 * inverse, 3)
+            total = squares + sigma2 * inverses
             variances = (_PRIOR_FREEDOM * expected + total) / (_PRIOR_FREEDOM + counts)
-        return np.log(np.fmax(sigma2 / variances, least)), _Coefficients(q, root, sigma2)
+        return np.log(np.fmax(sigma2 / variances, least)), sigma2
 
-    return _mix_steps(take_step, np.log(np.fmax(estimate_sigma2(0.0, 0.0) / expected, least)))
+    start = np.log(np.fmax(estimate_sigma2(0.0, 0.0) / expected, least))
+    logarithms, sigma2 = _mix_steps(take_step, start)
+    factor, _ = scipy.linalg.lapack.dpotrf(S + np.diag(np.exp(logarithms)[kind]))
+    root, _ = scipy.linalg.lapack.dtrtri(factor)
+    return _Coefficients(-root @ (right @ root), root, sigma2)
 
 
-def _mix_steps(
-    take_step: Callable[[Array], tuple[Array, _Coefficients]], x: Array
-) -> _Coefficients:
-    """Return what a step finds at its fixed point, by Anderson's mixing of the last steps.
+class Information(NamedTuple):
+    """What the views tell of m rough and s other coefficients, the axes of the rough ones turned.
+
+    All rough coefficients have one variance, and so the prior does not notice a turn that makes
+    the views' information on them tridiagonal. Then a step factorises in O(m) what is stiffened,
+    and the others' information, less what goes with the rough ones, is small.
+    """
+
+    kind: IntArray
+    """(s,) kinds of the other coefficients."""
+    others: Array
+    """(s + 1, s + 1) information on these, and in the last row and column the gradient."""
+    beside: Array
+    """(m, s + 1) information between the rough and the other ones, and last the gradient."""
+    rough: tuple[Array, Array]
+    """(m,) entries on the diagonal of the information on the rough ones, (m - 1,) beside it."""
+
+    def solve(self, stiffness: Array) -> tuple[Array, Array, float]:
+        """Solve for the coefficients, and invert what is known of them.
+
+        Args:
+            stiffness: (3,) sigma^2 / s^2 of each kind.
+
+        Returns:
+            By kind the sum (3,) of the squares of the coefficients, and that (3,) of the entries on
+            the diagonal of the inverse of the stiffened information; the decrease of the cost.
+        """
+        followed, trace = self._follow_others(float(stiffness[ROUGH]))
+        left = self.others - self.beside.T @ followed
+        known = left[:-1, :-1]
+        known.flat[:: len(known) + 1] += stiffness[self.kind]
+        inverse = np.linalg.inv(known)
+        q = inverse @ -left[:-1, -1]
+        rough = followed[:, :-1] @ -q - followed[:, -1]
+        own = inverse.diagonal()
+        squares, inverses = (
+            np.bincount(self.kind, x, 3).astype(np.float64, copy=False) for x in (q * q, own)
+        )
+        squares[ROUGH] += rough @ rough
+        inverses[ROUGH] += trace + np.sum((followed[:, :-1] @ inverse) * followed[:, :-1])
+        gained = -float(self.others[-1, :-1] @ q + self.beside[:, -1] @ rough)
+        return squares, inverses, gained
+
+    def _follow_others(self, stiffness: float) -> tuple[Array, float]:
+        """Return M^-1 `beside` (m, s + 1) and the trace of M^-1, M the stiffened tridiagonal."""
+        if not len(self.beside):
+            return self.beside, 0.0
+        factorise, diagonal = scipy.linalg.lapack.dpttrf, self.rough[0] + stiffness
+        down, ratios, _ = factorise(diagonal, self.rough[1])
+        # Eliminated from both ends, a coefficient is left with what it has in the inverse.
+        up = factorise(diagonal[::-1], self.rough[1][::-1])[0][::-1]
+        trace = float(np.sum(1 / (down + up - diagonal)))
+        return scipy.linalg.lapack.dpttrs(down, ratios, self.beside)[0], trace
+
+
+def turn_rough_axes(S: Array, right: Array, kind: IntArray) -> Information:
+    """Turn the axes of the rough coefficients so that the information on them is tridiagonal.
 
     Args:
-        take_step: a function from a point (m,) to the next one and what it finds there.
+        S: (Q, Q) information of the views on the coefficients.
+        right: (Q,) gradient of half the cost by them, at 0.
+        kind: (Q,) kinds of the deviations. Of rough ones there are none, or three and more.
+    """
+    turned, others = np.flatnonzero(kind == ROUGH), np.flatnonzero(kind != ROUGH)
+    rows = S[turned]
+    beside, rough = np.column_stack([rows[:, others], right[turned]]), (np.zeros(0), np.zeros(0))
+    if turned.size:
+        lapack = scipy.linalg.lapack
+        reflected, *chain, shares, _ = lapack.dsytrd(rows[:, turned].T, lower=True)
+        rough = chain[0], chain[1]
+        # The first axis stays. The workspace: LAPACK asks for 64 numbers a column at most.
+        space = 64 * beside.shape[1]
+        beside[1:] = lapack.dormqr("L", "T", reflected[1:, :-1], shares, beside[1:], space)[0]
+    whole = np.zeros((len(others) + 1, len(others) + 1))
+    whole[:-1, :-1] = S[np.ix_(others, others)]
+    whole[-1, :-1] = whole[:-1, -1] = right[others]
+    return Information(kind[others], whole, beside, rough)
+
+
+def _mix_steps(take_step: Callable[[Array], tuple[Array, float]], x: Array) -> tuple[Array, float]:
+    """Return the fixed point of a step, and what a step finds there, by Anderson's mixing of the
+    last steps.
+
+    Args:
+        take_step: a function from a point (m,) to the next one and what it finds.
         x: (m,) the point to start from.
     """
     points: list[Array] = []
     changes: list[Array] = []
     for _ in range(_MAX_ITERATIONS):
-        after, found = take_step(x)
+        before = x
+        after, found = take_step(before)
         points, changes = [*points[-len(x) :], x], [*changes[-len(x) :], after - x]
         if np.abs(changes[-1]).max() < _MAX_CHANGE:
             break
@@ -323,7 +403,7 @@ def _mix_steps(
             by_point, by_change = (a[1:] - a[:-1] for a in map(np.array, (points, changes)))
             weights = scipy.linalg.lapack.dgelss(by_change.T, changes[-1])[1][: len(by_change)]
             x = after - np.clip(weights @ (by_point + by_change), -_MAX_MIXING, _MAX_MIXING)
-    return found
+    return before, found
 
 
 def add_board_error(

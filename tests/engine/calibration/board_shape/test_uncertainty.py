@@ -18,6 +18,7 @@ from calibgui.engine.calibration.board_shape.uncertainty import (
     LinearisedBoard,
     estimate_board_error,
     linearise_board,
+    turn_rough_axes,
 )
 from calibgui.engine.calibration.calibrate import calibrate
 from calibgui.engine.calibration.observations import Observation, pack_observations
@@ -234,6 +235,22 @@ def test_learnt_variances_are_their_own_expectation() -> None:
     np.testing.assert_allclose(
         np.sqrt(np.diag(error.covariance)), np.sqrt(sigma2 * np.diag(inverse)[:9]), rtol=1e-3
     )
+
+
+@pytest.mark.parametrize("count", [4, 7, 40])
+def test_few_corners_have_few_rough_deviations(count: int) -> None:
+    """None, three and many of them: a known prior leads to the same as one matrix of all."""
+    rng = np.random.default_rng(count)
+    points = rng.uniform(-1, 1, (count, 2))
+    kind = make_deviations(points).kind
+    J = rng.normal(size=(3 * len(kind), len(kind)))
+    S, right, stiffness = J.T @ J, rng.normal(size=len(kind)), np.array([3.0, 0.4, 20.0])
+    inverse = np.linalg.inv(S + np.diag(stiffness[kind]))
+    q = -inverse @ right
+    squares, inverses, gained = turn_rough_axes(S, right, kind).solve(stiffness)
+    np.testing.assert_allclose(squares, np.bincount(kind, q**2, 3), rtol=1e-10)
+    np.testing.assert_allclose(inverses, np.bincount(kind, np.diag(inverse), 3), rtol=1e-10)
+    assert gained == pytest.approx(-right @ q, rel=1e-10)
 
 
 @pytest.mark.data
