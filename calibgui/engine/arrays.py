@@ -5,7 +5,7 @@ The ground floor of the engine: it imports no other module of the project.
 
 from __future__ import annotations
 
-from typing import Any
+from typing import Any, TypeGuard
 
 import numpy as np
 import numpy.typing as npt
@@ -22,24 +22,27 @@ Size = tuple[int, int]
 GridSize = tuple[int, int]
 """Rows and columns of a board's points: inner corners of a checkerboard, circles of a grid."""
 
+_FLOAT64 = np.dtype(np.float64)
+
 
 def freeze_array(values: npt.ArrayLike) -> Array:
     """Return `values` as a read-only float64 array: a copy, unless nothing can change them."""
-    if isinstance(values, np.ndarray) and _is_frozen(values):
+    if _is_frozen(values):
         return values
     array = np.array(values, dtype=np.float64, order="C")
     array.flags.writeable = False
     return array
 
 
-def _is_frozen(array: npt.NDArray[Any]) -> bool:
-    """Return whether a float64 array, or part of one, is read-only with all that it is part of."""
-    if array.dtype != np.float64 or not array.flags.c_contiguous:
-        return False
-    whole: Any = array
+def _is_frozen(values: object) -> TypeGuard[Array]:
+    """Return whether this is a float64 array, or part of one, that is read-only with all that it is
+    part of."""
+    whole = values
     while isinstance(whole, np.ndarray) and not whole.flags.writeable:
         whole = whole.base
-    return whole is None
+    if whole is not None or not isinstance(values, np.ndarray):
+        return False
+    return values.dtype == _FLOAT64 and values.flags.c_contiguous
 
 
 def freeze_ints(values: npt.ArrayLike) -> IntArray:
@@ -56,8 +59,8 @@ def freeze(record: object, *names: str) -> None:
     """
     for name in names:
         values = getattr(record, name)
-        if values is not None and (frozen := freeze_array(values)) is not values:
-            object.__setattr__(record, name, frozen)
+        if values is not None and not _is_frozen(values):
+            object.__setattr__(record, name, freeze_array(values))
 
 
 def compute_lengths(vectors: Array) -> Array:

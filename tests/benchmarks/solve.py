@@ -114,8 +114,9 @@ def solve(observations: Observations, start: State, model: str) -> float:
     found = covariances.measure_precision(
         solution.normal, names, observations.count, np.full(9, np.inf)
     )
+    local = covariances.compute_pose_covariances(found.reduced, found.shared, found.variance)
     rvecs = rotations.vector_from_rotation(solution.state.R)
-    covariances.compute_pose_covariances(found.reduced, found.shared, rvecs, found.variance)
+    covariances.convert_pose_covariances(local, rvecs)
     return float(np.sqrt(solution.normal.cost / observations.count))
 
 

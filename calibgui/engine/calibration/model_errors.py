@@ -12,7 +12,6 @@ from __future__ import annotations
 
 import numpy as np
 
-from calibgui.engine.arrays import Array
 from calibgui.engine.boards.shape import BoardShapeModel, BoardShapePrior
 from calibgui.engine.calibration.board_shape.estimate import fit_board_shape
 from calibgui.engine.calibration.board_shape.uncertainty import (
@@ -24,13 +23,13 @@ from calibgui.engine.calibration.board_shape.uncertainty import (
 )
 from calibgui.engine.calibration.lens_error import measure_lens_error
 from calibgui.engine.calibration.methods.lucchese import LUCCHESE
+from calibgui.engine.calibration.methods.method import subtract_states
 from calibgui.engine.calibration.observations import Observations
 from calibgui.engine.calibration.options import Options
 from calibgui.engine.calibration.overdispersion import add_overdispersion
 from calibgui.engine.calibration.partial.partial_calibration import find_poorly_known
 from calibgui.engine.calibration.refinement import covariances
 from calibgui.engine.calibration.refinement.levenberg_marquardt import StartError
-from calibgui.engine.calibration.refinement.residuals import State
 from calibgui.engine.calibration.refinement.whitening import whiten_observations
 from calibgui.engine.calibration.result import Cost, Report
 from calibgui.engine.calibration.result_assembly import Estimate, make_estimate
@@ -38,7 +37,6 @@ from calibgui.engine.calibration.score_tests import LinearisedFit
 from calibgui.engine.camera.camera import Camera
 from calibgui.engine.camera.models import find_model
 from calibgui.engine.errors import CalibrationError
-from calibgui.engine.geometry.rotations import vector_from_rotation
 
 _MAX_ITERATIONS = 100
 """Number of iterations from the minimum of another cost to that of the image cost, at most."""
@@ -137,12 +135,9 @@ def _add_errors_by_way_of_image_cost(
     board = linearise_board(image, weighted, options.model, free)
     lens_error, is_suspect = _examine_lens(board, image, weighted, by_image)
     error = estimate_board_error(board, image, weighted.count, prior)
-    offset = (
-        estimate.state.params[free] - image.state.params[free],
-        _measure_pose_steps(image.state, estimate.state),
-    )
+    by_shared, by_pose = subtract_states(estimate.state, image.state)
     widened = add_overdispersion(
-        add_board_error(image, error, offset), options.model, free, board.views
+        add_board_error(image, error, (by_shared[free], by_pose)), options.model, free, board.views
     )
     return estimate._replace(
         camera_covariance=widened.camera_covariance,
@@ -151,13 +146,6 @@ def _add_errors_by_way_of_image_cost(
         lens_error=lens_error,
         overdispersion=widened.overdispersion,
     )
-
-
-def _measure_pose_steps(a: State, b: State) -> Array:
-    """Measure the change (K, 6) of (rvec, tvec) from the poses of a state to those of another."""
-    turn = vector_from_rotation(b.R @ np.swapaxes(a.R, 1, 2))
-    local = np.concatenate([turn, b.T - a.T], axis=1)[..., None]
-    return np.asarray((covariances.differentiate_poses(vector_from_rotation(a.R)) @ local)[..., 0])
 
 
 def _check_camera_known(estimate: Estimate, options: Options, board_shape: BoardShapeModel) -> None:

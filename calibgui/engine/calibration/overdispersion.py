@@ -63,10 +63,9 @@ import scipy
 
 from calibgui.engine.arrays import Array, IntArray
 from calibgui.engine.boards.shape import BoardShape
-from calibgui.engine.calibration.refinement import covariances
 from calibgui.engine.calibration.refinement.residuals import BoardMotion, compute_view_products
+from calibgui.engine.calibration.refinement.schur import invert_pose_roots
 from calibgui.engine.calibration.result_assembly import Estimate
-from calibgui.engine.geometry import rotations
 
 _SIGNIFICANCE = 0.01
 """Probability with which noise alone widens the uncertainties."""
@@ -110,7 +109,7 @@ def add_overdispersion(
     corners = estimate.observations.count
     leverage = estimate.shape_unknowns / (2 * corners - 6 * K)
     alone = np.linalg.inv(np.eye(P) - R)  # of the camera without view k
-    X = float(np.einsum("kp,kpq,kq->", h, alone, h)) / (P * sigma2 * (1 - leverage))
+    X = float(np.sum((alone @ h[..., None])[..., 0] * h)) / (P * sigma2 * (1 - leverage))
     D = R @ alone @ R
     square = float(np.sum(R**2) + np.sum(D.sum(axis=0) ** 2) - np.sum(D**2))
     if not square > 0:  # of a camera that is open beyond all measure
@@ -121,10 +120,9 @@ def add_overdispersion(
     moved = np.linalg.solve(np.eye(P) - _JACKKNIFE_SHARE * R, h[..., None])[..., 0] @ unit.T
     clustered = moved.T @ moved * (K - 1) / K / (1 - leverage) ** 2
     added = _compute_excess(clustered, np.sqrt(sigma2) * np.asarray(unit))
-    turn = covariances.differentiate_poses(rotations.vector_from_rotation(estimate.state.R)) @ G
     return estimate._replace(
         camera_covariance=estimate.camera_covariance + added,
-        pose_covariances=estimate.pose_covariances + turn @ added @ np.swapaxes(turn, 1, 2),
+        pose_covariances=estimate.pose_covariances + G @ added @ np.swapaxes(G, 1, 2),
         board_shape=_widen_board_shape(estimate.board_shape, estimate.board_motion, added),
         overdispersion=float(np.sqrt(X)),
     )
@@ -143,10 +141,10 @@ def _assume_disagreement(estimate: Estimate) -> Estimate:
 
 def _eliminate_poses(A: Array, P: int) -> tuple[Array, Array, Array]:
     """Compute Rk (K, P, P), h_k (K, P) and Vk^-1 Wk^T (K, 6, P) from products of the views."""
-    W = A[:, :P, P:-1]
-    G = np.linalg.solve(A[:, P:-1, P:-1], A[:, P:-1, [*range(P), -1]])
-    left = A[:, :P, [*range(P), -1]] - W @ G
-    return left[..., :-1], left[..., -1], np.asarray(G[..., :-1])
+    roots, chosen = invert_pose_roots(A[:, P:-1, P:-1]), [*range(P), -1]
+    Y = roots @ A[:, P:-1, chosen]
+    left = A[:, :P, chosen] - np.swapaxes(Y[..., :-1], 1, 2) @ Y
+    return left[..., :-1], left[..., -1], np.swapaxes(roots, 1, 2) @ Y[..., :-1]
 
 
 def _widen_board_shape(

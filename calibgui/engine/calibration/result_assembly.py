@@ -45,7 +45,7 @@ class Estimate(NamedTuple):
     camera_covariance: Array
     """(P, P) covariance of the camera's free parameters."""
     pose_covariances: Array
-    """(K, 6, 6) covariances of (rvec, tvec)."""
+    """(K, 6, 6) covariances of the solver's local (w, tau)."""
     noise_covariance: Array
     """(P, P) covariance of the camera's free parameters from the corners' noise alone."""
     board_shape: BoardShape | None = None
@@ -65,9 +65,8 @@ def make_estimate(
     solution: Solution, observations: Observations, precision: covariances.Precision
 ) -> Estimate:
     """Make the estimate of a solution whose board has the shape that it was given."""
-    rvecs = rotations.vector_from_rotation(solution.state.R)
     sigma2, camera, _, reduced = precision
-    poses = covariances.compute_pose_covariances(reduced, camera, rvecs, sigma2)
+    poses = covariances.compute_pose_covariances(reduced, camera, sigma2)
     return Estimate(solution, solution.state, observations, sigma2, camera, poses, camera)
 
 
@@ -95,13 +94,14 @@ def assemble_calibration(
 
     state, observations = estimate.state, estimate.observations
     covariance, sigma = with_held_parameters(estimate.camera_covariance)
+    rvecs = freeze_array(rotations.vector_from_rotation(state.R))
     return Calibration(
         camera=Camera(options.size, state.params, options.model),
         sigma=sigma,
         covariance=covariance,
         noise_covariance=with_held_parameters(estimate.noise_covariance)[0],
-        poses=make_poses(state),
-        pose_covariances=estimate.pose_covariances,
+        poses=tuple(map(Pose, rvecs, freeze_array(state.T))),
+        pose_covariances=covariances.convert_pose_covariances(estimate.pose_covariances, rvecs),
         residuals=compute_view_residuals(state, observations, options.model, cost, options.scale),
         noise=float(np.sqrt(estimate.sigma2)),
         model_error=float(np.sqrt(observations.tau2)),
@@ -119,12 +119,6 @@ def assemble_calibration(
         settings=options.settings,
         digest=digest,
     )
-
-
-def make_poses(state: State) -> tuple[Pose, ...]:
-    """Return the poses of all views."""
-    rvecs, tvecs = freeze_array(rotations.vector_from_rotation(state.R)), freeze_array(state.T)
-    return tuple(Pose(rvec, tvec) for rvec, tvec in zip(rvecs, tvecs, strict=True))
 
 
 def compute_view_residuals(

@@ -18,11 +18,12 @@ from calibgui.engine.kernels.common import compiled, compiled_part, make_contigu
 
 @compiled
 def _invert_roots(V: Array, roots: Array) -> bool:
-    """Fill in roots (K, 6, 6), 0 so far, from V (K, 6, 6); return whether all V are positive."""
-    for k in range(len(V)):
+    """Fill in roots (K, n, n), 0 so far, from V (K, n, n); return whether all V are positive."""
+    K, n, _ = V.shape
+    for k in range(K):
         L, inverse = V[k], roots[k]
-        for j in range(6):
-            for i in range(j, 6):
+        for j in range(n):
+            for i in range(j, n):
                 total = L[i, j]
                 for m in range(j):
                     total -= L[i, m] * L[j, m]
@@ -32,9 +33,9 @@ def _invert_roots(V: Array, roots: Array) -> bool:
                     return False
                 else:
                     L[j, j] = np.sqrt(total)
-        for j in range(6):
+        for j in range(n):
             inverse[j, j] = 1 / L[j, j]
-            for i in range(j + 1, 6):
+            for i in range(j + 1, n):
                 total = 0.0
                 for m in range(j, i):
                     total -= L[i, m] * inverse[m, j]

@@ -36,7 +36,6 @@ from calibgui.engine.calibration.refinement.whitening import (
 from calibgui.engine.calibration.result import Cost, Report
 from calibgui.engine.calibration.result_assembly import Estimate
 from calibgui.engine.errors import CalibrationError
-from calibgui.engine.geometry import rotations
 
 _MIN_VIEWS = {BoardShapeModel.AFFINE: 3, BoardShapeModel.BOW: 3, BoardShapeModel.FREE: 6}
 """Number of views below which a model without a prior follows the noise and is refused."""
@@ -89,7 +88,6 @@ def fit_board_shape(
     P = len(free)
     covariance = _remove_gauge(joint.sigma2 * inverse, G, P)
     camera, shape_covariance = covariance[:P, :P], covariance[P:, P:]
-    rvecs = rotations.vector_from_rotation(joint.state.R)
     motion = np.linalg.solve(camera, covariance[:P, P:]).T
     return Estimate(
         solution=joint.solution,
@@ -97,9 +95,7 @@ def fit_board_shape(
         observations=joint.observations,
         sigma2=joint.sigma2,
         camera_covariance=camera,
-        pose_covariances=covariances.compute_pose_covariances(
-            reduced, covariance, rvecs, joint.sigma2
-        ),
+        pose_covariances=covariances.compute_pose_covariances(reduced, covariance, joint.sigma2),
         noise_covariance=camera,
         board_shape=BoardShape(shape, points, joint.deviation, _compute_sigma(B, shape_covariance)),
         shape_unknowns=deviations.unknowns,

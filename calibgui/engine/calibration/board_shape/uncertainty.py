@@ -73,9 +73,13 @@ from calibgui.engine.calibration.board_shape.parametrisation import (
 )
 from calibgui.engine.calibration.observations import Observations
 from calibgui.engine.calibration.refinement import covariances
-from calibgui.engine.calibration.refinement.schur import NormalEquations, eliminate_poses, sum_costs
+from calibgui.engine.calibration.refinement.schur import (
+    NormalEquations,
+    eliminate_poses,
+    invert_roots,
+    sum_costs,
+)
 from calibgui.engine.calibration.result_assembly import Estimate
-from calibgui.engine.geometry import rotations
 
 DEFAULT_FLATNESS = 3e-4
 """Expected deviation (rms) of a board from flatness, and from its print, over its longer side:
@@ -131,11 +135,11 @@ class BoardError(NamedTuple):
     covariance: Array
     """(P, P) covariance C of the camera's free parameters of the joint estimate."""
     pose_covariances: Array
-    """(K, 6, 6) covariances of (rvec, tvec) of the joint estimate."""
+    """(K, 6, 6) covariances of the solver's local (w, tau) of the joint estimate."""
     shift: Array
     """(P,) camera of the joint estimate minus that for the board as drawn."""
     pose_shift: Array
-    """(K, 6) the same of the poses, (rvec, tvec)."""
+    """(K, 6) the same of the poses, (w, tau)."""
     deviation: float
     """Deviation of the board's corners, mm rms, of the joint estimate."""
 
@@ -194,10 +198,10 @@ def suspect_board(board: LinearisedBoard, sigma2: float) -> float:
     # Copies of a view see a corner from one side only, which leaves a direction of it open: with a
     # trace of stiffness it adds nothing to chi^2, nor to what is expected of it.
     H, g = board.H[tested], board.g[tested, :, None]
-    stiffness = _STIFFNESS * np.trace(H, axis1=1, axis2=2)[:, None, None] * np.eye(3)
-    solved = np.linalg.solve(H + stiffness, np.concatenate([g, H], axis=2))
-    expected = float(np.einsum("nii->", solved[..., 1:]))
-    excess = float(np.sum(g[..., 0] * solved[..., 0])) / sigma2 - expected
+    stiffness = _STIFFNESS * np.trace(H, axis1=1, axis2=2)[:, None, None]
+    roots = invert_roots(H + stiffness * np.eye(3))
+    expected = 3 * len(H) - float(np.sum(stiffness * roots**2))
+    excess = float(np.sum((roots @ g) ** 2)) / sigma2 - expected
     if excess < _MIN_EXCESS * np.sqrt(2 * expected):
         return 0.0
     return excess * sigma2
@@ -253,13 +257,11 @@ def estimate_board_error(
     square = float(q @ q) + max(3 * n - len(q) - 7, 0) * typical
     covariance = sigma2 * (root @ root.T)
     covariance[:P, :P] += sigma2 * camera
-    rvecs = rotations.vector_from_rotation(estimate.state.R)
-    by_pose = joint.solve_poses(-normal.pose, np.append(shift, q))
     return BoardError(
         covariance[:P, :P],
-        covariances.compute_pose_covariances(joint, covariance, rvecs, sigma2),
+        covariances.compute_pose_covariances(joint, covariance, sigma2),
         shift,
-        (covariances.differentiate_poses(rvecs) @ by_pose[..., None])[..., 0],
+        joint.solve_poses(-normal.pose, np.append(shift, q)),
         float(np.sqrt(square / n)),
     )
 

@@ -30,6 +30,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from calibgui.engine.arrays import Array, BoolArray, IntArray
+from calibgui.engine.calibration.refinement.schur import invert_roots
 from calibgui.engine.geometry import homography
 from calibgui.engine.kernels import with_kernel
 
@@ -125,8 +126,9 @@ def _invert_information(normal: Array) -> Array:
     long as inverses, whose norms show where none is that small.
     """
     try:
-        inverse = np.asarray(np.linalg.inv(normal))
-    except np.linalg.LinAlgError:  # one is singular
+        roots = invert_roots(normal)
+        inverse = np.swapaxes(roots, 1, 2) @ roots
+    except np.linalg.LinAlgError:  # one is not positive definite, but for rounding errors
         inverse = np.full_like(normal, np.inf)
     ratio = 1 / (np.linalg.norm(normal, axis=(1, 2)) * np.linalg.norm(inverse, axis=(1, 2)))
     poor = ~(ratio > _MIN_INFORMATION)

@@ -21,11 +21,9 @@ from calibgui.engine.calibration.methods.method import subtract_states
 from calibgui.engine.calibration.observations import Observations
 from calibgui.engine.calibration.options import Options
 from calibgui.engine.calibration.refinement import residuals
-from calibgui.engine.calibration.refinement.covariances import differentiate_poses
 from calibgui.engine.calibration.refinement.residuals import State
 from calibgui.engine.calibration.result_assembly import Estimate
 from calibgui.engine.errors import CalibrationError
-from calibgui.engine.geometry.rotations import vector_from_rotation
 
 _DRAWS = 50
 """Number of simulations: the standard deviations are then good to 10 %."""
@@ -60,12 +58,10 @@ def simulate_covariances(
     scatter -= scatter.mean(axis=0)
     camera = scatter[:, free].T @ scatter[:, free] / (len(scatter) - 1)
     poses = scatter[:, P:].reshape(len(scatter), -1, 6)
-    local = np.einsum("nki,nkj->kij", poses, poses) / (len(scatter) - 1)
-    J = differentiate_poses(vector_from_rotation(state.R))
     return estimate._replace(
         camera_covariance=camera,
         noise_covariance=camera,
-        pose_covariances=J @ local @ np.swapaxes(J, 1, 2),
+        pose_covariances=np.einsum("nki,nkj->kij", poses, poses) / (len(scatter) - 1),
     )
 
 

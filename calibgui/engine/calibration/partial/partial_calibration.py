@@ -50,7 +50,7 @@ from calibgui.engine.calibration.refinement.schur import eliminate_poses
 from calibgui.engine.calibration.result import Assumption, Cost, Status
 from calibgui.engine.calibration.result_assembly import Estimate
 from calibgui.engine.camera.models import find_model
-from calibgui.engine.geometry import frames, rotations
+from calibgui.engine.geometry import frames
 from calibgui.engine.geometry.planar_pose import poses_from_homographies
 
 _MIN_VARIANCE_RATIO = 9.0
@@ -134,10 +134,7 @@ def estimate_partially(
         observations, options.model, options.cost, options.scale, free
     )(state)
     status = Status.PARTIAL if solution.status is Status.CONVERGED else solution.status
-    rvecs = rotations.vector_from_rotation(state.R)
-    spread = covariances.compute_pose_covariances(
-        eliminate_poses(normal), camera, rvecs, fit.sigma2
-    )
+    spread = covariances.compute_pose_covariances(eliminate_poses(normal), camera, fit.sigma2)
     solution = Solution(state, normal, solution.history, status)
     estimate = Estimate(solution, state, observations, fit.sigma2, camera, spread, by_noise)
     held_priors = zip(free[held].tolist(), fit.prior[held].tolist(), strict=True)

@@ -153,35 +153,38 @@ def _invert_scaled(scaled: Array) -> tuple[Array, float]:
     return vectors[:, kept] / values[kept] @ vectors[:, kept].T, float(values[0])
 
 
-def compute_pose_covariances(reduced: Reduced, shared: Array, rvecs: Array, sigma2: float) -> Array:
-    """Compute the covariances (K, 6, 6) of (rvec, tvec), rad and mm.
+def compute_pose_covariances(reduced: Reduced, shared: Array, sigma2: float) -> Array:
+    """Compute the covariances (K, 6, 6) of the solver's local (w, tau), rad and mm.
 
     Args:
         reduced: the normal equations of the shared parameters at the solution.
         shared: (P, P) covariance of the free shared parameters.
-        rvecs: (K, 3) rotation vectors of the poses.
         sigma2: variance of one residual coordinate.
     """
     roots, W = reduced.roots, reduced.W
     is_touched = W.any(axis=(0, 2))
     if not is_touched.all():  # the coefficients that no corner touches do not act on poses
         W, shared = W[:, is_touched], shared[np.ix_(is_touched, is_touched)]
-    by_root = differentiate_poses(rvecs) @ np.swapaxes(roots, 1, 2)
-    found = sigma2 * (by_root @ np.swapaxes(by_root, 1, 2))
-    by_gradient = by_root @ roots
+    inverse = np.swapaxes(roots, 1, 2) @ roots
+    found = sigma2 * inverse
     for views in slice_views(len(found)):
-        G = by_gradient[views] @ np.swapaxes(W[views], 1, 2)
+        G = inverse[views] @ np.swapaxes(W[views], 1, 2)
         carried = np.tensordot(G, shared, axes=1)  # one product for all views
         found[views] += carried @ np.swapaxes(G, 1, 2)
     return found
 
 
-def differentiate_poses(rvecs: Array) -> Array:
-    """Return derivatives (K, 6, 6) of (rvec, tvec) by the solver's local (w, tau), for (K, 3)."""
+def convert_pose_covariances(local: Array, rvecs: Array) -> Array:
+    """Convert covariances (K, 6, 6) of the solver's local (w, tau) to those of (rvec, tvec).
+
+    Args:
+        local: the covariances, rad and mm.
+        rvecs: (K, 3) rotation vectors of the poses.
+    """
     J = np.zeros((len(rvecs), 6, 6))
     J[:, :3, :3] = rotations.inverse_left_jacobian(rvecs)
     J[:, 3:, 3:] = np.eye(3)
-    return J
+    return np.asarray(J @ local @ np.swapaxes(J, 1, 2))
 
 
 def compute_correlations(covariance: Array) -> Array:

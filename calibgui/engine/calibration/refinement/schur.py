@@ -116,7 +116,9 @@ class Reduced(NamedTuple):
     def reduce_gradient(self, shared: Array, pose: Array) -> Array:
         """Return what is left of the gradient by the shared parameters (P,), `shared` and `pose`
         (K, 6) being those of all unknowns."""
-        return np.asarray(shared - (self.W @ _solve_poses(self.roots, pose))[..., 0].sum(axis=0))
+        return np.asarray(
+            shared - np.einsum("kpi,ki->p", self.W, _solve_poses(self.roots, pose)[..., 0])
+        )
 
     def solve_poses(self, pose: Array, by_shared: Array) -> Array:
         """Return the poses' part (K, 6) of (J^T J)^-1 times a vector, from its poses' part (K, 6)
@@ -173,21 +175,27 @@ def eliminate_poses(normal: NormalEquations, damping: float = 0.0) -> Reduced:
 
     With Vk = L L^T, Wk Vk^-1 Wk^T is the square of L^-1 Wk^T.
     """
-    V = normal.V if damping == 0 else normal.V * (1 + damping * np.eye(6))
-    try:
-        roots = invert_roots(V)
-    except np.linalg.LinAlgError:  # a view leaves its pose open, such as far out of a poor camera
-        V = V * (1 + _ROUNDING * np.eye(6)) + np.finfo(float).tiny * np.eye(6)
-        roots = invert_roots(V)
+    roots = invert_pose_roots(normal.V if damping == 0 else normal.V * (1 + damping * np.eye(6)))
     diagonal, S = np.diag(normal.U), subtract_squares(normal.U, normal.W, roots)
     S.flat[:: len(S) + 1] += damping * diagonal
     unit = 1 / np.sqrt(np.maximum(diagonal, 1e-300))
     return Reduced(S, normal.W, roots, unit)
 
 
+def invert_pose_roots(V: Array) -> Array:
+    """Compute L^-1 (K, 6, 6) for the poses' blocks V = L L^T (K, 6, 6), also where one is open."""
+    try:
+        return invert_roots(V)
+    except np.linalg.LinAlgError:  # a view leaves its pose open, such as far out of a poor camera
+        V = V * (1 + _ROUNDING * np.eye(6)) + np.finfo(float).tiny * np.eye(6)
+        return invert_roots(V)
+
+
 @with_kernel("schur", "invert_roots")
 def invert_roots(V: Array) -> Array:
-    """Compute L^-1 (K, 6, 6) for V = L L^T (K, 6, 6).
+    """Compute L^-1 (K, n, n) for V = L L^T (K, n, n).
+
+    For small matrices that takes a tenth of the time of ``np.linalg.inv``.
 
     Raises:
         LinAlgError: if a V is not positive definite.
