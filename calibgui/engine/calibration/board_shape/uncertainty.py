@@ -80,6 +80,7 @@ from calibgui.engine.calibration.refinement.schur import (
     sum_costs,
 )
 from calibgui.engine.calibration.result_assembly import Estimate
+from calibgui.engine.kernels import with_kernel
 
 DEFAULT_FLATNESS = 3e-4
 """Expected deviation (rms) of a board from flatness, and from its print, over its longer side:
@@ -290,7 +291,7 @@ def _estimate_coefficients(
 
     def take_step(logarithms: Array) -> tuple[Array, float]:
         stiffness = np.exp(logarithms)
-        squares, inverses, gained = information.solve(stiffness)
+        squares, inverses, gained = solve_stiffened(information, stiffness)
         sigma2 = estimate_sigma2(gained, len(S) - float(stiffness @ inverses))
         variances = expected
         if is_learnt:
@@ -322,42 +323,35 @@ class Information(NamedTuple):
     rough: tuple[Array, Array]
     """(m,) entries on the diagonal of the information on the rough ones, (m - 1,) beside it."""
 
-    def solve(self, stiffness: Array) -> tuple[Array, Array, float]:
-        """Solve for the coefficients, and invert what is known of them.
 
-        Args:
-            stiffness: (3,) sigma^2 / s^2 of each kind.
+@with_kernel("board_shape", "solve_stiffened")
+def solve_stiffened(information: Information, stiffness: Array) -> tuple[Array, Array, float]:
+    """Solve for the coefficients, and invert what is known of them.
 
-        Returns:
-            By kind the sum (3,) of the squares of the coefficients, and that (3,) of the entries on
-            the diagonal of the inverse of the stiffened information; the decrease of the cost.
-        """
-        followed, trace = self._follow_others(float(stiffness[ROUGH]))
-        left = self.others - self.beside.T @ followed
-        known = left[:-1, :-1]
-        known.flat[:: len(known) + 1] += stiffness[self.kind]
-        inverse = np.linalg.inv(known)
-        q = inverse @ -left[:-1, -1]
-        rough = followed[:, :-1] @ -q - followed[:, -1]
-        own = inverse.diagonal()
-        squares, inverses = (
-            np.bincount(self.kind, x, 3).astype(np.float64, copy=False) for x in (q * q, own)
-        )
-        squares[ROUGH] += rough @ rough
-        inverses[ROUGH] += trace + np.sum((followed[:, :-1] @ inverse) * followed[:, :-1])
-        gained = -float(self.others[-1, :-1] @ q + self.beside[:, -1] @ rough)
-        return squares, inverses, gained
+    Args:
+        information: what the views tell of the coefficients.
+        stiffness: (3,) sigma^2 / s^2 of each kind.
 
-    def _follow_others(self, stiffness: float) -> tuple[Array, float]:
-        """Return M^-1 `beside` (m, s + 1) and the trace of M^-1, M the stiffened tridiagonal."""
-        if not len(self.beside):
-            return self.beside, 0.0
-        factorise, diagonal = scipy.linalg.lapack.dpttrf, self.rough[0] + stiffness
-        down, ratios, _ = factorise(diagonal, self.rough[1])
-        # Eliminated from both ends, a coefficient is left with what it has in the inverse.
-        up = factorise(diagonal[::-1], self.rough[1][::-1])[0][::-1]
-        trace = float(np.sum(1 / (down + up - diagonal)))
-        return scipy.linalg.lapack.dpttrs(down, ratios, self.beside)[0], trace
+    Returns:
+        By kind the sum (3,) of the squares of the coefficients, and that (3,) of the entries on the
+        diagonal of the inverse of the stiffened information; the decrease of the cost.
+    """
+    kind, others, beside, (diagonal, next_to_it) = information
+    tridiagonal = np.diag(diagonal + stiffness[ROUGH])
+    tridiagonal += np.diag(next_to_it, 1) + np.diag(next_to_it, -1)
+    inverse_of_rough = np.linalg.inv(tridiagonal)
+    followed = inverse_of_rough @ beside
+    left = others - beside.T @ followed
+    inverse = np.linalg.inv(left[:-1, :-1] + np.diag(stiffness[kind]))
+    q = -inverse @ left[:-1, -1]
+    rough = -followed @ np.append(q, 1.0)
+    squares, inverses = (
+        np.asarray(np.bincount(kind, x, 3), np.float64) for x in (q * q, inverse.diagonal())
+    )
+    squares[ROUGH] += rough @ rough
+    inverses[ROUGH] += np.trace(inverse_of_rough)
+    inverses[ROUGH] += np.sum((followed[:, :-1] @ inverse) * followed[:, :-1])
+    return squares, inverses, -float(others[-1, :-1] @ q + beside[:, -1] @ rough)
 
 
 def turn_rough_axes(S: Array, right: Array, kind: IntArray) -> Information:
