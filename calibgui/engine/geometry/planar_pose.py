@@ -96,15 +96,25 @@ def _solve_poses(rays: Array, points: Array, weight: Array) -> tuple[Array, Arra
 
 
 def _find_closest_poses(G: Array) -> tuple[Array, Array]:
-    """Return the rotations and translations closest to G (K, 3, 3) ~ [r1 r2 T], scale open."""
+    """Return the rotations and translations closest to G (K, 3, 3) ~ [r1 r2 T], scale open.
+
+    With A = [r1 r2], the closest two columns are A M^-1/2, M = A^T A, and the third is their normal
+    n. The root of a 2 x 2 matrix is (M + s) / sqrt(tr M + 2 s), where s^2 = det M = |n|^2.
+    """
     lengths = np.linalg.norm(G[:, :, :2], axis=1)
     G = G / np.sqrt(lengths[:, 0] * lengths[:, 1])[:, None, None]
-    r3 = np.cross(G[:, :, 0], G[:, :, 1])
-    # The closest rotation to [r1 r2 r3].
-    U, _, Vt = np.linalg.svd(np.concatenate([G[:, :, :2], r3[:, :, None]], axis=2))
-    sign = np.linalg.det(U @ Vt)
-    U[:, :, 2] *= sign[:, None]
-    return U @ Vt, G[:, :, 2]
+    A = G[:, :, :2]
+    (a, b, c), (d, e, f) = A.transpose(2, 1, 0)
+    normal = np.stack([b * f - c * e, c * d - a * f, a * e - b * d], axis=1)
+    s = np.sqrt(np.sum(normal**2, axis=1))
+    M = A.swapaxes(1, 2) @ A
+    adjugate = -M
+    adjugate[:, 0, 0], adjugate[:, 1, 1] = M[:, 1, 1] + s, M[:, 0, 0] + s
+    root = s * np.sqrt(M[:, 0, 0] + M[:, 1, 1] + 2 * s)
+    R = np.concatenate(
+        [A @ adjugate / root[:, None, None], (normal / s[:, None])[..., None]], axis=2
+    )
+    return R, G[:, :, 2]
 
 
 def mirror_planar_poses(R: Array, T: Array, middle: Array) -> tuple[Array, Array]:

@@ -23,6 +23,9 @@ MAX_DEGREE, SMOOTH_DEGREE = 7, 2
 """Degrees of the polynomials in all, and of those of flatness and print."""
 FLATNESS, PRINT, ROUGH = 0, 1, 2
 """The kinds of deviation: smooth out of the plane, smooth in the plane, and all others."""
+_UPPER = np.triu_indices(3)
+_SYMMETRIC = np.array([[0, 1, 2], [1, 3, 4], [2, 4, 5]])
+"""Places of a symmetric matrix's entries in its upper triangle."""
 _MIN_DIAGONAL = 1e-6
 """Part of a polynomial that is new beside those before it, below which it is left out."""
 
@@ -40,25 +43,26 @@ class Deviations(NamedTuple):
 
     def contract(self, D: Array) -> Array:
         """Return the sums over the corners of B_i^T D_i (..., Q, c), for D (..., n, 3, c)."""
-        by_corner = np.moveaxis(D, -3, -1)
+        last = D.ndim - 1
+        by_corner = D.transpose(*range(last - 2), last - 1, last, last - 2)
         sums = by_corner.reshape(-1, D.shape[-3]) @ self.polynomials
         return np.swapaxes(self._take_gauge_out(sums.reshape(*by_corner.shape[:-1], -1)), -1, -2)
 
     def contract_twice(self, H: Array) -> Array:
         """Return the sum over the corners of B_i^T H_i B_i (Q, Q), for H (n, 3, 3)."""
         p = self.polynomials
-        n, m = p.shape
-        weighted = H.reshape(n, 9).T[..., None] * p
-        sums = (p.T @ weighted).reshape(3, 3, m, m).swapaxes(1, 2)
+        m = p.shape[1]
+        weighted = np.ascontiguousarray(H[:, _UPPER[0], _UPPER[1]].T)[..., None] * p
+        sums = (p.T @ weighted)[_SYMMETRIC].swapaxes(1, 2)
         half = self._take_gauge_out(sums.reshape(3, m * 3, m)).reshape(m, 3, -1)
-        return self._take_gauge_out(np.moveaxis(half, 0, -1))
+        return self._take_gauge_out(half.transpose(1, 2, 0))
 
     def _take_gauge_out(self, sums: Array) -> Array:
         """Return the (..., c, Q) sums of the deviations from those (..., 3, c, m) of all
         polynomials along all axes."""
         rows = len(self.linear)
         first, others = sums[..., 1 : 1 + rows // 2], sums[..., 1 + rows // 2 :]
-        in_plane = np.moveaxis(first[..., :2, :, :], -3, -1)
+        in_plane = np.stack([first[..., 0, :, :], first[..., 1, :, :]], axis=-1)
         shape = in_plane.shape[:-2]
         linear = (in_plane.reshape(-1, rows) @ self.linear).reshape(*shape, -1)
         return np.concatenate([linear, *(others[..., axis, :, :] for axis in range(3))], axis=-1)

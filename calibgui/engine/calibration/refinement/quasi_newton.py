@@ -44,6 +44,9 @@ class KeptFactors:
         Args:
             normal: the normal equations at the state, of which the gradient counts.
         """
+        if not self._max_pairs:
+            by_shared, by_pose = self._factors.solve(normal.shared, normal.pose)
+            return -by_shared, -by_pose
         P, K = len(normal.shared), len(normal.pose)
         gradient = np.concatenate([normal.shared, normal.pose.ravel()])
         self._add_pair(gradient)
@@ -60,7 +63,7 @@ class KeptFactors:
 
     def _add_pair(self, gradient: Array) -> None:
         """Add the pair of the last step, at whose end the gradient is as given."""
-        if self._last is None or not self._max_pairs:
+        if self._last is None:
             return
         step, before = self._last
         change = gradient - before
