@@ -41,12 +41,15 @@ class Deviations(NamedTuple):
     kind: IntArray
     """(Q,) kind of each deviation: `FLATNESS`, `PRINT` or `ROUGH`."""
 
-    def contract(self, D: Array) -> Array:
-        """Return the sums over the corners of B_i^T D_i (..., Q, c), for D (..., n, 3, c)."""
+    def contract(self, D: Array, out: Array | None = None) -> Array:
+        """Return the sums over the corners of D_i^T B_i (..., c, Q), for D (..., n, 3, c).
+
+        They are filled in `out`, if it is given.
+        """
         last = D.ndim - 1
         by_corner = D.transpose(*range(last - 2), last - 1, last, last - 2)
         sums = by_corner.reshape(-1, D.shape[-3]) @ self.polynomials
-        return np.swapaxes(self._take_gauge_out(sums.reshape(*by_corner.shape[:-1], -1)), -1, -2)
+        return self._take_gauge_out(sums.reshape(*by_corner.shape[:-1], -1), out)
 
     def contract_twice(self, H: Array) -> Array:
         """Return the sum over the corners of B_i^T H_i B_i (Q, Q), for H (n, 3, 3)."""
@@ -57,15 +60,16 @@ class Deviations(NamedTuple):
         half = self._take_gauge_out(sums.reshape(3, m * 3, m)).reshape(m, 3, -1)
         return self._take_gauge_out(half.transpose(1, 2, 0))
 
-    def _take_gauge_out(self, sums: Array) -> Array:
+    def _take_gauge_out(self, sums: Array, out: Array | None = None) -> Array:
         """Return the (..., c, Q) sums of the deviations from those (..., 3, c, m) of all
-        polynomials along all axes."""
+        polynomials along all axes, in `out` if it is given."""
         rows = len(self.linear)
         first, others = sums[..., 1 : 1 + rows // 2], sums[..., 1 + rows // 2 :]
         in_plane = np.stack([first[..., 0, :, :], first[..., 1, :, :]], axis=-1)
         shape = in_plane.shape[:-2]
         linear = (in_plane.reshape(-1, rows) @ self.linear).reshape(*shape, -1)
-        return np.concatenate([linear, *(others[..., axis, :, :] for axis in range(3))], axis=-1)
+        along = (others[..., axis, :, :] for axis in range(3))
+        return np.concatenate([linear, *along], axis=-1, out=out)
 
 
 def make_deviations(points: Array) -> Deviations:

@@ -167,14 +167,14 @@ def linearise_board(
         views[part] = A
         total += each
         by_pose[part, :, :P] = A[:, P:-1, :P]
-        by_pose[part, :, P:] = np.swapaxes(deviations.contract(D), 1, 2)
+        deviations.contract(D, out=by_pose[part, :, P:])
     A, sums, H = views.sum(axis=0), deviations.contract(total[..., : P + 1]), total[..., P + 1 :]
-    by_camera = sums[:, :P]
+    by_camera = sums[:P]
     normal = NormalEquations(
-        np.block([[A[:P, :P], by_camera.T], [by_camera, deviations.contract_twice(H)]]),
+        np.block([[A[:P, :P], by_camera], [by_camera.T, deviations.contract_twice(H)]]),
         np.swapaxes(by_pose, 1, 2),
         views[:, P:-1, P:-1],
-        np.append(A[:P, -1], sums[:, P]),
+        np.append(A[:P, -1], sums[P]),
         views[:, P:-1, -1],
         *sum_costs(views[:, -1, -1]),
     )

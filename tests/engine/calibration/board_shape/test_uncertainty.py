@@ -154,7 +154,7 @@ def test_other_costs_are_as_uncertain(cost: str) -> None:
 def test_deviations_are_orthonormal_and_free_of_the_gauge(points: Array, count: int) -> None:
     """They are all that a board of so many corners can do, up to the seventh degree."""
     n, deviations = len(points), make_deviations(points)
-    whole = deviations.contract(np.eye(3 * n).reshape(n, 3, 3 * n))  # B^T
+    whole = deviations.contract(np.eye(3 * n).reshape(n, 3, 3 * n)).T  # B^T
     assert len(deviations.kind) == count
     np.testing.assert_allclose(whole @ whole.T, np.eye(count), atol=1e-9)
     np.testing.assert_allclose(whole @ make_gauge(points), 0, atol=1e-9)
