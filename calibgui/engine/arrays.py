@@ -37,12 +37,16 @@ def freeze_array(values: npt.ArrayLike) -> Array:
 def _is_frozen(values: object) -> TypeGuard[Array]:
     """Return whether this is a float64 array, or part of one, that is read-only with all that it is
     part of."""
-    whole = values
-    while isinstance(whole, np.ndarray) and not whole.flags.writeable:
-        whole = whole.base
-    if whole is not None or not isinstance(values, np.ndarray):
+    if not isinstance(values, np.ndarray) or values.dtype != _FLOAT64:
         return False
-    return values.dtype == _FLOAT64 and values.flags.c_contiguous
+    whole: Any = values
+    flags = values.flags
+    if flags.writeable or not flags.c_contiguous:
+        return False
+    while (whole := whole.base) is not None:
+        if not isinstance(whole, np.ndarray) or whole.flags.writeable:
+            return False
+    return True
 
 
 def freeze_ints(values: npt.ArrayLike) -> IntArray:

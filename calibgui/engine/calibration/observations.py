@@ -110,9 +110,7 @@ def pack_observations(
     names = names or name_views(len(views))
     if len(names) != len(views):
         raise ValueError(f"{len(names)} names do not name {len(views)} views")
-    shaped = [
-        _check_shapes(Observation(*view), name) for view, name in zip(views, names, strict=True)
-    ]
+    shaped = [_check_shapes(*view, name=name) for view, name in zip(views, names, strict=True)]
     # All or nothing: a mixture of weighted and unweighted views has no common noise level.
     cov = [view.cov for view in shaped if view.cov is not None]
     if cov and len(cov) < len(shaped):
@@ -188,15 +186,15 @@ def measure_pitch(observations: Observations) -> float:
     return float(min(np.median(distance) for distance in nearest))
 
 
-def _check_shapes(view: Observation, name: str) -> Observation:
-    """Return the view as float64 arrays; refuse shapes that do not match and too few corners."""
-    uv, xy = (np.asarray(points, np.float64) for points in (view.uv, view.xy))
+def _check_shapes(uv: Array, xy: Array, cov: Array | None = None, *, name: str) -> Observation:
+    """Return a view as float64 arrays; refuse shapes that do not match and too few corners."""
+    uv, xy = np.asarray(uv, np.float64), np.asarray(xy, np.float64)
     if uv.ndim != 2 or uv.shape[1:] != (2,) or xy.shape != uv.shape:
         raise CalibrationError(
             f"{name}: corners of shape {uv.shape} do not match board points of shape {xy.shape}.",
             "Both must be (n, 2), one row a corner.",
         )
-    cov = None if view.cov is None else np.asarray(view.cov, np.float64)
+    cov = None if cov is None else np.asarray(cov, np.float64)
     if cov is not None and cov.shape != (*uv.shape, 2):
         raise CalibrationError(
             f"{name}: covariances of shape {cov.shape} do not match {len(uv)} corners.",

@@ -54,6 +54,8 @@ def correct_mirrored_poses(
     """
     mirrored = mirror_poses(solution.state, observations)
     views = _find_uncertain_views(problem, observations, solution, mirrored)
+    if not views.size:
+        return None
     sample, poses = observations.select_views(views), mirrored.select_views(views)
     imaged = np.isfinite(problem(sample, _NONE_FREE)(poses).costs)
     R, T = solution.state.R.copy(), solution.state.T.copy()
