@@ -116,9 +116,7 @@ class Reduced(NamedTuple):
     def reduce_gradient(self, shared: Array, pose: Array) -> Array:
         """Return what is left of the gradient by the shared parameters (P,), `shared` and `pose`
         (K, 6) being those of all unknowns."""
-        return np.asarray(
-            shared - np.einsum("kpi,ki->p", self.W, _solve_poses(self.roots, pose)[..., 0])
-        )
+        return np.asarray(shared - (self.W @ _solve_poses(self.roots, pose))[..., 0].sum(axis=0))
 
     def solve_poses(self, pose: Array, by_shared: Array) -> Array:
         """Return the poses' part (K, 6) of (J^T J)^-1 times a vector, from its poses' part (K, 6)
