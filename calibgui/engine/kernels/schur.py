@@ -1,5 +1,5 @@
-"""The factors of the poses' blocks, compiled, and the Schur complement where each view touches few
-of the shared parameters.
+"""The factors of small matrices such as the poses' blocks, compiled, and the Schur complement where
+each view touches few of the shared parameters.
 
 The readable references are ``calibration.refinement.schur.invert_roots`` and ``subtract_squares``.
 
