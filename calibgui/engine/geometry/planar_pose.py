@@ -100,6 +100,9 @@ def _find_closest_poses(G: Array) -> tuple[Array, Array]:
 
     With A = [r1 r2], the closest two columns are A M^-1/2, M = A^T A, and the third is their normal
     n. The root of a 2 x 2 matrix is (M + s) / sqrt(tr M + 2 s), where s^2 = det M = |n|^2.
+
+    Raises:
+        LinAlgError: if there is none, as where r1 and r2 are parallel or not finite.
     """
     lengths = np.linalg.norm(G[:, :, :2], axis=1)
     G = G / np.sqrt(lengths[:, 0] * lengths[:, 1])[:, None, None]
@@ -111,9 +114,11 @@ def _find_closest_poses(G: Array) -> tuple[Array, Array]:
     adjugate = -M
     adjugate[:, 0, 0], adjugate[:, 1, 1] = M[:, 1, 1] + s, M[:, 0, 0] + s
     root = s * np.sqrt(M[:, 0, 0] + M[:, 1, 1] + 2 * s)
-    R = np.concatenate(
-        [A @ adjugate / root[:, None, None], (normal / s[:, None])[..., None]], axis=2
-    )
+    with np.errstate(invalid="ignore", divide="ignore"):
+        columns, third = A @ adjugate / root[:, None, None], normal / s[:, None]
+    R = np.concatenate([columns, third[..., None]], axis=2)
+    if not np.isfinite(R).all():
+        raise np.linalg.LinAlgError("A plane is seen edge-on or not at all")
     return R, G[:, :, 2]
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import numpy as np
+import pytest
 
 from calibgui.engine.geometry.planar_pose import mirror_planar_poses, poses_from_homographies
 from calibgui.engine.geometry.rotations import rotation_from_vector
@@ -18,6 +19,22 @@ def test_exact_homographies_of_any_scale_give_the_poses() -> None:
     rotations, translations = poses_from_homographies(M, f, np.zeros((2, 2)))
     np.testing.assert_allclose(rotations, R, atol=1e-12)
     np.testing.assert_allclose(translations, T, rtol=1e-12)
+
+
+def test_the_rotation_is_the_closest_one() -> None:
+    M = np.random.default_rng(0).normal(size=(50, 3, 3))
+    found, _ = poses_from_homographies(M, np.ones(2), np.zeros((50, 2)))
+    A = M[:, :, :2] * np.sign(M[:, 2, 2])[:, None, None]
+    U, _, Vt = np.linalg.svd(A, full_matrices=False)
+    np.testing.assert_allclose(found[:, :, :2], U @ Vt, atol=1e-12)
+    np.testing.assert_allclose(found[:, :, 2], np.cross(*np.moveaxis(U @ Vt, -1, 0)), atol=1e-12)
+
+
+@pytest.mark.parametrize("second", [2.0, np.nan])
+def test_no_pose_without_a_plane(second: float) -> None:
+    M = np.array([[[1.0, second, 0.0], [1.0, second, 0.0], [0.0, 0.0, 1.0]]])
+    with pytest.raises(np.linalg.LinAlgError):
+        poses_from_homographies(M, np.ones(2), np.zeros((1, 2)))
 
 
 def test_mirroring_reverses_depth_along_the_ray_alone() -> None:
