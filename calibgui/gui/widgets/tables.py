@@ -335,7 +335,9 @@ class Table(QTableView):
                 self.setColumnHidden(place, True)
         if (excess := header.length() - room) > 0:
             whole = header.sectionSize(0)
-            least = min(whole, _LEGIBLE * self.fontMetrics().averageCharWidth())
+            margin = self.style().pixelMetric(QStyle.PixelMetric.PM_FocusFrameHMargin, None, self)
+            letters = _LEGIBLE * self.fontMetrics().averageCharWidth()
+            least = min(whole, letters + 2 * (margin + 1))
             header.resizeSection(0, max(least, whole - excess))
             for place, column in enumerate(columns):
                 if column.expendable and header.length() > room:
