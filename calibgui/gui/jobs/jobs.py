@@ -36,11 +36,11 @@ _TICK = 33
 """Time between two looks at the queue, ms."""
 _SLICE = 0.02
 """Longest time spent on the queue's content at once, s: the rest waits for the next tick."""
-_TURN = 0.0001
+_TURN = 0.001
 """Time after which a worker hands the interpreter over to the window, s.
 
-It is lost wherever Qt asks Python while a worker computes: some twenty times in one picture of a
-plot, and thousands of times in a table. Python's own are 5 ms.
+Python's own 5 ms are lost at every call into Qt that lets go of the interpreter, some twenty of
+them in one picture of a plot.
 """
 
 _PROCESSORS = os.cpu_count() or 1
