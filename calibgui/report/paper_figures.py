@@ -70,7 +70,7 @@ def draw_paper_figures(real: Result, synthetic: Result, errors: Array) -> dict[s
         ),
         "Figure 14: relative errors of the extrinsics": figures.draw_extrinsic_errors(
             errors,
-            [k for k, view in enumerate(synthetic.views, start=1) if view.usable],
+            [place + 1 for place in synthetic.places],
             _PRINTED_BOUNDS,
         ),
         "Figure 15: rectification residuals, synthetic images": figures.draw_residual_scatter(b),

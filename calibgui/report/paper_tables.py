@@ -204,8 +204,7 @@ def _describe_largest_error(reproduction: Reproduction) -> str:
     """Describe the largest relative error of eq. 51, and of what value it is."""
     errors = reproduction.extrinsic_errors
     row, column = np.unravel_index(int(np.argmax(errors)), errors.shape)
-    found = [k for k, view in enumerate(reproduction.synthetic.views) if view.usable]
-    k = found[row]
+    k = reproduction.synthetic.places[row]
     value = reproduction.real.paper_poses()[k].vector[column]
     unit = " rad" if column < 3 else ""
     return (
