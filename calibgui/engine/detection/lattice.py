@@ -40,7 +40,7 @@ class Lattice:
     dark: bool
     """True if the square before cell (0, 0), above its row and left of its column, is dark."""
     _steps: tuple[Array, Array] | None = field(default=None, init=False, repr=False)
-    """What `steps` returns, once it was asked."""
+    """The steps to the next column and row, once they were asked for; see `steps`."""
 
     @property
     def shape(self) -> tuple[int, int]:

@@ -170,7 +170,7 @@ def _join_heading(column: Column) -> str:
 
 
 _NUMBERS = Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter
-"""Where numbers stand in their cells."""
+"""Place of numbers in their cells."""
 _LEGIBLE = 8
 """Characters of the first column that are shown however narrow the table is."""
 _TINT = 60

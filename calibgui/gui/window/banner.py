@@ -37,7 +37,7 @@ class Banner(QFrame):
         self._row.addWidget(self.dismiss, 0, Qt.AlignmentFlag.AlignTop)
         self._failure = False
         self._kept: dict[str, Mapping[str, Callable[[], None]]] = {}
-        """What comes back, the latest last: open questions with their choices, and messages."""
+        """Open questions with their choices, and messages, that come back; the latest is last."""
         self.hide()
 
     def show_error(self, error: CalibrationError) -> None:

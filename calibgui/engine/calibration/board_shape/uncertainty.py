@@ -307,7 +307,7 @@ def _estimate_coefficients(
 
 
 class Information(NamedTuple):
-    """What the views tell of m rough and s other coefficients, the axes of the rough ones turned.
+    """Information of the views on m rough and s other coefficients, the rough ones' axes turned.
 
     All rough coefficients have one variance, and so the prior does not notice a turn that makes
     the views' information on them tridiagonal. Then a step factorises in O(m) what is stiffened,

@@ -38,8 +38,8 @@ _PRODUCTS = np.stack([_WEIGHTS, 3**0.5 * _PLACES * _WEIGHTS])
 _MAX_STEPS = 30
 """Number of steps, tried ones included, from the lens that the corners show; two are usual."""
 _LEAST_DAMPING, _FIRST_DAMPING, _DAMPING_FACTOR = 1e-13, 1e-11, 10.0
-"""What is added to the diagonal of a step's equations, over its sum: always, and once a step has
-failed; and the factor by which it changes with each step that fails or does not."""
+"""Dampings, which are added to the diagonal of a step's equations, over its sum: always, and once
+a step has failed; and the factor by which it changes with each step that fails or does not."""
 _CONVERGED_SHARE = 0.9
 """Share of the sum of squares that a step leaves at which it was the last."""
 _BY_LAST_COLUMN = np.array([2, 5, 8])
