@@ -37,7 +37,14 @@ os.environ.setdefault("QT_QPA_PLATFORM", "offscreen")
 
 import cv2
 import numpy as np
-from PySide6.QtCore import QItemSelection, QItemSelectionModel, QSettings, Qt, QTimer
+from PySide6.QtCore import (
+    QEventLoop,
+    QItemSelection,
+    QItemSelectionModel,
+    QSettings,
+    Qt,
+    QTimer,
+)
 from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QApplication
 
@@ -149,6 +156,17 @@ def describe_stack(frame: FrameType | None) -> str:
     return " < ".join(stack)
 
 
+def wait(duration: int) -> None:
+    """Run the event loop for so many ms.
+
+    ``QTest.qWait`` sleeps without letting go of the interpreter, so that the window's threads stand
+    still in most of that time.
+    """
+    loop = QEventLoop()
+    QTimer.singleShot(duration, loop.quit)
+    loop.exec()
+
+
 @contextmanager
 def heartbeat(task: str, trace: Trace | None) -> Iterator[None]:
     """Print the longest gaps while the block runs the event loop."""
@@ -189,7 +207,7 @@ class User:
         with heartbeat(task, self.trace):
             for step in steps:
                 step()
-                QTest.qWait(300)
+                wait(300)
             self._wait()
 
     def _wait(self) -> None:
@@ -199,22 +217,22 @@ class User:
             if time.monotonic() > end and self.window.session.result is not None:
                 for job in jobs.running:
                     job.cancel()
-            QTest.qWait(200)
+            wait(200)
             self.largest_worker = max(self.largest_worker, *map(resident, active_children()), 0)
-        QTest.qWait(300)
+        wait(300)
 
     def scroll(self) -> None:
         """Scroll the film strip from one end to the other and back."""
         bar = self.window.images.list.horizontalScrollBar()
         for place in np.concatenate([np.linspace(0, 1, 150), np.linspace(1, 0, 50)]):
             bar.setValue(round(place * bar.maximum()))
-            QTest.qWait(10)
+            wait(10)
 
     def walk(self) -> None:
         """Look at one image after the other, faster than they can be read."""
         for _ in range(20):
             QTest.keyClick(self.window.images.list, Qt.Key.Key_Right)
-            QTest.qWait(100)
+            wait(100)
 
     def leave_out(self, count: int) -> None:
         """Leave selected images out, or take them in again."""
@@ -238,7 +256,7 @@ class User:
         for step in (*range(30), *range(30, 0, -1)):
             moved = at + type(at)(0, step)
             QTest.mouseMove(view, moved)
-            QTest.qWait(10)
+            wait(10)
         QTest.mouseRelease(view, Qt.MouseButton.LeftButton, pos=at)
 
 
