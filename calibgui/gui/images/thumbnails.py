@@ -14,6 +14,8 @@ from calibgui.gui.widgets.picture import make_qimage
 
 THUMBNAIL = QSize(72, 48)
 """Device-independent px."""
+_SHOWN = 100
+"""Time after which new images are on screen, ms: reading them before would delay that."""
 
 
 class Thumbnails(QObject):
@@ -75,7 +77,14 @@ class Thumbnails(QObject):
             return
         self._requested.update(new)
         self._session.jobs.each(
-            "", new, _small, self._done, failed=_unread, ended=self._ended, owner=self
+            "",
+            new,
+            _small,
+            self._done,
+            delay=_SHOWN,
+            failed=_unread,
+            ended=self._ended,
+            owner=self,
         )
 
     def _done(self, image: str, found: tuple[QImage, Thumbnail, Signature]) -> None:
