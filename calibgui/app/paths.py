@@ -8,8 +8,8 @@ import re
 import unicodedata
 from collections import Counter
 from collections.abc import Iterable
-from functools import cache
-from pathlib import Path
+from functools import cache, lru_cache
+from pathlib import Path, PurePath
 
 from calibgui.engine.errors import CalibrationError
 from calibgui.engine.images import FORMATS
@@ -40,10 +40,15 @@ def is_remote(path: str) -> bool:
     return "://" in path
 
 
-def make_natural_key(path: Path) -> list[tuple[str, int]]:
-    """Return a sorting key that compares runs of digits as numbers and ignores case."""
+@lru_cache(maxsize=10_000)
+def make_natural_key(path: Path) -> tuple[tuple[str, int], ...]:
+    """Return a sorting key that compares runs of digits as numbers and ignores case.
+
+    Keys are kept: every image is sorted again when others are added.
+    """
     text = unicodedata.normalize("NFC", str(path)).casefold()
-    return [(word, int(digits or -1)) for word, digits in re.findall(r"([^0-9]*)([0-9]*)", text)]
+    words = re.findall(r"([^0-9]*)([0-9]*)", text)
+    return tuple((word, int(digits or -1)) for word, digits in words)
 
 
 def _find_files(name: str) -> list[Path]:
@@ -61,7 +66,8 @@ def _list_files(name: str) -> list[Path]:
     """Return the files that one name means; raise OSError if a folder cannot be read."""
     path = Path(name)
     if name and path.is_dir():
-        images = [p for p in path.iterdir() if _is_image(p)]
+        with os.scandir(path) as entries:
+            images = [path / entry.name for entry in entries if _is_image(entry)]
         if not images:
             raise CalibrationError(
                 f"The folder {name} holds no images that can be read{_describe_others(path)}.",
@@ -89,11 +95,13 @@ def _describe_others(folder: Path) -> str:
     return f", but files of other formats: {listed}" if listed else ""
 
 
-def _is_image(path: Path) -> bool:
+def _is_image(entry: os.DirEntry[str]) -> bool:
     """Return whether an entry of a folder is an image; hidden files are other programs' notes.
 
     A broken link counts as an image, so that the user is told that it cannot be read.
     """
-    hidden = path.name.startswith(".")
-    image = not hidden and path.suffix.lower() in FORMATS
-    return image and (path.is_file() or not path.exists())
+    hidden = entry.name.startswith(".")
+    if hidden or PurePath(entry.name).suffix.lower() not in FORMATS:
+        return False
+    path = Path(entry)
+    return entry.is_file(follow_symlinks=False) or path.is_file() or not path.exists()

@@ -84,7 +84,8 @@ class Files(QObject):
         """
         images = find_images(names)
         if len(names) == 1 and Path(names[0]).is_dir():
-            remember_project(Path(names[0]), str(images[0]))
+            folder, first = Path(names[0]), str(images[0])
+            self._session.jobs.start("", lambda _: remember_project(folder, first))
         self._add(images)
 
     def paste(self) -> None:

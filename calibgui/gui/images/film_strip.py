@@ -49,13 +49,20 @@ class _Order(QSortFilterProxyModel):
         self._model = model
         self.setSourceModel(model)
         self.sort_by(Criterion.NAME)
-        self.sort(0)
+        model.modelAboutToBeReset.connect(lambda: self.sort(-1))
+        model.modelReset.connect(self._choose_order)
 
     def sort_by(self, criterion: Criterion) -> None:
         """Sort by another criterion, and anew when an image changes; only names never do."""
         self.criterion = criterion
         self.setDynamicSortFilter(criterion is not Criterion.NAME)
+        self._choose_order()
         self.invalidate()
+
+    def _choose_order(self) -> None:
+        """Take the images as they come where that is their order: comparing hundreds is felt."""
+        as_they_come = self.criterion is Criterion.NAME and self._model.is_sorted
+        self.sort(-1 if as_they_come else 0)
 
     def lessThan(self, left: Index, right: Index) -> bool:  # noqa: N802 - Qt's name
         key = self._model.sort_key

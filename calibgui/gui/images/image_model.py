@@ -175,6 +175,11 @@ class ImageModel(QAbstractListModel):
             return QColor(colours.warning)
         return QColor(colours.good if view.status is ViewStatus.FOUND else colours.bad)
 
+    @property
+    def is_sorted(self) -> bool:
+        """Whether the images stand in the order of their names, as those of one folder do."""
+        return all(place == row for row, place in enumerate(self._places))
+
     def sort_key(self, row: int, criterion: Criterion) -> tuple[object, ...]:
         """Key of an image among the others; equal ones stand in the order of their names."""
         view, place = self._views[row], self._places[row]
