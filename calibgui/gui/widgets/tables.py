@@ -110,14 +110,10 @@ class _Model(QStandardItemModel):
         super().__init__()
         self.columns, self._marked, self._hovered = tuple(columns), marked or {}, -1
         for place, column in enumerate(columns):
-            tips = self._list_tips(place)
-            self.appendColumn(
-                list(map(_make_cell, column.values, map(column.text, column.values), tips))
-            )
+            self.appendColumn(self._make_cells(column, self._list_tips(place)))
             heading = QStandardItem(_join_heading(column))
             heading.setToolTip(column.tip or explain(column.title))
             self.setHorizontalHeaderItem(place, heading)
-        self.tint()
 
     def hover(self, row: int) -> None:
         """Tint the row that the cursor is over; none if it is negative."""
@@ -130,13 +126,48 @@ class _Model(QStandardItemModel):
         for row in {*self._marked, self._hovered}:
             self._tint_row(row)
 
-    def _tint_row(self, row: int) -> None:
-        colours, ground = theme.current(), None
+    def _make_cells(self, column: Column, tips: Sequence[str]) -> list[QStandardItem]:
+        """Make the cells of a column, as copies of those that differ in more than the value.
+
+        Every call into Qt costs a microsecond or two, and a table may have thousands of cells.
+        """
+        patterns: dict[tuple[str, bool, bool], QStandardItem] = {}
+        cells = []
+        for row, (value, tip) in enumerate(zip(column.values, tips, strict=True)):
+            is_number = isinstance(value, _NUMBER_TYPES)
+            kind = tip, is_number, row in self._marked
+            if kind not in patterns:
+                patterns[kind] = self._make_pattern(row, tip, is_number)
+            cell = patterns[kind].clone()
+            cell.setData(column.text(value), Qt.ItemDataRole.DisplayRole)
+            if is_number:
+                # NaN, which has no order, comes last.
+                value = math.inf if math.isnan(value) else float(value)
+            cell.setData(value, _SORT_ROLE)
+            cells.append(cell)
+        return cells
+
+    def _make_pattern(self, row: int, tip: str, is_number: bool) -> QStandardItem:
+        """Make a cell as it stands in this row, without a value."""
+        cell = QStandardItem()
+        if tip:
+            cell.setToolTip(tip)
+        if is_number:
+            cell.setTextAlignment(_NUMBERS)
+        cell.setData(self._choose_ground(row), Qt.ItemDataRole.BackgroundRole)
+        return cell
+
+    def _choose_ground(self, row: int) -> QColor | None:
+        """Choose the colour behind a row; None for that of all others."""
+        colours = theme.current()
         if row == self._hovered:
             ground = QColor(colours.accent)
             ground.setAlpha(_TINT)
-        elif row in self._marked:
-            ground = QColor(colours.bad_base)
+            return ground
+        return QColor(colours.bad_base) if row in self._marked else None
+
+    def _tint_row(self, row: int) -> None:
+        ground = self._choose_ground(row)
         for place in range(self.columnCount()):
             if (cell := self.item(row, place)) is not None:
                 cell.setData(ground, Qt.ItemDataRole.BackgroundRole)
@@ -152,23 +183,14 @@ class _Model(QStandardItemModel):
         ]
 
 
-def _make_cell(value: Any, text: str, tip: str) -> QStandardItem:
-    cell = QStandardItem(text)
-    if tip:
-        cell.setToolTip(tip)
-    if isinstance(value, int | float | np.number):
-        cell.setTextAlignment(_NUMBERS)
-        value = math.inf if math.isnan(value) else float(value)  # NaN, without order, comes last
-    cell.setData(value, _SORT_ROLE)
-    return cell
-
-
 def _join_heading(column: Column) -> str:
     """Join the heading of a column and the unit below it."""
     heading = column.heading or column.title
     return f"{heading}\n[{column.unit}]" if column.unit else heading
 
 
+_NUMBER_TYPES = (int, float, np.number)
+"""Types of numbers."""
 _NUMBERS = Qt.AlignmentFlag.AlignRight | Qt.AlignmentFlag.AlignVCenter
 """Place of numbers in their cells."""
 _LEGIBLE = 8
