@@ -165,7 +165,7 @@ class MainWindow(QMainWindow):
         )
         self.board.search_wanted.connect(self.detector.search)
         self.calibrate.clicked.connect(self._calibrate_or_stop)
-        self.calibrator.began.connect(lambda: self.need_analysis().show_beginning())
+        self.calibrator.began.connect(self._show_beginning)
         self.calibrator.advanced.connect(lambda step: self.need_analysis().show_iteration(step))
         self.calibrator.ended.connect(lambda: self.need_analysis().show_end())
         self.session.result_changed.connect(self._result_changed)
@@ -195,6 +195,16 @@ class MainWindow(QMainWindow):
             self.inspector.set_analysis(self.analysis)
             self.inspector.show_group(Group.ANSWER)
         return self.analysis
+
+    def _show_beginning(self) -> None:
+        """Show that a calibration has begun, a frame after the panels were made, if they were."""
+        if self.analysis is not None:
+            self.analysis.show_beginning()
+            return
+        analysis = self.need_analysis()
+        QTimer.singleShot(
+            _FRAME, self, lambda: analysis.show_beginning() if self.calibrator.running else None
+        )
 
     def prepare(self) -> None:
         """Import beside the main thread what will be needed: SciPy, the panels, the solver.
