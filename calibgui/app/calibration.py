@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
-from pathlib import PurePath
 from types import MappingProxyType
 from typing import Any, NamedTuple
 
@@ -444,5 +443,5 @@ def _remove_corners(view: View, lost: IntArray) -> View:
 
 def shorten_names(views: Sequence[View]) -> list[str]:
     """Return the names of the views' images, without their folders if that keeps them distinct."""
-    names = [PurePath(view.image).name for view in views]
+    names = [view.name for view in views]
     return names if len(set(names)) == len(names) else [view.image for view in views]

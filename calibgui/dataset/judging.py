@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections import deque
 from collections.abc import Callable
-from pathlib import PurePath
 from threading import Lock
 
 from calibgui.dataset.result import Result
@@ -26,7 +25,7 @@ def judge_result(result: Result, check: Callable[[], None] | None = None) -> Ver
         for known, verdict in _judged:
             if known.calibration is result.calibration and known.views is result.views:
                 return verdict
-        names = [PurePath(view.image).name for view in result.used]
+        names = [view.name for view in result.used]
         verdict = judge_calibration(result.calibration, result.observations(), names, check)
         _judged.append((result, verdict))
         return verdict

@@ -6,6 +6,7 @@ from collections import Counter
 from collections.abc import Iterable
 from dataclasses import dataclass, replace
 from enum import StrEnum
+from pathlib import PurePath
 
 from calibgui.engine.arrays import Array, freeze
 from calibgui.engine.boards import Board
@@ -54,6 +55,11 @@ class View:
 
     def __post_init__(self) -> None:
         freeze(self, "roi")
+
+    @property
+    def name(self) -> str:
+        """Name of the image without its folder."""
+        return PurePath(self.image).name
 
     @property
     def usable(self) -> bool:

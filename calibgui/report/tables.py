@@ -10,7 +10,6 @@ import math
 import textwrap
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from itertools import zip_longest
-from pathlib import PurePath
 
 import numpy as np
 
@@ -68,7 +67,7 @@ def format_report(result: Result, *, verbose: bool = False) -> str:
     notes = [
         *(s.text for s in sentences if s not in urgent),
         *describe_symmetry(result.used),
-        *(f"{PurePath(view.image).name}: {view.note}" for view in result.used if view.note),
+        *(f"{view.name}: {view.note}" for view in result.used if view.note),
     ]
     return _join_sections(
         "\n".join([*_format_verdict(result, verdict), *remarks]),
@@ -198,7 +197,7 @@ def list_unused_views(all_views: Iterable[View]) -> str:
             reason = view.reason or "Left out by choice."
             # Reading errors name the file already.
             named = reason.startswith(view.image)
-            names.setdefault(reason, []).extend([] if named else [PurePath(view.image).name])
+            names.setdefault(reason, []).extend([] if named else [view.name])
     lines = [
         _fill_lines(_join_names(images) + make_printable(reason), "  ", "    ")
         for reason, images in names.items()
@@ -351,7 +350,7 @@ def tabulate_detection(all_views: Sequence[View]) -> str:
     head = ["view", "image", "status", "corners", "board"]
     parts = ["Images\n" + align_columns([head, *rows], left=(1, 2)), list_unused_views(all_views)]
     remarks = [count_boards(all_views)]
-    remarks += [f"{PurePath(view.image).name}: {view.note}" for view in all_views if view.note]
+    remarks += [f"{view.name}: {view.note}" for view in all_views if view.note]
     remarks += [*map(_describe_other_boards, all_views), *describe_symmetry(all_views)]
     parts.append("\n".join(map(format_bullet, filter(None, remarks))))
     return "\n\n".join(part for part in parts if part)

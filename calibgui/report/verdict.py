@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import shlex
 from collections.abc import Sequence
-from pathlib import PurePath
 
 import numpy as np
 
@@ -75,7 +74,7 @@ def format_options(action: Action, result: Result) -> str:
         action: the action.
         result: the result that the action is about.
     """
-    options = _format_own_options(action, [PurePath(view.image).name for view in result.used])
+    options = _format_own_options(action, [view.name for view in result.used])
     if action.takes_image_cost:
         if result.calibration.cost is not Cost.IMAGE:
             options += f" --cost {Cost.IMAGE.value}"

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from pathlib import PurePath
 
 import numpy as np
 from PySide6.QtCore import QPointF, Qt, Signal
@@ -210,7 +209,7 @@ class ImagePage(QWidget):
             self.canvas.show_marks(Marks())
             self.facts.clear()
             return
-        self.heading.setText(PurePath(view.image).name)
+        self.heading.setText(view.name)
         self.heading.setToolTip(f"{view.image}\n{view.reason or status_text(view)}")
         measured, predicted = _find_residuals(session.result, view)
         region = view.roi

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from enum import IntEnum
-from pathlib import Path, PurePath
+from pathlib import Path
 from typing import Any
 
 from PySide6.QtCore import (
@@ -125,7 +125,7 @@ class ImageModel(QAbstractListModel):
         view = self._views[index.row()]
         match role:
             case Qt.ItemDataRole.DisplayRole:
-                return PurePath(view.image).name
+                return view.name
             case Qt.ItemDataRole.DecorationRole:
                 return self.thumbnails.picture(view.image)
             case Qt.ItemDataRole.ToolTipRole:
@@ -152,7 +152,7 @@ class ImageModel(QAbstractListModel):
 
     def _spoken(self, view: View) -> str:
         """Return what a screen reader says of an image."""
-        text = f"{PurePath(view.image).name}, {self._status(view)}"
+        text = f"{view.name}, {self._status(view)}"
         rms = self._rms.get(view.image)
         return text if rms is None else self.tr("{0}, error {1:.3f} px").format(text, rms)
 
