@@ -67,6 +67,7 @@ class HelpDialog(QDialog):
             ("F9", self.tr("calibrate")),
             ("M / E", self.tr("mark board / edit corners")),
             (self.tr("Space"), self.tr("exclude or include the selected images: the fit follows")),
+            ("F7", self.tr("the photograph alone, or back")),
             ("F8", self.tr("more room for the inspector, or back")),
             (self.tr("← →"), self.tr("previous and next image, with the image in focus")),
             (

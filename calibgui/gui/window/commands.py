@@ -46,6 +46,7 @@ class Commands(QObject):
         calibrate: Callable[[], object],
         leave: Callable[[], object],
         change_room: Callable[[], object],
+        leave_alone: Callable[[], object],
         docks: Mapping[str, QDockWidget],
         find_action: Callable[[], object],
     ) -> Sequence[Menu]:
@@ -55,6 +56,7 @@ class Commands(QObject):
             calibrate: starts a calibration, or stops the one that runs.
             leave: closes the window.
             change_room: gives the inspector more room, or the photograph.
+            leave_alone: leaves the photograph alone in the window, or not.
             docks: by the text of the entry that shows and hides each.
             find_action: opens the palette of all actions.
         """
@@ -63,7 +65,7 @@ class Commands(QObject):
             self._describe_edit(),
             Menu(self.tr("&Images"), (*self._images.actions_for_menu, None, *self._page.tools)),
             self._describe_calibration(calibrate),
-            self._describe_view(change_room, docks),
+            self._describe_view(change_room, leave_alone, docks),
             self._describe_help(find_action),
         )
 
@@ -255,7 +257,10 @@ class Commands(QObject):
         )
 
     def _describe_view(
-        self, change_room: Callable[[], object], docks: Mapping[str, QDockWidget]
+        self,
+        change_room: Callable[[], object],
+        leave_alone: Callable[[], object],
+        docks: Mapping[str, QDockWidget],
     ) -> Menu:
         toggles = []
         for text, dock in docks.items():
@@ -290,6 +295,14 @@ class Commands(QObject):
                     shortcut="F8",
                     tip=self.tr("Give the inspector most of the width, or the photograph"),
                     run=change_room,
+                ),
+                Command(
+                    text=self.tr("The &photograph alone, or back"),
+                    shortcut="F7",
+                    tip=self.tr("Hide the film strip and the inspector, or show them again"),
+                    run=leave_alone,
+                    is_enabled=lambda: bool(self._session.project.views),
+                    why_disabled=self.tr("There are no images yet: add some first."),
                 ),
                 Menu(self.tr("&Colours"), colours),
             ),

@@ -112,6 +112,8 @@ class MainWindow(QMainWindow):
         self.inspector_dock = Dock(self.tr("Inspector"), "inspector", self.inspector, self)
         self.addDockWidget(Qt.DockWidgetArea.RightDockWidgetArea, self.inspector_dock)
         self.strip_dock = Dock(self.tr("Images"), "images", self.images, self)
+        self._hidden_docks = [self.strip_dock, self.inspector_dock]
+        """The docks that come back beside the photograph."""
         self.strip_dock.setTitleBarWidget(QWidget())  # none: the strip is as low as it can be
         self.addDockWidget(Qt.DockWidgetArea.BottomDockWidgetArea, self.strip_dock)
         self._verdict_bar = self._put_on_top(self.verdict)
@@ -140,6 +142,7 @@ class MainWindow(QMainWindow):
                 self.calibrate.click,
                 self.close,
                 self.change_room,
+                self.leave_photograph_alone,
                 docks,
                 lambda: show_dialog(Palette(menus, self)),
             ),
@@ -283,6 +286,14 @@ class MainWindow(QMainWindow):
         """Give the inspector most of the width, or the photograph if the inspector has it."""
         is_wide = self.inspector.width() > self.width() / 2
         self._widen_inspector(_INSPECTOR_SHARE if is_wide else _LARGE_SHARE)
+
+    def leave_photograph_alone(self) -> None:
+        """Hide the film strip and the inspector, or show again what was hidden."""
+        shown = [dock for dock in (self.strip_dock, self.inspector_dock) if dock.isVisible()]
+        for dock in shown or self._hidden_docks:
+            dock.setVisible(not shown)
+        if shown:
+            self._hidden_docks = shown
 
     def _widen_inspector(self, share: float) -> None:
         width = max(Inspector.WIDTH, round(share * self.width()))

@@ -152,6 +152,23 @@ def test_the_inspector_gets_room_and_gives_it_back(full: MainWindow, qtbot: QtBo
     qtbot.waitUntil(lambda: abs(full.page.canvas.width() - before) < 30)
 
 
+def test_the_photograph_alone_fills_the_window_and_all_comes_back(
+    full: MainWindow, qtbot: QtBot
+) -> None:
+    resize(full, qtbot, 1280, 720)
+    full.inspector_dock.hide()
+    qtbot.keyClick(full, Qt.Key.Key_F7)
+    assert not full.strip_dock.isVisible()
+    qtbot.waitUntil(lambda: full.page.canvas.height() >= 560)
+    assert full.page.canvas.width() == full.width()
+    qtbot.keyClick(full, Qt.Key.Key_F7)
+    assert full.strip_dock.isVisible() and not full.inspector_dock.isVisible()
+    full.inspector_dock.show()
+    for shown in (False, True):
+        qtbot.keyClick(full, Qt.Key.Key_F7)
+        assert full.strip_dock.isVisible() is full.inspector_dock.isVisible() is shown
+
+
 def test_every_panel_is_in_one_group_and_comes_by_its_name(full: MainWindow, qtbot: QtBot) -> None:
     analysis = full.need_analysis()
     assert len(set(PANELS)) == len(PANELS) == sum(map(len, GROUPS.values()))
