@@ -28,6 +28,7 @@ from calibgui.engine.assessment.finding import (
 from calibgui.engine.assessment.outliers import (
     Screening,
     estimate_coordinate_sigma,
+    predict_coordinate_sigma,
     screen_outliers,
     select_corners,
 )
@@ -60,6 +61,9 @@ of a thousand sets of 4,000 good corners one has such a residual."""
 _MIN_GROSS_SIGMAS, _MIN_GROSS_PX = 15.0, 1.5
 """Distances from where it should be, in sigma of the others and in px, beyond which a corner is
 grossly misplaced, and not missed by the model or by a little."""
+_MIN_LEFT = 0.1
+"""Part of a gross displacement that is left in the residuals, at least: of one corner of nine a
+pose leaves two fifths, of a row of three a fifth, and more of those of larger boards."""
 _MAX_RANK = 0.9
 """Part of all corners that lie closer to the centre than the median of the misplaced ones, above
 which a lens that is not followed at the image's edge is the cause."""
@@ -181,8 +185,7 @@ def screen_misplaced_corners(
     Corners that are off by a few standard deviations, at the edges of many views, are those that
     the model misses.
     """
-    lengths = np.linalg.norm(stack_residuals(calibration, on_reference=False), axis=1)
-    if lengths.max() < _MIN_OUTLYING * estimate_coordinate_sigma(lengths):
+    if not _has_outlying_corners(calibration, views):
         return None
     try:
         screening = screen_outliers(
@@ -207,6 +210,20 @@ def screen_misplaced_corners(
     uv = np.concatenate([views[r.view].uv[list(r.corners)] for r in screening.rejected])
     rejected = np.linalg.norm(uv - centre, axis=1)[is_gross]
     return screening if np.mean(radius < np.median(rejected)) < _MAX_RANK else None
+
+
+def _has_outlying_corners(calibration: Calibration, views: Sequence[Observation]) -> bool:
+    """Return whether a residual is too long for its corner's noise, and may be of a gross error."""
+    lengths = np.linalg.norm(stack_residuals(calibration, on_reference=False), axis=1)
+    sigmas = np.concatenate(
+        [
+            np.broadcast_to(predict_coordinate_sigma(view, calibration.model_error), len(view.uv))
+            for view in views
+        ]
+    )
+    relative = lengths / sigmas
+    is_outlying = relative > _MIN_OUTLYING * estimate_coordinate_sigma(relative)
+    return bool((is_outlying & (lengths > _MIN_LEFT * _MIN_GROSS_PX)).any())
 
 
 def _measure_rejected(

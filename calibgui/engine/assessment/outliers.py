@@ -189,8 +189,9 @@ def _screen_by_residual(
     ]
     predicted = pixels_from_rays(np.concatenate(placed), calibration.camera)
     ends = np.cumsum([len(points) for points in placed])[:-1]
+    error = calibration.model_error
     lengths = [
-        np.linalg.norm(given[k].uv - uv, axis=1) / _predict_sigma(given[k], calibration.model_error)
+        np.linalg.norm(given[k].uv - uv, axis=1) / predict_coordinate_sigma(given[k], error)
         for k, uv in zip(used, np.split(predicted, ends), strict=True)
     ]
     trusted = np.concatenate([length[kept[k]] for k, length in zip(used, lengths, strict=True)])
@@ -203,8 +204,13 @@ def _screen_by_residual(
     return changed
 
 
-def _predict_sigma(view: Observation, model_error: float) -> Array | float:
-    """Return standard deviations (n,) of the corners, px; 1 where the view has no covariances."""
+def predict_coordinate_sigma(view: Observation, model_error: float) -> Array | float:
+    """Predict the standard deviations (n,) of residuals' coordinates, px, from the covariances.
+
+    Args:
+        view: the corners; where they have no covariances all are taken for equally precise, by 1.
+        model_error: ``Calibration.model_error``, px.
+    """
     if view.cov is None:
         return 1.0
     return np.sqrt(np.trace(view.cov, axis1=1, axis2=2) / 2 + model_error**2)

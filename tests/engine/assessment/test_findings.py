@@ -6,10 +6,11 @@ import numpy as np
 import pytest
 
 from calibgui.engine.arrays import Array
+from calibgui.engine.assessment import input_errors
 from calibgui.engine.assessment.comparison import compare_cameras
 from calibgui.engine.assessment.finding import Cause, Finding
 from calibgui.engine.assessment.findings import list_findings
-from calibgui.engine.assessment.input_errors import find_wrong_frame
+from calibgui.engine.assessment.input_errors import find_wrong_frame, screen_misplaced_corners
 from calibgui.engine.boards.board import Board
 from calibgui.engine.calibration.calibrate import calibrate
 from calibgui.engine.calibration.observations import Observation
@@ -49,6 +50,22 @@ def test_corners_that_are_off_are_named_with_their_view(share: float) -> None:
     assert "--robust" in finding.remedy
     error = compare_cameras(barrel(), calibrate(views, VGA).camera, views=CLEAN)
     assert finding.harm == pytest.approx(error.rms, rel=0.2)
+
+
+def test_a_corner_as_uncertain_as_it_says_is_not_looked_for_and_a_certain_one_is() -> None:
+    """One that the image's border cuts may be off by pixels, where all others are precise."""
+    views = [Observation(v.uv, v.xy, np.tile(0.01 * np.eye(2), (len(v.uv), 1, 1))) for v in CLEAN]
+    uv, cov = np.array(views[4].uv), np.array(views[4].cov)
+    uv[0] += [3.0, 0.0]
+    certain = [*views[:4], Observation(uv, views[4].xy, cov), *views[5:]]
+    wide = np.concatenate([4.0 * np.eye(2)[None], cov[1:]])
+    uncertain = [*views[:4], Observation(uv, views[4].xy, wide), *views[5:]]
+    screening = screen_misplaced_corners(calibrate(certain, VGA), certain)
+    assert screening is not None
+    assert [(r.view, r.corners) for r in screening.rejected] == [(4, (0,))]
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(input_errors, "screen_outliers", None)  # nothing that is called
+        assert screen_misplaced_corners(calibrate(uncertain, VGA), uncertain) is None
 
 
 def test_a_wrong_lens_is_named_before_the_board() -> None:
