@@ -77,8 +77,6 @@ class Plot(pg.PlotWidget):  # type: ignore[misc]  # pyqtgraph is not typed
         item.hideButtons()
         item.showGrid(x=True, y=True, alpha=0.15)
         item.getViewBox().setAspectLocked(square)
-        for axis in ("left", "bottom"):
-            item.getAxis(axis).enableAutoSIPrefix(False)
         self._menu = QMenu(self)
         for text, shortcut, does in (
             (self.tr("Show all"), None, self.show_all),
@@ -185,6 +183,11 @@ class _Axis(pg.AxisItem):  # type: ignore[misc]  # pyqtgraph is not typed
 
     write_number: Callable[[float], str] | None = None
     """A function that writes the numbers, as dates for example; None for plain numbers."""
+
+    def __init__(self, orientation: str) -> None:
+        super().__init__(orientation)
+        # At once: while it may choose prefixes of units, it writes its label anew at every change.
+        self.enableAutoSIPrefix(False)
 
     def tickStrings(self, values: list[float], scale: float, spacing: float) -> list[str]:  # noqa: N802 - pyqtgraph's name
         if self.write_number is None:
