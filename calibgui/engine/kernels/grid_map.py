@@ -54,7 +54,8 @@ def _refine_lens(
     x: Array, u: Array, A: Array, centre: Array, bend: Array, steps: int, damping: float
 ) -> None:
     """Bring A to norm 1, and move A, centre and bend by Gauss-Newton steps."""
-    J, N, g = np.empty((15, 2 * len(x))), np.empty((15, 15)), np.empty(14)
+    J, sums = np.empty((15, 2 * len(x))), np.empty((15, 15))
+    N, g = np.empty((14, 14)), np.empty(14)
     square = 0.0
     for i in range(3):
         for j in range(3):
@@ -64,15 +65,17 @@ def _refine_lens(
             A[i, j] /= np.sqrt(square)
     for _ in range(steps):
         _fill_rows(x, u, A, centre, bend, J)
-        gram(J, N)
+        gram(J, sums)
         trace = 0.0
         for k in range(14):
-            trace += N[k, k]
-            g[k] = N[14, k]
+            trace += sums[k, k]
+            g[k] = sums[14, k]
+            for i in range(14):
+                N[k, i] = sums[k, i]
         for k in range(14):
             N[k, k] += damping * trace
-        factor(N[:14, :14])
-        substitute(N[:14, :14], g)
+        factor(N)
+        substitute(N, g)
         for k in range(9):
             A[k // 3, k % 3] -= g[k]
         for k in range(2):
@@ -184,7 +187,8 @@ def _solve_ratios(s: Array, t: Array, damping: float, M: Array) -> None:
     factor(sums[0])
     for j in range(2):
         for a in range(k):  # columns a of S^-1 Sx and of S^-1 Sy
-            solved[j, a] = sums[1 + j, a]
+            for b in range(k):  # in one assignment, numba would compile its message on wrong shapes
+                solved[j, a, b] = sums[1 + j, a, b]
             substitute(sums[0], solved[j, a])
     for a in range(k):
         for b in range(k):
@@ -313,7 +317,7 @@ def _fit_map(
     scale, unit = _normalise(cells, x, mean), _normalise(uv, u, origin)
     M = np.empty((3, 3))
     _solve_homography(x, u, M)
-    _locate_cells(M, np.zeros(2), lens, x, 0, places)
+    _locate_cells(M, centre, lens, x, inversion_steps, places)  # which no lens needs
     misfit = _measure_misfit(places, u)
     is_bent = n >= min_points and misfit >= min_misfit
     misfit *= unit
