@@ -297,7 +297,7 @@ class Commands(QObject):
                     run=change_room,
                 ),
                 Command(
-                    text=self.tr("The &photograph alone, or back"),
+                    text=self.tr("The photo&graph alone, or back"),
                     shortcut="F7",
                     tip=self.tr("Hide the film strip and the inspector, or show them again"),
                     run=leave_alone,
