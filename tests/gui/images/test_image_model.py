@@ -56,8 +56,18 @@ def test_names_with_numbers_are_in_the_order_people_expect(
     names = [str(tmp_path / f"Image{k}.tif") for k in (10, 2, 1)]
     session.begin(Document(add_images(Project(), names)))
     model = images.list.model()
-    shown = [model.index(row, 0).data() for row in range(3)]
-    assert shown == ["Image1.tif", "Image2.tif", "Image10.tif"]
+
+    def list_shown() -> list[str]:
+        return [model.index(row, 0).data() for row in range(model.rowCount())]
+
+    ordered = ["Image1.tif", "Image2.tif", "Image10.tif"]
+    assert list_shown() == ordered
+    session.begin(Document(add_images(Project(), names[::-1])))  # as they come
+    assert list_shown() == ordered
+    session.edit("Add", lambda project: add_images(project, [str(tmp_path / "Image0.tif")]))
+    assert list_shown() == ["Image0.tif", *ordered]
+    session.document.undo()
+    assert list_shown() == ordered
     session.jobs.close()
     images.deleteLater()
     session.deleteLater()

@@ -112,6 +112,27 @@ def test_a_failure_without_a_taker_is_announced(qtbot: QtBot, jobs: Jobs) -> Non
     qtbot.waitUntil(lambda: bool(taken))
 
 
+def test_delayed_work_counts_as_running_and_begins_later(qtbot: QtBot, jobs: Jobs) -> None:
+    done: list[int] = []
+    jobs.each("Doubling", [1, 2], lambda item: 2 * item, lambda _, r: done.append(r), delay=60)
+    assert jobs.running
+    qtbot.wait(20)
+    assert done == []
+    qtbot.waitUntil(lambda: not jobs.running)
+    assert sorted(done) == [2, 4]
+
+
+def test_delayed_work_does_not_begin_once_the_jobs_are_closed(
+    qtbot: QtBot, qapp: QApplication
+) -> None:
+    jobs, begun = Jobs(qapp), threading.Event()
+    jobs.each("Never", [1], lambda _: begun.set(), delay=20)
+    jobs.close()
+    with qtbot.captureExceptions() as raised:
+        qtbot.wait(60)
+    assert not raised and not begun.is_set()
+
+
 def test_no_items_is_no_work(qtbot: QtBot, jobs: Jobs) -> None:
     ended: list[int] = []
     job = jobs.each("Nothing", [], str, ended=lambda: ended.append(1))
