@@ -362,12 +362,12 @@ class InverseRadialHomography(NamedTuple):
     centre: Array
     """(2,) of the lens."""
     bend: Array
-    """(3,) l1 to l3."""
+    """(k,) l1 to l3, and more where these do not reach."""
 
     def differentiate(self, u: Array) -> tuple[Array, Array, Array]:
         """Compute the cells (n, 2) of points `u` (n, 2), and their derivatives by these (n, 2, 2)
-        and by the 14 parameters (n, 2, 14): A row by row, centre, bend."""
-        A, k = self.A, np.arange(1, _COEFFICIENTS + 1)
+        and by the parameters (n, 2, 11 + k): A row by row, centre, bend."""
+        A, k = self.A, np.arange(1, len(self.bend) + 1)
         d = u - self.centre
         r = np.sum(d * d, axis=1)
         powers = r[:, None] ** k

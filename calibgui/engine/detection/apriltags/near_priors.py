@@ -18,6 +18,7 @@ from calibgui.engine.arrays import Array
 from calibgui.engine.detection import grid_map
 from calibgui.engine.detection.checkerboard.board_priors import BoardPriors, compute_curvatures
 from calibgui.engine.detection.checkerboard.edge_map import EdgeGeometry
+from calibgui.engine.detection.checkerboard.read_edges import ReadEdges
 
 _DIFFERENCE_STEP = 0.5
 """Step of the central differences of the grid map, units."""
@@ -64,10 +65,9 @@ class NearPriors(BoardPriors):
         second = np.stack([right - 2 * here + left, down - 2 * here + up], axis=1)
         return steps, compute_curvatures(steps, second / _DIFFERENCE_STEP**2)
 
-    def follow_edges(self, uv: Array, normals: Array, arm: Array, curvature: Array) -> EdgeGeometry:
+    def follow_edges(self, edges: ReadEdges) -> EdgeGeometry:
         """Estimate the geometry from the corners alone, which do not lie in even rows."""
-        del normals, arm, curvature
-        return EdgeGeometry(*self.estimate_geometry(uv), np.zeros((len(uv), 2)))
+        return self._bend_edges(edges)
 
     def estimate_gradients(self, steps: Array, values: Array) -> Array:
         """Estimate gradients (n, k, 2) over the image, per px, of `values` (n, k) at the corners.

@@ -37,6 +37,7 @@ from calibgui.engine.arrays import (
 from calibgui.engine.detection import grid_map
 from calibgui.engine.detection.checkerboard.edge_map import EdgeGeometry, fit_edge_map
 from calibgui.engine.detection.checkerboard.fit_thresholds import FIT_THRESHOLDS
+from calibgui.engine.detection.checkerboard.read_edges import ReadEdges
 
 _THRESHOLDS = FIT_THRESHOLDS.priors
 _NOISE_PER_DIFFERENCE = 1 / (0.6745 * 6**0.5)
@@ -131,18 +132,27 @@ class BoardPriors:
         steps = first + np.stack([by_col, by_row], axis=1)
         return steps, compute_curvatures(steps, second + np.stack([by_col2, by_row2], axis=1))
 
-    def follow_edges(self, uv: Array, normals: Array, arm: Array, curvature: Array) -> EdgeGeometry:
-        """Estimate the geometry again; of few corners from the directions of their edges, too.
+    def follow_edges(self, edges: ReadEdges) -> EdgeGeometry:
+        """Estimate the geometry again from the `edges` that were read; of few corners, and where
+        the image cuts edges, from the directions of these, too.
 
-        Args:
-            uv: (n, 2) the corners, px.
-            normals: (n, 2, 2) unit normals of the edges, on the side of `estimate_geometry`.
-            arm: (n, 2) how far the edges were read to both sides, px.
-            curvature: (n, 2) that the edges were taken to have there, 1/px.
+        Of more corners the directions count only where the map that follows them predicts what is
+        left out better than the polynomials do: these follow uneven paper better.
         """
-        if len(uv) < _THRESHOLDS.many_corners:
-            return fit_edge_map(self._found, uv, normals, arm, curvature)
-        return EdgeGeometry(*self.estimate_geometry(uv), np.zeros((len(uv), 2)))
+        if len(edges.uv) < _THRESHOLDS.many_corners:
+            return fit_edge_map(self._found, edges)[0]
+        if edges.middle.any() and len(edges.uv) < _THRESHOLDS.many_cut_corners:
+            followed, misfit = fit_edge_map(self._found, edges)
+            flat = grid_map.fit_radial_homography(self._cells, edges.uv)
+            _, misses = self._differentiate(edges.uv - flat.locate(self._cells))
+            if misfit**2 < np.mean(misses**2):
+                return followed
+        return self._bend_edges(edges)
+
+    def _bend_edges(self, edges: ReadEdges) -> EdgeGeometry:
+        """Return the geometry that the corners alone give."""
+        steps, curvature = self.estimate_geometry(edges.uv)
+        return EdgeGeometry(steps, edges.measure_bend(curvature), np.zeros((len(edges.uv), 2)))
 
     def estimate_gradients(self, steps: Array, values: Array) -> Array:
         """Estimate gradients (n, k, 2) over the image, per px, of `values` (n, k) at the corners.
@@ -248,10 +258,9 @@ class PredictedBoardPriors(BoardPriors):
         del uv
         return self._geometry
 
-    def follow_edges(self, uv: Array, normals: Array, arm: Array, curvature: Array) -> EdgeGeometry:
+    def follow_edges(self, edges: ReadEdges) -> EdgeGeometry:
         """Return the predicted geometry, whatever the edges show."""
-        del normals, arm, curvature
-        return EdgeGeometry(*self.estimate_geometry(uv), np.zeros((len(uv), 2)))
+        return self._bend_edges(edges)
 
 
 def compute_curvatures(first: Array, second: Array) -> Array:

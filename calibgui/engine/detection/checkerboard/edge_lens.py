@@ -1,22 +1,24 @@
 """A plane seen through a radial lens, fitted to edges over all that was read of them.
 
 The fit of a corner tells of each of its edges the mean place and the direction: those of the
-parabola q(s) = c + s t + kappa s^2 / 2 n that lies nearest to it over the arm, |s| <= L, whatever
-kappa was taken to be. From the edge that a map of cells to the image draws it is o(s) away, along
-n. For the mean and the slope of o three points suffice,
+parabola q(s) = c + s t + kappa s^2 / 2 n that lies nearest to it over what was read, |s - m| <= h
+(``read_edges``), whatever kappa was taken to be. From the edge that a map of cells to the image
+draws it is o(s) away, along n. For the mean and the slope of o three points suffice,
 
-    s = -sqrt(3/5) L, 0, sqrt(3/5) L    of weights 5/18, 8/18, 5/18
+    s - m = -sqrt(3/5) h, 0, sqrt(3/5) h    of weights 5/18, 8/18, 5/18
 
 (Gauss and Legendre's), up to polynomials of degree five: under a strong lens edges are no
 parabolas. The map is fitted to both by least squares,
 
-    mean of o = 0,      sqrt(3) / L mean of s o = 0,
+    mean of o = 0,      S = sqrt(3) / h mean of (s - m) o = 0,
 
 which are known equally well. It is a homography through a radial lens (``grid_map``), whose inverse
-says at once how far a point is from a row's edge: its row less the edge's, over the gradient. And
-as it draws the corner itself o(0) away from c, it bends the edge aside, over the arms, by
+says at once how far a point is from a row's edge: its row less the edge's, over the gradient. To
+the image's corners three coefficients of the lens do not reach where it bends by 30 %: a fourth, by
+which the map varies linearly, is at choice. As the map draws the corner itself o(0) away from c,
+where the line nearest to o is mean of o - sqrt(3) m / h S, it bends the edge aside by
 
-    kappa L^2 / 6 - mean of o + o(0).
+    kappa / 2 (h^2 / 3 - m^2) - (mean of o - sqrt(3) m / h S) + o(0).
 """
 
 from __future__ import annotations
@@ -25,12 +27,13 @@ from typing import NamedTuple
 
 import numpy as np
 
-from calibgui.engine.arrays import Array
+from calibgui.engine.arrays import Array, IntArray
 from calibgui.engine.detection import grid_map
+from calibgui.engine.detection.checkerboard.read_edges import ReadEdges
 from calibgui.engine.detection.grid_map import InverseRadialHomography
 
 _PLACES = np.array([-(0.6**0.5), 0.0, 0.6**0.5])
-"""(3,) places s on an edge, over L."""
+"""(3,) places s - m on an edge, over h."""
 _WEIGHTS = np.array([5.0, 8.0, 5.0]) / 18
 """(3,) weights of these."""
 _PRODUCTS = np.stack([_WEIGHTS, 3**0.5 * _PLACES * _WEIGHTS])
@@ -42,6 +45,14 @@ _LEAST_DAMPING, _FIRST_DAMPING, _DAMPING_FACTOR = 1e-13, 1e-11, 10.0
 a step has failed; and the factor by which it changes with each step that fails or does not."""
 _CONVERGED_SHARE = 0.9
 """Share of the sum of squares that a step leaves at which it was the last."""
+_MIN_CORNERS = 16
+"""Least number of corners that may tell one more of the lens's coefficients than three: of 3 x 3 it
+is chosen by chance now and then, and their error grows from 1.07 to 1.5 times the bound."""
+LENS, NEXT_COEFFICIENT = -1, 0
+"""Stand for the degrees of the lens's parameters and of the coefficient that would follow: both
+come before the polynomials'."""
+_PARAMETERS = 14
+"""Number of parameters of a homography through a lens of three coefficients."""
 _BY_LAST_COLUMN = np.array([2, 5, 8])
 """Which of the derivatives by the parameters are those by the last column of A."""
 
@@ -55,54 +66,73 @@ class EdgeLens(NamedTuple):
     """(2, 2, n) px, what is left of the means and of the slopes of edges 1 and 2."""
     columns: Array
     """(2, 2, n, k) how means and slopes vary."""
+    degree: IntArray
+    """(k,) order in which parameters are added: `LENS`, or `NEXT_COEFFICIENT`."""
     bend: Array
-    """(2, n) px, how far the map bends edges 1 and 2 aside over their arms."""
+    """(2, n) px, how far the map bends edges 1 and 2 aside."""
     bend_columns: Array
     """(2, n, k) how that varies."""
 
 
-def fit_edge_lenses(
-    cells: Array, uv: Array, normals: Array, arm: Array, curvature: Array
-) -> list[EdgeLens]:
+def fit_edge_lenses(cells: Array, edges: ReadEdges) -> list[EdgeLens]:
     """Fit the map to the edges at corners: without a lens and, where the corners show one, with it.
 
     Without, three of the parameters stand for what a weak lens adds to a homography.
 
     Args:
         cells: (n, 2) = (col, row) of the corners.
-        uv: (n, 2) where they are seen, px.
-        normals: (n, 2, 2) unit normals of the row's edge towards the next row, and of the column's
-            edge towards the next column.
-        arm: (n, 2) how far the edges were read to both sides, px.
-        curvature: (n, 2) that they were taken to have there, 1/px.
+        edges: what was read there.
     """
-    scale, unit = float(np.std(cells)), float(np.std(uv))
-    x, u = (cells - cells.mean(axis=0)) / scale, (uv - uv.mean(axis=0)) / unit
-    points = _sample_edges(u, normals, arm / unit, curvature * unit)
+    scale, unit = float(np.std(cells)), float(np.std(edges.uv))
+    x, u = (cells - cells.mean(axis=0)) / scale, (edges.uv - edges.uv.mean(axis=0)) / unit
+    points = _sample_edges(u, edges, unit)
+    corners = np.broadcast_to(u, (1, 2, *u.shape))
+    to_corner = 3**0.5 * (edges.middle / edges.half).T
     starts = [grid_map.fit_radial_homography(x, u, are_exact=True)]
     if starts[0].coefficients.any():
         starts.append(grid_map.fit_plain_homography(x, u))
-    third = (arm**2 / 6 * curvature).T
+    taken = edges.measure_bend(edges.curvature).T
     fits = []
     for start in starts:
         inverse = grid_map.invert_radial_homography(start)
         offset, columns = _measure_offsets(inverse, points, x)
         if start.coefficients.any():
-            inverse, offset, columns = _refine_lens(inverse, offset, columns, points, x)
-        else:
-            r = np.sum(points**2, axis=-1, keepdims=True)
-            by_A, by_heights = columns[..., :9], columns[..., _BY_LAST_COLUMN]
-            columns = np.concatenate([by_A, r * by_heights], axis=-1)
-        first, _ = inverse.invert(u).differentiate(x)
+            inverse = _refine_lens(inverse, offset, columns, points, x)
+            if len(cells) >= _MIN_CORNERS:
+                inverse = inverse._replace(bend=np.append(inverse.bend, 0.0))
+            offset, columns = _measure_offsets(inverse, points, x)
+        (at_corner,), (by_parameters,) = _measure_offsets(inverse, corners, x)
+        if not start.coefficients.any():
+            columns = _add_weak_lens(columns, points)
+            (by_parameters,) = _add_weak_lens(by_parameters[None], corners)
+        first = np.asarray(np.linalg.inv(inverse.differentiate(u)[1]), dtype=np.float64)
         rest, varied = unit * _average(offset), -_average(columns)
-        bend = third - rest[0] + unit * offset[1]
-        fits.append(EdgeLens(unit / scale * first, rest, varied, bend, varied[0] + columns[1]))
+        bend = taken - (rest[0] - to_corner * rest[1]) + unit * at_corner
+        by_line = varied[0] - to_corner[..., None] * varied[1]
+        degree = np.where(np.arange(varied.shape[-1]) < _PARAMETERS, LENS, NEXT_COEFFICIENT)
+        fits.append(
+            EdgeLens(
+                unit / scale * first.transpose(0, 2, 1),
+                rest,
+                varied,
+                degree,
+                bend,
+                by_line + by_parameters,
+            )
+        )
     return fits
+
+
+def _add_weak_lens(columns: Array, points: Array) -> Array:
+    """Return the derivatives (..., 12) of offsets at `points` (..., 2) by a homography and by what
+    a weak lens adds to it, from those (..., k) by all parameters."""
+    r = np.sum(points**2, axis=-1, keepdims=True)
+    return np.concatenate([columns[..., :9], r * columns[..., _BY_LAST_COLUMN]], axis=-1)
 
 
 def _refine_lens(
     inverse: InverseRadialHomography, offset: Array, columns: Array, points: Array, cells: Array
-) -> tuple[InverseRadialHomography, Array, Array]:
+) -> InverseRadialHomography:
     """Refine a map by damped Gauss-Newton steps (Marquardt 1963) as long as that leaves less of the
     means and slopes.
 
@@ -114,9 +144,6 @@ def _refine_lens(
         offset, columns: what `_measure_offsets` says of it.
         points: (3, 2, n, 2) the edges.
         cells: (n, 2) the corners' cells.
-
-    Returns:
-        The map, with its offsets and columns.
     """
     damping = 0.0
     for _ in range(_MAX_STEPS):
@@ -134,7 +161,7 @@ def _refine_lens(
         if damping <= _FIRST_DAMPING and after > _CONVERGED_SHARE * before:
             break
         damping /= _DAMPING_FACTOR
-    return inverse, offset, columns
+    return inverse
 
 
 def _average(values: Array) -> Array:
@@ -142,23 +169,24 @@ def _average(values: Array) -> Array:
     return np.asarray(np.tensordot(_PRODUCTS, values, 1))
 
 
-def _sample_edges(uv: Array, normals: Array, arm: Array, curvature: Array) -> Array:
-    """Sample the parabolas: (3, 2, n, 2) the points at `_PLACES` of edges 1 and 2."""
-    tangents = np.stack([normals[..., 1], -normals[..., 0]], axis=-1) * np.array([[1.0], [-1.0]])
-    s = _PLACES[:, None, None] * arm
-    points = s[..., None] * tangents + (curvature * s**2 / 2)[..., None] * normals
+def _sample_edges(uv: Array, edges: ReadEdges, unit: float) -> Array:
+    """Sample the parabolas at corners `uv` (n, 2), in units of px: (3, 2, n, 2) the points at
+    `_PLACES` of edges 1 and 2."""
+    s = (edges.middle + _PLACES[:, None, None] * edges.half) / unit
+    bow = edges.curvature * unit * s**2 / 2
+    points = s[..., None] * edges.compute_tangents() + bow[..., None] * edges.normals
     return np.asarray((uv[:, None] + points).transpose(0, 2, 1, 3))
 
 
 def _measure_offsets(
     inverse: InverseRadialHomography, points: Array, cells: Array
 ) -> tuple[Array, Array]:
-    """Measure how far the points (3, 2, n, 2) of the edges at `cells` (n, 2) are from those that a
-    map draws, (3, 2, n), and how that varies with its parameters, (3, 2, n, 14)."""
+    """Measure how far the points (k, 2, n, 2) of the edges at `cells` (n, 2) are from those that a
+    map draws, (k, 2, n), and how that varies with its m parameters, (k, 2, n, m)."""
     row = np.arange(points[..., 0].size)
-    axis = np.tile(np.repeat([1, 0], len(cells)), 3)
+    axis = np.tile(np.repeat([1, 0], len(cells)), len(points))
     cell, by_u, by_parameters = inverse.differentiate(points.reshape(-1, 2))
     slope = np.linalg.norm(by_u[row, axis], axis=1)
-    off = (cell[row, axis] - np.tile(cells[:, ::-1].T.ravel(), 3)) / slope
+    off = (cell[row, axis] - np.tile(cells[:, ::-1].T.ravel(), len(points))) / slope
     columns = by_parameters[row, axis] / slope[:, None]
     return off.reshape(points.shape[:3]), columns.reshape(*points.shape[:3], -1)

@@ -1,21 +1,23 @@
 """Curvatures of the edges of large squares, from the corners and from the directions of the edges.
 
-Over an arm of length L a curvature kappa moves an edge's mean by kappa L^2 / 6, which a corner of
-large squares feels long before its neighbours tell: a curvature takes three corners in a line, its
-change five, and small boards have no more. But the fit knows the directions of such edges as well
-as it knows their corners. With arms of half a square, the two directions at the ends of one edge
-tell its kappa L^2 / 6 to a fifth of a corner's standard deviation.
+Over an arm of length L a curvature kappa moves an edge's mean by kappa L^2 / 6 (``read_edges``),
+which a corner of large squares feels long before its neighbours tell: a curvature takes three
+corners in a line, its change five, and small boards have no more. But the fit knows the directions
+of such edges as well as it knows their corners. With arms of half a square, the two directions at
+the ends of one edge tell its kappa L^2 / 6 to a fifth of a corner's standard deviation.
 
 So the map of cells to the image is fitted to both. It is a homography through a radial lens
 (``edge_lens``), linear in its parameters once these are near, plus a polynomial p: with the normals
-n_1 and n_2 of the edges at the cell x_i, p adds to their means and slopes
+n_1 and n_2 of the edges at the cell x_i, p adds to their means and slopes, read over |x - M| <= A
+squares,
 
-    n_1 . (p + A^2 / 6 d^2p/dcol^2),      w n_1 . dp/dcol,      and the like with n_2 and rows.
+    n_1 . (p + M p' + (A^2 / 3 + M^2) p'' / 2),      w n_1 . (p' + M p''),      p' = dp/dcol,
 
-Read over A squares to both sides, a slope has sqrt(3) / A times the standard deviation of its mean,
-in px per square; so w is A / sqrt(3). Whether there is a lens, and a polynomial, and of what
-degree, is decided by the generalised cross-validation score, as in ``board_priors``. What the map
-leaves unexplained says how well its parameters are known, and with them the curvatures.
+and the like with n_2 and rows. A slope has sqrt(3) / A times the standard deviation of its mean, in
+px per square; so w is A / sqrt(3). Whether there is a lens, of how many coefficients, and a
+polynomial, of what degree, is decided by the generalised cross-validation score, as in
+``board_priors``. What the map leaves unexplained says how well its parameters are known, and with
+them how edges bend.
 
 Along a row only the corners tell how far a point lies, as many as there are columns; how far it
 lies across is told by the directions as well. So the polynomial has other powers along the mean
@@ -32,14 +34,18 @@ import numpy as np
 
 from calibgui.engine.arrays import Array, BoolArray, GridSize, IntArray
 from calibgui.engine.detection import grid_map
-from calibgui.engine.detection.checkerboard.edge_lens import EdgeLens, fit_edge_lenses
+from calibgui.engine.detection.checkerboard.edge_lens import (
+    LENS,
+    NEXT_COEFFICIENT,
+    EdgeLens,
+    fit_edge_lenses,
+)
 from calibgui.engine.detection.checkerboard.fit_thresholds import FIT_THRESHOLDS
+from calibgui.engine.detection.checkerboard.read_edges import ReadEdges
 
 _THRESHOLDS = FIT_THRESHOLDS.priors
 _ORDERS = ((0, 0), (1, 0), (0, 1), (2, 0), (0, 2))
 """Numbers of derivatives by column and by row that are needed."""
-_NO_DEGREE = -1
-"""Stands for the degree of the lens's parameters, which come before the polynomials'."""
 _MIN_PARAMETER = 1e-4
 """Least part of a parameter of the lens that those before it do not have in common with it."""
 _DAMPING = 1e-12
@@ -48,14 +54,14 @@ _DAMPING = 1e-12
 
 @dataclass(frozen=True, eq=False, slots=True)
 class EdgeGeometry:
-    """Steps and curvatures of the edges at n corners."""
+    """Steps and bends of the edges at n corners."""
 
     steps: Array
     """(n, 2, 2) derivatives of the position by column and by row, px."""
-    curvature: Array
-    """(n, 2) of the edges along both, 1/px; see ``BoardPriors.estimate_geometry``."""
+    bend: Array
+    """(n, 2) how far the edges along both are bent aside, px; see ``read_edges``."""
     variance: Array
-    """(n, 2) of the curvatures, 1/px^2; 0 where it does not matter."""
+    """(n, 2) of the bends, px^2; 0 where it does not matter."""
 
 
 class _Terms(NamedTuple):
@@ -87,49 +93,49 @@ def _compute_terms(shape: GridSize, found: bytes) -> _Terms:
     return _Terms(np.stack(values), axis, powers.sum(axis=1)[term])
 
 
-def fit_edge_map(
-    found: BoolArray, uv: Array, normals: Array, arm: Array, curvature: Array
-) -> EdgeGeometry:
+def fit_edge_map(found: BoolArray, edges: ReadEdges) -> tuple[EdgeGeometry, float]:
     """Fit the map, and differentiate it at the corners.
 
     Args:
         found: (rows, cols) True where a lattice has one of its n corners.
-        uv: (n, 2) the corners, px.
-        normals: (n, 2, 2) unit normals of the row's edge towards the next row, and of the column's
-            edge towards the next column.
-        arm: (n, 2) how far the edges were read to both sides, px.
-        curvature: (n, 2) that the edges were taken to have there, 1/px.
+        edges: what was read there.
+
+    Returns:
+        The geometry, and the rms by which the map would miss a mean or slope left out, px.
     """
     cells = np.argwhere(found)[:, ::-1].astype(np.float64)
-    fits = [
-        _fit_polynomial(found, lens, normals, arm)
-        for lens in fit_edge_lenses(cells, uv, normals, arm, curvature)
-    ]
-    return min(fits, key=lambda fit: fit[0])[1]
+    fits = [_fit_polynomial(found, lens, edges) for lens in fit_edge_lenses(cells, edges)]
+    score, geometry = min(fits, key=lambda fit: fit[0])
+    return geometry, float(np.sqrt(score / (4 * len(cells))))
 
 
 def _fit_polynomial(
-    found: BoolArray, lens: EdgeLens, normals: Array, arm: Array
+    found: BoolArray, lens: EdgeLens, edges: ReadEdges
 ) -> tuple[float, EdgeGeometry]:
     """Fit the polynomial that is added to a lens, if any, and return the score of both with the
     geometry; arguments as in `fit_edge_map`."""
-    rest, count = lens.rest.ravel(), lens.columns.shape[-1]
-    third, along = arm.T**2 / 6, np.sum(lens.first**2, axis=2).T
+    rest = lens.rest.ravel()
+    step = np.linalg.norm(lens.first, axis=2).T
+    middle, half = (length.T[..., None] / step[..., None] for length in (edges.middle, edges.half))
     terms, axis, degree = _compute_terms(found.shape, found.tobytes())
-    across = np.einsum("naj,kj->ank", normals, lens.first.mean(axis=0)[axis])
-    bends = (third / along)[..., None] * across * terms[3:]
-    slopes = (arm.T / np.sqrt(3 * along))[..., None] * across * terms[1:3]
-    by_terms = np.stack([across * terms[0] + bends, slopes])
+    across = np.einsum("naj,kj->ank", edges.normals, lens.first.mean(axis=0)[axis])
+    value, first, second = across * terms[0], across * terms[1:3], across * terms[3:]
+    bends = (half**2 / 3 - middle**2) / 2 * second
+    slopes = first + middle * second
+    # The line nearest to an edge meets the corner `bends` off.
+    means = value + bends + middle * slopes
+    by_terms = np.stack([means, half / 3**0.5 * slopes])
     J = np.concatenate([lens.columns, by_terms], axis=3).reshape(len(rest), -1)
     bends = np.concatenate([lens.bend_columns, bends], axis=2)
-    degree = np.concatenate([np.full(count, _NO_DEGREE), degree])
+    degree = np.concatenate([lens.degree, degree])
     # Of the lens all but the scale of its equations counts; a polynomial has much of it in common.
-    least = np.where(degree == _NO_DEGREE, _MIN_PARAMETER, _THRESHOLDS.min_edge_independence)
+    least = np.where(degree <= NEXT_COEFFICIENT, _MIN_PARAMETER, _THRESHOLDS.min_edge_independence)
     scale = np.linalg.norm(J, axis=0)
     J, bends = J / scale, bends / scale
     independent = np.diag(_factorise(J.T @ J)) > least
     J, bends, degree = J[:, independent], bends[..., independent], degree[independent]
-    tried = np.array([_NO_DEGREE, *range(_THRESHOLDS.min_edge_degree, degree[-1] + 1)])
+    polynomials = range(_THRESHOLDS.min_edge_degree, degree[-1] + 1)
+    tried = np.array([LENS, NEXT_COEFFICIENT, *polynomials])
     counts = np.searchsorted(degree, tried, side="right")
     most = 2 * len(rest) // 3
     counts = np.append(min(counts[0], most), counts[1:][counts[1:] <= most])
@@ -140,10 +146,10 @@ def _fit_polynomial(
     best = int(np.argmin(scores))
     used = slice(counts[best])
     inverse, bends = inverse[used, used], bends[..., used]
-    spread = np.sum((bends @ inverse) ** 2, axis=2) / third**2
+    spread = np.sum((bends @ inverse) ** 2, axis=2)
     return float(scores[best]), EdgeGeometry(
         lens.first,
-        ((lens.bend + bends @ (inverse @ share[used])) / third).T,
+        (lens.bend + bends @ (inverse @ share[used])).T,
         rss[best] / (len(rest) - counts[best]) * spread.T,
     )
 

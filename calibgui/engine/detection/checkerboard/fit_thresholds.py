@@ -71,7 +71,10 @@ class PriorThresholds:
     max_degree: int = 7
     """Highest degree of the polynomials tried."""
     many_corners: int = 40
-    """Number of corners from which on they tell how edges bend, without their directions."""
+    """Number of corners from which on they tell how edges bend, without their directions ..."""
+    many_cut_corners: int = 100
+    """... and where the image cuts edges. There corners are alone to one side, and lenses bend
+    most: at 30 % barrel those cut of 47 lay 1.6 times off the bound, with the directions 1.1."""
     min_edge_degree: int = 3
     """Lowest degree of the polynomials tried that follow edges, too, beside none: a lens and a
     homography come before."""

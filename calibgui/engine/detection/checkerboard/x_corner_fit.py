@@ -51,12 +51,20 @@ from dataclasses import dataclass, fields, replace
 import numpy as np
 
 from calibgui.engine import kernels
-from calibgui.engine.arrays import Array, BoolArray, GreyImage, compute_lengths, compute_median
+from calibgui.engine.arrays import (
+    Array,
+    BoolArray,
+    GreyImage,
+    Size,
+    compute_lengths,
+    compute_median,
+)
 from calibgui.engine.detection.checkerboard import edge_profiles
 from calibgui.engine.detection.checkerboard.board_priors import BoardPriors, PredictedBoardPriors
 from calibgui.engine.detection.checkerboard.edge_map import EdgeGeometry
 from calibgui.engine.detection.checkerboard.edge_profiles import EdgeProfiles
 from calibgui.engine.detection.checkerboard.fit_thresholds import FIT_THRESHOLDS
+from calibgui.engine.detection.checkerboard.read_edges import ReadEdges, clip_arms
 from calibgui.engine.detection.checkerboard.x_corner_model import (
     BLUR,
     MIN_BLUR,
@@ -166,18 +174,21 @@ def fit_x_corners(
         near = replace(model, arm=np.minimum(arm, _THRESHOLDS.max_near_arm))
         products, _ = accumulate_normal_equations(image, near, near, odd=False)
         near = _take_step(near, products)[0]
-        followed = _follow_edges(near, board) if is_next_large else None
+        followed = board.follow_edges(_list_edges(near)) if is_next_large else None
         model = _update_priors(near, board, arm, followed)
     products, odd_part = accumulate_normal_equations(image, model, model, odd=True)
     model, inverse, square = _take_step(model, products)
     noise = np.maximum(_estimate_noise(square, odd_part), estimate_least_noise(image))
     covariance = noise[:, None, None] * inverse
     if is_large:
-        edges = _follow_edges(model, board)
-        model = _correct_for_priors(model, inverse, _update_priors(model, board, arm, edges))
-        covariance = covariance + _compute_bend_covariance(model, edges.variance)
-        light = board.estimate_gradient_covariance(edges.steps, model.unknowns[M])
-        covariance += _compute_light_covariance(model, inverse, light)
+        edges = _list_edges(model, image.shape[::-1])
+        followed = board.follow_edges(edges)
+        better = _update_priors(model, board, arm, followed)
+        bend = followed.bend - edges.measure_bend(edges.curvature)
+        model = _correct_for_priors(model, inverse, better, edges, bend)
+        covariance = covariance + _compute_bend_covariance(model, followed.variance)
+        light = board.estimate_gradient_covariance(followed.steps, model.unknowns[M])
+        covariance += _compute_light_covariance(model, inverse, edges, light)
     model = _correct_for_light(model)
     return XCornerFit(model, covariance, np.sqrt(square))
 
@@ -252,23 +263,32 @@ def _estimate_ink_spread(profiles: list[EdgeProfiles]) -> Array:
     return np.full(len(spreads), middle if clear else 0.0)
 
 
-def _follow_edges(model: XCornerModel, board: BoardPriors) -> EdgeGeometry:
-    """Estimate the geometry of the edges from the corners and directions of the model."""
-    return board.follow_edges(model.unknowns[C], model.normals(), model.arm, model.curvature)
+def _list_edges(model: XCornerModel, size: Size | None = None) -> ReadEdges:
+    """List what was read of the model's edges: all of the arms, or what lies in an image of a
+    size."""
+    uv = model.unknowns[C]
+    middle, half = np.zeros_like(model.arm), model.arm
+    if size is not None:
+        middle, half = clip_arms(uv, model.tangents(), model.arm, size)
+    return ReadEdges(uv, model.normals(), model.curvature, middle, half)
 
 
 def _compute_bend_covariance(model: XCornerModel, variance: Array) -> Array:
-    """Compute what the `variance` (n, 2) of the edges' curvatures adds to the covariance (n, 2, 2)
+    """Compute what the `variance` (n, 2) px^2 of the edges' bends adds to the covariance (n, 2, 2)
     of the corners."""
-    moved = np.linalg.inv(model.normals()) * (model.arm**2 / 6)[:, None]
+    moved = np.linalg.inv(model.normals())
     return np.asarray(np.einsum("nij,nj,nkj->nik", moved, variance, moved))
 
 
-def _compute_light_covariance(model: XCornerModel, inverse: Array, gradient: Array) -> Array:
+def _compute_light_covariance(
+    model: XCornerModel, inverse: Array, edges: ReadEdges, gradient: Array
+) -> Array:
     """Compute what the covariance of the level's `gradient` (n, 2, 2) adds to that of the corners
     (n, 2, 2); see `_correct_for_priors`."""
     swing = 2 * model.sign * model.unknowns[A]
-    by_gradient = np.einsum("ni,nij,nik->njk", model.arm**2, model.normals(), model.tangents())
+    by_gradient = np.einsum(
+        "ni,nij,nik->njk", edges.half**2 + edges.middle**2, edges.normals, model.tangents()
+    )
     moved = inverse @ (swing[:, None, None] * by_gradient)
     return np.asarray(moved @ gradient @ moved.transpose(0, 2, 1))
 
@@ -281,7 +301,9 @@ def _update_priors(
     were followed."""
     x = model.unknowns
     steps, curvature = (
-        board.estimate_geometry(x[C]) if edges is None else (edges.steps, edges.curvature)
+        board.estimate_geometry(x[C])
+        if edges is None
+        else (edges.steps, edges.bend * 6 / model.arm**2)
     )
     height = _compute_heights(steps)
     gradients = board.estimate_gradients(steps, np.column_stack([x[M], x[A], x[BLUR], height]))
@@ -374,25 +396,28 @@ def _step_unknowns(
     return unknowns + _limit_step(step, unknowns, max_rho, min_blur), inverse[:, :2, :2], square
 
 
-def _correct_for_priors(model: XCornerModel, inverse: Array, better: XCornerModel) -> XCornerModel:
-    """Return the model with its corners where the `better` curvatures and gradients would have put
-    them, that follow from all of the arms.
+def _correct_for_priors(
+    model: XCornerModel, inverse: Array, better: XCornerModel, edges: ReadEdges, bend: Array
+) -> XCornerModel:
+    """Return the model with its corners where the `better` gradients and bends of the edges would
+    have put them, that follow from all of the arms.
 
     Away from the corner an edge's intensity rises by +-2 a across it, with the sign of s along it.
-    Summed over an arm of length L to both sides, a gradient g of the level weighs on n_i by
-    2 p a L^2 g.t_i; a curvature kappa moves the edge's mean by kappa L^2 / 6.
+    Summed over what was read of it, |s - m| <= h, a gradient g of the level weighs on n_i by
+    2 p a (h^2 + m^2) g.t_i.
 
     Args:
         model: after its last step.
         inverse: (n, 2, 2) the part of that step's inverse for c.
-        better: the model with better curvatures and gradients.
+        better: the model with better gradients.
+        edges: what was read.
+        bend: (n, 2) how much farther the edges are bent aside than they were taken to be, px.
     """
-    normals, square = model.normals(), model.arm**2
+    normals, square = edges.normals, edges.half**2 + edges.middle**2
     rise = better.level_gradient - model.level_gradient
     along = np.einsum("nij,nj->ni", model.tangents(), rise)
     swing = 2 * model.sign * model.unknowns[A]
     pull = np.einsum("ni,nij->nj", swing[:, None] * square * along, normals)
-    bend = square / 6 * (better.curvature - model.curvature)
     unknowns = model.unknowns.copy()
     unknowns[C] += np.einsum("nij,nj->ni", inverse, pull)
     unknowns[C] -= np.linalg.solve(normals, bend[..., None])[..., 0]

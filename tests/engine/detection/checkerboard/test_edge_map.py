@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from calibgui.engine.detection.checkerboard.board_priors import compute_curvatures
 from calibgui.engine.detection.checkerboard.edge_map import EdgeGeometry, fit_edge_map
+from calibgui.engine.detection.checkerboard.read_edges import ReadEdges, clip_arms
 from tests.scenes.camera import Camera
 from tests.scenes.conditions import Conditions
 
@@ -34,24 +35,24 @@ def draw_edges(camera: Camera, grid_size: tuple[int, int]) -> tuple[Array, Array
     return at, normals, compute_curvatures(first, second), length / 2
 
 
-def read_edges(
-    camera: Camera, grid_size: tuple[int, int], normals: Array, kappa: Array, arm: Array
-) -> tuple[Array, Array]:
-    """What is left of the edges' means, px, and slopes by parabolas of the right curvatures: under
-    a strong lens edges are none."""
-    row, col = np.indices(grid_size).reshape(2, -1).astype(float)
+def read_edges(camera: Camera, cells: Array, edges: ReadEdges) -> tuple[Array, Array]:
+    """What is left of the edges' means, px, and slopes at cells (col, row) by parabolas of the
+    right curvatures: under a strong lens edges are none."""
+    col, row = cells.T
     t, s = np.linspace(-0.65, 0.65, 66), np.linspace(-1.0, 1.0, 201)
-    mean, slope = np.zeros_like(arm), np.zeros_like(arm)
+    mean, slope = np.zeros_like(edges.half), np.zeros_like(edges.half)
+    tangents = edges.compute_tangents()
     for edge, (x, y) in enumerate(((1, 0), (0, 1))):
         seen = camera.image_from_board(col[:, None] + x * t, row[:, None] + y * t)
         seen -= camera.image_from_board(col, row)[:, None]
-        for i, n in enumerate(normals[:, edge]):
-            along, across = seen[i] @ np.array([n[1], -n[0]]), seen[i] @ n
-            order = np.argsort(along)
-            off = np.interp(s * arm[i, edge], along[order], across[order])
-            off -= kappa[i, edge] * (s * arm[i, edge]) ** 2 / 2
+        for i, n in enumerate(edges.normals[:, edge]):
+            along, across = seen[i] @ tangents[i, edge], seen[i] @ n
+            order, half = np.argsort(along), edges.half[i, edge]
+            place = edges.middle[i, edge] + s * half
+            off = np.interp(place, along[order], across[order])
+            off -= edges.curvature[i, edge] * place**2 / 2
             mean[i, edge] = off.mean()
-            slope[i, edge] = off @ s / (s @ s) / arm[i, edge]
+            slope[i, edge] = off @ s / (s @ s) / half
     return mean, slope
 
 
@@ -68,22 +69,28 @@ def measure(
     conditions = Conditions(
         grid_size=grid_size, square=square, size=(int(4 / 3 * height), int(height)), **lens
     )
-    camera = Camera(conditions, rng)
+    camera, size = Camera(conditions, rng), np.array(conditions.size)
     at, normals, kappa, arm = draw_edges(camera, grid_size)
-    mean, slope = read_edges(camera, grid_size, normals, kappa, arm)
-    off = mean + sigma * rng.standard_normal(arm.shape)
-    turned = 3**0.5 * sigma / arm * rng.standard_normal(arm.shape) - slope
-    tangents = np.stack([normals[..., 1], -normals[..., 0]], axis=2)
-    got = fit_edge_map(
-        np.ones(grid_size, np.bool_),
-        at + np.linalg.solve(normals, off[..., None])[..., 0],
-        normals + turned[..., None] * tangents,
-        arm,
-        kappa,
+    seen = np.all((at > 8) & (at < size - 9), axis=1)
+    whole = ReadEdges(at[seen], normals[seen], kappa[seen], np.zeros_like(arm[seen]), arm[seen])
+    middle, half = clip_arms(whole.uv, whole.compute_tangents(), whole.half, conditions.size)
+    edges = whole._replace(middle=middle, half=half)
+    cells = np.argwhere(np.ones(grid_size))[seen, ::-1].astype(float)
+    mean, slope = read_edges(camera, cells, edges)
+    known = sigma * np.sqrt(whole.half / half)
+    mean += known * rng.standard_normal(half.shape)
+    slope -= 3**0.5 * known / half * rng.standard_normal(half.shape)
+    off = mean - middle * slope
+    got, _ = fit_edge_map(
+        seen.reshape(grid_size),
+        edges._replace(
+            uv=edges.uv + np.linalg.solve(edges.normals, off[..., None])[..., 0],
+            normals=edges.normals - slope[..., None] * edges.compute_tangents(),
+        ),
     )
-    third = arm**2 / 6
-    error = off - (got.curvature - kappa) * third
-    return [error / sigma, np.sqrt(got.variance) * third / sigma]
+    error = off - (got.bend - edges.measure_bend(edges.curvature))
+    sigmas = known * np.sqrt(1 + 3 * (middle / half) ** 2)
+    return [error / sigmas, np.sqrt(got.variance) / sigmas]
 
 
 @pytest.mark.parametrize("distortion", [0.0, 0.065, 0.43])
@@ -110,6 +117,34 @@ def test_edges_beside_the_axis_of_a_strong_lens_tell_it_too(grid_size: tuple[int
     assert 0.8 < np.mean(error**2 / (1 + claimed**2)) < 1.15
 
 
+@pytest.mark.parametrize("distortion", [0.0, 0.136, 0.43])
+def test_edges_that_the_image_cuts_tell_it_too(distortion: float) -> None:
+    """In the image's corners a strong lens has more than three coefficients."""
+    rng = np.random.default_rng(1)
+    results = [measure((6, 9), 250.0, rng, sigma=0.0015, distortion=distortion) for _ in range(10)]
+    error, claimed = (np.concatenate(values) for values in zip(*results, strict=True))
+    assert np.sqrt(np.mean(error**2)) < 1.06
+    assert 0.8 < np.mean(error**2 / (1 + claimed**2)) < 1.1
+
+
+def test_arms_are_clipped_to_what_is_read_of_the_image() -> None:
+    corner = np.array([[30.0, 10.0]])
+    tangents = np.array([[[1.0, 0.0], [-0.6, 0.8]]])
+    middle, half = clip_arms(corner, tangents, np.array([[40.0, 50.0]]), (200, 100))
+    # Pixels 1 to 198 and 1 to 98 are read.
+    assert middle - half == pytest.approx(np.array([[-29.0, -9.0 / 0.8]]))
+    assert middle + half == pytest.approx(np.array([[40.0, 29.0 / 0.6]]))
+
+
+def test_a_line_meets_the_corner_of_a_bent_edge_as_far_off_as_stated() -> None:
+    middle, half, kappa = 30.0, 50.0, 0.002
+    s = np.linspace(middle - half, middle + half, 20001)
+    line = np.polynomial.Polynomial.fit(s, kappa * s**2 / 2, 1)
+    one = np.ones((1, 2))
+    edges = ReadEdges(one, np.ones((1, 2, 2)), 0 * one, middle * one, half * one)
+    assert edges.measure_bend(kappa * one) == pytest.approx(line(0.0) * one, rel=2e-3)
+
+
 def test_corners_that_a_wrong_curvature_moved_tell_the_same() -> None:
     grid_size = (4, 5)
     camera = Camera(
@@ -121,10 +156,11 @@ def test_corners_that_a_wrong_curvature_moved_tell_the_same() -> None:
         """With corners where edges of the curvatures `taken` have the same mean."""
         bend = arm**2 / 6 * (kappa - taken)
         uv = at + np.linalg.solve(normals, bend[..., None])[..., 0]
-        return fit_edge_map(np.ones(grid_size, np.bool_), uv, normals, arm, taken)
+        edges = ReadEdges(uv, normals, taken, np.zeros_like(arm), arm)
+        return fit_edge_map(np.ones(grid_size, np.bool_), edges)[0]
 
     right, wrong = fit(kappa), fit(np.zeros_like(kappa))
-    shift = (wrong.curvature - right.curvature) * arm**2 / 6
+    shift = wrong.bend - right.bend
     assert np.abs(kappa * arm**2 / 6).max() > 0.03
     assert np.abs(shift).max() < 2e-3
 
@@ -134,6 +170,6 @@ def test_a_handful_of_corners_has_a_geometry_too() -> None:
     found = np.array([[1, 1, 0], [1, 1, 1], [0, 0, 1]], np.bool_)
     camera = Camera(Conditions(grid_size=(3, 3), square=100.0), np.random.default_rng(1))
     at, normals, kappa, arm = (values[found.ravel()] for values in draw_edges(camera, (3, 3)))
-    got = fit_edge_map(found, at, normals, arm, kappa)
-    assert np.abs(got.curvature * arm**2 / 6).max() < 1e-3
+    got, _ = fit_edge_map(found, ReadEdges(at, normals, kappa, np.zeros_like(arm), arm))
+    assert np.abs(got.bend).max() < 1e-3
     assert np.isfinite(got.variance).all()

@@ -52,6 +52,23 @@ def test_errors_are_the_bound_and_what_the_covariance_says(condition: dict[str, 
     assert 0.75 < np.mean(np.concatenate(honest)) < 1.25
 
 
+@pytest.mark.parametrize("distortion", [0.136, 0.43])
+def test_corners_whose_edges_the_image_cuts_are_at_the_bound_too(distortion: float) -> None:
+    settings: dict[str, Any] = {"turn": 15.0, "parts": 2, "distortion": distortion}
+    scene = draw(Conditions(square=200.0, size=(1280, 960), centre=(150.0, 100.0), **settings), 1)
+    squares, limits, honest = [], [], []
+    for seed in range(3):
+        corners = find_corners(scene.photograph(seed))
+        assert corners.cov is not None
+        near = np.argmin(np.linalg.norm(corners.uv[:, None] - scene.uv.reshape(-1, 2), axis=2), 1)
+        error = corners.uv - scene.uv.reshape(-1, 2)[near]
+        squares.append(error**2)
+        limits.append(np.trace(scene.bound.reshape(-1, 2, 2)[near], axis1=1, axis2=2) / 2)
+        honest.append(np.einsum("ni,nij,nj->n", error, np.linalg.inv(corners.cov), error) / 2)
+    assert np.sqrt(np.mean(np.concatenate(squares)) / np.mean(np.concatenate(limits))) < 1.15
+    assert 0.75 < np.mean(np.concatenate(honest)) < 1.25
+
+
 @pytest.mark.parametrize("gamma", [1.0, 2.2])
 def test_light_that_varies_draws_no_corner_into_the_dark(gamma: float) -> None:
     """A blur of 1.5 px would draw the whole board by 4e-3 px."""
