@@ -1,7 +1,7 @@
 """The corners of tags from the outlines of their borders, at the Cramer-Rao bound.
 
-Where nothing dark touches the corners of a tag no edges cross there, and there is no saddle point.
-The whole outline then tells where its corners are: four edges from corner to corner, bent as the
+A tag whose corners nothing dark touches has no edges that cross there, and no saddle points. The
+whole outline then tells where its corners are: four edges from corner to corner, bent as the
 map of all tags says (`grid_map`). With p_i the corners, clockwise from the upper left one, edge i
 runs from p_i to p_i+1 in the direction t_i over a length L_i, with its normal n_i inwards. A point
 q lies at s_i = t_i.(q - p_i) along it and within it by
