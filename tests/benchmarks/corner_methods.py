@@ -59,13 +59,15 @@ def apart(method: Method) -> Method:
     return run
 
 
-def ours(method: str) -> Finder:
+def ours(method: str, in_part: bool = False) -> Finder:
+    """Our finder by a method, of whole boards or of those seen `in_part`, too."""
+
     def locate(image: Image, board: Board) -> Located | None:
         try:
             corners = find_corners(image, method=method)
         except NoBoardError:
             return None
-        if corners.shape != board or not corners.complete:
+        if not in_part and (corners.shape != board or not corners.complete):
             return None
         return corners.grid, corners.uv, corners.cov
 

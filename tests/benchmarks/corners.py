@@ -26,7 +26,7 @@ import numpy as np
 from calibgui.engine.detection.find_corners import find_corners
 from calibgui.engine.errors import NoBoardError
 from tests.benchmarks import corner_partial, corner_unseen
-from tests.benchmarks.corner_methods import METHODS, Method
+from tests.benchmarks.corner_methods import METHODS, Method, ours, timed
 from tests.benchmarks.corner_partial import Count
 from tests.benchmarks.corner_report import Report, Score, summed_up, write
 from tests.scenes.checkerboards import Scene, draw
@@ -214,7 +214,7 @@ def main() -> None:
     for name, settings in CUT.items():
         cut = Conditions(parts=2, shift=300.0, **settings)
         drawn = [draw(cut, seed) for seed in range(2 * scenes)]
-        found = score(METHODS["ours"], drawn, draws if quick else max(6, enough(drawn)), True)
+        found = score(timed(ours("edges", in_part=True)), drawn, draws if quick else 6, True)
         print(f"{name:20}ratio {found.ratio:.2f}, chi2/dof {found.chi2:.2f}", flush=True)
 
     print("\nparts of boards: visible corners found, and wrong ones; size stated, size inferred")
