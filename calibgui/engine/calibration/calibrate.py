@@ -49,6 +49,7 @@ from calibgui.engine.calibration.partial.degeneracy import (
 from calibgui.engine.calibration.partial.partial_calibration import (
     estimate_partially,
 )
+from calibgui.engine.calibration.profile import add_profile_width
 from calibgui.engine.calibration.refinement import covariances
 from calibgui.engine.calibration.refinement.levenberg_marquardt import Solution
 from calibgui.engine.calibration.refinement.residuals import State
@@ -224,15 +225,21 @@ def calibrate(
         solution, observations, originals, options, partial(_name_misfits, given, names)
     )
     estimate = make_estimate(solution, observations, precision)
+    undetermined = precision.undetermined
     if not steps.is_minimum:
         run = partial(_rerun_method, steps, given, options)
         estimate = simulate_covariances(estimate, options, run)
     elif model_errors:
         estimate = add_model_errors(estimate, observations, options, prior, report)
+        if cost is Cost.IMAGE and estimate.board_shape is None:
+            camera = Camera(size, estimate.state.params, model)
+            tolerated = _compute_tolerated_deviations(camera, observations)[options.free]
+            estimate, opened = add_profile_width(estimate, observations, options, tolerated)
+            undetermined = tuple({u.name: u for u in (*opened, *undetermined)}.values())
     else:
         estimate = estimate_board_shape(estimate, observations, options, prior, report)
     calibration = assemble_calibration(
-        estimate, options, precision.undetermined, _compute_digest(observations, settings)
+        estimate, options, undetermined, _compute_digest(observations, settings)
     )
     return replace(calibration, warnings=remarks, seconds=seconds)
 

@@ -99,9 +99,10 @@ def test_poses_and_board_shape_follow_the_camera() -> None:
 
 
 def test_two_views_are_taken_to_disagree_without_a_test() -> None:
-    found = calibrate(photographed("bending", 2, 3), SIZE, prior=TRUE_BOARD)
+    held = ("k1", "k2", "k3", "p1", "p2")  # two views leave them next to open: see profile.py
+    found = calibrate(photographed("bending", 2, 3), SIZE, prior=TRUE_BOARD, fix=held)
     assert found.overdispersion == 0
-    np.testing.assert_allclose(found.sigma[:9], 2 * found.sigma_by_noise[:9], rtol=0.01)
+    np.testing.assert_allclose(found.sigma[:4], 2 * found.sigma_by_noise[:4], rtol=0.01)
 
 
 @pytest.mark.slow

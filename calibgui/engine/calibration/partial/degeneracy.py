@@ -122,7 +122,7 @@ def find_undetermined(
     ):
         found = pinhole
     elif found := tuple(u.name for u in precision.undetermined if u.name in PINHOLE):
-        traded = _find_traded_focal_lengths(camera, names, precision.shared)
+        traded = find_traded_focal_lengths(camera, names, precision.shared)
         found = tuple(name for name in found if name not in traded)
     if found and (misfits := name_misfits()):
         raise CalibrationError(
@@ -133,7 +133,7 @@ def find_undetermined(
     return found
 
 
-def _find_traded_focal_lengths(
+def find_traded_focal_lengths(
     camera: Camera, names: tuple[str, ...], covariance: Array
 ) -> tuple[str, ...]:
     """Find the focal lengths that the lens's coefficients make up for.
