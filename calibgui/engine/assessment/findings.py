@@ -203,8 +203,6 @@ def _find(
         return
     case = _prepare_case(calibration, views, names)
     open_coefficients = _find_open_coefficients(case)
-    if open_coefficients is not None:
-        yield open_coefficients
     if calibration.cost is not Cost.IMAGE:
         calibration = _minimise_image_cost(calibration, views)
         case = _prepare_case(calibration, views, names)
@@ -215,7 +213,10 @@ def _find(
             misplaced = describe_misplaced_corners(calibration, screening, views, names)
             if misplaced is not None:
                 yield misplaced
-            case = left
+            case = left  # large errors of a few corners leave coefficients open, too
+            open_coefficients = _find_open_coefficients(case)
+    if open_coefficients is not None:
+        yield open_coefficients
     few = _find_lack_of_views(case)
     if len(case.views) < _MIN_VIEWS_TO_JUDGE and few is not None:
         yield few  # whatever else the residuals look like
