@@ -1,10 +1,10 @@
 """Standard deviations of few views, checked on real sets: `python -m tests.benchmarks.few_views`.
 
-From every real image set, random subsets of 2 to 12 views are calibrated by themselves, with the
-lens model that is chosen for the whole set. What all views together say, with the board's shape
-estimated where they determine it, stands for the truth. |z| is the distance of fx, fy, cx and cy of
-a subset from it over the standard deviation of that distance, which is the subset's own, and the
-truth's where that is not small beside it.
+From every real image set, random subsets of 2 to 12 views, no two of them alike, are calibrated by
+themselves, with the lens model that is chosen for the whole set. What all views together say, with
+the board's shape estimated where they determine it, stands for the truth. |z| is the distance of
+fx, fy, cx and cy of a subset from it over the standard deviation of that distance, which is the
+subset's own, and the truth's where that is not small beside it.
 
 Goal: 90 % of them within 2.5, and medians between 0.3 and 1.0 over all sets. The medians of one set
 share one board, one lens and their deviations: they scatter about those of many sets. Subsets that
@@ -14,6 +14,7 @@ are refused, or of which a value is not determined or assumed, are counted apart
 from __future__ import annotations
 
 import argparse
+import math
 from collections.abc import Sequence
 from typing import NamedTuple
 
@@ -57,14 +58,21 @@ def calibrate_all(images: ImageSet, trial: LensTrial) -> Calibration:
     raise CalibrationError("The views do not determine the camera.", "")
 
 
+def draw_subsets(total: int, count: int, draws: int) -> list[tuple[int, ...]]:
+    """Draw distinct subsets of a number of views; all of them if there are no more than draws."""
+    rng = np.random.default_rng(count)
+    drawn: dict[tuple[int, ...], None] = {}  # in the order in which they are drawn
+    while len(drawn) < min(draws, math.comb(total, count)):
+        drawn[tuple(np.sort(rng.choice(total, count, replace=False)).tolist())] = None
+    return list(drawn)
+
+
 def calibrate_subsets(
     images: ImageSet, trial: LensTrial, truth: Calibration, count: int, draws: int
 ) -> Subsets:
     """Calibrate random subsets of a number of views."""
-    rng = np.random.default_rng(count)
     z, partial = [], 0
-    for _ in range(draws):
-        chosen = np.sort(rng.choice(len(images.views), count, replace=False))
+    for chosen in draw_subsets(len(images.views), count, draws):
         try:
             found = calibrate(
                 [images.views[k] for k in chosen], images.size, model=trial.model, fix=trial.fixed
@@ -116,7 +124,9 @@ def measure_sets(wanted: Sequence[str], draws: int) -> dict[int, list[Subsets]]:
 def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--sets", nargs="+", help="names of sets, or their beginnings")
-    parser.add_argument("--draws", type=int, default=40, help="number of subsets of each size")
+    parser.add_argument(
+        "--draws", type=int, default=40, help="number of subsets of each size, at most"
+    )
     arguments = parser.parse_args()
     data = find_data_dir()
     if not data.is_dir():
