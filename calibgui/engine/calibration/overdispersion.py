@@ -26,6 +26,10 @@ variance 2 / n with
 it is distributed about as chi^2(n) / n. It says what the views' disagreement makes of the
 variances, averaged over the parameters.
 
+What one view alone determines, it has nobody to disagree with about: Rk has an eigenvalue of 1
+there and h_k is 0, but for rounding. Such directions of Rk are left out of (1 - Rk)^-1, and P is
+what is left of sum tr Rk = P without them.
+
 If X is too large for noise (Fisher's F test), the covariance clustered by view takes the place of
 the model's where it is larger. Without view k the camera would be at dc_k = (1 - Rk)^-1 h_k from
 where it is; the jackknife
@@ -73,6 +77,9 @@ _JACKKNIFE_SHARE = 0.9
 """Share of a view that the jackknife leaves out."""
 _MIN_VIEWS = 3
 """Number of views below which their disagreement is not tested."""
+_MIN_SHARE_OF_OTHERS = 1e-6
+"""Share of the information on a direction below which the other views do not count in it: n is a
+difference of sums that grow with the inverse of its square, and keeps four digits."""
 _ASSUMED_DISAGREEMENT = 2.0
 """Ratio of the standard deviations of views that are too few to be tested to what board and noise
 make of them. With 1, every fifth value that two views of a real set give is beyond 2.5 standard
@@ -108,16 +115,21 @@ def add_overdispersion(
     R, h = unit.T @ R @ unit, (h - h.mean(axis=0)) @ unit
     corners = estimate.observations.count
     leverage = estimate.shape_unknowns / (2 * corners - 6 * K)
-    alone = np.linalg.inv(np.eye(P) - R)  # of the camera without view k
-    X = float(np.sum((alone @ h[..., None])[..., 0] * h)) / (P * sigma2 * (1 - leverage))
-    D = R @ alone @ R
-    square = float(np.sum(R**2) + np.sum(D.sum(axis=0) ** 2) - np.sum(D**2))
+    shares, axes = np.linalg.eigh(R)
+    h = (h[:, None] @ axes)[:, 0]  # along the axes of each view's information
+    is_shared = shares < 1 - _MIN_SHARE_OF_OTHERS
+    tested = np.where(is_shared, shares, 0.0)
+    alone = is_shared / (1 - tested)  # of the camera without view k
+    D = (axes * (tested * alone * tested)[:, None]) @ np.swapaxes(axes, 1, 2)
+    square = float(np.sum(tested**2) + np.sum(D.sum(axis=0) ** 2) - np.sum(D**2))
     if not square > 0:  # of a camera that is open beyond all measure
         return estimate
-    n = P**2 / square
+    count = float(np.sum(tested))
+    X = float(np.sum(alone * h**2)) / (count * sigma2 * (1 - leverage))
+    n = count**2 / square
     if scipy.special.fdtrc(n, 2 * corners - 6 * K - P - estimate.shape_unknowns, X) > _SIGNIFICANCE:
         return estimate
-    moved = np.linalg.solve(np.eye(P) - _JACKKNIFE_SHARE * R, h[..., None])[..., 0] @ unit.T
+    moved = (axes @ (h / (1 - _JACKKNIFE_SHARE * shares))[..., None])[..., 0] @ unit.T
     clustered = moved.T @ moved * (K - 1) / K / (1 - leverage) ** 2
     added = _compute_excess(clustered, np.sqrt(sigma2) * np.asarray(unit))
     return estimate._replace(

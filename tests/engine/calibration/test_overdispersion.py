@@ -98,6 +98,18 @@ def test_poses_and_board_shape_follow_the_camera() -> None:
     ) and found.board_shape.sigma.min() > 0
 
 
+@pytest.mark.parametrize("count", [4, 5])
+def test_what_one_view_alone_determines_is_no_disagreement(count: int) -> None:
+    """Of three views two show so few corners that only the other one determines the lens."""
+    few = [0, 5, 42, 47, 20][:count]
+    for seed in range(20):
+        whole, *others = photographed("none", 3, seed)
+        parts = [Observation(view.uv[few], view.xy[few]) for view in others]
+        found = calibrate([whole, *parts], SIZE, prior=TRUE_BOARD)
+        assert found.overdispersion == 0
+        assert np.isfinite(found.covariance).all()
+
+
 def test_two_views_are_taken_to_disagree_without_a_test() -> None:
     held = ("k1", "k2", "k3", "p1", "p2")  # two views leave them next to open: see profile.py
     found = calibrate(photographed("bending", 2, 3), SIZE, prior=TRUE_BOARD, fix=held)
