@@ -21,6 +21,7 @@ from calibgui.engine.detection.find_corners import find_corners
 from calibgui.engine.errors import CalibrationError
 from calibgui.engine.images.reading import read_image
 from tests.engine.random_lenses import FAMILIES, example_scene, outcome, problem
+from tests.engine.scenes import example, scene
 
 PLANE_MODELS = ("pinhole", "lucchese", "brown-conrady", "rational", "thin-prism")
 
@@ -102,6 +103,12 @@ def test_coefficients_that_are_held_without_a_value_have_their_defaults() -> Non
     found = calibrate(made.views, made.size, model="mei", fix=["xi", "p1", "p2"])
     assert found.camera.params[[4, 7, 8]].tolist() == [1.0, 0.0, 0.0]
     assert rms(found) < 2
+
+
+def test_parameters_are_held_where_the_start_takes_some_of_many_views() -> None:
+    made = scene(example("mei"), 26)
+    found = calibrate(made.views, made.size, model="mei", fix={"k2": 0.03})
+    np.testing.assert_allclose(found.camera.params, made.camera.params, rtol=1e-6, atol=1e-6)
 
 
 @pytest.mark.parametrize("seed", [9, 119])

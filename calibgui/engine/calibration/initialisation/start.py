@@ -155,13 +155,14 @@ def initialise_stage_two(
         state = _start_any_lens(observations, closed_form, size, model, held)
     values: dict[str, float] = {}
     defaults = dict(zip(lens.names, lens.defaults, strict=True))
+    params = state.params.copy()  # those of a camera are read-only
     for i, name in enumerate(names):
         if name in held:
             value = held[name]
-            default = defaults.get(name, float(state.params[i]))
+            default = defaults.get(name, float(params[i]))
             values[name] = default if value is None else float(value)
-            state.params[i] = values[name]
-    return state, values
+            params[i] = values[name]
+    return state._replace(params=params), values
 
 
 def _solve_closed_form(
