@@ -14,15 +14,31 @@ and sigma_n that of the corners' noise alone, a parabola has
 
 Where the true profile has risen by that of t = 2 at a distance d > 2 sigma_c on one side, the
 standard deviation is d / 2: about 2.5 % of the errors lie beyond d there, as is said by 2 sigma
-(Bates and Watts 1988, Nonlinear Regression Analysis, 6.1). With s half of the profile's whole step,
-the others included, and c the column of C that belongs to the parameter,
+(Bates and Watts 1988, Nonlinear Regression Analysis, 6.1). With s half of the profile's whole step
+on its wider side, the others included, and c the column of C that belongs to the parameter,
 
-    C - c c^T / sigma_c^2 + s s^T
+    D = C - c c^T / sigma_c^2 + s s^T
 
-takes the place of C: what is left open once the parameter is given stays as it is, and the others
-go with it as the profile does. (An s_j that would make the variance of another parameter smaller is
-that of the parabola.) A profile that does not rise so far before its parameter is of no use leaves
-that parameter open on one side, and those that go with it beyond their bounds.
+leaves open what C does once the parameter is given, and lets the others go with it as the profile
+does. Where the valley bends, s has less than c of some combinations of parameters, and D less
+variance than C. Therefore the larger of the two is taken in each direction of the parameters. With
+C = L L^T, e = L^-1 c / sigma_c (a unit vector) and g = L^-1 s,
+
+    L^-1 D L^-T = 1 + g g^T - e e^T.
+
+Of g g^T - e e^T one eigenvalue at most, lambda of the axis u, is positive, and with v = L u
+
+    C + lambda v v^T
+
+is what is reported. What is added is positive semidefinite: no combination of parameters becomes
+better known than the parabola says, nor than D says, which has d^2 / 4 for the parameter itself. As
+the other eigenvalue is no less than -1, none has more variance than C and D together; of a parabola
+s = c / sigma_c, and nothing is added. The poses follow as in the linear solution, dp_k = G_k dc:
+camera and poses together are widened by lambda (v, G v) (v, G v)^T, which is positive semidefinite
+as well, whatever board and views have added to the poses before.
+
+A profile that does not rise so far before its parameter is of no use leaves that parameter open on
+one side, and those that go with it beyond their bounds.
 
 Only the parameter that is known worst is followed, for its use, and only where it is known poorly:
 where sigma_c is small, the valley is straight.
@@ -38,6 +54,7 @@ from calibgui.engine.arrays import Array
 from calibgui.engine.calibration.observations import Observations
 from calibgui.engine.calibration.options import Options
 from calibgui.engine.calibration.partial.degeneracy import find_traded_focal_lengths
+from calibgui.engine.calibration.refinement import covariances
 from calibgui.engine.calibration.refinement.levenberg_marquardt import StartError, minimise
 from calibgui.engine.calibration.refinement.residuals import State, build_stage_two
 from calibgui.engine.calibration.result import Cost, Undetermined
@@ -110,8 +127,7 @@ def add_profile_width(
             is_followed |= np.abs(step) > _LEVEL * np.minimum(sigma, 0.99 * tolerated)
         halves.append(sign * step / max(end.height, _LEVEL))
     widest = max(halves, key=lambda half: float(half[i]))
-    if widest[i] > sigma[i]:
-        estimate = _widen(estimate, i, widest, profile.poses_by_camera)
+    estimate = _widen(estimate, i, widest, profile.poses_by_camera)
     names = np.array(options.names)[free]
     camera = Camera(options.size, estimate.state.params, options.model)
     traded = find_traded_focal_lengths(camera, tuple(names.tolist()), covariance)
@@ -126,8 +142,12 @@ def _widen(estimate: Estimate, i: int, half: Array, poses_by_camera: Array) -> E
     """Widen an estimate to where a step (P,) is one standard deviation along parameter i."""
     covariance = estimate.camera_covariance
     linear = covariance[i] / np.sqrt(covariance[i, i])
-    half = np.where(np.abs(half) < np.abs(linear), linear, half)
-    added = np.outer(half, half) - np.outer(linear, linear)
+    try:
+        root = np.linalg.cholesky(covariance)
+    except np.linalg.LinAlgError:
+        return estimate  # a combination of parameters is undetermined, and says so
+    by_profile = covariance - np.outer(linear, linear) + np.outer(half, half)
+    added = covariances.compute_excess(by_profile, np.asarray(root))
     by_poses = poses_by_camera @ added @ np.swapaxes(poses_by_camera, 1, 2)
     return estimate._replace(
         camera_covariance=covariance + added,
