@@ -18,6 +18,7 @@ from tests.engine.calibration.board_shape.test_parametrisation import (
     NOMINAL,
     SIZE,
 )
+from tests.engine.calibration.test_profile import leave_profiles_out
 from tests.engine.scenes import TRUE_BOARD
 
 FLAT = np.column_stack([NOMINAL, np.zeros(len(NOMINAL))])
@@ -110,11 +111,11 @@ def test_what_one_view_alone_determines_is_no_disagreement(count: int) -> None:
         assert np.isfinite(found.covariance).all()
 
 
-def test_two_views_are_taken_to_disagree_without_a_test() -> None:
-    held = ("k1", "k2", "k3", "p1", "p2")  # two views leave them next to open: see profile.py
-    found = calibrate(photographed("bending", 2, 3), SIZE, prior=TRUE_BOARD, fix=held)
+def test_two_views_are_taken_to_disagree_without_a_test(monkeypatch: pytest.MonkeyPatch) -> None:
+    leave_profiles_out(monkeypatch)
+    found = calibrate(photographed("bending", 2, 3), SIZE, prior=TRUE_BOARD)
     assert found.overdispersion == 0
-    np.testing.assert_allclose(found.sigma[:4], 2 * found.sigma_by_noise[:4], rtol=0.01)
+    np.testing.assert_allclose(found.sigma[:9], 2 * found.sigma_by_noise[:9], rtol=0.01)
 
 
 @pytest.mark.slow

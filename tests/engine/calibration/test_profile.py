@@ -48,6 +48,12 @@ def photograph_parts(camera: Camera, count: int, seed: int) -> list[Observation]
     return views
 
 
+def leave_profiles_out(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Leave uncertainties as they are before profiles are followed."""
+    module = sys.modules[calibrate.__module__]
+    monkeypatch.setattr(module, "add_profile_width", lambda estimate, *_: (estimate, ()))
+
+
 def find_least_eigenvalue(matrix: Array, unit: Array) -> float:
     """Return the least eigenvalue of a matrix (P, P), its parameters in units of their deviations
     by a covariance (P, P): only those of a covariance are free of rounding."""
@@ -105,8 +111,7 @@ def test_no_combination_becomes_better_known(
         except CalibrationError:  # degenerate, or without a start
             continue
         with monkeypatch.context() as patch:
-            module = sys.modules[calibrate.__module__]
-            patch.setattr(module, "add_profile_width", lambda estimate, *_: (estimate, ()))
+            leave_profiles_out(patch)
             linear = calibrate(views, VGA, model=camera.model)
         widened += bool((np.diag(found.covariance) > 1.05 * np.diag(linear.covariance)).any())
         pairs = [
