@@ -215,13 +215,11 @@ def _find(
                 yield misplaced
             case = left  # large errors of a few corners leave coefficients open, too
             open_coefficients = _find_open_coefficients(case)
-    if open_coefficients is not None:
-        yield open_coefficients
-    few = _find_lack_of_views(case)
-    if len(case.views) < _MIN_VIEWS_TO_JUDGE and few is not None:
-        yield few  # whatever else the residuals look like
-        return
-    found = _find_systematic_cause(case) or _find_disagreement(case) or few
+    found = few = _find_lack_of_views(case)
+    if few is None or len(case.views) >= _MIN_VIEWS_TO_JUDGE:  # else whatever residuals look like
+        found = _find_systematic_cause(case) or _find_disagreement(case) or few
+    if open_coefficients is not None and (found is None or found.cause is not Cause.LENS):
+        yield open_coefficients  # those of a model that is to be replaced go with it
     if found is not None:
         yield found
 

@@ -19,6 +19,7 @@ from calibgui.engine.camera.projection import pixels_from_rays
 from calibgui.engine.errors import CalibrationError
 from calibgui.engine.geometry.rotations import rotation_from_vector
 from tests.engine.scenes import VGA, barrel, looking, scene, seen
+from tests.faults.campaign import inject_fault
 from tests.faults.sets import draw_rendered_set, photograph
 
 CLEAN = scene(barrel(), 10, seed=3).noisy(0.1, np.random.default_rng(1))
@@ -72,6 +73,14 @@ def test_a_wrong_lens_is_named_before_the_board() -> None:
     findings = found(CLEAN, model="pinhole")
     assert [finding.cause for finding in findings] == [Cause.LENS]
     assert "pinhole" in findings[0].message
+
+
+def test_what_a_wrong_lens_leaves_open_is_no_finding_beside_it() -> None:
+    made = inject_fault("wide-lens", 3000)
+    calibration = calibrate(made.views, made.size, model=made.options["model"])
+    assert {u.name for u in calibration.undetermined} & {"k1", "k2", "k3"}
+    findings = list_findings(calibration, made.views)
+    assert [finding.cause for finding in findings] == [Cause.LENS]
 
 
 def test_a_held_value_is_named_and_freed() -> None:
