@@ -67,7 +67,6 @@ import scipy
 
 from calibgui.engine.arrays import Array, IntArray
 from calibgui.engine.boards.shape import BoardShape
-from calibgui.engine.calibration.refinement.covariances import compute_excess
 from calibgui.engine.calibration.refinement.residuals import BoardMotion, compute_view_products
 from calibgui.engine.calibration.refinement.schur import invert_pose_roots
 from calibgui.engine.calibration.result_assembly import Estimate
@@ -132,7 +131,7 @@ def add_overdispersion(
         return estimate
     moved = (axes @ (h / (1 - _JACKKNIFE_SHARE * shares))[..., None])[..., 0] @ unit.T
     clustered = moved.T @ moved * (K - 1) / K / (1 - leverage) ** 2
-    added = compute_excess(clustered, np.sqrt(sigma2) * np.asarray(unit))
+    added = _compute_excess(clustered, np.sqrt(sigma2) * np.asarray(unit))
     return estimate._replace(
         camera_covariance=estimate.camera_covariance + added,
         pose_covariances=estimate.pose_covariances + G @ added @ np.swapaxes(G, 1, 2),
@@ -168,3 +167,11 @@ def _widen_board_shape(
         return board_shape
     more = np.einsum("iap,pq,iaq->ia", board_motion.motion, added, board_motion.motion)
     return replace(board_shape, sigma=np.sqrt(board_shape.sigma**2 + more))
+
+
+def _compute_excess(covariance: Array, root: Array) -> Array:
+    """Compute the (P, P) to add to root root^T so that it is nowhere below the covariance."""
+    half = np.linalg.solve(root, covariance)
+    values, vectors = np.linalg.eigh(np.linalg.solve(root, half.T))
+    axes = root @ vectors
+    return np.asarray((axes * np.maximum(values - 1, 0.0)) @ axes.T)

@@ -15,27 +15,20 @@ and sigma_n that of the corners' noise alone, a parabola has
 Where the true profile has risen by that of t = 2 at a distance d > 2 sigma_c on one side, the
 standard deviation is d / 2: about 2.5 % of the errors lie beyond d there, as is said by 2 sigma
 (Bates and Watts 1988, Nonlinear Regression Analysis, 6.1). With s half of the profile's whole step
-on its wider side, the others included, and c the column of C that belongs to the parameter,
+on its wider side, the others included, and s_c = d / 2 its part along the parameter,
 
-    D = C - c c^T / sigma_c^2 + s s^T
+    C + (1 - sigma_c^2 / s_c^2) s s^T
 
-leaves open what C does once the parameter is given, and lets the others go with it as the profile
-does. Where the valley bends, s has less than c of some combinations of parameters, and D less
-variance than C. Therefore the larger of the two is taken in each direction of the parameters. With
-C = L L^T, e = L^-1 c / sigma_c (a unit vector) and g = L^-1 s,
+takes the place of C. What is added is positive semidefinite: no combination of parameters becomes
+better known than the parabola says. The parameter itself has the variance s_c^2, and the others go
+with it as the profile does. Where the valley is straight, s is s_c / sigma_c^2 times the column of
+C that belongs to the parameter: its variance alone is replaced, and what is left open once it is
+given stays as it is. As s_c comes down to sigma_c, nothing is left to add. The poses follow as in
+the linear solution, dp_k = G_k dc, so that (s, G s) widens camera and poses together: their
+covariance remains positive definite, whatever board and views have added to the poses before.
 
-    L^-1 D L^-T = 1 + g g^T - e e^T.
-
-Of g g^T - e e^T one eigenvalue at most, lambda of the axis u, is positive, and with v = L u
-
-    C + lambda v v^T
-
-is what is reported. What is added is positive semidefinite: no combination of parameters becomes
-better known than the parabola says, nor than D says, which has d^2 / 4 for the parameter itself. As
-the other eigenvalue is no less than -1, none has more variance than C and D together; of a parabola
-s = c / sigma_c, and nothing is added. The poses follow as in the linear solution, dp_k = G_k dc:
-camera and poses together are widened by lambda (v, G v) (v, G v)^T, which is positive semidefinite
-as well, whatever board and views have added to the poses before.
+(To replace the parabola's c c^T / sigma_c^2 by s s^T, with c that column, is not sound: where the
+valley bends it makes combinations better known, and a pose's variance can become negative.)
 
 A profile that does not rise so far before its parameter is of no use leaves that parameter open on
 one side, and those that go with it beyond their bounds.
@@ -54,7 +47,6 @@ from calibgui.engine.arrays import Array
 from calibgui.engine.calibration.observations import Observations
 from calibgui.engine.calibration.options import Options
 from calibgui.engine.calibration.partial.degeneracy import find_traded_focal_lengths
-from calibgui.engine.calibration.refinement import covariances
 from calibgui.engine.calibration.refinement.levenberg_marquardt import StartError, minimise
 from calibgui.engine.calibration.refinement.residuals import State, build_stage_two
 from calibgui.engine.calibration.result import Cost, Undetermined
@@ -127,7 +119,8 @@ def add_profile_width(
             is_followed |= np.abs(step) > _LEVEL * np.minimum(sigma, 0.99 * tolerated)
         halves.append(sign * step / max(end.height, _LEVEL))
     widest = max(halves, key=lambda half: float(half[i]))
-    estimate = _widen(estimate, i, widest, profile.poses_by_camera)
+    if widest[i] > sigma[i]:
+        estimate = _widen(estimate, i, widest, profile.poses_by_camera)
     names = np.array(options.names)[free]
     camera = Camera(options.size, estimate.state.params, options.model)
     traded = find_traded_focal_lengths(camera, tuple(names.tolist()), covariance)
@@ -141,13 +134,7 @@ def add_profile_width(
 def _widen(estimate: Estimate, i: int, half: Array, poses_by_camera: Array) -> Estimate:
     """Widen an estimate to where a step (P,) is one standard deviation along parameter i."""
     covariance = estimate.camera_covariance
-    linear = covariance[i] / np.sqrt(covariance[i, i])
-    try:
-        root = np.linalg.cholesky(covariance)
-    except np.linalg.LinAlgError:
-        return estimate  # a combination of parameters is undetermined, and says so
-    by_profile = covariance - np.outer(linear, linear) + np.outer(half, half)
-    added = covariances.compute_excess(by_profile, np.asarray(root))
+    added = (1 - covariance[i, i] / half[i] ** 2) * np.outer(half, half)
     by_poses = poses_by_camera @ added @ np.swapaxes(poses_by_camera, 1, 2)
     return estimate._replace(
         camera_covariance=covariance + added,

@@ -19,14 +19,15 @@ from tests.engine.scenes import BOARD, TRUE_BOARD, VGA, imaged, looking, scene
 MEI = Camera(VGA, [350, 350, 310, 235, 0.8, -0.1, 0.02, 1e-3, -1e-3], "mei")
 """A wide lens whose focal length and xi few views hardly tell apart."""
 
-FEW_VIEWS_LEAVE_OPEN = [
-    MEI,
-    Camera(VGA, [300, 300, 310, 235, -0.05, 4e-3, -3e-3, 4e-4], "kannala-brandt"),
-    Camera(VGA, [300, 300, 310, 235, -0.2, 0.55], "double-sphere"),
-    Camera(VGA, [650, 650, 310, 235, 0.25, 0.1, -0.04, 4e-4, -7e-4, 0.0], "lucchese"),
-    Camera(VGA, [650, 650, 310, 235, -0.25, 0.12, 3e-4, -5e-4, -0.03], "brown-conrady"),
+POORLY_KNOWN = [
+    (MEI, 0.03, 0),  # open on both sides, and named for it
+    (Camera(VGA, [300, 300, 310, 235, -0.05, 4e-3, -3e-3, 4e-4], "kannala-brandt"), 1.0, 2),
+    (Camera(VGA, [300, 300, 310, 235, -0.2, 0.55], "double-sphere"), 0.1, 2),
+    (Camera(VGA, [650, 650, 310, 235, 0.25, 0.1, -0.04, 4e-4, -7e-4, 0.0], "lucchese"), 1.0, 2),
+    (Camera(VGA, [650, 650, 310, 235, -0.25, 0.12, 3e-4, -5e-4, -0.03], "brown-conrady"), 1.0, 2),
 ]
-"""Lenses whose parameters few views leave poorly known."""
+"""Lenses, the noise, px, that makes few views know them poorly, and how many of twelve calibrations
+are then widened at least."""
 
 
 def photograph(camera: Camera, count: int, noise: float) -> list[Observation]:
@@ -34,8 +35,8 @@ def photograph(camera: Camera, count: int, noise: float) -> list[Observation]:
     return scene(camera, count, seed=2).noisy(noise, np.random.default_rng(1))
 
 
-def photograph_parts(camera: Camera, count: int, seed: int) -> list[Observation]:
-    """Make views, with 1 px of noise, of the part of a little tilted board in the image."""
+def photograph_parts(camera: Camera, count: int, noise: float, seed: int) -> list[Observation]:
+    """Make views of the part of a little tilted board that is in the image."""
     rng = np.random.default_rng(seed)
     views: list[Observation] = []
     xy = BOARD.points()[:, :2]
@@ -43,7 +44,7 @@ def photograph_parts(camera: Camera, count: int, seed: int) -> list[Observation]
         uv = imaged(camera, looking(camera, rng, (5, 20), (0.3, 0.7)), xy)
         inside = ((uv > 0) & (uv < VGA)).all(axis=1)  # not where it is NaN
         if inside.sum() >= 20:
-            uv = uv[inside] + rng.normal(size=(inside.sum(), 2))
+            uv = uv[inside] + rng.normal(scale=noise, size=(inside.sum(), 2))
             views.append(Observation(uv, xy[inside]))
     return views
 
@@ -77,7 +78,7 @@ def test_width_is_that_of_solves_with_the_parameter_held() -> None:
     for side in (2, -2):
         held = calibrate(views, VGA, model="mei", prior=TRUE_BOARD, fix={"xi": xi + side * sigma})
         rises.append((sum_squares(held) - sum_squares(found)) / found.noise**2)
-    assert 3.9 < rises[0] < 6 and rises[1] > 6  # more than 4, as this valley bends
+    assert rises[0] == pytest.approx(4, rel=0.2) and rises[1] > 6
     assert np.linalg.eigvalsh(found.covariance[:9, :9]).min() > 0
 
 
@@ -90,22 +91,26 @@ def test_parameters_that_trade_without_bound_are_named() -> None:
 
 
 @pytest.mark.parametrize("count", [4, 10])
-def test_plain_camera_keeps_its_deviations(count: int) -> None:
+def test_plain_camera_keeps_its_deviations(count: int, monkeypatch: pytest.MonkeyPatch) -> None:
     plain = Camera(VGA, [650, 650, 310, 235, -0.25, 0.12, 0, 0, 0, 0], "lucchese")
     views = photograph(plain, count, 0.05)
     found = calibrate(views, VGA, prior=TRUE_BOARD)
     assert found.overdispersion == 0 and not found.undetermined
-    np.testing.assert_allclose(found.sigma[:9], found.sigma_by_noise[:9], rtol=0.02)
+    leave_profiles_out(monkeypatch)
+    linear = calibrate(views, VGA, prior=TRUE_BOARD)
+    np.testing.assert_allclose(found.sigma, linear.sigma, rtol=0.02)
 
 
 @pytest.mark.filterwarnings("error::RuntimeWarning")
-@pytest.mark.parametrize("camera", FEW_VIEWS_LEAVE_OPEN, ids=lambda camera: str(camera.model))
+@pytest.mark.parametrize(
+    ("camera", "noise", "least"), POORLY_KNOWN, ids=[case[0].model for case in POORLY_KNOWN]
+)
 def test_no_combination_becomes_better_known(
-    camera: Camera, monkeypatch: pytest.MonkeyPatch
+    camera: Camera, noise: float, least: int, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     widened = 0
     for seed in range(12):
-        views = photograph_parts(camera, 2 + seed % 3, seed)
+        views = photograph_parts(camera, 2 + seed % 3, noise, seed)
         try:
             found = calibrate(views, VGA, model=camera.model)
         except CalibrationError:  # degenerate, or without a start
@@ -121,4 +126,4 @@ def test_no_combination_becomes_better_known(
         for covariance, by_parabola in pairs:
             assert find_least_eigenvalue(covariance, covariance) > -1e-9
             assert find_least_eigenvalue(covariance - by_parabola, covariance) > -1e-9
-    assert widened >= 3
+    assert widened >= least

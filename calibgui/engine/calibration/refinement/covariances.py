@@ -187,23 +187,6 @@ def convert_pose_covariances(local: Array, rvecs: Array) -> Array:
     return np.asarray(J @ local @ np.swapaxes(J, 1, 2))
 
 
-def compute_excess(covariance: Array, root: Array) -> Array:
-    """Compute the (P, P) to add to root root^T so that it is nowhere below the covariance.
-
-    Args:
-        covariance: (P, P), symmetric; a variance that it makes negative adds nothing.
-        root: (P, P), not singular.
-
-    Returns:
-        A positive semidefinite matrix: in units in which root root^T = 1 it has the covariance's
-        axes, and along each of them its variance less 1, or 0.
-    """
-    half = np.linalg.solve(root, covariance)
-    values, vectors = np.linalg.eigh(np.linalg.solve(root, half.T))
-    axes = root @ vectors
-    return np.asarray((axes * np.maximum(values - 1, 0.0)) @ axes.T)
-
-
 def compute_correlations(covariance: Array) -> Array:
     """Return the correlations of a covariance (P, P); NaN for parameters that were held."""
     sd = np.sqrt(np.diag(covariance))
