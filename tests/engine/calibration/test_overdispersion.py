@@ -118,6 +118,17 @@ def test_two_views_are_taken_to_disagree_without_a_test(monkeypatch: pytest.Monk
     np.testing.assert_allclose(found.sigma[:9], 2 * found.sigma_by_noise[:9], rtol=0.01)
 
 
+def test_disagreement_that_three_views_do_not_prove_counts(monkeypatch: pytest.MonkeyPatch) -> None:
+    leave_profiles_out(monkeypatch)
+    widened = []
+    for seed in range(12):
+        found = calibrate(photographed(FAULTS[seed % 4], 3, seed), SIZE, prior=TRUE_BOARD)
+        if found.overdispersion == 0:
+            widened.append(found.sigma[:9] / found.sigma_by_noise[:9])
+    assert len(widened) >= 3 and np.min(widened) > 0.99
+    assert np.median(np.max(widened, axis=1)) > 1.2
+
+
 @pytest.mark.slow
 def test_two_views_of_a_bending_board_hold_the_truth() -> None:
     inside = []

@@ -117,7 +117,7 @@ def test_few_views_rest_on_the_prior() -> None:
         calibrate(views, SIZE, prior=prior)
         for prior in (None, TRUE_BOARD, BoardShapePrior(0.5, 0.5))
     )
-    np.testing.assert_allclose(flat.sigma[:9], flat.sigma_by_noise[:9], rtol=0.02)
+    assert (flat.sigma[:9] < 2 * flat.sigma_by_noise[:9]).all()  # and what three views disagree by
     assert (usual.sigma[:4] > 1.2 * flat.sigma[:4]).all()
     assert (poor.sigma[:4] > 1.5 * usual.sigma[:4]).all()
     for found in (usual, poor):
