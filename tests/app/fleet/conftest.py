@@ -47,9 +47,12 @@ def read_rows(ledger: Path) -> list[FleetCamera]:
 
 
 def read_results(ledger: Path) -> dict[str, bytes]:
-    """Return the bytes of all results beside a ledger, by their names."""
+    """Return the bytes of all results beside a ledger, by their names.
+
+    Beside them may lie what a killed process was writing, which a later run removes.
+    """
     folder = ledger.parent / f"{ledger.stem}.results"
-    return {file.name: file.read_bytes() for file in folder.iterdir()}
+    return {file.name: file.read_bytes() for file in folder.glob("*.json")}
 
 
 @pytest.fixture(scope="session")
