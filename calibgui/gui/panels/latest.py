@@ -12,9 +12,8 @@ from calibgui.gui.jobs.jobs import Jobs
 
 T = TypeVar("T")
 
-_PICTURE = 0.06
-"""Time in which a panel is filled and painted, s: work that began at once would take turns with it
-at the interpreter, and a panel of 300 views would come twice as late."""
+_PICTURE = 60
+"""Time in which a panel of 300 views is filled and painted, ms."""
 
 
 class Latest:
@@ -47,17 +46,12 @@ class Latest:
         """
         self.cancel()
 
-        def begin(job: Job) -> T:
-            job.cancelling.wait(_PICTURE)
-            job.check()
-            return work(job)
-
         def ended() -> None:
             if job is self._job and job.cancelled:
                 cancelled()
 
         job = self._job = self._jobs.start(
-            label, begin, done, failed=failed, ended=ended, owner=self._owner
+            label, work, done, delay=_PICTURE, failed=failed, ended=ended, owner=self._owner
         )
 
     def cancel(self) -> None:

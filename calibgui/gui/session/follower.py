@@ -14,6 +14,9 @@ from calibgui.gui.session.calibrator import Calibrator
 from calibgui.gui.session.detector import Detector
 from calibgui.gui.session.session import Session
 
+_PICTURE = 40
+"""Time in which the film strip shows which of 300 images are left out, ms."""
+
 
 class Follower(QObject):
     """Calibrates once more from other views, in milliseconds, and replaces the shown result.
@@ -57,6 +60,7 @@ class Follower(QObject):
             "",
             lambda _: calibrate_views(corner_set, settings, lens=lens),
             done,
+            delay=_PICTURE,
             failed=session.failed.emit,
             inputs=session.question,
         )
