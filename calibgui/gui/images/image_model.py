@@ -177,7 +177,7 @@ class ImageModel(QAbstractListModel):
 
     @property
     def is_sorted(self) -> bool:
-        """Whether the images stand in the order of their names, as those of one folder do."""
+        """True if the images stand in the order of their names, as those of one folder do."""
         return all(place == row for row, place in enumerate(self._places))
 
     def sort_key(self, row: int, criterion: Criterion) -> tuple[object, ...]:

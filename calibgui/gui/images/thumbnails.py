@@ -9,13 +9,12 @@ from PySide6.QtGui import QImage, QPixmap
 
 from calibgui.app.image_store import Signature, Thumbnail, read_signature, read_thumbnail
 from calibgui.app.project import Project, add_digests
+from calibgui.gui.jobs.jobs import PICTURE
 from calibgui.gui.session.session import Session
 from calibgui.gui.widgets.picture import make_qimage
 
 THUMBNAIL = QSize(72, 48)
 """Device-independent px."""
-_SHOWN = 100
-"""Time after which new images are on screen, ms: reading them before would delay that."""
 
 
 class Thumbnails(QObject):
@@ -81,7 +80,7 @@ class Thumbnails(QObject):
             new,
             _small,
             self._done,
-            delay=_SHOWN,
+            delay=PICTURE,
             failed=_unread,
             ended=self._ended,
             owner=self,

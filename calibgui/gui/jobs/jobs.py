@@ -32,6 +32,9 @@ from calibgui.gui.jobs.job import Job, Outcome, Queue, nothing
 
 log = logging.getLogger(__name__)
 
+PICTURE = 100
+"""Time in which the window shows what has changed of 300 images, ms. Work that is begun meanwhile
+takes turns with it at the interpreter and the processors, and the picture comes twice as late."""
 _TICK = 33
 """Time between two looks at the queue, ms."""
 _SLICE = 0.02
@@ -97,8 +100,8 @@ class Jobs(QObject):
         Args:
             label: what it does, for the progress bar.
             done: takes the result, if `inputs()` still is what it was at the start.
-            delay: time after which the work begins, ms, for the window to show first what it has
-                to show: they would take turns at the interpreter, and both take longer.
+            delay: time after which the work begins, ms: `PICTURE` where something changes on the
+                screen.
             callbacks: `received`, `failed`, `ended`, `owner` of `Job`.
         """
         job = Job(

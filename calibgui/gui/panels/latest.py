@@ -8,12 +8,9 @@ from typing import TypeVar
 from PySide6.QtCore import QObject
 
 from calibgui.gui.jobs.job import Job, nothing
-from calibgui.gui.jobs.jobs import Jobs
+from calibgui.gui.jobs.jobs import PICTURE, Jobs
 
 T = TypeVar("T")
-
-_PICTURE = 60
-"""Time in which a panel of 300 views is filled and painted, ms."""
 
 
 class Latest:
@@ -51,7 +48,7 @@ class Latest:
                 cancelled()
 
         job = self._job = self._jobs.start(
-            label, work, done, delay=_PICTURE, failed=failed, ended=ended, owner=self._owner
+            label, work, done, delay=PICTURE, failed=failed, ended=ended, owner=self._owner
         )
 
     def cancel(self) -> None:

@@ -10,12 +10,10 @@ from calibgui.app.calibration import calibrate_views, recall_lens_choice
 from calibgui.app.project import record_result
 from calibgui.dataset import CornerSet, Result
 from calibgui.gui.jobs.job import Job
+from calibgui.gui.jobs.jobs import PICTURE
 from calibgui.gui.session.calibrator import Calibrator
 from calibgui.gui.session.detector import Detector
 from calibgui.gui.session.session import Session
-
-_PICTURE = 40
-"""Time in which the film strip shows which of 300 images are left out, ms."""
 
 
 class Follower(QObject):
@@ -60,7 +58,7 @@ class Follower(QObject):
             "",
             lambda _: calibrate_views(corner_set, settings, lens=lens),
             done,
-            delay=_PICTURE,
+            delay=PICTURE,
             failed=session.failed.emit,
             inputs=session.question,
         )
