@@ -61,10 +61,10 @@ from calibgui.engine.arrays import (
 )
 from calibgui.engine.detection.checkerboard import edge_profiles
 from calibgui.engine.detection.checkerboard.board_priors import BoardPriors, PredictedBoardPriors
+from calibgui.engine.detection.checkerboard.edge_bend import ReadEdges, clip_arms
 from calibgui.engine.detection.checkerboard.edge_map import EdgeGeometry
 from calibgui.engine.detection.checkerboard.edge_profiles import EdgeProfiles
 from calibgui.engine.detection.checkerboard.fit_thresholds import FIT_THRESHOLDS
-from calibgui.engine.detection.checkerboard.read_edges import ReadEdges, clip_arms
 from calibgui.engine.detection.checkerboard.x_corner_model import (
     BLUR,
     MIN_BLUR,
@@ -349,7 +349,7 @@ def _take_step(model: XCornerModel, products: Array) -> tuple[XCornerModel, Arra
     return replace(model, unknowns=unknowns), inverse, square
 
 
-@kernels.with_kernel("x_corner_model", "step_unknowns")
+@kernels.with_kernel("x_corner_fit", "step_unknowns")
 def _step_unknowns(
     unknowns: Array,
     products: Array,
