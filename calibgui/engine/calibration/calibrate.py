@@ -49,7 +49,7 @@ from calibgui.engine.calibration.partial.degeneracy import (
 from calibgui.engine.calibration.partial.partial_calibration import (
     estimate_partially,
 )
-from calibgui.engine.calibration.profile import add_profile_width
+from calibgui.engine.calibration.profile_likelihood import add_profile_width
 from calibgui.engine.calibration.refinement import covariances
 from calibgui.engine.calibration.refinement.levenberg_marquardt import Solution
 from calibgui.engine.calibration.refinement.residuals import State

@@ -18,7 +18,7 @@ from tests.engine.calibration.board_shape.test_parametrisation import (
     NOMINAL,
     SIZE,
 )
-from tests.engine.calibration.test_profile import leave_profiles_out
+from tests.engine.calibration.test_profile_likelihood import leave_profiles_out
 from tests.engine.scenes import TRUE_BOARD
 
 FLAT = np.column_stack([NOMINAL, np.zeros(len(NOMINAL))])

@@ -17,8 +17,8 @@ import numpy as np
 from calibgui.engine.arrays import Array
 from calibgui.engine.detection import grid_map
 from calibgui.engine.detection.checkerboard.board_priors import BoardPriors, compute_curvatures
+from calibgui.engine.detection.checkerboard.edge_bend import ReadEdges
 from calibgui.engine.detection.checkerboard.edge_map import EdgeGeometry
-from calibgui.engine.detection.checkerboard.read_edges import ReadEdges
 
 _DIFFERENCE_STEP = 0.5
 """Step of the central differences of the grid map, units."""

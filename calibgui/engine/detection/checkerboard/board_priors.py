@@ -35,9 +35,9 @@ from calibgui.engine.arrays import (
     compute_median,
 )
 from calibgui.engine.detection import grid_map
+from calibgui.engine.detection.checkerboard.edge_bend import ReadEdges
 from calibgui.engine.detection.checkerboard.edge_map import EdgeGeometry, fit_edge_map
 from calibgui.engine.detection.checkerboard.fit_thresholds import FIT_THRESHOLDS
-from calibgui.engine.detection.checkerboard.read_edges import ReadEdges
 
 _THRESHOLDS = FIT_THRESHOLDS.priors
 _NOISE_PER_DIFFERENCE = 1 / (0.6745 * 6**0.5)

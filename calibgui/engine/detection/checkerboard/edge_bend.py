@@ -1,4 +1,4 @@
-"""What was read of the edges at corners, and how far that bends them aside.
+"""The bend of edges over what was read of them, by which corners are moved aside.
 
 An edge is read over an arm to both sides of its corner, but no farther than the image: at its
 border one side is short. With the middle m and the half length h of what was read, from the corner

@@ -2,7 +2,7 @@
 
 The fit of a corner tells of each of its edges the mean place and the direction: those of the
 parabola q(s) = c + s t + kappa s^2 / 2 n that lies nearest to it over what was read, |s - m| <= h
-(``read_edges``), whatever kappa was taken to be. From the edge that a map of cells to the image
+(``edge_bend``), whatever kappa was taken to be. From the edge that a map of cells to the image
 draws it is o(s) away, along n. For the mean and the slope of o three points suffice,
 
     s - m = -sqrt(3/5) h, 0, sqrt(3/5) h    of weights 5/18, 8/18, 5/18
@@ -29,7 +29,7 @@ import numpy as np
 
 from calibgui.engine.arrays import Array, IntArray
 from calibgui.engine.detection import grid_map
-from calibgui.engine.detection.checkerboard.read_edges import ReadEdges
+from calibgui.engine.detection.checkerboard.edge_bend import ReadEdges
 from calibgui.engine.detection.grid_map import InverseRadialHomography
 
 _PLACES = np.array([-(0.6**0.5), 0.0, 0.6**0.5])

@@ -1,6 +1,6 @@
 """Curvatures of the edges of large squares, from the corners and from the directions of the edges.
 
-Over an arm of length L a curvature kappa moves an edge's mean by kappa L^2 / 6 (``read_edges``),
+Over an arm of length L a curvature kappa moves an edge's mean by kappa L^2 / 6 (``edge_bend``),
 which a corner of large squares feels long before its neighbours tell: a curvature takes three
 corners in a line, its change five, and small boards have no more. But the fit knows the directions
 of such edges as well as it knows their corners. With arms of half a square, the two directions at
@@ -34,6 +34,7 @@ import numpy as np
 
 from calibgui.engine.arrays import Array, BoolArray, GridSize, IntArray
 from calibgui.engine.detection import grid_map
+from calibgui.engine.detection.checkerboard.edge_bend import ReadEdges
 from calibgui.engine.detection.checkerboard.edge_lens import (
     LENS,
     NEXT_COEFFICIENT,
@@ -41,7 +42,6 @@ from calibgui.engine.detection.checkerboard.edge_lens import (
     fit_edge_lenses,
 )
 from calibgui.engine.detection.checkerboard.fit_thresholds import FIT_THRESHOLDS
-from calibgui.engine.detection.checkerboard.read_edges import ReadEdges
 
 _THRESHOLDS = FIT_THRESHOLDS.priors
 _ORDERS = ((0, 0), (1, 0), (0, 1), (2, 0), (0, 2))
@@ -59,7 +59,7 @@ class EdgeGeometry:
     steps: Array
     """(n, 2, 2) derivatives of the position by column and by row, px."""
     bend: Array
-    """(n, 2) how far the edges along both are bent aside, px; see ``read_edges``."""
+    """(n, 2) how far the edges along both are bent aside, px; see ``edge_bend``."""
     variance: Array
     """(n, 2) of the bends, px^2; 0 where it does not matter."""
 

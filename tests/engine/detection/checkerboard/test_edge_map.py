@@ -9,8 +9,8 @@ import pytest
 from numpy.typing import NDArray
 
 from calibgui.engine.detection.checkerboard.board_priors import compute_curvatures
+from calibgui.engine.detection.checkerboard.edge_bend import ReadEdges, clip_arms
 from calibgui.engine.detection.checkerboard.edge_map import EdgeGeometry, fit_edge_map
-from calibgui.engine.detection.checkerboard.read_edges import ReadEdges, clip_arms
 from tests.scenes.camera import Camera
 from tests.scenes.conditions import Conditions
 
