@@ -45,9 +45,7 @@ _MAX_LINE_LENGTH = 100
 def dumps(value: Any, depth: int = 0) -> str:
     """Write mappings, sequences, arrays of numbers, text, numbers, True, False or None as JSON."""
     if isinstance(value, np.ndarray):
-        # Of finite numbers and lists of them JSON and Python's repr are the same, repr is quicker.
-        write_row = repr if np.isfinite(value).all() else dumps
-        return _write_list([write_row(row) for row in value.tolist()], depth)
+        return _write_array(value, depth)
     if _has_members(value):
         return "".join(_write_pieces(value, depth))
     if isinstance(value, Mapping):
@@ -58,6 +56,16 @@ def dumps(value: Any, depth: int = 0) -> str:
         return "null"
     # A file name that is not valid Unicode holds surrogates, which only \u can write.
     return json.dumps(value, ensure_ascii=isinstance(value, str) and not value.isprintable())
+
+
+def _write_array(value: Array | IntArray, depth: int) -> str:
+    # Of finite numbers and lists of them JSON and Python's repr are the same, repr is quicker.
+    write_row = repr if np.isfinite(value).all() else dumps
+    rows = list(map(write_row, value.tolist()))
+    if value.ndim < 2 or sum(map(len, rows)) + 2 * len(rows) <= _MAX_LINE_LENGTH:
+        return f"[{', '.join(rows)}]"
+    before = f"\n{' ' * (depth + 1)}"
+    return f"[{before}{f',{before}'.join(rows)}\n{' ' * depth}]"
 
 
 def _has_members(value: Any) -> bool:

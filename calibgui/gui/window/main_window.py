@@ -226,6 +226,14 @@ class MainWindow(QMainWindow):
 
         qt_names.make_classes(self, load)
         self.session.result_changed.connect(lambda _: self._building.start())
+        strip = self.images.list.horizontalScrollBar()
+        for in_use in (self.session.selected, self.session.hovered, strip.valueChanged):
+            in_use.connect(lambda *_: self._put_off_building())
+
+    def _put_off_building(self) -> None:
+        """Build the next panel only after a pause: who scrolls would see the strip stand still."""
+        if self._building.isActive():
+            self._building.start()
 
     def _build_ahead(self) -> None:
         """Build one panel that was not shown yet, unless somebody works."""

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from importlib.util import find_spec
 
+from PySide6.QtCore import Qt
 from PySide6.QtWidgets import QApplication
 from pytestqt.qtbot import QtBot
 
@@ -26,6 +27,25 @@ def test_panels_are_built_one_by_one_in_pauses(full: MainWindow, qtbot: QtBot) -
     for count in (len(panels) + 1, len(panels) + 2):
         qtbot.waitUntil(lambda: len(full.need_analysis().findChildren(Panel)) >= count)  # noqa: B023
     assert full.need_analysis().shown is panels[0], "what is seen stays"
+
+
+def test_no_panel_is_built_while_somebody_looks_through_the_images(
+    full: MainWindow, qtbot: QtBot
+) -> None:
+    full.prepare()
+    full.session.show_result(next(iter(full.session.project.results)))
+    pause = full._building
+    pause.setTimerType(Qt.TimerType.PreciseTimer)
+    pause.setInterval(60_000)
+    bar = full.images.list.horizontalScrollBar()
+    for use in (lambda: full.session.select_next(1), lambda: bar.valueChanged.emit(1)):
+        qtbot.wait(20)
+        left = pause.remainingTime()
+        use()
+        assert pause.remainingTime() > left, "the pause begins anew"
+    pause.stop()
+    full.session.select_next(1)
+    assert not pause.isActive(), "all that is built stays so"
 
 
 def test_a_panel_is_filled_in_one_turn_and_painted_in_the_next(full: MainWindow) -> None:
