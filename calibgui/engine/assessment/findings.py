@@ -11,7 +11,11 @@ without those behind it, and what one explains is taken out before the next is a
 3. **Lens or board**, which all views share: the lens if ``calibration/lens_error.py`` says so, or
    whichever explains most of what any cause does (``noise_test.py``). What a board or a lens
    explains, causes that differ from view to view explain as well, since they have unknowns of
-   their own in each view.
+   their own in each view. A free board, which has many unknowns of its own, takes much of what
+   a wrong lens or two kinds of views leave: so it is estimated before it is named, and if one of
+   these explains most of what is left, that is the cause; the board follows once it is gone. And
+   a lens of another kind (``rival_lens.py``) is fitted before a cause is named that differs from
+   view to view.
 4. **Two kinds of views** (``mixed_views.py``), which have twice the unknowns of one.
 5. **Focus, centre, bending, motion**, which differ from view to view; then **blur**, which moves
    nothing.
@@ -63,7 +67,9 @@ from calibgui.engine.assessment.mixed_views import Split, find_two_kinds
 from calibgui.engine.assessment.noise_test import NoiseCheck, check_residuals
 from calibgui.engine.assessment.outliers import Screening, select_corners
 from calibgui.engine.assessment.residual_statistics import summarise_residuals
+from calibgui.engine.assessment.rival_lens import explain_by_rival
 from calibgui.engine.assessment.systematic_errors import prepare_fit
+from calibgui.engine.boards.shape import BoardShapeModel
 from calibgui.engine.calibration.calibrate import calibrate
 from calibgui.engine.calibration.observations import Observation, name_views
 from calibgui.engine.calibration.problem import recover_image_arguments
@@ -109,6 +115,10 @@ board explains that the calibration suspects by itself (``Calibration.board_shap
 _MIN_PART_OF_LENS, _MIN_PART_OF_BOARD, _MIN_PART_OF_BEST = 0.5, 0.7, 0.9
 """Part of what the best cause explains, from which the cause is a lens that
 ``calibration/lens_error.py`` suspects, a board, and a lens that it does not suspect."""
+_MIN_SHARE_OF_RIVAL, _MIN_SHARE_SUSPECT_LENS = 1 / 3, 0.1
+"""Shares of the squared residuals that a lens of another kind explains, from which the lens is the
+cause at any rate, and if ``calibration/lens_error.py`` suspects it: of photographs that a model
+followed, one of another kind explained at most a sixth."""
 _MIN_PART_OF_BOARDS = 0.5
 """Part of what the best shape of a board explains, from which a simpler one is the cause."""
 _CHECKS_OF_BOARD = ("squares", "bow", "board")
@@ -287,10 +297,14 @@ def _leave_out(screening: Screening, views: Sequence[Observation], names: Sequen
 def _misses_views(case: _Case, screening: Screening, left: _Case) -> bool:
     """Return whether corners do not fit because one cause makes the model miss whole views.
 
-    Such a cause explains much of the residuals of all corners, and much of those of the others. Of
+    Such a cause is a lens that is suspected already, and that another model follows better. Or it
+    explains much of the residuals of all corners, and much of those of the others. Of
     corners that are misplaced it may explain much by chance; but without them it explains nothing.
     Two kinds of views explain most, and nothing is left of them where one kind is left out.
     """
+    is_suspect = case.calibration.lens_error > _MIN_LENS_PX
+    if is_suspect and explain_by_rival(case.calibration, case.views) > _MIN_SHARE_SUSPECT_LENS:
+        return True
     split = _find_split(case)
     if split is not None and split.is_certain and split.share > _MIN_SHARE_OF_KINDS:
         return True
@@ -322,9 +336,14 @@ def _find_systematic_cause(case: _Case) -> Finding | None:
     failed = {check.name: check for check in report.checks if not check.passed}
     check = _choose_shared_cause(case.calibration, failed)
     if check is not None:
-        return _describe_check(case, check)
+        beside = _find_cause_beside_board(case) if check.name in _CHECKS_OF_BOARD else None
+        return beside or _describe_check(case, check)
     if _measure_harm(case, _find_largest_share(report.checks)) < MIN_HARM_PX:
         return _find_blur(case, failed)
+    if "lens" in failed:
+        lens = _find_wrong_lens(case, _find_largest_share(failed.values()))
+        if lens is not None:
+            return lens
     split = _find_split(case)
     if split is not None and split.is_certain:
         return _describe_two_kinds(case, split)
@@ -333,6 +352,39 @@ def _find_systematic_cause(case: _Case) -> Finding | None:
         return _describe_check(case, check)
     disagreement = None if split is None else _describe_disagreement(case)
     return _find_blur(case, failed) or disagreement
+
+
+def _find_cause_beside_board(case: _Case) -> Finding | None:
+    """Find a wrong lens, or two kinds of views, that a board of any shape leaves; None if neither.
+
+    What they explain is measured with the board's shape estimated.
+    """
+    settings = recover_image_arguments(case.calibration) | {"board_shape": BoardShapeModel.FREE}
+    try:
+        free = calibrate(case.views, case.calibration.camera.size, **settings)
+    except CalibrationError:
+        return None
+    beside = _prepare_case(free, case.views, case.names)._replace(numbers=case.numbers)
+    found = _find_wrong_lens(beside, 1.0)
+    if found is None:
+        split = _find_split(beside)
+        if split is None or not split.is_certain or split.share < _MIN_SHARE_OF_KINDS:
+            return None
+        found = _describe_two_kinds(beside, split)
+    return replace(
+        found, evidence=f"{found.evidence} All of this is with the board's shape estimated."
+    )
+
+
+def _find_wrong_lens(case: _Case, explained: float) -> Finding | None:
+    """Find a lens that a model of another kind follows better; None if it does not.
+
+    It does so by far, or by more than the share that causes with more unknowns explain.
+    """
+    share = explain_by_rival(case.calibration, case.views)
+    if share < max(_MIN_SHARE, min(_MIN_SHARE_OF_RIVAL, explained)):
+        return None
+    return _describe_lens(case, float(np.sqrt(share)) * case.rms, _measure_harm(case, share))
 
 
 def _find_blur(case: _Case, failed: dict[str, NoiseCheck]) -> Finding | None:

@@ -47,6 +47,7 @@ from calibgui.engine.assessment.findings import list_findings
 from calibgui.engine.assessment.lens_choice import choose_lens_stepwise
 from calibgui.engine.assessment.outliers import screen_outliers, select_corners
 from calibgui.engine.assessment.view_weights import calibrate_weighted
+from calibgui.engine.boards.shape import BoardShapeModel
 from calibgui.engine.calibration.calibrate import calibrate
 from calibgui.engine.calibration.observations import Observation
 from calibgui.engine.calibration.problem import recover_arguments, recover_image_arguments
@@ -232,13 +233,15 @@ def try_action(
             return Trial(replace(action, model=board.model), board.chosen, given)
         case ActionKind.CHOOSE_LENS_MODEL:
             settings["fix"] = {n: v for n, v in settings["fix"].items() if n in PINHOLE}
-            for name in ("model", "free", "board_shape", "prior"):
-                settings.pop(name, None)
+            shape = {name: settings.pop(name) for name in ("board_shape", "prior")}
+            del settings["model"], settings["free"]
             lens = choose_lens_stepwise(given, size, **settings).chosen
+            camera = lens.calibration
+            if shape["board_shape"] != BoardShapeModel.NOMINAL:  # it is estimated or given again
+                settings |= {"model": lens.model, "fix": {**settings["fix"], **lens.fixed}}
+                camera = calibrate(given, size, **settings, **shape)
             held = tuple(lens.fixed)
-            return Trial(
-                replace(action, model=lens.model, parameters=held), lens.calibration, given
-            )
+            return Trial(replace(action, model=lens.model, parameters=held), camera, given)
         case ActionKind.LEAVE_OUT_CORNERS:
             screening = screen_outliers(given, size, **settings)
             kept = [

@@ -18,9 +18,9 @@ from calibgui.engine.camera.camera import Camera
 from calibgui.engine.camera.projection import pixels_from_rays
 from calibgui.engine.errors import CalibrationError
 from calibgui.engine.geometry.rotations import rotation_from_vector
-from tests.engine.scenes import VGA, barrel, looking, scene, seen
+from tests.engine.scenes import BOARD, VGA, barrel, looking, scene, seen
 from tests.faults.campaign import inject_fault
-from tests.faults.sets import draw_rendered_set, photograph
+from tests.faults.sets import change_camera, draw_rendered_set, photograph
 
 CLEAN = scene(barrel(), 10, seed=3).noisy(0.1, np.random.default_rng(1))
 MIDDLE = np.array([319.5, 239.5])
@@ -73,6 +73,42 @@ def test_a_wrong_lens_is_named_before_the_board() -> None:
     findings = found(CLEAN, model="pinhole")
     assert [finding.cause for finding in findings] == [Cause.LENS]
     assert "pinhole" in findings[0].message
+
+
+def print_badly(xy: Array) -> Array:
+    """Return where the corners (n, 2) of a print lie that is off by half a millimetre, (n, 3)."""
+    rng = np.random.default_rng(3)
+    off = {tuple(p): rng.normal(0, 0.3, 3) for p in BOARD.points().tolist()}
+    return np.array([[*p, 0.0] + off[tuple(p)] for p in xy.tolist()])
+
+
+@pytest.mark.parametrize("board", ["nominal", "free"])
+def test_a_fisheye_is_the_cause_where_the_board_is_off_as_well(board: str) -> None:
+    lens = np.array([230.0, 230.0, 312.0, 246.0, 0.02, -6e-3, 3e-3, -1.5e-3])
+    views = photograph(
+        draw_rendered_set(np.random.default_rng(5), Camera(VGA, lens, "kannala-brandt")),
+        displace=print_badly,
+    )
+    findings = found(views, board_shape=board)
+    assert [finding.cause for finding in findings] == [Cause.LENS]
+    assert ("board's shape estimated" in findings[0].evidence) is (board == "nominal")
+    followed = found(views, model="kannala-brandt")
+    assert [finding.cause for finding in followed] == [Cause.BOARD_SHAPE]
+    assert found(views, model="kannala-brandt", board_shape="free") == ()
+
+
+def test_photographs_of_a_stereo_pair_are_two_kinds_where_the_board_is_off_as_well() -> None:
+    photographed = draw_rendered_set(np.random.default_rng(11))
+    left, count = photographed.camera, len(photographed.poses)
+    right = change_camera(left, cx=1.06, cy=0.94)
+    views = photograph(
+        photographed, [left, right] * (count // 2) + [left] * (count % 2), print_badly
+    )
+    (finding,) = found(views)
+    assert finding.cause is Cause.MIXED_VIEWS
+    assert set(finding.views) in ({*range(0, count, 2)}, {*range(1, count, 2)})
+    one = [view for k, view in enumerate(views) if k not in finding.views]
+    assert [finding.cause for finding in found(one)] == [Cause.BOARD_SHAPE]
 
 
 def test_what_a_wrong_lens_leaves_open_is_no_finding_beside_it() -> None:
