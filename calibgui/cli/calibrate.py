@@ -259,7 +259,10 @@ def _check_usage(options: argparse.Namespace) -> None:
         options.usage_error("--prior is for a board as drawn or of free shape: leave it out")
     check_corner_options(options)
     if options.square is None and not is_corners_file(options.paths):
-        options.usage_error("--square MM, side of a square or distance of circles, is needed")
+        options.usage_error(
+            "--square MM is needed: measure ten squares (or distances of circles) with a ruler. "
+            "The camera's values do not depend on it, only lengths do"
+        )
 
 
 def _parse_model(text: str) -> str | None:

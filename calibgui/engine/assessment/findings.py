@@ -119,6 +119,8 @@ _MIN_SHARE_OF_RIVAL, _MIN_SHARE_SUSPECT_LENS = 1 / 3, 0.1
 """Shares of the squared residuals that a lens of another kind explains, from which the lens is the
 cause at any rate, and if ``calibration/lens_error.py`` suspects it: of photographs that a model
 followed, one of another kind explained at most a sixth."""
+_MAX_NAMES = 6
+"""Number of views that a sentence names."""
 _MIN_PART_OF_BOARDS = 0.5
 """Part of what the best shape of a board explains, from which a simpler one is the cause."""
 _CHECKS_OF_BOARD = ("squares", "bow", "board")
@@ -435,7 +437,7 @@ def _describe_two_kinds(case: _Case, split: Split) -> Finding:
     harm = _measure_harm(case, split.share)
     return Finding(
         Cause.MIXED_VIEWS,
-        f"The photographs are of two kinds: {', '.join(case.names[k] for k in odd)} "
+        f"The photographs are of two kinds: {_list_names([case.names[k] for k in odd])} "
         f"{'disagree' if len(odd) > 1 else 'disagrees'} with "
         f"the others about the {split.what}.",
         f"If each kind had its own, {left:.2g} px would be left of {case.rms:.2g} px RMS; "
@@ -446,6 +448,12 @@ def _describe_two_kinds(case: _Case, split: Split) -> Finding:
         views,
         Action(ActionKind.LEAVE_OUT_VIEWS, views),
     )
+
+
+def _list_names(names: Sequence[str]) -> str:
+    """List the first of many names."""
+    more = len(names) - _MAX_NAMES
+    return ", ".join(names) if more <= 0 else f"{', '.join(names[:_MAX_NAMES])} and {more} more"
 
 
 def _describe_lens(case: _Case, error: float, harm: float) -> Finding:
