@@ -53,7 +53,7 @@ shows any: as if the image were half as large as stated."""
 _MIN_VIEWS_OF_QUARTER, _MIN_EXTENT_OF_QUARTER = 5, 0.3
 """Number of views, and extent of their corners in the image's size, from which that is no accident.
 """
-_MIN_SIGMAS_MOVED = 4.0
+_MIN_SIGMAS_MOVED = 3.0
 """Move of a freed parameter, in its standard deviations, from which its value is wrong."""
 _MIN_OUTLYING = 6.0
 """Length of the largest residual, in sigma of the median one, from which outliers are looked for:
