@@ -28,6 +28,7 @@ _MISPLACED = ("corner", "numbered", "rows")
 _SHAPE = ("board", "square")
 FAULTS = {
     "wide-lens": Fault(cameras.widen_lens, ("lens",), ("lens",)),
+    "wide-lens-rough-print": Fault(cameras.widen_lens_and_roughen_print, ("lens",), ("lens",)),
     "bow": Fault(boards.bow_board, ("board-shape",), _SHAPE),
     "twist": Fault(boards.twist_board, ("board-shape",), _SHAPE),
     "affine-print": Fault(boards.print_askew, ("board-shape",), _SHAPE),

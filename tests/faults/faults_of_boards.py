@@ -7,7 +7,15 @@ from collections.abc import Callable
 import numpy as np
 
 from calibgui.engine.arrays import Array
-from tests.faults.sets import FaultySet, Rng, draw_log, draw_set, photograph, state_fault
+from tests.faults.sets import (
+    FaultySet,
+    PhotographedSet,
+    Rng,
+    draw_log,
+    draw_set,
+    photograph,
+    state_fault,
+)
 
 
 def _displace_all(
@@ -96,6 +104,12 @@ def print_roughly(rng: Rng) -> FaultySet:
     """Print every corner a little off, by the same in all views."""
     photographed = draw_set(rng)
     size = draw_log(rng, 0.002, 0.05) * photographed.square
+    views = photograph(photographed, displace=roughen(photographed, size, rng))
+    return state_fault(photographed, views, f"print rough by {size:.2f} mm a coordinate")
+
+
+def roughen(photographed: PhotographedSet, size: float, rng: Rng) -> Callable[[Array], Array]:
+    """Draw a print whose corners are off by `size` mm a coordinate, for `photograph`."""
     places = {
         tuple(p): rng.normal(0, size, 2) for p in np.unique(np.vstack(photographed.boards), axis=0)
     }
@@ -104,9 +118,7 @@ def print_roughly(rng: Rng) -> FaultySet:
         off = np.array([places[tuple(p)] for p in xy])
         return np.column_stack([xy + off, np.zeros(len(xy))])
 
-    story = f"print rough by {size:.2f} mm a coordinate"
-    views = photograph(photographed, displace=displace)
-    return state_fault(photographed, views, story)
+    return displace
 
 
 def mix_boards(rng: Rng) -> FaultySet:

@@ -7,6 +7,7 @@ import numpy as np
 from calibgui.engine.arrays import Array
 from calibgui.engine.camera.camera import Camera
 from tests.engine.scenes import VGA, barrel
+from tests.faults.faults_of_boards import roughen
 from tests.faults.sets import (
     FaultySet,
     PhotographedSet,
@@ -22,6 +23,21 @@ from tests.faults.sets import (
 
 def widen_lens(rng: Rng) -> FaultySet:
     """Calibrate a fisheye with the default lens model, or a lens with distortion with none."""
+    photographed, story, model = _draw_wide_lens(rng)
+    return state_fault(photographed, photograph(photographed), story, model=model)
+
+
+def widen_lens_and_roughen_print(rng: Rng) -> FaultySet:
+    """Calibrate a lens as `widen_lens` does, and the shape of a rough board with it."""
+    photographed, story, model = _draw_wide_lens(rng)
+    size = draw_log(rng, 0.05, 0.5)
+    views = photograph(photographed, displace=roughen(photographed, size, rng))
+    story = f"{story}, print rough by {size:.2f} mm, estimated"
+    return state_fault(photographed, views, story, model=model, board_shape="free")
+
+
+def _draw_wide_lens(rng: Rng) -> tuple[PhotographedSet, str, str]:
+    """Draw photographs, the story of their lens, and a model that does not follow it."""
     if rng.random() < 0.5:
         focal, first = draw_log(rng, 180, 500), rng.uniform(-0.08, 0.02)
         lens = np.array([focal, focal, 312.0, 246.0, first, 4e-3, -3e-3, 4e-4])
@@ -33,8 +49,7 @@ def widen_lens(rng: Rng) -> FaultySet:
         params[4:] *= strength
         photographed = draw_rendered_set(rng, Camera(VGA, params))
         story, model = f"distortion {strength:.3f} times barrel, pinhole", "pinhole"
-    views = photograph(photographed)
-    return state_fault(photographed, views, story, model=model)
+    return photographed, story, model
 
 
 def roll_shutter(rng: Rng) -> FaultySet:

@@ -340,12 +340,12 @@ def _find_systematic_cause(case: _Case) -> Finding | None:
     if check is not None:
         beside = _find_cause_beside_board(case) if check.name in _CHECKS_OF_BOARD else None
         return beside or _describe_check(case, check)
-    if _measure_harm(case, _find_largest_share(report.checks)) < MIN_HARM_PX:
+    explained = _find_largest_share(report.checks)
+    if _measure_harm(case, explained) < MIN_HARM_PX:
         return _find_blur(case, failed)
-    if "lens" in failed:
-        lens = _find_wrong_lens(case, _find_largest_share(failed.values()))
-        if lens is not None:
-            return lens
+    lens = _find_wrong_lens(case, explained) if explained > 0 else None
+    if lens is not None:
+        return lens
     split = _find_split(case)
     if split is not None and split.is_certain:
         return _describe_two_kinds(case, split)
