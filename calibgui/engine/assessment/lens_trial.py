@@ -79,6 +79,11 @@ class LensTrial:
         return tuple(name for name in self.fixed if name not in self.fuller.fixed)
 
     @property
+    def left_open(self) -> tuple[str, ...]:
+        """Names of the coefficients that were held because the views leave them open."""
+        return tuple(name for name in self.fixed if name not in self.spared)
+
+    @property
     def held_out(self) -> float:
         """RMS length of the residuals of unseen views, px; infinite if they were not asked."""
         return np.inf if self.validation is None else self.validation.held_out

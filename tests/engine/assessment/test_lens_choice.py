@@ -7,14 +7,16 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from calibgui.engine.assessment.cross_validation import resect_views
+from calibgui.engine.assessment.cross_validation import CrossValidation, resect_views
 from calibgui.engine.assessment.lens_choice import (
     SIMPLEST_MODEL,
     LensChoice,
     _list_dispensable,
+    _prefer_determined,
     choose_lens,
     choose_lens_stepwise,
 )
+from calibgui.engine.assessment.lens_trial import LensTrial
 from calibgui.engine.camera.camera import Camera
 from calibgui.engine.errors import CalibrationError, Cancelled
 from tests.engine.random_lenses import problem
@@ -93,6 +95,33 @@ def test_coefficients_that_the_views_leave_open_are_held() -> None:
     assert trial.fixed
     assert set(trial.fixed) <= set(trial.calibration.fixed)
     assert not trial.calibration.undetermined
+
+
+def test_a_lens_with_open_coefficients_has_to_predict_2_percent_better(fisheye: LensChoice) -> None:
+    determined = fisheye.trials["kannala-brandt"]
+    other = replace(fisheye.trials["kannala-brandt-decentering"], fixed={"k4": 0.0})
+    assert other.left_open == ("k4",)
+    for gain, kept in ((0.019, [determined]), (0.021, [determined, other])):
+        better = replace(other, validation=predict(determined.held_out / (1 + gain), other))
+        kept_models = [trial.model for trial in _prefer_determined([determined, better])]
+        assert kept_models == [trial.model for trial in kept]
+
+
+def test_coefficients_that_are_spared_count_as_determined(fisheye: LensChoice) -> None:
+    """So does the paper's model, whatever the views leave open of it."""
+    whole = fisheye.trials["kannala-brandt-decentering"]
+    spared = replace(whole, fixed={"k4": 0.0}, fuller=whole)
+    assert spared.left_open == ()
+    paper = replace(fisheye.trials[SIMPLEST_MODEL], fixed={"k3": 0.0})
+    assert paper.left_open == ("k3",)
+    near = replace(paper, validation=predict(spared.held_out, whole))
+    assert _prefer_determined([spared, near]) == [spared, near]
+
+
+def predict(held_out: float, like: LensTrial) -> CrossValidation:
+    """Return a trial's cross-validation with another error on unseen views."""
+    assert like.validation is not None
+    return replace(like.validation, held_out=held_out)
 
 
 def predict_elsewhere(choice: LensChoice, camera: Camera) -> float:
