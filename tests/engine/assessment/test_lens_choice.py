@@ -11,6 +11,7 @@ from calibgui.engine.assessment.cross_validation import CrossValidation, resect_
 from calibgui.engine.assessment.lens_choice import (
     SIMPLEST_MODEL,
     LensChoice,
+    _Attempt,
     _list_dispensable,
     _prefer_determined,
     choose_lens,
@@ -75,6 +76,22 @@ def test_a_mild_lens_keeps_the_papers_model_after_few_trials() -> None:
     assert len(choice.trials) + len(choice.refused) < 6
     assert told[0] == (0, told[0][1])
     assert [done for done, _ in told] == sorted(done for done, _ in told)
+
+
+def test_the_papers_model_is_enough_where_views_or_models_agree() -> None:
+    views = scene(barrel(), 6).noisy(0.1, np.random.default_rng(2))
+    attempt = _Attempt(views, VGA, 3, None, {})
+    attempt.try_lenses((SIMPLEST_MODEL, "kannala-brandt"))
+    paper, other = attempt.trials[SIMPLEST_MODEL], attempt.trials["kannala-brandt"]
+    assert paper.calibration.overdispersion == 0 and attempt.is_paper_enough()
+    doubtful = replace(paper.calibration, overdispersion=2.0)
+    attempt.trials[SIMPLEST_MODEL] = replace(paper, calibration=doubtful)
+    for ratio, is_enough in ((0.98, False), (0.995, True), (1.005, True), (1.02, False)):
+        held_out = paper.held_out * ratio
+        attempt.trials[other.model] = replace(other, validation=predict(held_out, other))
+        assert attempt.is_paper_enough() == is_enough, ratio
+    del attempt.trials[other.model]
+    assert not attempt.is_paper_enough(), "nothing is compared"
 
 
 def test_coefficients_that_are_known_together_only_are_named() -> None:
