@@ -67,7 +67,7 @@ from calibgui.engine.assessment.mixed_views import Split, find_two_kinds
 from calibgui.engine.assessment.noise_test import NoiseCheck, check_residuals
 from calibgui.engine.assessment.outliers import Screening, select_corners
 from calibgui.engine.assessment.residual_statistics import summarise_residuals
-from calibgui.engine.assessment.rival_lens import explain_by_rival
+from calibgui.engine.assessment.rival_lens import fit_rival
 from calibgui.engine.assessment.systematic_errors import prepare_fit
 from calibgui.engine.boards.shape import BoardShapeModel
 from calibgui.engine.calibration.calibrate import calibrate
@@ -305,7 +305,7 @@ def _misses_views(case: _Case, screening: Screening, left: _Case) -> bool:
     corners that are misplaced it may explain much by chance; but without them it explains nothing.
     Two kinds of views explain most, and nothing is left of them where one kind is left out.
     """
-    if explain_by_rival(case.calibration, case.views) > _MIN_SHARE_IN_DOUBT:
+    if fit_rival(case.calibration, case.views).share > _MIN_SHARE_IN_DOUBT:
         return True
     split = _find_split(case)
     if split is not None and split.is_certain and split.share > _MIN_SHARE_OF_KINDS:
@@ -341,11 +341,11 @@ def _find_systematic_cause(case: _Case) -> Finding | None:
         beside = _find_cause_beside_board(case) if check.name in _CHECKS_OF_BOARD else None
         return beside or _describe_check(case, check)
     explained = _find_largest_share(report.checks)
-    if _measure_harm(case, explained) < MIN_HARM_PX:
-        return _find_blur(case, failed)
-    lens = _find_wrong_lens(case, explained) if explained > 0 else None
+    lens = _find_wrong_lens(case, explained)
     if lens is not None:
         return lens
+    if _measure_harm(case, explained) < MIN_HARM_PX:
+        return _find_blur(case, failed)
     split = _find_split(case)
     if split is not None and split.is_certain:
         return _describe_two_kinds(case, split)
@@ -383,8 +383,9 @@ def _find_wrong_lens(case: _Case, explained: float) -> Finding | None:
 
     It does so by far, or by more than the share that causes with more unknowns explain.
     """
-    share = explain_by_rival(case.calibration, case.views)
-    if share < max(_MIN_SHARE, min(_MIN_SHARE_OF_RIVAL, explained)):
+    share, displacement = fit_rival(case.calibration, case.views)
+    least = max(_MIN_SHARE, min(_MIN_SHARE_OF_RIVAL, explained))
+    if share < least or displacement < MIN_HARM_PX:
         return None
     return _describe_lens(case, float(np.sqrt(share)) * case.rms, _measure_harm(case, share))
 

@@ -14,7 +14,9 @@ It does not tell which model is best: that is ``lens_choice.py``.
 from __future__ import annotations
 
 from collections.abc import Sequence
+from typing import NamedTuple
 
+from calibgui.engine.assessment.comparison import compare_cameras
 from calibgui.engine.assessment.residual_statistics import summarise_residuals
 from calibgui.engine.calibration.calibrate import calibrate
 from calibgui.engine.calibration.observations import Observation
@@ -27,27 +29,36 @@ _BY_ANGLE, _BY_TANGENT = "kannala-brandt-decentering", "brown-conrady"
 """Lens models with a polynomial in theta, and in tan(theta)."""
 
 
-def explain_by_rival(calibration: Calibration, views: Sequence[Observation]) -> float:
-    """Return the share of the squared residuals that a lens model of another kind explains.
+class Rival(NamedTuple):
+    """What a lens model of another kind makes of the views."""
+
+    share: float
+    """Share of the squared residuals that it explains, the board's shape being estimated if it was;
+    0 if it fits worse."""
+    displacement: float
+    """Distance of its pixels from the calibration's where there are corners, px rms."""
+
+
+def fit_rival(calibration: Calibration, views: Sequence[Observation]) -> Rival:
+    """Fit a lens model of another kind.
+
+    It explains nothing if it cannot be fitted, or if the model is a spline, which follows any lens.
 
     Args:
         calibration: a calibration with the image cost.
         views: the views that it was made from.
-
-    Returns:
-        The share that is gone with the rival, the board's shape being estimated if it was; 0 if the
-        rival fits worse or cannot be fitted, or if the model is a spline, which follows any lens.
     """
     model = calibration.camera.model
     if find_model(model).control_points is not None:
-        return 0.0
+        return Rival(0.0, 0.0)
     settings = recover_image_arguments(calibration)
     settings["model"] = _BY_TANGENT if model == _BY_ANGLE else _BY_ANGLE
     settings["free"] = ()
     settings["fix"] = {n: v for n, v in settings["fix"].items() if n in PINHOLE}
     try:
-        rival = calibrate(views, calibration.camera.size, **settings)
+        rival = calibrate(views, calibration.camera.size, model_errors=False, **settings)
+        moved = compare_cameras(rival.camera, calibration.camera, views=views).rms
     except CalibrationError:
-        return 0.0
+        return Rival(0.0, 0.0)
     left = summarise_residuals(rival.residuals).rms / summarise_residuals(calibration.residuals).rms
-    return max(1 - left**2, 0.0)
+    return Rival(max(1 - left**2, 0.0), moved)
