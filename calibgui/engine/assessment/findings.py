@@ -13,9 +13,8 @@ without those behind it, and what one explains is taken out before the next is a
    explains, causes that differ from view to view explain as well, since they have unknowns of
    their own in each view. A free board, which has many unknowns of its own, takes much of what
    a wrong lens or two kinds of views leave: so it is estimated before it is named, and if one of
-   these explains most of what is left, that is the cause; the board follows once it is gone. And
-   a lens of another kind (``rival_lens.py``) is fitted before a cause is named that differs from
-   view to view.
+   these explains much of what is left, that is the cause; the board follows once it is gone. Where
+   it is not the board, a lens of another kind (``rival_lens.py``) is fitted in any case.
 4. **Two kinds of views** (``mixed_views.py``), which have twice the unknowns of one.
 5. **Focus, centre, bending, motion**, which differ from view to view; then **blur**, which moves
    nothing.
@@ -301,9 +300,9 @@ def _misses_views(case: _Case, screening: Screening, left: _Case) -> bool:
     """Return whether corners do not fit because one cause makes the model miss whole views.
 
     Such a cause is a lens that another model follows better. Or it explains much of the residuals
-    of all corners, and much of those of the others. Of
-    corners that are misplaced it may explain much by chance; but without them it explains nothing.
-    Two kinds of views explain most, and nothing is left of them where one kind is left out.
+    of all corners, and much of those of the others. Of corners that are misplaced it may explain
+    much by chance; but without them it explains nothing. Two kinds of views explain most, and
+    nothing is left of them where one kind is left out.
     """
     if fit_rival(case.calibration, case.views).share > _MIN_SHARE_IN_DOUBT:
         return True
@@ -367,7 +366,7 @@ def _find_cause_beside_board(case: _Case) -> Finding | None:
     except CalibrationError:
         return None
     beside = _prepare_case(free, case.views, case.names)._replace(numbers=case.numbers)
-    found = _find_wrong_lens(beside, 1.0)
+    found = _find_wrong_lens(beside, explained=1.0)
     if found is None:
         split = _find_split(beside)
         if split is None or not split.is_certain or split.share < _MIN_SHARE_OF_KINDS:
@@ -381,7 +380,7 @@ def _find_cause_beside_board(case: _Case) -> Finding | None:
 def _find_wrong_lens(case: _Case, explained: float) -> Finding | None:
     """Find a lens that a model of another kind follows better; None if it does not.
 
-    It does so by far, or by more than the share that causes with more unknowns explain.
+    It does so by far, or by more than the share `explained` by causes with more unknowns.
     """
     share, displacement = fit_rival(case.calibration, case.views)
     least = max(_MIN_SHARE, min(_MIN_SHARE_OF_RIVAL, explained))
