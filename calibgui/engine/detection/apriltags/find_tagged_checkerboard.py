@@ -23,7 +23,11 @@ from calibgui.engine.detection.apriltags.tagged_corners import (
 )
 from calibgui.engine.detection.charuco.assembly import assemble_corners
 from calibgui.engine.detection.checkerboard.numbering import turn_lattice
-from calibgui.engine.detection.checkerboard.pyramid_search import find_candidates
+from calibgui.engine.detection.checkerboard.pyramid_search import (
+    Candidate,
+    find_candidates,
+    find_same,
+)
 from calibgui.engine.detection.corners import Corners
 from calibgui.engine.detection.detector_io import check_grey_levels, invert_levels
 from calibgui.engine.detection.lattice import Lattice
@@ -41,14 +45,16 @@ def find_tagged_checkerboard(
     grey = check_grey_levels(image)
     outline = None if roi is None else region.check_outline(roi)
     searched = None if outline is None else region.enlarge_outline(outline)
-    is_checkerboard = False
+    tried: list[Candidate] = []
     for candidates in find_candidates(grey, searched):
         for candidate in candidates:
-            is_checkerboard = True
+            if find_same(candidate, tried):
+                continue
+            tried.append(candidate)
             board = _identify_board(grey, candidate.lattice, pattern, grid_size)
             if board is not None:
                 return _locate_corners(grey, *board, outline, method)
-    if is_checkerboard:
+    if tried:
         raise NoBoardError(
             "A checkerboard was found, but no tags in its dark squares that tell its corners.",
             "State target, tag family and size as printed, or leave them out; for tags to be read,"

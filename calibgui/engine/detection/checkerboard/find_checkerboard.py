@@ -34,7 +34,11 @@ from calibgui.engine.detection.checkerboard.numbering import (
     place_corners,
 )
 from calibgui.engine.detection.checkerboard.prefilter import Refusal, find_objection
-from calibgui.engine.detection.checkerboard.pyramid_search import Candidate, find_candidates
+from calibgui.engine.detection.checkerboard.pyramid_search import (
+    Candidate,
+    find_candidates,
+    find_same,
+)
 from calibgui.engine.detection.checkerboard.saddle import refine_lattice
 from calibgui.engine.detection.checkerboard.x_corner_fit import XCornerFit
 from calibgui.engine.detection.corners import Corners, OtherBoard, RejectedCorner
@@ -152,7 +156,10 @@ def _find_wanted_board(
     for candidates in find_candidates(grey, searched, on_refusal=refused.append):
         for candidate in candidates:
             if candidate not in tried:
-                tried[candidate] = _verify_parts(grey, candidate, method)
+                same = find_same(candidate, (each for each in tried if _is_refused(tried[each])))
+                tried[candidate] = (
+                    _verify_parts(grey, candidate, method) if same is None else tried[same]
+                )
         results = (result for candidate in candidates for result in tried[candidate])
         boards = [board for board in results if isinstance(board, RefinedBoard)]
         boards.sort(key=lambda board: board.edge_length, reverse=True)
@@ -170,6 +177,11 @@ def _find_wanted_board(
         "Mark its four outermost corners, or take the picture again: all of the board in"
         " view, sharp and evenly lit.",
     )
+
+
+def _is_refused(results: list[RefinedBoard | Refusal]) -> bool:
+    """Return whether nothing of a candidate is a board."""
+    return all(isinstance(result, Refusal) for result in results)
 
 
 def _verify_parts(

@@ -17,7 +17,7 @@ Pixel (u, v) of a level covers the block around (2u + 1/2, 2v + 1/2) of the next
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass, replace
 from functools import partial
 
@@ -46,6 +46,9 @@ _RANGE_PERCENTILES = (0.5, 99.5)
 """Percentiles of the grey levels between which their range is measured, %."""
 _SMALL_SQUARES = 0.05
 """Share of a lattice's spacings up to which they count as those of its small squares."""
+_SAME_CORNER = 0.5
+"""Distance up to which corners that two levels show are the same: both are saddle points of the
+full resolution, and where there is none, places that are refined from there, px."""
 
 
 OnRefusal = Callable[[Refusal], object]
@@ -299,6 +302,19 @@ def is_part(lattice: Lattice, larger: Lattice) -> bool:
     distance, _ = scipy.spatial.cKDTree(larger.uv[larger.found]).query(lattice.uv[lattice.found])
     shared = np.mean(distance < lattice.spacing()[lattice.found] / 2)
     return bool(shared > THRESHOLDS.search.max_shared_corners)
+
+
+def find_same(candidate: Candidate, tried: Iterable[Candidate]) -> Candidate | None:
+    """Find a candidate that was tried before with the same corners, to `_SAME_CORNER` px, and among
+    no more others: what holds of it holds of this one, which another level shows once more."""
+    uv = candidate.lattice.uv[candidate.lattice.found]
+    for other in tried:
+        if len(other.lattice) != len(uv) or other.others > candidate.others:
+            continue
+        tree = scipy.spatial.cKDTree(other.lattice.uv[other.lattice.found])
+        if np.asarray(tree.query(uv)[0]).max() < _SAME_CORNER:
+            return other
+    return None
 
 
 def _is_surely_complete(lattice: Lattice) -> bool:

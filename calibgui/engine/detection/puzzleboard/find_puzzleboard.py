@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 
+import numpy as np
 import numpy.typing as npt
 
 from calibgui.engine.arrays import Array, GreyImage, GridSize
@@ -27,6 +28,7 @@ from calibgui.engine.detection.checkerboard.prefilter import Refusal
 from calibgui.engine.detection.checkerboard.pyramid_search import (
     Candidate,
     find_candidates,
+    find_same,
     is_part,
 )
 from calibgui.engine.detection.checkerboard.saddle import refine_lattice
@@ -40,8 +42,13 @@ from calibgui.engine.detection.puzzleboard.place_decoding import (
     StatedBoard,
     find_place_of_print,
     is_certain,
+    may_be_dots,
 )
 from calibgui.engine.errors import NoBoardError
+
+_MAX_SHOWN_LINES = 12
+"""Greatest number of rows, and of columns, of a lattice without dots that are verified to say that
+it is a board: it bounds the time."""
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -71,10 +78,10 @@ def find_puzzleboard(
     grey = check_grey_levels(image)
     outline = None if roi is None else region.check_outline(roi)
     stated = None if grid_size is None else StatedBoard(pattern.origin, grid_size)
-    placed = _find_boards(grey, outline, method, stated)
+    placed, bare = _find_boards(grey, outline, method, stated)
     readable = [each for each in placed if is_certain(each.place) and not each.is_mirrored]
     if not readable:
-        raise _explain_missing_board(placed)
+        raise _explain_missing_board(grey, placed, bare)
     wanted = max(readable, key=lambda each: each.board.edge_length)
     others = [each.board for each in placed if each is not wanted]
     return _number_corners(grey, wanted, pattern, grid_size, outline, others)
@@ -82,28 +89,42 @@ def find_puzzleboard(
 
 def _find_boards(
     grey: GreyImage, outline: Array | None, method: str, stated: StatedBoard | None
-) -> list[_PlacedBoard]:
+) -> tuple[list[_PlacedBoard], list[Candidate]]:
     """Find the boards in an image and their places, until one can be read.
+
+    A lattice without dots is no PuzzleBoard, whatever its corners are worth: it is not verified,
+    which in a texture of thousands of crossings would take long.
 
     Args:
         grey: (h, w) grey levels.
         outline: (4, 2) px, the region to search, None for all of the image.
         method: one of `METHODS`.
         stated: the part of the pattern that is expected, None if that is open.
+
+    Returns:
+        The boards, and the candidates without dots.
     """
     searched = None if outline is None else region.enlarge_outline(outline)
     tried: dict[Candidate, _PlacedBoard | None] = {}
     placed: list[_PlacedBoard] = []
+    bare: list[Candidate] = []
     for candidates in find_candidates(grey, searched, plain=PLAIN):
         for candidate in candidates:
-            if candidate not in tried:
-                tried[candidate] = _find_known(candidate.lattice, placed) or _verify_candidate(
-                    grey, candidate, method, stated
-                )
+            if candidate in tried:
+                continue
+            same = find_same(candidate, (each for each in tried if tried[each] is None))
+            tried[candidate] = _find_known(candidate.lattice, placed)
+            if same or tried[candidate]:
+                continue
+            lattice, _ = refine_lattice(grey, candidate.lattice, plain=PLAIN)
+            if may_be_dots(measure_dots(grey, lattice)):
+                tried[candidate] = _verify_lattice(grey, lattice, candidate.others, method, stated)
+            else:
+                bare.append(candidate)
         placed = [*dict.fromkeys(each for candidate in candidates if (each := tried[candidate]))]
         if any(is_certain(each.place) for each in placed):
             break
-    return placed
+    return placed, bare
 
 
 def _find_known(lattice: Lattice, placed: list[_PlacedBoard]) -> _PlacedBoard | None:
@@ -114,38 +135,60 @@ def _find_known(lattice: Lattice, placed: list[_PlacedBoard]) -> _PlacedBoard | 
     return None
 
 
-def _verify_candidate(
-    grey: GreyImage, candidate: Candidate, method: str, stated: StatedBoard | None
+def _verify_lattice(
+    grey: GreyImage, lattice: Lattice, others: int, method: str, stated: StatedBoard | None
 ) -> _PlacedBoard | None:
-    """Return the board that a candidate is, None if it is none or may be one by chance."""
-    lattice, _ = refine_lattice(grey, candidate.lattice, plain=PLAIN)
+    """Return the board that a refined lattice beside `others` junctions is, None if it is none or
+    may be one by chance."""
     board = refine_board(remove_blurred_dots(grey, lattice, stated), lattice, method, PLAIN)
-    if isinstance(board, Refusal) or not a_contrario.is_meaningful(
-        board.lattice.found, candidate.others
-    ):
+    if isinstance(board, Refusal) or not a_contrario.is_meaningful(board.lattice.found, others):
         return None
     place, is_mirrored = find_place_of_print(measure_dots(grey, board.lattice), stated)
     return _PlacedBoard(board, place, is_mirrored)
 
 
-def _explain_missing_board(placed: list[_PlacedBoard]) -> NoBoardError:
-    """Return the error that says what an image shows instead of a PuzzleBoard that can be read."""
-    if not placed:
-        return NoBoardError(
-            "No PuzzleBoard was found.",
-            "Take the picture again: sharp, evenly lit, and squares of at least 8 pixels.",
-        )
+def _explain_missing_board(
+    grey: GreyImage, placed: list[_PlacedBoard], bare: list[Candidate]
+) -> NoBoardError:
+    """Return the error that says what an image shows instead of a PuzzleBoard that can be read:
+    of boards without dots the one of the longest edges, if it is a board."""
     if any(each.is_mirrored for each in placed):
         return NoBoardError(
             "This picture shows the PuzzleBoard mirrored.",
             "Switch off the mirroring in the camera's settings, and take the picture again.",
         )
-    rows, cols = max(placed, key=lambda each: each.board.edge_length).board.lattice.shape
+    seen = [each.board.lattice for each in placed]
+    if not seen and bare:
+        largest = max((each.lattice for each in bare), key=_measure_edges)
+        part = _cut_middle(largest)
+        if not isinstance(refine_board(grey, part, METHODS[0], PLAIN), Refusal):
+            seen = [largest]
+    if not seen:
+        return NoBoardError(
+            "No PuzzleBoard was found.",
+            "Take the picture again: sharp, evenly lit, and squares of at least 8 pixels.",
+        )
+    rows, cols = max(seen, key=_measure_edges).shape
     return NoBoardError(
         f"The dots of the {rows} x {cols} corners seen do not tell which part of a PuzzleBoard"
         " they are.",
         "Show at least 5 x 5 corners, sharp; for a checkerboard without dots, state that target.",
     )
+
+
+def _measure_edges(lattice: Lattice) -> float:
+    """Measure the length of the edges at a lattice's corners, px."""
+    return float(np.nansum(lattice.spacing()[lattice.found]))
+
+
+def _cut_middle(lattice: Lattice) -> Lattice:
+    """Cut the middle rows and columns out of a lattice, `_MAX_SHOWN_LINES` at most."""
+    (top, left), (bottom, right) = (
+        [max((lines - _MAX_SHOWN_LINES) // 2, 0) for lines in lattice.shape],
+        [min((lines + _MAX_SHOWN_LINES) // 2, lines) for lines in lattice.shape],
+    )
+    dark = lattice.dark ^ bool((top + left) % 2)
+    return Lattice(lattice.uv[top:bottom, left:right], dark)
 
 
 def _number_corners(

@@ -58,6 +58,16 @@ _NEGLIGIBLE = 50.0
 probability of 1e-16 together."""
 _MIN_LEVEL_SIGMA = 0.1
 """Least standard deviation s of the dots' levels: bilinear sampling and print are no better."""
+_MIN_DOT_LEVEL = 0.15
+"""Level m from which on there may be dots: those of rendered boards have 0.9 and more under a blur
+of a third of a dot, bare edges 0.00, what is read between the dots of printed pictures up to 0.1 in
+most places. With less no place could be certain."""
+_MIN_DOTS_TO_TELL = 300
+"""Number of dots from which on they are compared with the pattern before anything else is done with
+the lattice: this takes as long as to fit so many corners."""
+_MIN_EVIDENCE = 0.02
+"""Least logarithm of the factor L of the best place, per dot: with 30 % of the dots wrong it is
+0.08. What is read between the dots of printed pictures has less."""
 _LEVEL_ROUNDS = 20
 """Number of rounds in which m and s are estimated; they change by less than 1 % after these."""
 
@@ -118,19 +128,7 @@ def find_place(dots: Dots, board: StatedBoard | None = None) -> Place:
         dots: of a lattice that is not mirrored.
         board: the part of the pattern that is expected, if it is known.
     """
-    mean, sigma = measure_dot_noise(dots)
-    turned = [dots]
-    for _ in range(3):
-        turned.append(turned[-1].turn())
-    log_odds = 2 * mean / sigma**2
-    logs = [
-        (
-            _compare_with_map(log_odds * each.down, "down"),
-            _compare_with_map(log_odds * each.right.T, "right"),
-        )
-        for each in turned
-    ]
-    tops = [float((a.max(axis=1) + b.max(axis=1)).max()) for a, b in logs]
+    turned, logs, tops = _compare_turns(dots)
     # Factors of hundreds of dots overflow: all weights are divided by the greatest that may be.
     shift = max(0.0, *tops)
     total, best = _NOWHERE_WEIGHT * np.exp(-shift), (-1.0, 0, 0)
@@ -144,6 +142,41 @@ def find_place(dots: Dots, board: StatedBoard | None = None) -> Place:
     first = tuple(int(line.flat[at]) for line in _list_places())
     doubt = 1 - weight / total if weight > 0 else 1.0
     return Place(quarters, (first[0], first[1]), doubt)
+
+
+def _compare_turns(dots: Dots) -> tuple[list[Dots], list[tuple[Array, Array]], list[float]]:
+    """Compare dots in all four turns with the pattern.
+
+    Returns:
+        The turned dots, what `_compare_with_map` returns of those between rows and of those between
+        columns, and the logarithm of the greatest factor L of any place and share.
+    """
+    mean, sigma = measure_dot_noise(dots)
+    turned = [dots]
+    for _ in range(3):
+        turned.append(turned[-1].turn())
+    log_odds = 2 * mean / sigma**2
+    logs = [
+        (
+            _compare_with_map(log_odds * each.down, "down"),
+            _compare_with_map(log_odds * each.right.T, "right"),
+        )
+        for each in turned
+    ]
+    return turned, logs, [float((a.max(axis=1) + b.max(axis=1)).max()) for a, b in logs]
+
+
+def may_be_dots(dots: Dots) -> bool:
+    """Return whether levels may be those of dots of the pattern, before the corners between which
+    they were measured are refined: see `_MIN_DOT_LEVEL` and `_MIN_EVIDENCE`."""
+    mean, _ = measure_dot_noise(dots)
+    if mean < _MIN_DOT_LEVEL:
+        return False
+    count = sum(int(np.count_nonzero(np.isfinite(each))) for each in (dots.right, dots.down))
+    if count < _MIN_DOTS_TO_TELL:
+        return True
+    prints = (dots, dots.invert(), dots.mirror())
+    return any(max(_compare_turns(each)[2]) > _MIN_EVIDENCE * count for each in prints)
 
 
 def find_place_of_print(dots: Dots, board: StatedBoard | None = None) -> tuple[Place, bool]:

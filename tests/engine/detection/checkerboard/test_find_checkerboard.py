@@ -11,13 +11,17 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from numpy.typing import NDArray
 
+from calibgui.engine.boards.board import Board
 from calibgui.engine.boards.pattern import Symmetry
+from calibgui.engine.boards.puzzleboard import PuzzleBoard
+from calibgui.engine.detection.checkerboard import find_checkerboard
 from calibgui.engine.detection.corners import Corners
 from calibgui.engine.detection.find_corners import find_corners
 from calibgui.engine.errors import NoBoardError
 from calibgui.engine.images.reading import read_image
 from tests.scenes.checkerboards import draw as draw_scene
 from tests.scenes.conditions import Conditions
+from tests.scenes.perspective import photograph_pattern
 from tests.scenes.without_board import draw_without_board
 
 
@@ -262,6 +266,20 @@ def test_a_board_without_a_saddle_point_is_refused() -> None:
 def test_ragged_corners_of_a_houndstooth_are_no_board() -> None:
     with pytest.raises(NoBoardError):
         find_corners(draw_without_board(556))
+
+
+def test_what_every_level_shows_is_verified_once(monkeypatch: pytest.MonkeyPatch) -> None:
+    """To a search for a checkerboard a PuzzleBoard's edges are too ragged, in each size of the
+    image."""
+    verified: list[int] = []
+    refine = find_checkerboard.refine_board
+    monkeypatch.setattr(
+        find_checkerboard, "refine_board", lambda *args: verified.append(1) or refine(*args)
+    )
+    image = photograph_pattern((1600, 1200), Board(7, 10, 26.0, PuzzleBoard((50, 101))), 0.7, 1.0)
+    with pytest.raises(NoBoardError, match="7 x 10 inner corners"):
+        find_corners(image)
+    assert len(verified) == 1
 
 
 @pytest.mark.parametrize("dtype", [np.uint16, np.float32, np.float64])

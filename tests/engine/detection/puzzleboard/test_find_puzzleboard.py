@@ -23,6 +23,7 @@ from calibgui.engine.detection.puzzleboard.dot_removal import remove_blurred_dot
 from calibgui.engine.errors import NoBoardError
 from tests.engine.detection.conftest import Scene
 from tests.scenes.perspective import photograph_board
+from tests.scenes.without_board import draw_without_board
 
 _CAMERA = Camera((480, 400), [480.0, 482.0, 240.0, 200.0, 0.1, 0.02, 0.0, 1e-4, 0.0, 0.0])
 _PATTERN = PuzzleBoard((50, 101))
@@ -116,6 +117,21 @@ def test_a_board_without_dots_is_verified_once(monkeypatch: pytest.MonkeyPatch) 
     with pytest.raises(NoBoardError, match="dots of the 6 x 9 corners"):
         find_corners(image, pattern=PuzzleBoard())
     assert len(verified) == 1
+
+
+def test_crossings_of_waves_are_not_verified(monkeypatch: pytest.MonkeyPatch) -> None:
+    """There are thousands of them, without dots; of one part of them is asked whether it is a
+    board."""
+    verified: list[Lattice] = []
+    refine = find_puzzleboard.refine_board
+    monkeypatch.setattr(
+        find_puzzleboard,
+        "refine_board",
+        lambda *args: verified.append(args[1]) or refine(*args),
+    )
+    with pytest.raises(NoBoardError, match="No PuzzleBoard"):
+        find_corners(draw_without_board(47), pattern=PuzzleBoard())
+    assert max(max(lattice.shape) for lattice in verified) <= 12
 
 
 def test_only_what_may_be_dots_is_removed() -> None:

@@ -11,6 +11,7 @@ from calibgui.engine.detection.puzzleboard.place_decoding import (
     StatedBoard,
     find_place,
     is_certain,
+    may_be_dots,
     measure_dot_noise,
 )
 
@@ -107,3 +108,17 @@ def test_the_noise_of_the_dots() -> None:
     mean, sigma = measure_dot_noise(dots)
     assert mean == pytest.approx(_CONTRAST, abs=0.03)
     assert sigma == pytest.approx(0.3, abs=0.03)
+
+
+def test_what_may_be_dots() -> None:
+    """Real ones pass turned, inverted, mirrored and with many wrong."""
+    rng = np.random.default_rng(10)
+    for quarters, wrong in ((0, 0.0), (1, 0.3), (2, 0.3), (3, 0.3)):
+        dots = _see_dots((30, 40), (16, 18), quarters, wrong, 0.2, rng)
+        for print_ in (dots, dots.invert(), dots.mirror()):
+            assert may_be_dots(print_)
+    assert may_be_dots(_see_dots((0, 0), (3, 3), 0, 0.0, 0.1, rng))
+    bare = 0.05 * rng.standard_normal((2, 20, 20))
+    assert not may_be_dots(Dots(bare[0, :, 1:], bare[1, 1:]))
+    texture = rng.choice([-1.0, 1.0], (2, 30, 30))
+    assert not may_be_dots(Dots(texture[0, :, 1:], texture[1, 1:]))
