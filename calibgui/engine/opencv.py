@@ -81,6 +81,16 @@ def dilate_image(image: FloatImage, around: BoolArray) -> FloatImage:
     return np.asarray(cv2.dilate(image, around.astype(np.uint8)))
 
 
+def average_detail(image: GreyImage, around: int, block: int) -> Array:
+    """Average how far 8-bit levels (h, w) differ from the mean of the `around` x `around` px about
+    them, over blocks of `block` x `block` px; those at the right and lower border may be cut."""
+    detail = cv2.absdiff(image, cv2.blur(image, (around, around)))
+    down, right = (-length % block for length in image.shape)
+    detail = cv2.copyMakeBorder(detail, 0, down, 0, right, cv2.BORDER_REPLICATE)
+    size = (detail.shape[1] // block, detail.shape[0] // block)
+    return np.asarray(cv2.resize(detail, size, interpolation=cv2.INTER_AREA), np.float64)
+
+
 def cut_tiles(image: GreyImage, uv: Array, half: int) -> tuple[GreyImage, Array]:
     """Cut squares of (2 half + 1)^2 px from `image` (h, w), around the pixels nearest to `uv`.
 
@@ -179,14 +189,17 @@ def detect_markers(image: GreyImage, dictionary: str) -> tuple[IntArray, Array]:
     return np.asarray(ids, np.int64).ravel(), np.array(corners, np.float64).reshape(-1, 4, 2)
 
 
-def detect_dark_quads(image: GreyImage, is_quick: bool = False) -> Array:
+def detect_dark_quads(image: GreyImage, is_quick: bool = False, is_part: bool = False) -> Array:
     """Return corners (n, 4, 2) px of the shapes in an 8-bit image (h, w) that may be markers.
 
     The dark is darker than its surroundings. A quick search compares with those of one size only,
-    where OpenCV takes three.
+    where OpenCV takes three. In a part of a larger image only the smallest markers are left out,
+    not those that are small for it.
     """
     any_one = cv2.aruco.Dictionary(np.zeros((1, 2, 4), np.uint8), 4, 0)
     parameters = _marker_parameters(image)
+    if is_part:
+        parameters.minMarkerPerimeterRate = 4 * _MIN_MARKER_SIDE / max(image.shape)
     if is_quick:
         parameters.adaptiveThreshWinSizeMin = parameters.adaptiveThreshWinSizeMax = _QUICK_WINDOW
     detector = cv2.aruco.ArucoDetector(any_one, parameters)

@@ -75,7 +75,7 @@ def find_april_grid(
     read = finder.find(pattern, grid_size)
     is_inverted = read is None
     if read is None:
-        read = GridTagFinder(invert_levels(levels), searched).find(pattern, grid_size)
+        read = GridTagFinder(invert_levels(levels), searched, finder).find(pattern, grid_size)
     if read is None:
         raise _explain_missing_board(levels, grid_size, finder)
     return _locate_corners(grey, levels, read, is_inverted, pattern, grid_size, outline, method)

@@ -31,6 +31,11 @@ _PAPER_DISTANCE = 0.08
 _MIN_RELATIVE_SWING = 0.2
 """Least rise of the level within a quadrilateral, over that to the paper around it: what is filled
 evenly is no tag. A plausibility limit."""
+_MAX_BRIGHT_RING_SHARE = 0.6
+"""Greatest share of the outermost of these places that may be bright: they lie on the border, but
+for those along two sides if the quadrilateral is not refined yet."""
+_RING = np.pad(np.zeros((_SAMPLES - 2, _SAMPLES - 2), dtype=np.bool_), 1, constant_values=True)
+"""(samples, samples) True for the outermost places."""
 
 
 class TagPrint(NamedTuple):
@@ -120,8 +125,14 @@ class TagReader:
         return self._cells[n]
 
 
-def are_patterned(image: GreyImage, quads: Array) -> BoolArray:
-    """Return which dark quadrilaterals (m, 4, 2) px are not filled evenly, and so may be tags."""
+def rate_borders(image: GreyImage, quads: Array) -> Array:
+    """Rate dark quadrilaterals (m, 4, 2) px by how much of their outermost places is bright, which
+    in a tag is little.
+
+    Returns:
+        The shares (m,); infinite for those that are filled evenly, or bright along their sides, and
+        so are no tags.
+    """
     centres = (np.arange(_SAMPLES) + 0.5) / _SAMPLES
     low, high = (np.full(_SAMPLES, end) for end in (-_PAPER_DISTANCE, 1 + _PAPER_DISTANCE))
     inside = make_mesh(centres, centres).reshape(-1, 2)
@@ -137,7 +148,10 @@ def are_patterned(image: GreyImage, quads: Array) -> BoolArray:
     )
     dark = inner[:, len(inside) // 2]
     bright = inner[:, -int(_MIN_BRIGHT_SHARE * len(inside)) :].mean(axis=1)
-    return np.asarray(bright - dark >= _MIN_RELATIVE_SWING * (paper - dark))
+    is_patterned = bright - dark >= _MIN_RELATIVE_SWING * (paper - dark)
+    middle = (inner[:, int(_MIN_BRIGHT_SHARE * len(inside))] + bright) / 2
+    share = (levels[:, : len(inside)][:, _RING.ravel()] > middle[:, None]).mean(axis=1)
+    return np.where(is_patterned & (share <= _MAX_BRIGHT_RING_SHARE), share, np.inf)
 
 
 @lru_cache(maxsize=len(FAMILIES))

@@ -201,7 +201,8 @@ def _explain_missing_board(
 ) -> NoBoardError:
     """Return the error that says what the image shows instead of the stated board."""
     found = None
-    for reader in readers:
+    is_anything_stated = pattern != Charuco() or grid_size is not None
+    for reader in readers if is_anything_stated else ():
         if pattern.dictionary:
             found = found or reader.read_dictionary(pattern.dictionary, MARKER_LAYOUTS)
         found = found or reader.search_dictionaries(MARKER_LAYOUTS)

@@ -14,7 +14,7 @@ from functools import lru_cache
 import numpy as np
 
 from calibgui.engine import opencv
-from calibgui.engine.arrays import BoolArray, FloatImage, GreyImage
+from calibgui.engine.arrays import Array, BoolArray, FloatImage, GreyImage
 from calibgui.engine.detection.charuco.marker_cells import find_dark_cells
 from calibgui.engine.detection.charuco.thresholds import CHARUCO_THRESHOLDS
 
@@ -22,14 +22,14 @@ from calibgui.engine.detection.charuco.thresholds import CHARUCO_THRESHOLDS
 class MarkerCandidates:
     """The dark quadrilaterals of one image, each of which may be a marker."""
 
-    def __init__(self, image: GreyImage, is_quick: bool = False) -> None:
+    def __init__(self, image: GreyImage, quads: Array) -> None:
         """
         Args:
             image: (h, w) 8-bit grey levels.
-            is_quick: whether to find most of the quadrilaterals in a third of the time.
+            quads: (n, 4, 2) px.
         """
         self._image = image
-        self._quads = opencv.detect_dark_quads(image, is_quick)
+        self._quads = quads
         self._cells: dict[int, BoolArray] = {}
 
     def count_fitting(self, dictionary: str, is_inverted: bool = False) -> int:

@@ -3,8 +3,9 @@
 Reading is slow on large images and for large dictionaries. So the image is read at the coarsest
 size first, and only those dictionaries are read of which the image's dark quadrilaterals
 (`MarkerCandidates`) may be markers; at the coarsest size, which is quick, a stated one always is.
-At the other sizes to look for quadrilaterals takes long as well where the image is full of texture:
-it is done quickly, and once for dark and for bright markers. The dictionaries of a family of
+At the other sizes to look for quadrilaterals takes long as well, above all where the image is full
+of texture: it is done quickly, once for dark and for bright markers, and only if a sample of the
+image (`PrintSample`) shows some that fit. The dictionaries of a family of
 OpenCV's begin alike: the markers of the smallest are the first of all.
 """
 
@@ -21,10 +22,13 @@ from calibgui.engine.detection import region_of_interest as region
 from calibgui.engine.detection.charuco.marker_candidates import MarkerCandidates
 from calibgui.engine.detection.charuco.markers import Markers, identify_board
 from calibgui.engine.detection.charuco.thresholds import CHARUCO_THRESHOLDS
+from calibgui.engine.detection.print_samples import PrintSample
 from calibgui.engine.detection.region_of_interest import are_inside
 
 _MAX_COARSE_SIDE = 1600
 """Longer side of the image in which markers are looked for first, px."""
+_MIN_SAMPLED_MARKERS = 2
+"""Number of quadrilaterals of a sample of a finer size that have to fit a dictionary."""
 _COMMON_FAMILIES = (
     *(f"DICT_{k}X{k}" for k in (4, 5, 6, 7)),
     "DICT_ARUCO_ORIGINAL",
@@ -66,6 +70,7 @@ class MarkerReader:
         self._outline = None if outline is None else region.enlarge_outline(outline)
         self._positive = positive
         self._candidates: dict[int, MarkerCandidates] = {}
+        self._samples: dict[int, MarkerCandidates] = {}
         self._read: dict[tuple[int, str], tuple[IntArray, Array]] = {}
 
     def read_dictionary(self, name: str, layouts: Collection[MarkerLayout]) -> ReadBoard | None:
@@ -127,17 +132,29 @@ class MarkerReader:
 
     def _count_fitting(self, dictionary: str, depth: int) -> int:
         """Count the quadrilaterals of one level that may be markers of a dictionary."""
-        is_coarsest = depth == len(self._levels) - 1
-        if self._positive is not None and not is_coarsest:
-            seen = self._positive._find_candidates(depth)
-            return seen.count_fitting(dictionary, is_inverted=True)
-        return self._find_candidates(depth).count_fitting(dictionary)
+        if depth == len(self._levels) - 1:
+            return self._find_candidates(depth).count_fitting(dictionary)
+        is_inverted = self._positive is not None
+        positive = self._positive or self
+        sampled = positive._sample_candidates(depth).count_fitting(dictionary, is_inverted)
+        if sampled < _MIN_SAMPLED_MARKERS:
+            return 0
+        return positive._find_candidates(depth).count_fitting(dictionary, is_inverted)
+
+    def _sample_candidates(self, depth: int) -> MarkerCandidates:
+        """Find the quadrilaterals of a sample of one level of the pyramid, once."""
+        if depth not in self._samples:
+            level = self._levels[depth]
+            quads = PrintSample(self._levels[depth + 1]).detect_dark_quads(level)
+            self._samples[depth] = MarkerCandidates(level, quads)
+        return self._samples[depth]
 
     def _find_candidates(self, depth: int) -> MarkerCandidates:
         """Find the quadrilaterals of one level of the pyramid, once."""
         if depth not in self._candidates:
-            is_coarsest = depth == len(self._levels) - 1
-            self._candidates[depth] = MarkerCandidates(self._levels[depth], not is_coarsest)
+            level, is_coarsest = self._levels[depth], depth == len(self._levels) - 1
+            quads = opencv.detect_dark_quads(level, is_quick=not is_coarsest)
+            self._candidates[depth] = MarkerCandidates(level, quads)
         return self._candidates[depth]
 
     def _read_markers(self, depth: int, name: str) -> tuple[IntArray, Array]:

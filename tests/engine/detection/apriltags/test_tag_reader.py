@@ -10,7 +10,7 @@ from calibgui.engine import opencv
 from calibgui.engine.arrays import Array, GreyImage
 from calibgui.engine.boards.april_grid import AprilGrid
 from calibgui.engine.boards.apriltags import FAMILIES, load_family
-from calibgui.engine.detection.apriltags.tag_reader import TagPrint, TagReader, are_patterned
+from calibgui.engine.detection.apriltags.tag_reader import TagPrint, TagReader, rate_borders
 from calibgui.engine.detection.find_corners import find_corners
 from calibgui.engine.errors import NoBoardError
 from tests.scenes.without_board import draw_without_board
@@ -41,7 +41,7 @@ def test_whatever_can_be_read_may_be_a_tag(family: str, border: int) -> None:
     for blur in (0.7, 2.5):
         image, quads = draw_tags(family, border, range(len(load_family(family).cells)), blur)
         read = TagReader(image, quads).read(TagPrint(family, border))
-        assert are_patterned(image, quads)[read.which].all()
+        assert (rate_borders(image, quads)[read.which] < 0.45).all()
         assert len(read.which) > 0.9 * len(quads) or blur > 1
 
 
@@ -50,24 +50,34 @@ def test_what_is_filled_evenly_is_no_tag() -> None:
     image[20:60, 30:80] = 40
     noisy = np.random.default_rng(0).normal(image, 3).astype(np.uint8)
     quad = np.array([[(30.0, 20.0), (80.0, 20.0), (80.0, 60.0), (30.0, 60.0)]]) - 0.5
-    assert not are_patterned(noisy, quad).any()
+    assert np.isinf(rate_borders(noisy, quad)).all()
+
+
+def test_what_is_bright_along_its_sides_is_no_tag() -> None:
+    image = np.full((100, 200), 190, np.uint8)
+    image[20:60, 30:80], image[30:50, 40:70] = 150, 40
+    quad = np.array([[(30.0, 20.0), (80.0, 20.0), (80.0, 60.0), (30.0, 60.0)]]) - 0.5
+    assert np.isinf(rate_borders(image, quad)).all()
 
 
 def test_an_image_is_searched_once_for_each_colour(monkeypatch: pytest.MonkeyPatch) -> None:
-    """The explanation of what is missing looks at what the search has seen."""
-    searched = []
+    """The explanation of what is missing looks at what the search has seen; the negative and the
+    larger sizes of an image are searched only where a look at them shows tags."""
+    searched: list[str] = []
     search = opencv.detect_dark_quads
 
-    def count(image: GreyImage, is_quick: bool = False) -> Array:
-        searched.append(is_quick)
-        return search(image, is_quick)
+    def count(image: GreyImage, is_quick: bool = False, is_part: bool = False) -> Array:
+        searched.append("part" if is_part else "quick" if is_quick else "all")
+        return search(image, is_quick, is_part)
 
     monkeypatch.setattr(opencv, "detect_dark_quads", count)
     image = draw_without_board(3)
     with pytest.raises(NoBoardError, match="No AprilGrid"):
         find_corners(image, (8, 10), pattern=AprilGrid("t36h11"))
-    assert searched == [False] * 4
+    assert searched == ["all"] * 2 + ["quick"] * 2
     searched.clear()
     with pytest.raises(NoBoardError, match="No AprilGrid"):
         find_corners(cv2.resize(image, (1920, 1440)), pattern=AprilGrid())
-    assert searched == [False, False, True, True] * 2
+    assert searched[:2] == ["all", "all"]
+    assert searched.count("quick") == 2
+    assert set(searched[2:]) == {"part", "quick"}

@@ -42,7 +42,7 @@ def test_what_opencv_reads_fits_its_dictionary(name: str, blur: float, noise: fl
     image = page(name, blur, noise)
     read = len(opencv.detect_markers(image, name)[0])
     assert read >= 10
-    candidates = MarkerCandidates(image)
+    candidates = MarkerCandidates(image, opencv.detect_dark_quads(image))
     assert candidates.count_fitting(name) >= read
     others = [other for other in NAMES if other[:8] != name[:8]]
     assert all(candidates.count_fitting(other) <= 2 for other in others)
@@ -61,7 +61,8 @@ def test_no_marker_is_read_where_nothing_fits(seed: int, monkeypatch: pytest.Mon
 @pytest.mark.parametrize("is_inverted", [False, True])
 def test_most_are_found_quickly_dark_and_bright(is_inverted: bool) -> None:
     image = page(NAMES[0], 0.7, 2.0)
-    candidates = MarkerCandidates(255 - image if is_inverted else image, is_quick=True)
+    seen = 255 - image if is_inverted else image
+    candidates = MarkerCandidates(seen, opencv.detect_dark_quads(seen, is_quick=True))
     assert candidates.count_fitting(NAMES[0], is_inverted) >= 10
     assert candidates.count_fitting(NAMES[0], not is_inverted) <= 2
 

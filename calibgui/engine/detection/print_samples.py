@@ -1,0 +1,80 @@
+"""A look at a part of a large image: may it show small marks at all?
+
+To search an image of many megapixels for the outlines of small marks takes many times as long as to
+find a board of usual size in a copy of it. So a part of it is searched first: the tiles that look
+most like marks, and only if these show some the whole is.
+
+Marks are black beside white every few pixels. How much of that there is in a block is measured by
+
+    detail = mean of |level - mean of the 5 x 5 pixels around|
+
+in the image halved: next to nothing where it is plain or out of focus, little in noise, which
+halving averages away, and in leaves or walls, whose edges lie farther apart. A tile counts by its
+best blocks, so that a board smaller than it does not drown in what is around. Of boards of 140 to
+330 px in 12 megapixels of leaves, polygons, bricks or grain the tiles are among the first three.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+
+from calibgui.engine import opencv
+from calibgui.engine.arrays import Array, GreyImage
+
+_TILE, _MARGIN = 320, 32
+"""Side of a tile and the margin around it that is searched as well, px: what lies across its sides
+and is no larger than a mark that the next coarser copy does not show."""
+_BLOCK, _AROUND = 32, 5
+"""Side of a block, and of the surroundings of a pixel, px of the halved image."""
+_BEST_BLOCKS = 4
+"""Number of a tile's blocks that count: those of a board of 130 px."""
+_MIN_DETAIL = 0.5
+"""Detail below which a tile is plain, grey levels: noise has as much."""
+_SEARCHED_SHARE, _MIN_TILES = 1 / 24, 4
+"""Share of the tiles that are searched, and the least number: the time is then a fraction of that
+for the whole, which in noise takes ten times as long as to find a board."""
+_MAX_QUADS = 1000
+"""Number of quadrilaterals after which no further tile is searched: more than 300 marks of 20 px
+have, within and around them, and brickwork has thousands."""
+
+
+class PrintSample:
+    """The tiles of an image that look most like marks."""
+
+    def __init__(self, halved: GreyImage) -> None:
+        """
+        Args:
+            halved: (h, w) 8-bit grey levels of the image in half its size.
+        """
+        scores = _score_tiles(halved)
+        most = max(_MIN_TILES, round(_SEARCHED_SHARE * scores.size))
+        best = np.argsort(-scores, axis=None, kind="stable")[:most]
+        rows, cols = np.unravel_index(best[scores.flat[best] > _MIN_DETAIL], scores.shape)
+        self._corners = _TILE * np.column_stack([rows, cols])
+
+    def detect_dark_quads(self, image: GreyImage) -> Array:
+        """Return corners (n, 4, 2) px of the dark quadrilaterals in the tiles of the image, its
+        negative or a filtered copy, 8 bits, quickly; some of them twice."""
+        found = [np.zeros((0, 4, 2))]
+        for row, col in self._corners.tolist():
+            top, left = max(row - _MARGIN, 0), max(col - _MARGIN, 0)
+            part = image[top : row + _TILE + _MARGIN, left : col + _TILE + _MARGIN]
+            quads = opencv.detect_dark_quads(
+                np.ascontiguousarray(part), is_quick=True, is_part=True
+            )
+            found.append(quads + np.array([left, top]))
+            if sum(map(len, found)) > _MAX_QUADS:
+                break
+        return np.concatenate(found)
+
+
+def _score_tiles(halved: GreyImage) -> Array:
+    """Score the tiles (rows, cols) of an image whose halved copy (h, w) is given; see the head of
+    this module."""
+    detail = opencv.average_detail(halved, _AROUND, _BLOCK)
+    in_row = _TILE // (2 * _BLOCK)
+    padded = np.pad(detail, [(0, -length % in_row) for length in detail.shape])
+    rows, cols = (length // in_row for length in padded.shape)
+    tiles = padded.reshape(rows, in_row, cols, in_row).transpose(0, 2, 1, 3)
+    best = np.sort(tiles.reshape(rows, cols, in_row * in_row), axis=2)[..., -_BEST_BLOCKS:]
+    return np.asarray(best.mean(axis=2))

@@ -1,0 +1,68 @@
+"""Small boards in large images, and large images without a board."""
+
+from __future__ import annotations
+
+from functools import cache
+from typing import Any
+
+import numpy as np
+import pytest
+
+from calibgui.engine import opencv
+from calibgui.engine.arrays import Array, GreyImage
+from calibgui.engine.boards.april_grid import AprilGrid
+from calibgui.engine.boards.board import Board
+from calibgui.engine.boards.charuco import Charuco
+from calibgui.engine.boards.pattern import Pattern
+from calibgui.engine.detection.find_corners import find_corners
+from calibgui.engine.errors import NoBoardError
+from tests.scenes.perspective import photograph_pattern
+from tests.scenes.without_board import draw_foliage
+
+_BOARDS = {
+    "aprilgrid": Board(8, 10, 22.0, AprilGrid("t36h11", 0.3, 2, False)),
+    "charuco": Board(7, 10, 26.0, Charuco("DICT_4X4_50", 0.75, False)),
+}
+_SIZES = {"aprilgrid": (190, 160), "charuco": (300, 240)}
+"""Of the boards' pictures, px."""
+_ASKED: dict[str, Pattern] = {"aprilgrid": AprilGrid(), "charuco": Charuco()}
+
+
+@cache
+def _draw_leaves() -> GreyImage:
+    return draw_foliage(0, (1800, 2400))
+
+
+@pytest.mark.parametrize("kind", _BOARDS)
+@pytest.mark.parametrize("is_inverted", [False, True])
+def test_a_small_board_among_leaves_is_found(kind: str, is_inverted: bool) -> None:
+    """Its marks show in the full size only, where most of the image is not searched at first."""
+    board = photograph_pattern(_SIZES[kind], _BOARDS[kind], 0.9, 0.7)[10:-10, 10:-10]
+    for top, left in ((150, 250), (700, 1500), (1430, 2000)):
+        image = _draw_leaves().copy()
+        part = image[top : top + board.shape[0], left : left + board.shape[1]]
+        part[...] = 255 - board if is_inverted else board
+        assert len(find_corners(image, pattern=_ASKED[kind])) > 50
+
+
+@pytest.mark.parametrize("kind", _BOARDS)
+def test_most_of_what_shows_no_marks_is_not_searched(
+    kind: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    searched: list[int] = []
+    search = opencv.detect_dark_quads
+
+    def count(image: GreyImage, *how: Any, **more: Any) -> Array:
+        searched.append(image.size)
+        return search(image, *how, **more)
+
+    monkeypatch.setattr(opencv, "detect_dark_quads", count)
+    size = 1800 * 2400
+    noise = np.random.default_rng(0).integers(0, 256, (1800, 2400)).astype(np.uint8)
+    for image, least in ((_draw_leaves(), 1), (noise, 1), (np.full_like(noise, 128), 0)):
+        searched.clear()
+        with pytest.raises(NoBoardError):
+            find_corners(image, pattern=_ASKED[kind])
+        parts = [each for each in searched if each < size / 4]
+        assert len(parts) >= least
+        assert max(searched) == size / 4
