@@ -37,9 +37,9 @@ class ResidualSummary:
     median_sigma_y: float
     """Median over the views of their standard deviation along v, px."""
     reference_mean: float
-    """Mean of the length e' on the reference plane, reference px."""
+    """Mean of the length e' on the reference plane, reference px; NaN if no corner has one."""
     reference_sd: float
-    """Standard deviation of the length e' on the reference plane, reference px."""
+    """Standard deviation of it, reference px; NaN likewise."""
     count: int
     """Number of corners."""
 
@@ -58,6 +58,7 @@ def summarise_residuals(residuals: Sequence[ViewResiduals]) -> ResidualSummary:
     """
     image = np.concatenate([view.image for view in residuals])
     length = np.linalg.norm(np.concatenate([view.reference for view in residuals]), axis=1)
+    known = length[np.isfinite(length)]
     sigma = image.std(axis=0)
     typical = np.median(_measure_sigma(image, [len(view.image) for view in residuals]), axis=0)
     return ResidualSummary(
@@ -66,8 +67,8 @@ def summarise_residuals(residuals: Sequence[ViewResiduals]) -> ResidualSummary:
         sigma_y=float(sigma[1]),
         median_sigma_x=float(typical[0]),
         median_sigma_y=float(typical[1]),
-        reference_mean=float(np.nanmean(length)),
-        reference_sd=float(np.nanstd(length)),
+        reference_mean=float(known.mean()) if known.size else np.nan,
+        reference_sd=float(known.std()) if known.size else np.nan,
         count=len(image),
     )
 

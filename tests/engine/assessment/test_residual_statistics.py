@@ -30,6 +30,17 @@ def test_summary_is_of_all_corners_of_all_views() -> None:
     )
 
 
+def test_corners_without_a_place_on_the_board_are_left_out() -> None:
+    image, reference = RNG.normal(size=(2, 20, 2))
+    reference[3:] = np.nan
+    found = residual_statistics.summarise_residuals([ViewResiduals(image, reference)])
+    assert found.reference_mean == pytest.approx(np.hypot(*reference[:3].T).mean())
+    reference[:] = np.nan  # warnings are errors: nothing may be said of an empty mean
+    found = residual_statistics.summarise_residuals([ViewResiduals(image, reference)])
+    assert np.isnan([found.reference_mean, found.reference_sd]).all()
+    assert found.count == 20
+
+
 def test_component_histogram_finds_its_gaussian() -> None:
     values = RNG.normal(0.02, 0.1, size=200_000)
     found = residual_statistics.make_component_histogram(values)
