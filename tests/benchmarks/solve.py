@@ -100,7 +100,7 @@ def started(views: list[Observation], model: str) -> tuple[Observations, State]:
     facing = check_facing(observations, name_views(len(views)))
     first = register_views(*convert_to_paper_frame(observations, scale, VGA, facing))
     held = dict.fromkeys(find_model(model).held)
-    start, _ = initialise_stage_two(observations, first, VGA, model, held)
+    start = initialise_stage_two(observations, first, VGA, model, held)
     return observations, start
 
 

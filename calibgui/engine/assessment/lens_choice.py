@@ -20,6 +20,9 @@ parameters that gain a tenth of a thousandth of a pixel on unseen views. The cho
    the region that the corners cover. The difference is that of ``comparison.py``, what a rotation
    of the camera makes up for left out; the uncertainty is the larger of the two models'.
 
+All but the first candidate begin at what the best one before them sees, unless they cannot see so:
+to find a start from corners alone takes longer than most of the solves.
+
 Of a model with coefficients that the views leave open, such as the numerator and denominator of the
 rational one, those of the highest powers are held at 0 one by one until the others are determined.
 
@@ -52,6 +55,8 @@ from calibgui.engine.assessment.cross_validation import (
 )
 from calibgui.engine.assessment.lens_trial import LensTrial, assess_trial
 from calibgui.engine.calibration.calibrate import calibrate
+from calibgui.engine.calibration.methods import DEFAULT_METHOD, find_method
+from calibgui.engine.calibration.methods.method import Method, begin_beside
 from calibgui.engine.calibration.observations import Observation
 from calibgui.engine.calibration.result import Calibration
 from calibgui.engine.camera.models import find_model
@@ -243,9 +248,15 @@ class _Attempt:
 
     def _try(self, model: str, fixed: dict[str, float]) -> LensTrial:
         """Calibrate a lens model with some of its coefficients held."""
-        fix = self.held | fixed
-        calibration = calibrate(self.views, self.size, model=model, fix=fix, **self.settings)
+        how = {"fix": self.held | fixed, "method": self._begin_beside_best()}
+        calibration = calibrate(self.views, self.size, model=model, **(self.settings | how))
         return assess_trial(calibration, fixed, self.views)
+
+    def _begin_beside_best(self) -> Method:
+        """Return the method, which begins at what the model sees that follows the corners best."""
+        method = find_method(self.settings.get("method", DEFAULT_METHOD))
+        best = min(self.trials.values(), key=lambda trial: trial.rms, default=None)
+        return method if best is None else begin_beside(method, best.calibration)
 
     def _predict(self, trial: LensTrial) -> LensTrial:
         """Return a trial with its error on unseen views."""

@@ -129,8 +129,8 @@ def initialise_stage_two(
     size: Size,
     model: str,
     held: Mapping[str, float | None],
-) -> tuple[State, dict[str, float]]:
-    """Return the start of Stage II, and the held parameters with their values.
+) -> State:
+    """Return the start of Stage II.
 
     Args:
         observations: the views.
@@ -142,7 +142,7 @@ def initialise_stage_two(
     Raises:
         StartError: if no start is found.
     """
-    lens, names = find_model(model), parameter_names(model)
+    lens = find_model(model)
     try:
         closed_form = _solve_closed_form(observations, first, size, held)
     except (StartError, np.linalg.LinAlgError):  # no lens of one coefficient sees the board so
@@ -150,19 +150,41 @@ def initialise_stage_two(
     if closed_form and isinstance(lens, PlaneLens) and lens.starts_in_closed_form:
         f, centre, k1, R, T = closed_form
         d = (observations.uv - centre) / f
-        state = State(np.concatenate([f, centre, _fit_first_coefficient(lens, d, k1)]), R, T)
-    else:
-        state = _start_any_lens(observations, closed_form, size, model, held)
-    values: dict[str, float] = {}
-    defaults = dict(zip(lens.names, lens.defaults, strict=True))
-    params = state.params.copy()  # those of a camera are read-only
-    for i, name in enumerate(names):
-        if name in held:
-            value = held[name]
-            default = defaults.get(name, float(params[i]))
-            values[name] = default if value is None else float(value)
-            params[i] = values[name]
-    return state._replace(params=params), values
+        return State(np.concatenate([f, centre, _fit_first_coefficient(lens, d, k1)]), R, T)
+    return _start_any_lens(observations, closed_form, size, model, held)
+
+
+def start_beside(
+    observations: Observations,
+    camera: Camera,
+    R: Array,
+    T: Array,
+    model: str,
+    held: Mapping[str, float | None],
+) -> State | None:
+    """Return the start of a lens model that sees the corners as a camera of another model does.
+
+    Args:
+        observations: the views.
+        camera: a camera that follows their corners.
+        R, T: (K, 3, 3) and (K, 3) poses of the views under it.
+        model, held: as for `initialise_stage_two`.
+
+    Returns:
+        None if the camera misses the corners, or the model cannot see them so.
+    """
+    seen = find_model(camera.model).project(np.array([0.0, 0.0, 1.0]), camera.params[4:])
+    scale = seen.by_ray[0, 0]
+    pinhole = State(camera.params[:4] * [scale, scale, 1.0, 1.0], R, T)
+    sight = _Sight(rays_from_pixels(observations.uv, camera), pinhole)
+    try:
+        state = _descend_valley(observations, sight, camera.size, model, held) or _follow_rays(
+            observations, sight, model, held
+        )
+    except (StartError, np.linalg.LinAlgError):
+        return None
+    miss = measure_miss(observations, state, find_model(model), camera.size)
+    return state if miss <= _MAX_START_MISS * camera.size[0] else None
 
 
 def _solve_closed_form(
@@ -213,16 +235,27 @@ def _start_any_lens(
         starts.append(_follow_rays(observations, sights[-1], model, held))
         misses.append(measure_miss(observations, starts[-1], lens, size))
     best = int(np.argmin(misses))
+    return _descend_valley(observations, sights[best], size, model, held) or starts[best]
+
+
+def _descend_valley(
+    observations: Observations,
+    sight: _Sight,
+    size: Size,
+    model: str,
+    held: Mapping[str, float | None],
+) -> State | None:
+    """Return the lowest start along the coefficient of which a model has several minima, if any."""
+    lens, names = find_model(model), parameter_names(model)
     if lens.valley is None or lens.valley.coefficient in held:
-        return starts[best]
-    along, names = lens.valley.coefficient, parameter_names(model)
+        return None
+    along = lens.valley.coefficient
     cameras = [
-        _follow_rays(observations, sights[best], model, {**held, along: value}).params
+        _follow_rays(observations, sight, model, {**held, along: value}).params
         for value in lens.valley.values
     ]
     free = np.flatnonzero([name not in held for name in names])
-    found = descend_along(observations, cameras, size, model, free, names.index(along))
-    return found or starts[best]
+    return descend_along(observations, cameras, size, model, free, names.index(along))
 
 
 class _Sight(NamedTuple):

@@ -15,6 +15,7 @@ from calibgui.engine.calibration.methods.method import (
     Method,
     Refinement,
     bind_solver,
+    hold_at_defaults,
     refine_by_bundle_adjustment,
 )
 from calibgui.engine.calibration.observations import Observations
@@ -27,11 +28,10 @@ from calibgui.engine.camera.models import MODELS
 
 def _initialise(given: Given) -> Initialisation:
     """Make one camera from Stage I of views spread over all (3.5)."""
-    return Initialisation(
-        *initialise_stage_two(
-            given.observations, given.spread_registration, given.size, given.model, given.held
-        )
+    state = initialise_stage_two(
+        given.observations, given.spread_registration, given.size, given.model, given.held
     )
+    return hold_at_defaults(state, given)
 
 
 def _refine(

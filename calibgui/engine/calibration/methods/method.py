@@ -20,7 +20,7 @@ from calibgui.engine.calibration.initialisation.stage_one import (
     StageOneRegistration,
     register_views,
 )
-from calibgui.engine.calibration.initialisation.start import convert_to_paper_frame
+from calibgui.engine.calibration.initialisation.start import convert_to_paper_frame, start_beside
 from calibgui.engine.calibration.observations import Observations, select_spread_views
 from calibgui.engine.calibration.options import Options
 from calibgui.engine.calibration.refinement.bundle_adjustment import solve_stage_two
@@ -33,8 +33,9 @@ from calibgui.engine.calibration.refinement.residuals import State, build_stage_
 from calibgui.engine.calibration.refinement.schur import NormalEquations, solve_normal_equations
 from calibgui.engine.calibration.refinement.whitening import whiten_observations
 from calibgui.engine.calibration.result import Calibration, Cost, Report, Status
-from calibgui.engine.camera.models import parameter_names
+from calibgui.engine.camera.models import find_model, parameter_names
 from calibgui.engine.errors import CalibrationError
+from calibgui.engine.geometry.pose import Pose
 from calibgui.engine.geometry.rotations import rotation_from_vector, vector_from_rotation
 
 _MAX_START_VIEWS = 25
@@ -158,9 +159,7 @@ def begin_at(method: Method, calibration: Calibration, views: Sequence[int]) -> 
     """
     if not method.is_minimum:
         return method
-    poses = [calibration.poses[k] for k in views]
-    R = rotation_from_vector(np.array([pose.rvec for pose in poses]))
-    T = np.array([pose.tvec for pose in poses])
+    R, T = _stack_poses([calibration.poses[k] for k in views])
     values = dict(zip(calibration.camera.names, calibration.camera.params.tolist(), strict=True))
 
     def initialise(given: Given) -> Initialisation:
@@ -168,6 +167,33 @@ def begin_at(method: Method, calibration: Calibration, views: Sequence[int]) -> 
         return Initialisation(state, {name: values[name] for name in given.held})
 
     return replace(method, initialise=initialise)
+
+
+def begin_beside(method: Method, calibration: Calibration) -> Method:
+    """Return the method with a guess from what a camera of another lens model sees.
+
+    It saves the guess where several lens models are calibrated from the same views. Where the
+    camera misses the corners, or the model cannot see as it does, the method guesses by itself.
+
+    Args:
+        method: the method; one that does not minimise a cost is returned as it is.
+        calibration: a calibration of the same views.
+    """
+    if not method.is_minimum:
+        return method
+    R, T = _stack_poses(calibration.poses)
+
+    def initialise(given: Given) -> Initialisation:
+        state = start_beside(given.observations, calibration.camera, R, T, given.model, given.held)
+        return method.initialise(given) if state is None else hold_at_defaults(state, given)
+
+    return replace(method, initialise=initialise)
+
+
+def _stack_poses(poses: Sequence[Pose]) -> tuple[Array, Array]:
+    """Return the rotations (K, 3, 3) and the translations (K, 3) of poses."""
+    R = rotation_from_vector(np.array([pose.rvec for pose in poses]))
+    return R, np.array([pose.tvec for pose in poses])
 
 
 def stay_at(method: Method, calibration: Calibration) -> Method:
@@ -194,6 +220,14 @@ def stay_at(method: Method, calibration: Calibration) -> Method:
         return Refinement(observations, evaluate_state(observations, start, options, report))
 
     return replace(begin_at(method, calibration, range(len(calibration.poses))), refine=refine)
+
+
+def hold_at_defaults(state: State, given: Given) -> Initialisation:
+    """Return a start whose held parameters have the wanted values, or else the lens model's."""
+    lens = find_model(given.model)
+    start = state._replace(params=state.params.copy())  # those of a camera are read-only
+    defaults = dict(zip(lens.names, lens.defaults, strict=True))
+    return hold_parameters(start, given.model, given.held, defaults)
 
 
 def hold_parameters(

@@ -46,7 +46,7 @@ def test_a_model_starts_alike_by_any_name(
     starts = [
         initialise_stage_two(
             views, first, made.size, name, resolve_held_parameters(fix, (), name, made.size)
-        )[0]
+        )
         for name in (model, "new")
     ]
     by_name, by_data = (np.concatenate([start.params, start.T.ravel()]) for start in starts)
