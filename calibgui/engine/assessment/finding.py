@@ -96,7 +96,7 @@ class Finding:
     """A sentence that says what to do."""
     harm: float
     """Error that the cause adds to that of pixels, px rms over the part of the image that corners
-    cover (``findings.py``): of a lens model at least what it leaves of the residuals, and the
+    cover (``harm.py``): of a lens model at least what it leaves of the residuals, and the
     image's size where the corners are of another frame."""
     views: tuple[int, ...] = ()
     """Indices of the views that it is found in; none if it is in all of them."""

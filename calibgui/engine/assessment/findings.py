@@ -20,34 +20,17 @@ without those behind it, and what one explains is taken out before the next is a
    nothing.
 6. **Views** that are too much alike, or that disagree for no cause that is known.
 
-A finding is of use only if the answer depends on it. The harm of a cause is the part of the error
-of pixels that is gone without it. Of the covariance C of the camera's parameters, C0 is what the
-corners' noise alone makes of them, and the rest is there because board and views are not as the
-model has them. Without a cause that explains a share s of the squared residuals that rest is gone,
-and so is this share of the noise; with J as in ``uncertainty/projection_uncertainty.py`` the cause
-adds
-
-    cov(q) - (1 - s) cov0(q) = J (C - (1 - s) C0) J^T
-
-to the covariance of a pixel q; blur, which moves nothing, only s cov0(q), and a lack of views
-cov(q). Its harm is the root mean square of that over the part of the image that corners cover
-(``comparison.find_covered_pixels``), in the direction where it is largest. What wrong values and
-corners do is measured on the same pixels (``input_errors.py``). Beyond that part a lens model is
-extrapolated, which magnifies any error: this is a lack of coverage, not the fault of the cause, and
-the verdict tells it. What a finding does not measure is how far a single value is off: that is its
-standard deviation, which includes what the board and the views' disagreement do.
+A finding is of use only if the answer depends on it: each has the harm that its cause does to
+pixels (``harm.py``).
 """
 
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import replace
-from typing import NamedTuple
 
 import numpy as np
 
-from calibgui.engine.arrays import Array
-from calibgui.engine.assessment.comparison import find_covered_pixels
 from calibgui.engine.assessment.finding import (
     MIN_HARM_PX,
     Action,
@@ -56,6 +39,7 @@ from calibgui.engine.assessment.finding import (
     Finding,
     describe_harm,
 )
+from calibgui.engine.assessment.harm import Case, prepare_case
 from calibgui.engine.assessment.input_errors import (
     describe_misplaced_corners,
     find_wrong_frame,
@@ -65,7 +49,6 @@ from calibgui.engine.assessment.input_errors import (
 from calibgui.engine.assessment.mixed_views import Split, find_two_kinds
 from calibgui.engine.assessment.noise_test import NoiseCheck, check_residuals
 from calibgui.engine.assessment.outliers import Screening, select_corners
-from calibgui.engine.assessment.residual_statistics import summarise_residuals
 from calibgui.engine.assessment.rival_lens import fit_rival
 from calibgui.engine.assessment.systematic_errors import prepare_fit
 from calibgui.engine.boards.shape import BoardShapeModel
@@ -76,13 +59,8 @@ from calibgui.engine.calibration.result import Calibration, Cost
 from calibgui.engine.camera.models import find_model
 from calibgui.engine.camera.models.splined_stereographic import SplinedStereographic
 from calibgui.engine.errors import CalibrationError
-from calibgui.engine.images.sampling import make_mesh
 from calibgui.engine.numbers import format_two_digits
 from calibgui.engine.threads import with_one_blas_thread
-from calibgui.engine.uncertainty.projection_uncertainty import (
-    compute_worst_sigma,
-    estimate_projection_uncertainty,
-)
 
 _MAX_WORST_PX = 0.5
 """Uncertainty of the worst pixel of the image above which fewer than `_MIN_VIEWS_TO_JUDGE` views
@@ -165,26 +143,6 @@ _ACTIONS = {
 """Actions that need no other photographs, by their causes."""
 
 
-class _Case(NamedTuple):
-    """A calibration whose given values and corners are sound, and what is known of its pixels."""
-
-    calibration: Calibration
-    views: Sequence[Observation]
-    names: Sequence[str]
-    numbers: Sequence[int]
-    """Their indices among the views of the user."""
-    sigma: float
-    """One standard deviation of a pixel, median over the image, px."""
-    worst: float
-    """One standard deviation of the pixel that is known worst, px; the image's size if none is."""
-    total: Array
-    """(n, 2, 2) covariance of the pixels where there are corners, px^2."""
-    by_noise: Array
-    """(n, 2, 2) part of it that the corners' noise explains, px^2."""
-    rms: float
-    """Root mean square residual, px."""
-
-
 @with_one_blas_thread
 def list_findings(
     calibration: Calibration, views: Sequence[Observation], names: Sequence[str] | None = None
@@ -213,11 +171,11 @@ def _find(
     yield from wrong
     if wrong:
         return
-    case = _prepare_case(calibration, views, names)
+    case = prepare_case(calibration, views, names)
     open_coefficients = _find_open_coefficients(case)
     if calibration.cost is not Cost.IMAGE:
         calibration = _minimise_image_cost(calibration, views)
-        case = _prepare_case(calibration, views, names)
+        case = prepare_case(calibration, views, names)
     screening = screen_misplaced_corners(calibration, views)
     if screening is not None:
         left = _leave_out(screening, views, names)
@@ -248,55 +206,15 @@ def _minimise_image_cost(calibration: Calibration, views: Sequence[Observation])
         return calibration
 
 
-def _prepare_case(
-    calibration: Calibration, views: Sequence[Observation], names: Sequence[str]
-) -> _Case:
-    total = estimate_projection_uncertainty(calibration, views)
-    over_image = total.worst_direction
-    known = over_image[np.isfinite(over_image)]  # a lens may image nothing in the corners
-    if not known.size:
-        known = np.array(calibration.camera.size)
-    alone = replace(calibration, covariance=calibration.noise_covariance)
-    by_noise = estimate_projection_uncertainty(alone, views)
-    covered = find_covered_pixels(make_mesh(total.u, total.v), views)
-    return _Case(
-        calibration,
-        views,
-        names,
-        range(len(views)),
-        sigma=float(np.median(known)),
-        worst=float(known.max()),
-        total=total.covariance[covered],
-        by_noise=by_noise.covariance[covered],
-        rms=summarise_residuals(calibration.residuals).rms,
-    )
-
-
-def _measure_harm(case: _Case, share: float = 0.0) -> float:
-    """Measure what a cause of a share of the squared residuals does to pixels, px rms.
-
-    It is the image's size where no pixel is known.
-    """
-    return _take_rms(case, case.total - (1 - share) * case.by_noise)
-
-
-def _take_rms(case: _Case, covariance: Array) -> float:
-    """Return the root mean square standard deviation of pixels of a covariance (n, 2, 2), px."""
-    variance = compute_worst_sigma(covariance) ** 2
-    known = variance[np.isfinite(variance)]
-    size = max(case.calibration.camera.size)
-    return float(np.sqrt(known.mean())) if known.size else float(size)
-
-
-def _leave_out(screening: Screening, views: Sequence[Observation], names: Sequence[str]) -> _Case:
+def _leave_out(screening: Screening, views: Sequence[Observation], names: Sequence[str]) -> Case:
     """Prepare what is left without the corners that were rejected."""
     used = [k for k, kept in enumerate(screening.kept) if kept.any()]
     left = [select_corners(views[k], screening.kept[k]) for k in used]
-    case = _prepare_case(screening.calibration, left, [names[k] for k in used])
+    case = prepare_case(screening.calibration, left, [names[k] for k in used])
     return case._replace(numbers=used)
 
 
-def _misses_views(case: _Case, screening: Screening, left: _Case) -> bool:
+def _misses_views(case: Case, screening: Screening, left: Case) -> bool:
     """Return whether corners do not fit because one cause makes the model miss whole views.
 
     Such a cause is a lens that another model follows better. Or it explains much of the residuals
@@ -318,20 +236,20 @@ def _misses_views(case: _Case, screening: Screening, left: _Case) -> bool:
     return rejected > _MAX_REJECTED or part > least
 
 
-def _find_split(case: _Case) -> Split | None:
+def _find_split(case: Case) -> Split | None:
     """Find out whether the views may be of two kinds; None if not, or if they are too few."""
     if len(case.views) < _MIN_VIEWS_TO_JUDGE:
         return None
     return find_two_kinds(prepare_fit(case.calibration, case.views))
 
 
-def _explain_most(case: _Case) -> float:
+def _explain_most(case: Case) -> float:
     """Return the share of the squared residuals that the best cause explains."""
     report = check_residuals(case.calibration, case.views, case.names)
     return _find_largest_share(report.checks)
 
 
-def _find_systematic_cause(case: _Case) -> Finding | None:
+def _find_systematic_cause(case: Case) -> Finding | None:
     """Find the one cause of residuals that are not noise; None if none matters."""
     report = check_residuals(case.calibration, case.views, case.names)
     failed = {check.name: check for check in report.checks if not check.passed}
@@ -343,7 +261,7 @@ def _find_systematic_cause(case: _Case) -> Finding | None:
     lens = _find_wrong_lens(case, explained)
     if lens is not None:
         return lens
-    if _measure_harm(case, explained) < MIN_HARM_PX:
+    if case.measure_harm(explained) < MIN_HARM_PX:
         return _find_blur(case, failed)
     split = _find_split(case)
     if split is not None and split.is_certain:
@@ -355,7 +273,7 @@ def _find_systematic_cause(case: _Case) -> Finding | None:
     return _find_blur(case, failed) or disagreement
 
 
-def _find_cause_beside_board(case: _Case) -> Finding | None:
+def _find_cause_beside_board(case: Case) -> Finding | None:
     """Find a wrong lens, or two kinds of views, that a board of any shape leaves; None if neither.
 
     What they explain is measured with the board's shape estimated.
@@ -365,7 +283,7 @@ def _find_cause_beside_board(case: _Case) -> Finding | None:
         free = calibrate(case.views, case.calibration.camera.size, **settings)
     except CalibrationError:
         return None
-    beside = _prepare_case(free, case.views, case.names)._replace(numbers=case.numbers)
+    beside = prepare_case(free, case.views, case.names)._replace(numbers=case.numbers)
     found = _find_wrong_lens(beside, explained=1.0)
     if found is None:
         split = _find_split(beside)
@@ -377,7 +295,7 @@ def _find_cause_beside_board(case: _Case) -> Finding | None:
     )
 
 
-def _find_wrong_lens(case: _Case, explained: float) -> Finding | None:
+def _find_wrong_lens(case: Case, explained: float) -> Finding | None:
     """Find a lens that a model of another kind follows better; None if it does not.
 
     It does so by far, or by more than the share `explained` by causes with more unknowns.
@@ -386,10 +304,10 @@ def _find_wrong_lens(case: _Case, explained: float) -> Finding | None:
     least = max(_MIN_SHARE, min(_MIN_SHARE_OF_RIVAL, explained))
     if share < least or displacement < MIN_HARM_PX:
         return None
-    return _describe_lens(case, float(np.sqrt(share)) * case.rms, _measure_harm(case, share))
+    return _describe_lens(case, float(np.sqrt(share)) * case.rms, case.measure_harm(share))
 
 
-def _find_blur(case: _Case, failed: dict[str, NoiseCheck]) -> Finding | None:
+def _find_blur(case: Case, failed: dict[str, NoiseCheck]) -> Finding | None:
     """Find views that are less sharp than the others; None if that does no harm."""
     check = failed.get("views")
     return None if check is None else _describe_check(case, check)
@@ -430,11 +348,11 @@ def _choose_cause_of_views(failed: dict[str, NoiseCheck]) -> NoiseCheck | None:
     return None
 
 
-def _describe_two_kinds(case: _Case, split: Split) -> Finding:
+def _describe_two_kinds(case: Case, split: Split) -> Finding:
     odd = np.flatnonzero(split.is_odd).tolist()
     views = tuple(case.numbers[k] for k in odd)
     left = case.rms * float(np.sqrt(1 - split.share))
-    harm = _measure_harm(case, split.share)
+    harm = case.measure_harm(split.share)
     return Finding(
         Cause.MIXED_VIEWS,
         f"The photographs are of two kinds: {_list_names([case.names[k] for k in odd])} "
@@ -456,7 +374,7 @@ def _list_names(names: Sequence[str]) -> str:
     return ", ".join(names) if more <= 0 else f"{', '.join(names[:_MAX_NAMES])} and {more} more"
 
 
-def _describe_lens(case: _Case, error: float, harm: float) -> Finding:
+def _describe_lens(case: Case, error: float, harm: float) -> Finding:
     return Finding(
         Cause.LENS,
         f"The lens model {case.calibration.camera.model} does not follow this lens.",
@@ -468,11 +386,11 @@ def _describe_lens(case: _Case, error: float, harm: float) -> Finding:
     )
 
 
-def _describe_check(case: _Case, check: NoiseCheck) -> Finding | None:
+def _describe_check(case: Case, check: NoiseCheck) -> Finding | None:
     """Describe the cause that a test of the residuals points to; None if it does no harm."""
-    cause, harm = _CAUSES_OF_CHECKS[check.name], _measure_harm(case, check.share)
+    cause, harm = _CAUSES_OF_CHECKS[check.name], case.measure_harm(check.share)
     if cause is Cause.BLUR:
-        harm = _take_rms(case, check.share * case.by_noise)
+        harm = case.measure_harm_of_blur(check.share)
     if cause is Cause.LENS:
         error = case.calibration.lens_error or float(np.sqrt(check.share)) * case.rms
         is_harmful = error > _MIN_LENS_PX or harm > MIN_HARM_PX
@@ -496,7 +414,7 @@ def _describe_check(case: _Case, check: NoiseCheck) -> Finding | None:
     )
 
 
-def _find_open_coefficients(case: _Case) -> Finding | None:
+def _find_open_coefficients(case: Case) -> Finding | None:
     """Find coefficients of the lens that the views leave open; None if there are none.
 
     Control points of a spline that no corner depends on are none: nothing else depends on them.
@@ -513,12 +431,12 @@ def _find_open_coefficients(case: _Case) -> Finding | None:
         f"The views leave {listed} of the lens open.",
         "; ".join(f"{u.name}: {u.reason}" for u in lost) + ".",
         f"Hold {listed} at 0, or bring corners closer to the image's edges.",
-        _measure_harm(case, share=1.0),
+        case.measure_harm(share=1.0),
         action=Action(ActionKind.HOLD_AT_ZERO, parameters=tuple(u.name for u in lost)),
     )
 
 
-def _find_lack_of_views(case: _Case) -> Finding | None:
+def _find_lack_of_views(case: Case) -> Finding | None:
     """Find out whether the views are too few, or too much alike; None if they are not."""
     count = len(case.views)
     few = count < _MIN_VIEWS_TO_JUDGE
@@ -531,22 +449,22 @@ def _find_lack_of_views(case: _Case) -> Finding | None:
         f"to {format_two_digits(case.worst)} px where it is known worst.",
         "Add views with the board tilted by 20 to 45 degrees in different directions and all over "
         "the image; six good ones are enough.",
-        _measure_harm(case, share=1.0),
+        case.measure_harm(share=1.0),
         action=Action(ActionKind.PHOTOGRAPH_MORE),
     )
 
 
-def _find_disagreement(case: _Case) -> Finding | None:
+def _find_disagreement(case: Case) -> Finding | None:
     """Find views that disagree about the camera for no cause that is known; None if they agree."""
     is_strong = case.calibration.overdispersion >= _MIN_DISAGREEMENT
-    is_harmful = _measure_harm(case) > MIN_HARM_PX
+    is_harmful = case.measure_harm() > MIN_HARM_PX
     return _describe_disagreement(case) if is_strong and is_harmful else None
 
 
-def _describe_disagreement(case: _Case) -> Finding:
+def _describe_disagreement(case: Case) -> Finding:
     rms = [view.rms for view in case.calibration.residuals]
     worst = case.numbers[int(np.argmax(rms))]
-    harm = _measure_harm(case)
+    harm = case.measure_harm()
     return Finding(
         Cause.DISAGREEMENT,
         "The views disagree about the camera, and no single cause explains it.",
