@@ -21,6 +21,7 @@ from calibgui.app.paths import make_natural_key
 from calibgui.engine.errors import CalibrationError
 from calibgui.engine.files import describe_write_error
 from calibgui.formats.resampled_json import Written, read_resampled, update_written
+from calibgui.report.numbers import format_count
 
 
 class ForeignFilesError(CalibrationError):
@@ -32,7 +33,7 @@ class ForeignFilesError(CalibrationError):
     """
 
     def __init__(self, folder: Path, names: Sequence[str]) -> None:
-        others = f" and {len(names) - 1} more files" if len(names) > 1 else ""
+        others = f" and {format_count(len(names) - 1, 'more file')}" if len(names) > 1 else ""
         super().__init__(
             f"{folder / names[0]}{others} would be replaced, which calibgui did not make there.",
             "Choose another folder, or add --overwrite to replace them.",

@@ -75,7 +75,8 @@ def check_outputs(
     """Refuse output files that could not be written, or would replace what must be kept.
 
     That is the files to read, by whatever name or link, one another, and files that this program
-    did not write or wrote as something else.
+    did not write or wrote as something else. With `overwrite` the latter are replaced under their
+    own names, and never through a link.
 
     Args:
         outputs: the files, each with its kind (``formats.origin``).
@@ -99,7 +100,7 @@ def check_outputs(
             raise CalibrationError(
                 f"{path} is one of the files to read.", "Choose another name to write to."
             )
-        if not overwrite and path.exists():
+        if path.exists() and (path.is_symlink() or not overwrite):
             _refuse_foreign(path, kind)
 
 
@@ -119,6 +120,11 @@ def _refuse_foreign(path: Path, kind: str) -> None:
             return
     except OSError as error:
         raise describe_write_error(path, error) from error
+    if path.is_symlink():
+        raise CalibrationError(
+            f"{path} leads to {os.path.realpath(path)}, which calibgui did not write as {kind}.",
+            "Choose another name, or remove the link.",
+        )
     raise CalibrationError(
         f"{path} exists, and calibgui did not write it as {kind}.",
         "Choose another name, or add --overwrite to replace it.",

@@ -19,7 +19,7 @@ from calibgui.dataset import Result, find_orientation
 from calibgui.engine import opencv
 from calibgui.engine.arrays import Array, Size
 from calibgui.engine.camera import Camera
-from calibgui.engine.errors import CalibrationError
+from calibgui.engine.errors import CalibrationError, WriteError
 from calibgui.engine.geometry import Pose
 from calibgui.engine.images import (
     FieldOfView,
@@ -106,7 +106,8 @@ def undistort_files(
             states if None.
 
     Raises:
-        CalibrationError: as `OutputFolder`, or if the lens has no such undistorted image.
+        CalibrationError: as `OutputFolder`, if the lens has no such undistorted image, or if an
+            image cannot be written.
         ForeignFilesError: as `OutputFolder`.
         Cancelled: from `progress`.
     """
@@ -139,7 +140,8 @@ def rectify_files(
         overwrite: whether files in `folder` may be replaced that this program did not make.
 
     Raises:
-        CalibrationError, ForeignFilesError: as `OutputFolder`.
+        CalibrationError: as `OutputFolder`, or if an image cannot be written.
+        ForeignFilesError: as `OutputFolder`.
         Cancelled: from `progress`.
     """
     camera = result.calibration.camera
@@ -217,6 +219,8 @@ def _write_image(
         for face, path in paths.items():
             write_image(path, cast(Pixels, made[face].image))  # of the source's type
             outputs.record(path)
+    except WriteError:  # the next image could not be written either
+        raise
     except CalibrationError as error:
         return WrittenImage(source, {}, str(error)), None
     first = next(iter(made.values()))

@@ -30,6 +30,10 @@ class NoBoardError(CalibrationError):
     """An error: no acceptable board was found in an image."""
 
 
+class WriteError(CalibrationError):
+    """An error: the disk or the system refuses to write a file."""
+
+
 class Cancelled(Exception):  # noqa: N818 - a request, not an error
     """The request of a progress callback to abandon the work and discard its result."""
 

@@ -18,7 +18,7 @@ from functools import partial
 from pathlib import Path
 from typing import IO, BinaryIO, cast
 
-from calibgui.engine.errors import CalibrationError
+from calibgui.engine.errors import CalibrationError, WriteError
 
 _TEMPORARY = re.compile(r"\.calibgui\.[0-9a-z_]{8}\.tmp")
 """Names of files that are being written."""
@@ -166,9 +166,21 @@ def refuse_special_file(path: Path) -> None:
         )
 
 
-def describe_write_error(path: Path, error: OSError) -> CalibrationError:
-    """Return the error that tells the user why `path` cannot be written."""
+def describe_read_error(path: str | os.PathLike[str], error: OSError) -> CalibrationError:
+    """Return the error that tells the user why the file `path` cannot be read."""
+    if isinstance(error, FileNotFoundError):
+        return CalibrationError(f"{os.fspath(path)} does not exist.", "Check its spelling.")
+    if isinstance(error, IsADirectoryError):
+        return CalibrationError(f"{os.fspath(path)} is a folder.", "Name a file.")
     return CalibrationError(
+        f"{os.fspath(path)} cannot be read: {error.strerror or error}.",
+        "Check its name and permissions.",
+    )
+
+
+def describe_write_error(path: Path, error: OSError) -> WriteError:
+    """Return the error that tells the user why `path` cannot be written."""
+    return WriteError(
         f"{path} cannot be written: {error.strerror or error}.",
         "Free some space, or choose another name or folder that you may write to.",
     )

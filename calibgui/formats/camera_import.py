@@ -10,7 +10,7 @@ import os
 
 from calibgui.engine.arrays import Size
 from calibgui.engine.errors import CalibrationError
-from calibgui.engine.files import read_regular
+from calibgui.engine.files import describe_read_error, read_regular
 from calibgui.formats import (
     basalt_json,
     colmap_cameras,
@@ -82,9 +82,7 @@ def _read_text(path: str | os.PathLike[str]) -> str:
     try:
         content = read_regular(path, MAX_FILE_SIZE)
     except OSError as error:
-        raise CalibrationError(
-            f"{file} cannot be read: {error.strerror or error}.", "Check its name and permissions."
-        ) from error
+        raise describe_read_error(path, error) from error
     try:
         return content.decode("utf-8-sig")
     except UnicodeDecodeError as error:

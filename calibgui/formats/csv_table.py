@@ -7,7 +7,7 @@ import io
 from pathlib import Path
 
 from calibgui.engine.errors import CalibrationError
-from calibgui.engine.files import read_regular
+from calibgui.engine.files import describe_read_error, read_regular
 
 MAX_TABLE_SIZE = 256 << 20
 """Size of the largest files that are read, bytes: a million corners have 150 MB."""
@@ -33,8 +33,6 @@ def read_numbered_csv_rows(file: Path) -> list[tuple[int, dict[str, str]]]:
         reader = csv.DictReader(io.StringIO(text, newline=""))
         return [(reader.line_num, row) for row in reader]
     except OSError as error:
-        raise CalibrationError(
-            f"{file} cannot be read: {error.strerror or error}.", "Check its name and permissions."
-        ) from error
+        raise describe_read_error(file, error) from error
     except (ValueError, csv.Error) as error:
         raise CalibrationError(f"{file} is not a CSV file: {error}.", "Choose another.") from error

@@ -30,7 +30,7 @@ import numpy as np
 
 from calibgui.engine.arrays import Array, IntArray, freeze_array, freeze_ints
 from calibgui.engine.errors import CalibrationError
-from calibgui.engine.files import open_replacement, read_regular
+from calibgui.engine.files import describe_read_error, open_replacement, read_regular
 
 _CUT_OFF = re.compile(r"(-|\.|[eE][-+]?|tr?u?|fa?l?s?|nu?l?)?\s*")
 """The rest of a file that is cut within a number or word."""
@@ -283,9 +283,7 @@ def read_json(path: str | os.PathLike[str]) -> Node:
     try:
         text = read_regular(path, MAX_JSON_SIZE).decode("utf-8-sig")
     except OSError as error:
-        raise CalibrationError(
-            f"{file} cannot be read: {error.strerror or error}.", "Check its name and permissions."
-        ) from error
+        raise describe_read_error(path, error) from error
     except UnicodeDecodeError as error:
         raise _make_error(file, "it is not text in UTF-8") from error
     return parse_json(text, file)

@@ -81,6 +81,20 @@ def test_no_input_is_written_to_through_a_link(tmp_path: Path) -> None:
             check_outputs([(tmp_path / name, "result")], [photograph], overwrite=True)
 
 
+@pytest.mark.skipif(os.name != "posix", reason="links of POSIX")
+def test_a_link_leads_to_no_other_file_that_is_replaced(tmp_path: Path) -> None:
+    photograph, result, link = tmp_path / "a.png", tmp_path / "r.json", tmp_path / "link.json"
+    photograph.write_bytes(b"a photograph that the corners came from")
+    result.write_bytes(b'{"format": "calibgui-result", "version": 1}')
+    link.symlink_to(photograph)
+    for overwrite in (False, True):
+        with pytest.raises(CalibrationError, match=r"leads to .*a\.png.*remove the link"):
+            check_outputs([(link, "result")], [], overwrite)
+    link.unlink()
+    link.symlink_to(result)
+    check_outputs([(link, "result")], [])
+
+
 def test_only_files_of_the_same_kind_are_replaced(tmp_path: Path) -> None:
     file = tmp_path / "a"
     for content, is_replaced in (

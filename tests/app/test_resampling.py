@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import errno
 import json
 import shutil
 from pathlib import Path
@@ -25,6 +26,7 @@ from calibgui.engine.camera.distortion import distort_points
 from calibgui.engine.detection.corners import Corners
 from calibgui.engine.detection.find_corners import find_corners
 from calibgui.engine.errors import CalibrationError, Cancelled
+from calibgui.engine.files import describe_write_error
 from calibgui.engine.images.projections import Projection
 from calibgui.engine.images.reading import read_image, write_image
 from calibgui.engine.images.undistortion import FieldOfView
@@ -107,6 +109,19 @@ def test_what_cannot_be_done_is_said_and_the_rest_done(
     assert set(undone) == {"text.png", "other.png", "small.png"}
     assert "not one of the calibrated views" in undone["other.png"]
     assert not list((tmp_path / "r").glob(".*"))
+
+
+def test_a_disk_that_is_full_is_said_once(
+    photographs: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """The images that could not be written are not listed one by one, as if they were at fault."""
+
+    def refuse(path: Path, *_: object) -> None:
+        raise describe_write_error(path, OSError(errno.ENOSPC, "No space left on device"))
+
+    monkeypatch.setattr("calibgui.app.resampling.write_image", refuse)
+    with pytest.raises(CalibrationError, match=r"view\d\.png cannot be written: No space left"):
+        undistort_files(CAMERA, find_images([str(photographs)]), tmp_path)
 
 
 def test_photographs_are_never_overwritten(photographs: Path, tmp_path: Path) -> None:

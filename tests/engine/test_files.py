@@ -11,7 +11,13 @@ import pytest
 
 from calibgui.engine import files
 from calibgui.engine.errors import CalibrationError
-from calibgui.engine.files import open_regular, open_replacement, read_regular, write_atomically
+from calibgui.engine.files import (
+    describe_read_error,
+    open_regular,
+    open_replacement,
+    read_regular,
+    write_atomically,
+)
 
 posix = pytest.mark.skipif(os.name != "posix", reason="links and pipes of POSIX")
 
@@ -130,6 +136,17 @@ def test_only_regular_files_are_read(tmp_path: Path) -> None:
             read_regular(path, 10)
     with pytest.raises(CalibrationError, match=r"a\\x00b' is no name of a file"):
         open_regular("a\0b")
+
+
+def test_why_a_file_cannot_be_read_is_said(tmp_path: Path) -> None:
+    for path, reason in (
+        (tmp_path / "absent.json", "absent.json does not exist. Check its spelling."),
+        (tmp_path, f"{tmp_path.name} is a folder. Name a file."),
+        (tmp_path / ("x" * 5000), "cannot be read: File name too long."),
+    ):
+        with pytest.raises(OSError) as caught:
+            read_regular(path, 10)
+        assert reason in str(describe_read_error(path, caught.value))
 
 
 def test_a_file_that_is_too_large_is_not_read(tmp_path: Path) -> None:

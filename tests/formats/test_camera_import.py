@@ -117,8 +117,8 @@ def test_other_files_are_refused_with_a_list_of_what_is_read(
 def test_files_that_cannot_be_read_are_named(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    for path in (tmp_path / "absent.yaml", tmp_path):
-        with pytest.raises(CalibrationError, match="cannot be read") as caught:
+    for path, problem in ((tmp_path / "absent.yaml", "does not exist"), (tmp_path, "is a folder")):
+        with pytest.raises(CalibrationError, match=problem) as caught:
             read_camera(path)
         assert str(path) in caught.value.message
     monkeypatch.setattr(camera_import, "MAX_FILE_SIZE", 100)

@@ -86,7 +86,7 @@ def test_what_is_wrong_is_named(tmp_path: Path, content: str, message: str) -> N
 
 
 def test_a_missing_file_is_named(tmp_path: Path) -> None:
-    with pytest.raises(CalibrationError, match=r"absent\.csv cannot be read"):
+    with pytest.raises(CalibrationError, match=r"absent\.csv does not exist"):
         read_corners_csv(tmp_path / "absent.csv")
 
 

@@ -183,8 +183,8 @@ def test_files_that_are_not_json_are_named(tmp_path: Path, content: bytes, messa
 
 
 def test_a_missing_file_and_a_folder_are_named(tmp_path: Path) -> None:
-    for path in (tmp_path / "absent.json", tmp_path):
-        with pytest.raises(CalibrationError, match="cannot be read") as caught:
+    for path, problem in ((tmp_path / "absent.json", "does not exist"), (tmp_path, "is a folder")):
+        with pytest.raises(CalibrationError, match=problem) as caught:
             read_json(path)
         assert str(path) in caught.value.message
 

@@ -11,7 +11,7 @@ from pathlib import Path
 from calibgui.dataset.fleet import FleetCamera, FleetFigures
 from calibgui.engine.assessment import Grade
 from calibgui.engine.errors import CalibrationError
-from calibgui.engine.files import read_regular
+from calibgui.engine.files import describe_read_error, read_regular
 from calibgui.report.numbers import format_count
 
 _MAX_SIZE = 1 << 20
@@ -46,9 +46,7 @@ def read_limits(file: Path) -> Limits:
     try:
         found = tomllib.loads(read_regular(file, _MAX_SIZE).decode("utf-8-sig"))
     except OSError as error:
-        raise CalibrationError(
-            f"{file} cannot be read: {error.strerror or error}.", "Check its name and permissions."
-        ) from error
+        raise describe_read_error(file, error) from error
     except ValueError as error:
         raise CalibrationError(
             f"{file} is not a TOML file: {error}.",
