@@ -263,11 +263,12 @@ class Environment:
 
         Nothing is lost if that fails: they are compiled when they are needed.
         """
-        say("compiling what is slow in Python (half a minute, once)")
+        say("compiling what is slow in Python (about a minute, once)")
         succeeds(self.python, "-m", "calibgui.app.kernel_preparation", env=self.variables())
         sample = ROOT / "resources" / "sample"
         calibrate = ["-m", "calibgui", "calibrate", sample, "--square", "25", "--quiet"]
-        succeeds(self.python, *calibrate, env=self.variables())
+        # The window's choice of a lens model needs the solver of the other models as well.
+        succeeds(self.python, *calibrate, "--model", "auto", env=self.variables())
 
     def pip(self, *arguments: str) -> None:
         """Run pip; if nobody watches it work, only its messages on a failure are shown."""
@@ -418,10 +419,16 @@ def run(yes: bool) -> int:
         if succeeds(environment.python, "-c", OPENS_WINDOW, env=env):
             sample = str(ROOT / "resources" / "sample")
             return subprocess.call([environment.python, "-m", "calibgui.gui", sample], env=env)
-        say("no window can be opened on this display; calibrating without one")
+        say("no window can be opened on this display; calibrating the sample without one")
+    else:
+        say("there is no display for the window; calibrating the sample without it")
     folder = Path.cwd() if os.access(Path.cwd(), os.W_OK) else Path.home()
     demo = ["demo", "-o", str(folder / "calibgui-demo")]
-    return subprocess.call([environment.python, "-m", "calibgui", *demo], env=env)
+    code = subprocess.call([environment.python, "-m", "calibgui", *demo], env=env)
+    if code == 0:
+        program = shlex.quote(str(environment.python.with_name("calibgui")))
+        say(f"to calibrate a camera of yours:\n    {program} calibrate PHOTOGRAPHS --square MM")
+    return code
 
 
 def test(arguments: list[str], yes: bool) -> int:
