@@ -28,8 +28,8 @@ from calibgui.report.verdict import (
     describe_error,
     describe_error_in_scene,
     describe_fit,
+    describe_options,
     format_headline,
-    format_options,
     format_times,
 )
 
@@ -112,8 +112,9 @@ def _format_verdict(result: Result, verdict: Verdict) -> Iterator[str]:
     yield _fill_lines("; ".join(filter(None, [describe_error(verdict), in_scene])) + ".", "", "  ")
     for finding in verdict.findings:
         yield format_bullet(f"{finding.message} {finding.evidence}")
-        options = format_options(finding.action, result) if finding.action is not None else ""
-        yield _fill_lines(f"{options or finding.remedy}{_describe_gain(finding)}", "  > ", "    ")
+        options = describe_options(finding.action, result) if finding.action is not None else ""
+        advice = options[:1].upper() + options[1:] or finding.remedy
+        yield _fill_lines(f"{advice}{_describe_gain(finding)}", "  > ", "    ")
 
 
 def _describe_gain(finding: Finding) -> str:
@@ -130,7 +131,7 @@ def summarise_in_a_line(result: Result) -> str:
         f"{describe_error(verdict)}; {describe_fit(result)}, {_count_used(result)}.",
     ]
     if verdict.findings and (action := verdict.findings[0].action) is not None:
-        words.append(f"Do: {options}." if (options := format_options(action, result)) else "")
+        words.append(f"Do: {options}." if (options := describe_options(action, result)) else "")
     return " ".join(filter(None, words))
 
 

@@ -56,7 +56,7 @@ def describe_error_in_scene(verdict: Verdict, condition: str) -> str:
     mm = verdict.error.edge * verdict.mm_per_pixel
     if not np.isfinite(mm):
         return ""
-    words = f"edge {format_two_digits(mm)} mm at {verdict.distance:.0f} mm"
+    words = f"{format_two_digits(mm)} mm at the edge, {verdict.distance:.0f} mm away"
     return f"{words}, {condition}" if condition else words
 
 
@@ -67,20 +67,23 @@ def describe_fit(result: Result) -> str:
     return f"RMS {fit.rms:.3f} px, σ {sigma:.3f} px of {fit.count:,} corners"
 
 
-def format_options(action: Action, result: Result) -> str:
-    """Format the options of the command line that carry an action out; empty if none do.
+def describe_options(action: Action, result: Result) -> str:
+    """Describe how to change the command to carry an action out, as "add --robust"; empty if no
+    options do.
 
     Args:
         action: the action.
         result: the result that the action is about.
     """
+    if action.kind is ActionKind.FREE_HELD_VALUE:
+        return f"leave {','.join(action.parameters)} out of --fix"
     options = _format_own_options(action, [view.name for view in result.used])
     if action.takes_image_cost:
         if result.calibration.cost is not Cost.IMAGE:
             options += f" --cost {Cost.IMAGE.value}"
         if "method" in result.calibration.settings:
             options += f" --method {DEFAULT_METHOD}"
-    return options
+    return options and f"add {options}"
 
 
 def _format_own_options(action: Action, names: Sequence[str]) -> str:
@@ -100,8 +103,6 @@ def _format_own_options(action: Action, names: Sequence[str]) -> str:
             return f"--fix {parameters}"
         case ActionKind.WEIGH_VIEWS:
             return "--weigh-views"
-        case ActionKind.FREE_HELD_VALUE:
-            return f"leave {parameters} out of --fix"
         case _:
             return ""
 

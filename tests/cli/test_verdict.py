@@ -18,9 +18,9 @@ def test_the_option_beside_a_finding_does_what_is_promised(
     assert main(["calibrate", str(corners_file), "--model", "pinhole"]) == 0
     told = capsys.readouterr().out.splitlines()
     assert told[0].startswith("CAN BE ") and told[0].endswith(" TIMES BETTER.")
-    assert told[1].startswith("Error of a pixel: centre ") and " mm at " in told[1] + told[2]
+    assert told[1].startswith("Error of a pixel: centre ") and " mm away." in told[1] + told[2]
     assert len(told) <= 25
-    option = next(line for line in told if line.startswith("  > ")).removeprefix("  > ")
+    option = next(line for line in told if line.startswith("  > ")).removeprefix("  > Add ")
     assert main(["calibrate", str(corners_file), "-q", *option.partition(" (")[0].split()]) == 0
     better = capsys.readouterr().out
     assert better.startswith("GOOD. ") and better.count("\n") == 1

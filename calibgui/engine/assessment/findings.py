@@ -290,9 +290,8 @@ def _find_cause_beside_board(case: Case) -> Finding | None:
         if split is None or not split.is_certain or split.share < _MIN_SHARE_OF_KINDS:
             return None
         found = _describe_two_kinds(beside, split)
-    return replace(
-        found, evidence=f"{found.evidence} All of this is with the board's shape estimated."
-    )
+    told = "These figures are of a fit that estimates the board's shape as well."
+    return replace(found, evidence=f"{found.evidence} {told}")
 
 
 def _find_wrong_lens(case: Case, explained: float) -> Finding | None:
