@@ -1,8 +1,10 @@
-"""The package to install where the system's loader lacks a library."""
+"""What to install where a library of the system, or an extra of this program, is missing."""
 
 from __future__ import annotations
 
 import re
+import shlex
+import sys
 
 _LIBRARY = re.compile(r"(lib[\w.+-]+?)\.so\.(\d+)")
 """The name and the version of a shared library of Linux."""
@@ -23,3 +25,12 @@ def describe_missing_library(problem: str) -> str:
     name, version = found.groups()
     package = name.lower() + ("-" if name[-1].isdigit() else "") + version
     return f"The library {found[0]} is missing. On Debian and Ubuntu: apt install {package}"
+
+
+def describe_missing_extra(extra: str) -> str:
+    """Return how to install what an extra of ``pyproject.toml`` names, into this Python."""
+    python = shlex.quote(sys.executable)
+    return (
+        "Give this command in the folder that calibgui was installed from: "
+        f"{python} -m pip install '.[{extra}]'"
+    )

@@ -6,11 +6,12 @@ import argparse
 import contextlib
 import math
 import re
-import shutil
 import sys
 import tempfile
 from collections.abc import Iterable, Iterator, Sequence
+from functools import cache
 from pathlib import Path
+from typing import BinaryIO
 
 from calibgui.app.board_recognition import explain_missing_board, recognise_pattern
 from calibgui.app.detection import (
@@ -93,9 +94,14 @@ def open_input(path: str | Path) -> Iterator[Path]:
         return
     with tempfile.TemporaryDirectory(prefix="calibgui-") as folder:
         file = Path(folder) / "standard-input"
-        with file.open("wb") as copy:
-            shutil.copyfileobj(sys.stdin.buffer, copy)
+        file.write_bytes(_read_once(sys.stdin.buffer))
         yield file
+
+
+@cache
+def _read_once(stream: BinaryIO) -> bytes:
+    """Return the content of a stream, also where a command reads its file several times."""
+    return stream.read()
 
 
 def list_input_files(paths: Sequence[str]) -> Sequence[str | Path]:

@@ -71,21 +71,22 @@ def configure(parser: argparse.ArgumentParser) -> None:
 
 def add_settings_options(parser: argparse.ArgumentParser) -> None:
     """Add the options on how to calibrate, which `read_settings` reads."""
-    parser.add_argument(
+    group = parser.add_argument_group("calibration", "What is estimated, and how.")
+    group.add_argument(
         "--cost",
         choices=[cost.value for cost in Cost],
         default=Cost.IMAGE.value,
         help="minimise the reprojection error in the image (default), the registration error on "
         "the reference plane, or the paper's formulation to the letter",
     )
-    parser.add_argument(
+    group.add_argument(
         "--model",
         type=_parse_model,
         default=argparse.SUPPRESS,  # None is the automatic choice
         metavar="NAME",
         help=f"the lens model to estimate, the method's own if left out: {_describe_models()}",
     )
-    parser.add_argument(
+    group.add_argument(
         "--method",
         choices=METHODS,
         default=DEFAULT_METHOD,
@@ -93,37 +94,37 @@ def add_settings_options(parser: argparse.ArgumentParser) -> None:
         help=f"the method of calibration (calibgui compare shows all side by side): "
         f"{_describe_methods()}",
     )
-    parser.add_argument(
+    group.add_argument(
         "--fix",
         metavar="NAMES",
         help="parameters of the lens model to hold, as k3,p1=0,fx=650; without a value "
         "coefficients are held at 0, the centre at the middle of the image and focal lengths at "
         f"their first estimate. {_describe_parameters()}",
     )
-    parser.add_argument(
+    group.add_argument(
         "--free",
         metavar="NAMES",
         help="parameters of the lens model to estimate that are held by default: "
         + _describe_held_parameters(),
     )
-    parser.add_argument(
+    group.add_argument(
         "--robust",
         action="store_true",
         help="leave out corners and views that do not fit, and name them",
     )
-    parser.add_argument(
+    group.add_argument(
         "--once",
         action="store_true",
         help="leave out the search, once the camera is known, of images without a board and of "
         "boards found in part, and the second calibration from what that gains",
     )
-    parser.add_argument(
+    group.add_argument(
         "--weigh-views",
         action="store_true",
         help="weigh every view by the noise that is found in it, so that poor views spoil less; "
         "best with an estimated board shape",
     )
-    parser.add_argument(
+    group.add_argument(
         "--board-shape",
         "--plate",
         type=_read_board_shape,
@@ -133,7 +134,7 @@ def add_settings_options(parser: argparse.ArgumentParser) -> None:
         "and shear), bow (two bends) or free (every corner); auto, whichever of these predicts "
         "unseen views best; or a file written by --save-board-shape, whose shape is held",
     )
-    parser.add_argument(
+    group.add_argument(
         "--prior",
         type=_parse_prior,
         metavar="XY,Z",

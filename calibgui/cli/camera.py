@@ -6,6 +6,7 @@ import argparse
 import re
 from pathlib import Path
 
+from calibgui.cli.arguments import open_input
 from calibgui.cli.console import Console
 from calibgui.engine.arrays import Size
 from calibgui.formats import ImportedCamera, read_camera
@@ -36,7 +37,8 @@ def read_camera_and_warn(
     path: Path, console: Console, name: str | None = None, size: Size | None = None
 ) -> ImportedCamera:
     """Read a camera, and print what the user should know about it. Raises as `read_camera`."""
-    found = read_camera(path, name, size)
+    with open_input(path) as file:
+        found = read_camera(file, name, size)
     for note in found.notes:
         console.print_problem(f"calibgui: {path}: {note}")
     return found

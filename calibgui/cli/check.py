@@ -16,6 +16,7 @@ from calibgui.cli.arguments import parse_positive
 from calibgui.cli.camera import add_camera_options, read_camera_and_warn
 from calibgui.cli.console import Console
 from calibgui.cli.corners import add_corner_options, check_corner_options, read_or_search
+from calibgui.cli.result import read_result_file
 from calibgui.engine.assessment import (
     DEFAULT_LIMIT,
     CalibrationCheck,
@@ -25,7 +26,6 @@ from calibgui.engine.assessment import (
 from calibgui.engine.errors import CalibrationError
 from calibgui.engine.threads import limit_blas_threads
 from calibgui.formats import EXPORTERS, ImportedCamera
-from calibgui.formats.result_json import read_result
 from calibgui.report import tables
 from calibgui.report.calibration_check import describe_check, describe_verdict
 
@@ -109,7 +109,7 @@ def _read_overdispersion(path: Path, stored: ImportedCamera) -> float:
     """Return by how much views disagreed in the stored calibration."""
     if stored.title != EXPORTERS["result"].title:
         return _USUAL_OVERDISPERSION
-    return read_result(path).calibration.overdispersion
+    return read_result_file(path).calibration.overdispersion
 
 
 def _encode_check(check: CalibrationCheck, names: list[str]) -> dict[str, Any]:

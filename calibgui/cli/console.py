@@ -21,7 +21,7 @@ Advance = Callable[[int, int], None]
 def configure(parser: argparse.ArgumentParser) -> None:
     """Add the options that all subcommands have."""
     parser.add_argument(
-        "-q", "--quiet", action="store_true", help="print problems, and at most one line else"
+        "-q", "--quiet", action="store_true", help="print only problems and at most one line"
     )
     parser.add_argument(
         "--json", action="store_true", help="print the result as JSON, and nothing else, on stdout"

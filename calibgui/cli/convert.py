@@ -20,6 +20,7 @@ from calibgui.cli.arguments import add_export_option, parse_positive
 from calibgui.cli.camera import CAMERA_FILE, add_camera_options, read_camera_and_warn
 from calibgui.cli.console import Console
 from calibgui.cli.outputs import add_overwrite_option
+from calibgui.cli.result import read_result_file
 from calibgui.dataset import Result
 from calibgui.engine.calibration import refit
 from calibgui.engine.camera import Camera, resolve_model_id
@@ -33,7 +34,6 @@ from calibgui.formats.camera_conversion import (
     write_conversion,
 )
 from calibgui.formats.camera_refit import MAX_REFIT_ERROR
-from calibgui.formats.result_json import read_result
 from calibgui.report import tables
 
 _MAX_LISTED = 30
@@ -73,7 +73,7 @@ def run(options: argparse.Namespace, console: Console) -> None:
     found = read_camera_and_warn(options.file, console, options.camera, options.size)
     with limit_blas_threads():
         if found.title == EXPORTERS["result"].title:
-            answer = _convert_result(read_result(options.file), options)
+            answer = _convert_result(read_result_file(options.file), options)
         else:
             answer = _convert_camera(found.camera, options)
     console.print_json(answer)

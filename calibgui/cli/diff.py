@@ -20,6 +20,7 @@ from calibgui.cli.arguments import add_map_options, parse_positive
 from calibgui.cli.camera import CAMERA_FILE, add_size_option, read_camera_and_warn
 from calibgui.cli.console import Console
 from calibgui.cli.outputs import add_overwrite_option
+from calibgui.cli.result import read_result_file
 from calibgui.dataset import Result
 from calibgui.engine.assessment import (
     CameraDifference,
@@ -31,7 +32,6 @@ from calibgui.engine.assessment import (
 )
 from calibgui.engine.uncertainty import estimate_projection_uncertainty
 from calibgui.formats import EXPORTERS
-from calibgui.formats.result_json import read_result
 from calibgui.report import quality
 from calibgui.report.series import describe_drift, has_drifted
 from calibgui.report.tables import format_bullet
@@ -76,7 +76,7 @@ def run(options: argparse.Namespace, console: Console) -> int:
     a = read_camera_and_warn(options.a, console, options.camera_a, options.size)
     b = read_camera_and_warn(options.b, console, options.camera_b, options.size)
     results = [
-        read_result(file) if camera.title == EXPORTERS["result"].title else None
+        read_result_file(file) if camera.title == EXPORTERS["result"].title else None
         for file, camera in ((options.a, a), (options.b, b))
     ]
     if options.covered and results[0] is None:

@@ -26,6 +26,8 @@ from calibgui.cli.parser import COMMANDS, build_parser, configure, describe_misu
 
 _WINDOW_PACKAGES = ("PySide6", "shiboken6", "pyqtgraph", "contourpy")
 """Packages that the window alone needs: the extra "gui"."""
+_ALONE = ("-h", "--help", "--version")
+"""Options that need no command."""
 _CANNOT, _USAGE, _BUG, _INTERRUPTED, _NO_READER = 1, 2, 70, 130, 141
 
 
@@ -60,7 +62,7 @@ def _run(arguments: list[str]) -> int:
     parser, parsers = build_parser()
     chosen = arguments[0] if arguments else ""
     if chosen not in COMMANDS:
-        if chosen.startswith("-"):
+        if chosen.startswith("-") and (chosen in _ALONE or not COMMANDS.keys() & arguments):
             parser.parse_args(arguments[:1])
         if not all(os.path.exists(name) for name in arguments):  # noqa: PTH110 - no import
             parser.error(describe_misuse(arguments))
@@ -136,11 +138,12 @@ def _open_window(arguments: list[str]) -> int:
     except ImportError as error:
         if (error.name or "").partition(".")[0] not in _WINDOW_PACKAGES:
             raise
+        missing = import_module("calibgui.app.missing_library")
         if isinstance(error, ModuleNotFoundError):
-            reason = "the window is not installed. Install it: pip install 'calibgui[gui]'"
+            reason = f"the window is not installed. {missing.describe_missing_extra('gui')}"
         else:
-            describe = import_module("calibgui.app.missing_library").describe_missing_library
-            reason = f"the window cannot be loaded. {describe(str(error)) or error}"
+            library = missing.describe_missing_library(str(error))
+            reason = f"the window cannot be loaded. {library or error}"
         print(f"calibgui: {reason}", file=sys.stderr)
         return _CANNOT
     return int(app.run(arguments))

@@ -96,8 +96,11 @@ def configure(name: str, parser: Parser) -> Any:
 
 
 def describe_misuse(arguments: Sequence[str]) -> str:
-    """Describe what is wrong with arguments that name neither a command nor only files."""
+    """Describe what is wrong with arguments that begin with no command, and are not only files."""
     first = arguments[0]
+    command = next((word for word in arguments if word in COMMANDS), None)
+    if first.startswith("-") and command is not None:
+        return f"options follow the command: calibgui {command} {first} ..."
     if not os.path.exists(first):  # noqa: PTH110 - no import
         return _describe_missing(first)
     option = next((name for name in arguments if name.startswith("-")), None)
@@ -114,6 +117,8 @@ def _describe_missing(name: str) -> str:
     """Describe a name that is that of no command, file or folder."""
     if near := suggest(name, COMMANDS, "calibgui "):
         return f"{name!r} is neither a command nor a file or folder.{near}"
+    if name in ("help", "version"):
+        return f"{name!r} is an option. Did you mean calibgui --{name}?"
     folder, base = os.path.split(name.rstrip("/" + os.sep))
     try:
         beside = os.listdir(folder or ".")  # noqa: PTH208 - no import

@@ -12,6 +12,16 @@ from calibgui.formats import read_camera
 from calibgui.formats.result_json import EXPORTER, read_result
 
 
+def read_result_file(path: Path) -> Result:
+    """Read the result.json that an argument names, "-" for standard input.
+
+    Raises:
+        CalibrationError: as `read_result`.
+    """
+    with open_input(path) as file:
+        return read_result(file)
+
+
 def read_result_and_warn(path: Path, console: Console) -> Result:
     """Read result.json, and warn if the calibration is partial.
 
@@ -20,8 +30,7 @@ def read_result_and_warn(path: Path, console: Console) -> Result:
             message says so.
     """
     try:
-        with open_input(path) as file:
-            result = read_result(file)
+        result = read_result_file(path)
     except CalibrationError as error:
         _refuse_camera_file(path, error)
         raise

@@ -184,7 +184,11 @@ def test_verbose_adds_all_that_is_known(corners_file: Path, capsys: Capture) -> 
 
 
 def test_corners_and_results_pass_through_the_standard_streams(
-    corners_file: Path, photographs: Path, capsys: Capture, monkeypatch: pytest.MonkeyPatch
+    corners_file: Path,
+    photographs: Path,
+    tmp_path: Path,
+    capsys: Capture,
+    monkeypatch: pytest.MonkeyPatch,
 ) -> None:
     def read_on(content: str) -> None:
         monkeypatch.setattr("sys.stdin", io.TextIOWrapper(io.BytesIO(content.encode())))
@@ -199,6 +203,10 @@ def test_corners_and_results_pass_through_the_standard_streams(
     read_on(printed)
     assert main(["uncertainty", "-"]) == 0
     assert "at the image's centre" in capsys.readouterr().out
+    read_on(printed)
+    assert main(["undistort", "-", str(photographs), "-o", str(tmp_path / "undistorted")]) == 0
+    read_on(printed)
+    assert main(["convert", "-", "--export", f"ros={tmp_path / 'camera.yaml'}"]) == 0
     read_on("no JSON")
     assert main(["calibrate", "-"]) == 1
     assert "standard-input is not a JSON file" in capsys.readouterr().err

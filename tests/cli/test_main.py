@@ -90,6 +90,8 @@ def test_every_command_describes_itself(command: str, capsys: Capture) -> None:
         ("photos/sample --square 30", "calibgui: --square belongs to a command, and none is named. "
          "Did you mean calibgui calibrate photos/sample --square ...?"),
         ("--versoin", "calibgui: there is no option --versoin. Did you mean --version?"),
+        ("-q calibrate photos", "calibgui: options follow the command: calibgui calibrate -q ..."),
+        ("help", "calibgui: 'help' is an option. Did you mean calibgui --help?"),
         ("calibrate photos --sqare=30", "calibgui calibrate: there is no option --sqare. Did you "
          "mean --square?"),
         ("calibrate photos -Z", "calibgui calibrate: there is no option -Z."),
@@ -201,7 +203,8 @@ def test_without_qt_it_says_how_to_get_the_window(tmp_path: Path) -> None:
     )
     assert done.returncode == 1
     assert done.stderr == (
-        "calibgui: the window is not installed. Install it: pip install 'calibgui[gui]'\n"
+        "calibgui: the window is not installed. Give this command in the folder that calibgui was "
+        f"installed from: {shlex.quote(sys.executable)} -m pip install '.[gui]'\n"
     )
 
 

@@ -16,6 +16,7 @@ from pathlib import Path, PurePosixPath
 from typing import Any
 
 from calibgui.app.image_store import compute_file_digest
+from calibgui.app.missing_library import describe_missing_extra
 from calibgui.app.paths import find_images, is_remote, make_natural_key
 from calibgui.engine.errors import CalibrationError
 from calibgui.engine.images import FORMATS, read_image_header
@@ -183,7 +184,7 @@ def _explain_remote(address: str) -> Iterator[None]:
         if missing in _OF_EXTRA:
             raise CalibrationError(
                 f"{address} cannot be read: {missing} is not installed.",
-                "pip install 'calibgui[batch]'.",
+                f"{describe_missing_extra('batch')}.",
             ) from error
         raise CalibrationError(
             f"{address} cannot be read: {str(error).rstrip('.')}.",

@@ -14,6 +14,7 @@ from contextlib import contextmanager
 from typing import TYPE_CHECKING, Any, Protocol, TypeVar
 
 from calibgui.app.kernel_preparation import prepare_finder
+from calibgui.app.missing_library import describe_missing_extra
 from calibgui.app.workers import Crashed, map_in_processes
 from calibgui.engine.errors import CalibrationError
 
@@ -28,7 +29,6 @@ _MAX_IN_FLIGHT = 4096
 memory and that of the driver stay flat."""
 _SCHEDULER_SECONDS = 10
 """Time after which a scheduler that does not answer counts as gone, s."""
-_INSTALL = "pip install 'calibgui[batch]'"
 
 
 class Scheduler(Protocol):
@@ -62,7 +62,7 @@ def open_scheduler(
     if not has_dask():
         if address is not None:
             raise CalibrationError(
-                f"The scheduler {address} needs Dask.", f"Install it: {_INSTALL}."
+                f"The scheduler {address} needs Dask.", f"{describe_missing_extra('batch')}."
             )
         yield _Pool(count)
         return

@@ -129,11 +129,11 @@ def test_the_package_that_an_address_needs_is_named(monkeypatch: pytest.MonkeyPa
         monkeypatch.delitem(_registry, protocol, raising=False)
     with pytest.raises(CalibrationError, match="aiohttp is not installed") as caught:
         list_photographs(["http://127.0.0.1:9/shots"])
-    assert "pip install 'calibgui[batch]'" in caught.value.hint
+    assert "pip install '.[batch]'" in caught.value.hint
     with pytest.raises(CalibrationError, match="s3fs") as caught:
         list_photographs(["s3://bucket/shots"])
     assert "pip install" in caught.value.hint
     monkeypatch.setitem(sys.modules, "fsspec", None)
     with pytest.raises(CalibrationError, match="fsspec") as caught:
         list_photographs(["http://127.0.0.1:9/shots"])
-    assert "pip install 'calibgui[batch]'" in caught.value.hint
+    assert "pip install '.[batch]'" in caught.value.hint
