@@ -51,8 +51,8 @@ def check_writable(path: Path) -> None:
     """Refuse an output file that could not be written.
 
     Raises:
-        CalibrationError: if it is a folder, a device or a pipe, or its folder is missing or
-            closed to writing.
+        CalibrationError: if it is a folder, a device, a pipe or a file closed to writing, or its
+            folder is missing or closed to writing.
     """
     folder = path.parent
     try:
@@ -65,7 +65,13 @@ def check_writable(path: Path) -> None:
         raise describe_write_error(path, error) from error
     if not os.access(folder, os.W_OK | os.X_OK):
         raise CalibrationError(
-            f"{path} cannot be written: you may not write to {folder}.", "Choose another folder."
+            f"{path} cannot be written: you may not write to {folder.absolute()}.",
+            "Choose another folder.",
+        )
+    if path.exists() and not os.access(path, os.W_OK):  # the folder alone would allow it
+        raise CalibrationError(
+            f"{path} is protected: you may not write to it.",
+            "Choose another name, or allow it first.",
         )
 
 

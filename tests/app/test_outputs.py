@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import re
 from pathlib import Path
 
 import pytest
@@ -37,8 +38,18 @@ def test_a_folder_closed_to_writing_is_refused(
 ) -> None:
     # The administrator may write everywhere, so the system's answer is replaced.
     monkeypatch.setattr(os, "access", lambda *_: False)
-    with pytest.raises(CalibrationError, match="may not write"):
-        check_writable(tmp_path / "result.json")
+    monkeypatch.chdir(tmp_path)
+    with pytest.raises(CalibrationError, match=f"may not write to {re.escape(str(tmp_path))}\\."):
+        check_writable(Path("result.json"))
+
+
+def test_a_protected_file_is_not_replaced(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    path = tmp_path / "result.json"
+    path.touch()
+    check_writable(path)
+    monkeypatch.setattr(os, "access", lambda name, _: Path(name) != path)
+    with pytest.raises(CalibrationError, match=r"result\.json is protected"):
+        check_writable(path)
 
 
 def test_a_folder_is_made_with_those_above_it_unless_a_file_is_there(tmp_path: Path) -> None:
