@@ -7,6 +7,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
+from calibgui.engine.arrays import Array
 from calibgui.engine.assessment import (
     BoardShapeChoice,
     Bootstrap,
@@ -45,7 +46,10 @@ _TABULATED_COUNTS = (
 )
 """Numbers of views that have a row in the table."""
 _MAX_BOOTSTRAP_RATIO = 1.5
-"""Median ratio of bootstrap to reported sigma, above which the latter is taken as too small."""
+"""Median ratio of bootstrap to reported sigma, above which the latter is taken as too small; a
+single value has twice as much, as its ratio scatters."""
+_MIN_VIEWS_TO_RESAMPLE = 10
+"""Number of views below which a draw holds 6 different ones or fewer in the mean."""
 
 
 def describe_distance(distance: float) -> str:
@@ -128,14 +132,31 @@ def tabulate_bootstrap(found: Bootstrap, calibration: Calibration) -> str:
     ]
     head = ["", "bootstrap", "reported", "ratio"]
     title = f"One sigma from {len(found.params)} resamplings of the views"
-    typical = float(np.nanmedian(found.ratio))
-    verdict = (
-        f"The views scatter {typical:.1f} times as much as reported: their errors are not "
-        "independent from corner to corner. Believe the larger of the two."
-        if typical > _MAX_BOOTSTRAP_RATIO
-        else "The views scatter no more than is reported."
-    )
+    verdict = _describe_bootstrap(found.ratio, names, len(calibration.poses))
     return f"{title}\n{align_columns([head, *rows], left=(0,))}\n{format_bullet(verdict)}"
+
+
+def _describe_bootstrap(ratio: Array, names: Sequence[str], count: int) -> str:
+    """Describe the ratios of bootstrap to reported standard deviations, from `count` views."""
+    typical = float(np.nanmedian(ratio))
+    if typical > _MAX_BOOTSTRAP_RATIO:
+        return (
+            f"The views scatter {typical:.1f} times as much as reported: their errors are not "
+            "independent from corner to corner. Believe the larger of the two."
+        )
+    beyond = [n for n, times in zip(names, ratio, strict=True) if times > 2 * _MAX_BOOTSTRAP_RATIO]
+    if not beyond:
+        return "The views scatter no more than is reported."
+    listed = ", ".join(beyond)
+    if count < _MIN_VIEWS_TO_RESAMPLE:
+        return (
+            f"Most values scatter no more than is reported. {listed} scatter more, but draws from "
+            f"{count} views often hold too few different ones to tell."
+        )
+    return (
+        f"Most values scatter no more than is reported. {listed} scatter more: believe the larger "
+        "of the two."
+    )
 
 
 def tabulate_camera_difference(found: CameraDifference, expected: float | None) -> str:

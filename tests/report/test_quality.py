@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -83,6 +85,16 @@ def test_views_that_scatter_too_much_are_named(calibrated: Calibrated) -> None:
         ratio = np.where(result.sigma > 0, factor, np.nan)
         found = Bootstrap(params, factor * result.sigma, ratio, 0)
         assert said in quality.tabulate_bootstrap(found, result)
+
+
+def test_a_value_that_scatters_alone_is_named(calibrated: Calibrated) -> None:
+    result, _ = calibrated
+    ratio = np.where(result.sigma > 0, 1.0, np.nan)
+    ratio[0] = 10.0
+    found = Bootstrap(np.array([result.camera.params]), ratio * result.sigma, ratio, 0)
+    for poses, said in ((result.poses[:5], "more, but draws"), (2 * result.poses, "more: believe")):
+        text = quality.tabulate_bootstrap(found, replace(result, poses=poses))
+        assert f"reported. fx scatter {said}" in text
 
 
 def test_differences_are_judged_by_what_is_expected(calibrated: Calibrated) -> None:
