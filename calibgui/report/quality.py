@@ -87,7 +87,8 @@ def tabulate_noise_report(report: NoiseReport, explanation: Finding | None) -> s
         [check.name, "as noise" if check.passed else "NOT noise", check.finding]
         for check in report.checks
     ]
-    text = "Do the residuals look like noise?\n" + align_columns(rows, left=(0, 1, 2))
+    head = ["looked for", "residuals", "found"]
+    text = "Do the residuals look like noise?\n" + align_columns([head, *rows], left=(0, 1, 2))
     if report.passed:
         remark = "Nothing speaks against the standard deviations."
     elif explanation is None:
