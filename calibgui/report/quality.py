@@ -17,6 +17,7 @@ from calibgui.engine.assessment import (
     NoiseReport,
 )
 from calibgui.engine.calibration import Calibration
+from calibgui.engine.numbers import format_two_digits
 from calibgui.engine.uncertainty import QUANTITIES, NextView, ProjectionUncertainty, ViewCountStudy
 from calibgui.report.numbers import format_count
 from calibgui.report.tables import align_columns, format_bullet
@@ -236,7 +237,7 @@ def describe_number_of_views(study: ViewCountStudy, limit: float) -> list[str]:
         )
         if at_random is None:
             texts.append(
-                f"The {name} is not known to {limit:g} px: {last:.2g} px from all "
+                f"The {name} is not known to {limit:g} px: {format_two_digits(last)} px from all "
                 f"{format_count(int(study.counts[-1]), 'view')}."
             )
             continue
@@ -255,7 +256,9 @@ def _describe_scatter(study: ViewCountStudy) -> list[str]:
         return []
     counts, sigma = study.counts[tried], study.scatter[tried, 0]
     slope = float(np.polyfit(np.log(counts), np.log(sigma), 1)[0])
-    shown = [np.abs(counts - n).argmin() for n in (6, counts[-1])]
+    last = len(counts) - 1
+    six = int(np.abs(counts - 6).argmin())
+    shown = [six if six < last else 0, last]
     said = " and ".join(f"{sigma[i]:.2g} px between sets of {counts[i]}" for i in shown)
     averaging = -0.7 < slope < -0.3
     return [

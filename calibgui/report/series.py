@@ -8,11 +8,14 @@ import numpy as np
 
 from calibgui.dataset import LeftOut
 from calibgui.engine.assessment import SPLINE, Drift, Series, UncertainCamera
+from calibgui.engine.numbers import format_two_digits
 from calibgui.report.numbers import format_with_sigma
 from calibgui.report.tables import align_columns, format_bullet
 
 _PARAMETERS_IN_ROW = 3
 """Number of parameters that fit beside each other in a terminal of 80 columns."""
+_MIN_TOLD_PROBABILITY = 1e-4
+"""The least probability that is told as it is: no model of the errors is true beyond."""
 
 
 def tabulate_settings(
@@ -128,11 +131,13 @@ def tabulate_camera_at(known: UncertainCamera, value: str) -> str:
 def describe_drift(drift: Drift, limit: float | None) -> str:
     """Describe whether a camera has changed, and by how much against a limit, px."""
     found = drift.difference
-    by = f"{found.rms:.2g} px rms, {found.worst:.2g} px at most"
+    by = f"{format_two_digits(found.rms)} px rms, {format_two_digits(found.worst)} px at most"
     if drift.has_changed:
+        least = _MIN_TOLD_PROBABILITY
+        chance = f"{drift.probability:.2g}" if drift.probability > least else f"less than {least:g}"
         text = (
             f"The camera has changed, by {by}: calibrations of an unchanged camera differ as much "
-            f"with a probability of {drift.probability:.2g}."
+            f"with a probability of {chance}."
         )
     else:
         text = (

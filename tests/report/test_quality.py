@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from types import SimpleNamespace
+from typing import cast
 
 import numpy as np
 import pytest
@@ -20,6 +22,7 @@ from calibgui.engine.assessment.noise_test import check_residuals
 from calibgui.engine.calibration.calibrate import calibrate
 from calibgui.engine.calibration.observations import Observation
 from calibgui.engine.calibration.result import Calibration
+from calibgui.engine.uncertainty import QUANTITIES
 from calibgui.engine.uncertainty.number_of_views import ViewCountStudy, study_number_of_views
 from calibgui.engine.uncertainty.projection_uncertainty import estimate_projection_uncertainty
 from calibgui.report import quality, quality_figures
@@ -97,6 +100,20 @@ def test_a_value_that_scatters_alone_is_named(calibrated: Calibrated) -> None:
         assert f"reported. fx scatter {said}" in text
 
 
+@pytest.mark.parametrize(("counts", "first"), [((3, 4, 5), 3), ((3, 6, 10), 6)])
+def test_the_scatter_is_told_of_two_numbers_of_views(counts: tuple[int, ...], first: int) -> None:
+    n = len(counts)
+    study = SimpleNamespace(
+        counts=np.array(counts),
+        scatter=np.outer(1 / np.sqrt(counts), np.ones(len(QUANTITIES))),
+        random=np.full((n, 3, len(QUANTITIES)), 178.8),
+        find_sufficient_count=lambda *_: None,
+    )
+    *known, scatter = quality.describe_number_of_views(cast(ViewCountStudy, study), 0.5)
+    assert all("180 px from all" in text for text in known)
+    assert f"sets of {first} and " in scatter and f"sets of {counts[-1]}, falling" in scatter
+
+
 def test_differences_are_judged_by_what_is_expected(calibrated: Calibrated) -> None:
     found = compare_cameras(barrel(), calibrated[0].camera)
     assert "agree" in quality.tabulate_camera_difference(found, found.median)
@@ -123,7 +140,7 @@ def test_sentences_about_the_number_of_views() -> None:
     assert "no number is special" in said[3]
     assert "no number is special" not in quality.describe_number_of_views(_count(-1.5), 0.8)[3]
     assert (
-        "is not known to 0.1 px: 0.5 px from all 16 views"
+        "is not known to 0.1 px: 0.50 px from all 16 views"
         in quality.describe_number_of_views(_count(-1.0), 0.1)[0]
     )
 

@@ -53,7 +53,7 @@ def describe_figures(verdict: Verdict, result: Result) -> str:
     """Describe the error of a pixel, what it is in the scene, and how well the camera fits."""
     parts = [describe_pixel_error(verdict.error)]
     if np.isfinite(mm := verdict.error.edge * verdict.mm_per_pixel):
-        text = translate("VerdictTexts", "edge {0} mm at {1:.0f} mm")
+        text = translate("VerdictTexts", "{0} mm at the edge, {1:.0f} mm away")
         parts.append(text.format(format_two_digits(mm), verdict.distance))
         parts[-1] += describe_condition(result)
     return "; ".join([*parts, describe_fit(result)])
