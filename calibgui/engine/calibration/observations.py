@@ -14,7 +14,7 @@ from typing import NamedTuple
 import numpy as np
 import scipy
 
-from calibgui.engine.arrays import Array, BoolArray, IntArray
+from calibgui.engine.arrays import Array, BoolArray, IntArray, compute_median
 from calibgui.engine.errors import CalibrationError
 
 
@@ -183,7 +183,7 @@ def measure_pitch(observations: Observations) -> float:
     part = select_spread_views(observations, _MAX_PITCH_VIEWS)
     unlike = [part.xy[k, part.corners_of(k), :2] for k in group_equal_boards(part)[0].tolist()]
     nearest = [np.asarray(scipy.spatial.cKDTree(xy).query(xy, k=2)[0])[:, 1] for xy in unlike]
-    return float(min(np.median(distance) for distance in nearest))
+    return float(min(compute_median(distance) for distance in nearest))
 
 
 def _check_shapes(uv: Array, xy: Array, cov: Array | None = None, *, name: str) -> Observation:

@@ -1,8 +1,7 @@
-"""The board shape's part of the normal equations, and steps for its variances, compiled.
+"""The board shape's part of the normal equations, compiled.
 
-The readable references are ``calibration.board_shape.parametrisation.iterate_corner_products``,
-``calibration.refinement.residuals.compute_view_products`` and
-``calibration.board_shape.uncertainty.solve_stiffened``.
+The readable references are ``calibration.board_shape.parametrisation.iterate_corner_products`` and
+``calibration.refinement.residuals.compute_view_products``.
 """
 
 from __future__ import annotations
@@ -18,11 +17,9 @@ from calibgui.engine.kernels.common import (
     VIEWS_PER_BLOCK,
     compiled,
     compiled_part,
-    factor,
     gram,
     make_contiguous,
     run_in_blocks,
-    substitute,
 )
 from calibgui.engine.kernels.normal_equations import (
     CameraAndPoses,
@@ -47,19 +44,6 @@ class BoardMotion(Protocol):
     def motion(self) -> Array: ...
     @property
     def corner(self) -> IntArray: ...
-
-
-class CoefficientInformation(Protocol):
-    """The fields of ``calibration.board_shape.uncertainty.Information``."""
-
-    @property
-    def kind(self) -> IntArray: ...
-    @property
-    def others(self) -> Array: ...
-    @property
-    def beside(self) -> Array: ...
-    @property
-    def rough(self) -> tuple[Array, Array]: ...
 
 
 @compiled_part
@@ -288,93 +272,3 @@ def iterate_corner_products(
             lens, state.R[part], state.T[part], views, rows, index[part], D
         )
         yield part, A, np.moveaxis(D, -1, 1), total
-
-
-@compiled_part
-def _follow_others(diagonal: Array, below: Array, stiffness: float, X: Array) -> float:
-    """Turn X (m, c) into M^-1 X, M the stiffened tridiagonal matrix; return the trace of M^-1."""
-    m, c = X.shape
-    down, up, trace = np.empty(m), np.empty(m), 0.0
-    for i in range(m):
-        down[i] = diagonal[i] + stiffness
-        if i:
-            ratio = below[i - 1] / down[i - 1]
-            down[i] -= ratio * below[i - 1]
-            for j in range(c):
-                X[i, j] -= ratio * X[i - 1, j]
-    for i in range(m - 1, -1, -1):
-        up[i] = diagonal[i] + stiffness
-        off = below[i] if i < m - 1 else 0.0
-        if i < m - 1:
-            up[i] -= off * off / up[i + 1]
-        # Eliminated from both ends, a coefficient is left with what it has in the inverse.
-        trace += 1 / (down[i] + up[i] - diagonal[i] - stiffness)
-        for j in range(c):
-            X[i, j] = (X[i, j] - (off * X[i + 1, j] if i < m - 1 else 0.0)) / down[i]
-    return trace
-
-
-@compiled
-def _solve_stiffened(
-    kind: IntArray,
-    N: Array,
-    gradient: Array,
-    beside: Array,
-    X: Array,
-    diagonal: Array,
-    below: Array,
-    stiffness: Array,
-    squares: Array,
-    inverses: Array,
-) -> float:
-    """Add to squares and inverses (3,); return the decrease of the cost.
-
-    N is a copy of ``Information.others``, whose last row is the gradient, and X one of `beside`.
-    """
-    m, n = len(beside), len(kind)
-    column, q = np.empty(n), np.empty(n)
-    inverses[2] += _follow_others(diagonal, below, stiffness[2], X)
-    for r in range(m):
-        for i in range(n + 1):
-            for j in range(n + 1):
-                N[i, j] -= beside[r, i] * X[r, j]
-    for i in range(n):
-        N[i, i] += stiffness[kind[i]]
-        q[i] = -N[i, n]
-    factor(N)  # of which the last row and column, those of the gradient, are not used
-    substitute(N, q)
-    gained = 0.0
-    for i in range(n):
-        squares[kind[i]] += q[i] * q[i]
-        gained -= gradient[i] * q[i]
-    for r in range(m):
-        rough = -X[r, n]
-        for i in range(n):
-            rough -= X[r, i] * q[i]
-        squares[2] += rough * rough
-        gained -= beside[r, n] * rough
-    for i in range(n):
-        for j in range(n):
-            column[j] = 1.0 if j == i else 0.0
-        substitute(N, column)
-        inverses[kind[i]] += column[i]
-        for r in range(m):
-            along = 0.0
-            for j in range(n):
-                along += X[r, j] * column[j]
-            inverses[2] += along * X[r, i]
-    return gained
-
-
-def solve_stiffened(
-    information: CoefficientInformation, stiffness: Array
-) -> tuple[Array, Array, float]:
-    """Compute ``calibration.board_shape.uncertainty.solve_stiffened``."""
-    squares, inverses = np.zeros(3), np.zeros(3)
-    gained = _solve_stiffened(
-        information.kind, information.others.copy(), information.others[-1],
-        information.beside, information.beside.copy(),
-        *information.rough,
-        stiffness, squares, inverses,
-    )  # fmt: skip
-    return squares, inverses, gained

@@ -26,6 +26,8 @@ FLATNESS, PRINT, ROUGH = 0, 1, 2
 _UPPER = np.triu_indices(3)
 _SYMMETRIC = np.array([[0, 1, 2], [1, 3, 4], [2, 4, 5]])
 """Places of a symmetric matrix's entries in its upper triangle."""
+_EXPONENTS = np.array([(d - j, j) for d in range(MAX_DEGREE + 1) for j in range(d + 1)])
+"""Exponents of x and y in the polynomials, of ascending degree."""
 _MIN_DIAGONAL = 1e-6
 """Part of a polynomial that is new beside those before it, below which it is left out."""
 
@@ -77,9 +79,8 @@ def make_deviations(points: Array) -> Deviations:
     low, high = points.min(axis=0), points.max(axis=0)
     x, y = ((2 * points - low - high) / np.maximum(high - low, np.finfo(float).tiny)).T
     of_x, of_y = (np.vander(values, MAX_DEGREE + 1, increasing=True) for values in (x, y))
-    exponents = np.array([(d - j, j) for d in range(MAX_DEGREE + 1) for j in range(d + 1)])
-    columns, degrees = of_x[:, exponents[:, 0]] * of_y[:, exponents[:, 1]], exponents.sum(axis=1)
-    columns /= np.maximum(np.linalg.norm(columns, axis=0), np.finfo(float).tiny)
+    columns, degrees = of_x[:, _EXPONENTS[:, 0]] * of_y[:, _EXPONENTS[:, 1]], _EXPONENTS.sum(axis=1)
+    columns /= np.maximum(np.sqrt(np.sum(columns * columns, axis=0)), np.finfo(float).tiny)
     # A column that depends on those before it would take a direction away from those behind.
     while True:
         q, r = np.linalg.qr(columns)

@@ -15,18 +15,8 @@ board does): d = B q, q ~ N(0, s^2) with one variance for each kind of deviation
 Higher degrees average out over the corners before they reach the camera, whose map has no terms
 beyond the seventh. The root mean square deviation of a kind is expected to be `DEFAULT_FLATNESS` of
 the board's longer side (half of it in each polynomial of the roughness), or what the user knows
-(`BoardShapePrior`), which is kept. The default gives way to the data, by expectation-maximisation
-(Dempster, Laird and Rubin 1977) with the prior as an inverse gamma density of few degrees of
-freedom (Gelman et al., Bayesian Data Analysis, 2.6): with A = sum of the squares of a kind's m
-expected coefficients, their variances included,
-
-    s^2 <- (nu s0^2 + A) / (nu + m),
-
-which stays at s0^2 where the views say nothing of the coefficients, and is what they say where they
-say much. Few coefficients that are determined draw the variance of the others down slowly, by a
-tenth of the way in a step: Anderson's (1965) mixing of the last steps, in the logarithms of
-sigma^2 / s^2, leads to the end. The camera is eliminated first, after the poses, so that a step
-factorises a matrix of the coefficients alone, and most of that is tridiagonal (`Information`).
+(`BoardShapePrior`), which is kept. The default gives way to the data (``coefficients.py``). The
+camera is eliminated first, after the poses, which leaves the information on the coefficients alone.
 
 One linear step from the nominal board's solution, with stiffness sigma^2 / s^2 on q, leads to the
 joint estimate of camera, poses and board. It moves camera and poses by b, and leaves them with the
@@ -58,14 +48,17 @@ residuals' size and smoothness, fixed to the board, moves them: without it, they
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from typing import NamedTuple
 
 import numpy as np
-import scipy
 
 from calibgui.engine.arrays import Array, IntArray
 from calibgui.engine.boards.shape import BoardShapePrior
+from calibgui.engine.calibration.board_shape.coefficients import (
+    Noise,
+    VariancePrior,
+    estimate_coefficients,
+)
 from calibgui.engine.calibration.board_shape.deviations import ROUGH, Deviations, make_deviations
 from calibgui.engine.calibration.board_shape.parametrisation import (
     index_board_points,
@@ -80,7 +73,6 @@ from calibgui.engine.calibration.refinement.schur import (
     sum_costs,
 )
 from calibgui.engine.calibration.result_assembly import Estimate
-from calibgui.engine.kernels import with_kernel
 
 DEFAULT_FLATNESS = 3e-4
 """Expected deviation (rms) of a board from flatness, and from its print, over its longer side:
@@ -92,16 +84,8 @@ _PRIOR_FREEDOM = 0.3
 the degrees of ``deviations.py``, 92 % and more of the intrinsics lie within two standard deviations
 of the truth on boards that are bowed, twisted, stretched or rough by 0.05 to 1 mm, in 3 to 25 views
 (``tests/benchmarks/standard_deviations.py``)."""
-_MAX_ITERATIONS = 50
-"""Number of steps of expectation-maximisation, at most."""
-_MAX_CHANGE = 1e-4
-"""Relative change of every variance by a step below which they have settled."""
-_MAX_MIXING = 3.0
-"""Change of a variance's logarithm by mixing, at most: changes that are nearly alike lead far."""
 _SHIFT_WEIGHT = 1.2922
 """The factor gamma of a shift's square, see above."""
-_ROUNDING = 1e-12
-"""Stiffness, relative to the information of the views, that rounding errors leave meaningful."""
 _MIN_VIEWS_OF_CORNER = 3
 """Number of views that must show a corner for it to enter the test."""
 _STIFFNESS = 1e-9
@@ -208,17 +192,6 @@ def suspect_board(board: LinearisedBoard, sigma2: float) -> float:
     return excess * sigma2
 
 
-class _Coefficients(NamedTuple):
-    """Estimates of the coefficients q of the deviations from the views, given q's variances."""
-
-    q: Array
-    """(Q,) expected coefficients, mm."""
-    root: Array
-    """(Q, Q) R, where sigma^2 R R^T is their covariance."""
-    sigma2: float
-    """Variance of one residual coordinate."""
-
-
 def estimate_board_error(
     board: LinearisedBoard, estimate: Estimate, count: int, prior: BoardShapePrior | None = None
 ) -> BoardError:
@@ -237,25 +210,19 @@ def estimate_board_error(
     camera = covariances.invert_information(joint._replace(S=S[:P, :P], unit=joint.unit[:P]))[0]
     follow = -camera @ S[:P, P:]  # of the camera, by each coefficient
 
-    def estimate_sigma2(gained: float, known: float) -> float:
-        left = covariances.estimate_variance(
-            normal.cost - gained, count, P + normal.pose.size + known
-        )
-        return left if left > 0 else estimate.sigma2
-
-    q, root, sigma2 = _estimate_coefficients(
+    q, root, sigma2 = estimate_coefficients(
         S[P:, P:] + S[P:, :P] @ follow,
         right[P:] + right[:P] @ follow,
         kind,
-        _expect_variances(board.points, kind, prior),
-        prior is None,
-        estimate_sigma2,
+        _state_prior(board.points, kind, prior),
+        Noise(normal.cost, 2 * count - P - normal.pose.size, estimate.sigma2),
     )
-    shift, root = follow @ q - camera @ right[:P], np.concatenate([follow @ root, root])
+    shift = follow @ q - camera @ right[:P]
     # Higher degrees are as rough as most of those before: of noise's squares the median is 0.455.
     rough = q[kind == ROUGH] ** 2
     typical = float(np.median(rough)) / 0.455 if rough.size else 0.0
     square = float(q @ q) + max(3 * n - len(q) - 7, 0) * typical
+    root = np.concatenate([follow @ root, root])
     covariance = sigma2 * (root @ root.T)
     covariance[:P, :P] += sigma2 * camera
     return BoardError(
@@ -265,141 +232,6 @@ def estimate_board_error(
         joint.solve_poses(-normal.pose, np.append(shift, q)),
         float(np.sqrt(square / n)),
     )
-
-
-def _estimate_coefficients(
-    S: Array,
-    right: Array,
-    kind: IntArray,
-    expected: Array,
-    is_learnt: bool,
-    estimate_sigma2: Callable[[float, float], float],
-) -> _Coefficients:
-    """Estimate the coefficients of the deviations together with their variances.
-
-    Args:
-        S: (Q, Q) information of the views on them.
-        right: (Q,) gradient of half the cost by them, at 0.
-        kind: (Q,) kinds of the deviations.
-        expected: (3,) variances of a coefficient of each kind that the prior expects, mm^2.
-        is_learnt: false to keep these variances: what the user knows is not learnt from the views.
-        estimate_sigma2: a function from the decrease of the cost and the number of coefficients
-            that the views determine to the variance of one residual coordinate.
-    """
-    counts, information = np.bincount(kind, minlength=3), turn_rough_axes(S, right, kind)
-    least = _ROUNDING * float(S.diagonal().max(initial=0.0))
-
-    def take_step(logarithms: Array) -> tuple[Array, float]:
-        stiffness = np.exp(logarithms)
-        squares, inverses, gained = solve_stiffened(information, stiffness)
-        sigma2 = estimate_sigma2(gained, len(S) - float(stiffness @ inverses))
-        variances = expected
-        if is_learnt:
-            total = squares + sigma2 * inverses
-            variances = (_PRIOR_FREEDOM * expected + total) / (_PRIOR_FREEDOM + counts)
-        return np.log(np.fmax(sigma2 / variances, least)), sigma2
-
-    start = np.log(np.fmax(estimate_sigma2(0.0, 0.0) / expected, least))
-    logarithms, sigma2 = _mix_steps(take_step, start)
-    factor, _ = scipy.linalg.lapack.dpotrf(S + np.diag(np.exp(logarithms)[kind]))
-    root, _ = scipy.linalg.lapack.dtrtri(factor)
-    return _Coefficients(-root @ (right @ root), root, sigma2)
-
-
-class Information(NamedTuple):
-    """Information of the views on m rough and s other coefficients, the rough ones' axes turned.
-
-    All rough coefficients have one variance, and so the prior does not notice a turn that makes
-    the views' information on them tridiagonal. Then a step factorises in O(m) what is stiffened,
-    and the others' information, less what goes with the rough ones, is small.
-    """
-
-    kind: IntArray
-    """(s,) kinds of the other coefficients."""
-    others: Array
-    """(s + 1, s + 1) information on these, and in the last row and column the gradient."""
-    beside: Array
-    """(m, s + 1) information between the rough and the other ones, and last the gradient."""
-    rough: tuple[Array, Array]
-    """(m,) entries on the diagonal of the information on the rough ones, (m - 1,) beside it."""
-
-
-@with_kernel("board_shape", "solve_stiffened")
-def solve_stiffened(information: Information, stiffness: Array) -> tuple[Array, Array, float]:
-    """Solve for the coefficients, and invert what is known of them.
-
-    Args:
-        information: what the views tell of the coefficients.
-        stiffness: (3,) sigma^2 / s^2 of each kind.
-
-    Returns:
-        By kind the sum (3,) of the squares of the coefficients, and that (3,) of the entries on the
-        diagonal of the inverse of the stiffened information; the decrease of the cost.
-    """
-    kind, others, beside, (diagonal, next_to_it) = information
-    tridiagonal = np.diag(diagonal + stiffness[ROUGH])
-    tridiagonal += np.diag(next_to_it, 1) + np.diag(next_to_it, -1)
-    inverse_of_rough = np.linalg.inv(tridiagonal)
-    followed = inverse_of_rough @ beside
-    left = others - beside.T @ followed
-    inverse = np.linalg.inv(left[:-1, :-1] + np.diag(stiffness[kind]))
-    q = -inverse @ left[:-1, -1]
-    rough = -followed @ np.append(q, 1.0)
-    squares, inverses = (
-        np.asarray(np.bincount(kind, x, 3), np.float64) for x in (q * q, inverse.diagonal())
-    )
-    squares[ROUGH] += rough @ rough
-    inverses[ROUGH] += np.trace(inverse_of_rough)
-    inverses[ROUGH] += np.sum((followed[:, :-1] @ inverse) * followed[:, :-1])
-    return squares, inverses, -float(others[-1, :-1] @ q + beside[:, -1] @ rough)
-
-
-def turn_rough_axes(S: Array, right: Array, kind: IntArray) -> Information:
-    """Turn the axes of the rough coefficients so that the information on them is tridiagonal.
-
-    Args:
-        S: (Q, Q) information of the views on the coefficients.
-        right: (Q,) gradient of half the cost by them, at 0.
-        kind: (Q,) kinds of the deviations. Of rough ones there are none, or three and more.
-    """
-    turned, others = np.flatnonzero(kind == ROUGH), np.flatnonzero(kind != ROUGH)
-    rows = S[turned]
-    beside, rough = np.column_stack([rows[:, others], right[turned]]), (np.zeros(0), np.zeros(0))
-    if turned.size:
-        lapack = scipy.linalg.lapack
-        reflected, *chain, shares, _ = lapack.dsytrd(rows[:, turned].T, lower=True)
-        rough = chain[0], chain[1]
-        # The first axis stays. The workspace: LAPACK asks for 64 numbers a column at most.
-        space = 64 * beside.shape[1]
-        beside[1:] = lapack.dormqr("L", "T", reflected[1:, :-1], shares, beside[1:], space)[0]
-    whole = np.zeros((len(others) + 1, len(others) + 1))
-    whole[:-1, :-1] = S[np.ix_(others, others)]
-    whole[-1, :-1] = whole[:-1, -1] = right[others]
-    return Information(kind[others], whole, beside, rough)
-
-
-def _mix_steps(take_step: Callable[[Array], tuple[Array, float]], x: Array) -> tuple[Array, float]:
-    """Return the fixed point of a step, and what a step finds there, by Anderson's mixing of the
-    last steps.
-
-    Args:
-        take_step: a function from a point (m,) to the next one and what it finds.
-        x: (m,) the point to start from.
-    """
-    points: list[Array] = []
-    changes: list[Array] = []
-    for _ in range(_MAX_ITERATIONS):
-        before = x
-        after, found = take_step(before)
-        points, changes = [*points[-len(x) :], x], [*changes[-len(x) :], after - x]
-        if np.abs(changes[-1]).max() < _MAX_CHANGE:
-            break
-        x = after
-        if len(points) > 1:
-            by_point, by_change = (a[1:] - a[:-1] for a in map(np.array, (points, changes)))
-            weights = scipy.linalg.lapack.dgelss(by_change.T, changes[-1])[1][: len(by_change)]
-            x = after - np.clip(weights @ (by_point + by_change), -_MAX_MIXING, _MAX_MIXING)
-    return before, found
 
 
 def add_board_error(
@@ -423,10 +255,11 @@ def add_board_error(
     )
 
 
-def _expect_variances(points: Array, kind: IntArray, prior: BoardShapePrior | None) -> Array:
-    """Return the variances (3,) of a coefficient of each kind that the prior expects, mm^2."""
+def _state_prior(points: Array, kind: IntArray, prior: BoardShapePrior | None) -> VariancePrior:
+    """Return the prior on the variances: what the user knows, else what boards usually have."""
     usual = DEFAULT_FLATNESS * float(np.ptp(points, axis=0).max())
     flat, true = (usual, usual) if prior is None else (prior.out_of_plane, prior.in_plane)
     counts = np.maximum(np.bincount(kind, minlength=3), 1)
     smooth = len(points) * np.array([flat, true]) ** 2 / counts[:2]
-    return np.append(smooth, _ROUGHNESS**2 * flat * true)
+    expected = np.append(smooth, _ROUGHNESS**2 * flat * true)
+    return VariancePrior(expected, _PRIOR_FREEDOM if prior is None else np.inf)

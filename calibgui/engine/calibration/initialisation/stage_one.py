@@ -76,34 +76,27 @@ def register_views(xy: Array, reference: Array, mask: Array) -> StageOneRegistra
     """
     count = mask.sum(axis=1)
     s, s_ref = (
-        np.sqrt(((points[..., 0] ** 2 + points[..., 1] ** 2) * mask).sum(axis=1) / count)
-        for points in (xy, reference)
+        np.sqrt((mask[:, None] @ points**2).sum(axis=(1, 2)) / count) for points in (xy, reference)
     )
     x, goal = xy / s[:, None, None], reference / s_ref[:, None, None]
 
     H = homography.fit_homography(x, goal, mask)
     z = np.zeros((len(x), 11))
-    z[:, 3:] = np.stack(
-        [H[:, i, j] for i, j in ((0, 0), (1, 0), (0, 1), (1, 1), (0, 2), (1, 2), (2, 0), (2, 1))],
-        axis=1,
-    )
+    z[:, 3:] = H.reshape(-1, 9)[:, [0, 3, 1, 4, 2, 5, 6, 7]]  # in the order of z_r
     z, products, iterations, converged = minimise_registration(
         z, x, goal, mask, _MAX_ITERATIONS, _TOLERANCE, _MAX_DAMPING
     )
     normal, cost = products[:, :11, :11], products[:, 11, 11]
 
     xp, yp, k1, a11, a21, a12, a22, d1, d2, c1, c2 = z.T
-    one = np.ones_like(xp)
-    forward = np.stack(
+    one, ratio = np.ones_like(xp), s_ref / s
+    forward = np.array(
         [
-            np.stack([a11, a12, d1 + a11 * xp + a12 * yp], axis=1),  # eq. 32
-            np.stack([a21, a22, d2 + a21 * xp + a22 * yp], axis=1),
-            np.stack([c1, c2, one], axis=1),
-        ],
-        axis=1,
-    )
-    forward = forward * s_ref[:, None, None] ** np.array([[1.0], [1.0], [0.0]])
-    forward = forward / s[:, None, None] ** np.array([1.0, 1.0, 0.0])
+            [a11 * ratio, a12 * ratio, (d1 + a11 * xp + a12 * yp) * s_ref],  # eq. 32
+            [a21 * ratio, a22 * ratio, (d2 + a21 * xp + a22 * yp) * s_ref],
+            [c1 / s, c2 / s, one],
+        ]
+    ).transpose(2, 0, 1)
     variance = cost / np.maximum(2 * count - 11, 1)
     inverse = np.diagonal(_invert_information(normal), axis1=1, axis2=2)
     spread = np.sqrt(variance[:, None] * inverse[:, :3])

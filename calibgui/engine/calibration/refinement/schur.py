@@ -17,11 +17,11 @@ Eliminating the poses (Triggs et al. 2000, section 6) leaves the Schur complemen
 a cost linear in the number of views. S is scaled to a unit diagonal of J^T J before it is solved.
 The sums come from ``residuals.py``, or from the problem of the board's shape.
 
-A view whose corners touch few of the parameters, those of a splined lens, has a Wk that is mostly
-0, and then a kernel subtracts what is not 0. The coefficients of such a lens that no corner at all
-touches are coupled by the prior only (``prior.py``), dx of a control point with its dy: S falls
-apart into a dense block and blocks of 1 x 1 and 2 x 2 (`find_pairs`), of which only the first is
-factorised.
+A kernel subtracts the squares where there are few parameters, and where a view's corners touch few
+of them, those of a splined lens: of a Wk that is mostly 0 it takes what is not. The coefficients of
+such a lens that no corner at all touches are coupled by the prior only (``prior.py``), dx of a
+control point with its dy: S falls apart into a dense block and blocks of 1 x 1 and 2 x 2
+(`find_pairs`), of which only the first is factorised.
 
 The poses are eliminated although there are nearly as many unknowns of poses, 6 K, as coefficients
 are touched, P, and U is banded. With m coefficients touched by a view, products and factors take
@@ -50,6 +50,8 @@ from calibgui.engine.kernels import with_kernel
 
 _VIEWS_PER_ELIMINATION = 1024
 """Number of views whose poses are eliminated together, which bounds the memory."""
+_MAX_FEW_PARAMETERS = 30
+"""Number of shared parameters up to which many small products take longer than their numbers."""
 _MIN_SPARSE_PARAMETERS = 100
 """Number of shared parameters from which it counts how many of them a view touches."""
 _MAX_SPARSE_SQUARE = 0.15
@@ -173,8 +175,11 @@ def eliminate_poses(normal: NormalEquations, damping: float = 0.0) -> Reduced:
 
     With Vk = L L^T, Wk Vk^-1 Wk^T is the square of L^-1 Wk^T.
     """
-    roots = invert_pose_roots(normal.V if damping == 0 else normal.V * (1 + damping * np.eye(6)))
-    diagonal, S = np.diag(normal.U), subtract_squares(normal.U, normal.W, roots)
+    V, diagonal = normal.V, normal.U.diagonal()
+    if damping:
+        V = V * (1 + damping * np.eye(6))
+    roots = invert_pose_roots(V)
+    S = subtract_squares(normal.U, normal.W, roots)
     S.flat[:: len(S) + 1] += damping * diagonal
     unit = 1 / np.sqrt(np.maximum(diagonal, 1e-300))
     return Reduced(S, normal.W, roots, unit)
@@ -202,9 +207,9 @@ def invert_roots(V: Array) -> Array:
 
 
 def _touches_few_parameters(U: Array, W: Array, _roots: Array) -> bool:
-    """Return whether the blocks W have so many rows of 0 that their kernel is faster."""
+    """Return whether the blocks W have so few rows, or so many of 0, that a kernel is faster."""
     if len(U) < _MIN_SPARSE_PARAMETERS:
-        return False
+        return len(U) <= _MAX_FEW_PARAMETERS
     touched = np.count_nonzero(W[..., -1], axis=1) / len(U)
     return bool(np.mean(touched**2) < _MAX_SPARSE_SQUARE)
 
