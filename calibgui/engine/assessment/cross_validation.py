@@ -8,7 +8,8 @@ poses are fitted. The root mean square of those residuals is the held-out error.
 shape with more parameters than the views can carry lowers the training error but raises the
 held-out one. Between models of the board's shape the comparison is paired: view by view, by the
 logarithm of the ratio of the held-out errors, and a richer model is taken only if the mean exceeds
-twice its standard error and 1 %.
+twice its standard error and 1 %. A shape is fitted to all views, and led from there to the minimum
+for those of each fold (``calibration/fewer_views.py``).
 
 The bootstrap (Efron 1979) draws K views from the K with replacement and calibrates, many times.
 The scatter of the estimates is a standard deviation that does not assume the corners' errors to
@@ -29,6 +30,7 @@ import numpy as np
 from calibgui.engine.arrays import Array, IntArray, Size, freeze
 from calibgui.engine.boards.shape import BoardShape, BoardShapeModel
 from calibgui.engine.calibration.calibrate import calibrate
+from calibgui.engine.calibration.fewer_views import fit_some_views
 from calibgui.engine.calibration.methods import DEFAULT_METHOD, find_method
 from calibgui.engine.calibration.methods.method import Method, begin_at, stay_at
 from calibgui.engine.calibration.observations import Observation, pack_observations
@@ -38,6 +40,7 @@ from calibgui.engine.calibration.result import Calibration, ViewResiduals
 from calibgui.engine.calibration.result_assembly import compute_view_residuals
 from calibgui.engine.camera.camera import Camera
 from calibgui.engine.errors import CalibrationError
+from calibgui.engine.threads import with_one_blas_thread
 
 DEFAULT_FOLDS = 5
 """Number of folds where none is given."""
@@ -265,6 +268,7 @@ class BoardShapeChoice:
         )
 
 
+@with_one_blas_thread
 def choose_board_shape(
     views: Sequence[Observation | tuple[Array, Array]],
     size: Size,
@@ -290,9 +294,8 @@ def choose_board_shape(
     best, nominal = BoardShapeModel.NOMINAL, nominal or calibrate(views, size, **settings)
     seen, method, further = _sort_arguments(views, settings)
     begun = [begin_at(method, nominal, kept) for kept, _ in _deal_views(len(seen), folds)]
-    drawn = _calibrate_folds(seen, size, begun, further)
-    validations[best] = _validate(seen, drawn)
-    solved = [stay_at(method, calibration) for calibration in drawn]
+    validations[best] = _validate(seen, _calibrate_folds(seen, size, begun, further))
+    chosen, solved = nominal, further | {"method": stay_at(method, nominal)}
     for model in BoardShapeModel:
         if model is BoardShapeModel.NOMINAL:
             continue
@@ -300,19 +303,26 @@ def choose_board_shape(
             refused[model] = _REASON_LENS
             continue
         try:
-            shaped = _calibrate_folds(seen, size, solved, further | {"board_shape": model})
-            validations[model] = _validate(seen, shaped)
+            whole = calibrate(seen, size, board_shape=model, **solved)
+            validations[model] = _validate(seen, _fit_folds(seen, whole, folds, settings))
         except CalibrationError as error:
             refused[model] = error.message
             continue
         if predicts_better(validations[model].by_view, validations[best].by_view):
-            best = model
-    chosen = (
-        nominal
-        if best is BoardShapeModel.NOMINAL
-        else calibrate(views, size, board_shape=best, **settings)
-    )
+            best, chosen = model, whole
     return BoardShapeChoice(best, validations, refused, nominal, chosen)
+
+
+def _fit_folds(
+    views: Sequence[Observation], whole: Calibration, folds: int, settings: Mapping[str, Any]
+) -> list[Calibration]:
+    """Fit a calibration with an estimated board shape without the views of each fold."""
+    return [
+        fit_some_views(
+            whole, kept, pack_observations([views[k] for k in kept]), settings.get("report")
+        )
+        for kept, _ in _deal_views(len(views), folds)
+    ]
 
 
 def predicts_better(candidate: Array, incumbent: Array) -> bool:

@@ -94,13 +94,13 @@ def assemble_calibration(
 
     state, observations = estimate.state, estimate.observations
     covariance, sigma = with_held_parameters(estimate.camera_covariance)
-    rvecs = freeze_array(rotations.vector_from_rotation(state.R))
+    rvecs = rotations.vector_from_rotation(state.R)
     return Calibration(
         camera=Camera(options.size, state.params, options.model),
         sigma=sigma,
         covariance=covariance,
         noise_covariance=with_held_parameters(estimate.noise_covariance)[0],
-        poses=tuple(map(Pose, rvecs, freeze_array(state.T))),
+        poses=make_poses(rvecs, state.T),
         pose_covariances=covariances.convert_pose_covariances(estimate.pose_covariances, rvecs),
         residuals=compute_view_residuals(state, observations, options.model, cost, options.scale),
         noise=float(np.sqrt(estimate.sigma2)),
@@ -119,6 +119,11 @@ def assemble_calibration(
         settings=options.settings,
         digest=digest,
     )
+
+
+def make_poses(rvecs: Array, T: Array) -> tuple[Pose, ...]:
+    """Make the poses of rotation vectors (K, 3) and translations (K, 3), mm."""
+    return tuple(map(Pose, freeze_array(rvecs), freeze_array(T)))  # so that no pose copies its part
 
 
 def compute_view_residuals(

@@ -26,9 +26,7 @@ from calibgui.engine.calibration.observations import Observations
 from calibgui.engine.calibration.refinement import covariances
 from calibgui.engine.calibration.refinement.levenberg_marquardt import Solution, minimise
 from calibgui.engine.calibration.refinement.residuals import BoardMotion, State, compute_misses
-from calibgui.engine.calibration.refinement.schur import (
-    eliminate_poses,
-)
+from calibgui.engine.calibration.refinement.schur import eliminate_poses
 from calibgui.engine.calibration.refinement.whitening import (
     estimate_model_variance,
     whiten_observations,
@@ -71,11 +69,9 @@ def fit_board_shape(
         CalibrationError: if the views cannot determine the shape; the message says why.
     """
     points, index = index_board_points(observations)
-    _check_views(observations, index, len(points), shape, prior)
-    B = make_basis(shape, points)
-    gauged = prior is None and shape is BoardShapeModel.FREE
-    G = make_gauge(points) if gauged else np.zeros((B.shape[2], 0))
-    deviations = _Deviations(points, index, B, G, prior)
+    check_views(observations, index, len(points), shape, prior)
+    deviations = allow_deviations(shape, points, index, prior)
+    B, G = deviations.B, deviations.G
     joint = _solve_jointly(nominal, observations, model, free, deviations, report)
     reduced = eliminate_poses(joint.solution.normal)
     inverse, left = covariances.invert_information(reduced)
@@ -103,7 +99,7 @@ def fit_board_shape(
     )
 
 
-class _Deviations(NamedTuple):
+class AllowedDeviations(NamedTuple):
     """The deviations that are allowed (``parametrisation.py``), and the matrix that holds them."""
 
     points: Array
@@ -134,6 +130,16 @@ class _Deviations(NamedTuple):
         return np.diag(np.tile(sigma2 / s**2, count))
 
 
+def allow_deviations(
+    shape: BoardShapeModel, points: Array, index: IntArray, prior: BoardShapePrior | None
+) -> AllowedDeviations:
+    """Make the deviations that a model of the board's shape allows."""
+    B = make_basis(shape, points)
+    gauged = prior is None and shape is BoardShapeModel.FREE
+    G = make_gauge(points) if gauged else np.zeros((B.shape[2], 0))
+    return AllowedDeviations(points, index, B, G, prior)
+
+
 class _JointSolution(NamedTuple):
     """A solution with the unknowns of the board shape, and the same taken apart."""
 
@@ -153,7 +159,7 @@ def _solve_jointly(
     observations: Observations,
     model: str,
     free: IntArray,
-    deviations: _Deviations,
+    deviations: AllowedDeviations,
     report: Report | None,
 ) -> _JointSolution:
     """Solve for camera, poses and board shape together, from the solution for the drawing.
@@ -193,7 +199,7 @@ def _solve_jointly(
     return _JointSolution(solution, state, displaced, deviation, sigma2)
 
 
-def _check_views(
+def check_views(
     observations: Observations,
     index: IntArray,
     count: int,

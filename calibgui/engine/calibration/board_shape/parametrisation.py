@@ -78,6 +78,14 @@ def make_basis(model: BoardShapeModel, points: Array) -> Array:
     return B
 
 
+def fit_basis(B: Array, deviation: Array) -> Array:
+    """Fit the coefficients (Q,) of a basis B (n, 3, Q) to deviations (n, 3), mm."""
+    count, _, Q = B.shape
+    if 3 * count == Q:  # the free board's basis is the identity
+        return deviation.ravel()
+    return np.asarray(np.linalg.lstsq(B.reshape(-1, Q), deviation.ravel(), rcond=None)[0])
+
+
 def make_gauge(points: Array) -> Array:
     """Make the gauge G (3n, 7), orthonormal: motions, turns and scaling of a board (n, 2)."""
     centred = np.column_stack([points - points.mean(axis=0), np.zeros(len(points))])
@@ -185,14 +193,24 @@ def place_on_board_shape(observations: Observations, board_shape: BoardShape) ->
     Raises:
         CalibrationError: if a corner is not one of the board's.
     """
-    found = scipy.spatial.cKDTree(board_shape.nominal).query(observations.xy[..., :2])
+    index = find_board_points(board_shape, observations.xy[..., :2])
+    return displace_board_points(observations, board_shape.nominal, index, board_shape.deviation)
+
+
+def find_board_points(board_shape: BoardShape, xy: Array) -> IntArray:
+    """Find which corner of a known board each of the places xy (..., 2), mm, is.
+
+    Raises:
+        CalibrationError: if one is not one of the board's.
+    """
+    found = scipy.spatial.cKDTree(board_shape.nominal).query(xy)
     distance, index = np.asarray(found[0]), np.asarray(found[1], dtype=np.int64)
     if distance.max() > _MAX_DISTANCE:
         raise CalibrationError(
             "The views show corners that the given board shape does not have.",
             "Use the file made with this board, squares of the same size and the same origin.",
         )
-    return displace_board_points(observations, board_shape.nominal, index, board_shape.deviation)
+    return index
 
 
 def displace_board_points(

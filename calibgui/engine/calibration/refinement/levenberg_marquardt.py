@@ -37,7 +37,8 @@ from calibgui.engine.calibration.result import Iteration, Report, Status
 from calibgui.engine.errors import CalibrationError
 
 _MAX_DECREASE = 1e-12
-"""Predicted decrease of the cost, relative to it, below which the iteration has converged."""
+"""Predicted decrease of the cost, relative to it, below which the iteration has converged where the
+caller asks for nothing else."""
 _MAX_DECREASE_TO_REUSE_FACTORS = 1e-4
 """Decrease of a step, relative to the cost, that changes J^T J by a hundredth at most."""
 _MAX_DECREASE_TO_KEEP_LARGE_FACTORS = 1e-3
@@ -83,6 +84,7 @@ def minimise(
     report: Report | None = None,
     max_iterations: int = 100,
     earlier: Sequence[Iteration] = (),
+    max_decrease: float = _MAX_DECREASE,
 ) -> Solution:
     """Minimise the sum of squared residuals.
 
@@ -95,6 +97,7 @@ def minimise(
         report: a function that takes each iteration; it returns False to stop.
         max_iterations: number of accepted and rejected steps together, at most.
         earlier: iterations of the solve that this one continues, with its last damping.
+        max_decrease: predicted decrease of the cost, relative to it, at which it ends.
 
     Raises:
         StartError: if the residuals at the start are not finite.
@@ -119,8 +122,8 @@ def minimise(
         step = factors.solve_step(normal)
         decrease = _predict_decrease(normal, *step)
         is_exact = normal.cost <= _ROUNDING * data_square
-        if is_exact or decrease <= _MAX_DECREASE * normal.total_cost or damping > _MAX_DAMPING:
-            if is_exact or _is_minimum(normal, decrease, damping):
+        if is_exact or decrease <= max_decrease * normal.total_cost or damping > _MAX_DAMPING:
+            if is_exact or _is_minimum(normal, decrease, damping, max_decrease):
                 status = Status.CONVERGED
             break
         trial = state.take_step(*step, free)
@@ -179,14 +182,16 @@ def _leaves_factors(normal: NormalEquations, predicted: float, decrease: float) 
     return is_as_predicted and predicted <= _MAX_DECREASE_TO_REUSE_FACTORS * normal.total_cost
 
 
-def _is_minimum(normal: NormalEquations, decrease: float, damping: float) -> bool:
+def _is_minimum(
+    normal: NormalEquations, decrease: float, damping: float, max_decrease: float
+) -> bool:
     """Return whether this is the minimum, where a damped step predicts `decrease`.
 
     Damping makes steps small as well, against a wall of states that cannot be imaged, and then the
     full step decides. Weak damping cannot: if even the direction of least information predicts
     little, the full step does.
     """
-    is_small = decrease <= _MAX_DECREASE * normal.total_cost
+    is_small = decrease <= max_decrease * normal.total_cost
     if is_small and damping / _MIN_INFORMATION <= _MAX_UNDAMPED_DECREASE / _MAX_DECREASE:
         return True
     full_step = solve_normal_equations(normal, 0.0)
@@ -195,18 +200,18 @@ def _is_minimum(normal: NormalEquations, decrease: float, damping: float) -> boo
 
 def _predict_decrease(normal: NormalEquations, by_shared: Array, by_pose: Array) -> float:
     """Return the decrease of the cost that the linear model predicts for a step."""
-    return -float(by_shared @ normal.shared + np.sum(by_pose * normal.pose))
+    return -float(by_shared @ normal.shared + np.vdot(by_pose, normal.pose))
 
 
 def _measure_scaled_gradient(normal: NormalEquations) -> float:
     """Return the largest gradient entry, unknowns scaled to a unit diagonal of J^T J."""
-    shared = np.abs(normal.shared) / np.sqrt(np.maximum(np.diag(normal.U), 1e-300))
-    poses = np.abs(normal.pose) / np.sqrt(np.diagonal(normal.V, axis1=1, axis2=2))
-    return float(max(shared.max(initial=0.0), poses.max(initial=0.0)))
+    shared = normal.shared**2 / np.maximum(normal.U.diagonal(), 1e-300)
+    poses = normal.pose**2 / normal.V.diagonal(axis1=1, axis2=2)
+    return float(np.sqrt(max(shared.max(initial=0.0), poses.max(initial=0.0))))
 
 
 def _measure_scaled_step(normal: NormalEquations, by_shared: Array, by_pose: Array) -> float:
     """Return the length of a step, unknowns scaled to a unit diagonal of J^T J."""
-    square = np.sum(np.diag(normal.U) * by_shared**2)
-    square += np.sum(np.diagonal(normal.V, axis1=1, axis2=2) * by_pose**2)
+    square = normal.U.diagonal() @ by_shared**2
+    square += np.vdot(normal.V.diagonal(axis1=1, axis2=2), by_pose**2)
     return float(np.sqrt(square))

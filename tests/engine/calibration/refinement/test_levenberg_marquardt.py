@@ -53,6 +53,13 @@ def test_factors_are_reused_after_a_slight_step(monkeypatch: pytest.MonkeyPatch)
     assert sparing.normal.cost == pytest.approx(lavish.normal.cost, rel=1e-11)
 
 
+def test_it_ends_where_the_caller_asks_for_no_more() -> None:
+    least, near = run(away(1.0)), run(away(1.0), max_decrease=1e-3)
+    assert near.status is Status.CONVERGED
+    assert len(near.history) < len(least.history)
+    assert least.normal.cost < near.normal.cost < (1 + 1e-3) * least.normal.cost
+
+
 def test_history_descends_and_records_each_step() -> None:
     seen: list[Iteration] = []
     solution = run(away(1.0), report=lambda i: seen.append(i) or True)
