@@ -196,23 +196,24 @@ class SharedCauses:
                 else _make_board_columns(fit, views, by_pose, cause, *index)
                 for cause in causes
             ]
-            dense = (by_camera.reshape(-1, len(fit.free)), residual.reshape(-1, 1))
-            camera, error = map(scipy.sparse.csr_array, dense)
             pose = by_pose.reshape(len(residual), -1, 6)
             products = _multiply(
-                scipy.sparse.hstack([camera, *columns, error], format="csr"),
+                scipy.sparse.hstack(columns, format="csr"),
+                np.concatenate([by_camera, residual[..., None]], axis=-1).reshape(
+                    *pose.shape[:2], -1
+                ),
                 np.linalg.qr(pose)[0] if own is None else own[views],
             )
             whole, left = whole + products[0], left + products[1]
             parts_by_view.append(products[2])
-            widths = [camera.shape[1], *(column.shape[1] for column in columns)]
+            widths = [*(column.shape[1] for column in columns), len(fit.free)]
         by_view = np.concatenate(parts_by_view, axis=1)
         # Columns that no corner depends on would be divided by 0.
         square = np.diag(whole)[:-1]
         unit = 1 / np.sqrt(np.where(square > 0, square, np.inf))
         self._N, self._b = left[:-1, :-1] * np.outer(unit, unit), left[:-1, -1] * unit
         self._b_of_views = by_view[:-1] * unit[:, None]
-        self._names = np.repeat(["", *causes], widths)
+        self._names = np.repeat([*causes, ""], widths)
         self.cost = float(whole[-1, -1])
         """The sum of squares r^T r."""
         self.cost_beside_views = float(left[-1, -1])
@@ -290,22 +291,36 @@ def _linearise(fit: LinearisedFit, views: slice) -> tuple[Array, Array, Array, A
     )
 
 
-def _multiply(columns: scipy.sparse.csr_array, own: Array) -> tuple[Array, Array, Array]:
-    """Return products (m, m) of some views' columns, and of what the views' own columns (k, rows,
-    n) leave of them; and each view's part (m, k) of the latter's products with the last column,
-    the residuals."""
-    k, rows, n = own.shape
-    count = columns.shape[1]
+def _multiply(
+    sparse: scipy.sparse.csr_array, dense: Array, own: Array
+) -> tuple[Array, Array, Array]:
+    """Multiply the columns of some views with each other.
+
+    Args:
+        sparse: (k rows, M) columns that each corner has few entries in.
+        dense: (k, rows, D) columns that follow, the residuals last.
+        own: (k, rows, n) orthonormal columns of each view's own.
+
+    Returns:
+        Products (M + D, M + D) of the columns, and of what the views' own columns leave of them;
+        and each view's part (M + D, k) of the latter's products with the residuals.
+    """
+    (k, rows, n), M, D = own.shape, sparse.shape[1], dense.shape[2]
     # In a matrix of blocks along the diagonal, one for each view, all are multiplied at once.
-    block = np.repeat(np.repeat(np.arange(k), rows), np.diff(columns.indptr))
+    block = np.repeat(np.repeat(np.arange(k), rows), np.diff(sparse.indptr))
     blocks = scipy.sparse.csr_array(
-        (columns.data, columns.indices + count * block, columns.indptr), shape=(k * rows, k * count)
+        (sparse.data, sparse.indices + M * block, sparse.indptr), shape=(k * rows, k * M)
     )
-    by_view = (blocks.T @ own.reshape(k * rows, n)).reshape(k, count, n)
-    by_own = by_view.swapaxes(0, 1).reshape(count, k * n)
-    product = (blocks.T @ columns[:, [-1]].toarray()).reshape(k, count)
-    with_residuals = product - (by_view @ by_view[:, -1, :, None])[..., 0]
-    whole = (columns.T @ columns).toarray()
+    right = np.concatenate([own, dense], axis=2)
+    above = (blocks.T @ right.reshape(k * rows, -1)).reshape(k, M, -1)
+    below = dense.swapaxes(1, 2) @ right
+    by_view = np.concatenate([above, below], axis=1)
+    by_view, with_dense = by_view[..., :n], by_view[..., n:]
+    by_own = by_view.swapaxes(0, 1).reshape(M + D, k * n)
+    with_residuals = with_dense[..., -1] - (by_view @ by_view[:, -1, :, None])[..., 0]
+    whole = np.empty((M + D, M + D))
+    whole[:M, :M], whole[:, M:] = (sparse.T @ sparse).toarray(), with_dense.sum(axis=0)
+    whole[M:, :M] = whole[:M, M:].T
     return whole, whole - by_own @ by_own.T, with_residuals.T
 
 
