@@ -111,9 +111,9 @@ def test_shapes_end_where_their_cross_validation_does(shape: str) -> None:
     assert choice.nominal is nominal
     alone = cross_validate(views, SIZE, 2, nominal, board_shape=shape)
     found = choice.validations[BoardShapeModel(shape)]
-    np.testing.assert_allclose(found.by_view, alone.by_view, rtol=3e-3)
-    assert found.training == pytest.approx(alone.training, rel=1e-3)
-    assert found.held_out == pytest.approx(alone.held_out, rel=1e-3)
+    np.testing.assert_allclose(found.by_view, alone.by_view, rtol=1e-3)
+    assert found.training == pytest.approx(alone.training, rel=1e-4)
+    assert found.held_out == pytest.approx(alone.held_out, rel=3e-4)
 
 
 def test_no_board_shape_stands_in_for_a_lens_that_is_not_followed() -> None:
