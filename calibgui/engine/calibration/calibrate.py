@@ -221,8 +221,10 @@ def calibrate(
     began = time.perf_counter()
     observations, solution = steps.refine(observations, start, options, report, max_iterations)
     seconds += time.perf_counter() - began
+    camera = Camera(size, solution.state.params, model)
+    tolerated = _compute_tolerated_deviations(camera, observations)[options.free]
     precision = _measure_precision(
-        solution, observations, originals, options, partial(_name_misfits, given, names)
+        solution, observations, originals, options, tolerated, partial(_name_misfits, given, names)
     )
     estimate = make_estimate(solution, observations, precision)
     undetermined = precision.undetermined
@@ -232,16 +234,12 @@ def calibrate(
     elif model_errors:
         estimate = add_model_errors(estimate, observations, options, prior, report)
         if cost is Cost.IMAGE and estimate.board_shape is None:
-            camera = Camera(size, estimate.state.params, model)
-            tolerated = _compute_tolerated_deviations(camera, observations)[options.free]
             estimate, opened = add_profile_width(estimate, observations, options, tolerated)
             undetermined = tuple({u.name: u for u in (*opened, *undetermined)}.values())
     else:
         estimate = estimate_board_shape(estimate, observations, options, prior, report)
-    calibration = assemble_calibration(
-        estimate, options, undetermined, _compute_digest(observations, settings)
-    )
-    return replace(calibration, warnings=remarks, seconds=seconds)
+    digest = _compute_digest(observations, settings)
+    return assemble_calibration(estimate, options, undetermined, digest, remarks, seconds)
 
 
 def _tabulate_stage_one(given: Given, cost: Cost) -> tuple[StageOne, ...]:
@@ -267,6 +265,7 @@ def _measure_precision(
     observations: Observations,
     originals: IntArray,
     options: Options,
+    tolerated: Array,
     name_misfits: Callable[[], list[str]],
 ) -> covariances.Precision:
     """Measure how precise the solution is, and raise if the views do not determine it.
@@ -276,6 +275,7 @@ def _measure_precision(
         observations: the views.
         originals: (K,) the view that each one copies, from `find_copies`.
         options: the options of the calibration.
+        tolerated: (P,) standard deviations beyond which the free parameters count as undetermined.
         name_misfits: a function that returns the names of the views that fit no flat board.
 
     Raises:
@@ -283,7 +283,6 @@ def _measure_precision(
     """
     names = tuple(options.names[i] for i in options.free)
     camera = Camera(options.size, solution.state.params, options.model)
-    tolerated = _compute_tolerated_deviations(camera, observations)[options.free]
     precision = covariances.measure_precision(solution.normal, names, observations.count, tolerated)
     lost = find_undetermined(solution, names, precision, name_misfits, camera)
     if lost or is_in_one_spot(observations.uv, options.size):  # padding repeats a corner

@@ -71,7 +71,12 @@ def make_estimate(
 
 
 def assemble_calibration(
-    estimate: Estimate, options: Options, undetermined: tuple[Undetermined, ...], digest: str
+    estimate: Estimate,
+    options: Options,
+    undetermined: tuple[Undetermined, ...],
+    digest: str,
+    remarks: tuple[str, ...] = (),
+    seconds: float = np.nan,
 ) -> Calibration:
     """Assemble the calibration that is handed over: all parameters, held ones included.
 
@@ -80,6 +85,8 @@ def assemble_calibration(
         options: the options of the calibration.
         undetermined: parameters whose standard deviations are not to be believed; they become NaN.
         digest: SHA-256 of the observations and settings.
+        remarks: what the method has to say about the views.
+        seconds: time that the method has taken; NaN if it is not known.
     """
     P, free, cost = len(options.names), options.free, options.cost
     lost = [options.names.index(u.name) for u in undetermined]
@@ -118,6 +125,8 @@ def assemble_calibration(
         overdispersion=estimate.overdispersion,
         settings=options.settings,
         digest=digest,
+        warnings=remarks,
+        seconds=seconds,
     )
 
 

@@ -52,7 +52,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from calibgui.engine.arrays import Array, IntArray
+from calibgui.engine.arrays import Array, IntArray, compute_median
 from calibgui.engine.boards.shape import BoardShapePrior
 from calibgui.engine.calibration.board_shape.coefficients import (
     Noise,
@@ -220,7 +220,7 @@ def estimate_board_error(
     shift = follow @ q - camera @ right[:P]
     # Higher degrees are as rough as most of those before: of noise's squares the median is 0.455.
     rough = q[kind == ROUGH] ** 2
-    typical = float(np.median(rough)) / 0.455 if rough.size else 0.0
+    typical = float(compute_median(rough)) / 0.455 if rough.size else 0.0
     square = float(q @ q) + max(3 * n - len(q) - 7, 0) * typical
     root = np.concatenate([follow @ root, root])
     covariance = sigma2 * (root @ root.T)
