@@ -168,6 +168,8 @@ def _solve(N: Array, b: Array) -> Array:
     """Solve N x = b, of unit diagonal, without the directions that are not determined."""
     if not len(b):
         return b
-    unit = 1 / np.sqrt(np.maximum(np.diag(N), 1e-24))  # columns may depend on no corner at all
-    inverse = np.linalg.pinv(N * np.outer(unit, unit), rcond=_MIN_EIGENVALUE, hermitian=True)
-    return np.asarray(inverse * np.outer(unit, unit) @ b)
+    unit = 1 / np.sqrt(np.maximum(N.diagonal(), 1e-24))  # columns may depend on no corner at all
+    values, vectors = np.linalg.eigh(N * unit * unit[:, None])
+    is_determined = values > _MIN_EIGENVALUE * values[-1]
+    axes = unit[:, None] * vectors[:, is_determined]
+    return np.asarray(axes / values[is_determined] @ (axes.T @ b))
