@@ -53,11 +53,11 @@ from calibgui.engine.errors import CalibrationError
 from calibgui.formats.board_shape_json import decode_board_shape, decode_prior, encode_board_shape
 from calibgui.formats.corners_json import decode_size
 from calibgui.formats.json_document import (
+    JsonWriter,
     Node,
     are_same_values,
     check_format,
     read_json,
-    write_json,
 )
 from calibgui.formats.pattern_json import decode_pattern, encode_pattern
 from calibgui.formats.result_json import decode_result, encode_result
@@ -66,6 +66,8 @@ from calibgui.formats.views_json import decode_views, encode_view
 FORMAT = "calibgui-project"
 VERSION = 4
 _AUTO_BOARD_SHAPE = "auto"
+_WRITER = JsonWriter()
+"""Keeps most of the text of the last project, which is written after every edit."""
 
 
 def _extend(node: Node, added: Mapping[str, Any]) -> dict[str, Any]:
@@ -110,7 +112,7 @@ def write_project(project: Project, path: Path, folder: Path | None = None) -> N
     Raises:
         CalibrationError: if it cannot be written.
     """
-    write_json(path, encode_project(project, folder or path.parent))
+    _WRITER.write_file(path, encode_project(project, folder or path.parent))
 
 
 def encode_project(project: Project, folder: Path) -> dict[str, Any]:

@@ -35,18 +35,21 @@ def freeze_array(values: npt.ArrayLike) -> Array:
 
 
 def _is_frozen(values: object) -> TypeGuard[Array]:
-    """Return whether this is a float64 array, or part of one, that is read-only with all that it is
-    part of."""
-    if not isinstance(values, np.ndarray) or values.dtype != _FLOAT64:
-        return False
-    whole: Any = values
-    flags = values.flags
-    if flags.writeable or not flags.c_contiguous:
-        return False
-    while (whole := whole.base) is not None:
-        if not isinstance(whole, np.ndarray) or whole.flags.writeable:
-            return False
-    return True
+    """Return whether this is a float64 array in C order that nothing can change."""
+    return (
+        isinstance(values, np.ndarray)
+        and values.dtype == _FLOAT64
+        and values.flags.c_contiguous
+        and is_unchangeable(values)
+    )
+
+
+def is_unchangeable(array: npt.NDArray[Any]) -> bool:
+    """Return whether an array, or part of one, is read-only with all that it is part of."""
+    whole: Any = array
+    while isinstance(whole, np.ndarray) and not whole.flags.writeable:
+        whole = whole.base
+    return whole is None
 
 
 def freeze_ints(values: npt.ArrayLike) -> IntArray:

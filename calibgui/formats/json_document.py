@@ -16,19 +16,20 @@ threads run between objects: msgspec reads 25 MB in one call that stops the wind
 
 from __future__ import annotations
 
+import io
 import json
 import math
 import os
 import re
 import sys
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from itertools import chain
 from typing import Any, NoReturn
 
 import numpy as np
 
-from calibgui.engine.arrays import Array, IntArray, freeze_array, freeze_ints
+from calibgui.engine.arrays import Array, IntArray, freeze_array, freeze_ints, is_unchangeable
 from calibgui.engine.errors import CalibrationError
 from calibgui.engine.files import describe_read_error, open_replacement, read_regular
 
@@ -40,84 +41,126 @@ _MAX_INTEGER = 2**53
 """Size of the largest integer up to which a float64 holds all."""
 _MAX_LINE_LENGTH = 100
 """Largest length of a list of lists on one line, in characters."""
+_LEAVES = (str, float, int, np.ndarray, type(None))
+"""Types of values without members, which most are."""
+_AS_IT_IS, _IN_ASCII = json.JSONEncoder(ensure_ascii=False), json.JSONEncoder()
+_ArrayTexts = dict[int, tuple[Array | IntArray, str]]
+"""Arrays with their texts; the keys are their ids, which are theirs as long as they are here."""
 
 
-def dumps(value: Any, depth: int = 0) -> str:
+class JsonWriter:
+    """Writes documents of which most is the same as in the one before.
+
+    The text of a read-only array says all that it ever will: it is kept until a document is
+    written without the array. Everything else, of which there is little, is written anew.
+    """
+
+    def __init__(self) -> None:
+        self._kept: _ArrayTexts = {}
+
+    def write_file(self, path: str | os.PathLike[str], value: Any) -> None:
+        """Write `value` as the file `path`, completely or not at all.
+
+        Raises:
+            CalibrationError: if it cannot be written.
+        """
+        with open_replacement(path) as file:
+            text = io.TextIOWrapper(file, encoding="utf-8", newline="\n")
+            document = _Document(text.write, self._kept)
+            document.write(value)
+            text.write("\n")
+            text.detach()
+        self._kept = document.texts
+
+
+def write_json(path: str | os.PathLike[str], value: Any) -> None:
+    """Write `value` as the file `path`. Raises as ``JsonWriter.write_file``."""
+    JsonWriter().write_file(path, value)
+
+
+def dumps(value: Any) -> str:
     """Write mappings, sequences, arrays of numbers, text, numbers, True, False or None as JSON."""
-    if isinstance(value, np.ndarray):
-        return _write_array(value, depth)
-    if _has_members(value):
-        return "".join(_write_pieces(value, depth))
-    if isinstance(value, Mapping):
-        return "{}"
-    if isinstance(value, Sequence) and not isinstance(value, str):
-        return _write_list([dumps(item, depth + 1) for item in value], depth)
-    if isinstance(value, float) and not math.isfinite(value):
-        return "null"
-    # A file name that is not valid Unicode holds surrogates, which only \u can write.
-    return json.dumps(value, ensure_ascii=isinstance(value, str) and not value.isprintable())
+    text = io.StringIO()
+    _Document(text.write, {}).write(value)
+    return text.getvalue()
 
 
-def _write_array(value: Array | IntArray, depth: int) -> str:
-    # Of finite numbers and lists of them JSON and Python's repr are the same, repr is quicker.
-    write_row = repr if np.isfinite(value).all() else dumps
-    rows = list(map(write_row, value.tolist()))
-    if value.ndim < 2 or sum(map(len, rows)) + 2 * len(rows) <= _MAX_LINE_LENGTH:
-        return f"[{', '.join(rows)}]"
-    before = f"\n{' ' * (depth + 1)}"
-    return f"[{before}{f',{before}'.join(rows)}\n{' ' * depth}]"
+class _Document:
+    """A document that is written piece by piece: to join a large one would stop every thread."""
+
+    def __init__(self, put: Callable[[str], object], kept: _ArrayTexts) -> None:
+        """`put` takes the pieces; `kept` has the arrays of the document before."""
+        self._put, self._kept = put, kept
+        self.texts: _ArrayTexts = {}
+        """The read-only arrays of this document that have more than one line."""
+
+    def write(self, value: Any, depth: int = 0) -> None:
+        """Write a value whose further lines are indented by `depth` spaces."""
+        if not _has_members(value):
+            self._put(self._format(value, depth))
+            return
+        if isinstance(value, Mapping):
+            opening, closing = "{}"
+            members = [(f"{_format_scalar(str(key))}: ", item) for key, item in value.items()]
+        else:
+            opening, closing = "[]"
+            members = [("", item) for item in value]
+        before = opening
+        for name, item in members:
+            self._put(f"{before}\n{' ' * (depth + 1)}{name}")
+            self.write(item, depth + 1)
+            before = ","
+        self._put(f"\n{' ' * depth}{closing}")
+
+    def _format(self, value: Any, depth: int) -> str:
+        """Return the text of a value that holds no members."""
+        if isinstance(value, np.ndarray):
+            return self._format_array(value).replace("\n", f"\n{' ' * depth}")
+        if isinstance(value, Mapping):
+            return "{}"
+        if isinstance(value, Sequence) and not isinstance(value, str):
+            return _format_list([self._format(item, depth + 1) for item in value], depth)
+        return _format_scalar(value)
+
+    def _format_array(self, value: Array | IntArray) -> str:
+        known = self.texts.get(id(value)) or self._kept.get(id(value))
+        text = known[1] if known else _format_array(value)
+        if known or ("\n" in text and is_unchangeable(value)):
+            self.texts[id(value)] = value, text
+        return text
 
 
 def _has_members(value: Any) -> bool:
     """Return whether `value` is a non-empty object, or a list that contains one."""
+    if isinstance(value, _LEAVES):
+        return False
     if isinstance(value, Mapping):
         return bool(value)
-    return isinstance(value, list | tuple) and any(map(_has_members, value))
+    return isinstance(value, Sequence) and any(map(_has_members, value))
 
 
-def _write_pieces(value: Any, depth: int) -> Iterator[str]:
-    """Yield the text of `value`, member by member.
-
-    Joining the text of a large file would stop every thread, at each depth anew.
-    """
-    if not _has_members(value):
-        yield dumps(value, depth)
-    elif isinstance(value, Mapping):
-        named = ((f"{dumps(str(key))}: ", item) for key, item in value.items())
-        members = (chain([name], _write_pieces(item, depth + 1)) for name, item in named)
-        yield from _write_block("{", members, "}", depth)
-    else:
-        yield from _write_block("[", (_write_pieces(item, depth + 1) for item in value), "]", depth)
+def _format_array(value: Array | IntArray) -> str:
+    # Of finite numbers and lists of them JSON and Python's repr are the same, repr is quicker.
+    format_row = repr if np.isfinite(value).all() else dumps
+    rows = list(map(format_row, value.tolist()))
+    return _format_list(rows, 0) if value.ndim > 1 else f"[{', '.join(rows)}]"
 
 
-def _write_list(items: list[str], depth: int) -> str:
+def _format_list(items: list[str], depth: int) -> str:
+    """Return a list on one line, or on a line for each of its lists if it is too long for one."""
     nested = any(item[0] in "[{" for item in items)
     if nested and sum(len(item) + 2 for item in items) > _MAX_LINE_LENGTH:
-        return "".join(_write_block("[", ([item] for item in items), "]", depth))
+        margin = f"\n{' ' * depth}"
+        return f"[{margin} {f',{margin} '.join(items)}{margin}]"
     return f"[{', '.join(items)}]"
 
 
-def _write_block(
-    opening: str, members: Iterable[Iterable[str]], closing: str, depth: int
-) -> Iterator[str]:
-    """Yield one or more members, each on lines of its own."""
-    before = opening
-    for member in members:
-        yield f"{before}\n{' ' * (depth + 1)}"
-        yield from member
-        before = ","
-    yield f"\n{' ' * depth}{closing}"
-
-
-def write_json(path: str | os.PathLike[str], value: Any) -> None:
-    """Write `value` as the file `path`, completely or not at all.
-
-    Raises:
-        CalibrationError: if it cannot be written.
-    """
-    with open_replacement(path) as file:
-        for piece in chain(_write_pieces(value, 0), ["\n"]):
-            file.write(piece.encode())
+def _format_scalar(value: str | float | int | None) -> str:
+    if isinstance(value, float) and not math.isfinite(value):
+        return "null"
+    # A file name that is not valid Unicode holds surrogates, which only \u can write.
+    printable = isinstance(value, str) and value.isprintable()
+    return (_AS_IT_IS if printable else _IN_ASCII).encode(value)
 
 
 @dataclass(frozen=True, slots=True)

@@ -12,10 +12,14 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from calibgui.engine.arrays import freeze_array
 from calibgui.engine.errors import CalibrationError
+from calibgui.formats import json_document
 from calibgui.formats.json_document import (
     MAX_JSON_SIZE,
+    JsonWriter,
     Node,
+    _format_array,
     are_same_values,
     check_format,
     dumps,
@@ -54,6 +58,37 @@ def test_points_stand_on_a_line_each() -> None:
     assert text == '{\n "uv": [[1.5, 2.0], [3.0, 0.1]],\n "empty": [],\n "size": [640, 480]\n}'
     many = dumps({"uv": np.full((20, 2), 0.25)})
     assert many.splitlines()[2:4] == ["  [0.25, 0.25],", "  [0.25, 0.25],"]
+
+
+def test_a_document_is_as_if_written_alone_whatever_was_written_before(tmp_path: Path) -> None:
+    """Texts of arrays are kept for the next document: not of those that may have changed."""
+    rng = np.random.default_rng(0)
+    lasting = freeze_array(rng.normal(size=(20, 2)))
+    changing = rng.normal(size=(20, 2))
+    part = changing[:10]
+    part.flags.writeable = False
+    writer = JsonWriter()
+    for path in (tmp_path / "first.json", tmp_path / "second.json"):
+        value = {"a": lasting, "b": [{"a": lasting, "c": changing}], "d": part, "e": [part, part]}
+        writer.write_file(path, value)
+        assert path.read_text() == dumps(value) + "\n"
+        changing += 1.0
+
+
+def test_what_a_document_shares_with_the_one_before_is_not_written_anew(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    arrays = [freeze_array(np.full((20, 2), k)) for k in range(5)]
+    writer = JsonWriter()
+    written = []
+    monkeypatch.setattr(
+        json_document,
+        "_format_array",
+        lambda value: written.append(int(value[0, 0])) or _format_array(value),
+    )
+    for chosen in ([0, 1], [0, 1], [1, 2], [0, 1]):
+        writer.write_file(tmp_path / "a.json", {"views": [{"uv": arrays[k]} for k in chosen]})
+    assert written == [0, 1, 2, 0], "a text is dropped once a document lacks its array"
 
 
 def test_file_names_of_any_kind_survive(tmp_path: Path) -> None:
