@@ -7,12 +7,12 @@ import os
 import re
 import unicodedata
 from collections import Counter
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from functools import cache, lru_cache
 from pathlib import Path, PurePath
 
 from calibgui.engine.errors import CalibrationError
-from calibgui.engine.images import FORMATS
+from calibgui.engine.images import FORMATS, read_image_header
 
 
 def find_images(names: Iterable[str]) -> tuple[Path, ...]:
@@ -33,6 +33,34 @@ def find_images(names: Iterable[str]) -> tuple[Path, ...]:
             place = f"{resolve_folder(path.parent)}{os.sep}{path.name}" if is_plain else ""
             found.setdefault(place or os.path.realpath(path), path)
     return tuple(sorted(found.values(), key=make_natural_key))
+
+
+def choose_images(names: Sequence[str]) -> tuple[tuple[Path, ...], tuple[str, ...]]:
+    """Return the image files in a selection of files and folders, and what in it holds none.
+
+    All that lies in a folder is soon selected, notes and videos with the photographs. So a file
+    that is not named as an image is taken only if it holds one.
+
+    Args:
+        names: one or more names, each as for `find_images`.
+
+    Raises:
+        CalibrationError: why the first of `names` cannot be taken, if none can.
+    """
+    taken, refused = [], {}
+    for name in names:
+        path = Path(name)
+        try:
+            if not path.is_file():
+                find_images([name])
+            elif path.suffix.lower() not in FORMATS:
+                read_image_header(path)
+            taken.append(name)
+        except CalibrationError as error:
+            refused[name] = error
+    if not taken:
+        raise next(iter(refused.values()))
+    return find_images(taken), tuple(refused)
 
 
 def is_remote(path: str) -> bool:

@@ -50,6 +50,7 @@ from calibgui.engine.calibration import DEFAULT_METHOD, Cost
 from calibgui.engine.calibration import METHODS as CALIBRATION_METHODS
 from calibgui.engine.detection import METHODS
 from calibgui.engine.errors import CalibrationError
+from calibgui.engine.files import open_regular
 from calibgui.formats.board_shape_json import decode_board_shape, decode_prior, encode_board_shape
 from calibgui.formats.corners_json import decode_size
 from calibgui.formats.json_document import (
@@ -66,6 +67,8 @@ from calibgui.formats.views_json import decode_views, encode_view
 FORMAT = "calibgui-project"
 VERSION = 4
 _AUTO_BOARD_SHAPE = "auto"
+_BEGINNING = 256
+"""Part of a file in which its format is looked for, bytes: it comes first."""
 _WRITER = JsonWriter()
 """Keeps most of the text of the last project, which is written after every edit."""
 
@@ -153,6 +156,15 @@ def _encode_settings(settings: Settings) -> dict[str, Any]:
         "weigh_views": settings.weigh_views,
         "once": settings.once,
     }
+
+
+def is_project(path: Path) -> bool:
+    """Return whether a file says where it begins that it is a project, whatever follows."""
+    try:
+        with open_regular(path) as file:
+            return f'"{FORMAT}"'.encode() in file.read(_BEGINNING)
+    except (CalibrationError, OSError):
+        return False
 
 
 def read_project(path: Path, folder: Path | None = None) -> Project:

@@ -5,10 +5,12 @@ from __future__ import annotations
 import os
 from pathlib import Path
 
+import numpy as np
 import pytest
 
-from calibgui.app.paths import find_images, make_natural_key
+from calibgui.app.paths import choose_images, find_images, make_natural_key
 from calibgui.engine.errors import CalibrationError
+from calibgui.engine.images.reading import write_image
 
 
 @pytest.fixture
@@ -120,3 +122,26 @@ def test_a_folder_of_other_formats_is_described(tmp_path: Path) -> None:
         (tmp_path / name).touch()
     with pytest.raises(CalibrationError, match=r"2 of \.heic, 1 of \.mov\..* as PNG or as JPEG"):
         find_images([str(tmp_path)])
+
+
+def test_of_a_selection_only_images_are_taken(tmp_path: Path) -> None:
+    """All that lies in a folder is dropped at once: notes, videos, folders of other things."""
+    contents = {"photo.png": b"cut", "clip.mp4": b"\0\0\0 ftypisom", "notes.txt": b"hi"}
+    for name, content in contents.items():
+        (tmp_path / name).write_bytes(content)
+    write_image(tmp_path / "scan.png", np.zeros((4, 6), np.uint8))
+    (tmp_path / "scan.png").rename(tmp_path / "scan")  # an image by what it holds
+    (tmp_path / "empty").mkdir()
+    (tmp_path / "more").mkdir()
+    (tmp_path / "more" / "2.png").touch()
+    images, others = choose_images([str(path) for path in sorted(tmp_path.iterdir())])
+    assert names(images) == ["2.png", "photo.png", "scan"]
+    assert [Path(name).name for name in others] == ["clip.mp4", "empty", "notes.txt"]
+
+
+def test_a_selection_without_images_is_refused_with_the_reason(tmp_path: Path) -> None:
+    (tmp_path / "clip.mp4").write_bytes(b"\0\0\0 ftypisom")
+    with pytest.raises(CalibrationError, match=r"clip\.mp4 is a video"):
+        choose_images([str(tmp_path / "clip.mp4")])
+    with pytest.raises(CalibrationError, match="does not exist"):
+        choose_images([str(tmp_path / "nowhere")])

@@ -7,7 +7,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from PySide6.QtCore import QMimeData, QPoint, QPointF, Qt, QUrl
+from PySide6.QtCore import QMimeData, QPoint, QPointF, QRect, Qt, QUrl
 from PySide6.QtGui import QColor, QDropEvent, QGuiApplication
 from PySide6.QtWidgets import (
     QAbstractButton,
@@ -21,6 +21,7 @@ from pytestqt.qtbot import QtBot
 
 from calibgui.app.document import Document
 from calibgui.app.project import Unit, change_views
+from calibgui.app.project_file import write_project
 from calibgui.app.recent import list_recent_projects
 from calibgui.dataset import View, ViewStatus
 from calibgui.engine.calibration.result import Status
@@ -177,6 +178,40 @@ def test_dropped_and_pasted_paths_become_images(
     assert [v.status for v in window.session.project.views] == [ViewStatus.UNREADABLE] * 3
     window.files.open_paths([str(tmp_path / "nowhere")])
     assert "does not exist" in window.banner.text.text()
+
+
+def test_a_selection_of_all_files_is_its_photographs_or_its_project(
+    window: MainWindow, qtbot: QtBot, tmp_path: Path
+) -> None:
+    for name in ("1.png", "clip.mp4", "notes.json"):
+        (tmp_path / name).write_bytes(b"{}")
+    everything = [str(path) for path in sorted(tmp_path.iterdir())]
+    window.files.open_paths(everything)
+    assert [view.name for view in window.session.project.views] == ["1.png"]
+    told = "Not added, as no image can be read there: clip.mp4, notes.json."
+    assert window.banner.text.text() == told
+    qtbot.waitUntil(lambda: "None of the photographs" in window.banner.text.text(), timeout=30_000)
+    assert "No board has been found" in window.verdict.square.counted.text()
+    write_project(examples.calibrated(tmp_path), tmp_path / "project.json")
+    window.session.document.undo()
+    window.files.open_paths([*everything, str(tmp_path / "project.json")])
+    qtbot.waitUntil(lambda: window.session.result is not None, timeout=30_000)
+
+
+def test_a_message_to_the_window_leaves_what_is_said_of_the_image_in_sight(
+    full: MainWindow, qtbot: QtBot
+) -> None:
+    page, session = full.page, full.session
+    session.select(next(view.image for view in session.project.views if view.reason))
+    full.banner.show_text("A message.")
+    qtbot.waitUntil(page.reason.isVisible)
+    qtbot.waitUntil(lambda: not rect_on(full, page.reason).intersects(rect_on(full, full.banner)))
+    assert rect_on(full, page.canvas).contains(rect_on(full, page.reason))
+
+
+def rect_on(window: MainWindow, widget: QWidget) -> QRect:
+    """The place of a widget in the window."""
+    return QRect(widget.mapTo(window, QPoint()), widget.size())
 
 
 def test_the_sample_comes_with_its_squares(window: MainWindow) -> None:

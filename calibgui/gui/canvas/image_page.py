@@ -49,12 +49,13 @@ class ImagePage(QWidget):
         self._is_over_board = False
         self.canvas = Canvas()
         self.heading = ElidedLabel()
-        # Over the image, which must not move when the next one is chosen.
+        # Over the image, which must not move when the next one is chosen; and at its bottom, as
+        # messages to the whole window hang from its top.
         self.reason = WrappedLabel()
         self.reason.setAutoFillBackground(True)
         self.reason.setMargin(theme.SPACING)
         self.reason.hide()
-        Overlay(self.reason, self.canvas)
+        Overlay(self.reason, self.canvas, at_bottom=True)
         self.facts = QLabel()
         """What is known of the image, or of its chosen corner; for the inspector."""
         self.facts.setMinimumHeight(2 * self.facts.fontMetrics().lineSpacing())

@@ -13,7 +13,7 @@ from calibgui.app.autosave import get_discarded_folder
 from calibgui.app.document import Document
 from calibgui.app.moved_images import find_moved_images, list_missing_images
 from calibgui.app.output_folder import ForeignFilesError
-from calibgui.app.paths import find_images
+from calibgui.app.paths import choose_images
 from calibgui.app.project import (
     Project,
     add_images,
@@ -22,6 +22,7 @@ from calibgui.app.project import (
     rename_result,
     set_square,
 )
+from calibgui.app.project_file import is_project
 from calibgui.app.recent import remember_project
 from calibgui.app.resampling import Undistortion, WrittenImage, rectify_files, undistort_files
 from calibgui.app.resources import find_resource, find_sample_square
@@ -41,7 +42,7 @@ from calibgui.gui.widgets.save_names import ask_for_name
 
 _PROJECT = "calibgui.json"
 _MAX_LISTED = 8
-"""Number of files, at most, that a question lists."""
+"""Number of files, at most, that a question or a message lists."""
 
 
 class Files(QObject):
@@ -69,10 +70,14 @@ class Files(QObject):
         return str((path or Path(views[0].image)).parent)
 
     def open_paths(self, names: Sequence[str]) -> None:
-        """Open what was dropped, pasted or named on the command line: a project, or images."""
-        projects = [name for name in names if name.lower().endswith(".json")]
+        """Open what was dropped, pasted or named on the command line: a project, or images.
+
+        A file that ends in .json and is no project may be among images, but not be alone.
+        """
+        files = [Path(name) for name in names if name.lower().endswith(".json")]
+        projects = files if len(names) == 1 else list(filter(is_project, files))
         if projects:
-            self.open_project(Path(projects[0]))
+            self.open_project(projects[0])
         elif names:
             self._attempt(lambda: self._add_images(names))
 
@@ -80,13 +85,20 @@ class Files(QObject):
         """Add the images of files and folders, and remember a folder.
 
         Raises:
-            CalibrationError: as `find_images`.
+            CalibrationError: as `choose_images`.
         """
-        images = find_images(names)
+        images, others = choose_images(names)
         if len(names) == 1 and Path(names[0]).is_dir():
             folder, first = Path(names[0]), str(images[0])
             self._session.jobs.start("", lambda _: remember_project(folder, first))
         self._add(images)
+        if others:
+            listed = ", ".join(Path(name).name for name in others[:_MAX_LISTED])
+            self._session.notified.emit(
+                self.tr("Not added, as no image can be read there: {0}.").format(
+                    listed if len(others) <= _MAX_LISTED else f"{listed}, …"
+                )
+            )
 
     def paste(self) -> None:
         """Add the files or paths on the clipboard."""

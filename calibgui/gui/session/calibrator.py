@@ -117,6 +117,11 @@ class Calibrator(QObject):
                     "or turn “Mark all by hand” off."
                 ),
             )
+        if project.views and project.size is None:
+            return CalibrationError(
+                self.tr("None of the photographs can be read."),
+                self.tr("Click on one to see why, or add others."),
+            )
         if project.size is None:
             return CalibrationError(
                 self.tr("There is no image to calibrate from."),

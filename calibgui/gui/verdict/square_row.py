@@ -6,6 +6,7 @@ from PySide6.QtCore import Signal
 from PySide6.QtWidgets import QDoubleSpinBox, QHBoxLayout, QLabel, QPushButton, QWidget
 
 from calibgui.app.project import Project, confirm_lengths, set_square
+from calibgui.dataset import ViewStatus
 from calibgui.gui.session.session import Session
 from calibgui.gui.widgets import theme
 from calibgui.gui.widgets.elided import ElidedLabel
@@ -56,15 +57,7 @@ class SquareRow(QWidget):
         self.setVisible(bool(project.views) and not project.lengths_confirmed)
         if self.isHidden():
             return
-        board = project.board
-        self.counted.setText(
-            self.tr("How long are the squares? The board is being counted.")
-            if board is None
-            else self.tr(
-                "How long are the squares? The board has {0} × {1} inner corners as counted; "
-                "lengths hold if squares are {2:g} {3}."
-            ).format(board.rows, board.cols, project.square / project.unit.mm, project.unit)
-        )
+        self.counted.setText(self._ask(project))
         self.counted.setToolTip(self.counted.text())
         if not self.square.hasFocus():
             self.square.blockSignals(True)
@@ -72,6 +65,18 @@ class SquareRow(QWidget):
             self.square.blockSignals(False)
         self.square.setSuffix(f" {project.unit}")
         self._name_button(project)
+
+    def _ask(self, project: Project) -> str:
+        """Return the question, with what is known of the board."""
+        board = project.board
+        if board is not None:
+            return self.tr(
+                "How long are the squares? The board has {0} × {1} inner corners as counted; "
+                "lengths hold if squares are {2:g} {3}."
+            ).format(board.rows, board.cols, project.square / project.unit.mm, project.unit)
+        if any(view.status is ViewStatus.WAITING for view in project.views):
+            return self.tr("How long are the squares? The board is being counted.")
+        return self.tr("How long are the squares? No board has been found yet.")
 
     def _name_button(self, project: Project) -> None:
         text = self.tr("Confirm {0:g} {1}")

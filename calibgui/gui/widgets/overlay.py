@@ -14,13 +14,20 @@ class Overlay(QObject):
         host: the widget that it becomes a child of.
         bar: the part of the host that it hangs from, as wide as that; None for its upper edge.
         share: share of the host's height below that it may take.
+        at_bottom: whether it stands on the host's lower edge in place of hanging.
     """
 
     def __init__(
-        self, widget: QWidget, host: QWidget, bar: QWidget | None = None, share: float = 1.0
+        self,
+        widget: QWidget,
+        host: QWidget,
+        bar: QWidget | None = None,
+        share: float = 1.0,
+        at_bottom: bool = False,
     ) -> None:
         super().__init__(widget)
         self._widget, self._host, self._bar, self._share = widget, host, bar, share
+        self._at_bottom = at_bottom
         visible = not widget.isHidden()
         widget.setParent(host)
         widget.setVisible(visible)
@@ -37,6 +44,8 @@ class Overlay(QObject):
         if needed < 0:  # it does not depend on the width
             needed = widget.minimumSizeHint().height()
         height = min(needed, round(self._share * (host.height() - top.y())))
+        if self._at_bottom:
+            top.setY(host.height() - height)
         if widget.geometry().getRect() != (top.x(), top.y(), width, height):
             widget.setGeometry(top.x(), top.y(), width, height)
         widget.raise_()
