@@ -65,7 +65,7 @@ class Plot(pg.PlotWidget):  # type: ignore[misc]  # pyqtgraph is not typed
         square: bool = False,
         parent: QWidget | None = None,
     ) -> None:
-        axes = {name: _Axis(name) for name in ("left", "bottom")}
+        axes = {name: _Axis(name) for name in ("left", "bottom", "right", "top")}
         super().__init__(parent, enableMenu=False, axisItems=axes)  # it has a menu of its own
         self.setMinimumHeight(_LEAST_HEIGHT)
         self._labels = _labels(x, y, x_unit, y_unit)
@@ -74,6 +74,8 @@ class Plot(pg.PlotWidget):  # type: ignore[misc]  # pyqtgraph is not typed
         self._area: QRectF | None = None
         item = self.getPlotItem()
         item.getViewBox().sigResized.connect(self._make_room)
+        for name in ("right", "top"):
+            item.hideAxis(name)
         item.hideButtons()
         item.showGrid(x=True, y=True, alpha=0.15)
         item.getViewBox().setAspectLocked(square)
@@ -184,10 +186,8 @@ class _Axis(pg.AxisItem):  # type: ignore[misc]  # pyqtgraph is not typed
     write_number: Callable[[float], str] | None = None
     """A function that writes the numbers, as dates for example; None for plain numbers."""
 
-    def __init__(self, orientation: str) -> None:
-        super().__init__(orientation)
-        # At once: while it may choose prefixes of units, it writes its label anew at every change.
-        self.enableAutoSIPrefix(False)
+    def updateAutoSIPrefix(self) -> None:  # noqa: N802 - pyqtgraph's name
+        """Choose no prefix of a unit, for which the label is written anew at every change."""
 
     def tickStrings(self, values: list[float], scale: float, spacing: float) -> list[str]:  # noqa: N802 - pyqtgraph's name
         if self.write_number is None:
@@ -244,7 +244,6 @@ class ColourBar(pg.GraphicsWidget):  # type: ignore[misc]  # pyqtgraph is not ty
         if image is not None:
             image.setColorMap(colours)
         self.axis = _Axis("right")
-        self.axis.enableAutoSIPrefix(False)
         layout = plot.getPlotItem().layout
         # The right axis of the plot, which is not shown, has the columns before these.
         layout.setColumnFixedWidth(_BAR_COLUMN - 1, _BAR_WIDTH / 2)
