@@ -31,6 +31,8 @@ _HEADROOM = 1.15
 """Height of the chart, in largest errors."""
 _GRAB = 4
 """Distance from which the threshold is dragged, px."""
+_RIM = 2
+"""Height of what the frame of the current image, which is drawn over it, covers below, px."""
 _SMALL = 0.82
 """Size of the text in a cell, in sizes of the window's."""
 _FADED = 0.35
@@ -212,14 +214,15 @@ class _Delegate(QStyledItemDelegate):
             painter.drawPixmap(board, pixmap)
             painter.setOpacity(1.0)
         metrics = painter.fontMetrics()
-        patch = QRectF(frame).adjusted(0, frame.height() - metrics.height(), 0, 0)
+        # Higher than the name by the rim of the current image, which is drawn over it.
+        patch = QRectF(frame).adjusted(0, frame.height() - metrics.height() - _RIM, 0, 0)
         painter.fillRect(patch, theme.HALO)
         painter.setPen(QColor("#ffffff"))
         dot = metrics.height() // 2
         name = metrics.elidedText(
             index.data(), Qt.TextElideMode.ElideLeft, frame.width() - dot - 3 * _PAD // 2
         )
-        words = patch.adjusted(_PAD / 2, 0, 0, 0)
+        words = patch.adjusted(_PAD / 2, 0, 0, -_RIM)
         painter.drawText(words, _LEFT, name)
         painter.setPen(QPen(QColor("#ffffff"), 1))
         painter.setBrush(index.data(Role.COLOUR))
