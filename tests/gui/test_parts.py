@@ -198,6 +198,18 @@ def test_a_selection_of_all_files_is_its_photographs_or_its_project(
     qtbot.waitUntil(lambda: window.session.result is not None, timeout=30_000)
 
 
+def test_what_one_can_click_is_said_where_it_is_there(full: MainWindow) -> None:
+    session, facts = full.session, full.page.facts
+    session.select(session.project.views[0].image)
+    assert facts.text().endswith("Click a corner to see its residual.")
+    session.select(next(view.image for view in session.project.views if view.reason))
+    assert "Click" not in facts.text(), "there are no corners"
+    session.select(session.project.views[0].image)
+    for name in list(session.project.results):
+        full.files.delete_result(name)
+    assert facts.text().endswith("Click a corner to see its place.")
+
+
 def test_a_message_to_the_window_leaves_what_is_said_of_the_image_in_sight(
     full: MainWindow, qtbot: QtBot
 ) -> None:

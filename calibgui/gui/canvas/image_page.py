@@ -229,7 +229,14 @@ class ImagePage(QWidget):
                 residuals = marks.measured - marks.predicted
                 rms = math.sqrt(float((residuals**2).sum(axis=1).mean()))
                 text += self.tr(", error {0:.3f} px (RMS)").format(rms)
-            return text + "\n" + self.tr("Click a corner to see its residual.")
+            if corners is None:
+                return text
+            hint = (
+                self.tr("Click a corner to see its place.")
+                if marks.predicted is None
+                else self.tr("Click a corner to see its residual.")
+            )
+            return f"{text}\n{hint}"
         (row, col), (u, v) = corners.grid[k], corners.uv[k]
         text = self.tr("Corner in row {0}, column {1}: u {2:.3f}, v {3:.3f} px").format(
             row, col, u, v
