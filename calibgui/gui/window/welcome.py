@@ -9,8 +9,10 @@ from PySide6.QtCore import QPointF, QSize, Qt, Signal, SignalInstance
 from PySide6.QtGui import QIcon, QImage, QPainter, QPixmap
 from PySide6.QtWidgets import (
     QCommandLinkButton,
+    QFrame,
     QHBoxLayout,
     QLabel,
+    QScrollArea,
     QStyle,
     QVBoxLayout,
     QWidget,
@@ -30,7 +32,7 @@ _PICTURE = QSize(64, 48)
 """A recent project's first image, device-independent px."""
 
 
-class Welcome(QWidget):
+class Welcome(QScrollArea):
     """Drop images, open a folder, open the sample, or a recent project or folder.
 
     Args:
@@ -104,7 +106,8 @@ class Welcome(QWidget):
         self._list.addStretch(1)
         self.recent: list[QCommandLinkButton] = []
         """Buttons that open what was opened lately, the newest first."""
-        layout = QVBoxLayout(self)
+        body = QWidget()
+        layout = QVBoxLayout(body)
         layout.addStretch(1)
         middle = QHBoxLayout()
         middle.addStretch(1)
@@ -113,6 +116,9 @@ class Welcome(QWidget):
         middle.addStretch(1)
         layout.addLayout(middle)
         layout.addStretch(2)
+        self.setFrameShape(QFrame.Shape.NoFrame)
+        self.setWidgetResizable(True)
+        self.setWidget(body)
         self.show_recent([])
 
     def show_recent(self, recent: Sequence[Recent]) -> None:

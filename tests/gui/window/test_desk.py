@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import contextlib
 from collections.abc import Iterator
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
@@ -86,6 +87,15 @@ def list_clipped(root: QWidget, qtbot: QtBot) -> list[str]:
     with contextlib.suppress(TimeoutError):
         qtbot.waitUntil(lambda: not list(find_clipped(root)), timeout=1000)
     return list(find_clipped(root))
+
+
+def test_all_parts_fit_a_full_hd_screen_at_twice_the_scale(full: MainWindow, qtbot: QtBot) -> None:
+    full.session.edit("Ask for the squares", lambda p: replace(p, lengths_confirmed=False))
+    assert full.verdict.square.isVisible()
+    qtbot.waitUntil(lambda: full.minimumSizeHint().height() <= 500)
+    resize(full, qtbot, 960, 500)
+    assert full.height() == 500
+    assert not list(find_clipped(full))
 
 
 @pytest.mark.parametrize(("width", "height"), SIZES)
