@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
 import pyqtgraph as pg
-from PySide6.QtCore import QCoreApplication, QEvent, QPoint, QRectF, Qt
+from PySide6.QtCore import QCoreApplication, QEvent, QPoint, QRectF, QSize, Qt
 from PySide6.QtGui import (
     QAction,
     QColor,
@@ -67,7 +68,6 @@ class Plot(pg.PlotWidget):  # type: ignore[misc]  # pyqtgraph is not typed
     ) -> None:
         axes = {name: _Axis(name) for name in ("left", "bottom", "right", "top")}
         super().__init__(parent, enableMenu=False, axisItems=axes)  # it has a menu of its own
-        self.setMinimumHeight(_LEAST_HEIGHT)
         self._labels = _labels(x, y, x_unit, y_unit)
         self.colour_bar: ColourBar | None = None
         """What the colours mean, if they mean anything."""
@@ -95,6 +95,13 @@ class Plot(pg.PlotWidget):  # type: ignore[misc]  # pyqtgraph is not typed
             self.addAction(action)
             self._menu.addAction(action)
         self._restyle()
+
+    def minimumSizeHint(self) -> QSize:  # noqa: N802 - Qt's name
+        """Leave room for the text along the left axis, which would be cut off."""
+        item = self.getPlotItem()
+        text = math.ceil(item.getAxis("left").label.boundingRect().width())
+        needed = text + math.ceil(item.getAxis("bottom").minimumHeight())
+        return QSize(super().minimumSizeHint().width(), max(_LEAST_HEIGHT, needed))
 
     def set_labels(self, x: str, y: str, x_unit: str = "", y_unit: str = "") -> None:
         """Say anew what the axes show."""
@@ -176,6 +183,7 @@ class Plot(pg.PlotWidget):  # type: ignore[misc]  # pyqtgraph is not typed
             axis.setTextPen(colours.text)
             axis.setLabel(text, color=colours.text)
             axis.setToolTip(explain(text))
+        self.updateGeometry()
         if self.colour_bar is not None:
             self.colour_bar.restyle()
 

@@ -5,7 +5,7 @@ from pathlib import Path
 import numpy as np
 from PySide6.QtCore import Qt
 from PySide6.QtGui import QImage
-from PySide6.QtWidgets import QApplication
+from PySide6.QtWidgets import QApplication, QVBoxLayout, QWidget
 from pytestqt.qtbot import QtBot
 
 from calibgui.gui.widgets import theme
@@ -24,6 +24,22 @@ def test_axes_name_their_units(qtbot: QtBot) -> None:
     item = example(qtbot).getPlotItem()
     assert item.getAxis("left").labelText == "cost [px²]"
     assert item.getAxis("bottom").labelText == "iteration"
+
+
+def test_what_an_axis_shows_is_never_cut_off(qtbot: QtBot) -> None:
+    """A condition, as "mm if squares are 30 mm", makes the text longer than a plot is high."""
+    plot = example(qtbot)
+    box = QWidget()
+    qtbot.addWidget(box)
+    layout = QVBoxLayout(box)
+    layout.addWidget(plot)
+    plot.set_labels("view", "distance", "", "mm if squares are 30 mm, which nobody has confirmed")
+    box.resize(300, 60)
+    box.show()
+    QApplication.processEvents()
+    label = plot.getPlotItem().getAxis("left").label
+    shown = plot.mapFromScene(label.mapToScene(label.boundingRect())).boundingRect()
+    assert plot.rect().top() <= shown.top() and shown.bottom() <= plot.rect().bottom()
 
 
 def test_numbers_of_a_logarithmic_axis_are_written_alike(qtbot: QtBot) -> None:
