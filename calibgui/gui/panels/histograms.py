@@ -56,8 +56,8 @@ class HistogramPlot(Plot):
         self.fit.setPen(pg.mkPen(colours.bad, width=2))
         law = self.tr("Rayleigh s") if histogram.is_rayleigh else self.tr("Gaussian σ")
         self.set_title(
-            self.tr("mean {0:.4f}, SD {1:.4f}<br>{2} = {3:.4f}").format(
-                round(histogram.mean, 4) + 0.0, histogram.sd, law, histogram.scale
+            self.tr("mean {0:.4f}, SD {1:.4f} {4}<br>{2} = {3:.4f} {4}").format(
+                round(histogram.mean, 4) + 0.0, histogram.sd, law, histogram.scale, unit
             )
         )
         limit, highest = extent or _measure_extent(histogram)

@@ -26,6 +26,7 @@ def test_bars_curves_and_numbers(
     panel = shown(HistogramsPanel, result)
     if on_reference:
         qtbot.keyClick(panel.plane, Qt.Key.Key_Down)
+    unit = "reference px" if on_reference else "px"
     residuals = stack_residuals(result.calibration, on_reference)
     expected = (
         make_component_histogram(residuals[:, 0]),
@@ -39,8 +40,8 @@ def test_bars_curves_and_numbers(
         x, y = plot.fit.getData()
         np.testing.assert_array_equal(y, histogram.evaluate_density(x))
         title = plot.getPlotItem().titleLabel.text
-        assert f"SD {histogram.sd:.4f}" in title and f"= {histogram.scale:.4f}" in title
-    unit = "reference px" if on_reference else "px"
+        assert f"SD {histogram.sd:.4f} {unit}<br>" in title
+        assert title.endswith(f"= {histogram.scale:.4f} {unit}")
     assert f"[{unit}]" in panel.plots[2].getPlotItem().getAxis("bottom").labelText
 
 
