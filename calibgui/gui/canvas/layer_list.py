@@ -209,6 +209,7 @@ class LayerList(QWidget):
         opacity.setAccessibleName(self.tr("Opacity of {0}").format(plain))
         opacity.valueChanged.connect(lambda value: canvas.set_opacity(layer, value / 100))
         at = self._grid.rowCount()
+        self._grid.setRowMinimumHeight(at, self.scale.sizeHint().height())  # as the row that has it
         for column, widget in ((0, eye), (1, swatch), (2, name), (4, opacity)):
             self._grid.addWidget(widget, at, column)
         if layer is Layer.RESIDUALS:

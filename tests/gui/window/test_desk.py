@@ -5,6 +5,7 @@ from __future__ import annotations
 import contextlib
 from collections.abc import Iterator
 from dataclasses import replace
+from itertools import pairwise
 from pathlib import Path
 
 import pytest
@@ -87,6 +88,15 @@ def list_clipped(root: QWidget, qtbot: QtBot) -> list[str]:
     with contextlib.suppress(TimeoutError):
         qtbot.waitUntil(lambda: not list(find_clipped(root)), timeout=1000)
     return list(find_clipped(root))
+
+
+def test_the_layers_stand_at_even_distances(full: MainWindow, qtbot: QtBot) -> None:
+    full.inspector.show_image_page()
+    resize(full, qtbot, 1280, 720)
+    eyes = full.page.layer_list.eyes.values()
+    tops = [eye.mapTo(full, eye.rect().center()).y() for eye in eyes]
+    steps = {below - above for above, below in pairwise(tops)}
+    assert max(steps) - min(steps) <= 1
 
 
 def test_all_parts_fit_a_full_hd_screen_at_twice_the_scale(full: MainWindow, qtbot: QtBot) -> None:
