@@ -17,19 +17,11 @@ from calibgui.engine.arrays import Array
 
 def rotation_from_vector(rvec: Array) -> Array:
     """Return the rotations exp(rvec) (..., 3, 3) of vectors (..., 3), by Rodrigues' formula."""
-    half = np.sqrt(np.sum(rvec * rvec, axis=-1)) / 2
+    half = np.linalg.norm(rvec, axis=-1)[..., None, None] / 2
+    W = cross_matrix(rvec)
     # np.sinc is sin(pi x) / (pi x), finite at 0, and sin x = 2 sin(x / 2) cos(x / 2).
     sinc = np.sinc(half / np.pi)
-    # With W = [rvec]x, W^2 = rvec rvec^T - |rvec|^2 I.
-    R = (0.5 * sinc**2)[..., None, None] * rvec[..., :, None] * rvec[..., None, :]
-    cosine = np.cos(2 * half)
-    for i in range(3):
-        R[..., i, i] += cosine
-    x, y, z = np.moveaxis((sinc * np.cos(half))[..., None] * rvec, -1, 0)
-    for i, j, turned in ((2, 1, x), (0, 2, y), (1, 0, z)):
-        R[..., i, j] += turned
-        R[..., j, i] -= turned
-    return np.asarray(R)
+    return np.eye(3) + sinc * np.cos(half) * W + 0.5 * sinc**2 * (W @ W)
 
 
 def vector_from_rotation(R: Array) -> Array:
