@@ -258,6 +258,22 @@ class Environment:
         stamp = {"source": self.source(), "extra": extra}
         self.stamp.write_text(json.dumps(stamp), encoding="utf-8")
 
+    def lead_commands_to_libraries(self) -> None:
+        """Make the program's commands find the libraries that were unpacked here, as `run` does."""
+        if not self.debian.is_dir():
+            return
+        settings = [
+            f"export {name}={shlex.quote(value)}"
+            for name, value in self.variables().items()
+            if name in ("LD_LIBRARY_PATH", "FONTCONFIG_FILE", "XKB_CONFIG_ROOT")
+        ]
+        for name, module in (("calibgui", "calibgui"), ("calibgui-window", "calibgui.gui")):
+            start = f'exec {shlex.quote(str(self.python))} -m {module} "$@"'
+            text = "\n".join(["#!/bin/sh", *settings, start, ""])
+            command = self.python.with_name(name)
+            if command.exists() and command.read_text(encoding="utf-8") != text:
+                command.write_text(text, encoding="utf-8")
+
     def compile(self) -> None:
         """Compile the kernels, so that the first calibration need not wait for them.
 
@@ -398,11 +414,13 @@ def set_up(extra: str, purposes: set[str], yes: bool) -> Environment:
         provide(environment, venv_package() + missing_libraries(environment, purposes), yes)
         environment.create()
         environment.install(extra)
+        environment.lead_commands_to_libraries()
         environment.compile()
         return environment
     provide(environment, missing_libraries(environment, purposes), yes)
     if EXTRAS.index(extra) > EXTRAS.index(held):
         environment.install(extra)
+    environment.lead_commands_to_libraries()
     return environment
 
 

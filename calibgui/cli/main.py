@@ -136,13 +136,14 @@ def _open_window(arguments: list[str]) -> int:
         with _keep_what_is_loaded():
             app = import_module("calibgui.gui.app")
     except ImportError as error:
-        if (error.name or "").partition(".")[0] not in _WINDOW_PACKAGES:
-            raise
         missing = import_module("calibgui.app.missing_library")
+        library = missing.describe_missing_library(str(error))
+        # The error of a library that Qt lacks may name no package.
+        if not library and (error.name or "").partition(".")[0] not in _WINDOW_PACKAGES:
+            raise
         if isinstance(error, ModuleNotFoundError):
             reason = f"the window is not installed. {missing.describe_missing_extra('gui')}"
         else:
-            library = missing.describe_missing_library(str(error))
             reason = f"the window cannot be loaded. {library or error}"
         print(f"calibgui: {reason}", file=sys.stderr)
         return _CANNOT

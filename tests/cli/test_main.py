@@ -208,14 +208,15 @@ def test_without_qt_it_says_how_to_get_the_window(tmp_path: Path) -> None:
     )
 
 
+@pytest.mark.parametrize("package", ["PySide6.QtGui", None])
 def test_a_library_that_the_window_lacks_is_named(
-    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: Capture
+    package: str | None, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: Capture
 ) -> None:
     reason = "libEGL.so.1: cannot open shared object file: No such file or directory"
 
     def fail(name: str) -> object:
         if name == "calibgui.gui.app":
-            raise ImportError(reason, name="PySide6.QtGui")
+            raise ImportError(reason, name=package)
         return import_module(name)
 
     monkeypatch.setattr("calibgui.cli.main.import_module", fail)

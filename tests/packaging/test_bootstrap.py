@@ -241,6 +241,25 @@ class TestEnvironment:
         assert variables["LD_LIBRARY_PATH"].split(os.pathsep)[0] == str(libraries)
 
 
+@pytest.mark.skipif(os.name != "posix", reason="a script of a shell")
+def test_its_commands_find_the_libraries_as_well(tmp_path: Path) -> None:
+    environment = bootstrap.Environment(tmp_path / "a venv")
+    environment.python.parent.mkdir(parents=True)
+    environment.python.write_text('#!/bin/sh\necho "$LD_LIBRARY_PATH" "$@"\n')
+    commands = [environment.python.with_name(name) for name in ("calibgui", "calibgui-window")]
+    for command in (environment.python, *commands):
+        command.touch()
+        command.chmod(0o755)
+    environment.lead_commands_to_libraries()
+    assert commands[0].read_text() == "", "there is nothing to find"
+    libraries = environment.debian / "usr" / "lib" / "x86_64-linux-gnu"
+    libraries.mkdir(parents=True)
+    environment.lead_commands_to_libraries()
+    for command, module in zip(commands, ("calibgui", "calibgui.gui"), strict=True):
+        shown = subprocess.run([command, "a b"], capture_output=True, text=True, check=True).stdout
+        assert shown.startswith(str(libraries)) and shown.endswith(f" -m {module} a b\n")
+
+
 def test_goes_elsewhere_where_the_checkout_is_read_only(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
