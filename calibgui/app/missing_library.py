@@ -8,6 +8,8 @@ import sys
 
 _LIBRARY = re.compile(r"(lib[\w.+-]+?)\.so\.(\d+)")
 """The name and the version of a shared library of Linux."""
+_OLD_NAMES = {"libglib-2.0": "libglib2.0-0", "libgthread-2.0": "libglib2.0-0"}
+"""Packages of Debian that are older than its policy, by the names of their libraries."""
 
 
 def describe_missing_library(problem: str) -> str:
@@ -23,7 +25,8 @@ def describe_missing_library(problem: str) -> str:
     if found is None:
         return ""
     name, version = found.groups()
-    package = name.lower() + ("-" if name[-1].isdigit() else "") + version
+    by_policy = name.lower() + ("-" if name[-1].isdigit() else "") + version
+    package = _OLD_NAMES.get(name, by_policy)
     return f"The library {found[0]} is missing. On Debian and Ubuntu: apt install {package}"
 
 

@@ -181,6 +181,7 @@ def test_a_library_that_the_window_needs_is_named_with_its_package(tmp_path: Pat
         ("libxkbcommon-x11.so.0: cannot open shared object file", "libxkbcommon-x11-0"),
         ("libEGL.so.1: cannot open shared object file", "libegl1"),
         ("/lib/libX11-xcb.so.1: file too short", "libx11-xcb1"),
+        ("libgthread-2.0.so.0: cannot open shared object file", "libglib2.0-0"),
     ],
 )
 def test_packages_of_libraries(problem: str, package: str) -> None:

@@ -81,9 +81,7 @@ class Calibrator(QObject):
         # Images that the user has not marked are not searched with the calibrated camera either.
         settings = replace(project.settings, once=project.settings.once or project.by_hand)
 
-        preparing = self.tr("Preparing the solver for its first use (once, about {0} s)…").format(
-            SOLVER_SECONDS
-        )
+        preparing = self.tr("Preparing the solver (once, about {0} s)…").format(SOLVER_SECONDS)
 
         calibrating, comparing = self.tr("Calibrating"), self.tr("Comparing lens models")
 

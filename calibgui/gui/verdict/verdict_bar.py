@@ -148,7 +148,7 @@ class VerdictBar(QFrame):
         self.mark.show_grade(None if verdict is None else verdict.grade)
         if verdict is None or result is None:
             nothing = self.tr("NOT CALIBRATED") if result is None else self.tr("JUDGING…")
-            hint = self.tr("Once it is, what the camera is worth is said here.")
+            hint = self.tr("How far the camera can be trusted is said here once it is calibrated.")
             waiting = self.tr("What makes it better is being tried.")
             self.headline.setText(nothing)
             self.reason.setText(hint if result is None else waiting)
