@@ -34,7 +34,7 @@ from calibgui.engine.detection.checkerboard.pyramid_search import (
 from calibgui.engine.detection.checkerboard.saddle import refine_lattice
 from calibgui.engine.detection.corners import Corners
 from calibgui.engine.detection.detector_io import check_grey_levels
-from calibgui.engine.detection.lattice import Lattice
+from calibgui.engine.detection.lattice import Lattice, is_large_enough
 from calibgui.engine.detection.puzzleboard.dot_levels import measure_dots
 from calibgui.engine.detection.puzzleboard.dot_removal import PLAIN, remove_blurred_dots
 from calibgui.engine.detection.puzzleboard.place_decoding import (
@@ -161,7 +161,8 @@ def _explain_missing_board(
     if not seen and bare:
         largest = max((each.lattice for each in bare), key=_measure_edges)
         part = _cut_middle(largest)
-        if not isinstance(refine_board(grey, part, METHODS[0], PLAIN), Refusal):
+        is_seen = is_large_enough(part)  # its middle may be hidden
+        if is_seen and not isinstance(refine_board(grey, part, METHODS[0], PLAIN), Refusal):
             seen = [largest]
     if not seen:
         return NoBoardError(

@@ -134,6 +134,14 @@ def test_crossings_of_waves_are_not_verified(monkeypatch: pytest.MonkeyPatch) ->
     assert max(max(lattice.shape) for lattice in verified) <= 12
 
 
+def test_a_board_without_dots_whose_middle_is_hidden() -> None:
+    image = photograph_board((900, 900), (24, 24), 30, 0.7)
+    cv2.circle(image, (450, 450), 290, 128, -1)
+    assert find_corners(image).shape == (24, 24)
+    with pytest.raises(NoBoardError, match="No PuzzleBoard"):
+        find_corners(image, pattern=PuzzleBoard())
+
+
 def test_only_what_may_be_dots_is_removed() -> None:
     """Waves have thousands of places for dots, and to compute these takes long."""
     uv = project_points(_BOARD.points(), _CAMERA, _SCENE.pose).reshape(8, 10, 2)
