@@ -29,6 +29,8 @@ from calibgui.engine.geometry import homography
 
 _MARKERS_PER_CORNER = 4
 """Number of the nearest markers whose corners place an inner corner."""
+_LEAST_DISTANCE = 0.1
+"""Distance from a point, in units of the board, within which markers' corners count alike."""
 _MAX_FITS = 4
 """Number of times that corners may be rejected and the rest fitted again."""
 
@@ -50,7 +52,8 @@ def predict_places(xy: Array, on_board: Array, corners: Array) -> tuple[Array, A
     # Coordinates are counted from the point, the place that the homography is evaluated at.
     source = (on_board[which] - xy[:, None, None]).reshape(len(xy), -1, 2)
     target = corners[which].reshape(len(xy), -1, 2)
-    H = homography.fit_homography(source, target, np.ones(source.shape[:2]))
+    weights = 1 / (np.sum(source**2, axis=2) + _LEAST_DISTANCE**2)
+    H = homography.fit_homography(source, target, weights)
     return homography.apply_homography(H, np.zeros((len(xy), 1, 2)))[:, 0], distance[:, 0]
 
 
@@ -75,7 +78,7 @@ def predict_corners(
 
 
 def refine_corners(
-    image: GreyImage, predicted: Lattice, plain: float
+    image: GreyImage, predicted: Lattice, plain: float, *, by_markers: bool = False
 ) -> tuple[Lattice, list[RejectedCorner]]:
     """Move corners to their saddle points and verify their places and colours.
 
@@ -83,6 +86,7 @@ def refine_corners(
         image: (h, w) grey levels.
         predicted: where the corners are predicted.
         plain: how far from its edges a square is of one colour, squares.
+        by_markers: True if markers beside the corners predict them.
 
     Returns:
         The corners that pass, and the predicted ones that do not.
@@ -90,6 +94,7 @@ def refine_corners(
     Raises:
         NoBoardError: if too few corners have a saddle point.
     """
+    marked = predicted.uv if by_markers else None
     lattice = predicted
     for fill in (False, True):
         # The second pass also tries the gaps where the corners found predict others.
@@ -102,7 +107,7 @@ def refine_corners(
         uv[known], converged[known] = saddle.refine_saddles(image, uv[known], sigma, spacing / 4)
         moved = Lattice(uv, tried.dark).select(converged)
         require_enough_corners(moved)
-        lattice = moved.select(verification.find_sound_corners(moved, image, plain))
+        lattice = moved.select(verification.find_sound_corners(moved, image, plain, marked))
     lost = predicted.found & ~lattice.found
     return lattice, list_rejected_corners(predicted.uv[lost], "off place or colours")
 

@@ -94,7 +94,8 @@ def _locate_corners(
     if grid_size is None and not markers.layout.first_dark and size[0] % 2 == 0:
         size = (size[0] + 1, size[1])
     predicted = predict_corners(markers, size, grey, is_inverted=is_inverted)
-    lattice, rejected = refine_corners(grey, predicted, _measure_plain_part(markers))
+    plain = _measure_plain_part(markers)
+    lattice, rejected = refine_corners(grey, predicted, plain, by_markers=True)
     return _LocatedBoard(markers, lattice, rejected)
 
 

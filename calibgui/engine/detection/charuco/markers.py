@@ -5,13 +5,14 @@ with the colours given, number k thus tells its square, p_k = (column, row). Wha
 unknown - the dictionary, C, the colours, the side rho of a marker over that of a square - shows in
 pairs of neighbours: with the affine frame A_i of marker i (its two sides, px) and centres c,
 
-    m_ij = A_i^-1 (c_j - c_i)
+    m_ij = ((A_i + A_j) / 2)^-1 (c_j - c_i)
 
 is the displacement from i to j in sides of a marker, and on the right board rho m_ij = p_j - p_i.
-Only neighbours up to two squares away are compared, so that no lens matters, and others only if
-these agree with several layouts. The layout that the most pairs agree with is taken; the largest
-set of markers that such pairs connect is the board. A marker that was misread, or is of another
-board, agrees with nothing.
+The frame of either marker alone would be off by half of what a tilt or a fisheye changes from one
+to the next. Only neighbours up to two squares away are compared, so that no lens matters, and
+others only if these agree with several layouts. The layout that the most pairs agree with is taken;
+the largest set of markers that such pairs connect is the board. A marker that was misread, or is of
+another board, agrees with nothing.
 
 On a board with an odd number of squares a row the colours only shift the markers by a square along
 their rows, and pairs tell them apart only where a row ends. A part of a board may thus agree with
@@ -124,12 +125,18 @@ def _measure_displacements(corners: Array, max_distance: int) -> tuple[IntArray,
     right = (corners[:, 1] + corners[:, 2] - corners[:, 0] - corners[:, 3]) / 2
     down = (corners[:, 2] + corners[:, 3] - corners[:, 0] - corners[:, 1]) / 2
     A = np.stack([right, down], axis=2)
-    A[abs(np.linalg.det(A)) < 1.0] = 1e-9 * np.eye(2)  # without area: everything is far from it
-    centre = corners.mean(axis=1)
-    m = (np.linalg.inv(A)[:, None] @ (centre - centre[:, None])[..., None])[..., 0]
+    apart = corners.mean(axis=1) - corners.mean(axis=1)[:, None]
+    m = (_invert_frames(A)[:, None] @ apart[..., None])[..., 0]
     near = np.abs(m).max(axis=2) < max_distance / CHARUCO_THRESHOLDS.min_marker_side
     i, j = np.nonzero(near & near.T & ~np.eye(len(m), dtype=np.bool_))
-    return i, j, m[i, j]
+    between = _invert_frames((A[i] + A[j]) / 2)
+    return i, j, (between @ apart[i, j, :, None])[..., 0]
+
+
+def _invert_frames(A: Array) -> Array:
+    """Invert affine frames (n, 2, 2) px; from one without area everything is far."""
+    has_area = abs(np.linalg.det(A)) >= 1.0
+    return np.linalg.inv(np.where(has_area[:, None, None], A, 1e-9 * np.eye(2)))
 
 
 def _find_agreeing_pairs(

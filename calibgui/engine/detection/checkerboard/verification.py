@@ -49,16 +49,19 @@ _PLAIN_IF_MARKED = 0.25
 """How far from their edges squares that may hold marks are of one colour, squares."""
 
 
-def find_sound_corners(lattice: Lattice, image: GreyImage, plain: float = 0.5) -> BoolArray:
+def find_sound_corners(
+    lattice: Lattice, image: GreyImage, plain: float = 0.5, marked: Array | None = None
+) -> BoolArray:
     """Find the corners of a lattice that look like the others and lie where these expect them.
 
     Neighbours in a line expect a corner where the line goes on as it did. Where a lens bends the
-    lines so much that they mislead, the smooth grid map through all others decides.
+    lines so much that they mislead, the smooth grid map through all others decides, or markers.
 
     Args:
         lattice: refined corners.
         image: (h, w) grey levels.
         plain: distance from their edges up to which the squares are of one colour, squares.
+        marked: (rows, cols, 2) px, where markers beside the corners expect them, NaN where none do.
 
     Returns:
         A mask (rows, cols).
@@ -75,6 +78,9 @@ def find_sound_corners(lattice: Lattice, image: GreyImage, plain: float = 0.5) -
     uv, steps = alike.uv, alike.steps()
     deviation = measure_in_steps(uv - predict_places(uv), *steps)
     astray = good & (deviation >= THRESHOLDS.verification.max_deviation)
+    if marked is not None:
+        off = measure_in_steps(uv - marked, *steps)
+        astray &= ~(off < THRESHOLDS.verification.max_deviation)
     if astray.any() and not astray[good].all():
         cells = np.argwhere(astray)
         expected = grid_map.fit_grid_map(lattice.select(good & ~astray)).locate(

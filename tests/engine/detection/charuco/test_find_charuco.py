@@ -193,6 +193,30 @@ def test_parts_hidden_and_outside() -> None:
     np.testing.assert_array_equal(known.uv, corners.uv)
 
 
+_FISHEYE = Camera((640, 480), [210.0, 210.0, 321.0, 239.0, 0.05, -0.01, 0.0, 0.0], "kannala-brandt")
+
+
+def test_a_fisheye_near_the_board() -> None:
+    """Markers change their size by a third from one to the next."""
+    board = Board(7, 10, 26.0, Charuco("DICT_4X4_50", 0.75, False))
+    scene = Scene(board, _FISHEYE, (0.3, -0.2, 0.2), 90.0)
+    corners = find_corners(scene.image(), pattern=Charuco())
+    assert corners.complete
+    assert np.abs(scene.error(corners)).max() < 0.1
+    seen = corners.pattern
+    assert isinstance(seen, Charuco)
+    assert seen.marker == pytest.approx(0.75, abs=0.05)
+
+
+def test_markers_stand_for_neighbours_where_lines_bend() -> None:
+    """Of few large squares the lines do not tell where they go on."""
+    board = Board(4, 6, 40.0, Charuco("DICT_6X6_250", 0.6, False))
+    scene = Scene(board, _FISHEYE, (0.4, 0.5, 0.1), 70.0)
+    corners = find_corners(scene.image(), board.grid_size, pattern=board.pattern)
+    assert len(corners) > 15
+    assert np.abs(scene.error(corners)).max() < 0.1
+
+
 def test_a_false_marker_is_left_out() -> None:
     """A misread or foreign number agrees with no neighbour."""
     pattern, grid_size = BOARDS[0]
