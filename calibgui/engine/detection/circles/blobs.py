@@ -16,13 +16,15 @@ from calibgui.engine.arrays import Array, BoolArray, GreyImage
 from calibgui.engine.detection.circles.thresholds import CIRCLE_THRESHOLDS
 
 
-def find_blobs(image: GreyImage, window: int, most: int) -> Array:
+def find_blobs(image: GreyImage, window: int, most: int, *, is_shaded: bool = False) -> Array:
     """Find the centres (n, 2) px of at most `most` parts of an 8-bit image (h, w).
 
-    A part is darker than the mean of the `window` px around.
+    A part is darker than the mean of the `window` px around, or, if the image `is_shaded`, than the
+    paper beside it, on either side of a shadow's edge.
     """
     limits = CIRCLE_THRESHOLDS
-    labels, size = opencv.label_dark_parts(image, window)
+    share = limits.max_ink_share if is_shaded else None
+    labels, size = opencv.label_dark_parts(image, window, share)
     area = size[:, 2].astype(np.float64)
     large = area >= limits.min_blob_area
     large &= area > limits.min_box_fill * size[:, 0] * size[:, 1]

@@ -13,6 +13,7 @@ taken by which they come first, row by row, whatever the picture or the user's p
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 
 import numpy as np
@@ -38,6 +39,9 @@ _MAX_COARSE_SIDE = 1200
 """Longer side of the image in which the grid is looked for first, px."""
 _WINDOW_DIVISORS = (4, 16)
 """The image's shorter side over the windows tried: ink is darker than the mean of the window."""
+_SHADED_DIVISOR = 8
+"""The image's shorter side over the window in which shadows are evened out, at the coarsest size:
+that takes a twentieth of the time of the search among what is dark."""
 _SAMPLE = 40
 """Number of circles, spread over the grid, that are fitted before all of a grid of more than twice
 as many."""
@@ -125,18 +129,17 @@ def _find_grid(
         CIRCLE_THRESHOLDS.max_blobs if grid_size is None else 2 * grid_size[0] * grid_size[1] + 60
     )
     largest = np.zeros((0, 0, 2))
-    for depth in reversed(range(len(levels))):
-        # What the coarsest level does not show is small, and lies in a small window.
-        divisors = _WINDOW_DIVISORS if depth == len(levels) - 1 else _WINDOW_DIVISORS[-1:]
-        for seen in (levels[depth], 255 - levels[depth]):
-            for divisor in divisors:
-                points = find_blobs(seen, max(int(min(seen.shape) / divisor), 9), most)
-                grid = label_grid(points, grid_size, asymmetric=pattern.asymmetric)
-                if grid is None or (grid.shape != grid_size and 2 * grid.size <= largest.size):
-                    continue
-                largest = (points[grid] + 0.5) * 2**depth - 0.5 + [left, top]
-                if grid.shape == grid_size:
-                    return largest
+    for depth, seen, divisor, is_shaded in _list_searches(levels):
+        if is_shaded and grid_size is None and largest.size:
+            break
+        window = max(int(min(seen.shape) / divisor), 9)
+        points = find_blobs(seen, window, most, is_shaded=is_shaded)
+        grid = label_grid(points, grid_size, asymmetric=pattern.asymmetric)
+        if grid is None or (grid.shape != grid_size and 2 * grid.size <= largest.size):
+            continue
+        largest = (points[grid] + 0.5) * 2**depth - 0.5 + [left, top]
+        if grid.shape == grid_size:
+            return largest
     if grid_size is None and largest.size:
         return largest
     which = "" if grid_size is None else f"{grid_size[0]} x {grid_size[1]} "
@@ -146,6 +149,20 @@ def _find_grid(
         "All of it must be in view, sharp and evenly lit, with white around it."
         + (" Check the numbers of rows and columns." if grid_size else ""),
     )
+
+
+def _list_searches(levels: list[GreyImage]) -> Iterator[tuple[int, GreyImage, int, bool]]:
+    """List the searches for circles in an image and its halved copies, the coarsest first: depth,
+    image or negative, what its shorter side is divided by for the window, and whether shadows are
+    evened out, which is needed rarely and so comes last."""
+    coarsest = len(levels) - 1
+    for depth in reversed(range(len(levels))):
+        # What the coarsest level does not show is small, and lies in a small window.
+        divisors = _WINDOW_DIVISORS if depth == coarsest else _WINDOW_DIVISORS[-1:]
+        for seen in (levels[depth], 255 - levels[depth]):
+            for divisor in divisors:
+                yield depth, seen, divisor, False
+    yield coarsest, levels[coarsest], _SHADED_DIVISOR, True
 
 
 def _number_circles(pattern: Circles, centres: Array, xy: Array, outline: Array | None) -> Array:

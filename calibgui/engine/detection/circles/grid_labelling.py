@@ -24,6 +24,7 @@ import scipy
 
 from calibgui.engine.arrays import Array, GridSize, IntArray
 from calibgui.engine.detection.circles.thresholds import CIRCLE_THRESHOLDS
+from calibgui.engine.geometry import homography
 
 Place = tuple[int, int]
 """Coordinates on the lattice."""
@@ -87,7 +88,29 @@ def label_grid(points: Array, grid_size: GridSize | None, *, asymmetric: bool) -
             best = max([best, *whole], key=_rank_grid)
             if seed in best:
                 break
-    return best if best.size else None
+    if not best.size or _is_continued(best, points, asymmetric=asymmetric):
+        return None
+    return best
+
+
+def _is_continued(grid: IntArray, points: Array, *, asymmetric: bool) -> bool:
+    """Return whether a grid (rows, cols) of points (n, 2) px is a part of a larger one: most others
+    around lie where it goes on, and they are many. Something hides what would join them. In the
+    middle of the cells of a symmetric grid they belong to an asymmetric one, turned."""
+    limits = CIRCLE_THRESHOLDS
+    others = np.delete(points, grid.ravel(), axis=0)
+    if len(others) <= limits.max_continued_share * grid.size:
+        return False
+    xy = np.array(_list_places((grid.shape[0], grid.shape[1]), asymmetric=asymmetric), np.float64)
+    to_board = homography.fit_homography(points[grid.ravel()], xy, np.ones(len(xy)))
+    at = homography.apply_homography(to_board, others)
+    reach = limits.continued_lines
+    near = ((at > xy.min(axis=0) - reach) & (at < xy.max(axis=0) + reach)).all(axis=1)
+    x, y = at[near].T
+    lattice = np.column_stack([x + y, x - y]) / (2 if asymmetric else 1)
+    off = np.abs(lattice - np.rint(lattice)).max(axis=1)
+    continuing = int(np.count_nonzero(off < limits.max_continuation_error))
+    return continuing > max(limits.max_continued_share * grid.size, len(off) / 2)
 
 
 def _rank_grid(grid: IntArray) -> tuple[int, int]:

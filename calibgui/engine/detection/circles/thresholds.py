@@ -20,6 +20,8 @@ class CircleThresholds:
     squares."""
     max_blob_fill: float = 1.1
     """Greatest such ratio."""
+    max_ink_share: float = 0.6
+    """Greatest level of ink over that of the paper beside it, where shadows lie on the board."""
     max_area_ratio: float = 8.0
     """Greatest ratio of two discs' areas in one grid: what tilt and lens may cause."""
     min_box_fill: float = 0.1
@@ -40,6 +42,14 @@ class CircleThresholds:
     """Greatest distance of a point from where its neighbours predict it, shorter steps."""
     min_border_share: float = 0.5
     """Least share of a border line that must be present for its points to belong to the grid."""
+    max_continued_share: float = 0.1
+    """Greatest number of other discs that continue a grid whose size is not stated, over that of
+    its own: with more it is a part of a larger one."""
+    continued_lines: int = 4
+    """Number of lines beyond a grid's borders on which such discs are looked for."""
+    max_continuation_error: float = 0.15
+    """Greatest distance of these from their places, along either diagonal, over the distance of
+    neighbours there."""
     min_relative_contrast: float = 0.3
     """Least contrast of a circle over the median."""
     max_relative_residual: float = 0.12

@@ -262,6 +262,23 @@ def test_a_hidden_circle_might_be_a_mark() -> None:
     assert corners.ambiguity is Symmetry.QUARTER_TURN
 
 
+@pytest.mark.parametrize(
+    ("pattern", "grid_size"), [(Circles(False, 0.5), (7, 9)), (Circles(True, 0.8), (11, 4))]
+)
+def test_a_shadow_over_half_of_the_board(pattern: Circles, grid_size: GridSize) -> None:
+    """Circles that its edge crosses are seen, but have other edges than the rest."""
+    scene = Scene(Board(*grid_size, 20.0, pattern), rvec=(0.2, 0.2, 0.1))
+    image = scene.image()
+    v, u = np.indices(image.shape)
+    shaded = np.where(u + 0.6 * v > 720, image, image // 4)
+    for size in (grid_size, None):
+        corners = find_corners(shaded, size, pattern=Circles(pattern.asymmetric))
+        assert corners.shape == grid_size
+        assert len(corners) > 0.75 * np.prod(grid_size)
+        error = scene.error(corners)
+        assert np.sqrt(np.mean(error**2)) < 0.3
+
+
 def test_slender_spots_are_no_circles() -> None:
     """Their ellipses are askew and hard to fit, and must not turn into hyperbolas on the way."""
     rng = np.random.default_rng(3)

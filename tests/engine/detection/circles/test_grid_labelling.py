@@ -77,6 +77,22 @@ def test_strays_beside_the_grid_are_not_of_it() -> None:
     assert sorted(grid.ravel()) == list(range(36))
 
 
+@pytest.mark.parametrize("stated", [None, (6, 10)])
+def test_a_part_of_a_grid_is_not_taken_for_the_whole(stated: GridSize | None) -> None:
+    """A shadow or a hand hides what joins it to the rest."""
+    row, col = np.indices((6, 10)).reshape(2, -1)
+    uv = np.column_stack([col, row]) * 40.0
+    for hidden in ((col == 4) | (col == 5), row + col == 6):
+        assert label_grid(uv[~hidden], stated, asymmetric=False) is None
+
+
+def test_an_asymmetric_grid_is_no_symmetric_one_turned() -> None:
+    row, col = np.indices((11, 4)).reshape(2, -1)
+    uv = Circles(asymmetric=True).locate_points(np.column_stack([row, col]).astype(float)) * 30.0
+    seen = uv[~((row < 4) & (np.abs(uv[:, 0] - 120) <= 30))]
+    assert label_grid(seen, None, asymmetric=False) is None
+
+
 def test_a_small_grid_must_be_stated() -> None:
     points = np.indices((3, 3)).reshape(2, -1).T * 40.0
     stated = label_grid(points, (3, 3), asymmetric=False)
