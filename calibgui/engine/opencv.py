@@ -189,22 +189,42 @@ def detect_markers(image: GreyImage, dictionary: str) -> tuple[IntArray, Array]:
     return np.asarray(ids, np.int64).ravel(), np.array(corners, np.float64).reshape(-1, 4, 2)
 
 
-def detect_dark_quads(image: GreyImage, is_quick: bool = False, is_part: bool = False) -> Array:
+def detect_dark_quads(
+    image: GreyImage, is_quick: bool = False, is_part: bool = False, least_side: float | None = None
+) -> Array:
     """Return corners (n, 4, 2) px of the shapes in an 8-bit image (h, w) that may be markers.
 
     The dark is darker than its surroundings. A quick search compares with those of one size only,
     where OpenCV takes three. In a part of a larger image only the smallest markers are left out,
-    not those that are small for it.
+    not those that are small for it; or those of less than `least_side` px.
     """
     any_one = cv2.aruco.Dictionary(np.zeros((1, 2, 4), np.uint8), 4, 0)
     parameters = _marker_parameters(image)
-    if is_part:
-        parameters.minMarkerPerimeterRate = 4 * _MIN_MARKER_SIDE / max(image.shape)
+    if is_part or least_side is not None:
+        side = _MIN_MARKER_SIDE if least_side is None else least_side
+        parameters.minMarkerPerimeterRate = 4 * side / max(image.shape)
     if is_quick:
         parameters.adaptiveThreshWinSizeMin = parameters.adaptiveThreshWinSizeMax = _QUICK_WINDOW
     detector = cv2.aruco.ArucoDetector(any_one, parameters)
     read, _, others = detector.detectMarkers(image)
     return np.array([*read, *others], np.float64).reshape(-1, 4, 2)
+
+
+def count_quads(image: GreyImage, window: int, perimeter: int, enough: int) -> int:
+    """Count the quadrilaterals of an 8-bit image (h, w) that are darker than the mean of the
+    `window` px around and have a `perimeter` px or more; 0 if there are no outlines `enough`."""
+    dark = cv2.adaptiveThreshold(
+        image, 255, cv2.ADAPTIVE_THRESH_MEAN_C, cv2.THRESH_BINARY_INV, window, _DARKER
+    )
+    outlines, _ = cv2.findContours(dark, cv2.RETR_LIST, cv2.CHAIN_APPROX_SIMPLE)
+    if len(outlines) < enough:
+        return 0
+    count = 0
+    for outline in outlines:
+        length = cv2.arcLength(outline, closed=True)
+        if length >= perimeter:
+            count += len(cv2.approxPolyDP(outline, _OFF_QUAD * length, closed=True)) == 4
+    return count
 
 
 def _marker_parameters(image: GreyImage) -> Any:
@@ -234,6 +254,10 @@ _CORRECTED_SHARE = 0.6
 """Share of a dictionary's correctable cells that OpenCV corrects (its default)."""
 _MIN_MARKER_SIDE = 10.0
 """Side of the smallest markers that are detected, px."""
+_DARKER = 7
+"""Difference from the mean around by which pixels are dark, grey levels: OpenCV's for markers."""
+_OFF_QUAD = 0.05
+"""Greatest distance of an outline from its quadrilateral, perimeters."""
 _QUICK_WINDOW = 7
 """Side of the surroundings that the dark is compared with where one size has to do, px: of rendered
 markers of 13 px and more it finds nearly as many as OpenCV's three sizes."""

@@ -29,6 +29,10 @@ MIN_SCATTERED_CORNERS = 12
 board: ragged parts of textures do not."""
 MAX_GAP = 3
 """Width of the widest gap over which steps and predictions of a lattice are carried, steps."""
+_MIN_FILLED_SHARE, _MIN_SCATTERED = 0.25, 30
+"""Least share of the places within its rows and columns that a lattice fills, and the number of
+corners from which on that is asked. Those of boards, partly hidden or with tags in their squares,
+fill 0.39 or more from when they begin to grow; of halftones, grown, 0.1 to 0.2."""
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -95,6 +99,12 @@ def is_large_enough(lattice: Lattice) -> bool:
     if min(lattice.shape) < MIN_LINES or len(lattice) < MIN_CORNERS:
         return False
     return len(lattice) >= MIN_SCATTERED_CORNERS or _has_full_block(lattice.found)
+
+
+def is_scattered(lattice: Lattice) -> bool:
+    """Return whether many corners fill so little of their rows and columns as those of no board."""
+    places = lattice.shape[0] * lattice.shape[1]
+    return _MIN_SCATTERED <= len(lattice) < _MIN_FILLED_SHARE * places
 
 
 def _has_full_block(found: BoolArray) -> bool:

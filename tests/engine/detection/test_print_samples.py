@@ -17,7 +17,7 @@ from calibgui.engine.boards.pattern import Pattern
 from calibgui.engine.detection.find_corners import find_corners
 from calibgui.engine.errors import NoBoardError
 from tests.scenes.perspective import photograph_pattern
-from tests.scenes.without_board import draw_foliage
+from tests.scenes.without_board import draw_foliage, draw_without_board
 
 _BOARDS = {
     "aprilgrid": Board(8, 10, 22.0, AprilGrid("t36h11", 0.3, 2, False)),
@@ -66,3 +66,32 @@ def test_most_of_what_shows_no_marks_is_not_searched(
         parts = [each for each in searched if each < size / 4]
         assert len(parts) >= least
         assert max(searched) == size / 4
+
+
+@pytest.mark.parametrize(("kind", "seed"), [("aprilgrid", 12), ("charuco", 12), ("aprilgrid", 11)])
+def test_of_thousands_of_parts_some_are_searched(
+    kind: str, seed: int, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Bricks and waves, 2000 and more at the coarsest size: OpenCV compares all pairs of them."""
+    found: list[int] = []
+    search = opencv.detect_dark_quads
+
+    def count(image: GreyImage, *how: Any, **more: Any) -> Array:
+        quads = search(image, *how, **more)
+        found.append(len(quads))
+        return quads
+
+    monkeypatch.setattr(opencv, "detect_dark_quads", count)
+    with pytest.raises(NoBoardError):
+        find_corners(draw_without_board(seed, (750, 1000), 0.625), pattern=_ASKED[kind])
+    assert max(found) < 1000
+
+
+@pytest.mark.parametrize(("size", "at"), [((400, 330), (300, 500)), ((900, 700), (30, 60))])
+def test_a_board_before_a_wall_is_found(size: tuple[int, int], at: tuple[int, int]) -> None:
+    """Its tags are as small as the bricks, or larger than what is searched at a time."""
+    board = photograph_pattern(size, _BOARDS["aprilgrid"], 0.95, 0.7)[10:-10, 10:-10]
+    image = draw_without_board(12, (750, 1000), 0.625)
+    top, left = at
+    image[top : top + board.shape[0], left : left + board.shape[1]] = board
+    assert len(find_corners(image, pattern=_ASKED["aprilgrid"])) > 70

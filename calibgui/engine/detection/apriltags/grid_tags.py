@@ -22,9 +22,9 @@ from calibgui.engine.detection.apriltags.tag_reader import (
     list_prints,
     rate_borders,
 )
-from calibgui.engine.detection.charuco.markers import Markers, identify_board
+from calibgui.engine.detection.charuco.markers import Markers, drop_repeated, identify_board
 from calibgui.engine.detection.checkerboard import saddle
-from calibgui.engine.detection.print_samples import PrintSample
+from calibgui.engine.detection.print_samples import PrintSample, detect_dark_quads
 from calibgui.engine.detection.region_of_interest import are_inside
 
 _MAX_COARSE_SIDE = 1600
@@ -130,8 +130,10 @@ class GridTagFinder:
             if depth not in self._samples:
                 self._samples[depth] = PrintSample(self._levels[depth + 1])
             found = self._samples[depth].detect_dark_quads(searched)
+        elif is_coarsest:
+            found = detect_dark_quads(searched, is_quick=is_sample)
         else:
-            found = opencv.detect_dark_quads(searched, is_quick=is_sample or not is_coarsest)
+            found = opencv.detect_dark_quads(searched, is_quick=True)
         found = _widen(found, _PARTED_BY if is_parted else 0)
         rating = rate_borders(level, found)
         order = (
@@ -177,7 +179,7 @@ def _read_board(
         if not len(tags.numbers):
             continue
         turned = (np.arange(4) + tags.turns[:, None]) % 4
-        numbers, corners = _drop_repeated(tags.numbers, reader.quads[tags.which[:, None], turned])
+        numbers, corners = drop_repeated(tags.numbers, reader.quads[tags.which[:, None], turned])
         known = _list_likely_layouts(numbers, corners)
         allowed = [
             layout
@@ -232,14 +234,3 @@ def _widen(quads: Array, by: float) -> Array:
     centre = quads.mean(axis=1, keepdims=True)
     side = np.linalg.norm(quads - np.roll(quads, 1, axis=1), axis=2).mean(axis=1)
     return centre + (quads - centre) * (1 + 2 * by / side)[:, None, None]
-
-
-def _drop_repeated(numbers: IntArray, corners: Array) -> tuple[IntArray, Array]:
-    """Drop all but the first of the tags of one number at one place; numbers (n,), corners
-    (n, 4, 2) px."""
-    centre = corners.mean(axis=1)
-    side = np.linalg.norm(corners[:, 0] - corners[:, 1], axis=1)
-    near = np.asarray(np.linalg.norm(centre - centre[:, None], axis=2) < side[:, None] / 2)
-    same = near & (np.subtract.outer(numbers, numbers) == 0)
-    first = np.flatnonzero(~np.tril(same, -1).any(axis=1))
-    return numbers[first], corners[first]

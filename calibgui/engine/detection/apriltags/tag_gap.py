@@ -9,6 +9,7 @@ from __future__ import annotations
 import numpy as np
 
 from calibgui.engine.arrays import Array
+from calibgui.engine.errors import NoBoardError
 
 
 def measure_gap(uv: Array, gap: float) -> float:
@@ -17,6 +18,9 @@ def measure_gap(uv: Array, gap: float) -> float:
     Args:
         uv: (rows, cols, 2) px of the corners of a board's tags, NaN where unknown.
         gap: what is returned where nothing shows it.
+
+    Raises:
+        NoBoardError: it is wider than a tag, which that of an AprilGrid is not.
     """
     ratios = []
     for lines in (uv, uv.transpose(1, 0, 2)):
@@ -32,4 +36,10 @@ def measure_gap(uv: Array, gap: float) -> float:
     if not len(ratio):
         return gap
     cross = float(np.median(ratio))
-    return float(np.sqrt(cross / (cross - 1))) - 1
+    measured = float(np.sqrt(cross / (cross - 1))) - 1
+    if measured > 1:
+        raise NoBoardError(
+            "Tags were read, but they stand too far apart for an AprilGrid.",
+            "For a checkerboard with tags in some of its squares state that target.",
+        )
+    return measured

@@ -14,8 +14,9 @@ from functools import lru_cache
 import numpy as np
 
 from calibgui.engine import opencv
-from calibgui.engine.arrays import Array, BoolArray, FloatImage, GreyImage
+from calibgui.engine.arrays import Array, BoolArray, FloatImage, GreyImage, IntArray
 from calibgui.engine.detection.charuco.marker_cells import find_dark_cells
+from calibgui.engine.detection.charuco.markers import drop_repeated
 from calibgui.engine.detection.charuco.thresholds import CHARUCO_THRESHOLDS
 
 
@@ -35,6 +36,22 @@ class MarkerCandidates:
     def count_fitting(self, dictionary: str, is_inverted: bool = False) -> int:
         """Count the quadrilaterals that may be markers of a dictionary, or, `is_inverted`, markers
         printed bright on dark: the dark around these has an inner edge."""
+        return len(self._match_dictionary(dictionary, is_inverted)[0])
+
+    def read_fitting(self, dictionary: str, is_inverted: bool = False) -> tuple[IntArray, Array]:
+        """Read the quadrilaterals that may be markers, as `count_fitting`, each once.
+
+        Returns:
+            Numbers (n,) and corners (n, 4, 2) px, clockwise as printed from the upper left.
+        """
+        which, best = self._match_dictionary(dictionary, is_inverted)
+        numbers, turns = np.divmod(best, 4)
+        turned = (np.arange(4) - turns[:, None]) % 4
+        return drop_repeated(numbers, self._quads[which[:, None], turned])
+
+    def _match_dictionary(self, dictionary: str, is_inverted: bool) -> tuple[IntArray, IntArray]:
+        """Find the quadrilaterals (n,) that may be markers, and the turned markers (n,), as
+        `_encode_markers` lists them, that they are most alike."""
         codes, correctable = _encode_markers(dictionary)
         k = int(np.sqrt(codes.shape[1]))
         if k not in self._cells:
@@ -42,11 +59,10 @@ class MarkerCandidates:
         dark = ~self._cells[k] if is_inverted else self._cells[k]
         inner = dark[:, 1:-1, 1:-1]
         bright = (k + 2) ** 2 - k * k - (dark.sum(axis=(1, 2)) - inner.sum(axis=(1, 2)))
-        inner = inner[bright <= CHARUCO_THRESHOLDS.max_border_error_share * k * k].reshape(
-            -1, k * k
-        )
-        alike = np.where(inner, 1.0, -1.0).astype(np.float32) @ codes.T
-        return int(np.count_nonzero((alike >= k * k - 2 * correctable).any(axis=1)))
+        which = np.flatnonzero(bright <= CHARUCO_THRESHOLDS.max_border_error_share * k * k)
+        alike = np.where(inner[which].reshape(-1, k * k), 1.0, -1.0).astype(np.float32) @ codes.T
+        fits = alike.max(axis=1, initial=-np.inf) >= k * k - 2 * correctable
+        return which[fits], alike[fits].argmax(axis=1)
 
 
 @lru_cache

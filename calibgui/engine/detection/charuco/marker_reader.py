@@ -5,8 +5,9 @@ size first, and only those dictionaries are read of which the image's dark quadr
 (`MarkerCandidates`) may be markers; at the coarsest size, which is quick, a stated one always is.
 At the other sizes to look for quadrilaterals takes long as well, above all where the image is full
 of texture: it is done quickly, once for dark and for bright markers, and only if a sample of the
-image (`PrintSample`) shows some that fit. The dictionaries of a family of
-OpenCV's begin alike: the markers of the smallest are the first of all.
+image (`PrintSample`) shows some that fit; and they are read only if those found lie as on a board.
+The dictionaries of a family of OpenCV's begin alike: the markers of the smallest are the first of
+all.
 """
 
 from __future__ import annotations
@@ -22,7 +23,7 @@ from calibgui.engine.detection import region_of_interest as region
 from calibgui.engine.detection.charuco.marker_candidates import MarkerCandidates
 from calibgui.engine.detection.charuco.markers import Markers, identify_board
 from calibgui.engine.detection.charuco.thresholds import CHARUCO_THRESHOLDS
-from calibgui.engine.detection.print_samples import PrintSample
+from calibgui.engine.detection.print_samples import PrintSample, detect_dark_quads
 from calibgui.engine.detection.region_of_interest import are_inside
 
 _MAX_COARSE_SIDE = 1600
@@ -111,7 +112,8 @@ class MarkerReader:
 
     def _may_show_more(self, dictionary: str, board: ReadBoard) -> bool:
         """Return whether more quadrilaterals may be markers of a dictionary than were read."""
-        return self._count_fitting(dictionary, len(self._levels) - 1) > board.count_markers()
+        coarsest = self._find_candidates(len(self._levels) - 1)
+        return coarsest.count_fitting(dictionary) > board.count_markers()
 
     def _read_first(
         self, names: Callable[[int], Iterable[str]], layouts: Collection[MarkerLayout]
@@ -126,20 +128,24 @@ class MarkerReader:
         return None
 
     def _select_likely(self, names: list[str], depth: int) -> list[str]:
-        """Select the dictionaries of which enough quadrilaterals may be markers."""
+        """Select the dictionaries of which enough quadrilaterals may be markers, and at a finer
+        size, which takes long to read, agree on a board: among thousands some fit by chance."""
         least = CHARUCO_THRESHOLDS.min_markers
-        return [name for name in names if self._count_fitting(name, depth) >= least]
-
-    def _count_fitting(self, dictionary: str, depth: int) -> int:
-        """Count the quadrilaterals of one level that may be markers of a dictionary."""
         if depth == len(self._levels) - 1:
-            return self._find_candidates(depth).count_fitting(dictionary)
+            coarsest = self._find_candidates(depth)
+            return [name for name in names if coarsest.count_fitting(name) >= least]
+        return [name for name in names if self._agree_on_board(name, depth)]
+
+    def _agree_on_board(self, dictionary: str, depth: int) -> bool:
+        """Return whether quadrilaterals of one of the finer levels may be markers of a dictionary
+        that lie as on a board; only if some in a sample may be markers all are looked for."""
         is_inverted = self._positive is not None
         positive = self._positive or self
         sampled = positive._sample_candidates(depth).count_fitting(dictionary, is_inverted)
         if sampled < _MIN_SAMPLED_MARKERS:
-            return 0
-        return positive._find_candidates(depth).count_fitting(dictionary, is_inverted)
+            return False
+        read = positive._find_candidates(depth).read_fitting(dictionary, is_inverted)
+        return bool(identify_board(*read, MARKER_LAYOUTS, MARKER_LAYOUTS))
 
     def _sample_candidates(self, depth: int) -> MarkerCandidates:
         """Find the quadrilaterals of a sample of one level of the pyramid, once."""
@@ -153,7 +159,11 @@ class MarkerReader:
         """Find the quadrilaterals of one level of the pyramid, once."""
         if depth not in self._candidates:
             level, is_coarsest = self._levels[depth], depth == len(self._levels) - 1
-            quads = opencv.detect_dark_quads(level, is_quick=not is_coarsest)
+            quads = (
+                detect_dark_quads(level)
+                if is_coarsest
+                else opencv.detect_dark_quads(level, is_quick=True)
+            )
             self._candidates[depth] = MarkerCandidates(level, quads)
         return self._candidates[depth]
 

@@ -109,6 +109,17 @@ def identify_board(
     return boards
 
 
+def drop_repeated(numbers: IntArray, corners: Array) -> tuple[IntArray, Array]:
+    """Drop all but the first of the markers of one number at one place; numbers (n,), corners
+    (n, 4, 2) px."""
+    centre = corners.mean(axis=1)
+    side = np.linalg.norm(corners[:, 0] - corners[:, 1], axis=1)
+    near = np.asarray(np.linalg.norm(centre - centre[:, None], axis=2) < side[:, None] / 2)
+    same = near & (np.subtract.outer(numbers, numbers) == 0)
+    first = np.flatnonzero(~np.tril(same, -1).any(axis=1))
+    return numbers[first], corners[first]
+
+
 def _select_largest_part(numbers: IntArray, i: IntArray, j: IntArray) -> IntArray:
     """Select the indices of the largest set of markers that pairs i, j (p,) connect, without those
     whose number was read twice in it."""

@@ -25,6 +25,7 @@ from calibgui.engine.detection.lattice import (
     Lattice,
     add_border,
     estimate_steps,
+    is_scattered,
     measure_in_steps,
     predict_places,
     trim_lattice,
@@ -48,7 +49,7 @@ def grow_lattice(
     limits = THRESHOLDS.growth
     template, size = estimate_template(lattice, nearby.smooth), len(lattice)
     slow_rounds = 0
-    while slow_rounds < limits.max_slow_rounds:
+    while slow_rounds < limits.max_slow_rounds and not is_scattered(lattice):
         if len(lattice) > limits.min_growth_for_template * size:
             if is_hopeless(lattice):
                 break

@@ -13,7 +13,9 @@ across the edges near that (`edge_profiles`). In squares,
   them do not. Tone may change slowly, and a part of the picture then pass for one print: but
   around that the pattern goes on, in dots that are smaller.
 
-Where something is printed in the squares the spread tells nothing.
+Where something is printed in the squares the spread tells nothing. Before all that a lattice of
+many corners has to fill a part of its rows and columns: through a halftone it winds as through
+a board of a thousand corners, most of which are not there.
 
 What these rules expect of edges is a print seen through a good lens. A camera that sharpens to one
 side, beats with a screen's pixels or is far out of focus, and marks in the squares, break them on
@@ -47,7 +49,7 @@ from calibgui.engine.detection.checkerboard.verification import (
     does_pattern_continue,
     stands_alone,
 )
-from calibgui.engine.detection.lattice import Lattice
+from calibgui.engine.detection.lattice import Lattice, is_scattered
 
 
 @dataclass(frozen=True, slots=True)
@@ -71,6 +73,8 @@ def find_early_objection(lattice: Lattice, image: GreyImage, plain: float = 0.5)
     or is too small to tell. The arguments are those of `find_objection`."""
     if len(lattice) < THRESHOLDS.prefilter.min_corners_to_tell:
         return ""
+    if is_scattered(lattice):
+        return "its corners are scattered over far more places"
     return find_objection(lattice, image, is_grown=False, plain=plain)
 
 

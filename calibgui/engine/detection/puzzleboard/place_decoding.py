@@ -122,7 +122,8 @@ class StatedBoard:
 
 
 def find_place(dots: Dots, board: StatedBoard | None = None) -> Place:
-    """Find the likeliest place of the dots on the pattern.
+    """Find the likeliest place of the dots on the pattern; any, with a doubt of 1, if none is half
+    as likely as that they are no such pattern.
 
     Args:
         dots: of a lattice that is not mirrored.
@@ -131,6 +132,10 @@ def find_place(dots: Dots, board: StatedBoard | None = None) -> Place:
     turned, logs, tops = _compare_turns(dots)
     # Factors of hundreds of dots overflow: all weights are divided by the greatest that may be.
     shift = max(0.0, *tops)
+    greatest = _ANYWHERE_WEIGHT / _count_places(dots.grid_size)
+    greatest += _ON_BOARD_WEIGHT if board is not None else 0.0
+    if shift < np.log(_NOWHERE_WEIGHT / 2) - np.log(greatest):
+        return Place(0, (0, 0), 1.0)
     total, best = _NOWHERE_WEIGHT * np.exp(-shift), (-1.0, 0, 0)
     for quarters, (each, top, factors) in enumerate(zip(turned, tops, logs, strict=True)):
         if top < shift - _NEGLIGIBLE:
@@ -267,6 +272,11 @@ def _weigh_places(grid_size: GridSize, board: StatedBoard | None) -> Array:
             on_board &= (line >= first) & (line <= first + whole - seen)
         weights += on_board * (_ON_BOARD_WEIGHT / (turns * max(int(np.count_nonzero(on_board)), 1)))
     return np.asarray(weights)
+
+
+def _count_places(grid_size: GridSize) -> int:
+    """Count the places, in all four turns, of a lattice of rows x columns on the pattern."""
+    return 4 * max(CODE_LINES - grid_size[0] + 1, 1) * max(CODE_LINES - grid_size[1] + 1, 1)
 
 
 @cache

@@ -11,6 +11,7 @@ from calibgui.engine.boards.april_grid import AprilGrid
 from calibgui.engine.boards.board import Board
 from calibgui.engine.boards.checkerboard import CHECKERBOARD
 from calibgui.engine.camera.camera import Camera
+from calibgui.engine.detection.apriltags.tag_gap import measure_gap
 from calibgui.engine.detection.corners import Corners
 from calibgui.engine.detection.find_corners import find_corners
 from calibgui.engine.errors import NoBoardError
@@ -198,3 +199,15 @@ def test_a_grid_is_no_checkerboard() -> None:
 def test_other_levels(kind: type) -> None:
     corners = find_corners(KALIBR.image().astype(kind) * 3, pattern=AprilGrid())
     assert corners.complete
+
+
+def test_tags_farther_apart_than_they_are_wide_are_no_april_grid() -> None:
+    """Those of a checkerboard with tags in every second square, whose sides are the squares'."""
+    for gap in (0.3, 0.98, 1.02):
+        row, col = np.indices((4, 6))
+        uv = 50 * np.stack([each // 2 * (1 + gap) + each % 2 for each in (col, row)], axis=-1)
+        if gap > 1:
+            with pytest.raises(NoBoardError, match="too far apart"):
+                measure_gap(uv, 0.9)
+        else:
+            assert measure_gap(uv, 0.9) == pytest.approx(gap)

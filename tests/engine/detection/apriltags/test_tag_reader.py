@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import cv2
 import numpy as np
 import pytest
@@ -66,12 +68,14 @@ def test_an_image_is_searched_once_for_each_colour(monkeypatch: pytest.MonkeyPat
     searched: list[str] = []
     search = opencv.detect_dark_quads
 
-    def count(image: GreyImage, is_quick: bool = False, is_part: bool = False) -> Array:
+    def count(
+        image: GreyImage, is_quick: bool = False, is_part: bool = False, **more: Any
+    ) -> Array:
         searched.append("part" if is_part else "quick" if is_quick else "all")
-        return search(image, is_quick, is_part)
+        return search(image, is_quick, is_part, **more)
 
     monkeypatch.setattr(opencv, "detect_dark_quads", count)
-    image = draw_without_board(3)
+    image = draw_without_board(5)
     with pytest.raises(NoBoardError, match="No AprilGrid"):
         find_corners(image, (8, 10), pattern=AprilGrid("t36h11"))
     assert searched == ["all"] * 2 + ["quick"] * 2

@@ -91,3 +91,23 @@ def test_markers_that_show_at_full_size_only_are_read(is_inverted: bool) -> None
     image[200:950, 300:1300] = small
     corners = find_corners(255 - image if is_inverted else image, pattern=Charuco(NAMES[0]))
     assert len(corners) > 30
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_numbers_and_corners_are_those_that_opencv_reads(name: str) -> None:
+    image = page(name, 0.5, 2.0)
+    numbers, corners = MarkerCandidates(image, opencv.detect_dark_quads(image)).read_fitting(name)
+    expected, places = opencv.detect_markers(image, name)
+    at = dict(zip(numbers.tolist(), corners, strict=True))
+    assert len(at) == len(numbers) >= len(expected)
+    for number, quad in zip(expected.tolist(), places, strict=True):
+        assert np.abs(at[number] - quad).max() < 3
+
+
+def test_markers_that_fit_by_chance_are_not_read(monkeypatch: pytest.MonkeyPatch) -> None:
+    """A halftone has thousands of dark parts; of 4 x 4 cells some are always like a marker's."""
+    read: list[str] = []
+    monkeypatch.setattr(opencv, "detect_markers", lambda _, name: read.append(name))
+    with pytest.raises(NoBoardError):
+        find_corners(draw_without_board(17, (3000, 4000), 2.5), None, pattern=Charuco())
+    assert not read

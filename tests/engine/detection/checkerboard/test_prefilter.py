@@ -53,6 +53,19 @@ def test_the_edges_of_discs_bulge(pitch: float, radius: float, blur: float) -> N
         find_corners(image)
 
 
+def test_scattered_corners_are_no_board() -> None:
+    """As a lattice winds through a halftone, many places off."""
+    row, col = np.indices((24, 24))
+    uv = 20.0 * np.stack([col, row], axis=-1) + 20
+    image = np.where((row + col) % 2 == 0, 40, 200).repeat(20, axis=0).repeat(20, axis=1)
+    whole = Lattice(uv, dark=True)
+    assert "scattered" not in prefilter.find_early_objection(whole, image)
+    winding = whole.select(abs(row - col) < 3)
+    assert "scattered" in prefilter.find_early_objection(winding, image)
+    few = whole.select((row == col) & (row < 20))
+    assert "scattered" not in prefilter.find_early_objection(few, image)
+
+
 @pytest.mark.parametrize("seed", [80, 8, 17])
 def test_a_picture_printed_in_dots_is_no_board(seed: int) -> None:
     with pytest.raises(NoBoardError):

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from calibgui.engine.boards.puzzleboard import CODE_LINES, PuzzleBoard
+from calibgui.engine.detection.puzzleboard import place_decoding
 from calibgui.engine.detection.puzzleboard.place_decoding import (
     Dots,
     StatedBoard,
@@ -83,6 +84,23 @@ def test_dots_at_random_have_no_place(size: tuple[int, int], stated: bool) -> No
         )
         board = StatedBoard((100, 200), (30, 30)) if stated else None
         assert not is_certain(find_place(dots, board))
+
+
+def test_hopeless_places_are_not_compared_one_by_one(monkeypatch: pytest.MonkeyPatch) -> None:
+    """There are a million of them, and in textures none is likely."""
+    compared: list[tuple[int, int]] = []
+    weigh = place_decoding._weigh_places
+    monkeypatch.setattr(
+        place_decoding,
+        "_weigh_places",
+        lambda size, board: compared.append(size) or weigh(size, board),
+    )
+    rng = np.random.default_rng(0)
+    at_random = Dots(rng.uniform(-0.5, 0.5, (20, 19)), rng.uniform(-0.5, 0.5, (19, 20)))
+    assert find_place(at_random).doubt == 1.0
+    assert not compared
+    assert is_certain(find_place(_see_dots((50, 101), (7, 10), 0, 0.0, 0.1, rng)))
+    assert compared
 
 
 def test_another_part_than_the_stated_one_is_told() -> None:
