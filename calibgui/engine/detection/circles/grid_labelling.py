@@ -58,12 +58,13 @@ def label_grid(points: Array, grid_size: GridSize | None, *, asymmetric: bool) -
         asymmetric: True if every second row is shifted by half.
 
     Returns:
-        (rows, cols) indices of the points, right-handed in the image; None if there is no grid.
+        (rows, cols) indices of the points, right-handed in the image; None if there is no grid, or
+        if one whose size is not stated is a part of a larger one.
     """
     limits = CIRCLE_THRESHOLDS
     if len(points) < limits.min_grid_lines**2:
         return None
-    best = _NO_GRID
+    best, left_out = _NO_GRID, 0
     fewest = limits.min_grid_circles
     if grid_size is not None:
         fewest = min(fewest, grid_size[0] * grid_size[1])
@@ -84,10 +85,15 @@ def label_grid(points: Array, grid_size: GridSize | None, *, asymmetric: bool) -
                     stated = _cut_stated_grid(by_place, grid_size, asymmetric=asymmetric)
                     if stated is not None:
                         return stated
-            whole = _cut_whole_grids(placed, asymmetric=asymmetric)
-            best = max([best, *whole], key=_rank_grid)
+            whole = max(
+                _cut_whole_grids(placed, asymmetric=asymmetric), key=_rank_grid, default=best
+            )
+            if _rank_grid(whole) > _rank_grid(best):
+                best, left_out = whole, len(placed) - whole.size
             if seed in best:
                 break
+    if left_out > limits.max_continued_share * best.size:
+        return None
     if not best.size or _is_continued(best, points, asymmetric=asymmetric):
         return None
     return best

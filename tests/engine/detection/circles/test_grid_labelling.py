@@ -82,8 +82,19 @@ def test_a_part_of_a_grid_is_not_taken_for_the_whole(stated: GridSize | None) ->
     """A shadow or a hand hides what joins it to the rest."""
     row, col = np.indices((6, 10)).reshape(2, -1)
     uv = np.column_stack([col, row]) * 40.0
-    for hidden in ((col == 4) | (col == 5), row + col == 6):
+    most_of_the_lower_rows = (row > 2) & (col > 3)
+    for hidden in ((col == 4) | (col == 5), row + col == 6, most_of_the_lower_rows):
         assert label_grid(uv[~hidden], stated, asymmetric=False) is None
+
+
+def test_under_a_fisheye_a_part_is_not_taken_for_the_whole() -> None:
+    """There the lattice goes on where the homography of the part does not expect it."""
+    row, col = np.indices((7, 9)).reshape(2, -1)
+    x, y = (col - 1.0) * 0.35, (row - 1.0) * 0.35
+    radius = np.hypot(x, y) + 1e-9
+    uv = np.column_stack([x, y]) * (200 * np.arctan(radius) / radius)[:, None]
+    seen = uv[~((row > 2) & (col > 3))]
+    assert label_grid(seen, None, asymmetric=False) is None
 
 
 def test_an_asymmetric_grid_is_no_symmetric_one_turned() -> None:
