@@ -7,7 +7,7 @@ place is taken from the few places around it.
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
 
 import numpy as np
@@ -111,6 +111,22 @@ def _has_full_block(found: BoolArray) -> bool:
     """Return whether the corners `found` (rows, cols) fill the smallest board somewhere."""
     blocks = np.lib.stride_tricks.sliding_window_view(found, (MIN_LINES, MIN_LINES))
     return bool(blocks.all(axis=(2, 3)).any())
+
+
+def list_full_rectangles(found: BoolArray) -> Iterator[tuple[int, int, int, int]]:
+    """List the widest full rectangle of each height in a mask `found` (rows, cols): first row and
+    column, rows and columns."""
+    full = np.ones(found.shape, dtype=np.bool_)
+    column = np.arange(1, found.shape[1] + 1)
+    for height in range(1, len(found) + 1):
+        # Rows from which on the columns are full over the height, and how many such to the left.
+        full = full[: len(found) - height + 1] & found[height - 1 :]
+        run = column - np.maximum.accumulate(np.where(full, 0, column), axis=1)
+        row, end = np.unravel_index(np.argmax(run), run.shape)
+        width = int(run[row, end])
+        if width == 0:
+            return
+        yield int(row), int(end) - width + 1, height, width
 
 
 def drop_isolated_and_crop(lattice: Lattice) -> Lattice:

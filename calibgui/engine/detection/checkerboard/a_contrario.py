@@ -18,6 +18,7 @@ import numpy as np
 
 from calibgui.engine.arrays import BoolArray
 from calibgui.engine.detection.checkerboard.thresholds import THRESHOLDS
+from calibgui.engine.detection.lattice import list_full_rectangles
 
 
 def is_meaningful(found: BoolArray, others: int) -> bool:
@@ -27,16 +28,8 @@ def is_meaningful(found: BoolArray, others: int) -> bool:
         found: (rows, cols) mask of its corners.
         others: number J of corners seen in the image that are not its own; 0 counts as 1.
     """
-    full = np.ones(found.shape, dtype=np.bool_)
     least = np.inf
-    for height in range(1, len(found) + 1):
-        # Rows from which on the columns are full over the height, and how many such to the left.
-        full = full[: len(found) - height + 1] & found[height - 1 :]
-        column = np.arange(1, found.shape[1] + 1)
-        run = column - np.maximum.accumulate(np.where(full, 0, column), axis=1)
-        width = int(run.max())
-        if width == 0:
-            break
+    for _, _, height, width in list_full_rectangles(found):
         free = (height + 1) * (width + 1) - 4
         least = min(least, np.log2(max(others, 1) * height * width) - free)
     return bool(least < np.log2(THRESHOLDS.verification.max_false_boards))

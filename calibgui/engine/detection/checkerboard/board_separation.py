@@ -4,13 +4,18 @@ Neighbours hang together wherever edges lead from one to the next: over the crea
 of a room with a board on each, and from a board into a pattern around it. But only the corners of
 one flat board lie on one smooth grid map. A lattice that does not is cut where two maps follow its
 parts many times better than one follows all: between two lines, or along a line of what looks like
-corners where the squares of both boards meet. If no cut does that, its ragged lines are left out,
-provided that what remains lies on a smooth map and is seen to end on all four sides.
+corners where the squares of both boards meet. These two maps are rigid, a homography under a lens:
+walls are flat, while a board that is curled, or that a shaken camera shows in waves, would else be
+cut, since a map that bends as well follows any few lines.
+
+What a board has grown into shows otherwise. From the largest rectangle without a gap on, line by
+line, those corners are taken that lie where the map of the others expects them. What this leaves
+is a board if it lies on a smooth map and is seen to end on all four sides.
 """
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 
 import numpy as np
 
@@ -20,13 +25,17 @@ from calibgui.engine.detection.checkerboard.numbering import turn_lattice
 from calibgui.engine.detection.checkerboard.thresholds import THRESHOLDS
 from calibgui.engine.detection.checkerboard.verification import find_ends
 from calibgui.engine.detection.lattice import (
+    MIN_CORNERS,
     MIN_LINES,
     Lattice,
     crop_lattice,
     drop_isolated_and_crop,
     is_large_enough,
+    list_full_rectangles,
 )
 
+MapFit = Callable[[Array, Array], grid_map.GridMap | grid_map.RadialHomography]
+"""A function that fits a map to cells (n, 2) that are seen at (n, 2) px."""
 _NEGLIGIBLE_MISFIT = 1e-6
 """Rms distance from a grid map, steps, below which nothing but rounding tells maps apart."""
 
@@ -43,42 +52,46 @@ def separate_boards(lattice: Lattice, image: GreyImage) -> list[Lattice]:
     misfit = _measure_misfit([lattice])
     if misfit <= limits.max_joint_misfit:
         return [lattice]
-    if min(lattice.shape) <= limits.max_lines:
-        if parts := _cut_at_crease(lattice, misfit):
-            return [piece for part in parts for piece in separate_boards(part, image)]
-        core = _drop_ragged_lines(lattice)
-        if (
-            is_large_enough(core)
-            and _measure_misfit([core]) <= limits.max_joint_misfit
-            and all(find_ends(core, image))
-        ):
-            return [core]
-    return [lattice]
+    core = _find_core(lattice)
+    is_board = (
+        is_large_enough(core)
+        and _measure_misfit([core]) <= limits.max_joint_misfit
+        and all(find_ends(core, image))
+    )
+    if is_board and len(lattice) - len(core) < MIN_CORNERS:
+        return [core]
+    if min(lattice.shape) <= limits.max_lines and (parts := _cut_at_crease(lattice, misfit)):
+        return [piece for part in parts for piece in separate_boards(part, image)]
+    return [core if is_board else lattice]
 
 
-def _measure_misfit(parts: list[Lattice]) -> float:
-    """Measure the rms distance of corners from the smooth grid maps of their parts, steps."""
-    return float(np.sqrt(np.mean(np.concatenate([_measure_offsets(part) for part in parts]) ** 2)))
+def _measure_misfit(parts: list[Lattice], fit_map: MapFit = grid_map.fit_cells) -> float:
+    """Measure the rms distance of corners from the maps of their parts, steps."""
+    offsets = [_measure_offsets(part, fit_map) for part in parts]
+    return float(np.sqrt(np.mean(np.concatenate(offsets) ** 2)))
 
 
-def _measure_offsets(lattice: Lattice) -> Array:
-    """Measure the distances (n,) of a lattice's corners from its smooth grid map, steps of the map:
-    those between the corners are 0 where two of them coincide."""
+def _measure_offsets(lattice: Lattice, fit_map: MapFit) -> Array:
+    """Measure the distances (n,) of a lattice's corners from their map, steps of the map: those
+    between the corners are 0 where two of them coincide."""
     found = lattice.found
-    uv = lattice.uv.copy()
-    uv[found] = grid_map.fit_grid_map(lattice).locate(np.argwhere(found).astype(np.float64))
+    uv, cells = lattice.uv.copy(), np.argwhere(found).astype(np.float64)
+    uv[found] = fit_map(cells, lattice.uv[found]).locate(cells)
     off = compute_lengths(lattice.uv[found] - uv[found])
     return np.asarray(off / Lattice(uv, lattice.dark).spacing()[found])
 
 
 def _cut_at_crease(lattice: Lattice, misfit: float) -> tuple[Lattice, Lattice] | None:
-    """Cut a lattice where two smooth maps follow its parts best; None if they do not follow them
-    many times better than one map, by which its corners are `misfit` steps off.
+    """Cut a lattice where two rigid maps follow its parts best; None if they do not follow them
+    many times better than one smooth map, by which its corners are `misfit` steps off.
 
     Of cuts that are about as good the one that leaves out the fewest corners is taken.
     """
     limits = THRESHOLDS.separation
-    cuts = [(_measure_misfit(list(parts)), parts) for parts in _list_cuts(lattice)]
+    cuts = [
+        (_measure_misfit(list(parts), grid_map.fit_radial_homography), parts)
+        for parts in _list_cuts(lattice)
+    ]
     least = min((off for off, _ in cuts), default=np.inf)
     if least > limits.max_misfit_ratio * misfit:
         return None
@@ -104,6 +117,31 @@ def _list_cuts(lattice: Lattice) -> Iterator[tuple[Lattice, Lattice]]:
                 )
                 if all(map(is_large_enough, parts)):
                     yield turn_lattice(parts[0], -quarters), turn_lattice(parts[1], -quarters)
+
+
+def _find_core(lattice: Lattice) -> Lattice:
+    """Find the corners that lie where the map of those of the largest rectangle without a gap, and
+    then of all found so far, expects them, line by line; without ragged lines."""
+    found, spacing = lattice.found, lattice.spacing()
+    row, col, rows, cols = max(list_full_rectangles(found), key=lambda each: each[2] * each[3])
+    core = np.zeros(lattice.shape, dtype=np.bool_)
+    core[row : row + rows, col : col + cols] = True
+    for _ in range(sum(lattice.shape)):
+        around = np.zeros(lattice.shape, dtype=np.bool_)
+        (top, bottom), (left, right) = (np.flatnonzero(core.any(axis=k))[[0, -1]] for k in (1, 0))
+        around[max(top - 1, 0) : bottom + 2, max(left - 1, 0) : right + 2] = True
+        near = found & around
+        expected = grid_map.fit_grid_map(lattice.select(core)).locate(
+            np.argwhere(near).astype(np.float64)
+        )
+        off = compute_lengths(lattice.uv[near] - expected) / np.nanmedian(spacing[core])
+        near[near] = off < THRESHOLDS.verification.max_deviation
+        if np.array_equal(near, core):
+            break
+        core = near
+        if not core.any():
+            break
+    return _drop_ragged_lines(crop_lattice(lattice.select(core)))
 
 
 def _drop_ragged_lines(lattice: Lattice) -> Lattice:

@@ -62,6 +62,26 @@ def test_one_board_is_left_as_it_is(conditions: Conditions) -> None:
     assert separate_boards(lattice, NOWHERE) == [lattice]
 
 
+def test_a_board_in_waves_is_not_cut() -> None:
+    """Three rows that a shutter has shifted each by itself were followed by a map of their own."""
+    conditions = Conditions(grid_size=(7, 10), square=26.0, tilt=20.0, turn=15.0, parts=1)
+    uv = draw(conditions, 3).uv
+    uv[..., 0] += 4.0 * np.sin(uv[..., 1] / 18 + 2)
+    lattice = Lattice(uv, True)
+    assert separate_boards(lattice, NOWHERE) == [lattice]
+
+
+def test_one_board_is_not_cut_because_of_what_it_has_grown_into() -> None:
+    """A few corners of a pattern around it spoil the map of all, and that of either part less."""
+    scene = draw(Conditions(grid_size=(10, 14), square=24.0, turn=15.0, parts=2), 3)
+    uv = np.full((10, 17, 2), np.nan)
+    uv[:, 3:] = scene.uv
+    across = scene.uv[3, 0] - scene.uv[3, 1]
+    uv[3, :3] = scene.uv[3, 0] + np.array([[2.1], [1.4], [0.7]]) * across + (6.0, 9.0)
+    (core,) = separate_boards(Lattice(uv, False), scene.photograph(0).astype(np.float32))
+    assert np.array_equal(core.uv, scene.uv)
+
+
 def test_corners_that_coincide_are_no_crease() -> None:
     """Where the end of a line coincides with its neighbour the step there is 0."""
     uv = draw(Conditions(grid_size=(4, 5), parts=1), 3).uv
