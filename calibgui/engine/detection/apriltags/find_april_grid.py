@@ -21,7 +21,6 @@ from calibgui.engine.boards.april_grid import AprilGrid
 from calibgui.engine.detection import grid_map
 from calibgui.engine.detection import region_of_interest as region
 from calibgui.engine.detection.apriltags.grid_tags import GridTagFinder, GridTags
-from calibgui.engine.detection.apriltags.near_priors import NearPriors
 from calibgui.engine.detection.apriltags.outlined_corners import (
     has_corner_squares,
     locate_outlined_corners,
@@ -37,6 +36,7 @@ from calibgui.engine.detection.checkerboard.corner_template import (
     OrientedCorners,
     estimate_template_of,
 )
+from calibgui.engine.detection.checkerboard.near_priors import NearPriors
 from calibgui.engine.detection.checkerboard.x_corner_fit import XCornerFit
 from calibgui.engine.detection.corners import Corners, RejectedCorner
 from calibgui.engine.detection.detector_io import (

@@ -11,15 +11,14 @@ from __future__ import annotations
 
 import numpy as np
 
-from calibgui.engine.arrays import BoolArray, GreyImage
-from calibgui.engine.detection.apriltags.near_priors import NearPriors
+from calibgui.engine.arrays import GreyImage
 from calibgui.engine.detection.charuco.corners_between_markers import (
     refine_corners,
     require_enough_corners,
 )
 from calibgui.engine.detection.checkerboard import verification, x_corner_fit
-from calibgui.engine.detection.checkerboard.thresholds import THRESHOLDS
-from calibgui.engine.detection.checkerboard.x_corner_fit import XCornerFit, replace_fits
+from calibgui.engine.detection.checkerboard.near_fit import fit_near
+from calibgui.engine.detection.checkerboard.x_corner_fit import XCornerFit
 from calibgui.engine.detection.corners import RejectedCorner
 from calibgui.engine.detection.detector_io import list_rejected_corners
 from calibgui.engine.detection.lattice import Lattice
@@ -29,12 +28,6 @@ _TEMPLATE_REACH = 1.5
 plain: its samples lie in the inner two thirds of that part."""
 _MAX_ROUNDS = 8
 """Number of times that the corners beside those found are tried."""
-_MIN_ARM = 2.0
-"""Least way along its edges that a corner is fitted to, px: a shorter one lies within the blur.
-With 3 a quarter of the outermost corners of framed boards that are seen from aside were lost, and
-those left had no smaller errors."""
-_MIN_CORNERS = 16
-"""Least number of corners that are fitted near only: their geometry comes from all of them."""
 
 
 def refine_tagged_corners(
@@ -77,34 +70,17 @@ def fit_tagged_corners(
         NoBoardError: if too few corners are left.
     """
     rejected: list[RejectedCorner] = []
-    limit = THRESHOLDS.verification.suspect_relative_residual
     while True:
         require_enough_corners(lattice)
         found = lattice.found
         outermost = np.ones(lattice.shape, dtype=np.bool_)
         outermost[1:-1, 1:-1] = False
         fit = x_corner_fit.fit_x_corners(image, lattice, plain)
-        suspect = outermost[found] | (fit.residual > limit * np.median(fit.residual))
-        fit = _fit_again_near(image, lattice, plain, fit, suspect)
+        suspect = outermost[found] | verification.find_suspect_corners(fit)
+        fit = fit_near(image, lattice, plain, fit, suspect)
         good = verification.find_described_corners(fit, lattice)
         if good.all():
             return lattice, fit, rejected
         rejected += list_rejected_corners(lattice.uv[found][~good], "not two crossing edges")
         found[found] = good
         lattice = lattice.select(found)
-
-
-def _fit_again_near(
-    image: GreyImage, lattice: Lattice, plain: float, fit: XCornerFit, suspect: BoolArray
-) -> XCornerFit:
-    """Return the fit with the suspect corners (n,) fitted to what is plain around them only, where
-    that is enough."""
-    found = lattice.found
-    large = plain * lattice.spacing() > _MIN_ARM
-    if np.count_nonzero(found & large) < _MIN_CORNERS:
-        return fit
-    places = np.argwhere(found & large)[:, ::-1].astype(np.float64)
-    near = x_corner_fit.fit_x_corners(
-        image, lattice.select(large), priors=NearPriors(places, 2 * plain)
-    )
-    return replace_fits(fit, near, large[found], suspect[large[found]])

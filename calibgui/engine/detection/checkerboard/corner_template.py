@@ -93,13 +93,20 @@ class CornerTemplate:
     """Median lack of correlation with the patch."""
 
     def match(
-        self, image: GreyImage, uv: Array, right: Array, down: Array, dark: BoolArray
+        self,
+        image: GreyImage,
+        uv: Array,
+        right: Array,
+        down: Array,
+        dark: BoolArray,
+        max_dissimilarity: float = _THRESHOLDS.max_dissimilarity,
     ) -> tuple[BoolArray, Array]:
         """Match points with the template.
 
         Args:
             image: (h, w) grey levels.
             uv, right, down, dark: the points, as `OrientedCorners`.
+            max_dissimilarity: greatest lack of correlation where that of most is small.
 
         Returns:
             A mask (n,) of the points that look like the template, and the gap (n,) between their
@@ -109,7 +116,7 @@ class CornerTemplate:
         patches = _compute_patches(image, uv, right, down, dark, PATCH_POSITIONS, _LINEAR_LIGHT)
         dissimilarity = 1 - np.mean(patches * self.patch, axis=1)
         greatest = max(
-            _THRESHOLDS.max_dissimilarity,
+            max_dissimilarity,
             _THRESHOLDS.max_relative_dissimilarity * self.dissimilarity,
         )
         return alternate & (dissimilarity <= greatest), gap

@@ -7,7 +7,7 @@ its image proves it. The way of an image, entry first:
    lattices that may be boards. Boards that hang together are taken apart (`board_separation`).
 2. `refine_board` moves a candidate's corners to their saddle points at full resolution, tries its
    gaps again, drops what fails (`verification`) and fits the edge model to the rest
-   (`x_corner_fit`). What remains must not be explained by chance (`a_contrario`).
+   (`undisturbed_fit`). What remains must not be explained by chance (`a_contrario`).
 3. Where nothing is found but the user marked the four outermost corners, `find_marked_board` starts
    from the places that these give.
 4. The board is numbered from an origin whose outer square is dark (`numbering`), and
@@ -25,7 +25,7 @@ import scipy
 from calibgui.engine.arrays import Array, GreyImage, GridSize
 from calibgui.engine.boards.checkerboard import CHECKERBOARD, Checkerboard, checkerboard_symmetry
 from calibgui.engine.detection import region_of_interest as region
-from calibgui.engine.detection.checkerboard import a_contrario, harris, verification, x_corner_fit
+from calibgui.engine.detection.checkerboard import a_contrario, harris, verification
 from calibgui.engine.detection.checkerboard.board_separation import separate_boards
 from calibgui.engine.detection.checkerboard.numbering import (
     Numbering,
@@ -40,6 +40,7 @@ from calibgui.engine.detection.checkerboard.pyramid_search import (
     find_same,
 )
 from calibgui.engine.detection.checkerboard.saddle import refine_lattice
+from calibgui.engine.detection.checkerboard.undisturbed_fit import fit_undisturbed
 from calibgui.engine.detection.checkerboard.x_corner_fit import XCornerFit
 from calibgui.engine.detection.corners import Corners, OtherBoard, RejectedCorner
 from calibgui.engine.detection.detector_io import check_grey_levels, list_rejected_corners
@@ -281,8 +282,8 @@ def _fit_board(
             return Refusal(lattice.shape, objection)
         if method == "saddle":
             return RefinedBoard(lattice, tuple(rejected), None)
-        fit, displacement = _fit_undisturbed(grey, lattice, plain)
-        described = verification.find_described_corners(fit, lattice)
+        fit, displacement = fit_undisturbed(grey, lattice, plain)
+        described = verification.find_described_corners(fit, lattice, None, displacement)
         near = verification.find_tolerable_displacements(displacement, lattice)
         good = described & near
         if good.all():
@@ -305,32 +306,6 @@ def _fit_board(
         keep[keep] = good
         lattice = drop_isolated_and_crop(lattice.select(keep))
     return Refusal(shape, _TOO_MANY_FAIL)
-
-
-def _fit_undisturbed(grey: GreyImage, lattice: Lattice, plain: float) -> tuple[XCornerFit, Array]:
-    """Fit the edge model at all corners of a lattice, and find those that something draws aside.
-
-    These mislead what is taken from the whole board. So the others are fitted without them, until
-    no more are found, and say how far each is off.
-
-    Returns:
-        The fit, and how far (n,) px corners are drawn aside; 0 for most.
-    """
-    fit = x_corner_fit.fit_x_corners(grey, lattice, bare_edge=plain)
-    part, undisturbed = fit, lattice.found
-    for _ in range(_MAX_ROUNDS):
-        rest = lattice.select(undisturbed)
-        displaced = verification.find_displaced_corners(part, rest)
-        if not displaced.any():
-            break
-        undisturbed[undisturbed] = ~displaced
-        part = x_corner_fit.fit_x_corners(grey, lattice.select(undisturbed), bare_edge=plain)
-    kept = undisturbed[lattice.found]
-    if kept.all():
-        return fit, np.zeros(len(lattice))
-    fit = x_corner_fit.replace_fits(fit, part, kept, np.ones(len(part.uv), np.bool_))
-    off = verification.measure_displacements(fit.uv, lattice, undisturbed)
-    return fit, np.where(kept, 0.0, off)
 
 
 def find_marked_board(

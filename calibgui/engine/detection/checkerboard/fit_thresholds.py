@@ -29,6 +29,11 @@ class TemplateThresholds:
     """Greatest lack of correlation with the typical corner ..."""
     max_relative_dissimilarity: float = 4.0
     """... or over the median lack, whichever is more."""
+    max_dissimilarity_near: float = 0.18
+    """... or, near the corners of a board most of whose corners are alike, whatever shadow or dead
+    pixel is seen there. Those have up to 0.16; what is behind a finger 0.2 and more, or colours
+    that do not alternate. Fixed by the troubles "shadow", "dead pixels", "hand" and "object" of
+    `tests.benchmarks.corner_troubles`."""
     max_unevenness: float = 0.3
     """Greatest difference of grey levels within a square that counts as evenly filled, over the
     board's contrast."""

@@ -210,7 +210,10 @@ class VerificationThresholds:
     max_relative_residual: float = 4.0
     """Greatest residual of the edge fit, over the board's median ..."""
     max_residual_to_contrast: float = 0.15
-    """... or over the corner's contrast, whichever is more."""
+    """... or over the corner's contrast, whichever is more ..."""
+    max_residual_if_widened: float = 0.22
+    """... if the covariance does not say how far the corner is drawn aside, or else this. Fixed by
+    the trouble "shadow" of `tests.benchmarks.corner_troubles`."""
     max_edge_angle_sine: float = float(np.sin(np.radians(3.0)))
     """Sine of the angle between an edge and the step to its neighbours, beyond which the edge is
     askew ..."""

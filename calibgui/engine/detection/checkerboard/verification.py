@@ -26,6 +26,7 @@ import numpy as np
 from calibgui.engine.arrays import Array, BoolArray, GreyImage, compute_lengths, compute_median
 from calibgui.engine.detection import grid_map
 from calibgui.engine.detection.checkerboard.corner_template import estimate_template, orient_corners
+from calibgui.engine.detection.checkerboard.fit_thresholds import FIT_THRESHOLDS
 from calibgui.engine.detection.checkerboard.numbering import Sides, turn_lattice
 from calibgui.engine.detection.checkerboard.thresholds import THRESHOLDS
 from calibgui.engine.detection.checkerboard.x_corner_fit import XCornerFit
@@ -45,8 +46,9 @@ from calibgui.engine.images.sampling import sample_image
 TOO_BLURRED = "its edges are too blurred, or too ragged, to be told from waves"
 """What speaks against a lattice of wide edges."""
 
-_PLAIN_IF_MARKED = 0.25
-"""How far from their edges squares that may hold marks are of one colour, squares."""
+_PLAIN_NEAR = 0.25
+"""How far from the corners marks in the squares, and what hides a part of them, do not reach,
+squares."""
 
 
 def find_sound_corners(
@@ -70,9 +72,15 @@ def find_sound_corners(
     if not len(lattice):
         return lattice.found
     good = _match_template(lattice, image, plain)
-    if not good[lattice.found].all() and plain == 0.5 and stands_alone(lattice, image):
-        # Marks in the squares differ; what is near the corners does not.
-        good |= _match_template(lattice, image, _PLAIN_IF_MARKED)
+    failing = len(lattice) - int(np.count_nonzero(good))
+    if failing and plain == 0.5:
+        # Marks in the squares differ, and what covers a part of them; what is near does not.
+        if is_credible(failing, len(lattice)):
+            limit = FIT_THRESHOLDS.template.max_dissimilarity_near
+            near = good | _match_template(lattice, image, _PLAIN_NEAR, limit)
+            good |= near & ~_find_sparse_lines(near)
+        elif stands_alone(lattice, image):
+            good |= _match_template(lattice, image, _PLAIN_NEAR)
     # What does not look like a corner says nothing about where its neighbours should be.
     alike = lattice.select(good)
     uv, steps = alike.uv, alike.steps()
@@ -92,12 +100,25 @@ def find_sound_corners(
     return np.asarray(good & ~astray)
 
 
-def _match_template(lattice: Lattice, image: GreyImage, plain: float) -> BoolArray:
+def _find_sparse_lines(found: BoolArray) -> BoolArray:
+    """Find the places (rows, cols) in whose row or column hardly any corners are `found`, as beyond
+    the end of a board."""
+    least = THRESHOLDS.verification.min_border_corners
+    few = [found.mean(axis=axis, keepdims=True) < least for axis in (0, 1)]
+    return np.asarray(few[0] | few[1])
+
+
+def _match_template(
+    lattice: Lattice,
+    image: GreyImage,
+    plain: float,
+    max_dissimilarity: float = FIT_THRESHOLDS.template.max_dissimilarity,
+) -> BoolArray:
     """Return a mask (rows, cols) of the corners that look like the typical one where squares are
-    `plain`."""
+    `plain`, see `CornerTemplate.match`."""
     alike = lattice.found
     alike[alike], _ = estimate_template(lattice, image, plain).match(
-        image, *orient_corners(lattice).shorten_steps(plain)
+        image, *orient_corners(lattice).shorten_steps(plain), max_dissimilarity
     )
     return alike
 
@@ -190,17 +211,22 @@ def does_pattern_continue(lattice: Lattice, image: GreyImage) -> bool:
 
 
 def find_described_corners(
-    fit: XCornerFit, lattice: Lattice, expected: Array | None = None
+    fit: XCornerFit,
+    lattice: Lattice,
+    expected: Array | None = None,
+    displacement: Array | None = None,
 ) -> BoolArray:
     """Find the corners of a lattice that the edge model fitted there describes.
 
     The fit has to stay near, its edges have to be as strong as the board's, and it may leave no
     more unexplained than elsewhere; still less if they do not point to the corner's neighbours.
+    Where it is known how far the corner is drawn aside, more is tolerated.
 
     Args:
         fit: edge model at the lattice's n corners.
         lattice: corners before the fit.
         expected: (rows, cols, 2) px to which the edges point, the neighbours if None.
+        displacement: (n,) px by which covariances will be widened, 0 if None.
 
     Returns:
         A mask (n,).
@@ -217,12 +243,12 @@ def find_described_corners(
     max_sine = np.maximum(
         limits.max_edge_angle_sine, limits.max_relative_edge_angle * np.median(sine, axis=0)
     )
-    askew = (sine > max_sine).any(axis=1)
-    max_residual = np.maximum(
-        limits.max_relative_residual * typical, limits.max_residual_to_contrast * fit.contrast
-    )
+    is_wide = np.zeros(len(fit.uv), np.bool_) if displacement is None else displacement > 0
+    askew = (sine > max_sine).any(axis=1) & ~is_wide
+    to_contrast = np.where(is_wide, limits.max_residual_if_widened, limits.max_residual_to_contrast)
+    max_residual = np.maximum(limits.max_relative_residual * typical, to_contrast * fit.contrast)
     return np.asarray(
-        (shift <= _limit_fit_shift(spacing))
+        (shift <= limit_fit_shift(spacing))
         & ~(askew & (fit.residual > limits.suspect_relative_residual * typical))
         & (fit.contrast > limits.min_relative_contrast * compute_median(fit.contrast))
         & (fit.residual <= max_residual)
@@ -230,9 +256,15 @@ def find_described_corners(
     )
 
 
-def find_displaced_corners(fit: XCornerFit, lattice: Lattice) -> BoolArray:
-    """Find the corners of a lattice that the edge model describes worse than the others and puts
-    where these do not expect them.
+def find_suspect_corners(fit: XCornerFit) -> BoolArray:
+    """Find the corners (n,) that the edge model describes worse than most."""
+    limit = THRESHOLDS.verification.suspect_relative_residual
+    return np.asarray(fit.residual > limit * compute_median(fit.residual))
+
+
+def find_displaced_corners(fit: XCornerFit, lattice: Lattice, suspect: BoolArray) -> BoolArray:
+    """Find the suspect corners of a lattice that the edge model puts where the others do not expect
+    them.
 
     Where the edge of a shadow or of a reflection runs through a corner there are two crossing
     edges, and something that draws them aside by much more than noise would.
@@ -240,20 +272,20 @@ def find_displaced_corners(fit: XCornerFit, lattice: Lattice) -> BoolArray:
     Args:
         fit: edge model at the lattice's n corners.
         lattice: corners before the fit.
+        suspect: (n,) those that the model describes worse than most.
 
     Returns:
         A mask (n,).
     """
+    if not suspect.any():
+        return suspect
     limits = THRESHOLDS.verification
-    good = fit.residual <= limits.suspect_relative_residual * compute_median(fit.residual)
-    if good.all():
-        return ~good
     mask = lattice.found
-    mask[mask] = good
+    mask[mask] = ~suspect
     off = measure_displacements(fit.uv, lattice, mask)
-    usual = np.sqrt(np.mean(off[good] ** 2))
+    usual = np.sqrt(np.mean(off[~suspect] ** 2))
     limit = max(limits.max_relative_displacement * usual, limits.max_displacement)
-    return np.asarray(~good & ~(off <= limit))
+    return np.asarray(suspect & ~(off <= limit))
 
 
 def measure_displacements(fitted: Array, lattice: Lattice, undisturbed: BoolArray) -> Array:
@@ -278,10 +310,10 @@ def measure_displacements(fitted: Array, lattice: Lattice, undisturbed: BoolArra
 def find_tolerable_displacements(displacement: Array, lattice: Lattice) -> BoolArray:
     """Find the corners of a lattice that are drawn aside, (n,) px, by no more than the edge fit may
     move them: with a covariance as large they are still of use."""
-    return np.asarray(displacement <= _limit_fit_shift(lattice.spacing()[lattice.found]))
+    return np.asarray(displacement <= limit_fit_shift(lattice.spacing()[lattice.found]))
 
 
-def _limit_fit_shift(spacing: Array) -> Array:
+def limit_fit_shift(spacing: Array) -> Array:
     """Return how far corners `spacing` (n,) px apart may lie from where they are expected, px."""
     limits = THRESHOLDS.verification
     return np.maximum(limits.max_fit_shift * spacing, limits.min_fit_shift_limit)

@@ -70,6 +70,12 @@ def drop(lattice: Lattice, *cells: tuple[int, int]) -> Lattice:
     return lattice.select(found)
 
 
+def mark_square(image: Image, cell: tuple[int, int]) -> None:
+    """Paint most of the square after a corner bright."""
+    u, v = np.rint(place(6, 9).uv[cell] + SQUARE / 2).astype(int)
+    image[v - 6 : v + 6, u - 6 : u + 6] = BRIGHT
+
+
 class TestSoundCorners:
     def test_a_corner_too_far_from_others_to_know_its_steps_does_not_pass(self) -> None:
         scene = draw(Conditions(grid_size=(6, 12), square=24.0, size=(400, 240), turn=0.0), 2)
@@ -123,12 +129,29 @@ class TestSoundCorners:
         np.testing.assert_array_equal(np.argwhere(~good), [(0, 4)])
 
     def test_only_plain_parts_of_squares_are_compared(self) -> None:
+        """With marks beside more corners than may fail."""
         image, lattice = paint(alternate(6, 9)), place(6, 9)
-        u, v = np.rint(lattice.uv[2, 4] + SQUARE / 2).astype(int)
-        image[v - 6 : v + 6, u - 6 : u + 6] = BRIGHT
+        for cell in ((0, 2), (2, 2), (2, 4), (4, 4)):
+            mark_square(image, cell)
         part = lattice.select(np.indices((6, 9))[1] > 0)
         assert not verification.find_sound_corners(part, image)[:, 1:].all()
         assert verification.find_sound_corners(lattice, image, plain=0.25).all()
+
+    def test_what_lies_beside_few_corners_is_no_harm_to_them(self) -> None:
+        image, lattice = paint(alternate(6, 9)), place(6, 9)
+        mark_square(image, (2, 4))
+        part = lattice.select(np.indices((6, 9))[1] > 0)
+        assert verification.find_sound_corners(part, image)[:, 1:].all()
+
+    def test_a_corner_beyond_the_board_has_to_look_like_the_others(self) -> None:
+        """What is only near a corner like theirs, columns behind the last, is another thing."""
+        image, lattice = paint(alternate(6, 9)), place(6, 9)
+        mark_square(image, (2, 8))
+        found = np.zeros((6, 9), np.bool_)
+        found[:, :6] = found[2, 8] = True
+        good = verification.find_sound_corners(lattice.select(found), image)
+        assert not good[2, 8]
+        assert good[:, :6].all()
 
     def test_marks_are_no_harm_to_a_board_that_stands_alone(self) -> None:
         image, lattice = paint(alternate(6, 9)), place(6, 9)
@@ -366,6 +389,19 @@ class TestDescribedCorners:
         changes = {"contrast": (K, contrast), "residual": (K, residual)}
         assert is_described(place(6, 9), **changes) == passes
 
+    @pytest.mark.parametrize(("displacement", "passes"), [(0.0, False), (0.1, True)])
+    @pytest.mark.parametrize("residual", [15.5, 22.5])
+    def test_more_is_tolerated_where_it_is_known_how_far_the_corner_is_drawn_aside(
+        self, displacement: float, passes: bool, residual: float
+    ) -> None:
+        normals, displacements = np.tile(turn_normals(0.0), (54, 1, 1)), np.zeros(54)
+        normals[K], displacements[K] = turn_normals(4.0), displacement
+        lattice, changes = place(6, 9), {"contrast": (K, 100.0), "residual": (K, residual)}
+        fit = pretend_fit(lattice, normals=normals, **changes)
+        good = verification.find_described_corners(fit, lattice, None, displacements)
+        assert good[K] == (passes and residual < 22)
+        assert np.delete(good, K).all()
+
     def test_its_covariance_is_known(self) -> None:
         assert not is_described(place(6, 9), covariance=(K, np.nan))
 
@@ -384,7 +420,8 @@ class TestDisplacedCorners:
         uv[K] += (shift, 0.0)
         residuals[[0, K]] = 2.6, residual
         fit = pretend_fit(lattice, uv=uv, residual=residuals)
-        found = verification.find_displaced_corners(fit, lattice)
+        suspect = verification.find_suspect_corners(fit)
+        found = verification.find_displaced_corners(fit, lattice, suspect)
         np.testing.assert_array_equal(np.flatnonzero(found), [K] * displaced)
 
     @pytest.mark.parametrize(("shift", "displaced"), [(5.5, False), (6.5, True)])
@@ -397,7 +434,8 @@ class TestDisplacedCorners:
         uv[:, 0] += 0.05 * np.where((row // 2 + col) % 2, 1, -1)
         uv[k] = lattice.uv[5, 7] + (0.0, 0.05 * shift)
         fit = pretend_fit(lattice, uv=uv, residual=(k, 2.6))
-        found = verification.find_displaced_corners(fit, lattice)
+        suspect = verification.find_suspect_corners(fit)
+        found = verification.find_displaced_corners(fit, lattice, suspect)
         np.testing.assert_array_equal(np.flatnonzero(found), [k] * displaced)
 
 
