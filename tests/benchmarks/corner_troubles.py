@@ -1,13 +1,13 @@
 """Boards that people have and that finders have lost: which are found whole, ours and OpenCV's.
 
-    python -m tests.benchmarks.corner_troubles [--variants N] [NAME ...]
+    python -m tests.benchmarks.corner_troubles [--variants N] [--first SEED] [NAME ...]
 
-draws N variants, 20 by default, of each of the `TROUBLES` of `tests.scenes.troubles`, or of those
-named, and prints per trouble how many boards are found whole, and how many corners are lost and are
-wrong: ours with the size unknown, ours with it stated, and OpenCV's sector-based finder, which is
-told the size and flags to search long. Of several boards in a photograph one is asked for where the
-size is stated, the first; where it is not, any whole one will do. What counts as right is said by
-`tests.scenes.tally`.
+draws N variants, 20 by default, with the seeds from SEED on, 0 by default, of each of the
+`TROUBLES` of `tests.scenes.troubles`, or of those named. It prints per trouble how many boards are
+found whole, and how many corners are lost and are wrong: ours with the size unknown, ours with it
+stated, and OpenCV's sector-based finder, which is told the size and flags to search long. Of
+several boards in a photograph one is asked for where the size is stated, the first; where it is
+not, any whole one will do. What counts as right is said by `tests.scenes.tally`.
 """
 
 from __future__ import annotations
@@ -62,6 +62,7 @@ FINDERS: dict[str, Finder] = {
 def main() -> None:
     parser = argparse.ArgumentParser(description=(__doc__ or "").splitlines()[0])
     parser.add_argument("--variants", type=int, default=VARIANTS, help="of each trouble")
+    parser.add_argument("--first", type=int, default=0, metavar="SEED", help="of the variants")
     parser.add_argument("names", nargs="*", metavar="NAME", help="troubles, all if none")
     options = parser.parse_args()
     cv2.setNumThreads(1)
@@ -70,7 +71,7 @@ def main() -> None:
     false: dict[str, int] = dict.fromkeys(FINDERS, 0)
     for name in options.names or TROUBLES:
         tallies = dict.fromkeys(FINDERS, Tally())
-        for seed in range(options.variants):
+        for seed in range(options.first, options.first + options.variants):
             photograph = TROUBLES[name](seed)
             for finder, find in FINDERS.items():
                 tallies[finder] += judge(photograph, find(photograph))

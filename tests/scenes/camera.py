@@ -26,12 +26,13 @@ class Camera:
         tilt, _ = cv2.Rodrigues(axis)
         spin, _ = cv2.Rodrigues(np.array([0.0, 0.0, turn]))
         rows, cols = conditions.grid_size
-        origin = np.array([(cols - 1) / 2, (rows - 1) / 2, 0.0])
+        down = conditions.aspect
+        origin = np.array([(cols - 1) / 2, down * (rows - 1) / 2, 0.0])
         shift = conditions.shift * rng.uniform(-1, 1, 2)
         R = tilt @ spin
         distance = self._f / conditions.square
         t = distance * np.append((shift + conditions.centre) / self._f, 1.0) - R @ origin
-        self._H = np.column_stack([R[:, 0], R[:, 1], t])
+        self._H = np.column_stack([R[:, 0], down * R[:, 1], t])
 
     def board_from_image(self, u: Array, v: Array) -> tuple[Array, Array]:
         """The board's points at pixels: `u` (1, w) and `v` (h, 1) stand for a whole image."""

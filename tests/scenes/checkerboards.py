@@ -17,6 +17,7 @@ the pixels integrate it.
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import cv2
@@ -29,6 +30,9 @@ from tests.scenes.marks import marks
 from tests.scenes.occluders import occluder
 
 Array = NDArray[np.float64]
+Dress = Callable[[Array, Array, Array], Array]
+"""A function from the reflectance of parts of pixels, and their places (x, y) on the board in
+squares, to what it is instead; all of them (h, w)."""
 
 
 @dataclass(frozen=True)
@@ -76,8 +80,14 @@ class Scene:
         return np.asarray(np.min([np.linalg.norm(p - self.uv, axis=2) for p in steps], axis=0))
 
 
-def draw(conditions: Conditions, seed: int) -> Scene:
-    """A photograph's scene; the pose and what else is random follow from `seed`."""
+def draw(conditions: Conditions, seed: int, dress: Dress | None = None) -> Scene:
+    """A photograph's scene; the pose and what else is random follow from `seed`.
+
+    Args:
+        conditions: the photograph's.
+        seed: of what is random.
+        dress: what is changed of the reflectance, if anything is.
+    """
     rng = np.random.default_rng(seed)
     camera = Camera(conditions, rng)
     rows, cols = conditions.grid_size
@@ -87,6 +97,8 @@ def draw(conditions: Conditions, seed: int) -> Scene:
     fine_v = (np.arange(height * parts) + 0.5) / parts - 0.5
     x, y = camera.board_from_image(fine_u[None], fine_v[:, None])
     irradiance = _paper(x, y, conditions, rng)
+    if dress is not None:
+        irradiance = dress(irradiance, x, y)
     if conditions.marks:
         irradiance[marks(x, y, conditions.grid_size, np.random.default_rng([seed, 2]))] = 0.0
     covered = np.zeros(irradiance.shape, np.bool_)

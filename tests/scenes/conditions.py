@@ -13,6 +13,8 @@ class Conditions:
     size: tuple[int, int] = (640, 480)
     square: float = 30.0
     """Side of a square at the board's centre."""
+    aspect: float = 1.0
+    """Height over width of what should be squares."""
     tilt: float = 25.0
     """Of the board against the sensor, about a random axis in its plane."""
     shift: float = 25.0

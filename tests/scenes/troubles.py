@@ -1,77 +1,39 @@
 """Photographs of checkerboards that people have and that finders have lost, with their truth.
 
 Each of the `TROUBLES` is a function from a seed to a `Photograph`; size, pose, blur and noise of
-the board vary with the seed, and so does the trouble.
+the board vary with the seed, and so does the trouble. Those of cameras and of boards have files of
+their own.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from dataclasses import dataclass
 from typing import Any
 
 import cv2
 import numpy as np
-from numpy.typing import NDArray
 
 from tests.scenes.camera import Camera
 from tests.scenes.checkerboards import draw
 from tests.scenes.conditions import Conditions
 from tests.scenes.creases import draw_corner_of_room
-
-Array = NDArray[np.float64]
-Image = NDArray[Any]
-_BOARDS = ((6, 9), (5, 8), (7, 10), (8, 11), (10, 14))
-
-
-@dataclass(frozen=True)
-class Photograph:
-    """An image of one or more boards."""
-
-    image: Image
-    boards: tuple[Array, ...]
-    """(rows, cols, 2) px, the true corners of each."""
+from tests.scenes.photograph import (
+    Photograph,
+    Trouble,
+    add_noise,
+    as_bytes,
+    as_grey,
+    shift_image,
+    vary,
+)
+from tests.scenes.troubles_of_boards import BOARDS
+from tests.scenes.troubles_of_cameras import CAMERAS
 
 
-def _vary(seed: int, **settings: Any) -> Conditions:
-    """Conditions of a board that fills much of the image, if they are not given."""
-    rng = np.random.default_rng([seed, 21])
-    grid_size = _BOARDS[seed % len(_BOARDS)]
-    varied: dict[str, Any] = {
-        "grid_size": grid_size,
-        "square": rng.uniform(0.55, 0.8) * 480 / (grid_size[1] + 2),
-        "tilt": rng.uniform(0, 40),
-        "turn": rng.choice([15.0, 180.0]),
-        "blur": rng.uniform(0.5, 1.2),
-        "noise": rng.uniform(0.5, 4.0),
-        "light": rng.uniform(0, 0.6),
-        "parts": 2,
-    }
-    return Conditions(**(varied | settings))
-
-
-def _round(levels: Array) -> NDArray[np.uint8]:
-    """Grey levels, or colours, as bytes."""
-    return np.clip(np.rint(levels), 0, 255).astype(np.uint8)
-
-
-def _noisy(levels: Array, noise: float, seed: int) -> Array:
-    return levels + noise * np.random.default_rng([seed, 22]).standard_normal(levels.shape)
-
-
-def _shift(image: Array, by: Array) -> Array:
-    """An image moved by `by` (2,) px."""
-    M = np.array([[1.0, 0.0, by[0]], [0.0, 1.0, by[1]]])
-    size = image.shape[::-1]
-    moved = cv2.warpAffine(image, M, size, flags=cv2.INTER_CUBIC, borderMode=cv2.BORDER_REPLICATE)
-    return np.asarray(moved)
-
-
-def _plain(settings: dict[str, Any]) -> Callable[[int], Photograph]:
+def _plain(settings: dict[str, Any]) -> Trouble:
     """Photographs under the `settings` alone."""
 
     def photograph(seed: int) -> Photograph:
-        scene = draw(_vary(seed, **settings), seed)
+        scene = draw(vary(seed, **settings), seed)
         return Photograph(scene.photograph(seed), (scene.uv,))
 
     return photograph
@@ -81,24 +43,24 @@ def interlaced(seed: int) -> Photograph:
     """Odd and even rows taken one after the other, 0.3 to 4 px apart, mostly sideways. The truth
     is in the middle."""
     rng = np.random.default_rng([seed, 23])
-    scene = draw(_vary(seed), seed)
+    scene = draw(vary(seed), seed)
     motion = rng.uniform(0.3, 4.0) * np.array([1.0, rng.uniform(-0.3, 0.3)])
-    image = _shift(scene.clean, motion / 2)
-    image[1::2] = _shift(scene.clean, -motion / 2)[1::2]
-    return Photograph(_round(_noisy(image, scene.conditions.noise, seed)), (scene.uv,))
+    image = shift_image(scene.clean, motion / 2)
+    image[1::2] = shift_image(scene.clean, -motion / 2)[1::2]
+    return Photograph(as_bytes(add_noise(image, scene.conditions.noise, seed)), (scene.uv,))
 
 
 def halos(seed: int) -> Photograph:
     """A video signal sharpened to one side: behind every edge it overshoots for 1.5 to 3 px, in
     interlaced frames of motion up to 2.5 px."""
     rng = np.random.default_rng([seed, 24])
-    scene = draw(_vary(seed), seed)
+    scene = draw(vary(seed), seed)
     motion = np.array([rng.uniform(0.0, 1.25), 0.0])
-    image = _shift(scene.clean, motion)
-    image[1::2] = _shift(scene.clean, -motion)[1::2]
-    noisy = _noisy(image, scene.conditions.noise / 2, seed)
-    before = _shift(noisy, np.array([rng.uniform(1.5, 3.0), 0.0]))
-    return Photograph(_round(noisy + rng.uniform(0.3, 0.8) * (noisy - before)), (scene.uv,))
+    image = shift_image(scene.clean, motion)
+    image[1::2] = shift_image(scene.clean, -motion)[1::2]
+    noisy = add_noise(image, scene.conditions.noise / 2, seed)
+    before = shift_image(noisy, np.array([rng.uniform(1.5, 3.0), 0.0]))
+    return Photograph(as_bytes(noisy + rng.uniform(0.3, 0.8) * (noisy - before)), (scene.uv,))
 
 
 def crease(seed: int) -> Photograph:
@@ -126,7 +88,7 @@ def crease(seed: int) -> Photograph:
         steps = [np.linalg.norm(np.diff(b, axis=a), axis=2).min() for b in boards for a in (0, 1)]
         if (uv > 15).all() and (uv < np.array([625, 465])).all() and min(steps) > 10:
             break
-    return Photograph(_round(_noisy(levels, conditions.noise, seed)), boards)
+    return Photograph(as_bytes(add_noise(levels, conditions.noise, seed)), boards)
 
 
 def curved(seed: int) -> Photograph:
@@ -134,7 +96,7 @@ def curved(seed: int) -> Photograph:
     degrees."""
     rng = np.random.default_rng([seed, 26])
     while True:
-        conditions = _vary(
+        conditions = vary(
             seed,
             fisheye=True,
             focal=rng.uniform(0.25, 0.4),
@@ -164,48 +126,48 @@ def blurred(seed: int) -> Photograph:
     """A board out of focus, blurred by 5 px, with squares of 24 to 38 px."""
     rng = np.random.default_rng([seed, 34])
     grid_size = ((6, 9), (5, 8), (5, 7))[seed % 3]
-    scene = draw(_vary(seed, blur=5.0, square=rng.uniform(24, 38), grid_size=grid_size), seed)
+    scene = draw(vary(seed, blur=5.0, square=rng.uniform(24, 38), grid_size=grid_size), seed)
     return Photograph(scene.photograph(seed), (scene.uv,))
 
 
 def video(seed: int) -> Photograph:
     """A frame of a film: blocks of 8 x 8 px of few coefficients, colours at half the resolution."""
     rng = np.random.default_rng([seed, 27])
-    scene = draw(_vary(seed), seed)
-    noisy = _noisy(scene.clean, scene.conditions.noise, seed)
-    colour = _round(noisy[..., None] * rng.uniform(0.7, 1.0, 3))
+    scene = draw(vary(seed), seed)
+    noisy = add_noise(scene.clean, scene.conditions.noise, seed)
+    colour = as_bytes(noisy[..., None] * rng.uniform(0.7, 1.0, 3))
     quality = [cv2.IMWRITE_JPEG_QUALITY, int(rng.integers(12, 40))]
     coded = cv2.imencode(".jpg", colour, quality)[1]
-    return Photograph(_grey(cv2.imdecode(coded, cv2.IMREAD_COLOR)), (scene.uv,))
+    return Photograph(as_grey(cv2.imdecode(coded, cv2.IMREAD_COLOR)), (scene.uv,))
 
 
 def mosaic(seed: int) -> Photograph:
     """Colours interpolated from a Bayer mosaic, under light that is not white."""
     rng = np.random.default_rng([seed, 28])
-    scene = draw(_vary(seed), seed)
+    scene = draw(vary(seed), seed)
     gains = rng.uniform(0.5, 1.0, 3)
     raw = scene.clean.copy()
     for row, col, channel in ((0, 0, 2), (0, 1, 1), (1, 0, 1), (1, 1, 0)):
         raw[row::2, col::2] *= gains[channel]
-    raw = _round(_noisy(raw, scene.conditions.noise, seed))
-    return Photograph(_grey(cv2.cvtColor(raw, cv2.COLOR_BayerBG2BGR)), (scene.uv,))
+    raw = as_bytes(add_noise(raw, scene.conditions.noise, seed))
+    return Photograph(as_grey(cv2.cvtColor(raw, cv2.COLOR_BayerBG2BGR)), (scene.uv,))
 
 
 def raw_mosaic(seed: int) -> Photograph:
     """A Bayer mosaic read as grey levels: red and blue pixels are darker than their neighbours."""
     rng = np.random.default_rng([seed, 29])
-    scene = draw(_vary(seed), seed)
+    scene = draw(vary(seed), seed)
     raw = scene.clean.copy()
     raw[::2, ::2] *= rng.uniform(0.7, 0.95)
     raw[1::2, 1::2] *= rng.uniform(0.7, 0.95)
-    return Photograph(_round(_noisy(raw, scene.conditions.noise, seed)), (scene.uv,))
+    return Photograph(as_bytes(add_noise(raw, scene.conditions.noise, seed)), (scene.uv,))
 
 
 def thermal(seed: int) -> Photograph:
     """16 bits of which 100 to 400 levels are used, blurred, with noise by columns, often
     inverted."""
     rng = np.random.default_rng([seed, 30])
-    scene = draw(_vary(seed, blur=rng.uniform(1.2, 2.0)), seed)
+    scene = draw(vary(seed, blur=rng.uniform(1.2, 2.0)), seed)
     contrast = rng.uniform(100, 400)
     levels = contrast * (scene.clean - 45) / 160 * rng.choice([-1.0, 1.0])
     levels += 0.03 * contrast * rng.standard_normal(levels.shape)
@@ -218,20 +180,20 @@ def infrared(seed: int) -> Photograph:
     rng = np.random.default_rng([seed, 31])
     dark = rng.uniform(60, 150)
     settings = {"dark": dark, "bright": dark + rng.uniform(12, 30), "noise": rng.uniform(0.5, 2.0)}
-    scene = draw(_vary(seed, **settings), seed)
+    scene = draw(vary(seed, **settings), seed)
     return Photograph(scene.photograph(seed), (scene.uv,))
 
 
 def inverted(seed: int) -> Photograph:
     """Bright squares on dark paper."""
-    scene = draw(_vary(seed), seed)
+    scene = draw(vary(seed), seed)
     return Photograph(255 - scene.photograph(seed), (scene.uv,))
 
 
 def screen(seed: int) -> Photograph:
     """A board on a screen whose pixels beat with the camera's."""
     rng = np.random.default_rng([seed, 32])
-    scene = draw(_vary(seed), seed)
+    scene = draw(vary(seed), seed)
     v, u = np.mgrid[: scene.clean.shape[0], : scene.clean.shape[1]]
     beat = np.zeros(scene.clean.shape)
     for turn in rng.uniform(0, np.pi) + np.array([0.0, np.pi / 2]):
@@ -240,29 +202,25 @@ def screen(seed: int) -> Photograph:
         phase = 2 * np.pi * (np.cos(turn) * u + np.sin(turn) * v) / wave
         beat += np.sin(phase + warp + rng.uniform(0, 6))
     lit = scene.clean * (1 + rng.uniform(0.05, 0.15) * beat)
-    return Photograph(_round(_noisy(lit, scene.conditions.noise, seed)), (scene.uv,))
+    return Photograph(as_bytes(add_noise(lit, scene.conditions.noise, seed)), (scene.uv,))
 
 
 def glass(seed: int) -> Photograph:
     """A board behind a pane, which reflects lamps and windows and doubles the board faintly."""
     rng = np.random.default_rng([seed, 33])
-    scene = draw(_vary(seed), seed)
+    scene = draw(vary(seed), seed)
     ghost = rng.uniform(0.03, 0.12)
-    image = scene.clean + ghost * _shift(scene.clean, rng.uniform(-4, 4, 2))
+    image = scene.clean + ghost * shift_image(scene.clean, rng.uniform(-4, 4, 2))
     reflected = np.zeros(image.shape)
     for _ in range(rng.integers(1, 4)):
         centre = rng.uniform(0.1, 0.9, 2) * image.shape[::-1]
         polygon = centre + rng.uniform(40, 160) * rng.uniform(-1, 1, (4, 2))
         cv2.fillConvexPoly(reflected, cv2.convexHull(polygon.astype(np.int32)), rng.uniform(15, 60))
     image += cv2.GaussianBlur(reflected, (0, 0), rng.uniform(2, 10))
-    return Photograph(_round(_noisy(image, scene.conditions.noise, seed)), (scene.uv,))
+    return Photograph(as_bytes(add_noise(image, scene.conditions.noise, seed)), (scene.uv,))
 
 
-def _grey(colour: Image) -> Image:
-    return np.asarray(cv2.cvtColor(colour, cv2.COLOR_BGR2GRAY))
-
-
-TROUBLES: dict[str, Callable[[int], Photograph]] = {
+TROUBLES: dict[str, Trouble] = {
     "interlaced": interlaced,
     "halos to one side": halos,
     "crease": crease,
@@ -279,5 +237,7 @@ TROUBLES: dict[str, Callable[[int], Photograph]] = {
     "inverted": inverted,
     "screen": screen,
     "glass": glass,
+    **CAMERAS,
+    **BOARDS,
 }
 """What troubles the finder, by name."""
