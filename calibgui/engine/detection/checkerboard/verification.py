@@ -159,11 +159,15 @@ def drop_broken_lines(lattice: Lattice, image: GreyImage) -> Lattice:
 
 
 def drop_stray_lines(lattice: Lattice, image: GreyImage) -> Lattice:
-    """Drop border lines of few corners before which the board is seen to end, one on each side."""
+    """Drop border lines of few corners, one on each side, and what lies beyond an empty line,
+    before which the board is seen to end."""
     limits = THRESHOLDS.verification
     found = lattice.found
     if not found.size:
         return lattice
+    if not (found.any(axis=0).all() and found.any(axis=1).all()):
+        lattice = _drop_beyond_ends(lattice, image)
+        found = lattice.found
     least = [limits.min_border_corners * count for count in lattice.shape]
     across, along = np.count_nonzero(found, axis=1), np.count_nonzero(found, axis=0)
     if (across[[0, -1]] >= least[1]).all() and (along[[0, -1]] >= least[0]).all():
@@ -176,6 +180,21 @@ def drop_stray_lines(lattice: Lattice, image: GreyImage) -> Lattice:
             rest = drop_isolated_and_crop(Lattice(turned.uv[1:], not turned.dark))
             if len(rest) and _does_end_above(rest, image, _compute_square_difference(rest, image)):
                 lattice = turn_lattice(rest, -quarters)
+    return lattice
+
+
+def _drop_beyond_ends(lattice: Lattice, image: GreyImage) -> Lattice:
+    """Drop the lesser part of a lattice beyond a line without a corner before which the board is
+    seen to end: it is another board's, or what surrounds this one."""
+    for quarters in range(4):
+        turned = turn_lattice(lattice, quarters)
+        for row in np.flatnonzero(~turned.found.any(axis=1))[::-1] + 1:
+            rest = drop_isolated_and_crop(Lattice(turned.uv[row:], turned.dark ^ bool(row % 2)))
+            if 2 * len(rest) <= len(lattice):
+                continue
+            if _does_end_above(rest, image, _compute_square_difference(rest, image)):
+                lattice = turn_lattice(rest, -quarters)
+            break
     return lattice
 
 

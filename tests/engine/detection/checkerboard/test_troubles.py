@@ -54,3 +54,9 @@ def test_one_of_two_walls_is_found_by_its_size(seed: int) -> None:
         assert judge(photograph, (corners.grid, corners.uv)).whole
         assert len(corners) == truth[..., 0].size
         assert "cut at what looks like a crease" in corners.remark
+
+
+@pytest.mark.parametrize("seed", [3010, 3012])
+def test_a_board_beyond_the_end_of_another_is_not_joined_to_it(seed: int) -> None:
+    """Squares of the same size, two empty columns away, were counted as the board's own."""
+    assert find("second board", seed).whole == 1
