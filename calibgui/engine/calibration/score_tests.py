@@ -197,8 +197,9 @@ class SharedCauses:
                 for cause in causes
             ]
             pose = by_pose.reshape(len(residual), -1, 6)
+            none = scipy.sparse.csr_array((residual.size, 0))  # there may be no causes
             products = _multiply(
-                scipy.sparse.hstack(columns, format="csr"),
+                scipy.sparse.hstack([none, *columns], format="csr"),
                 np.concatenate([by_camera, residual[..., None]], axis=-1).reshape(
                     *pose.shape[:2], -1
                 ),
@@ -312,7 +313,7 @@ def _multiply(
         (sparse.data, sparse.indices + M * block, sparse.indptr), shape=(k * rows, k * M)
     )
     right = np.concatenate([own, dense], axis=2)
-    above = (blocks.T @ right.reshape(k * rows, -1)).reshape(k, M, -1)
+    above = (blocks.T @ right.reshape(k * rows, -1)).reshape(k, M, n + D)
     below = dense.swapaxes(1, 2) @ right
     by_view = np.concatenate([above, below], axis=1)
     by_view, with_dense = by_view[..., :n], by_view[..., n:]

@@ -53,6 +53,14 @@ def test_a_board_shape_that_was_estimated_explains_no_more() -> None:
         assert found.share == 0.0
 
 
+def test_no_causes_explain_nothing() -> None:
+    views = scene(barrel(), 6, 1).noisy(0.1, np.random.default_rng(2))
+    found = SharedCauses(prepare_fit(calibrate(views, SIZE), views), [])
+    assert found.reduce_cost() == (0.0, 0)
+    # Of residuals at the minimum the poses' columns leave all.
+    assert found.cost_beside_views == pytest.approx(found.cost, rel=1e-6)
+
+
 def test_a_lens_explains_what_its_held_coefficients_would() -> None:
     views = scene(barrel(), 10, 1).noisy(0.1, np.random.default_rng(2))
     held, freed = calibrate(views, SIZE, fix=["k2", "k3"]), calibrate(views, SIZE)
