@@ -211,7 +211,7 @@ class VerificationThresholds:
     """Greatest residual of the edge fit, over the board's median ..."""
     max_residual_to_contrast: float = 0.15
     """... or over the corner's contrast, whichever is more ..."""
-    max_residual_if_widened: float = 0.22
+    max_residual_if_widened: float = 0.19
     """... if the covariance does not say how far the corner is drawn aside, or else this. Fixed by
     the trouble "shadow" of `tests.benchmarks.corner_troubles`."""
     max_edge_angle_sine: float = float(np.sin(np.radians(3.0)))
