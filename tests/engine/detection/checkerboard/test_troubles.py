@@ -9,7 +9,7 @@ from calibgui.engine.errors import NoBoardError
 from tests.scenes.tally import Tally, judge
 from tests.scenes.troubles import TROUBLES
 
-VARIANTS = 12
+VARIANTS = 6
 """Number of variants; ``tests.benchmarks.corner_troubles`` draws 20."""
 FEW = 3
 """Number of variants that are always drawn, and all to be whole; the others take long."""
