@@ -1,4 +1,4 @@
-"""What to install where a library of the system, or an extra of this program, is missing."""
+"""The command that installs a library of the system, or an extra of this program."""
 
 from __future__ import annotations
 

@@ -15,8 +15,9 @@ board does): d = B q, q ~ N(0, s^2) with one variance for each kind of deviation
 Higher degrees average out over the corners before they reach the camera, whose map has no terms
 beyond the seventh. The root mean square deviation of a kind is expected to be `DEFAULT_FLATNESS` of
 the board's longer side (half of it in each polynomial of the roughness), or what the user knows
-(`BoardShapePrior`), which is kept. The default gives way to the data (``coefficients.py``). The
-camera is eliminated first, after the poses, which leaves the information on the coefficients alone.
+(`BoardShapePrior`), which is kept. The default gives way to the data
+(``deviation_variances.py``). The camera is eliminated first, after the poses, which leaves the
+information on the coefficients alone.
 
 One linear step from the nominal board's solution, with stiffness sigma^2 / s^2 on q, leads to the
 joint estimate of camera, poses and board. It moves camera and poses by b, and leaves them with the
@@ -54,7 +55,7 @@ import numpy as np
 
 from calibgui.engine.arrays import Array, IntArray, compute_median
 from calibgui.engine.boards.shape import BoardShapePrior
-from calibgui.engine.calibration.board_shape.coefficients import (
+from calibgui.engine.calibration.board_shape.deviation_variances import (
     Noise,
     VariancePrior,
     estimate_coefficients,

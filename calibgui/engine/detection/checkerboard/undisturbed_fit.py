@@ -22,7 +22,7 @@ from calibgui.engine.detection.checkerboard.x_corner_fit import (
 from calibgui.engine.detection.lattice import Lattice
 
 _NEAR = 0.25
-"""How far from the corners what lies beside them is not looked at, squares."""
+"""Distance from suspect corners beyond which nothing is looked at, squares."""
 _MAX_ROUNDS = 4
 """Number of times that corners that are drawn aside are left out and the rest fitted again."""
 

@@ -47,8 +47,8 @@ TOO_BLURRED = "its edges are too blurred, or too ragged, to be told from waves"
 """What speaks against a lattice of wide edges."""
 
 _PLAIN_NEAR = 0.25
-"""How far from the corners marks in the squares, and what hides a part of them, do not reach,
-squares."""
+"""Distance from the corners, squares, to which marks in the squares, and what hides a part of them,
+do not reach."""
 
 
 def find_sound_corners(

@@ -11,7 +11,10 @@ from scipy.special import ndtr
 
 from calibgui.engine.arrays import Array
 from calibgui.engine.boards.shape import BoardShapePrior
-from calibgui.engine.calibration.board_shape.coefficients import solve_stiffened, turn_rough_axes
+from calibgui.engine.calibration.board_shape.deviation_variances import (
+    solve_stiffened,
+    turn_rough_axes,
+)
 from calibgui.engine.calibration.board_shape.deviations import FLATNESS, PRINT, make_deviations
 from calibgui.engine.calibration.board_shape.parametrisation import make_gauge
 from calibgui.engine.calibration.board_shape.uncertainty import (

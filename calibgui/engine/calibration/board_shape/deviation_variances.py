@@ -51,7 +51,7 @@ class Coefficients(NamedTuple):
 
 
 class Noise(NamedTuple):
-    """What the variance of a residual coordinate is estimated from (`estimate_sigma2`)."""
+    """The figures that the variance of a residual coordinate is estimated from."""
 
     cost: float
     """Sum of the squared residuals for the board as it is drawn, px^2."""
@@ -128,7 +128,7 @@ class Information(NamedTuple):
     """(m,) entries on the diagonal of the information on the rough ones, (m - 1,) beside it."""
 
 
-@with_kernel("coefficients", "settle_stiffness")
+@with_kernel("deviation_variances", "settle_stiffness")
 def settle_stiffness(
     information: Information,
     prior: VariancePrior,

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from calibgui.engine.calibration.board_shape.coefficients import (
+from calibgui.engine.calibration.board_shape.deviation_variances import (
     _MAX_MIXING,
     _MIN_RATIO,
     Noise,

@@ -1,6 +1,6 @@
 """The variances of a board's deviations by expectation-maximisation, compiled.
 
-The readable reference is ``calibration.board_shape.coefficients.settle_stiffness``.
+The readable reference is ``calibration.board_shape.deviation_variances.settle_stiffness``.
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ from calibgui.engine.kernels.common import (
 
 
 class Information(Protocol):
-    """The fields of ``calibration.board_shape.coefficients.Information``."""
+    """The fields of ``calibration.board_shape.deviation_variances.Information``."""
 
     @property
     def kind(self) -> IntArray: ...
@@ -33,7 +33,7 @@ class Information(Protocol):
 
 
 class VariancePrior(Protocol):
-    """The fields of ``calibration.board_shape.coefficients.VariancePrior``."""
+    """The fields of ``calibration.board_shape.deviation_variances.VariancePrior``."""
 
     @property
     def expected(self) -> Array: ...
@@ -42,7 +42,7 @@ class VariancePrior(Protocol):
 
 
 class Noise(Protocol):
-    """The fields of ``calibration.board_shape.coefficients.Noise``."""
+    """The fields of ``calibration.board_shape.deviation_variances.Noise``."""
 
     @property
     def cost(self) -> float: ...
@@ -239,7 +239,7 @@ def settle_stiffness(
     least: float,
     limits: tuple[int, float, float, float],
 ) -> tuple[Array, float]:
-    """Compute ``calibration.board_shape.coefficients.settle_stiffness``."""
+    """Compute ``calibration.board_shape.deviation_variances.settle_stiffness``."""
     sigma2 = noise.cost / noise.freedom if noise.freedom > 0 else 0.0
     if not sigma2 > 0:
         sigma2 = noise.otherwise
