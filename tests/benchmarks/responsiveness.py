@@ -51,6 +51,7 @@ from PySide6.QtWidgets import QApplication
 from calibgui.engine.boards.board import Board
 from calibgui.engine.camera.camera import Camera
 from calibgui.engine.geometry.rotations import rotation_from_vector
+from calibgui.gui.dialogs.bug_dialog import BugDialog
 from calibgui.gui.panels.analysis import PANELS
 from calibgui.gui.widgets import theme
 from calibgui.gui.window.main_window import MainWindow
@@ -203,12 +204,18 @@ class User:
         """MB that a process of the window held at most."""
 
     def do(self, task: str, *steps: Callable[[], object]) -> None:
-        """Do a task step by step, a third of a second apart, until nothing runs any more."""
+        """Do a task step by step, a third of a second apart, until nothing runs any more.
+
+        Raises:
+            RuntimeError: if the window shows a bug, behind which nothing is done any more.
+        """
         with heartbeat(task, self.trace):
             for step in steps:
                 step()
                 wait(300)
             self._wait()
+        if any(isinstance(widget, BugDialog) for widget in QApplication.topLevelWidgets()):
+            raise RuntimeError(f"{task}: the window shows a bug")
 
     def _wait(self) -> None:
         end = time.monotonic() + PATIENCE
