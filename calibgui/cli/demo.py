@@ -12,6 +12,7 @@ from calibgui.app.outputs import check_outputs, make_folder, save_figure
 from calibgui.app.resources import find_resource, read_sample_truth
 from calibgui.cli.arguments import search_images
 from calibgui.cli.console import Console
+from calibgui.cli.notices import explain_solve
 from calibgui.cli.outputs import add_overwrite_option
 from calibgui.dataset import Result
 from calibgui.engine.images import compute_board_extent, read_image, rectify_image, undistort_image
@@ -61,7 +62,9 @@ def run(options: argparse.Namespace, console: Console) -> None:
     sample = find_resource("sample")
     truth = read_sample_truth()
     square = truth["target"]["square_mm"].number()
-    result = calibrate_views(search_images(console, [str(sample)]).corner_set(square))
+    corner_set = search_images(console, [str(sample)]).corner_set(square)
+    with explain_solve(console, corner_set):
+        result = calibrate_views(corner_set)
     for name, file in _EXPORT_FILES.items():
         export(result, name, out / file)
     for file, figure in _draw_figures(result).items():

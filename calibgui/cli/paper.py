@@ -16,6 +16,7 @@ from calibgui.app.settings import Settings
 from calibgui.app.synthetic import run_synthetic_check
 from calibgui.cli.arguments import add_corner_method, search_images
 from calibgui.cli.console import Console
+from calibgui.cli.notices import explain_solve
 from calibgui.cli.outputs import add_overwrite_option
 from calibgui.dataset import CornerSet
 from calibgui.engine.calibration import Cost
@@ -80,7 +81,8 @@ def _reproduce(folder: Path, method: str, console: Console) -> Reproduction:
     """Calibrate from corners located by each method; do all else with those of `method`."""
     found = {name: _search(folder, name, console) for name in METHODS}
     papers = Settings(cost=Cost.PAPER)
-    by_method = {name: calibrate_views(corners, papers) for name, corners in found.items()}
+    with explain_solve(console, found[method]):
+        by_method = {name: calibrate_views(corners, papers) for name, corners in found.items()}
     with console.show_progress("synthetic views") as advance:
         check = run_synthetic_check(by_method[method], progress=advance)
     return Reproduction(
@@ -95,7 +97,13 @@ def _search(folder: Path, method: str, console: Console) -> CornerSet:
         CalibrationError: if one is missing, is there twice, or shows no board that is found.
     """
     console.print_notice(f"Corners located by {LOCATED_BY[method]}:")
-    images = [str(folder / "Image[0-9]*")]
+    images = [str(path) for path in sorted(folder.glob("Image[0-9]*"))]
+    if not images:
+        raise CalibrationError(
+            f"{folder} has none of the paper's images, Image1 to Image25.",
+            "Name the folder of Bouguet's 25 example images; 'calibgui calibrate' is for other "
+            "photographs.",
+        )
     detection = search_images(console, images, _GRID_SIZE, corners=method)
     names = [Path(view.image).stem for view in detection.views if view.usable]
     doubtful = [name for name in _IMAGES if names.count(name) != 1]

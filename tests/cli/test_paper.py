@@ -9,6 +9,7 @@ import cv2
 import numpy as np
 import pytest
 
+from calibgui.app.resources import find_resource
 from calibgui.cli.main import main
 from calibgui.engine.images.reading import read_image_size
 from calibgui.formats.result_json import read_result
@@ -51,3 +52,9 @@ def test_views_that_are_missing_are_named(
     problem = " ".join(capsys.readouterr().err.split())
     assert "without a board that is found: Image1, Image2, Image3, Image4" in problem
     assert "Image25." in problem and "25 images" in problem
+
+
+def test_other_photographs_are_refused(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert main(["paper", str(find_resource("sample")), "-o", str(tmp_path / "out")]) == 1
+    problem = " ".join(capsys.readouterr().err.split())
+    assert "has none of the paper's images, Image1 to Image25. Name the folder" in problem
