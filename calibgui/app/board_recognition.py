@@ -11,6 +11,7 @@ from collections import Counter
 from collections.abc import Callable, Iterable, Sequence
 from functools import partial
 from threading import Event
+from typing import Protocol
 
 from calibgui.app.detection import Detection, infer_grid_size, refuse_unreadable, search_view
 from calibgui.app.workers import map_in_processes
@@ -30,25 +31,27 @@ _SAMPLES = 2
 """Number of images in which other boards are looked for, which takes seconds in each."""
 
 
+class FindBoard(Protocol):
+    """A function that searches photographs for a board of a pattern and a size."""
+
+    def __call__(self, pattern: Pattern, grid_size: GridSize | None, /) -> Detection: ...
+
+
 def explain_missing_board(
-    detection: Detection,
-    pattern: Pattern,
-    grid_size: GridSize | None,
-    is_any_looked_for: bool = False,
+    detection: Detection, grid_size: GridSize | None, is_any_looked_for: bool = False
 ) -> tuple[CalibrationError | None, tuple[View, ...]]:
     """Explain why none of the photographs shows the board, and what they show instead.
 
     Args:
-        detection: what was found.
-        pattern: of the board that was looked for.
-        grid_size: of that board, if stated.
+        detection: what was found of the pattern that was looked for.
+        grid_size: of the board, if stated.
         is_any_looked_for: True if boards of all other patterns were looked for as well.
 
     Returns:
         The error, None if the board was found or no image could be read, and the views with other
         faults than that.
     """
-    views = detection.views
+    views, pattern = detection.views, detection.pattern
     if any(view.usable for view in views) or detection.size is None:
         return None, ()
     samples = choose_samples(views)
@@ -110,21 +113,57 @@ def find_grid_size(
     return infer_grid_size(view for _, view in found if isinstance(view, View))
 
 
-def recognise_pattern(views: Sequence[View]) -> Pattern | None:
+def find_any_board(find: FindBoard, grid_size: GridSize | None) -> Detection:
+    """Search photographs for a board of which no kind is stated.
+
+    A plain checkerboard is looked for, and then what else they show. A size may have been stated as
+    the board was held; the marks on a board tell its rows from its columns.
+
+    Args:
+        find: searches the photographs for a board of a pattern and a size, None for any size.
+        grid_size: of the board, if stated.
+
+    Raises:
+        CalibrationError: as `recognise_pattern`.
+    """
+    plain = find(CHECKERBOARD, grid_size)
+    other = recognise_pattern(plain.views, grid_size)
+    if other is None:
+        return plain
+    for size in dict.fromkeys((grid_size, grid_size and grid_size[::-1])):
+        detection = find(other, size)
+        if any(view.usable for view in detection.views):
+            return detection
+    is_seen_whole = any(view.corners is not None and view.corners.complete for view in plain.views)
+    return plain if is_seen_whole else detection
+
+
+def recognise_pattern(
+    views: Sequence[View], grid_size: GridSize | None = None, stop: Event | None = None
+) -> Pattern | None:
     """Return the pattern that photographs show in which a plain checkerboard was looked for.
 
     Where one was found it may bear marks, which are read if a look at it shows any; where none was
     found, all other kinds are tried.
 
+    Args:
+        views: what was found.
+        grid_size: of the board that was looked for, if stated.
+        stop: abandons the search for other kinds when set.
+
     Returns:
-        None if it is a plain checkerboard, or nothing that can be found.
+        None if it is a plain checkerboard, maybe of another size, or nothing that can be found.
 
     Raises:
         CalibrationError: one was found whose marks can be read in a mirror only.
+        Cancelled: if `stop` was set.
     """
     found = [(view, view.corners) for view in views if view.corners is not None]
     if not found:
-        return find_other_pattern(choose_samples(views), CHECKERBOARD)
+        samples = choose_samples(views)
+        if grid_size is not None and find_grid_size(samples, CHECKERBOARD, stop) is not None:
+            return None
+        return find_other_pattern(samples, CHECKERBOARD, stop)
     view, corners = max(found, key=lambda pair: len(pair[1]))
     try:
         marks = look_for_marks(read_image(view.image, view.orientation).pixels, corners)

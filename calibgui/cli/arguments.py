@@ -13,7 +13,7 @@ from functools import cache
 from pathlib import Path
 from typing import BinaryIO
 
-from calibgui.app.board_recognition import explain_missing_board, recognise_pattern
+from calibgui.app.board_recognition import explain_missing_board, find_any_board
 from calibgui.app.detection import (
     Detection,
     find_views,
@@ -192,7 +192,7 @@ def search_images(
     images = find_images(paths)
     rois = read_regions(roi, images) if roi else {}
 
-    def search(pattern: Pattern) -> Detection:
+    def search(pattern: Pattern, grid_size: GridSize | None) -> Detection:
         with console.show_progress("searching") as advance:
             return find_views(
                 images,
@@ -207,15 +207,11 @@ def search_images(
                 ),
             )
 
-    detection = search(pattern or CHECKERBOARD)
-    if pattern is None and (other := recognise_pattern(detection.views)) is not None:
-        return search(other)
-    return detection
+    return find_any_board(search, grid_size) if pattern is None else search(pattern, grid_size)
 
 
 def require_board(
     detection: Detection,
-    pattern: Pattern,
     grid_size: GridSize | None,
     console: Console,
     is_any_looked_for: bool = False,
@@ -223,16 +219,15 @@ def require_board(
     """Refuse photographs none of which shows the board, and say what they show instead.
 
     Args:
-        detection: what was found.
-        pattern: of the board that was looked for.
-        grid_size: of that board, if stated.
+        detection: what was found of the pattern that was looked for.
+        grid_size: of the board, if stated.
         console: takes the list of images with other faults.
         is_any_looked_for: True if boards of all other patterns were looked for as well.
 
     Raises:
         CalibrationError: if there are such, after a list of the images that have other faults.
     """
-    error, faults = explain_missing_board(detection, pattern, grid_size, is_any_looked_for)
+    error, faults = explain_missing_board(detection, grid_size, is_any_looked_for)
     if error is None:
         return
     if unused := list_unused_views(faults):

@@ -152,6 +152,6 @@ def read_pattern_options(options: argparse.Namespace) -> Pattern:
 
 
 def is_pattern_open(options: argparse.Namespace) -> bool:
-    """Return whether nothing is stated of the board, so that the photographs are to tell its
-    pattern."""
-    return options.target is None and options.board is None and options.roi is None
+    """Return whether neither the board's pattern is stated nor its place, so that the photographs
+    are to tell the pattern."""
+    return options.target is None and options.roi is None

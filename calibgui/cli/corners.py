@@ -84,7 +84,7 @@ def read_or_search(
         options.corners,
         None if is_pattern_open(options) else pattern,
     )
-    require_board(detection, pattern, options.board, console, is_pattern_open(options))
+    require_board(detection, options.board, console, is_pattern_open(options))
     side = square if options.square is None else options.square
     assert side is not None, "a command that has no side of its own checks that one is given"
     corner_set = detection.corner_set(side)

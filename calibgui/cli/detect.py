@@ -57,7 +57,7 @@ def run(options: argparse.Namespace, console: Console) -> None:
         options.corners,
         None if is_pattern_open(options) else pattern,
     )
-    require_board(detection, pattern, options.board, console, is_pattern_open(options))
+    require_board(detection, options.board, console, is_pattern_open(options))
     corner_set = detection.corner_set(options.square or 1.0)
     console.print_json(encode_corners(corner_set))
     console.print_line(tables.count_boards(corner_set.views))

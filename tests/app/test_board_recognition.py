@@ -9,11 +9,13 @@ import pytest
 from calibgui.app import board_recognition
 from calibgui.app.board_recognition import (
     explain_missing_board,
+    find_any_board,
     find_mirrored_pattern,
     recognise_pattern,
 )
-from calibgui.app.detection import find_views
+from calibgui.app.detection import Detection, find_views
 from calibgui.dataset import View
+from calibgui.engine.arrays import GridSize
 from calibgui.engine.boards import KINDS
 from calibgui.engine.boards.april_grid import AprilGrid
 from calibgui.engine.boards.board import Board
@@ -39,6 +41,19 @@ def _search_for_checkerboard(pattern: Pattern, folder: Path) -> tuple[View, ...]
     return find_views([folder / "view.png"]).views
 
 
+def _search_for_any_board(
+    pattern: Pattern, stated: GridSize | None, folder: Path, cut: int = 0
+) -> Detection:
+    """What is found where no kind is stated in a photograph, less columns at its left."""
+    scene = Scene(Board(8, 10, 20.0, pattern), _CAMERA, (0.4, 0.25, 0.2), 330.0)
+    write_image(folder / "view.png", scene.image()[:, cut:])
+
+    def find(pattern: Pattern, grid_size: GridSize | None) -> Detection:
+        return find_views([folder / "view.png"], grid_size, pattern=pattern)
+
+    return find_any_board(find, stated)
+
+
 def test_a_plain_checkerboard_is_told_by_a_look(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
@@ -57,6 +72,32 @@ def test_marks_are_read(pattern: Pattern, tmp_path: Path) -> None:
     recognised = recognise_pattern(_search_for_checkerboard(pattern, tmp_path))
     assert recognised is not None
     assert recognised.kind == pattern.kind
+
+
+@pytest.mark.parametrize("stated", [None, (8, 10), (10, 8)])
+def test_marks_are_read_whatever_size_is_stated(stated: GridSize | None, tmp_path: Path) -> None:
+    """Only the marks tell a board's rows from its columns."""
+    detection = _search_for_any_board(Charuco("DICT_4X4_50", 0.7, legacy=False), stated, tmp_path)
+    assert (detection.pattern.kind, detection.grid_size) == ("charuco", (8, 10))
+    assert detection.views[0].usable
+
+
+def test_a_plain_board_of_another_size_is_told(tmp_path: Path) -> None:
+    detection = _search_for_any_board(CHECKERBOARD, (8, 9), tmp_path)
+    error, _ = explain_missing_board(detection, (8, 9), is_any_looked_for=True)
+    assert error is not None
+    assert error.message == "The images show a board of 8x10, not of 8x9."
+
+
+def test_marks_of_a_board_of_another_size_are_told(tmp_path: Path) -> None:
+    """A part of it may well pass for a part of the stated one, but for its marks."""
+    detection = _search_for_any_board(
+        Charuco("DICT_4X4_50", 0.7, legacy=False), (8, 12), tmp_path, cut=150
+    )
+    assert detection.pattern.kind == "charuco"
+    error, _ = explain_missing_board(detection, (8, 12), is_any_looked_for=True)
+    assert error is not None
+    assert "not of 8x12" in error.message
 
 
 def test_a_file_that_has_gone(tmp_path: Path) -> None:
@@ -79,7 +120,7 @@ def test_pictures_of_marks_in_a_mirror_are_told(pattern: Pattern, tmp_path: Path
     assert find_mirrored_pattern([str(tmp_path / "view.png")]) is None
     write_image(tmp_path / "mirrored.png", scene.image()[:, ::-1])
     detection = find_views([tmp_path / "mirrored.png"], pattern=KINDS[pattern.kind])
-    error, faults = explain_missing_board(detection, KINDS[pattern.kind], None)
+    error, faults = explain_missing_board(detection, None)
     assert error is not None
     assert "mirrored: left is right" in error.message
     assert "Turn mirroring off" in error.hint

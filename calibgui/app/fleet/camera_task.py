@@ -19,7 +19,7 @@ from urllib.parse import quote
 
 import numpy as np
 
-from calibgui.app.board_recognition import explain_missing_board, recognise_pattern
+from calibgui.app.board_recognition import explain_missing_board, find_any_board
 from calibgui.app.detection import (
     Detection,
     find_views,
@@ -54,7 +54,7 @@ from calibgui.engine.assessment import (
     measure_drift,
     summarise_residuals,
 )
-from calibgui.engine.boards import CHECKERBOARD, Board, BoardShape, Pattern
+from calibgui.engine.boards import Board, BoardShape, Pattern
 from calibgui.engine.errors import CalibrationError
 from calibgui.engine.threads import limit_blas_threads
 from calibgui.formats.board_shape_json import encode_board_shape
@@ -299,10 +299,8 @@ class _Search:
 
 def _make_result(task: CameraTask, files: Sequence[Path], search: _Search) -> Result:
     """Search photographs and calibrate. Raises CalibrationError if that is not possible."""
-    detection, sought = _detect(task.board, files, search)
-    error, _ = explain_missing_board(
-        detection, sought, task.board.grid_size, task.board.pattern is None
-    )
+    board, detection = task.board, _detect(task.board, files, search)
+    error, _ = explain_missing_board(detection, board.grid_size, board.pattern is None)
     if error is not None:
         raise error
     assert task.board.square is not None  # the manifest sees to it
@@ -313,21 +311,17 @@ def _make_result(task: CameraTask, files: Sequence[Path], search: _Search) -> Re
     return replace(result, calibration=timeless)
 
 
-def _detect(
-    board: BoardSought, files: Sequence[Path], search: _Search
-) -> tuple[Detection, Pattern]:
-    """Search photographs for a board; return what was found, and the pattern looked for."""
+def _detect(board: BoardSought, files: Sequence[Path], search: _Search) -> Detection:
+    """Search photographs for a board."""
 
-    def find(pattern: Pattern) -> Detection:
+    def find(pattern: Pattern, grid_size: GridSize | None) -> Detection:
         return find_views(
-            files, board.grid_size, method=board.method, pattern=pattern, search_image=search
+            files, grid_size, method=board.method, pattern=pattern, search_image=search
         )
 
-    if board.pattern is not None:
-        return find(board.pattern), board.pattern
-    detection = find(CHECKERBOARD)
-    other = recognise_pattern(detection.views)
-    return (detection, CHECKERBOARD) if other is None else (find(other), other)
+    if board.pattern is None:
+        return find_any_board(find, board.grid_size)
+    return find(board.pattern, board.grid_size)
 
 
 def _summarise(result: Result) -> FleetFigures:

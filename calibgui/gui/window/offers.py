@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Hashable
+from collections.abc import Callable, Hashable, Sequence
+from functools import partial
 from pathlib import Path
 from typing import NamedTuple
 
@@ -14,13 +15,15 @@ from calibgui.app.board_recognition import (
     find_grid_size,
     find_mirrored_pattern,
     find_other_pattern,
+    recognise_pattern,
 )
 from calibgui.app.document import Document
 from calibgui.app.paths import is_remote
-from calibgui.app.project import set_grid_size, set_pattern
-from calibgui.dataset import ViewStatus
+from calibgui.app.project import Project, set_grid_size, set_pattern
+from calibgui.dataset import View, ViewStatus
 from calibgui.engine.arrays import GridSize
-from calibgui.engine.boards import Pattern
+from calibgui.engine.boards import CHECKERBOARD, Pattern
+from calibgui.engine.errors import CalibrationError
 from calibgui.gui.dialogs.files import Files
 from calibgui.gui.images.film_strip import FilmStrip
 from calibgui.gui.jobs.job import Job
@@ -43,7 +46,7 @@ class _OtherBoard(NamedTuple):
 
 class Offers(QObject):
     """To recover unsaved work, to search changed images again, to locate missing ones, and to
-    search for another pattern where the stated one is nowhere."""
+    search for another pattern that they show."""
 
     def __init__(
         self, session: Session, detector: Detector, files: Files, images: FilmStrip, banner: Banner
@@ -141,22 +144,17 @@ class Offers(QObject):
         self._thumbnails.read_again(images)
 
     def _look_for_another(self, everything: bool) -> None:
-        """Look for a board of another size or kind after a search that found nothing at all."""
+        """Look for what else photographs show, after a search for a plain board or in vain."""
         project = self._session.project
         searched = [v for v in project.views if v.status in (ViewStatus.FOUND, ViewStatus.NO_BOARD)]
-        if not everything or project.by_hand or not searched or any(v.usable for v in searched):
+        if not everything or project.by_hand or not searched:
             return
-        samples, pattern = choose_samples(searched), project.pattern
-
-        def look(job: Job) -> _OtherBoard:
-            if project.grid_size is not None:
-                grid_size = find_grid_size(samples, pattern, job.cancelling)
-                if grid_size not in (None, project.grid_size):
-                    return _OtherBoard(grid_size=grid_size)
-            if (mirrored := find_mirrored_pattern(samples, job.cancelling)) is not None:
-                return _OtherBoard(mirrored, is_mirrored=True)
-            return _OtherBoard(find_other_pattern(samples, pattern, job.cancelling))
-
+        if not any(v.usable for v in searched):
+            look = partial(_find_other_board, project)
+        elif project.pattern == CHECKERBOARD:
+            look = partial(_read_marks, searched)
+        else:
+            return
         self._looking_for = self._get_question()
         self._looking = self._session.jobs.start(
             self.tr("Looking for another kind of board"),
@@ -168,9 +166,11 @@ class Offers(QObject):
         )
 
     def _get_question(self) -> Hashable:
-        """Return what a look for another board depends on."""
+        """Return what a look for another board depends on: not on where the corners are, which a
+        calibration locates anew."""
         project = self._session.project
-        return project.pattern, project.grid_size, project.views
+        found = tuple((view.image, view.corners is not None) for view in project.views)
+        return project.pattern, project.grid_size, found
 
     def _drop_look(self) -> None:
         """End a look for another board whose question is no longer asked."""
@@ -217,6 +217,26 @@ class Offers(QObject):
             self._files.search()
 
         self._offer(texts.recognised, texts.search, search)
+
+
+def _find_other_board(project: Project, job: Job) -> _OtherBoard:
+    """Find the board in photographs that show none of the stated kind and size."""
+    samples, pattern = choose_samples(project.views), project.pattern
+    if project.grid_size is not None:
+        grid_size = find_grid_size(samples, pattern, job.cancelling)
+        if grid_size not in (None, project.grid_size):
+            return _OtherBoard(grid_size=grid_size)
+    if (mirrored := find_mirrored_pattern(samples, job.cancelling)) is not None:
+        return _OtherBoard(mirrored, is_mirrored=True)
+    return _OtherBoard(find_other_pattern(samples, pattern, job.cancelling))
+
+
+def _read_marks(views: Sequence[View], _: Job) -> _OtherBoard:
+    """Find out whether boards that were found as plain ones bear marks."""
+    try:
+        return _OtherBoard(recognise_pattern(views))
+    except CalibrationError:
+        return _OtherBoard(is_mirrored=True)
 
 
 def _describe_time(path: Path) -> str:

@@ -1,4 +1,4 @@
-"""What the banner offers where the stated pattern is in no image."""
+"""What the banner offers where images show another pattern than the stated one."""
 
 from __future__ import annotations
 
@@ -90,6 +90,23 @@ def test_circles_are_searched_for_with_one_click(
     window.session.document.undo()
     window.session.document.undo()
     assert window.session.project.pattern == CHECKERBOARD
+
+
+def test_marks_on_a_board_that_was_found_as_a_plain_one_are_told(
+    window: MainWindow, qtbot: QtBot, tmp_path: Path
+) -> None:
+    photographs(tmp_path, Charuco("DICT_4X4_50", 0.6, legacy=False), (6, 8), count=4)
+    window.session.begin(Document(Project(settings=DEFAULT_SETTINGS)))
+    window.files.open_paths([str(tmp_path)])
+    told = "These look like photographs of a ChArUco board."
+    qtbot.waitUntil(lambda: window.banner.text.text() == told, timeout=60_000)
+    assert {v.status for v in window.session.project.views} == {ViewStatus.FOUND}
+    qtbot.mouseClick(window.banner.buttons[0], Qt.MouseButton.LeftButton)
+    qtbot.waitUntil(lambda: isinstance(window.session.project.pattern, Charuco), timeout=60_000)
+    qtbot.waitUntil(lambda: not window.session.jobs.running, timeout=60_000)
+    corners = [v.corners for v in window.session.project.views]
+    assert all(c is not None and c.pattern.identifies_points for c in corners)
+    assert not window.banner.isVisible()
 
 
 def test_mirrored_pictures_are_told(window: MainWindow, qtbot: QtBot, tmp_path: Path) -> None:
