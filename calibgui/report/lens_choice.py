@@ -133,7 +133,7 @@ def _list_remarks(trial: LensTrial, least_rms: float) -> list[str]:
     remarks += [f"{a} and {b} are determined only together" for a, b in trial.exchangeable]
     if not trial.is_valid_at_corners:
         remarks.append("folds within the corners: there it is not one-to-one")
-    if trial.validation is None:
+    if trial.validation is None and trial.is_sound:
         ratio = trial.rms / least_rms
         remarks.append(f"not tried on unseen views: residuals {ratio:.1f} times the least")
     if trial.calibration.status is not Status.CONVERGED:
@@ -181,11 +181,11 @@ def _describe_refusal(choice: LensChoice) -> list[str]:
     if SIMPLEST_MODEL not in choice.trials:
         return []
     trial = choice.trials[SIMPLEST_MODEL]
-    if trial.validation is None:
-        return [f"{SIMPLEST_MODEL} leaves {trial.rms:.3g} px on the views themselves"]
     if not trial.is_sound:
         faults = "; ".join(_list_remarks(trial, trial.rms))
         return [f"{SIMPLEST_MODEL} does not suit them ({faults})"]
+    if trial.validation is None:
+        return [f"{SIMPLEST_MODEL} leaves {trial.rms:.3g} px on the views themselves"]
     if SIMPLEST_MODEL in choice.adequate:
         difference = choice.differences[SIMPLEST_MODEL]
         return [

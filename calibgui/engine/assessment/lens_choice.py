@@ -1,9 +1,10 @@
 """The choice of a lens model: all candidates on the same views, and the one to be trusted.
 
-Every candidate is calibrated from all views, and cross-validated (``cross_validation.py``). Neither
-a low residual nor an information criterion chooses well: a model with numerator and denominator
-lowers the residuals by nonsense, and with thousands of corners the Bayesian criterion pays for two
-parameters that gain a tenth of a thousandth of a pixel on unseen views. The choice is made so:
+Every candidate is calibrated from all views; those that are sound, or all if none is, are
+cross-validated (``cross_validation.py``). Neither a low residual nor an information criterion
+chooses well: a model with numerator and denominator lowers the residuals by nonsense, and with
+thousands of corners the Bayesian criterion pays for two parameters that gain a tenth of a
+thousandth of a pixel on unseen views. The choice is made so:
 
 1. A candidate is sound if the views determine its parameters and if its map is one-to-one where
    corners were seen. One with coefficients that had to be held, as the views leave them open, has
@@ -206,16 +207,21 @@ class _Attempt:
         self.done = self.total = 0
 
     def try_lenses(self, candidates: Sequence[str]) -> None:
-        """Calibrate the candidates, and cross-validate those that follow the corners."""
+        """Calibrate the candidates, and cross-validate those that follow the corners.
+
+        One that is not sound counts only if none is, and takes long: the views leave it a valley.
+        """
         self.done, self.total = 0, 2 * len(candidates)
         for model in candidates:
             self._advance()
             if model not in self.trials and model not in self.refused:
                 self._calibrate(model)
-        for model in candidates:
+        for model in sorted(candidates, key=lambda model: not self._is_sound(model)):
             self._advance()
             if self._is_close(model) and self.trials[model].validation is None:
-                self._validate(model)
+                others = (t for t in self.trials.values() if t.validation is not None)
+                if self._is_sound(model) or not any(other.is_sound for other in others):
+                    self._validate(model)
 
     def _advance(self) -> None:
         """Tell that one more step begins."""
@@ -275,6 +281,10 @@ class _Attempt:
             return True
         ratios = [trial.held_out / paper.held_out for trial in others.values()]
         return bool(np.min(np.abs(np.log(ratios))) <= _MAX_LOSS)
+
+    def _is_sound(self, model: str) -> bool:
+        """Return whether a model could be calibrated, and is sound."""
+        return model in self.trials and self.trials[model].is_sound
 
     def _is_close(self, model: str) -> bool:
         """Return whether a model's residuals are of the size of the best one's."""

@@ -46,7 +46,8 @@ class LensTrial:
     exchangeable: tuple[tuple[str, str], ...]
     """Pairs of coefficients of which the views determine only a combination."""
     validation: CrossValidation | None = None
-    """Its error on unseen views; None if its residuals rule it out without."""
+    """Its error on unseen views; None if it is ruled out without, by its residuals or because it is
+    not sound where others are."""
     fuller: LensTrial | None = None
     """The trial of the same model with more coefficients, which predicts unseen views worse; None
     if there is none."""

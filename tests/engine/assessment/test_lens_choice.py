@@ -68,6 +68,19 @@ def test_models_far_from_the_corners_are_not_asked_about_unseen_views(
     assert "brown-conrady-4" not in fisheye.adequate
 
 
+def test_models_that_are_not_sound_are_asked_only_if_none_is(fisheye: LensChoice) -> None:
+    views = scene(FISHEYE, 10).noisy(0.1, np.random.default_rng(1))
+    folding = "kannala-brandt-decentering"
+    fold = replace(fisheye.trials[folding], is_valid_at_corners=False, validation=None)
+    others = {"kannala-brandt": replace(fisheye.trials["kannala-brandt"], validation=None)}
+    for sound in ({}, others):
+        attempt = _Attempt(views, VGA, 3, None, {})
+        attempt.trials = {folding: fold, **sound}
+        attempt.try_lenses((folding, *sound))
+        assert (attempt.trials[folding].validation is None) == bool(sound)
+        assert all(attempt.trials[model].validation for model in sound)
+
+
 def test_a_mild_lens_keeps_the_papers_model_after_few_trials() -> None:
     views = scene(barrel(), 8).noisy(0.1, np.random.default_rng(2))
     told: list[tuple[int, int]] = []
