@@ -154,7 +154,7 @@ class MainWindow(QMainWindow):
         self.session.changed.connect(self._refresh)
         self.session.failed.connect(self.show_failure)
         self.session.notified.connect(self.banner.show_text)
-        Offers(self.session, self.detector, self.files, self.images, self.banner)
+        Offers(self.session, self.detector, self.calibrator, self.files, self.images, self.banner)
         self.verdict.panel_wanted.connect(lambda name: self.need_analysis().show_panel_named(name))
         self.verdict.calibration_wanted.connect(self._calibrate_anew)
         self.images.list.addActions(self.page.tools)

@@ -27,6 +27,7 @@ from calibgui.engine.errors import CalibrationError
 from calibgui.gui.dialogs.files import Files
 from calibgui.gui.images.film_strip import FilmStrip
 from calibgui.gui.jobs.job import Job
+from calibgui.gui.session.calibrator import Calibrator
 from calibgui.gui.session.detector import Detector
 from calibgui.gui.session.session import Session
 from calibgui.gui.widgets.pattern_texts import list_pattern_texts
@@ -49,10 +50,17 @@ class Offers(QObject):
     search for another pattern that they show."""
 
     def __init__(
-        self, session: Session, detector: Detector, files: Files, images: FilmStrip, banner: Banner
+        self,
+        session: Session,
+        detector: Detector,
+        calibrator: Calibrator,
+        files: Files,
+        images: FilmStrip,
+        banner: Banner,
     ) -> None:
         super().__init__(session)
-        self._session, self._detector, self._files = session, detector, files
+        self._session, self._files = session, files
+        self._detector, self._calibrator = detector, calibrator
         self._thumbnails, self._banner = images.thumbnails, banner
         files.recoverable.connect(self._offer_recovery)
         files.saver.discarded.connect(self._offer_to_bring_back)
@@ -199,7 +207,7 @@ class Offers(QObject):
 
         def search() -> None:
             self._session.edit(self.tr("Number of corners"), lambda p: set_grid_size(p, grid_size))
-            self._files.search()
+            self._calibrator.calibrate()
 
         self._offer(
             self.tr(
@@ -214,7 +222,7 @@ class Offers(QObject):
 
         def search() -> None:
             self._session.edit(self.tr("Pattern"), lambda p: set_pattern(p, pattern))
-            self._files.search()
+            self._calibrator.calibrate()
 
         self._offer(texts.recognised, texts.search, search)
 

@@ -106,6 +106,9 @@ def test_marks_on_a_board_that_was_found_as_a_plain_one_are_told(
     qtbot.waitUntil(lambda: not window.session.jobs.running, timeout=60_000)
     corners = [v.corners for v in window.session.project.views]
     assert all(c is not None and c.pattern.identifies_points for c in corners)
+    result = window.session.result
+    assert result is not None and result.board is not None
+    assert isinstance(result.board.pattern, Charuco), "it is calibrated anew as well"
     assert not window.banner.isVisible()
 
 
