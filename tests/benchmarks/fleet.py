@@ -49,7 +49,7 @@ from tests.scenes.fleet import make_camera, write_camera
 
 T = TypeVar("T")
 R = TypeVar("R")
-BOARD = BoardSought(30.0, (6, 7))
+BOARD = BoardSought(30.0, (6, 7), pattern=None)
 SIZE = (640, 480)
 VIEWS = 12
 RERUN_CAMERAS = 1000

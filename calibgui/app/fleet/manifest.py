@@ -207,8 +207,7 @@ def read_board_words(text: str, board: BoardSought) -> BoardSought:
                     f"a board of {word} is too small.",
                     f"Boards have at least {MIN_LINES}x{MIN_LINES} inner corners.",
                 )
-            pattern = CHECKERBOARD if board.pattern is None else board.pattern
-            board = replace(board, grid_size=size, pattern=pattern)
+            board = replace(board, grid_size=size)
         elif match := re.fullmatch(r"(\d*\.?\d+)mm", word):
             if not float(match[1]) > 0:
                 raise CalibrationError(f"{word} is not the side of a square.", "Write it as 30mm.")

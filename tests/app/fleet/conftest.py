@@ -18,7 +18,7 @@ from tests.scenes.fleet import write_fleet
 
 T = TypeVar("T")
 R = TypeVar("R")
-BOARD = BoardSought(30.0, (6, 7))
+BOARD = BoardSought(30.0, (6, 7), pattern=None)
 
 
 class Here:
