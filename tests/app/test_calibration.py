@@ -14,7 +14,7 @@ from calibgui.app.settings import DEFAULT_MODEL, Settings, check_settings, get_o
 from calibgui.dataset import CornerSet, View, ViewStatus
 from calibgui.engine.arrays import Array
 from calibgui.engine.assessment import lens_choice
-from calibgui.engine.assessment.noise_test import check_residuals
+from calibgui.engine.assessment.residual_checks import check_residuals
 from calibgui.engine.boards.shape import BoardShapeModel
 from calibgui.engine.calibration.calibrate import calibrate
 from calibgui.engine.calibration.methods import DEFAULT_METHOD

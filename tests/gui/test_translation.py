@@ -31,7 +31,7 @@ from pytestqt.qtbot import QtBot
 import calibgui.gui
 from calibgui.app.document import Document
 from calibgui.app.settings import MODEL_CHOICES
-from calibgui.engine.assessment.noise_test import NoiseReport
+from calibgui.engine.assessment.residual_checks import NoiseReport
 from calibgui.engine.boards.board import Board
 from calibgui.engine.calibration.methods import METHODS
 from calibgui.engine.images.reading import Image

@@ -18,7 +18,7 @@ from calibgui.engine.assessment.cross_validation import (
 )
 from calibgui.engine.assessment.finding import find_explanation
 from calibgui.engine.assessment.findings import list_findings
-from calibgui.engine.assessment.noise_test import check_residuals
+from calibgui.engine.assessment.residual_checks import check_residuals
 from calibgui.engine.calibration.calibrate import calibrate
 from calibgui.engine.calibration.observations import Observation
 from calibgui.engine.calibration.result import Calibration

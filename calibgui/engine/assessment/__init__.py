@@ -73,8 +73,8 @@ from calibgui.engine.assessment.method_comparison import (
     compare_methods,
     measure_radial_shift,
 )
-from calibgui.engine.assessment.noise_test import NoiseCheck, NoiseReport, check_residuals
 from calibgui.engine.assessment.outliers import Rejection, Screening, screen_outliers
+from calibgui.engine.assessment.residual_checks import NoiseCheck, NoiseReport, check_residuals
 from calibgui.engine.assessment.residual_statistics import (
     Histogram,
     ResidualSummary,

@@ -9,7 +9,7 @@ without those behind it, and what one explains is taken out before the next is a
    follows is asked of what is left.
 2. **Number of views.** Two or three views show nothing but that they are too few.
 3. **Lens or board**, which all views share: the lens if ``calibration/lens_error.py`` says so, or
-   whichever explains most of what any cause does (``noise_test.py``). What a board or a lens
+   whichever explains most of what any cause does (``residual_checks.py``). What a board or a lens
    explains, causes that differ from view to view explain as well, since they have unknowns of
    their own in each view. A free board, which has many unknowns of its own, takes much of what
    a wrong lens or two kinds of views leave: so it is estimated before it is named, and if one of
@@ -47,8 +47,8 @@ from calibgui.engine.assessment.input_errors import (
     screen_misplaced_corners,
 )
 from calibgui.engine.assessment.mixed_views import Split, find_two_kinds
-from calibgui.engine.assessment.noise_test import NoiseCheck, check_residuals
 from calibgui.engine.assessment.outliers import Screening, select_corners
+from calibgui.engine.assessment.residual_checks import NoiseCheck, check_residuals
 from calibgui.engine.assessment.rival_lens import fit_rival
 from calibgui.engine.assessment.systematic_errors import prepare_fit
 from calibgui.engine.boards.shape import BoardShapeModel
@@ -123,7 +123,7 @@ _CAUSES_OF_CHECKS = {
     "lines": Cause.LINE_JITTER,
     "views": Cause.BLUR,
 }
-"""Causes by the names of the tests of ``noise_test.py``."""
+"""Causes by the names of the tests of ``residual_checks.py``."""
 _MESSAGES = {
     Cause.BOARD_SHAPE: "The board is not as it was drawn.",
     Cause.FOCUS: "The focal length differs between the views.",

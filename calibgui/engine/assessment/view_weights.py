@@ -1,7 +1,7 @@
 """Calibration with every view weighed by the noise that is found in it.
 
 The noise of a view is estimated from the residuals of the last calibration
-(``noise_test.estimate_view_sigma``), relative to the covariances that its corners came with:
+(``residual_checks.estimate_view_sigma``), relative to the covariances that its corners came with:
 iteratively reweighted least squares with one weight a view. A few repetitions suffice.
 """
 
@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 
 from calibgui.engine.arrays import Array, Size
-from calibgui.engine.assessment.noise_test import estimate_view_sigma
+from calibgui.engine.assessment.residual_checks import estimate_view_sigma
 from calibgui.engine.assessment.systematic_errors import prepare_fit
 from calibgui.engine.calibration.calibrate import calibrate
 from calibgui.engine.calibration.observations import Observation

@@ -17,7 +17,7 @@ from calibgui.dataset import Result
 from calibgui.dataset.judging import judge_result
 from calibgui.engine.arrays import Array
 from calibgui.engine.assessment.finding import Cause
-from calibgui.engine.assessment.noise_test import NoiseReport, check_residuals
+from calibgui.engine.assessment.residual_checks import NoiseReport, check_residuals
 from calibgui.engine.assessment.residual_statistics import stack_residuals, summarise_residuals
 from calibgui.engine.calibration.calibrate import calibrate
 from calibgui.gui.jobs.jobs import Jobs
