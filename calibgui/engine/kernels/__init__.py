@@ -62,7 +62,7 @@ def can_compile() -> bool:
     global COMPILED
     if COMPILED:
         try:
-            import numba  # noqa: F401
+            import_module(f"{__name__}.common")  # numba, and what is taken of its inside
         except Exception as error:  # its versions of NumPy, its compiler's library
             COMPILED = False
             warnings.warn(

@@ -20,10 +20,9 @@ from typing import Any, ParamSpec, TypeVar
 
 import numpy as np
 from numba import config, njit
-from numba.core.caching import FunctionCache
-from numba.core.runtime import rtsys
 
 from calibgui.engine.arrays import Array, GreyImage
+from calibgui.engine.kernels.compilation import KernelCache, KernelCompiler
 
 _P = ParamSpec("_P")
 _T = TypeVar("_T")
@@ -34,6 +33,7 @@ _OPTIONS: dict[str, Any] = {
     "fastmath": _FAST_MATHS,
     "error_model": "numpy",
     "no_cfunc_wrapper": True,  # C never calls them by a pointer
+    "pipeline_class": KernelCompiler,
 }
 THREADS = min(os.cpu_count() or 1, 8)
 """Number of threads that kernels share their views among."""
@@ -47,21 +47,6 @@ _MIN_BLOCKS_FOR_THREADS = 4
 """Number of blocks below which starting threads costs more than they save."""
 
 
-class _KernelCache(FunctionCache):  # type: ignore[misc]  # numba is not typed
-    """Numba's place of compiled functions on disk, read without all that compiling takes.
-
-    Numba's own declares to its compiler everything that compiled functions may call before it reads
-    one, which takes longer than to read all kernels of a calibration. Its compiler declares the
-    same again when it is needed; what is read needs the runtime, by which memory is allocated.
-    """
-
-    def load_overload(self, sig: Any, target_context: Any) -> Any:
-        """Load a kernel for a signature; return None if there is none."""
-        rtsys.initialize(target_context)
-        with self._guard_against_spurious_io_errors():
-            return self._load_overload(sig, target_context)
-
-
 def compiled(function: Callable[_P, _T]) -> Callable[_P, _T]:
     """Compile a function, and keep the result for the next start if there is a place to keep it."""
     compiled_function: Any = njit(nogil=True, **_OPTIONS)(function)
@@ -69,7 +54,7 @@ def compiled(function: Callable[_P, _T]) -> Callable[_P, _T]:
     try:
         # Neither the package's folder nor the user's cache may be one that can be written.
         with contextlib.suppress(RuntimeError):
-            compiled_function._cache = _KernelCache(function)
+            compiled_function._cache = KernelCache(function)
     finally:
         config.CACHE_DIR = usual
     kernel: Callable[_P, _T] = compiled_function

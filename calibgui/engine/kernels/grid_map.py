@@ -111,10 +111,8 @@ def _invert_lens(e: Array, w: Array, bend: Array, steps: int, out: Array) -> Non
         out[i, 0], out[i, 1] = scale * e[i, 0], scale * e[i, 1]
 
 
-@compiled
-def _locate_cells(
-    H: Array, centre: Array, bend: Array, cells: Array, steps: int, out: Array
-) -> None:
+@compiled_part
+def _locate(H: Array, centre: Array, bend: Array, cells: Array, steps: int, out: Array) -> None:
     """Fill out (n, 2)."""
     is_bent = bend[0] != 0 or bend[1] != 0 or bend[2] != 0
     for i in range(len(cells)):
@@ -124,6 +122,14 @@ def _locate_cells(
         e1 = (H[1, 0] * x + H[1, 1] * y + H[1, 2]) / w
         scale = _stretch(np.sqrt(e0 * e0 + e1 * e1), w, bend, steps) if is_bent else 1.0
         out[i, 0], out[i, 1] = centre[0] + scale * e0, centre[1] + scale * e1
+
+
+@compiled
+def _locate_cells(
+    H: Array, centre: Array, bend: Array, cells: Array, steps: int, out: Array
+) -> None:
+    """Fill out (n, 2)."""
+    _locate(H, centre, bend, cells, steps, out)
 
 
 @compiled
@@ -317,7 +323,7 @@ def _fit_map(
     scale, unit = _normalise(cells, x, mean), _normalise(uv, u, origin)
     M = np.empty((3, 3))
     _solve_homography(x, u, M)
-    _locate_cells(M, centre, lens, x, inversion_steps, places)  # which no lens needs
+    _locate(M, centre, lens, x, inversion_steps, places)  # which no lens needs
     misfit = _measure_misfit(places, u)
     is_bent = n >= min_points and misfit >= min_misfit
     misfit *= unit
@@ -334,7 +340,7 @@ def _fit_map(
         for i in range(3):
             for j in range(3):
                 inverse[i, j] *= side
-        _locate_cells(inverse, middle, lens, x, inversion_steps, places)
+        _locate(inverse, middle, lens, x, inversion_steps, places)
         # Not finite is not better.
         is_bent = unit * _measure_misfit(places, u) < max_ratio * misfit
         if is_bent:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import ast
+import gc
 import os
 import shutil
 import subprocess
@@ -67,6 +69,70 @@ def test_a_change_to_what_a_kernel_calls_in_another_file_is_noticed(tmp_path: Pa
             check=True,
         )
         assert done.stdout.strip() == answer
+
+
+def test_no_kernel_calls_another() -> None:
+    """What is kept of a kernel is machine code, which others cannot be compiled with."""
+    functions = [
+        function
+        for file in sorted(Path(kernels.__file__).parent.glob("*.py"))
+        for function in ast.parse(file.read_text(encoding="utf-8")).body
+        if isinstance(function, ast.FunctionDef)
+    ]
+    marks = {
+        function.name: {ast.unparse(mark) for mark in function.decorator_list}
+        for function in functions
+    }
+    calls = {
+        (function.name, call.func.id)
+        for function in functions
+        if marks[function.name] & {"compiled", "compiled_part"}
+        for call in ast.walk(function)
+        if isinstance(call, ast.Call) and isinstance(call.func, ast.Name)
+    }
+    assert len(calls) > 50
+    assert not [pair for pair in calls if "compiled" in marks.get(pair[1], ())]
+
+
+def test_parts_become_machine_code_in_kernels_only_and_of_these_nothing_else_is_kept() -> None:
+    from llvmlite.binding import parse_bitcode
+
+    from calibgui.engine.kernels.compilation import KernelCompiler
+
+    compiler = {"pipeline_class": KernelCompiler}
+    part = numba.njit(lambda x: x + 1, no_cpython_wrapper=True, **compiler)
+    outer = numba.njit(lambda x: part(x) + part(2 * x), no_cpython_wrapper=True, **compiler)
+    kernel = numba.njit(lambda x: outer(x) + part(x), **compiler)
+    assert kernel(1.0) == 7
+    (made,), *parts = (each.overloads.values() for each in (kernel, part, outer))
+    engine = made.library.codegen._engine
+    assert engine.is_symbol_defined(made.fndesc.mangled_name)
+    for (each,) in parts:
+        assert not engine.is_symbol_defined(each.fndesc.mangled_name)
+    _, _, (machine_code, code) = made.library.serialize_using_object_code()
+    assert machine_code
+    assert not list(parse_bitcode(code).functions)
+
+
+def test_no_garbage_is_looked_for_while_a_kernel_is_compiled(
+    monkeypatch: pytest.MonkeyPatch,
+) -> None:
+    from numba.core.compiler import Compiler
+
+    from calibgui.engine.kernels.compilation import KernelCompiler
+
+    looked: list[bool] = []
+    usual = Compiler.compile_extra
+
+    def watch(self: Compiler, function: object) -> object:
+        looked.append(gc.isenabled())
+        return usual(self, function)
+
+    monkeypatch.setattr(Compiler, "compile_extra", watch)
+    assert gc.isenabled()
+    assert numba.njit(lambda x: x + 1, pipeline_class=KernelCompiler)(1) == 2
+    assert looked == [False]
+    assert gc.isenabled()
 
 
 def test_a_kept_kernel_is_loaded_without_what_compiling_takes(tmp_path: Path) -> None:

@@ -48,7 +48,7 @@ def test_kernels_compile_where_nothing_can_be_kept(monkeypatch: pytest.MonkeyPat
     def find_no_place(_: object) -> None:
         raise RuntimeError("cannot cache function: no locator available")
 
-    monkeypatch.setattr(common, "_KernelCache", find_no_place)
+    monkeypatch.setattr(common, "KernelCache", find_no_place)
 
     def doubled(x):  # type: ignore[no-untyped-def]
         return 2 * x
