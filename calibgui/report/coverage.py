@@ -54,7 +54,9 @@ def measure_attitudes(calibration: Calibration, observations: Sequence[Observati
     """Measure the board's tilt, its direction and distance in each calibrated view."""
     R = rotation_from_vector(np.array([pose.rvec for pose in calibration.poses]))
     T = np.array([pose.tvec for pose in calibration.poses])
-    middle = np.array([(view.xy.min(axis=0) + view.xy.max(axis=0)) / 2 for view in observations])
+    xy = np.concatenate([view.xy for view in observations])
+    begins = np.cumsum([0, *(len(view.xy) for view in observations[:-1])])
+    middle = (np.minimum.reduceat(xy, begins) + np.maximum.reduceat(xy, begins)) / 2
     normal = R[:, :, 2]
     position = np.einsum("kij,kj->ki", R[:, :, :2], middle) + T
     away = normal * np.sign(np.einsum("ki,ki->k", normal, position))[:, None]

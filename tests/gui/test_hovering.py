@@ -116,9 +116,9 @@ def test_a_view_pointed_at_stands_out_in_plots(shown: MainWindow, qtbot: QtBot) 
     analysis = shown.need_analysis()
     residuals, coverage = analysis.panel(ResidualsPanel), analysis.panel(CoveragePanel)
     first, fourth = (result.calibration.residuals[k].image for k in (0, 3))
-    for panel, item in ((residuals, residuals.scatter._view), (coverage, coverage._rings[1])):
+    for panel, item in ((residuals, residuals.scatter._view), (coverage, coverage.distances._ring)):
         analysis.show_panel(type(panel))
-        places = (first, fourth) if panel is residuals else coverage._at[1][[[0], [3]]]
+        places = (first, fourth) if panel is residuals else coverage.distances.points[[[0], [3]]]
         for at, points in ((places[1], True), (places[0], False)):
             if points:
                 point_at(shown, 4, qtbot)

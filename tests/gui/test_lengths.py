@@ -60,9 +60,8 @@ def list_texts(widget: QWidget) -> Iterator[str]:
         for column in range(model.columnCount()):
             yield str(model.headerData(column, Qt.Orientation.Horizontal))
     for plot in widget.findChildren(Plot):
-        item = plot.getPlotItem()
-        yield from (item.getAxis(name).labelText for name in ("left", "bottom"))
-        yield item.titleLabel.text
+        yield from (axis.labelText for axis in plot.area.axes.values())
+        yield plot.area.title.text
         if plot.colour_bar is not None:
             yield plot.colour_bar._quantity
 
@@ -104,7 +103,7 @@ def test_a_corner_of_the_board_is_read_with_the_condition(
     window.session.begin(Document(bowed))
     panel = show(window, BoardShapePanel, qtbot)
     assert isinstance(panel, BoardShapePanel)
-    box = panel.plot.getPlotItem().getViewBox()
+    box = panel.plot.box
     panel._hover(box.mapViewToScene(box.viewRect().center()))
     assert panel.under_cursor.text().endswith(f"mm {CONDITION}")
 

@@ -117,7 +117,7 @@ def texts(root: QWidget) -> Iterator[str]:
                         yield str(model.headerData(column, Qt.Orientation.Horizontal, role) or "")
             case Plot():
                 for side in ("left", "bottom"):
-                    yield widget.getPlotItem().getAxis(side).labelText
+                    yield widget.area.axes[side].labelText
     for action in root.findChildren(QAction):
         yield action.text()
         yield action.statusTip()

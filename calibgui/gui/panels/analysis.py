@@ -70,6 +70,10 @@ PANELS: tuple[type[Panel], ...] = tuple(kind for kinds in GROUPS.values() for ki
 PANEL_WIDTH = 380
 """Least width of a panel, px."""
 
+_TURN = 1
+"""Time after which the event loop has begun another turn, ms; what waits for none is done in this
+one."""
+
 P = TypeVar("P", bound=Panel)
 
 
@@ -154,7 +158,7 @@ class Analysis(QWidget):
         if self.stack.currentWidget() is not area:
             area.setUpdatesEnabled(False)
             self.stack.setCurrentWidget(area)
-            QTimer.singleShot(0, area, lambda: area.setUpdatesEnabled(True))
+            QTimer.singleShot(_TURN, area, lambda: area.setUpdatesEnabled(True))
 
     def build_next(self) -> bool:
         """Build the first panel that is not there yet; return False if all are."""

@@ -49,8 +49,7 @@ class BoardShapePanel(Panel):
         )
         self.save.clicked.connect(self._ask_and_save)
         self.plot = Plot(self.tr("X on the board"), self.tr("Y on the board"), square=True)
-        item = self.plot.getPlotItem()
-        item.getViewBox().invertY(True)
+        self.plot.box.invertY(True)
         self.dots = pg.ScatterPlotItem(size=9, pen=pg.mkPen("#808080"))
         self.colours = pg.colormap.get(_COLOURS)
         self.bar = ColourBar(self.plot, "", self.colours)
@@ -155,7 +154,7 @@ class BoardShapePanel(Panel):
 
     def _corner_at(self, position: QPointF) -> int:
         """The corner at a place of the scene; -1 for none."""
-        place = self.plot.getPlotItem().getViewBox().mapSceneToView(position)
+        place = self.plot.box.mapSceneToView(position)
         away: Array = np.linalg.norm(self.board_shape.nominal - [place.x(), place.y()], axis=1)
         k = int(away.argmin())
         return k if away[k] < self._pitch / 2 else -1

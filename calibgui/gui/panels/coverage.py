@@ -2,13 +2,11 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
-
 import numpy as np
 import pyqtgraph as pg
 import scipy
 from PySide6.QtCore import QT_TRANSLATE_NOOP, Qt
-from PySide6.QtGui import QBrush, QColor
+from PySide6.QtGui import QColor
 from PySide6.QtWidgets import QVBoxLayout
 
 from calibgui.dataset import Result
@@ -18,9 +16,8 @@ from calibgui.gui.panels.latest import Latest
 from calibgui.gui.panels.panel import Panel
 from calibgui.gui.panels.services import Services
 from calibgui.gui.panels.split import Split
-from calibgui.gui.widgets import theme
+from calibgui.gui.panels.view_scatter import ViewScatter
 from calibgui.gui.widgets.lengths import name_unit
-from calibgui.gui.widgets.plots import Plot
 from calibgui.gui.widgets.wrapped_label import WrappedLabel
 from calibgui.report.coverage import count_corners_per_cell, measure_attitudes
 
@@ -53,7 +50,7 @@ class CoveragePanel(Panel):
         self.next_corners = pg.ScatterPlotItem(size=3, pen=None, brush="#ff3b30")
         self.density.addItem(self.next_corners)
         self.advice = WrappedLabel()
-        self.tilts = Plot(
+        self.tilts = ViewScatter(
             self.tr("tilt to the right"), self.tr("tilt upwards"), "°", "°", square=True
         )
         self.tilts.setToolTip(
@@ -63,17 +60,11 @@ class CoveragePanel(Panel):
             )
         )
         self._add_rings()
-        self.distances = Plot(self.tr("view"), self.tr("distance"))
+        self.distances = ViewScatter(self.tr("view"), self.tr("distance"))
         self.distances.setToolTip(self.tr("From the camera to the middle of the corners seen."))
         self._planned: Result | None = None
-        self._points = [pg.ScatterPlotItem(size=10, pen=None) for _ in range(2)]
-        self._rings = [pg.ScatterPlotItem(size=17, brush=None) for _ in range(2)]
-        for plot, points, ring in zip(
-            (self.tilts, self.distances), self._points, self._rings, strict=True
-        ):
-            plot.addItem(points)
-            plot.addItem(ring)
-            points.sigClicked.connect(lambda _, spots: self._pick(spots[0].data()))
+        for plot in (self.tilts, self.distances):
+            plot.picked.connect(self._pick)
         layout = QVBoxLayout(self.body)
         sensor = Split(900, (self.density, 3), (self.distances, 2))
         layout.addWidget(self.advice)
@@ -89,23 +80,19 @@ class CoveragePanel(Panel):
         self.density.fit(size)
         attitude = measure_attitudes(result.calibration, observations)
         tilt = np.rad2deg(attitude.tilt)
-        self._at = (
+        self.tilts.show_views(
             np.stack(
                 [tilt * np.cos(attitude.direction), tilt * np.sin(attitude.direction)], axis=1
             ),
-            np.stack([np.arange(1, len(tilt) + 1), attitude.distance], axis=1),
+            self._indices,
         )
-        views = np.arange(len(tilt))
-        brushes = _make_brushes(self._indices)
-        for points, at in zip(self._points, self._at, strict=True):
-            points.setData(*at.T, data=views, brush=brushes)
+        self.distances.show_views(
+            np.stack([np.arange(1, len(tilt) + 1), attitude.distance], axis=1), self._indices
+        )
         self.distances.set_labels(self.tr("view"), self.tr("distance"), y_unit=name_unit(result))
-        self.distances.getPlotItem().getViewBox().setYRange(0, 1.1 * attitude.distance.max())
-        reach = max(48.0, 1.05 * float(np.abs(self._at[0]).max()))
-        self.tilts.getPlotItem().getViewBox().setRange(
-            xRange=(-reach, reach), yRange=(-reach, reach)
-        )
-
+        self.distances.box.setYRange(0, 1.1 * attitude.distance.max())
+        reach = max(48.0, 1.05 * float(np.abs(self.tilts.points).max()))
+        self.tilts.box.setRange(xRange=(-reach, reach), yRange=(-reach, reach))
         self._look_for_next(result)
 
     def _look_for_next(self, result: Result) -> None:
@@ -150,9 +137,8 @@ class CoveragePanel(Panel):
         self._ring_view(k if k >= 0 else self._selected[0])
 
     def _ring_view(self, k: int) -> None:
-        for ring, at in zip(self._rings, self._at, strict=True):
-            ring.setData(*at[k : k + 1].T if k >= 0 else ([], []))
-            ring.setPen(pg.mkPen(theme.current().text, width=2))
+        self.tilts.ring_view(k)
+        self.distances.ring_view(k)
 
     def _add_rings(self) -> None:
         turn = np.append(np.linspace(0, 2 * np.pi, 73), np.nan)  # NaN parts one from the next
@@ -167,10 +153,3 @@ class CoveragePanel(Panel):
             label = pg.TextItem(f"{degrees}°", color=grey, anchor=(0.5, 0.5))
             label.setPos(degrees * np.sqrt(0.5), degrees * np.sqrt(0.5))
             self.tilts.addItem(label)
-
-
-def _make_brushes(views: Iterable[int]) -> list[QBrush]:
-    """Return the brush of each view: pyqtgraph draws one symbol for each object, not colour."""
-    brushes: dict[int, QBrush] = {}
-    colours = (theme.view_colour(view) for view in views)
-    return [brushes.setdefault(colour.rgba(), QBrush(colour)) for colour in colours]

@@ -35,9 +35,8 @@ class HeatMap(Plot):
 
     def __init__(self, quantity: str, colours: str = "viridis") -> None:
         super().__init__("u", "v", "px", "px", square=True)
-        item = self.getPlotItem()
-        item.getViewBox().invertY(True)
-        item.showGrid(x=False, y=False)
+        self.box.invertY(True)
+        self.area.show_grid(False)
         self.image = pg.ImageItem(axisOrder="row-major")
         self.addItem(self.image)
         self.bar = ColourBar(self, quantity, pg.colormap.get(colours), self.image)
@@ -61,5 +60,5 @@ class HeatMap(Plot):
         """(2,) the pixel at a place of the scene; None beside the image."""
         if position is None:
             return None
-        place = self.getPlotItem().getViewBox().mapSceneToView(position)
+        place = self.box.mapSceneToView(position)
         return np.array([place.x(), place.y()]) if image_rectangle(size).contains(place) else None

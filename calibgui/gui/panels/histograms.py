@@ -67,7 +67,7 @@ class HistogramPlot(Plot):
     def show_all(self) -> None:
         """Take back what was zoomed and moved."""
         x, y = self._extent
-        self.getPlotItem().getViewBox().setRange(xRange=x, yRange=y, padding=_PADDING)
+        self.box.setRange(xRange=x, yRange=y, padding=_PADDING)
 
 
 def _measure_extent(*histograms: Histogram) -> tuple[float, float]:

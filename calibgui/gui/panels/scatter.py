@@ -13,9 +13,6 @@ from calibgui.gui.widgets import theme
 from calibgui.gui.widgets.plots import Plot
 from calibgui.gui.widgets.point_cloud import PointCloud
 
-_REACH = 8.0
-"""Distance from a point within which a click means it, px of the screen."""
-
 
 class ResidualScatter(Plot):
     """The residuals of all views about the origin."""
@@ -51,7 +48,7 @@ class ResidualScatter(Plot):
         self._cloud.show_points(points, styles)
         self.set_labels(x, y, unit, unit)
         self.select(-1)
-        self.getPlotItem().autoRange()
+        self.box.autoRange()
 
     def select(self, view: int, corner: int = -1) -> None:
         """Bring a view's points to the front and ring one of them; -1 for none."""
@@ -63,15 +60,7 @@ class ResidualScatter(Plot):
         self._ring.setData(*chosen.T, pen=pg.mkPen(text, width=2))
 
     def _clicked(self, event: pg.GraphicsScene.mouseEvents.MouseClickEvent) -> None:
-        if event.button() is not Qt.MouseButton.LeftButton or not self._points:
-            return
-        box = self.getPlotItem().getViewBox()
-        place = box.mapSceneToView(event.scenePos())
-        pixel = np.array(box.viewPixelSize())
-        everything = np.concatenate(self._points)
-        distance = np.linalg.norm((everything - [place.x(), place.y()]) / pixel, axis=1)
-        nearest = int(np.nanargmin(distance))
-        if distance[nearest] < _REACH:
-            ends = np.cumsum([len(points) for points in self._points])
-            k = int(np.searchsorted(ends, nearest, side="right"))
-            self.picked.emit(k, nearest - int(ends[k] - len(self._points[k])))
+        if event.button() is Qt.MouseButton.LeftButton:
+            found = self._cloud.find_point(event.scenePos())
+            if found is not None:
+                self.picked.emit(*found)

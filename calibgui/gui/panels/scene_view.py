@@ -83,6 +83,8 @@ class SceneView(QWidget):
         self.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
         self.setMouseTracking(True)
         self.setMinimumSize(160, 120)
+        # It fills all of itself: unless Qt knows, it is painted once more with what is behind it.
+        self.setAttribute(Qt.WidgetAttribute.WA_OpaquePaintEvent)
         self.observer = Observer()
         self.axis_numbers: list[AxisNumber] = []
         """Numbers beside the axes, as they were painted last."""
@@ -144,7 +146,7 @@ class SceneView(QWidget):
     def to_widget(self, points: Array) -> list[QPointF]:
         """Points (n, 2) of the drawing plane in the widget."""
         scale, middle = self._place_scene()
-        return [QPointF(*p) for p in points * scale + middle]
+        return [QPointF(x, y) for x, y in (points * scale + middle).tolist()]
 
     def view_under(self, position: QPointF) -> int:
         """The view at a place of the widget; -1 if none."""

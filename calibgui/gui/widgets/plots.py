@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from pathlib import Path
+from typing import Any, cast
 
 import numpy as np
 import pyqtgraph as pg
@@ -22,38 +23,35 @@ from PySide6.QtGui import (
     QPainter,
 )
 from PySide6.QtSvg import QSvgGenerator
-from PySide6.QtWidgets import QMenu, QWidget
+from PySide6.QtWidgets import QMenu, QSizePolicy, QWidget
 
+from calibgui.engine.arrays import Array
 from calibgui.gui.widgets import theme
 from calibgui.gui.widgets.actions import COPY_PICTURE
 from calibgui.gui.widgets.glossary import explain
+from calibgui.gui.widgets.plot_area import Axis, PlotArea
 from calibgui.gui.widgets.save_names import ask_for_name
 
 pg.setConfigOptions(antialias=True)
 
-_MANY_DECADES = 4
-"""Number of powers of ten beyond which there is room for these only; and their distance from 1, up
-to which they are written as plain numbers."""
-_SUPERSCRIPTS = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 _LEAST_HEIGHT = 160
 """Height below which the numbers of an axis run into each other, px."""
 _BAR_WIDTH = 14.0
 """Width of a bar of colours, px."""
-_BAR_ROW, _BAR_COLUMN = 2, 5
-"""Place of a bar of colours in a plot's grid: beside what is plotted."""
 _STOPS = 33
 """Colours that a bar is blended from: with them it cannot be told from the map itself."""
 _RIM = 8.0
 """Above axes that end with what they enclose: half a line for their topmost number, px."""
 
 
-class Plot(pg.PlotWidget):  # type: ignore[misc]  # pyqtgraph is not typed
+class Plot(pg.GraphicsView):  # type: ignore[misc]  # pyqtgraph is not typed
     """A plot whose axes say what they show.
 
     Args:
         x, y: what the axes show.
         x_unit, y_unit: their units; empty for a count or a ratio.
         square: whether a unit is as long on either axis.
+        logarithmic: whether the left axis shows powers of ten at equal distances.
     """
 
     def __init__(
@@ -64,21 +62,21 @@ class Plot(pg.PlotWidget):  # type: ignore[misc]  # pyqtgraph is not typed
         y_unit: str = "",
         *,
         square: bool = False,
+        logarithmic: bool = False,
         parent: QWidget | None = None,
     ) -> None:
-        axes = {name: _Axis(name) for name in ("left", "bottom", "right", "top")}
-        super().__init__(parent, enableMenu=False, axisItems=axes)  # it has a menu of its own
+        super().__init__(parent)
+        self.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Expanding)
+        self.area = PlotArea()
+        self.setCentralItem(self.area)
         self._labels = _labels(x, y, x_unit, y_unit)
         self.colour_bar: ColourBar | None = None
         """What the colours mean, if they mean anything."""
-        self._area: QRectF | None = None
-        item = self.getPlotItem()
-        item.getViewBox().sigResized.connect(self._make_room)
-        for name in ("right", "top"):
-            item.hideAxis(name)
-        item.hideButtons()
-        item.showGrid(x=True, y=True, alpha=0.15)
-        item.getViewBox().setAspectLocked(square)
+        self._enclosed: QRectF | None = None
+        self.box.sigResized.connect(self._make_room)
+        self.box.setAspectLocked(square)
+        self._is_logarithmic = logarithmic
+        self.area.left.setLogMode(logarithmic)
         self._menu = QMenu(self)
         for text, shortcut, does in (
             (self.tr("Show all"), None, self.show_all),
@@ -96,38 +94,62 @@ class Plot(pg.PlotWidget):  # type: ignore[misc]  # pyqtgraph is not typed
             self._menu.addAction(action)
         self._restyle()
 
+    @property
+    def box(self) -> pg.ViewBox:
+        """The view of what is plotted."""
+        return self.area.box
+
+    def plot(self, *values: Sequence[float] | Array, **style: Any) -> pg.PlotDataItem:
+        """Plot values as pyqtgraph's ``PlotDataItem`` does, and return the item."""
+        item = pg.PlotDataItem(*values, **style)
+        item.setLogMode(False, self._is_logarithmic)
+        self.addItem(item)
+        return item
+
+    def addItem(self, item: pg.GraphicsObject) -> None:  # noqa: N802 - pyqtgraph's name
+        """Plot an item of pyqtgraph's."""
+        self.box.addItem(item)
+
+    def removeItem(self, item: pg.GraphicsObject) -> None:  # noqa: N802 - pyqtgraph's name
+        """Take an item out of the plot."""
+        self.box.removeItem(item)
+
+    def clear(self) -> None:
+        """Take all items out of the plot."""
+        self.box.clear()
+
     def minimumSizeHint(self) -> QSize:  # noqa: N802 - Qt's name
         """Leave room for the text along the left axis, which would be cut off."""
-        item = self.getPlotItem()
-        text = math.ceil(item.getAxis("left").label.boundingRect().width())
-        needed = text + math.ceil(item.getAxis("bottom").minimumHeight())
+        text = math.ceil(self.area.left.label.boundingRect().width())
+        needed = text + math.ceil(self.area.bottom.minimumHeight())
         return QSize(super().minimumSizeHint().width(), max(_LEAST_HEIGHT, needed))
 
     def set_labels(self, x: str, y: str, x_unit: str = "", y_unit: str = "") -> None:
         """Say anew what the axes show."""
-        self._labels = _labels(x, y, x_unit, y_unit)
-        self._restyle()
+        labels = _labels(x, y, x_unit, y_unit)
+        if labels != self._labels:
+            self._labels = labels
+            self._restyle()
 
     def write_numbers(self, write: Callable[[float], str] | None) -> None:
         """Write the numbers below the plot by a function, as dates; by None as numbers."""
-        axis = self.getPlotItem().getAxis("bottom")
+        axis = self.area.bottom
         axis.write_number = write
         axis.picture = None  # which holds the texts as they were
         axis.update()
 
     def enclose(self, area: QRectF) -> None:
         """Show all of `area` of a square plot, with axes that end where it ends."""
-        self._area = area
+        self._enclosed = area
         self._make_room()
-        self.getPlotItem().getViewBox().setRange(area, padding=0)
+        self.box.setRange(area, padding=0)
 
     def show_all(self) -> None:
         """Take back what was zoomed and moved; a double click does so too."""
-        box = self.getPlotItem().getViewBox()
-        if self._area is None:
-            box.autoRange()
+        if self._enclosed is None:
+            self.box.autoRange()
         else:
-            box.setRange(self._area, padding=0)
+            self.box.setRange(self._enclosed, padding=0)
 
     def mouseDoubleClickEvent(self, event: QMouseEvent) -> None:  # noqa: N802 - Qt's name
         super().mouseDoubleClickEvent(event)
@@ -137,21 +159,21 @@ class Plot(pg.PlotWidget):  # type: ignore[misc]  # pyqtgraph is not typed
 
     def _make_room(self) -> None:
         """Leave the room that the enclosed area cannot fill outside the axes."""
-        if self._area is None:
+        if self._enclosed is None:
             return
-        item = self.getPlotItem()
-        box, layout = item.getViewBox(), item.layout
-        left, top, right, bottom = layout.getContentsMargins()
+        box, grid = self.box, self.area.grid
+        margins = cast(tuple[float, float, float, float], grid.getContentsMargins())
+        left, top, right, bottom = margins
         width, height = box.width() + left + right, box.height() + top + bottom - _RIM
-        scale = min(width / self._area.width(), height / self._area.height())
-        across = max(width - scale * self._area.width(), 0.0) / 2
-        below = max(height - scale * self._area.height(), 0.0)
+        scale = min(width / self._enclosed.width(), height / self._enclosed.height())
+        across = max(width - scale * self._enclosed.width(), 0.0) / 2
+        below = max(height - scale * self._enclosed.height(), 0.0)
         if abs(across - left) > 1 or abs(below - bottom) > 1:
-            layout.setContentsMargins(across, _RIM, across, below)
+            grid.setContentsMargins(across, _RIM, across, below)
 
     def set_title(self, text: str) -> None:
         """Say above the plot what it shows at present."""
-        self.getPlotItem().setTitle(text, color=theme.current().text, size="10pt")
+        self.area.set_title(text, theme.current().text)
 
     def save(self, path: str | Path) -> None:
         """Write the plot as PNG or SVG, by the name's ending."""
@@ -178,7 +200,7 @@ class Plot(pg.PlotWidget):  # type: ignore[misc]  # pyqtgraph is not typed
         colours = theme.current()
         self.setBackground(colours.base)
         for name, text in self._labels.items():
-            axis = self.getPlotItem().getAxis(name)
+            axis = self.area.axes[name]
             axis.setPen(colours.line)
             axis.setTextPen(colours.text)
             axis.setLabel(text, color=colours.text)
@@ -186,42 +208,6 @@ class Plot(pg.PlotWidget):  # type: ignore[misc]  # pyqtgraph is not typed
         self.updateGeometry()
         if self.colour_bar is not None:
             self.colour_bar.restyle()
-
-
-class _Axis(pg.AxisItem):  # type: ignore[misc]  # pyqtgraph is not typed
-    """An axis that, if it is logarithmic, has numbers at powers of ten, and few between them."""
-
-    write_number: Callable[[float], str] | None = None
-    """A function that writes the numbers, as dates for example; None for plain numbers."""
-
-    def updateAutoSIPrefix(self) -> None:  # noqa: N802 - pyqtgraph's name
-        """Choose no prefix of a unit, for which the label is written anew at every change."""
-
-    def tickStrings(self, values: list[float], scale: float, spacing: float) -> list[str]:  # noqa: N802 - pyqtgraph's name
-        if self.write_number is None:
-            return list(super().tickStrings(values, scale, spacing))
-        return [self.write_number(value) for value in values]
-
-    def logTickStrings(  # noqa: N802 - pyqtgraph's name
-        self,
-        values: list[float],
-        scale: float,
-        spacing: float,  # noqa: ARG002
-    ) -> list[str]:
-        low, high = sorted(self.range)
-        shown = (1,) if high - low > _MANY_DECADES else (1, 2, 5)
-        is_plain = low >= -_MANY_DECADES and high <= _MANY_DECADES
-        texts = []
-        for value in values:
-            leading, power = f"{10.0**value * scale:.0e}".split("e")
-            if int(leading) not in shown:
-                texts.append("")
-            elif is_plain:
-                texts.append(f"{float(f'{leading}e{power}'):g}")
-            else:
-                factor = "" if leading == "1" else f"{leading}·"
-                texts.append(f"{factor}10{str(int(power)).translate(_SUPERSCRIPTS)}")
-        return texts
 
 
 class ColourBar(pg.GraphicsWidget):  # type: ignore[misc]  # pyqtgraph is not typed
@@ -251,13 +237,12 @@ class ColourBar(pg.GraphicsWidget):  # type: ignore[misc]  # pyqtgraph is not ty
             self._gradient.setColorAt(position, colours.mapToQColor(position))
         if image is not None:
             image.setColorMap(colours)
-        self.axis = _Axis("right")
-        layout = plot.getPlotItem().layout
-        # The right axis of the plot, which is not shown, has the columns before these.
-        layout.setColumnFixedWidth(_BAR_COLUMN - 1, _BAR_WIDTH / 2)
-        layout.setColumnFixedWidth(_BAR_COLUMN, _BAR_WIDTH)
-        layout.addItem(self, _BAR_ROW, _BAR_COLUMN)
-        layout.addItem(self.axis, _BAR_ROW, _BAR_COLUMN + 1)
+        self.axis = Axis("right")
+        grid = plot.area.grid
+        grid.setColumnFixedWidth(PlotArea.AFTER, _BAR_WIDTH / 2)
+        grid.setColumnFixedWidth(PlotArea.AFTER + 1, _BAR_WIDTH)
+        grid.addItem(self, PlotArea.VIEW_ROW, PlotArea.AFTER + 1)
+        grid.addItem(self.axis, PlotArea.VIEW_ROW, PlotArea.AFTER + 2)
         plot.colour_bar = self
         self.restyle()
 

@@ -12,6 +12,7 @@ from typing import Any
 
 import numpy as np
 from PySide6.QtCore import (
+    QAbstractItemModel,
     QEvent,
     QItemSelectionModel,
     QModelIndex,
@@ -101,7 +102,8 @@ class _Model(QStandardItemModel):
     """Holds what a table shows of each value, and what it is sorted by.
 
     Qt asks for that dozens of times when it measures and paints a cell, and would wait for the
-    interpreter each time while another thread computes: so all of it is handed over at once.
+    interpreter each time while another thread computes: so all of it is handed over at once. What
+    only sorting by a column needs is handed over when that is asked for.
     """
 
     def __init__(
@@ -109,6 +111,8 @@ class _Model(QStandardItemModel):
     ) -> None:
         super().__init__()
         self.columns, self._marked, self._hovered = tuple(columns), marked or {}, -1
+        self._sortable: set[int] = set()
+        """Columns whose cells have the values that rows are sorted by."""
         for place, column in enumerate(columns):
             self.appendColumn(self._make_cells(column, self._list_tips(place)))
             heading = QStandardItem(_join_heading(column))
@@ -139,13 +143,20 @@ class _Model(QStandardItemModel):
             if kind not in patterns:
                 patterns[kind] = self._make_pattern(row, tip, is_number)
             cell = patterns[kind].clone()
-            cell.setData(column.text(value), Qt.ItemDataRole.DisplayRole)
-            if is_number:
-                # NaN, which has no order, comes last.
-                value = math.inf if math.isnan(value) else float(value)
-            cell.setData(value, _SORT_ROLE)
+            cell.setText(column.text(value))
             cells.append(cell)
         return cells
+
+    def make_sortable(self, place: int) -> None:
+        """Hand over the values of a column by which its rows are sorted."""
+        if place in self._sortable or not 0 <= place < len(self.columns):
+            return
+        self._sortable.add(place)
+        for row, value in enumerate(self.columns[place].values):
+            if isinstance(value, _NUMBER_TYPES):
+                # NaN, which has no order, comes last.
+                value = math.inf if math.isnan(value) else float(value)
+            self.item(row, place).setData(value, _SORT_ROLE)
 
     def _make_pattern(self, row: int, tip: str, is_number: bool) -> QStandardItem:
         """Make a cell as it stands in this row, without a value."""
@@ -199,6 +210,28 @@ _TINT = 60
 """Opacity of the accent behind a row that the cursor is over, of 255."""
 
 
+class _Order(QSortFilterProxyModel):
+    """The rows of a `_Model` as they are sorted."""
+
+    def __init__(self, parent: QWidget) -> None:
+        super().__init__(parent)
+        self.setSortRole(_SORT_ROLE)
+
+    def sort(self, column: int, order: Qt.SortOrder = Qt.SortOrder.AscendingOrder) -> None:
+        """Sort by the values of a column; as they were given if it is negative."""
+        self._prepare(self.sourceModel(), column)
+        super().sort(column, order)
+
+    def setSourceModel(self, model: QAbstractItemModel) -> None:  # noqa: N802 - Qt's name
+        """Take the rows of another model, sorted as those before."""
+        self._prepare(model, self.sortColumn())
+        super().setSourceModel(model)
+
+    def _prepare(self, model: QAbstractItemModel, column: int) -> None:
+        if isinstance(model, _Model):
+            model.make_sortable(column)
+
+
 class _Titles(QHeaderView):
     """Titles of columns; only the one that the rows are sorted by has room for its arrow."""
 
@@ -231,9 +264,8 @@ class Table(QTableView):
     def __init__(self, parent: QWidget | None = None) -> None:
         super().__init__(parent)
         self._model = _Model()
-        self._order = QSortFilterProxyModel(self)
+        self._order = _Order(self)
         self._order.setSourceModel(self._model)
-        self._order.setSortRole(_SORT_ROLE)
         self.setHorizontalHeader(_Titles(self))
         self.setModel(self._order)
         self.setMouseTracking(True)

@@ -72,7 +72,7 @@ def test_each_parameter_is_drawn_with_its_band(dialog: SeriesDialog) -> None:
     for row in range(dialog.parameter.count()):
         dialog.parameter.setCurrentIndex(row)
         k = dialog.parameter.currentData()
-        items = dialog.plot.getPlotItem().items
+        items = dialog.plot.box.addedItems
         (points,) = [i for i in items if isinstance(i, pg.PlotDataItem) and i.opts["symbol"]]
         x, y = points.getData()
         assert np.allclose(x, list(VALUES.values()))
@@ -85,7 +85,7 @@ def test_each_parameter_is_drawn_with_its_band(dialog: SeriesDialog) -> None:
         assert (drawn.left(), drawn.right()) == pytest.approx((10.0, 40.0))
         assert (drawn.top(), drawn.bottom()) == pytest.approx((lower.min(), upper.max()))
         unit = " [px]" if k < 4 else ""
-        assert dialog.plot.getPlotItem().getAxis("left").labelText.endswith(unit)
+        assert dialog.plot.area.left.labelText.endswith(unit)
 
 
 def test_the_camera_at_a_value_is_shown_and_written(
@@ -129,7 +129,7 @@ def test_dates_are_written_below_the_plot_and_fit_into_their_field(
     paths = [folder / f"{name}.json" for name in VALUES]
     dialog.show_results(paths, Scalar.DATE, tmp_path / "dates.csv")
     qtbot.waitUntil(lambda: dialog.analysed is not None, timeout=30_000)
-    axis = dialog.plot.getPlotItem().getAxis("bottom")
+    axis = dialog.plot.area.bottom
     middle = dialog.at.text()
     assert axis.tickStrings([parse_value(middle, Scalar.DATE)], 1.0, 1.0) == [middle[:10]]
     wide = dialog.at.fontMetrics().horizontalAdvance(middle)
@@ -176,7 +176,7 @@ def test_a_result_that_is_not_determined_is_listed_and_left_out(
     assert lines[1][-2:] == ["yes", ""]
     (points,) = [
         item
-        for item in dialog.plot.getPlotItem().items
+        for item in dialog.plot.box.addedItems
         if isinstance(item, pg.PlotDataItem) and item.opts["symbol"]
     ]
     assert points.getData()[0].tolist() == [10.0, 30.0, 40.0]

@@ -128,7 +128,7 @@ def click_row(qtbot: QtBot, table: Table, row: int) -> None:
 
 def place(plot: Plot, x: float, y: float) -> QPoint:
     """The pixel of a plot's viewport at the plot's coordinates."""
-    scene = plot.getPlotItem().getViewBox().mapViewToScene(QPointF(x, y))
+    scene = plot.box.mapViewToScene(QPointF(x, y))
     return plot.mapFromScene(scene)
 
 

@@ -62,7 +62,7 @@ def test_words_and_the_value_under_the_cursor(
     panel = shown(BoardShapePanel, bent)
     assert f"{board_shape.rms:.2g} mm (rms)" in panel.words.text()
     assert f"± {np.median(board_shape.sigma):.2g} mm" in panel.words.text()
-    box = panel.plot.getPlotItem().getViewBox()
+    box = panel.plot.box
     panel._hover(box.mapViewToScene(QPointF(*(board_shape.nominal[40] + [3.0, -4.0]))))
     text = panel.under_cursor.text()
     assert "({:g}, {:g}) mm".format(*board_shape.nominal[40]) in text

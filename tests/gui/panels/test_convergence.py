@@ -18,7 +18,7 @@ def test_plot_holds_the_history(shown: Shown[ConvergencePanel], result: Result) 
     x, y = panel._curve.getOriginalDataset()
     np.testing.assert_array_equal(x, [i.index for i in result.calibration.history])
     np.testing.assert_array_equal(y, [i.cost for i in result.calibration.history])
-    assert panel.plot.getPlotItem().getAxis("left").logMode
+    assert panel.plot.area.left.logMode
 
 
 def test_grows_while_it_runs(shown: Shown[ConvergencePanel], result: Result) -> None:

@@ -14,7 +14,6 @@ from calibgui.engine.uncertainty.next_view import NextView, propose_views
 from calibgui.gui.jobs.jobs import Jobs
 from calibgui.gui.panels import coverage
 from calibgui.gui.panels.coverage import CoveragePanel
-from calibgui.gui.widgets import theme
 from calibgui.report.coverage import measure_attitudes
 from tests.gui.panels.conftest import Shown, click
 
@@ -48,26 +47,17 @@ def test_density_counts_the_corners(panel: CoveragePanel, result: Result) -> Non
 
 def test_tilts_and_distances(panel: CoveragePanel, result: Result) -> None:
     attitude = measure_attitudes(result.calibration, result.observations())
-    x, y = panel._points[0].getData()
+    x, y = panel.tilts._cloud.getData()
     np.testing.assert_allclose(np.hypot(x, y), np.rad2deg(attitude.tilt))
     np.testing.assert_allclose(np.arctan2(y, x), attitude.direction)
-    views, distance = panel._points[1].getData()
+    views, distance = panel.distances._cloud.getData()
     np.testing.assert_array_equal(views, np.arange(1, 10))
     np.testing.assert_array_equal(distance, attitude.distance)
 
 
-def test_views_of_one_colour_share_their_symbol(panel: CoveragePanel) -> None:
-    brushes = coverage._make_brushes(range(300))
-    colours = [theme.view_colour(view) for view in range(300)]
-    assert [brush.color() for brush in brushes] == colours
-    assert len(set(map(id, brushes))) == len({colour.rgba() for colour in colours}) < 100
-    for points in panel._points:
-        assert len(points.fragmentAtlas) == len(points.getData()[0]) == 9, "each is drawn once"
-
-
 def test_points_pick_their_view(panel: CoveragePanel, qtbot: QtBot) -> None:
-    for plot, points in zip((panel.tilts, panel.distances), panel._points, strict=True):
-        x, y = np.transpose(points.getData())[7]
+    for plot in (panel.tilts, panel.distances):
+        x, y = plot.points[7]
         with qtbot.waitSignal(panel.picked) as signal:
             click(qtbot, plot, x, y)
         assert signal.args == [8, -1]
@@ -75,10 +65,10 @@ def test_points_pick_their_view(panel: CoveragePanel, qtbot: QtBot) -> None:
 
 def test_selection_is_ringed(panel: CoveragePanel) -> None:
     panel.select(3)
-    for ring, points in zip(panel._rings, panel._points, strict=True):
-        np.testing.assert_array_equal(np.ravel(ring.getData()), np.transpose(points.getData())[2])
+    for plot in (panel.tilts, panel.distances):
+        np.testing.assert_array_equal(np.ravel(plot._ring.getData()), plot.points[2])
     panel.select(-1)
-    assert len(panel._rings[0].getData()[0]) == 0
+    assert len(panel.tilts._ring.getData()[0]) == 0
 
 
 def test_the_next_view_is_drawn_and_told(
@@ -95,7 +85,7 @@ def test_the_next_view_is_drawn_and_told(
 
 def test_the_map_ends_with_the_image(panel: CoveragePanel, qtbot: QtBot) -> None:
     def ends() -> None:
-        (left, right), (low, high) = panel.density.getPlotItem().getViewBox().viewRange()
+        (left, right), (low, high) = panel.density.box.viewRange()
         np.testing.assert_allclose([left, right, low, high], [-0.5, 639.5, -0.5, 479.5], atol=8)
 
     for size in ((900, 650), (400, 700)):

@@ -115,7 +115,7 @@ def test_value_under_the_cursor(
     at = place(panel.plot, 600, 40)
     qtbot.mouseMove(panel.plot.viewport(), at)
     qtbot.waitUntil(lambda: panel.under_cursor.text().startswith("u "))
-    box = panel.plot.getPlotItem().getViewBox()
+    box = panel.plot.box
     here = box.mapSceneToView(panel.plot.mapToScene(at))
     d = panel.displacement(np.array([here.x(), here.y()])).length
     assert f"d = {float(d):.2f} px" in panel.under_cursor.text()

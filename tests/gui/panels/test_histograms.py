@@ -39,25 +39,23 @@ def test_bars_curves_and_numbers(
         np.testing.assert_array_equal(density, histogram.density)
         x, y = plot.fit.getData()
         np.testing.assert_array_equal(y, histogram.evaluate_density(x))
-        title = plot.getPlotItem().titleLabel.text
+        title = plot.area.title.text
         assert f"SD {histogram.sd:.4f} {unit}<br>" in title
         assert title.endswith(f"= {histogram.scale:.4f} {unit}")
-    assert f"[{unit}]" in panel.plots[2].getPlotItem().getAxis("bottom").labelText
+    assert f"[{unit}]" in panel.plots[2].area.bottom.labelText
 
 
 def test_both_components_are_on_the_same_axes(
     shown: Shown[HistogramsPanel], result: Result
 ) -> None:
     panel = shown(HistogramsPanel, _stretch_along_u(result))
-    along_u, along_v, lengths = (
-        plot.getPlotItem().getViewBox().viewRange() for plot in panel.plots
-    )
+    along_u, along_v, lengths = (plot.box.viewRange() for plot in panel.plots)
     assert along_u == along_v and along_u != lengths
     edges, density = panel.plots[0].bars.getData()
     assert along_u[0][1] >= edges[-1] and along_u[1][1] >= density.max()
-    panel.plots[1].getPlotItem().getViewBox().scaleBy((0.1, 0.1))
+    panel.plots[1].box.scaleBy((0.1, 0.1))
     panel.plots[1].show_all()
-    assert panel.plots[1].getPlotItem().getViewBox().viewRange() == along_u
+    assert panel.plots[1].box.viewRange() == along_u
 
 
 def _stretch_along_u(result: Result) -> Result:

@@ -53,7 +53,7 @@ def test_scatter_holds_every_residual(
     expected = stack_residuals(result.calibration, on_reference)
     np.testing.assert_array_equal(drawn(panel), expected[np.lexsort(expected.T)])
     summary = summarise_residuals(result.calibration.residuals)
-    title = panel.scatter.getPlotItem().titleLabel.text
+    title = panel.scatter.area.title.text
     value = summary.reference_mean if on_reference else summary.sigma_x
     assert f"{value:.3f}" in title
 
@@ -73,7 +73,7 @@ def test_a_point_picks_its_corner(show: Show, result: Result, qtbot: QtBot) -> N
 def test_a_click_beside_the_points_picks_nothing(show: Show, result: Result, qtbot: QtBot) -> None:
     panel = show(result)
     with qtbot.assertNotEmitted(panel.picked, wait=50):
-        box = panel.scatter.getPlotItem().getViewBox().viewRect()
+        box = panel.scatter.box.viewRect()
         click(
             qtbot, panel.scatter, box.left() + 0.02 * box.width(), box.top() + 0.02 * box.height()
         )

@@ -81,7 +81,7 @@ def test_an_outlying_view_is_marked(shown: Shown[StageOnePanel], result: Result)
     assert "Far from the other views: " in tips[2] and "rms" in tips[2]
     assert "no convergence" in tips[4]
     panel.select(7)
-    assert "not determined" in panel.equation.getPlotItem().titleLabel.text
+    assert "not determined" in panel.equation.area.title.text
 
 
 def test_empty_state_says_what_to_do(shown: Shown[StageOnePanel], result: Result) -> None:
@@ -117,5 +117,5 @@ def test_a_long_name_does_not_widen_the_plot(shown: Shown[StageOnePanel], result
         panel._select(k, -1)
         QApplication.processEvents()
         plot = panel.equation
-        assert plot.getPlotItem().minimumWidth() <= plot.getPlotItem().size().width()
-        assert plot.getPlotItem().size().width() <= plot.width()
+        assert plot.area.minimumWidth() <= plot.area.size().width()
+        assert plot.area.size().width() <= plot.width()

@@ -100,7 +100,7 @@ def test_tables_and_plots_hold_its_numbers(
             stack_residuals(result.calibration, on_reference=True)[:, 1]
         )
         np.testing.assert_array_equal(histogram.bars.getData()[1], down.density)
-        assert "Δy′" in histogram.getPlotItem().getAxis("bottom").labelText
+        assert "Δy′" in histogram.area.bottom.labelText
     qtbot.waitUntil(lambda: not jobs.running)
 
 

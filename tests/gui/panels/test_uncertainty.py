@@ -74,7 +74,7 @@ def test_points_at_a_distance(
 
 
 def test_the_value_under_the_cursor(panel: UncertaintyPanel, far: ProjectionUncertainty) -> None:
-    box = panel.plot.getPlotItem().getViewBox()
+    box = panel.plot.box
     panel._hover(box.mapViewToScene(QPointF(far.u[7] + 1, far.v[12] - 1)))
     assert f"σ = {far.worst_direction[12, 7]:.3f} px" in panel.under_cursor.text()
     panel._hover(box.mapViewToScene(QPointF(-30.0, 50.0)))

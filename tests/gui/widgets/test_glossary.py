@@ -66,7 +66,7 @@ def test_headings_and_axes_say_what_they_mean(
             assert tip or header in PLAIN or table.isColumnHidden(section), header
     for plot in panel.findChildren(Plot):
         for name, label in plot._labels.items():
-            axis = plot.getPlotItem().getAxis(name)
+            axis = plot.area.axes[name]
             assert axis.toolTip() or plot.toolTip() or label in ("", "view"), label
 
 

@@ -20,10 +20,17 @@ def example(qtbot: QtBot) -> Plot:
     return plot
 
 
+def test_a_plot_has_no_hidden_controls(qtbot: QtBot) -> None:
+    """Pyqtgraph's own has a menu of some 60 boxes, which takes as long to make as all the rest."""
+    before = len(QApplication.allWidgets())
+    example(qtbot)
+    assert len(QApplication.allWidgets()) - before <= 8
+
+
 def test_axes_name_their_units(qtbot: QtBot) -> None:
-    item = example(qtbot).getPlotItem()
-    assert item.getAxis("left").labelText == "cost [px²]"
-    assert item.getAxis("bottom").labelText == "iteration"
+    area = example(qtbot).area
+    assert area.left.labelText == "cost [px²]"
+    assert area.bottom.labelText == "iteration"
 
 
 def test_what_an_axis_shows_is_never_cut_off(qtbot: QtBot) -> None:
@@ -37,13 +44,13 @@ def test_what_an_axis_shows_is_never_cut_off(qtbot: QtBot) -> None:
     box.resize(300, 60)
     box.show()
     QApplication.processEvents()
-    label = plot.getPlotItem().getAxis("left").label
+    label = plot.area.left.label
     shown = plot.mapFromScene(label.mapToScene(label.boundingRect())).boundingRect()
     assert plot.rect().top() <= shown.top() and shown.bottom() <= plot.rect().bottom()
 
 
 def test_numbers_of_a_logarithmic_axis_are_written_alike(qtbot: QtBot) -> None:
-    axis = example(qtbot).getPlotItem().getAxis("left")
+    axis = example(qtbot).area.left
     values = [-1, 0, np.log10(3), np.log10(5), 1]
     axis.setRange(-1.2, 1.3)
     assert axis.logTickStrings(values, 1.0, 1.0) == ["0.1", "1", "", "5", "10"]
@@ -56,7 +63,7 @@ def test_numbers_of_a_logarithmic_axis_are_written_alike(qtbot: QtBot) -> None:
 def test_a_double_click_shows_all_again(qtbot: QtBot) -> None:
     plot = example(qtbot)
     plot.show()
-    box = plot.getPlotItem().getViewBox()
+    box = plot.box
     box.setRange(xRange=(7, 8), yRange=(70, 80))
     qtbot.mouseDClick(plot.viewport(), Qt.MouseButton.LeftButton)
     (left, right), (bottom, top) = box.viewRange()

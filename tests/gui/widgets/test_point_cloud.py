@@ -22,7 +22,7 @@ RED, BLUE = QColor("#d02020"), QColor("#2020d0")
 def plot(qtbot: QtBot) -> Iterator[Plot]:
     holder = QWidget()
     plot = Plot("x", "y", parent=holder)
-    plot.showGrid(x=False, y=False)
+    plot.area.show_grid(False)
     for widget in (holder, plot):
         widget.resize(400, 300)
     holder.show()
@@ -40,7 +40,7 @@ def picture(plot: Plot, ratio: int = 1) -> QImage:
 
 
 def colour_at(plot: Plot, point: Array, ratio: int = 1) -> QColor:
-    scene = plot.getPlotItem().getViewBox().mapViewToScene(QPointF(*point))
+    scene = plot.box.mapViewToScene(QPointF(*point))
     return picture(plot, ratio).pixelColor((scene * ratio).toPoint())
 
 
@@ -53,10 +53,23 @@ def test_every_point_has_the_colour_of_its_group(plot: Plot, ratio: int) -> None
     points = [np.array([[k % 20, k // 20]], dtype=float) for k in range(300)]
     order = rng.permutation(300)
     cloud.show_points(points, [(RED if k < 150 else BLUE, "osd"[k % 3]) for k in order])
-    plot.getPlotItem().autoRange()
+    plot.box.autoRange()
     for k in (0, 17, 255, 256, 299):
         assert colour_at(plot, points[k][0], ratio) == (RED if order[k] < 150 else BLUE), k
     assert colour_at(plot, np.array([3.5, 3.5]), ratio) not in (RED, BLUE)
+    assert len(cloud._styles) == 6, "each is drawn once, whatever the number of groups"
+
+
+def test_the_point_at_a_place_is_found_with_its_group(plot: Plot) -> None:
+    cloud = PointCloud(size=4)
+    plot.addItem(cloud)
+    groups = [np.array([[0.0, 0], [1, 1]]), np.zeros((0, 2)), np.array([[np.nan, 0], [2, 0.5]])]
+    cloud.show_points(groups, [(RED, "o")] * 3)
+    plot.box.autoRange()
+    for x, y, found in ((1.0, 1.0, (0, 1)), (2.0, 0.5, (2, 1)), (1.0, 0.2, None)):
+        assert cloud.find_point(plot.box.mapViewToScene(QPointF(x, y))) == found
+    cloud.show_points([], [])
+    assert cloud.find_point(plot.box.mapViewToScene(QPointF(1, 1))) is None
 
 
 def test_the_view_encloses_the_points_that_are_known(plot: Plot) -> None:
@@ -66,8 +79,8 @@ def test_the_view_encloses_the_points_that_are_known(plot: Plot) -> None:
         [np.array([[-3.0, 2.0], [np.nan, 50.0]]), np.array([[7.0, -5.0]])], [(RED, "o")] * 2
     )
     np.testing.assert_array_equal(np.transpose(cloud.getData()), [[-3, 2], [7, -5]])
-    plot.getPlotItem().autoRange()
-    seen = plot.getPlotItem().getViewBox().viewRect()
+    plot.box.autoRange()
+    seen = plot.box.viewRect()
     assert seen.contains(QPointF(-3, 2))
     assert seen.contains(QPointF(7, -5))
     assert seen.height() < 20

@@ -34,6 +34,9 @@ def test_sorting_is_by_value_with_missing_ones_last(qtbot: QtBot) -> None:
     assert shown(table, 1) == ["0.25", "–", "0.33"]
     table.sortByColumn(1, Qt.SortOrder.AscendingOrder)
     assert shown(table) == ["a", "c", "b"]
+    # Other rows come in the order that the user has chosen.
+    table.show_columns([Column("view", ["d", "e", "f"]), Column("RMS", [10.0, 9.0, -1.0])])
+    assert shown(table) == ["f", "e", "d"]
 
 
 def test_a_click_announces_the_original_row(qtbot: QtBot) -> None:

@@ -48,10 +48,12 @@ def test_no_panel_is_built_while_somebody_looks_through_the_images(
     assert not pause.isActive(), "all that is built stays so"
 
 
-def test_a_panel_is_filled_in_one_turn_and_painted_in_the_next(full: MainWindow) -> None:
+def test_a_panel_is_filled_in_one_turn_and_painted_in_the_next(
+    full: MainWindow, qtbot: QtBot
+) -> None:
     analysis = full.need_analysis()
     panel = analysis.show_panel(CoveragePanel)
     assert panel.isVisible() and panel.advice.text(), "it is filled at once"
+    QApplication.sendPostedEvents()  # what else this turn of the event loop does
     assert not panel.updatesEnabled()
-    QApplication.processEvents()
-    assert panel.updatesEnabled()
+    qtbot.waitUntil(panel.updatesEnabled)

@@ -1,0 +1,109 @@
+"""What a plot draws on: a view between two axes, under a title."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import pyqtgraph as pg
+from PySide6.QtCore import Qt
+from PySide6.QtWidgets import QGraphicsGridLayout, QGraphicsItem, QSizePolicy
+
+_MANY_DECADES = 4
+"""Number of powers of ten beyond which there is room for these only; and their distance from 1, up
+to which they are written as plain numbers."""
+_SUPERSCRIPTS = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
+_GRID = 38
+"""Opacity of the grid, of 255."""
+_TITLE_HEIGHT = 30.0
+"""Room of a title, two lines at most, px."""
+_ABOVE_IMAGES = 0.5
+"""Height of the axes in the pile: an image, which lies at 0, would hide the grid."""
+
+
+class Axis(pg.AxisItem):  # type: ignore[misc]  # pyqtgraph is not typed
+    """An axis that, if it is logarithmic, has numbers at powers of ten, and few between them."""
+
+    write_number: Callable[[float], str] | None = None
+    """A function that writes the numbers, as dates for example; None for plain numbers."""
+
+    def updateAutoSIPrefix(self) -> None:  # noqa: N802 - pyqtgraph's name
+        """Choose no prefix of a unit, for which the label is written anew at every change."""
+
+    def tickStrings(self, values: list[float], scale: float, spacing: float) -> list[str]:  # noqa: N802 - pyqtgraph's name
+        if self.write_number is None:
+            return list(super().tickStrings(values, scale, spacing))
+        return [self.write_number(value) for value in values]
+
+    def logTickStrings(  # noqa: N802 - pyqtgraph's name
+        self,
+        values: list[float],
+        scale: float,
+        spacing: float,  # noqa: ARG002
+    ) -> list[str]:
+        low, high = sorted(self.range)
+        shown = (1,) if high - low > _MANY_DECADES else (1, 2, 5)
+        is_plain = low >= -_MANY_DECADES and high <= _MANY_DECADES
+        texts = []
+        for value in values:
+            leading, power = f"{10.0**value * scale:.0e}".split("e")
+            if int(leading) not in shown:
+                texts.append("")
+            elif is_plain:
+                texts.append(f"{float(f'{leading}e{power}'):g}")
+            else:
+                factor = "" if leading == "1" else f"{leading}·"
+                texts.append(f"{factor}10{str(int(power)).translate(_SUPERSCRIPTS)}")
+        return texts
+
+
+class PlotArea(pg.GraphicsWidget):  # type: ignore[misc]  # pyqtgraph is not typed
+    """A view of the plotted items, its axes at the left and below, and a title above it.
+
+    Pyqtgraph's own `PlotItem` has four axes and, even without a menu, the dozens of boxes of one;
+    it takes twice as long to make.
+    """
+
+    VIEW_ROW = 1
+    """Row of the view in the grid; columns from `AFTER` on are free."""
+    AFTER = 2
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Expanding)
+        self.box = pg.ViewBox(enableMenu=False)
+        self.left, self.bottom = Axis("left"), Axis("bottom")
+        self.title = pg.LabelItem()
+        self.grid = QGraphicsGridLayout(self)
+        self.grid.setContentsMargins(1, 1, 1, 1)
+        self.grid.setSpacing(0)
+        self.grid.addItem(self.title, 0, 1)
+        self.grid.addItem(self.box, self.VIEW_ROW, 1)
+        for axis, place in ((self.left, (self.VIEW_ROW, 0)), (self.bottom, (self.VIEW_ROW + 1, 1))):
+            axis.linkToView(self.box)
+            axis.setZValue(_ABOVE_IMAGES)
+            axis.setFlag(QGraphicsItem.GraphicsItemFlag.ItemNegativeZStacksBehindParent)
+            axis.setGrid(_GRID)
+            self.grid.addItem(axis, *place, Qt.AlignmentFlag(0))
+        self.grid.setRowStretchFactor(self.VIEW_ROW, 1)
+        self.grid.setColumnStretchFactor(1, 1)
+        self._give_title(0.0)
+
+    @property
+    def axes(self) -> dict[str, Axis]:
+        """The axes by their sides."""
+        return {"left": self.left, "bottom": self.bottom}
+
+    def set_title(self, text: str, colour: str) -> None:
+        """Write a title, of two lines at most; it has no room before there is one."""
+        self.title.setText(text, color=colour, size="10pt")
+        self._give_title(_TITLE_HEIGHT)
+
+    def show_grid(self, shown: bool) -> None:
+        """Draw lines from the axes' numbers over the view, or none."""
+        for axis in self.axes.values():
+            axis.setGrid(_GRID if shown else False)
+
+    def _give_title(self, height: float) -> None:
+        self.title.setMaximumHeight(height)
+        self.title.setVisible(height > 0)
+        self.grid.setRowFixedHeight(0, height)
