@@ -7,12 +7,33 @@ import os
 import re
 import unicodedata
 from collections import Counter
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from functools import cache, lru_cache
 from pathlib import Path, PurePath
+from types import MappingProxyType
 
 from calibgui.engine.errors import CalibrationError
 from calibgui.engine.images import FORMATS, read_image_header
+
+_MAX_FOLDERS = 200
+"""Number of folders that are looked through for images at most, where none were expected."""
+_MAX_LISTED = 5
+"""Number of folders that a message names at most."""
+
+
+class NoImagesError(CalibrationError):
+    """An error: a folder holds no images itself.
+
+    Args:
+        message, hint: as for `CalibrationError`.
+        folders: numbers of images in the folders below it that have some.
+    """
+
+    def __init__(
+        self, message: str, hint: str, folders: Mapping[Path, int] = MappingProxyType({})
+    ) -> None:
+        super().__init__(message, hint)
+        self.folders = folders
 
 
 def find_images(names: Iterable[str]) -> tuple[Path, ...]:
@@ -24,15 +45,7 @@ def find_images(names: Iterable[str]) -> tuple[Path, ...]:
     Raises:
         CalibrationError: if a name means no file, or one that must not be read.
     """
-    found: dict[str, Path] = {}
-    resolve_folder = cache(os.path.realpath)
-    for name in names:
-        for path in _find_files(name):
-            # A folder is resolved once for its files, of which a thousand cameras have thousands.
-            is_plain = path.name not in ("", "..") and not path.is_symlink()
-            place = f"{resolve_folder(path.parent)}{os.sep}{path.name}" if is_plain else ""
-            found.setdefault(place or os.path.realpath(path), path)
-    return tuple(sorted(found.values(), key=make_natural_key))
+    return _sort_files(path for name in names for path in _find_files(name))
 
 
 def choose_images(names: Sequence[str]) -> tuple[tuple[Path, ...], tuple[str, ...]]:
@@ -47,20 +60,48 @@ def choose_images(names: Sequence[str]) -> tuple[tuple[Path, ...], tuple[str, ..
     Raises:
         CalibrationError: why the first of `names` cannot be taken, if none can.
     """
-    taken, refused = [], {}
+    taken: list[Path] = []
+    refused: dict[str, CalibrationError] = {}
     for name in names:
         path = Path(name)
         try:
-            if not path.is_file():
-                find_images([name])
-            elif path.suffix.lower() not in FORMATS:
+            if path.is_file() and path.suffix.lower() not in FORMATS:
                 read_image_header(path)
-            taken.append(name)
+            taken += _find_files(name)
         except CalibrationError as error:
             refused[name] = error
     if not taken:
         raise next(iter(refused.values()))
-    return find_images(taken), tuple(refused)
+    return _sort_files(taken), tuple(refused)
+
+
+def count_images_below(folder: Path) -> dict[Path, int]:
+    """Count the images in each folder below another one, at any depth; those without have no count.
+
+    Hidden folders, links and what may not be read are left out, and after some hundreds of folders
+    no more are looked at.
+    """
+    counts: dict[Path, int] = {}
+    waiting = [folder]
+    for _ in range(_MAX_FOLDERS):
+        if not waiting:
+            break
+        place = waiting.pop(0)
+        try:
+            with os.scandir(place) as entries:
+                listed = list(entries)
+        except OSError:
+            continue
+        below = [
+            place / entry.name
+            for entry in listed
+            if not entry.name.startswith(".") and entry.is_dir(follow_symlinks=False)
+        ]
+        waiting += sorted(below, key=make_natural_key)
+        count = sum(map(_is_image, listed))
+        if count and place != folder:
+            counts[place] = count
+    return dict(sorted(counts.items(), key=lambda one: make_natural_key(one[0])))
 
 
 def is_remote(path: str) -> bool:
@@ -77,6 +118,18 @@ def make_natural_key(path: Path) -> tuple[tuple[str, int], ...]:
     text = unicodedata.normalize("NFC", str(path)).casefold()
     words = re.findall(r"([^0-9]*)([0-9]*)", text)
     return tuple((word, int(digits or -1)) for word, digits in words)
+
+
+def _sort_files(files: Iterable[Path]) -> tuple[Path, ...]:
+    """Return files once each, naturally sorted."""
+    found: dict[str, Path] = {}
+    resolve_folder = cache(os.path.realpath)
+    for path in files:
+        # A folder is resolved once for its files, of which a thousand cameras have thousands.
+        is_plain = path.name not in ("", "..") and not path.is_symlink()
+        place = f"{resolve_folder(path.parent)}{os.sep}{path.name}" if is_plain else ""
+        found.setdefault(place or os.path.realpath(path), path)
+    return tuple(sorted(found.values(), key=make_natural_key))
 
 
 def _find_files(name: str) -> list[Path]:
@@ -97,11 +150,7 @@ def _list_files(name: str) -> list[Path]:
         with os.scandir(path) as entries:
             images = [path / entry.name for entry in entries if _is_image(entry)]
         if not images:
-            raise CalibrationError(
-                f"The folder {name} holds no images that can be read{_describe_others(path)}.",
-                f"Name a folder with files that end in {', '.join(FORMATS)}; save pictures of "
-                "other formats, and pictures of videos, as PNG or as JPEG in full size.",
-            )
+            raise _explain_lack(name, path)
         return images
     if path.is_file():
         return [path]
@@ -114,6 +163,30 @@ def _list_files(name: str) -> list[Path]:
     if not files:
         raise CalibrationError(f"No file matches {name}.", "Check the pattern and its folder.")
     return files
+
+
+def _explain_lack(name: str, folder: Path) -> NoImagesError:
+    """Say of a folder without images where there are some below it, or what it holds instead."""
+    counts = count_images_below(folder)
+    if not counts:
+        return NoImagesError(
+            f"The folder {name} holds no images that can be read{_describe_others(folder)}.",
+            f"Name a folder with files that end in {', '.join(FORMATS)}; save pictures of "
+            "other formats, and pictures of videos, as PNG or as JPEG in full size.",
+        )
+    listed = [
+        f"{below.relative_to(folder)} ({count} {'image' if count == 1 else 'images'})"
+        for below, count in list(counts.items())[:_MAX_LISTED]
+    ]
+    more = f" and {len(counts) - _MAX_LISTED} more" if len(counts) > _MAX_LISTED else ""
+    first = next(iter(counts))
+    several = "; name several only if they are of one camera" if len(counts) > 1 else ""
+    return NoImagesError(
+        f"The folder {name} itself holds no images, but there are some in {', '.join(listed)}"
+        f"{more}.",
+        f"Name the folder that holds the photographs, as {first}{several}.",
+        counts,
+    )
 
 
 def _describe_others(folder: Path) -> str:

@@ -8,7 +8,14 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from calibgui.app.paths import choose_images, find_images, make_natural_key
+from calibgui.app import paths
+from calibgui.app.paths import (
+    NoImagesError,
+    choose_images,
+    count_images_below,
+    find_images,
+    make_natural_key,
+)
 from calibgui.engine.errors import CalibrationError
 from calibgui.engine.images.reading import write_image
 
@@ -122,6 +129,47 @@ def test_a_folder_of_other_formats_is_described(tmp_path: Path) -> None:
         (tmp_path / name).touch()
     with pytest.raises(CalibrationError, match=r"2 of \.heic, 1 of \.mov\..* as PNG or as JPEG"):
         find_images([str(tmp_path)])
+
+
+def make_cameras(folder: Path) -> None:
+    """Make a folder of two cameras, one of them with two sessions, and things beside them."""
+    for place, count in (("left/day 2", 3), ("left/day 10", 1), ("right", 2), (".cache", 4)):
+        (folder / place).mkdir(parents=True)
+        for k in range(count):
+            (folder / place / f"{k}.png").touch()
+    (folder / "notes").mkdir()
+    (folder / "notes.txt").touch()
+
+
+def test_of_a_folder_of_folders_those_with_images_are_named(tmp_path: Path) -> None:
+    make_cameras(tmp_path)
+    expected = [("left/day 2", 3), ("left/day 10", 1), ("right", 2)]
+    counts = count_images_below(tmp_path)
+    assert [(path.relative_to(tmp_path).as_posix(), n) for path, n in counts.items()] == expected
+    for find in (find_images, choose_images):
+        with pytest.raises(NoImagesError) as caught:
+            find([str(tmp_path)])
+        assert caught.value.folders == counts
+        message = caught.value.message.replace(os.sep, "/")
+        assert "in left/day 2 (3 images), left/day 10 (1 image), right (2 images)." in message
+        assert str(tmp_path / "left" / "day 2") in caught.value.hint
+        assert "of one camera" in caught.value.hint
+    for name in ("one", "two", "three"):
+        (tmp_path / name).mkdir()
+        (tmp_path / name / "image.png").touch()
+    with pytest.raises(NoImagesError, match=r"and 1 more\."):
+        find_images([str(tmp_path)])
+
+
+def test_a_search_below_a_folder_ends(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    for k in range(5):
+        (tmp_path / f"{k}").mkdir()
+        (tmp_path / f"{k}" / "image.png").touch()
+    if os.name == "posix":
+        (tmp_path / "0" / "ring").symlink_to(tmp_path)
+    assert len(count_images_below(tmp_path)) == 5
+    monkeypatch.setattr(paths, "_MAX_FOLDERS", 3)
+    assert [path.name for path in count_images_below(tmp_path)] == ["0", "1"]
 
 
 def test_of_a_selection_only_images_are_taken(tmp_path: Path) -> None:

@@ -41,6 +41,17 @@ def test_without_a_square_it_says_what_to_do(
     assert "give --square when calibrating" in capsys.readouterr().out
 
 
+def test_of_a_folder_of_folders_those_with_images_are_named(
+    tmp_path: Path, capsys: Capture
+) -> None:
+    (tmp_path / "left").mkdir()
+    (tmp_path / "left" / "1.png").touch()
+    assert main(["detect", str(tmp_path), "-o", str(tmp_path / "corners.json")]) == 1
+    problems = " ".join(capsys.readouterr().err.split())
+    assert "but there are some in left (1 image)." in problems
+    assert f"as {tmp_path / 'left'}." in problems
+
+
 def test_json_is_the_content_of_the_file(
     photographs: Path, tmp_path: Path, capsys: Capture
 ) -> None:

@@ -13,7 +13,7 @@ from calibgui.app.autosave import get_discarded_folder
 from calibgui.app.document import Document
 from calibgui.app.moved_images import find_moved_images, list_missing_images
 from calibgui.app.output_folder import ForeignFilesError
-from calibgui.app.paths import choose_images
+from calibgui.app.paths import NoImagesError, choose_images
 from calibgui.app.project import (
     Project,
     add_images,
@@ -50,6 +50,8 @@ class Files(QObject):
 
     recoverable = Signal(Path)
     images_missing = Signal(list)
+    images_elsewhere = Signal(NoImagesError)
+    """A folder was opened that holds no images itself, but there are some below it."""
 
     def __init__(
         self, session: Session, detector: Detector, calibrator: Calibrator, window: QWidget
@@ -79,7 +81,12 @@ class Files(QObject):
         if projects:
             self.open_project(projects[0])
         elif names:
-            self._attempt(lambda: self._add_images(names))
+            try:
+                self._add_images(names)
+            except NoImagesError as error:
+                (self.images_elsewhere if error.folders else self._session.failed).emit(error)
+            except CalibrationError as error:
+                self._session.failed.emit(error)
 
     def _add_images(self, names: Sequence[str]) -> None:
         """Add the images of files and folders, and remember a folder.

@@ -18,7 +18,7 @@ from calibgui.app.board_recognition import (
     recognise_pattern,
 )
 from calibgui.app.document import Document
-from calibgui.app.paths import is_remote
+from calibgui.app.paths import NoImagesError, is_remote
 from calibgui.app.project import Project, set_grid_size, set_pattern
 from calibgui.dataset import View, ViewStatus
 from calibgui.engine.arrays import GridSize
@@ -32,6 +32,10 @@ from calibgui.gui.session.detector import Detector
 from calibgui.gui.session.session import Session
 from calibgui.gui.widgets.pattern_texts import list_pattern_texts
 from calibgui.gui.window.banner import Banner
+from calibgui.report.names import shorten_name
+
+_MAX_FOLDERS = 3
+"""Number of folders that have a button of their own, at most: a message has one line of them."""
 
 
 class _OtherBoard(NamedTuple):
@@ -46,8 +50,8 @@ class _OtherBoard(NamedTuple):
 
 
 class Offers(QObject):
-    """To recover unsaved work, to search changed images again, to locate missing ones, and to
-    search for another pattern that they show."""
+    """To recover unsaved work, to search changed images again, to locate missing ones, to open
+    folders below one without images, and to search for another pattern that images show."""
 
     def __init__(
         self,
@@ -65,12 +69,15 @@ class Offers(QObject):
         files.recoverable.connect(self._offer_recovery)
         files.saver.discarded.connect(self._offer_to_bring_back)
         files.images_missing.connect(self._offer_relocation)
+        files.images_elsewhere.connect(self._offer_folders)
         images.thumbnails.found_altered.connect(self._offer_detection)
         images.search_wanted.connect(self._search_again)
         detector.finished.connect(self._look_for_another)
         self._offered: dict[str, Document] = {}
         """The documents that offers were made for."""
         session.changed.connect(self._withdraw)
+        self._folders_offered: tuple[str, int] | None = None
+        """An offer of folders, and the number of images in the project when it was made."""
         self._looking: Job | None = None
         self._looking_for: Hashable = None
         """What `_looking` depends on."""
@@ -87,6 +94,28 @@ class Offers(QObject):
             if document is not self._session.document:
                 del self._offered[text]
                 self._banner.withdraw(text)
+        if self._folders_offered is not None:
+            text, count = self._folders_offered
+            if len(self._session.project.views) != count:  # others were opened instead
+                self._folders_offered = None
+                self._banner.withdraw(text)
+
+    def _offer_folders(self, error: NoImagesError) -> None:
+        """Offer the folders with images below one that has none itself."""
+        counts = error.folders
+        choices = {
+            self._name_choice(folder): partial(self._files.open_paths, [str(folder)])
+            for folder in list(counts)[:_MAX_FOLDERS]
+        }
+        if len(counts) > 1:
+            text = self.tr("&All {0} images").format(sum(counts.values()))
+            choices[text] = partial(self._files.open_paths, list(map(str, counts)))
+        self._banner.show_text(error.message, choices)
+        self._folders_offered = error.message, len(self._session.project.views)
+
+    def _name_choice(self, folder: Path) -> str:
+        """Return the text of a button that opens a folder; a letter of a name is no shortcut."""
+        return self.tr("Open {0}").format(shorten_name(folder.name).replace("&", "&&"))
 
     def _offer_recovery(self, path: Path) -> None:
         work = find_unsaved_work(path)

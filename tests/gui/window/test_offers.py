@@ -74,6 +74,41 @@ def test_an_offer_ends_with_its_project(window: MainWindow, tmp_path: Path) -> N
     assert not window.banner.isVisible()
 
 
+def make_folders(folder: Path) -> None:
+    """Make folders with photographs of one camera each, in one that has none itself."""
+    for place, count in (("left & low", 2), ("right", 1)):
+        (folder / place).mkdir()
+        for k in range(count):
+            write_image(folder / place / f"{k}.png", np.full((48, 64), 99, np.uint8))
+
+
+@pytest.mark.parametrize(
+    ("choice", "found"), [(0, ["0.png", "1.png"]), (2, ["0.png", "1.png", "0.png"])]
+)
+def test_folders_with_photographs_are_offered_where_there_are_some_below(
+    window: MainWindow, tmp_path: Path, choice: int, found: list[str]
+) -> None:
+    make_folders(tmp_path)
+    window.session.edit("By hand", lambda project: replace(project, by_hand=True))
+    window.files.open_paths([str(tmp_path)])
+    assert "left & low (2 images), right (1 image)" in window.banner.text.text()
+    texts = [button.text() for button in window.banner.buttons]
+    assert texts == ["Open left && low", "Open right", "&All 3 images"]
+    window.banner.buttons[choice].click()
+    assert [view.name for view in window.session.project.views] == found
+    assert not window.banner.isVisible()
+
+
+def test_an_offer_of_folders_ends_when_others_are_opened(
+    window: MainWindow, tmp_path: Path
+) -> None:
+    make_folders(tmp_path)
+    window.session.edit("By hand", lambda project: replace(project, by_hand=True))
+    window.files.open_paths([str(tmp_path)])
+    window.files.open_paths([str(tmp_path / "right")])
+    assert not window.banner.isVisible()
+
+
 def test_circles_are_searched_for_with_one_click(
     window: MainWindow, qtbot: QtBot, tmp_path: Path
 ) -> None:
