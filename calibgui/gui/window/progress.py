@@ -52,9 +52,13 @@ class Progress(QWidget):
             text += self.tr(", {0} left").format(_format_duration(left))
         self.label.setText(text)
         self.label.setToolTip(text)
+        # Qt's bar paints itself at once, and with it all of the window that waits to be painted: a
+        # job that an edit starts would have the window painted before the edit is shown everywhere.
+        self.bar.setUpdatesEnabled(False)
         # A range of 0 to 0 moves to and fro: it goes on, nobody knows how long.
         self.bar.setRange(0, job.total if job.total > 1 else 0)
         self.bar.setValue(job.finished)
+        self.bar.setUpdatesEnabled(True)
 
     def _cancel(self) -> None:
         job = self._shown()
