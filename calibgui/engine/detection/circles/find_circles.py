@@ -27,6 +27,7 @@ from calibgui.engine.detection import region_of_interest as region
 from calibgui.engine.detection.circles import ellipse_fit
 from calibgui.engine.detection.circles.blobs import find_blobs
 from calibgui.engine.detection.circles.circle_map import fit_circle_map
+from calibgui.engine.detection.circles.continuation import find_continuation
 from calibgui.engine.detection.circles.ellipse_fit import EllipseFit
 from calibgui.engine.detection.circles.grid_labelling import label_grid
 from calibgui.engine.detection.circles.thresholds import CIRCLE_THRESHOLDS
@@ -48,6 +49,11 @@ as many."""
 _MAX_SAMPLE_EXCESS = 2.0
 """Greatest misfit of these, over that of all that is allowed, at which the rest is fitted. Bricks
 have 3.5 to 4, drawn circles less than 1."""
+_OPEN = (
+    "The picture ends before the next row or column of circles would be seen: state the numbers of"
+    " rows and columns if the grid has more."
+)
+"""What is said of a grid whose end is not seen."""
 _CENTRE_ITERATIONS = 3
 """Number of times that the map and the centres are computed from each other."""
 
@@ -63,6 +69,7 @@ def find_circles(
     grey = check_grey_levels(image)
     outline = None if roi is None else region.check_outline(roi)
     coarse = _find_grid(pattern, stretch_levels(grey), grid_size, outline)
+    is_stated = grid_size is not None
     grid_size = coarse.shape[0], coarse.shape[1]
     grid = list_grid_indices(grid_size)
     xy = pattern.locate_points(grid.astype(np.float64))
@@ -90,6 +97,7 @@ def find_circles(
             f"The circles measure {2 * radius:.2f} of their distance, not {pattern.diameter:.2f}.",
             "State diameter and distance as measured, or leave the diameter out.",
         )
+    is_open = find_continuation(coarse, grey, asymmetric=pattern.asymmetric).is_open
     order, ambiguity = _number_by_marks(verified, grid_size, pattern.symmetry(grid_size))
     good = order[verified.good[order]]
     whole = verified.uv[order].reshape(*grid_size, 2)
@@ -108,6 +116,7 @@ def find_circles(
         rejected=tuple(
             list_rejected_corners(fit.uv[~verified.good], "not the image of a circle there")
         ),
+        remark="" if is_stated or not is_open else _OPEN,
         pattern=Circles(pattern.asymmetric, 2 * radius),
     )
 
@@ -128,7 +137,7 @@ def _find_grid(
     most = (
         CIRCLE_THRESHOLDS.max_blobs if grid_size is None else 2 * grid_size[0] * grid_size[1] + 60
     )
-    largest = np.zeros((0, 0, 2))
+    largest, part = np.zeros((0, 0, 2)), np.zeros((0, 0), np.int64)
     for depth, seen, divisor, is_shaded in _list_searches(levels):
         if is_shaded and grid_size is None and largest.size:
             break
@@ -137,13 +146,20 @@ def _find_grid(
         grid = label_grid(points, grid_size, asymmetric=pattern.asymmetric)
         if grid is None or (grid.shape != grid_size and 2 * grid.size <= largest.size):
             continue
+        if find_continuation(points[grid], seen, asymmetric=pattern.asymmetric).is_seen:
+            part = max(part, grid, key=np.size)
+            continue
         largest = (points[grid] + 0.5) * 2**depth - 0.5 + [left, top]
         if grid.shape == grid_size:
             return largest
     if grid_size is None and largest.size:
         return largest
     which = "" if grid_size is None else f"{grid_size[0]} x {grid_size[1]} "
-    instead = ", but one of {} x {}".format(*largest.shape) if largest.size else ""
+    instead = ""
+    if largest.size:
+        instead = ", but one of {} x {}".format(*largest.shape)
+    elif part.size:
+        instead = ", but {} x {} circles of a larger one".format(*part.shape)
     raise NoBoardError(
         f"No grid of {which}circles was found{instead}.",
         "All of it must be in view, sharp and evenly lit, with white around it."

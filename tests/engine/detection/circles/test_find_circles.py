@@ -14,6 +14,7 @@ from calibgui.engine.boards.pattern import Symmetry
 from calibgui.engine.camera.camera import Camera
 from calibgui.engine.detection.circles import ellipse_fit
 from calibgui.engine.detection.circles.circle_map import fit_circle_map
+from calibgui.engine.detection.circles.continuation import find_continuation
 from calibgui.engine.detection.circles.ellipse_fit import EllipseFit
 from calibgui.engine.detection.find_corners import find_corners
 from calibgui.engine.errors import CalibrationError, NoBoardError
@@ -300,3 +301,51 @@ def test_small_circles_are_found_in_a_large_picture() -> None:
     corners = find_corners(image, pattern=Circles())
     assert corners.complete
     assert np.abs(scene.error(corners) - [1200, 900]).max() < 0.2
+
+
+def _show_near_fisheye(lens: Array, board: Board, rvec: Array, distance: float) -> GreyImage:
+    """Return a photograph of which a part of the board lies outside."""
+    camera = Camera((640, 480), [lens[0], lens[0], 322.0, 238.0, *lens[1:], 0.0, 0.0, 0.0, 0.0])
+    return Scene(board, camera, (rvec[0], rvec[1], rvec[2]), distance).image()
+
+
+@pytest.mark.parametrize(
+    ("lens", "grid_size", "mark", "rvec", "distance"),
+    [
+        ((389.0, 0.287, 0.0775), (6, 7), 0.65, (-0.126, 0.1975, 0.9717), 130.5),
+        ((260.7, 0.327, 0.0173), (7, 9), 0.95, (-0.579, -0.2457, -1.989), 95.5),
+    ],
+)
+def test_a_part_of_a_grid_under_a_fisheye_is_refused(
+    lens: Array, grid_size: GridSize, mark: float, rvec: Array, distance: float
+) -> None:
+    """Marks break the lattice, of which a few rows are full."""
+    marks = frozenset({(3, 3), (3, 4), (3, 5), (4, 3)})
+    if grid_size == (7, 9):
+        marks = frozenset({(4, 4), (3, 4), (3, 5), (3, 6)})
+    board = Board(*grid_size, 26.0, MarkedCircles(False, 0.45, marks, mark))
+    image = _show_near_fisheye(lens, board, rvec, distance)
+    with pytest.raises(NoBoardError, match=r"but 3 x 7 circles of a larger one"):
+        find_corners(image, pattern=Circles())
+
+
+def test_it_is_said_that_a_grid_may_go_on_outside_of_the_picture() -> None:
+    pattern = Circles(False, 0.45)
+    whole = Scene(Board(5, 9, 20.0, pattern), _SMALL, distance=400.0)
+    assert not find_corners(whole.image(), pattern=pattern).remark
+    image = whole.image()
+    cut = image[:, : int(find_corners(image, (5, 9), pattern=pattern).uv[:, 0].max()) - 30]
+    corners = find_corners(np.ascontiguousarray(cut), pattern=pattern)
+    assert corners.shape == (5, 8)
+    assert "ends before the next row or column" in corners.remark
+    assert not find_corners(np.ascontiguousarray(cut), (5, 8), pattern=pattern).remark
+
+
+@pytest.mark.parametrize("pattern", [Circles(False, 0.45), Circles(True, 0.7)])
+def test_whole_grids_are_told_from_parts_on_each_side(pattern: Circles) -> None:
+    image = Scene(Board(7, 6, 26.0, pattern), _SMALL, distance=500.0).image()
+    centres = find_corners(image, (7, 6), pattern=pattern).uv.reshape(7, 6, 2)
+    whole = find_continuation(centres, image, asymmetric=pattern.asymmetric)
+    assert whole == (False, False)
+    for part in (centres[2:], centres[:-2], centres[:, 1:], centres[:, :-1]):
+        assert find_continuation(part, image, asymmetric=pattern.asymmetric) == (True, False)

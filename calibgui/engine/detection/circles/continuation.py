@@ -1,0 +1,98 @@
+"""Does a grid of circles go on beyond the lines that were read?
+
+A part of a grid must not pass for the whole: its circles would get other numbers from picture to
+picture. The lines read say where the next ones would be, under any lens. A disc is seen there where
+the middle differs from all four places around that would be paper. The image is asked, not what was
+taken for discs: a search that missed a line has missed it there.
+
+Points are taken by the lattice of nearest neighbours, along the diagonals of an asymmetric grid:
+there both patterns have their discs in the places and paper in the middle of the cells.
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+
+from calibgui.engine.arrays import Array, BoolArray, GreyImage, IntArray
+from calibgui.engine.boards.circle_grid import list_grid_indices
+from calibgui.engine.detection.circles.thresholds import CIRCLE_THRESHOLDS
+from calibgui.engine.detection.lattice import estimate_steps, predict_places
+from calibgui.engine.images.sampling import sample_image
+
+_CELL_MIDDLES = np.array([(0.5, 0.5), (0.5, -0.5), (-0.5, 0.5), (-0.5, -0.5)])
+"""(4, 2) paper around a disc, steps of the lattice."""
+
+
+class Continuation(NamedTuple):
+    """What an image shows of a grid's next lines."""
+
+    is_seen: bool
+    """True if there are circles where one of them would be, in most of its places in the image."""
+    is_open: bool
+    """True if one of them would lie outside of the image."""
+
+
+def find_continuation(centres: Array, image: GreyImage, *, asymmetric: bool) -> Continuation:
+    """Find out whether an image (h, w), ink dark, shows a grid to go on, or to end, on all sides.
+
+    Args:
+        centres: (rows, cols, 2) px, good to a tenth of their distance.
+        image: grey levels.
+        asymmetric: True if every second row is shifted by half.
+    """
+    rows, cols = centres.shape[:2]
+    places = _find_lattice_places(list_grid_indices((rows, cols)), asymmetric=asymmetric)
+    first = places.min(axis=0) - 1
+    uv = np.full((*(places.max(axis=0) - first + 2), 2), np.nan)
+    uv[tuple((places - first).T)] = centres.reshape(-1, 2)
+    known = np.isfinite(uv[..., 0])
+    difference = _measure_differences(predict_places(uv), estimate_steps(uv), image)
+    limit = CIRCLE_THRESHOLDS.min_relative_contrast * np.nanmedian(difference[known])
+    beyond = ~known & np.isfinite(difference)
+    is_disc = difference[beyond] > limit
+    lines = _find_lines(np.argwhere(beyond) + first, (rows, cols), asymmetric=asymmetric)
+    return Continuation(
+        any(2 * np.count_nonzero(is_disc[line]) > np.count_nonzero(line) for line in lines),
+        not all(line.any() for line in lines),
+    )
+
+
+def _find_lattice_places(grid: IntArray, *, asymmetric: bool) -> IntArray:
+    """Find the places (n, 2) on the lattice of nearest neighbours of rows and columns (n, 2)."""
+    row, col = grid.T
+    if not asymmetric:
+        return grid
+    x = 2 * col + row % 2
+    return np.column_stack([(row + x) // 2, (row - x) // 2])
+
+
+def _find_lines(
+    places: IntArray, grid_size: tuple[int, int], *, asymmetric: bool
+) -> tuple[BoolArray, ...]:
+    """Find which places (n, 2) of the lattice are of the line beyond the first row, the last row,
+    the first and the last column: masks (n,)."""
+    rows, cols = grid_size
+    row, x = places.T
+    width = cols
+    if asymmetric:
+        row, x, width = places.sum(axis=1), places[:, 0] - places[:, 1], 2 * cols
+    return row < 0, row >= rows, x < 0, x >= width
+
+
+def _measure_differences(at: Array, steps: tuple[Array, Array], image: GreyImage) -> Array:
+    """Measure how much darker the image is at places (rows, cols, 2) px than in any of the cells'
+    middles around, grey levels (rows, cols); NaN where the place or most of them is not in the
+    image."""
+    right, down = steps
+    paper = at[..., None, :] + (
+        _CELL_MIDDLES[:, :1] * right[..., None, :] + _CELL_MIDDLES[:, 1:] * down[..., None, :]
+    )
+    points = np.concatenate([at[..., None, :], paper], axis=2)
+    last = np.array(image.shape[::-1]) - 1.0
+    inside = np.all((points >= 0) & (points <= last), axis=3)
+    inside &= inside[..., :1] & (np.count_nonzero(inside[..., 1:], axis=2, keepdims=True) >= 2)
+    levels = np.full(inside.shape, np.nan)
+    levels[inside] = sample_image(image, points[inside])
+    return np.asarray(np.fmin.reduce(levels[..., 1:], axis=2) - levels[..., 0])
