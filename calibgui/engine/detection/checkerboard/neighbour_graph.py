@@ -75,8 +75,8 @@ def find_lattices(
         return []
     places = _EDGE_SAMPLES if plain >= 0.5 else _EDGE_SAMPLES_BESIDE_MARKS
     ends = _link_neighbours(saddles.smooth, junctions, tolerance, places)
-    arranged = (_arrange_lattice(junctions.uv, *part) for part in _split_components(ends))
-    lattices = islice((lattice for lattice in arranged if lattice is not None), max_count)
+    arranged = (_arrange_lattices(junctions.uv, *part) for part in _split_components(ends))
+    lattices = islice((lattice for lattices in arranged for lattice in lattices), max_count)
     return sorted(lattices, key=len, reverse=True)
 
 
@@ -264,8 +264,9 @@ def _check_agreement(
     return np.asarray(np.sum(np.where(agree, 1, -1), axis=1, where=leads >= 0) > 0)
 
 
-def _arrange_lattice(uv: Array, nodes: Int32Array, placed: Int32Array) -> Lattice | None:
-    """Arrange a component as a lattice, without strays.
+def _arrange_lattices(uv: Array, nodes: Int32Array, placed: Int32Array) -> list[Lattice]:
+    """Arrange a component as a lattice, without strays, and as several where only strays held it
+    together: what led across a reflection may have counted too few lines there.
 
     Args:
         uv: (n, 2) all junctions, px.
@@ -273,16 +274,23 @@ def _arrange_lattice(uv: Array, nodes: Int32Array, placed: Int32Array) -> Lattic
         placed: (m, 3) their rows, columns and turns.
 
     Returns:
-        The lattice, or None if it is too sparse or holds no full cell.
+        The lattices; none if the component is too sparse or holds no full cell.
     """
     if len(nodes) < _MIN_JUNCTIONS:
-        return None
+        return []
     placed[:, :2] -= placed[:, :2].min(axis=0)
     rows, cols = placed[:, :2].max(axis=0) + 1
     limits = THRESHOLDS.graph
     if rows * cols > limits.max_cells_per_junction * len(nodes) + limits.max_spare_cells:
-        return None
-    return trim_lattice(_lay_out(uv[nodes], placed, (rows, cols)))
+        return []
+    lattice = trim_lattice(_lay_out(uv[nodes], placed, (rows, cols)))
+    if lattice is None:
+        return []
+    part, count = scipy.ndimage.label(lattice.found)
+    if count == 1:
+        return [lattice]
+    parts = (trim_lattice(lattice.select(part == k)) for k in range(1, count + 1))
+    return [each for each in parts if each is not None]
 
 
 def _lay_out(uv: Array, placed: Int32Array, shape: tuple[int, int]) -> Lattice:

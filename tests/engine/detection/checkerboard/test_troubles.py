@@ -60,3 +60,9 @@ def test_one_of_two_walls_is_found_by_its_size(seed: int) -> None:
 def test_a_board_beyond_the_end_of_another_is_not_joined_to_it(seed: int) -> None:
     """Squares of the same size, two empty columns away, were counted as the board's own."""
     assert find("second board", seed).whole == 1
+
+
+def test_what_only_reflections_hold_together_is_not_joined() -> None:
+    """Saddle points in a reflection led across it in fewer steps than there are squares: of a
+    board of 10 x 14 corners a half was handed out."""
+    assert find("glare", 3014).whole == 1
