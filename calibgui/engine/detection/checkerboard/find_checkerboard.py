@@ -136,7 +136,11 @@ def find_checkerboard(
             raise _describe_misfit(grid_size) from None
         board = marked
     numberings = _sort_numberings(grey, board.lattice, grid_size, outline)
-    return assemble_corners(grey, board, numberings, outline, others)
+    corners = assemble_corners(grey, board, numberings, outline, others)
+    if grid_size is None and outline is None:
+        remarks = filter(None, (corners.remark, _describe_continuation(grey, board.lattice)))
+        corners = replace(corners, remark=" ".join(remarks))
+    return corners
 
 
 def _find_wanted_board(
@@ -461,6 +465,21 @@ def _describe_cut(shape: tuple[int, int]) -> str:
         f"{rows} x {cols} corners hang together here and were cut at what looks like a crease"
         " between two boards; if they are one, flatten it, or mark its outermost corners and state"
         " its size."
+    )
+
+
+def _describe_continuation(grey: GreyImage, lattice: Lattice) -> str:
+    """Return a sentence that says where a lattice taken for all of a board seems to go on, empty if
+    it does not."""
+    top, right, bottom, left = verification.find_continuing_sides(lattice, grey)
+    if not (top or right or bottom or left):
+        return ""
+    rows, cols = lattice.shape
+    counted = sorted(lattice.shape)
+    larger = sorted((rows + top + bottom, cols + left + right))
+    return (
+        f"Beyond the {counted[0]} x {counted[1]} corners taken here, a line of squares looks like"
+        f" the board's own: if it has {larger[0]} x {larger[1]} corners or more, state its size."
     )
 
 

@@ -46,6 +46,9 @@ from calibgui.engine.images.sampling import sample_image
 TOO_BLURRED = "its edges are too blurred, or too ragged, to be told from waves"
 """What speaks against a lattice of wide edges."""
 
+_INSIDE_SQUARES = ((0.5, 0.3), (0.5, 0.7), (0.3, 0.5), (0.7, 0.5))
+"""Where whole squares beside a corner are sampled, apart from their edges, which blur, or what lies
+on the corner, may hide: steps along and across."""
 _PLAIN_NEAR = 0.25
 """Distance from the corners, squares, to which marks in the squares, and what hides a part of them,
 do not reach."""
@@ -383,6 +386,29 @@ def find_ends(lattice: Lattice, image: GreyImage) -> Sides:
     return top, right, bottom, left
 
 
+def find_continuing_sides(lattice: Lattice, image: GreyImage) -> Sides:
+    """Find the sides of a lattice beyond which a line of squares goes on alternating as its own do,
+    though none of its corners were taken: where the board is seen to end, it does not."""
+    step = _compute_square_difference(lattice, image)
+    top, right, bottom, left = (
+        _does_alternate_above(turn_lattice(lattice, k), image, step) for k in range(4)
+    )
+    return top, right, bottom, left
+
+
+def _does_alternate_above(lattice: Lattice, image: GreyImage, min_difference: float) -> bool:
+    """Return whether the squares above the first row, and those behind them, are seen to alternate
+    by `min_difference`, evenly filled, as if corners between them had been missed."""
+    differences = [
+        np.minimum(*_measure_differences_above(lattice, image, *at)) for at in _INSIDE_SQUARES
+    ]
+    going_on = np.min(differences, axis=0) > min_difference
+    limits = THRESHOLDS.verification
+    if len(going_on) < limits.min_end_places:
+        return False
+    return bool(going_on.mean() > limits.min_ending_places)
+
+
 def _compute_square_difference(lattice: Lattice, image: GreyImage) -> float:
     """Compute the least difference between two squares that are seen, grey levels."""
     contrast = estimate_template(lattice, image).contrast
@@ -396,19 +422,31 @@ def _does_end_above(lattice: Lattice, image: GreyImage, min_difference: float) -
     behind it they do not, as they would if corners had been missed.
     """
     limits = THRESHOLDS.verification
+    before, behind = _measure_differences_above(
+        lattice, image, limits.end_offset_along, limits.end_offset_across
+    )
+    if len(before) < limits.min_end_places:
+        return False
+    ending = np.mean((before > min_difference) & (behind < min_difference))
+    return bool(ending > limits.min_ending_places)
+
+
+def _measure_differences_above(
+    lattice: Lattice, image: GreyImage, along: float, across: float
+) -> tuple[Array, Array]:
+    """Measure by how much squares differ at the places of the line above the first row that lie in
+    the image: those in front of it and those behind it, grey levels (n,), positive as in a board
+    that goes on. They are sampled `along` steps to either side and `across` steps off the line."""
     uv = add_border(lattice.uv, 1)
     place = predict_places(uv)[0]
     right, down = (step[0] for step in estimate_steps(uv))
     usable = np.isfinite(place + right + down).all(axis=1) & are_in_image(place, image.shape)
-    if np.count_nonzero(usable) < limits.min_end_places:
-        return False
     left_is_dark = lattice.dark ^ (np.arange(len(place)) % 2 == 0)
     sign = np.where(left_is_dark, 1.0, -1.0)[usable]
-    right, down = limits.end_offset_along * right[usable], limits.end_offset_across * down[usable]
+    right, down = along * right[usable], across * down[usable]
     before = sign * _measure_difference(image, place[usable] + down, right)
     behind = -sign * _measure_difference(image, place[usable] - down, right)
-    ending = np.mean((before > min_difference) & (behind < min_difference))
-    return bool(ending > limits.min_ending_places)
+    return before, behind
 
 
 def _measure_difference(image: GreyImage, uv: Array, offset: Array) -> Array:

@@ -22,6 +22,7 @@ from calibgui.engine.images.reading import read_image
 from tests.scenes.checkerboards import draw as draw_scene
 from tests.scenes.conditions import Conditions
 from tests.scenes.perspective import photograph_pattern
+from tests.scenes.troubles import TROUBLES
 from tests.scenes.without_board import draw_without_board
 
 
@@ -226,6 +227,27 @@ def test_part_of_a_board_is_returned_as_part(draw: Any) -> None:
     assert not corners.complete
     assert len(corners) == visible
     np.testing.assert_allclose(corners.uv, truth_of(corners, drawn.uv), atol=0.3)
+
+
+@pytest.mark.parametrize("quarters", range(4))
+def test_a_smaller_board_is_remarked_on_where_its_squares_go_on(draw: Any, quarters: int) -> None:
+    """The corners of one border line are covered, so that the rest was taken for the board."""
+    scene = draw((6, 9), turn=10.0)
+    image = scene.image.copy()
+    for u, v in np.rint(np.rot90(scene.uv, quarters)[0]).astype(int):
+        image[v - 9 : v + 10, u - 9 : u + 10] = 125
+    size = ("5 x 9", "6 x 8")[quarters % 2]
+    corners = find_corners(image)
+    assert corners.remark.startswith(f"Beyond the {size} corners taken here, a line of squares")
+    assert "if it has 6 x 9 corners" in corners.remark
+    assert not find_corners(image, (6, 9)).remark
+    assert not find_corners(scene.image).remark
+
+
+@pytest.mark.parametrize("seed", [5006, 5007])
+def test_print_in_the_margin_is_not_taken_for_squares(seed: int) -> None:
+    """A code, text and a ruler alternate as squares do, but are not filled as evenly."""
+    assert not find_corners(TROUBLES["printed margin"](seed).image).remark
 
 
 def test_nine_corners_of_a_board_are_a_part(draw: Any) -> None:
