@@ -1,19 +1,27 @@
 """The corners of an AprilGrid without small dark squares between its tags.
 
 Every tag of the board in view is fitted by its outline (`tag_outlines`): those that were read, and
-those that can be read where the others predict them. A tag counts if the fit stays near, finds the
-contrast of the others and leaves no more unexplained than they do.
+those that show their number's cells where the others predict them. A tag counts if the fit stays
+near, finds a contrast like the others' and leaves no more unexplained than they do. Of one that a
+shadow or a reflection crosses, those corners count that lie near where all that do count expect
+them; how far they lie from there is put into their covariances.
 """
 
 from __future__ import annotations
 
 import numpy as np
 
-from calibgui.engine.arrays import Array, BoolArray, GreyImage, IntArray
-from calibgui.engine.boards.april_grid import TagLayout
+from calibgui.engine.arrays import Array, BoolArray, GreyImage, IntArray, compute_lengths
+from calibgui.engine.boards.april_grid import AprilGrid, TagLayout
+from calibgui.engine.detection import grid_map
 from calibgui.engine.detection.apriltags.grid_tags import GridTags
-from calibgui.engine.detection.apriltags.tag_outlines import AROUND, TagOutlines, fit_tag_outlines
-from calibgui.engine.detection.apriltags.tag_reader import TagReader
+from calibgui.engine.detection.apriltags.tag_outlines import (
+    AROUND,
+    TagOutlines,
+    fit_tag_outlines,
+    follow_shaded_outlines,
+)
+from calibgui.engine.detection.apriltags.tag_reader import verify_tags
 from calibgui.engine.detection.charuco.assembly import FittedCorners
 from calibgui.engine.detection.charuco.corners_between_markers import predict_places
 from calibgui.engine.detection.charuco.markers import Markers
@@ -32,7 +40,7 @@ _MIN_SINE = 0.2
 _MAX_SHIFT, _MIN_MAX_SHIFT = 1.0, 2.0
 """Greatest distance of a corner from where it was read, widths of the border, or px if that is
 more: dark parts end 1 px within the outlines, and blur rounds their corners."""
-_MIN_RELATIVE_CONTRAST = 0.3
+_MIN_RELATIVE_CONTRAST = 0.1
 """Least contrast of a tag over the median."""
 _MAX_RELATIVE_RESIDUAL = 0.05
 """Greatest residual of a tag over its contrast ..."""
@@ -105,6 +113,7 @@ def locate_outlined_corners(
     kept = _are_measurable(quads, image)
     rejected = list_rejected_corners(quads[~kept].reshape(-1, 2), "not whole in the image")
     squares, quads = squares[kept], quads[kept]
+    doubted: list[tuple[FittedCorners, IntArray, Array]] = []
     while True:
         if len(quads) < 2:
             raise NoBoardError(
@@ -113,13 +122,57 @@ def locate_outlined_corners(
                 "Take the picture again: sharp, evenly lit, with all of the white around the tags"
                 " in view; or print the board with its small dark squares.",
             )
-        grid = 2 * squares[:, None] + AROUND[:, ::-1].astype(np.int64)
         fit = fit_tag_outlines(image, quads, squares, border, gap)
         good = _find_good_outlines(fit, quads, border)
+        corners, grid = _list_corners(fit), _list_grid(squares)
         if good.all():
-            return grid.reshape(-1, 2), _list_corners(fit), rejected
-        rejected += list_rejected_corners(quads[~good].reshape(-1, 2), "not the outline of a tag")
+            break
+        bad = np.repeat(~good, 4)
+        shaded = follow_shaded_outlines(image, quads[~good], squares[~good], border, gap)
+        its_corners = corners.select(bad)._replace(uv=shaded.reshape(-1, 2))
+        doubted.append((its_corners, grid[bad], quads[~good]))
         squares, quads = squares[good], quads[good]
+    all_corners, all_grid = corners, grid
+    for its_corners, its_grid, at in doubted:
+        displacement = _measure_displacements(its_corners.uv, its_grid, corners.uv, grid, gap)
+        near = _are_tolerable(its_corners, displacement, border * np.repeat(_measure_sides(at), 4))
+        rejected += list_rejected_corners(at.reshape(-1, 2)[~near], "not the outline of a tag")
+        all_corners = all_corners.join(its_corners.select(near).widen(displacement[near]))
+        all_grid = np.concatenate([all_grid, its_grid[near]])
+    return all_grid, all_corners, rejected
+
+
+def _list_grid(squares: IntArray) -> IntArray:
+    """List rows and columns (4 n, 2) of the corners of the tags at `squares` (n, 2)."""
+    grid = 2 * squares[:, None] + AROUND[:, ::-1].astype(np.int64)
+    return grid.reshape(-1, 2)
+
+
+def _measure_displacements(
+    uv: Array, grid: IntArray, others: Array, their_grid: IntArray, gap: float
+) -> Array:
+    """Measure how far corners `uv` (n, 2) lie from where the smooth map of `others` (m, 2) expects
+    them, (n,) px. Rows and columns of both are given, and the `gap` between tags."""
+    pattern = AprilGrid(spacing=gap)
+    place, its_place = (
+        pattern.locate_points(each.astype(np.float64))[:, ::-1] for each in (their_grid, grid)
+    )
+    expected = grid_map.fit_cells(np.ascontiguousarray(place), others).locate(its_place)
+    return np.asarray(compute_lengths(expected - uv))
+
+
+def _are_tolerable(corners: FittedCorners, displacement: Array, border: Array) -> BoolArray:
+    """Return which corners (n,) of tags whose outlines do not fit are drawn aside by no more than
+    corners of checkerboards may be, where a shadow or a reflection crosses an edge; `border` (n,)
+    px is the width of the dark along their edges."""
+    usable = find_usable_covariances(corners.covariance)
+    return np.asarray(usable & (displacement <= verification.limit_fit_shift(border)))
+
+
+def _measure_sides(quads: Array) -> Array:
+    """Measure the shortest sides (n,) of tags (n, 4, 2), px."""
+    sides = np.linalg.norm(np.roll(quads, 1, axis=1) - quads, axis=2)
+    return np.asarray(sides.min(axis=1))
 
 
 def _list_tags(
@@ -140,8 +193,7 @@ def _list_tags(
     quads = uv.reshape(-1, 4, 2)
     near &= verification.are_in_image(uv, levels.shape).reshape(-1, 4).all(axis=1)
     numbers, squares, quads = numbers[near], squares[near], quads[near]
-    more = TagReader(levels, quads).read(tag_print)
-    seen = more.which[(more.numbers == numbers[more.which]) & (more.turns == 0)]
+    seen = verify_tags(levels, quads, tag_print, numbers)
     return (
         np.concatenate([tags.squares, squares[seen]]) + first,
         np.concatenate([tags.corners, quads[seen]]),
@@ -160,7 +212,7 @@ def _are_measurable(quads: Array, image: GreyImage) -> BoolArray:
 
 def _find_good_outlines(fit: TagOutlines, quads: Array, border: float) -> BoolArray:
     """Return which outlines (n,) count; `quads` (n, 4, 2) px are where they were expected."""
-    side = np.linalg.norm(np.roll(quads, 1, axis=1) - quads, axis=2).min(axis=1)
+    side = _measure_sides(quads)
     shift = np.linalg.norm(fit.corners - quads, axis=2).max(axis=1)
     contrast = fit.contrast * np.sign(np.median(fit.contrast))
     limit = np.maximum(

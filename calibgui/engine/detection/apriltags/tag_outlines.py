@@ -177,6 +177,33 @@ def fit_tag_outlines(
     )
 
 
+def follow_shaded_outlines(
+    image: GreyImage, corners: Array, squares: IntArray, border: float, gap: float
+) -> Array:
+    """Move the edges of tags to where their profiles rise, each half of an edge by its own levels
+    of paper and ink: the edge of a shadow or a reflection across a tag misleads a fit of all of it.
+
+    The arguments are those of `fit_tag_outlines`; the corners (n, 4, 2) px are returned.
+    """
+    n, unknown = len(corners), np.ones(len(corners))
+    curvature = _estimate_curvatures(corners, _locate_corners(squares, gap))
+    model = _Model(
+        corners, np.ones((n, 2)), np.zeros((n, 2, 3)), curvature, unknown, unknown, unknown
+    )
+    reach = _PROFILE_REACH * min(border, gap) * _measure_heights(model)
+    for _ in range(_START_ROUNDS):
+        _, offset, _ = _measure_profiles(image, model, reach, is_shaded=True)
+        model = replace(model, corners=_move_edges(model, offset))
+    return model.corners
+
+
+def _measure_heights(model: _Model) -> Array:
+    """Measure the least heights (n,) px of tags over their edges."""
+    _, _, normal = model.measure_edges()
+    across = np.sum((model.corners[:, [2, 3, 0, 1]] - model.corners) * normal, axis=2)
+    return np.asarray(across.min(axis=1))
+
+
 def _locate_corners(squares: IntArray, gap: float) -> Array:
     """Return (X, Y) (n, 4, 2) on the board of the corners of the tags at `squares` (n, 2), sides of
     a tag."""
@@ -214,9 +241,7 @@ def _estimate_start(
     model = _Model(
         corners, np.ones((n, 2)), np.zeros((n, 2, 3)), curvature, unknown, unknown, unknown
     )
-    _, _, normal = model.measure_edges()
-    across = np.sum((corners[:, [2, 3, 0, 1]] - corners) * normal, axis=2)
-    side = across.min(axis=1)
+    side = _measure_heights(model)
     reach = _PROFILE_REACH * min(border, gap) * side
     for _ in range(_START_ROUNDS):
         ends, offset, variance = _measure_profiles(image, model, reach)
@@ -236,11 +261,13 @@ def _estimate_start(
     )
 
 
-def _measure_profiles(image: GreyImage, model: _Model, reach: Array) -> tuple[Array, Array, Array]:
+def _measure_profiles(
+    image: GreyImage, model: _Model, reach: Array, *, is_shaded: bool = False
+) -> tuple[Array, Array, Array]:
     """Measure the profiles across edges, `reach` (n,) px to both sides.
 
     A profile that rises from 0 to 1 is the distribution of the edge's blur; its moments follow by
-    integration by parts.
+    integration by parts. Where the image `is_shaded`, each profile has levels of its own.
 
     Returns:
         Levels (n, 2) of paper and ink, offsets (n, 4, 2) px inwards of the edges at their beginning
@@ -249,10 +276,11 @@ def _measure_profiles(image: GreyImage, model: _Model, reach: Array) -> tuple[Ar
     share = np.linspace(_ALONG_MARGIN, 1 - _ALONG_MARGIN, _SAMPLES_ALONG)
     seen = _average_profiles(image, model, reach, share, _SAMPLES_ACROSS)
     quarter = _SAMPLES_ACROSS // 4
-    paper = np.median(seen[..., :quarter], axis=(1, 2, 3))
-    ink = np.median(seen[..., -quarter:], axis=(1, 2, 3))
-    swing = np.where(ink == paper, 1.0, ink - paper)[:, None, None, None]
-    rise = np.clip((seen - paper[:, None, None, None]) / swing, 0.0, 1.0)
+    axes = (3,) if is_shaded else (1, 2, 3)
+    paper = np.median(seen[..., :quarter], axis=axes, keepdims=True)
+    ink = np.median(seen[..., -quarter:], axis=axes, keepdims=True)
+    swing = np.where(ink == paper, 1.0, ink - paper)
+    rise = np.clip((seen - paper) / swing, 0.0, 1.0)
     across = np.linspace(-1, 1, _SAMPLES_ACROSS)
     mean = 1 - np.trapezoid(rise, across, axis=3)
     square = 1 - 2 * np.trapezoid(across * rise, across, axis=3)
@@ -260,7 +288,8 @@ def _measure_profiles(image: GreyImage, model: _Model, reach: Array) -> tuple[Ar
     middle, slope = reach[:, None] * mean.mean(axis=2), reach[:, None] * np.diff(mean)[..., 0]
     lever = slope / (1 - 2 * _ALONG_MARGIN)
     ends = np.stack([middle - lever, middle + lever], axis=2)
-    return np.column_stack([paper, ink]), ends, variance
+    levels = [np.median(each, axis=(1, 2, 3)) for each in (paper, ink)]
+    return np.column_stack(levels), ends, variance
 
 
 @kernels.with_kernel("tag_outlines", "average_profiles")

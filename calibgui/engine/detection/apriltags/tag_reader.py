@@ -16,7 +16,7 @@ import numpy as np
 from calibgui.engine.arrays import Array, BoolArray, FloatImage, GreyImage, IntArray
 from calibgui.engine.boards.april_grid import MAX_BORDER
 from calibgui.engine.boards.apriltags import FAMILIES, load_family
-from calibgui.engine.detection.charuco.marker_cells import find_dark_cells
+from calibgui.engine.detection.charuco.marker_cells import find_dark_cells, measure_cells
 from calibgui.engine.images.sampling import make_mesh, sample_image
 
 _MAX_BRIGHT_BORDER_SHARE = 0.2
@@ -36,6 +36,9 @@ _MAX_BRIGHT_RING_SHARE = 0.6
 for those along two sides if the quadrilateral is not refined yet."""
 _RING = np.pad(np.zeros((_SAMPLES - 2, _SAMPLES - 2), dtype=np.bool_), 1, constant_values=True)
 """(samples, samples) True for the outermost places."""
+_MIN_RIGHT_STEPS = 0.85
+"""Least share of the steps between a tag's cells that have the sign that its number says. Where
+there is no tag half of them have, and of 50 so many never."""
 
 
 class TagPrint(NamedTuple):
@@ -123,6 +126,23 @@ class TagReader:
         if n not in self._cells:
             self._cells[n] = find_dark_cells(self._image, self.quads, n)
         return self._cells[n]
+
+
+def verify_tags(
+    image: GreyImage, quads: Array, tag_print: TagPrint, numbers: IntArray
+) -> BoolArray:
+    """Verify which quadrilaterals (n, 4, 2) px show the tags of given numbers (n,), upright, by the
+    steps between neighbouring cells: in part of a shadow no level parts dark cells from bright."""
+    border = tag_print.border
+    cells = load_family(tag_print.family).cells[numbers]
+    ink = np.pad(cells, ((0, 0), (border, border), (border, border)), constant_values=True)
+    level = measure_cells(image, quads, tag_print.side)
+    right, steps = np.zeros(len(quads)), np.zeros(len(quads))
+    for axis in (1, 2):
+        expected = -np.diff(ink.astype(np.int64), axis=axis)
+        right += (expected * np.diff(level, axis=axis) > 0).sum(axis=(1, 2))
+        steps += (expected != 0).sum(axis=(1, 2))
+    return right > _MIN_RIGHT_STEPS * steps
 
 
 def rate_borders(image: GreyImage, quads: Array) -> Array:

@@ -7,7 +7,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from calibgui.engine.arrays import Array, GreyImage, IntArray
+from calibgui.engine.arrays import Array, BoolArray, GreyImage, IntArray
 from calibgui.engine.boards.pattern import Pattern
 from calibgui.engine.detection import region_of_interest as region
 from calibgui.engine.detection.checkerboard import harris
@@ -30,9 +30,19 @@ class FittedCorners(NamedTuple):
     residual: Array
     """(n,) standard deviation of what the fit leaves unexplained, grey levels."""
 
-    def select(self, index: IntArray) -> FittedCorners:
-        """Select the corners `index` (m,)."""
+    def select(self, index: BoolArray | IntArray) -> FittedCorners:
+        """Select corners by a mask (n,) or by their indices (m,)."""
         return FittedCorners(*(values[index] for values in self))
+
+    def join(self, other: FittedCorners) -> FittedCorners:
+        """Return these corners and then the others."""
+        return FittedCorners(*map(np.concatenate, zip(self, other, strict=True)))
+
+    def widen(self, displacement: Array) -> FittedCorners:
+        """Return the fit with the covariances of corners that are drawn aside, by `displacement`
+        (n,) px, so much larger that they expect it: its square, shared by both axes."""
+        added = displacement[:, None, None] ** 2 / 2 * np.eye(2)
+        return self._replace(covariance=self.covariance + added)
 
 
 def assemble_corners(

@@ -24,6 +24,14 @@ def find_dark_cells(image: GreyImage, quads: Array, side: int) -> BoolArray:
     Returns:
         (n, side, side), True where a cell is darker than the mid level of its quadrilateral.
     """
+    level = measure_cells(image, quads, side)
+    ends = level.min(axis=(1, 2)), level.max(axis=(1, 2))
+    return np.asarray(level < np.mean(ends, axis=0)[:, None, None])
+
+
+def measure_cells(image: GreyImage, quads: Array, side: int) -> Array:
+    """Measure the grey levels (n, side, side) of the cells of quadrilaterals; the arguments are
+    those of `find_dark_cells`."""
     n = len(quads)
     square = np.broadcast_to(side * np.array([(0.0, 0), (1, 0), (1, 1), (0, 1)]), (n, 4, 2))
     H = homography.fit_homography(square, quads, np.ones((n, 4)))
@@ -32,6 +40,4 @@ def find_dark_cells(image: GreyImage, quads: Array, side: int) -> BoolArray:
     values = sample_image(
         image, homography.apply_homography(H, np.broadcast_to(at, (n, *at.shape)))
     )
-    level = values.reshape(n, side, side, len(_SAMPLE_OFFSETS)).mean(axis=3)
-    ends = level.min(axis=(1, 2)), level.max(axis=(1, 2))
-    return np.asarray(level < np.mean(ends, axis=0)[:, None, None])
+    return np.asarray(values.reshape(n, side, side, len(_SAMPLE_OFFSETS)).mean(axis=3))

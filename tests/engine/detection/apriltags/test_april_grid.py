@@ -135,15 +135,46 @@ def test_blur_does_not_move_the_corners_of_tags_alone_outwards() -> None:
         assert abs(moved.mean()) < 0.006
 
 
-def test_a_tag_that_is_covered_is_left_out() -> None:
+def test_a_tag_of_which_a_corner_is_covered_counts_little() -> None:
+    """Its edges tell where its corners are, but not as its whole outline would."""
     image = BARE.image()
     whole = find_corners(image, pattern=AprilGrid())
     at = whole.uv[(whole.grid == (3, 4)).all(axis=1)][0].astype(int)
     image[at[1] - 6 : at[1] + 6, at[0] - 6 : at[0] + 6] = 128
     corners = find_corners(image, pattern=AprilGrid())
-    assert 60 <= len(corners) < 80
+    assert_at_bound(BARE, corners, (0.7, 1.4))
+    assert corners.cov is not None
+    sigma = np.sqrt(np.trace(corners.cov, axis1=1, axis2=2) / 2)
+    of_tag = (corners.grid // 2 == (1, 2)).all(axis=1)
+    assert (sigma[of_tag] > 10 * np.median(sigma)).all()
+    assert np.abs(BARE.error(corners)[of_tag]).max() < 0.2
+
+
+def test_a_tag_that_is_covered_is_left_out() -> None:
+    image = BARE.image()
+    whole = find_corners(image, pattern=AprilGrid())
+    of_tag = (whole.grid // 2 == (1, 2)).all(axis=1)
+    low, high = whole.uv[of_tag].min(axis=0).astype(int), whole.uv[of_tag].max(axis=0).astype(int)
+    image[low[1] - 3 : high[1] + 3, low[0] - 3 : (low[0] + high[0]) // 2] = 128
+    corners = find_corners(image, pattern=AprilGrid())
+    assert 72 <= len(corners) < 80
     assert not (corners.grid == (3, 4)).all(axis=1).any()
     assert_at_bound(BARE, corners, (0.7, 1.4))
+
+
+@pytest.mark.parametrize("soft", [0.5, 3.0])
+def test_a_hard_shadow_leaves_tags_alone_their_corners(soft: float) -> None:
+    """Those within it have a quarter of the contrast; those that its edge crosses are read by the
+    steps between their cells, and their outlines followed by the levels beside them."""
+    image = BARE.image()
+    v, u = np.indices(image.shape)
+    lit = 1 / (1 + np.exp(-np.clip((u + 0.4 * v - 430) / soft, -50, 50)))
+    corners = find_corners((image * (0.25 + 0.75 * lit)).astype(np.uint8), pattern=AprilGrid())
+    assert len(corners) >= 74 and corners.cov is not None
+    error = BARE.error(corners)
+    assert np.abs(error).max() < 1.5
+    sigma = np.sqrt(np.trace(corners.cov, axis1=1, axis2=2) / 2)
+    assert (np.linalg.norm(error, axis=1) < 5 * sigma).all()
 
 
 def test_parts_have_the_ids_of_the_whole() -> None:

@@ -12,7 +12,12 @@ from calibgui.engine import opencv
 from calibgui.engine.arrays import Array, GreyImage
 from calibgui.engine.boards.april_grid import AprilGrid
 from calibgui.engine.boards.apriltags import FAMILIES, load_family
-from calibgui.engine.detection.apriltags.tag_reader import TagPrint, TagReader, rate_borders
+from calibgui.engine.detection.apriltags.tag_reader import (
+    TagPrint,
+    TagReader,
+    rate_borders,
+    verify_tags,
+)
 from calibgui.engine.detection.find_corners import find_corners
 from calibgui.engine.errors import NoBoardError
 from tests.scenes.without_board import draw_without_board
@@ -85,3 +90,16 @@ def test_an_image_is_searched_once_for_each_colour(monkeypatch: pytest.MonkeyPat
     assert searched[:2] == ["all", "all"]
     assert searched.count("quick") == 2
     assert set(searched[2:]) == {"part", "quick"}
+
+
+def test_a_tag_is_verified_in_part_of_a_shadow_and_another_number_is_not() -> None:
+    numbers = np.arange(40, 46)
+    image, quads = draw_tags("t36h11", 2, range(40, 46), 0.7)
+    v, u = np.indices(image.shape)
+    along = (u - 0.5 * v) % PITCH
+    shaded = np.where(along > PITCH / 2, image, image // 5)
+    tag = TagPrint("t36h11", 2)
+    for levels in (image, shaded):
+        assert verify_tags(levels, quads, tag, numbers).all()
+        assert not verify_tags(levels, quads, tag, numbers + 7).any()
+    assert len(TagReader(shaded, quads).read(tag).numbers) < len(numbers)
