@@ -19,6 +19,15 @@ from numba.core.codegen import JITCodeLibrary
 from numba.core.compiler import Compiler
 from numba.core.runtime import rtsys
 
+for _name in (
+    "_finalize_final_module",
+    "_get_compiled_object",
+    "_optimize_final_module",
+    "serialize_using_object_code",
+):
+    # Numba promises none of these: one that lacks any is not used at all (`can_compile`).
+    getattr(JITCodeLibrary, _name)
+
 
 class _KernelLibrary(JITCodeLibrary):  # type: ignore[misc]  # numba is not typed
     """The code of a kernel, of which the machine code alone is kept on disk."""

@@ -56,24 +56,38 @@ def test_kernels_compile_where_nothing_can_be_kept(monkeypatch: pytest.MonkeyPat
     assert common.compiled(doubled)(1.5) == 3.0
 
 
-def test_a_numba_that_cannot_be_imported_is_said_once_and_done_without(tmp_path: Path) -> None:
-    """As numba after an update of NumPy: it is installed, and raises ImportError."""
-    (tmp_path / "numba.py").write_text(
-        "raise ImportError('Numba needs NumPy 2.3 or less')", encoding="utf-8"
-    )
-    script = (
-        "import numpy as np, warnings\n"
-        "from pathlib import Path\n"
-        "from calibgui.app.detection import find_views\n"
-        "from calibgui.engine import kernels\n"
-        "sample = Path('resources/sample')\n"
-        "assert kernels.COMPILED\n"
-        "views = find_views(sorted(sample.glob('*.png'))[:3]).views\n"
-        "assert not kernels.COMPILED\n"
-        "print(*(view.status.value for view in views))\n"
-    )
+_SEARCH_WITHOUT_NUMBA = (
+    "from pathlib import Path\n"
+    "from calibgui.app.detection import find_views\n"
+    "from calibgui.engine import kernels\n"
+    "sample = Path('resources/sample')\n"
+    "assert kernels.COMPILED\n"
+    "views = find_views(sorted(sample.glob('*.png'))[:3]).views\n"
+    "assert not kernels.COMPILED\n"
+    "print(*(view.status.value for view in views))\n"
+)
+
+
+@pytest.mark.parametrize(
+    ("file", "content", "reason"),
+    [
+        ("numba.py", "raise ImportError('Numba needs NumPy 2.3')", "needs NumPy 2.3"),
+        (
+            "sitecustomize.py",
+            "from numba.core.codegen import CPUCodeLibrary\n"
+            "del CPUCodeLibrary._optimize_final_module",
+            "_optimize_final_module",
+        ),
+    ],
+    ids=["cannot be imported", "has another inside"],
+)
+def test_a_numba_that_cannot_be_used_is_said_once_and_done_without(
+    file: str, content: str, reason: str, tmp_path: Path
+) -> None:
+    """As after an update of NumPy, or of numba, of whose inside kernels make use."""
+    (tmp_path / file).write_text(content, encoding="utf-8")
     done = subprocess.run(
-        [sys.executable, "-c", script],
+        [sys.executable, "-c", _SEARCH_WITHOUT_NUMBA],
         cwd=ROOT,
         env=os.environ | {"PYTHONPATH": os.pathsep.join([str(tmp_path), str(ROOT)])},
         capture_output=True,
@@ -82,4 +96,4 @@ def test_a_numba_that_cannot_be_imported_is_said_once_and_done_without(tmp_path:
     )
     assert done.returncode == 0, done.stderr
     assert set(done.stdout.split()) == {"found"}
-    assert done.stderr.count("needs NumPy 2.3 or less") == 1
+    assert done.stderr.count(reason) == 1
