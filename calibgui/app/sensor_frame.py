@@ -76,7 +76,7 @@ def choose_orientation(header: Header, size: Size | None, usual: int | None) -> 
 
 
 def _describe_wrong_size(size: Size, usual: Size | None) -> str:
-    remedy = "Leave it out, or calibrate images of each size by themselves."
+    remedy = "It is not used: calibrate images of each size by themselves."
     if usual == size[::-1]:
         remedy = "Take the file as the camera wrote it, or leave it out."
     width, height = usual or (0, 0)
