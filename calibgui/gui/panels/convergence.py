@@ -24,7 +24,7 @@ class ConvergencePanel(Panel):
     def __init__(self, services: Services) -> None:
         super().__init__(services)
         self.words = WrappedLabel()
-        self.plot = Plot(self.tr("iteration"), self.tr("cost c"), logarithmic=True)
+        self.plot = Plot(self.tr("iteration"), self.tr("cost c"), logarithmic=True, counts=True)
         self.plot.setToolTip(
             self.tr("The sum of squared residuals that Stage II minimises, after each step.")
         )

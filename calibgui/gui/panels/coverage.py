@@ -60,7 +60,7 @@ class CoveragePanel(Panel):
             )
         )
         self._add_rings()
-        self.distances = ViewScatter(self.tr("view"), self.tr("distance"))
+        self.distances = ViewScatter(self.tr("view"), self.tr("distance"), counts=True)
         self.distances.setToolTip(self.tr("From the camera to the middle of the corners seen."))
         self._planned: Result | None = None
         for plot in (self.tilts, self.distances):

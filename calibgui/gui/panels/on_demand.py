@@ -64,9 +64,6 @@ class OnDemandPanel(Panel, Generic[Found]):
     def _lay_out(self, content: QWidget, *buttons: QWidget) -> None:
         """Lay the panel out; `content`, and buttons above it, are shown when something is found."""
         self._shown_if_found = (content, *buttons)
-        keeping = content.sizePolicy()
-        keeping.setRetainSizeWhenHidden(True)
-        content.setSizePolicy(keeping)
         bar = QHBoxLayout()
         bar.addWidget(self.run)
         bar.addStretch(1)
@@ -76,6 +73,7 @@ class OnDemandPanel(Panel, Generic[Found]):
         layout.addLayout(bar)
         layout.addWidget(self.words)
         layout.addWidget(content, 1)
+        layout.addStretch()  # while there is no content: room for it would have to be scrolled
 
     def _start_or_cancel(self) -> None:
         if self._is_working:

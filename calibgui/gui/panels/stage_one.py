@@ -55,7 +55,7 @@ class StageOnePanel(Panel):
         )
         self._curve = self.equation.plot()
         self._root = self.equation.plot(symbol="o", symbolSize=11, symbolBrush=None)
-        self.aspects = Plot(self.tr("view"), self.tr("aspect ratio fy / fx"))
+        self.aspects = Plot(self.tr("view"), self.tr("aspect ratio fy / fx"), counts=True)
         self.aspects.setToolTip(
             self.tr(
                 "The root of each view. Views near fronto-parallel, or tilted about one axis,\n"

@@ -18,16 +18,23 @@ class ViewScatter(Plot):
     """What was measured of each view, against something else; a ring marks one view.
 
     Args:
-        x, y, x_unit, y_unit, square: as for `Plot`.
+        x, y, x_unit, y_unit, square, counts: as for `Plot`.
     """
 
     picked = Signal(int)
     """The view whose point was clicked."""
 
     def __init__(
-        self, x: str, y: str, x_unit: str = "", y_unit: str = "", *, square: bool = False
+        self,
+        x: str,
+        y: str,
+        x_unit: str = "",
+        y_unit: str = "",
+        *,
+        square: bool = False,
+        counts: bool = False,
     ) -> None:
-        super().__init__(x, y, x_unit, y_unit, square=square)
+        super().__init__(x, y, x_unit, y_unit, square=square, counts=counts)
         self.points = np.zeros((0, 2))
         """(n, 2) points of the views."""
         self._cloud = PointCloud(size=10)

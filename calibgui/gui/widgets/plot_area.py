@@ -23,11 +23,18 @@ _ABOVE_IMAGES = 0.5
 class Axis(pg.AxisItem):  # type: ignore[misc]  # pyqtgraph is not typed
     """An axis that, if it is logarithmic, has numbers at powers of ten, and few between them."""
 
+    is_count = False
+    """Whether it counts something, so that nothing lies between whole numbers."""
     write_number: Callable[[float], str] | None = None
     """A function that writes the numbers, as dates for example; None for plain numbers."""
 
     def updateAutoSIPrefix(self) -> None:  # noqa: N802 - pyqtgraph's name
         """Choose no prefix of a unit, for which the label is written anew at every change."""
+
+    def tickSpacing(self, low: float, high: float, size: float) -> list[tuple[float, float]]:  # noqa: N802 - pyqtgraph's name
+        levels = list(super().tickSpacing(low, high, size))
+        whole = [(spacing, begin) for spacing, begin in levels if spacing >= 1]
+        return (whole or [(1.0, 0.0)]) if self.is_count and levels else levels
 
     def tickStrings(self, values: list[float], scale: float, spacing: float) -> list[str]:  # noqa: N802 - pyqtgraph's name
         if self.write_number is None:

@@ -52,6 +52,7 @@ class Plot(pg.GraphicsView):  # type: ignore[misc]  # pyqtgraph is not typed
         x_unit, y_unit: their units; empty for a count or a ratio.
         square: whether a unit is as long on either axis.
         logarithmic: whether the left axis shows powers of ten at equal distances.
+        counts: whether the lower axis counts something, as views.
     """
 
     def __init__(
@@ -63,6 +64,7 @@ class Plot(pg.GraphicsView):  # type: ignore[misc]  # pyqtgraph is not typed
         *,
         square: bool = False,
         logarithmic: bool = False,
+        counts: bool = False,
         parent: QWidget | None = None,
     ) -> None:
         super().__init__(parent)
@@ -77,6 +79,7 @@ class Plot(pg.GraphicsView):  # type: ignore[misc]  # pyqtgraph is not typed
         self.box.setAspectLocked(square)
         self._is_logarithmic = logarithmic
         self.area.left.setLogMode(logarithmic)
+        self.area.bottom.is_count = counts
         self._menu = QMenu(self)
         for text, shortcut, does in (
             (self.tr("Show all"), None, self.show_all),

@@ -19,6 +19,8 @@ def test_plot_holds_the_history(shown: Shown[ConvergencePanel], result: Result) 
     np.testing.assert_array_equal(x, [i.index for i in result.calibration.history])
     np.testing.assert_array_equal(y, [i.cost for i in result.calibration.history])
     assert panel.plot.area.left.logMode
+    levels = panel.plot.area.bottom.tickSpacing(-0.2, 3.2, 300)
+    assert levels and all(spacing >= 1 for spacing, _ in levels), "there is no iteration 0.5"
 
 
 def test_grows_while_it_runs(shown: Shown[ConvergencePanel], result: Result) -> None:

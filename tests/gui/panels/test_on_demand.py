@@ -57,6 +57,11 @@ def panel(shown: Shown[CountingPanel], result: Result) -> Iterator[CountingPanel
     panel.may_end.set()
 
 
+def test_before_anything_is_found_there_is_nothing_to_scroll_to(panel: CountingPanel) -> None:
+    panel.content.setMinimumHeight(900)
+    assert panel.body.minimumSizeHint().height() < 300
+
+
 def state(panel: CountingPanel) -> tuple[str, str, bool]:
     """The button's text, the words, and whether what was found is on screen."""
     visible = panel.content.isVisible()
