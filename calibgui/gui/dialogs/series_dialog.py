@@ -19,7 +19,6 @@ from PySide6.QtWidgets import (
     QLineEdit,
     QPushButton,
     QSplitter,
-    QTabWidget,
     QVBoxLayout,
     QWidget,
 )
@@ -43,6 +42,7 @@ from calibgui.gui.widgets import theme
 from calibgui.gui.widgets.actions import add_close_button
 from calibgui.gui.widgets.plots import Plot
 from calibgui.gui.widgets.save_names import ask_for_name
+from calibgui.gui.widgets.tab_bar import TabWidget
 from calibgui.gui.widgets.tables import Column, Table, with_decimals, with_digits
 from calibgui.gui.widgets.wrapped_label import WrappedLabel
 from calibgui.report.names import tell_apart
@@ -123,7 +123,7 @@ class SeriesDialog(QDialog):
         right.setContentsMargins(0, 0, 0, 0)
         right.addWidget(self.parameter)
         right.addWidget(self.plot, 1)
-        tabs = QTabWidget(documentMode=True)
+        tabs = TabWidget()
         tabs.addTab(self.results, self.tr("Results"))
         tabs.addTab(self.camera, self.tr("Camera at a value"))
         self._found = QSplitter()

@@ -9,7 +9,7 @@ from typing import cast
 
 import numpy as np
 from PySide6.QtCore import QT_TRANSLATE_NOOP
-from PySide6.QtWidgets import QComboBox, QHBoxLayout, QLabel, QTabWidget, QVBoxLayout
+from PySide6.QtWidgets import QComboBox, QHBoxLayout, QLabel, QVBoxLayout
 
 from calibgui.app.calibration import shorten_names
 from calibgui.app.resampling import Undistortion
@@ -25,6 +25,7 @@ from calibgui.gui.panels.latest import Latest
 from calibgui.gui.panels.panel import Panel
 from calibgui.gui.panels.services import Services
 from calibgui.gui.widgets.narrow_combo import NarrowCombo
+from calibgui.gui.widgets.tab_bar import TabWidget
 from calibgui.gui.widgets.tables import Column, Table, with_decimals, with_digits
 from calibgui.gui.widgets.wrapped_label import WrappedLabel
 from calibgui.report.comparison import ParameterChange, compare_parameters
@@ -56,7 +57,7 @@ class ComparePanel(Panel):
         self.map = DifferenceMap()
         self.images = DividedImages("", "")
         self.images.setAccessibleName(self.tr("One image undistorted by both results"))
-        self.tabs = QTabWidget(documentMode=True)
+        self.tabs = TabWidget()
         for widget, name in (
             (self.parameters, self.tr("Parameters")),
             (self.map, self.tr("Difference [px]")),

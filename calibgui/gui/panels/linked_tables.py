@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from PySide6.QtCore import Signal
-from PySide6.QtWidgets import QTabWidget
 
+from calibgui.gui.widgets.tab_bar import TabWidget
 from calibgui.gui.widgets.tables import Table
 
 
-class LinkedTables(QTabWidget):
+class LinkedTables(TabWidget):
     """Shows tables of the same rows; a row that is selected in one is selected in the others."""
 
     picked = Signal(int)
@@ -16,7 +16,6 @@ class LinkedTables(QTabWidget):
 
     def __init__(self) -> None:
         super().__init__()
-        self.setDocumentMode(True)
         self._tables: list[Table] = []
 
     def add_table(self, name: str) -> Table:

@@ -7,7 +7,7 @@ from html import escape
 
 import numpy as np
 from PySide6.QtCore import QT_TRANSLATE_NOOP
-from PySide6.QtWidgets import QTabWidget, QTextBrowser, QVBoxLayout
+from PySide6.QtWidgets import QTextBrowser, QVBoxLayout
 
 from calibgui.dataset import Result
 from calibgui.engine.calibration import compute_correlations, make_paper_table
@@ -20,6 +20,7 @@ from calibgui.gui.panels.panel import Panel
 from calibgui.gui.panels.services import Services
 from calibgui.gui.panels.split import Split
 from calibgui.gui.widgets import theme
+from calibgui.gui.widgets.tab_bar import TabWidget
 from calibgui.gui.widgets.tables import Column, Table, with_digits
 from calibgui.gui.widgets.wrapped_label import join_values
 from calibgui.report.summary import Sentence, Tone, describe_calibration
@@ -46,7 +47,7 @@ class ResultPanel(Panel):
         self.correlations.setToolTip(
             self.tr("Estimates near ±1 can stand in for each other: only a combination is known.")
         )
-        self.tabs = QTabWidget(documentMode=True)
+        self.tabs = TabWidget()
         for widget, name in (
             (Split(820, (self.words, 1), (self.array_frame, 1)), self.tr("Summary")),
             (self.paper_units, self.tr("The paper's units")),

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 
 from PySide6.QtCore import QT_TRANSLATE_NOOP
-from PySide6.QtWidgets import QTabWidget, QWidget
+from PySide6.QtWidgets import QWidget
 
 from calibgui.app.calibration import shorten_names
 from calibgui.app.synthetic import (
@@ -24,6 +24,7 @@ from calibgui.gui.panels.latest import Latest
 from calibgui.gui.panels.on_demand import OnDemandPanel
 from calibgui.gui.panels.services import Services
 from calibgui.gui.panels.synthetic_figures import Histograms, ParameterTable, PoseErrors, Scatters
+from calibgui.gui.widgets.tab_bar import TabWidget
 
 
 class SyntheticPanel(OnDemandPanel[SyntheticCheck]):
@@ -51,7 +52,7 @@ class SyntheticPanel(OnDemandPanel[SyntheticCheck]):
         self.errors = PoseErrors()
         self.scatters = Scatters()
         self.histograms = Histograms()
-        self.tabs = QTabWidget(documentMode=True)
+        self.tabs = TabWidget()
         self._draw: dict[QWidget, Callable[[SyntheticCheck], None]] = {}
         """Function that draws each tab."""
         for widget, name, draw in (

@@ -12,7 +12,6 @@ from PySide6.QtWidgets import (
     QPushButton,
     QScrollArea,
     QStackedWidget,
-    QTabBar,
     QToolButton,
     QVBoxLayout,
     QWidget,
@@ -23,6 +22,7 @@ from calibgui.gui.panels.groups import Group, describe_group, name_group
 from calibgui.gui.settings.board_panel import BoardPanel
 from calibgui.gui.settings.settings_panel import SettingsPanel
 from calibgui.gui.widgets import theme
+from calibgui.gui.widgets.tab_bar import TabBar
 from calibgui.gui.window.progress import Progress
 
 
@@ -52,7 +52,7 @@ class Inspector(QWidget):
     ) -> None:
         super().__init__()
         self.setMinimumWidth(self.WIDTH)
-        self.tabs = QTabBar(documentMode=True, expanding=False, drawBase=False)
+        self.tabs = TabBar(documentMode=True, expanding=False, drawBase=False)
         self.tabs.setUsesScrollButtons(False)
         self.tabs.setAccessibleName(self.tr("Inspector"))
         self._pages = QStackedWidget()
