@@ -236,8 +236,9 @@ class ColourBar(pg.GraphicsWidget):  # type: ignore[misc]  # pyqtgraph is not ty
         """Values of the lowest and of the highest colour."""
         self._gradient = QLinearGradient(0, 1, 0, 0)
         self._gradient.setCoordinateMode(QGradient.CoordinateMode.ObjectMode)
-        for position in np.linspace(0, 1, _STOPS):
-            self._gradient.setColorAt(position, colours.mapToQColor(position))
+        places = np.linspace(0, 1, _STOPS)
+        for place, colour in zip(places, colours.map(places, mode="qcolor"), strict=True):
+            self._gradient.setColorAt(place, colour)
         if image is not None:
             image.setColorMap(colours)
         self.axis = Axis("right")
