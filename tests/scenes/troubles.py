@@ -1,8 +1,8 @@
 """Photographs of checkerboards that people have and that finders have lost, with their truth.
 
 Each of the `TROUBLES` is a function from a seed to a `Photograph`; size, pose, blur and noise of
-the board vary with the seed, and so does the trouble. Those of cameras and of boards have files of
-their own.
+the board vary with the seed, and so does the trouble. Those of cameras, boards and places have
+files of their own.
 """
 
 from __future__ import annotations
@@ -27,6 +27,7 @@ from tests.scenes.photograph import (
 )
 from tests.scenes.troubles_of_boards import BOARDS
 from tests.scenes.troubles_of_cameras import CAMERAS
+from tests.scenes.troubles_of_places import PLACES
 
 
 def _plain(settings: dict[str, Any]) -> Trouble:
@@ -239,5 +240,6 @@ TROUBLES: dict[str, Trouble] = {
     "glass": glass,
     **CAMERAS,
     **BOARDS,
+    **PLACES,
 }
 """What troubles the finder, by name."""
