@@ -62,6 +62,8 @@ class EdgeLens(NamedTuple):
 
     first: Array
     """(n, 2, 2) derivatives of the position by column and by row, px."""
+    stretch: Array
+    """(n, 2) by how much steps grow from one column, and row, to the next, steps."""
     rest: Array
     """(2, 2, n) px, what is left of the means and of the slopes of edges 1 and 2."""
     columns: Array
@@ -107,12 +109,15 @@ def fit_edge_lenses(cells: Array, edges: ReadEdges) -> list[EdgeLens]:
             (by_parameters,) = _add_weak_lens(by_parameters[None], corners)
         first = np.asarray(np.linalg.inv(inverse.differentiate(u)[1]), dtype=np.float64)
         rest, varied = unit * _average(offset), -_average(columns)
+        step, change = start.differentiate(x)
+        stretch = np.sum(step * change, axis=2) / np.sum(step**2, axis=2) / scale
         bend = taken - (rest[0] - to_corner * rest[1]) + unit * at_corner
         by_line = varied[0] - to_corner[..., None] * varied[1]
         degree = np.where(np.arange(varied.shape[-1]) < _PARAMETERS, LENS, NEXT_COEFFICIENT)
         fits.append(
             EdgeLens(
                 unit / scale * first.transpose(0, 2, 1),
+                stretch,
                 rest,
                 varied,
                 degree,

@@ -13,11 +13,13 @@ squares,
 
     n_1 . (p + M p' + (A^2 / 3 + M^2) p'' / 2),      w n_1 . (p' + M p''),      p' = dp/dcol,
 
-and the like with n_2 and rows. A slope has sqrt(3) / A times the standard deviation of its mean, in
-px per square; so w is A / sqrt(3). Whether there is a lens, of how many coefficients, and a
-polynomial, of what degree, is decided by the generalised cross-validation score, as in
-``board_priors``. What the map leaves unexplained says how well its parameters are known, and with
-them how edges bend.
+and the like with n_2 and rows. Here x is the length of the edge, in steps at the corner: where
+perspective stretches the steps by a share g from one column to the next, p'' is d^2p/dcol^2 - g p'.
+Else what a homography moves straight would be bent. A slope has sqrt(3) / A times the standard
+deviation of its mean, in px per square; so w is A / sqrt(3). Whether there is a lens, of how many
+coefficients, and a polynomial, of what degree, is decided by the generalised cross-validation
+score, as in ``board_priors``. What the map leaves unexplained says how well its parameters are
+known, and with them how edges bend.
 
 Along a row only the corners tell how far a point lies, as many as there are columns; how far it
 lies across is told by the directions as well. So the polynomial has other powers along the mean
@@ -120,6 +122,7 @@ def _fit_polynomial(
     terms, axis, degree = _compute_terms(found.shape, found.tobytes())
     across = np.einsum("naj,kj->ank", edges.normals, lens.first.mean(axis=0)[axis])
     value, first, second = across * terms[0], across * terms[1:3], across * terms[3:]
+    second -= lens.stretch.T[..., None] * first
     bends = (half**2 / 3 - middle**2) / 2 * second
     slopes = first + middle * second
     # The line nearest to an edge meets the corner `bends` off.
