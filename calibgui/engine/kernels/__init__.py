@@ -24,7 +24,7 @@ from typing import Any, Generic, ParamSpec, TypeVar
 
 COMPILED = find_spec("numba") is not None
 """True if numba is installed, and was not found to be unusable."""
-FINDER_SECONDS, SOLVER_SECONDS = 20, 8
+FINDER_SECONDS, SOLVER_SECONDS = 25, 15
 """Rough times, s, that compiling the kernels of the detection and of the calibration takes, once
 after an installation."""
 

@@ -46,7 +46,7 @@ from calibgui.engine.images.sampling import sample_image
 TOO_BLURRED = "its edges are too blurred, or too ragged, to be told from waves"
 """What speaks against a lattice of wide edges."""
 
-_INSIDE_SQUARES = ((0.5, 0.3), (0.5, 0.7), (0.3, 0.5), (0.7, 0.5))
+_INSIDE_SQUARES = np.array([[0.5, 0.3], [0.5, 0.7], [0.3, 0.5], [0.7, 0.5]])
 """Where whole squares beside a corner are sampled, apart from their edges, which blur, or what lies
 on the corner, may hide: steps along and across."""
 _PLAIN_NEAR = 0.25
@@ -399,10 +399,8 @@ def find_continuing_sides(lattice: Lattice, image: GreyImage) -> Sides:
 def _does_alternate_above(lattice: Lattice, image: GreyImage, min_difference: float) -> bool:
     """Return whether the squares above the first row, and those behind them, are seen to alternate
     by `min_difference`, evenly filled, as if corners between them had been missed."""
-    differences = [
-        np.minimum(*_measure_differences_above(lattice, image, *at)) for at in _INSIDE_SQUARES
-    ]
-    going_on = np.min(differences, axis=0) > min_difference
+    differences = _measure_differences_above(lattice, image, _INSIDE_SQUARES)
+    going_on = differences.min(axis=(0, 1)) > min_difference
     limits = THRESHOLDS.verification
     if len(going_on) < limits.min_end_places:
         return False
@@ -422,36 +420,38 @@ def _does_end_above(lattice: Lattice, image: GreyImage, min_difference: float) -
     behind it they do not, as they would if corners had been missed.
     """
     limits = THRESHOLDS.verification
-    before, behind = _measure_differences_above(
-        lattice, image, limits.end_offset_along, limits.end_offset_across
-    )
+    offset = np.array([[limits.end_offset_along, limits.end_offset_across]])
+    before, behind = _measure_differences_above(lattice, image, offset)[:, 0]
     if len(before) < limits.min_end_places:
         return False
     ending = np.mean((before > min_difference) & (behind < min_difference))
     return bool(ending > limits.min_ending_places)
 
 
-def _measure_differences_above(
-    lattice: Lattice, image: GreyImage, along: float, across: float
-) -> tuple[Array, Array]:
-    """Measure by how much squares differ at the places of the line above the first row that lie in
-    the image: those in front of it and those behind it, grey levels (n,), positive as in a board
-    that goes on. They are sampled `along` steps to either side and `across` steps off the line."""
+def _measure_differences_above(lattice: Lattice, image: GreyImage, offsets: Array) -> Array:
+    """Measure by how much squares differ along the line above the first row.
+
+    Args:
+        lattice: the lattice.
+        image: grey levels.
+        offsets: (m, 2) steps along the line, to either side, and across it, off the line, from its
+            places to those that are compared.
+
+    Returns:
+        (2, m, n) grey levels at the n places in the image, of the squares in front of the line and
+        of those behind it, positive as in a board that goes on.
+    """
     uv = add_border(lattice.uv, 1)
     place = predict_places(uv)[0]
     right, down = (step[0] for step in estimate_steps(uv))
     usable = np.isfinite(place + right + down).all(axis=1) & are_in_image(place, image.shape)
     left_is_dark = lattice.dark ^ (np.arange(len(place)) % 2 == 0)
-    sign = np.where(left_is_dark, 1.0, -1.0)[usable]
+    along, across = offsets.T[..., None, None]
     right, down = along * right[usable], across * down[usable]
-    before = sign * _measure_difference(image, place[usable] + down, right)
-    behind = -sign * _measure_difference(image, place[usable] - down, right)
-    return before, behind
-
-
-def _measure_difference(image: GreyImage, uv: Array, offset: Array) -> Array:
-    """Return (n,) grey levels at `uv` + `offset` less those at `uv` - `offset`, (n, 2) px."""
-    return sample_image(image, uv + offset) - sample_image(image, uv - offset)
+    squares = place[usable] + np.stack([down, -down])
+    levels = sample_image(image, np.stack([squares + right, squares - right]))
+    sign = np.where(left_is_dark, 1.0, -1.0)[usable] * np.array([1.0, -1.0])[:, None, None]
+    return np.asarray(sign * (levels[0] - levels[1]))
 
 
 def are_in_image(uv: Array, shape: tuple[int, ...]) -> BoolArray:
