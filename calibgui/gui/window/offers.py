@@ -81,6 +81,8 @@ class Offers(QObject):
         self._looking: Job | None = None
         self._looking_for: Hashable = None
         """What `_looking` depends on."""
+        self._marks_asked: tuple[Document, Hashable] | None = None
+        """What was looked at for marks last: every fit ends a search, if of nothing new."""
         session.changed.connect(self._drop_look)
 
     def _offer(self, text: str, choice: str, does: Callable[[], None]) -> None:
@@ -186,10 +188,11 @@ class Offers(QObject):
         searched = [v for v in project.views if v.status in (ViewStatus.FOUND, ViewStatus.NO_BOARD)]
         if not everything or project.by_hand or not searched:
             return
+        asked = self._session.document, self._get_question()
         if not any(v.usable for v in searched):
             look = partial(_find_other_board, project)
-        elif project.pattern == CHECKERBOARD:
-            look = partial(_read_marks, searched)
+        elif project.pattern == CHECKERBOARD and asked != self._marks_asked:
+            self._marks_asked, look = asked, partial(_read_marks, searched)
         else:
             return
         self._looking_for = self._get_question()

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
 from threading import Event
@@ -27,6 +28,7 @@ from calibgui.engine.errors import CalibrationError, Cancelled
 from calibgui.engine.images.reading import read_image, write_image
 from calibgui.gui.window import offers
 from calibgui.gui.window.main_window import MainWindow
+from tests.app import examples
 from tests.engine.detection.conftest import Scene
 
 pytestmark = pytest.mark.slow
@@ -145,6 +147,27 @@ def test_marks_on_a_board_that_was_found_as_a_plain_one_are_told(
     assert result is not None and result.board is not None
     assert isinstance(result.board.pattern, Charuco), "it is calibrated anew as well"
     assert not window.banner.isVisible()
+
+
+def test_boards_are_looked_at_for_marks_once(
+    window: MainWindow, qtbot: QtBot, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Every fit ends a search, and what was dismissed is not offered again."""
+    looks: list[int] = []
+
+    def look(views: Sequence[View]) -> None:
+        looks.append(len(views))
+
+    monkeypatch.setattr(offers, "recognise_pattern", look)
+    found = examples.views(tmp_path)
+    window.session.begin(Document(Project(views=tuple(found), size=(320, 240))))
+    for _ in range(3):
+        window.detector.finished.emit(True)
+        qtbot.waitUntil(lambda: not window.session.jobs.running)
+    assert looks == [len(found)]
+    window.session.begin(Document(Project(views=tuple(found), size=(320, 240))))
+    window.detector.finished.emit(True)
+    qtbot.waitUntil(lambda: len(looks) == 2)
 
 
 def test_mirrored_pictures_are_told(window: MainWindow, qtbot: QtBot, tmp_path: Path) -> None:
