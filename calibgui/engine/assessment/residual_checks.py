@@ -14,6 +14,7 @@ centre      a principal point of each view's own
 bending     a curved board, each view's own
 rows        a steady motion while the rows are read, each view's own, or as in a warped image
 lines       a shift along the rows that wanders from row to row, each view's own
+smooth      any smooth displacement of the image, each view's own
 board       corners of the board that are not where they should be
 
 and then
@@ -24,7 +25,7 @@ neighbours  correlation of the residuals of neighbouring corners, SD 1 / sqrt(2 
 directions  covariance C of the residuals is isotropic: -n ln(4 det C / tr^2 C) ~ chi^2(2)
 
 By chance each test fails at most once in a thousand sound calibrations, and any of them once in
-eighty. Several fail together, because a bent board also moves neighbours alike and looks a little
+seventy. Several fail together, because a bent board also moves neighbours alike and looks a little
 like a lens. The cause is the first that explains nearly as much as any does.
 
 Many corners reveal harmless deviations, too. A displacement that corners share moves the camera
@@ -87,6 +88,7 @@ _VIEW_CAUSES: dict[str, Callable[[LinearisedFit], Explanation]] = {
     "bending": systematic_errors.explain_by_bending,
     "rows": systematic_errors.explain_by_rows,
     "lines": systematic_errors.explain_by_lines,
+    "smooth": systematic_errors.explain_by_smooth,
 }
 """Tests of the causes that each view has of its own."""
 _ADVICE_ON_CAUSES = {
@@ -108,6 +110,9 @@ _ADVICE_ON_CAUSES = {
     "lines": "The image's rows are shifted sideways against each other: an analogue camera's lines "
     "do not start evenly, or the camera trembled while a rolling shutter read them. Many views "
     "average it; a digital or steady camera avoids it.",
+    "smooth": "Each view is distorted in its own way, and no single cause explains it: mount the "
+    "board on something stiff, keep board and camera still, and switch off autofocus, "
+    "stabilisation and what edits photographs.",
     "board": "The board is not flat or not printed true: mount it on glass, or estimate its shape "
     "(free).",
 }

@@ -97,12 +97,9 @@ def explain_by_centre(fit: LinearisedFit) -> Explanation:
 
 def explain_by_bending(fit: LinearisedFit) -> Explanation:
     """Explain the residuals by a board that bends anew in each view, quadratically."""
-    xy = fit.observations.xy[..., :2]
-    places = xy[fit.observations.mask > 0]
-    low, high = places.min(axis=0), places.max(axis=0)
 
     def columns(linear: Linearised, _: Array, views: slice) -> Array:
-        x, y = np.moveaxis((2 * xy[views] - low - high) / (high - low), -1, 0)
+        x, y = np.moveaxis(_scale_places(fit, views), -1, 0)
         by_height = linear.by_pose[..., 3:] @ fit.state.R[views, None, :, 2:]
         return by_height * np.stack([x * x, x * y, y * y], axis=-1)[..., None, :]
 
@@ -125,6 +122,18 @@ def explain_by_lines(fit: LinearisedFit) -> Explanation:
         rows = _measure_rows(fit, views)[..., None]
         hats = np.maximum(1 - np.abs(rows / _KNOT_SPACING - _KNOTS), 0.0)
         return np.asarray(weight[..., :1] * hats[..., None, :])
+
+    return _judge_products(_multiply_view_columns(fit, columns))
+
+
+def explain_by_smooth(fit: LinearisedFit) -> Explanation:
+    """Explain the residuals by any smooth displacement of each view's own, cubic over the board.
+
+    It follows all causes above but the shifts from row to row, and many that have no test.
+    """
+
+    def columns(_: Linearised, __: Array, views: slice) -> Array:
+        return _make_cubic_displacements(fit, views)
 
     return _judge_products(_multiply_view_columns(fit, columns))
 
@@ -205,15 +214,27 @@ def make_smooth_columns(fit: LinearisedFit) -> Array:
     follow a board that bends, a lens that breathes and a camera that moves. Columns that depend on
     each other, as in views of few corners, leave zeros at the end.
     """
-    xy, mask = fit.observations.xy[..., :2], fit.observations.mask > 0
-    low, high = xy[mask].min(axis=0), xy[mask].max(axis=0)
-    x, y = np.moveaxis((2 * xy - low - high) / (high - low), -1, 0)
-    powers = np.stack([x**i * y**j for i in range(4) for j in range(4 - i)], axis=-1)
-    K, weight = len(xy), fit.get_weight(slice(0, len(xy)))
-    smooth = (weight[..., None] * powers[..., None, None, :]).reshape(K, 2 * xy.shape[1], -1)
+    K = len(fit.observations.xy)
+    smooth = _make_cubic_displacements(fit, slice(0, K))
+    smooth = smooth.reshape(K, -1, smooth.shape[-1])
     # Columns that no corner depends on would be divided by 0.
     smooth /= np.maximum(np.linalg.norm(smooth, axis=1, keepdims=True), 1e-300)
     pose = np.linalg.qr(fit.linearise(slice(0, K)).by_pose.reshape(K, -1, 6))[0]
     left, values, _ = np.linalg.svd(smooth - pose @ (np.swapaxes(pose, 1, 2) @ smooth), False)
     left *= (values > np.sqrt(_MIN_EIGENVALUE))[:, None, :]
     return np.concatenate([pose, left], axis=-1)
+
+
+def _make_cubic_displacements(fit: LinearisedFit, views: slice) -> Array:
+    """Make columns (k, N, 2, 20): weighted displacements of the image, cubic over the board."""
+    x, y = np.moveaxis(_scale_places(fit, views), -1, 0)
+    terms = np.stack([x**i * y**j for i in range(4) for j in range(4 - i)], axis=-1)
+    columns = fit.get_weight(views)[..., None] * terms[..., None, None, :]
+    return np.asarray(columns.reshape(*terms.shape[:2], 2, -1))
+
+
+def _scale_places(fit: LinearisedFit, views: slice) -> Array:
+    """Return the places (k, N, 2) of corners on the board, from -1 to 1 over all that were seen."""
+    xy, mask = fit.observations.xy[..., :2], fit.observations.mask > 0
+    low, high = xy[mask].min(axis=0), xy[mask].max(axis=0)
+    return np.asarray((2 * xy[views] - low - high) / (high - low))

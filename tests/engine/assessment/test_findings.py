@@ -190,6 +190,25 @@ def test_stabilised_images_are_no_rolling_shutter() -> None:
     assert "stabilisation off" in named[0].remedy
 
 
+def test_paper_that_curls_anew_in_each_view_is_no_rolling_shutter() -> None:
+    """No test is of such paper, and motion with the rows explains more than half of it."""
+    rng = np.random.default_rng(2)
+    camera, xy = barrel(), BOARD.points()
+    x, y = (2 * (xy - xy.mean(axis=0)) / np.ptp(xy, axis=0)).T
+    shapes = np.stack([x**2, x * y, y**2, x**3, x**2 * y, x * y**2, y**3], axis=1)
+    views = []
+    for pose in scene(camera, 12, seed=3).poses:
+        bent = np.column_stack([xy, shapes @ rng.normal(size=7)])
+        points = bent @ rotation_from_vector(pose.rvec).T + pose.tvec
+        uv = pixels_from_rays(points, camera)
+        views.append(Observation(uv + rng.normal(0, 0.05, uv.shape), xy))
+    (finding,) = found(views)
+    assert finding.cause is Cause.DISAGREEMENT
+    assert "in its own way" in finding.message
+    assert "stiff" in finding.remedy
+    assert finding.harm > 0.1
+
+
 def test_a_blurred_edge_of_the_image_is_no_other_lens() -> None:
     rng, views = np.random.default_rng(2), []
     for view in scene(barrel(), 20, seed=2).views:

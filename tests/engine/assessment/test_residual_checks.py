@@ -26,6 +26,9 @@ SCENE = scene(barrel(), 12, seed=1)
 Z = np.zeros((len(XY), 1))
 BOW = 1 - ((XY[:, :1] - XY[:, 0].mean()) / (np.ptp(XY[:, 0]) / 2)) ** 2
 
+X, Y = (2 * (XY - XY.mean(axis=0)) / np.ptp(XY, axis=0)).T
+CUBICS = np.stack([X**3, X**2 * Y, X * Y**2, Y**3], axis=1)
+
 
 def _solid(pose: Pose, grid_size: Array) -> Array:
     """(n, 2) the image of a board's corners (n, 3)."""
@@ -53,6 +56,7 @@ def _images(fault: str, rng: np.random.Generator) -> list[Array]:
         "bow": lambda pose: _solid(pose, np.hstack([XY, 0.5 * BOW])),
         "rows": lambda pose: _rolling(pose, *rng.normal(scale=[[0.5], [0.002]], size=(2, 3))),
         "bending": lambda pose: _solid(pose, np.hstack([XY, rng.normal() * BOW])),
+        "smooth": lambda pose: _solid(pose, np.hstack([XY, CUBICS @ rng.normal(size=(4, 1))])),
         "focus": lambda pose: (
             SCENE.camera.centre
             + (_solid(pose, np.hstack([XY, Z])) - SCENE.camera.centre) * rng.normal(1, 0.005)
@@ -77,8 +81,11 @@ def _images(fault: str, rng: np.random.Generator) -> list[Array]:
 @pytest.mark.parametrize("seed", range(3))
 @pytest.mark.parametrize(
     "fault",
-    ["squares", "bow", "lens", "focus", "centre", "bending", "rows", "lines", "board", "views"],
-)
+    [
+        "squares", "bow", "lens", "focus", "centre", "bending", "rows", "lines", "smooth",
+        "board", "views",
+    ],
+)  # fmt: skip
 def test_a_fault_is_named(fault: str, seed: int) -> None:
     rng = np.random.default_rng(seed)
     views = [
@@ -223,4 +230,4 @@ def test_it_can_be_abandoned() -> None:
 
     with pytest.raises(Cancelled):
         check_residuals(calibrate(SCENE.views, SIZE), SCENE.views, progress=twice)
-    assert calls == [(0, 9), (1, 9)]
+    assert calls == [(0, 10), (1, 10)]
