@@ -67,7 +67,8 @@ class Detection:
             raise CalibrationError(
                 "No picture shows the whole board, so its size is not known: the largest part seen"
                 f" has {rows} x {cols} inner corners.",
-                "State the size of the board, rows x columns of inner corners.",
+                f"State the size of the board: {rows} x {cols} if nothing of it lies beyond that "
+                "part, else count its inner corners.",
             )
         board = None if self.grid_size is None else Board(*self.grid_size, square, self.pattern)
         return CornerSet(self.size, self.views, board)
