@@ -34,6 +34,7 @@ from calibgui.engine.calibration.observations import (
     REFERENCE_PITCH,
     Observation,
     Observations,
+    arrange_by_axis,
     measure_pitch,
     name_views,
     pack_observations,
@@ -330,10 +331,11 @@ def _raise_if_undetermined(
 
 def _check_size(observations: Observations, size: Size, names: Sequence[str]) -> None:
     """Refuse corners that an image of this size cannot show."""
-    u, v = observations.uv[..., 0], observations.uv[..., 1]
-    if observations.uv.min() >= 0 and u.max() <= size[0] and v.max() <= size[1]:
+    u, v = corners = arrange_by_axis(observations.uv)
+    low, high = corners.min(axis=2), corners.max(axis=2)  # padding repeats a corner
+    if (low >= 0).all() and (high.max(axis=1) <= size).all():
         return
-    share = float(np.mean(((u < -1) | (v < -1))[observations.mask > 0]))
+    share = float(np.mean(((u < -1) | (v < -1))[observations.mask > 0])) if low.min() < -1 else 0.0
     if share > _MAX_SHARE_NEGATIVE:
         raise CalibrationError(
             f"{100 * share:.0f} % of the corners lie left of the image or above it.",
@@ -342,8 +344,8 @@ def _check_size(observations: Observations, size: Size, names: Sequence[str]) ->
         )
 
     def outside(size: Size, margin: float) -> BoolArray:
-        beyond = (np.minimum(u, v) < -margin) | (u > size[0] + margin) | (v > size[1] + margin)
-        return np.asarray(beyond.any(axis=1))
+        beyond = (low < -margin) | (high > np.array(size)[:, None] + margin)
+        return np.asarray(beyond.any(axis=0))
 
     far, swapped = outside(size, _MAX_OUTSIDE * max(size)), outside(size, 0.0)
     if swapped.any():
