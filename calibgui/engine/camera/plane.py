@@ -44,10 +44,10 @@ class Mapped(NamedTuple):
 class PlaneLens(Lens):
     """A lens model of two maps between measured points d and ideal points n = (X/Z, Y/Z)."""
 
-    starts_in_closed_form: bool = False
-    """True if the closed form of Stage I starts the model: its first coefficient, where it has one,
-    does to first order what k1 of n = d (1 + k1 |d|^2) does, and the others begin at their
-    defaults."""
+    closed_form_factor: float | None = None
+    """Ratio of the model's first coefficient to k1 of n = d (1 + k1 |d|^2), which does the same to
+    first order, if the closed form of Stage I starts the model so, and the others at their
+    defaults; 0 without coefficients, None if another start is needed."""
 
     @abstractmethod
     def correct(self, d: Array, k: Array) -> Mapped:

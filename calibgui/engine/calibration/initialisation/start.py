@@ -5,7 +5,7 @@ brings the corners there, and joins Stage I, the closed form and, where that fai
 into the first state of the joint registration.
 
 Stage I corrects each view by one coefficient, n = d (1 + k1 r^2). The polynomial models take it as
-their first coefficient (``PlaneLens.starts_in_closed_form``). Any other model is fitted to the rays
+their first coefficient (``PlaneLens.closed_form_factor``). Any other model is fitted to the rays
 that it gives (``Lens.fit_to_rays`` or ``lens_fit.py``), or, where the start so made misses the
 corners by more than 0.3 % of the image's width, to those of a camera of the unified model that
 needs no Stage I (``unified_start.py``). Models of several minima are started from several values of
@@ -42,9 +42,6 @@ from calibgui.engine.geometry.planar_pose import poses_from_homographies
 _CENTRE = ((0, "cx"), (1, "cy"))
 _MAX_CORNERS = 500
 """Number of corners, spread evenly over all, that the coefficients of a start are fitted to."""
-_MAX_SLOPES = 100
-"""Number of corners, spread evenly over all, at which a model's first coefficient is compared with
-k1: to first order most models do the same with it at every corner."""
 _MAX_START_MISS = 0.003
 """Root mean squared miss of the corners at the start, in image widths, from which another start is
 tried."""
@@ -147,10 +144,11 @@ def initialise_stage_two(
         closed_form = _solve_closed_form(observations, first, size, held)
     except (StartError, np.linalg.LinAlgError):  # no lens of one coefficient sees the board so
         closed_form = None
-    if closed_form and isinstance(lens, PlaneLens) and lens.starts_in_closed_form:
+    if closed_form and isinstance(lens, PlaneLens) and lens.closed_form_factor is not None:
         f, centre, k1, R, T = closed_form
-        d = (observations.uv - centre) / f
-        return State(np.concatenate([f, centre, _fit_first_coefficient(lens, d, k1)]), R, T)
+        k = np.array(lens.defaults)
+        k[:1] = lens.closed_form_factor * k1
+        return State(np.concatenate([f, centre, k]), R, T)
     return _start_any_lens(observations, closed_form, size, model, held)
 
 
@@ -325,20 +323,3 @@ def find_facing(observations: Observations) -> Array:
     # A camera turns all triangles of corners alike, and by Cauchy and Binet's formula the
     # determinant is the sum over all of them of the product of both areas.
     return np.asarray(np.sign(np.linalg.det(covariance)))
-
-
-def _fit_first_coefficient(lens: PlaneLens, d: Array, k1: float) -> Array:
-    """Return coefficients of a model that approximate the correction n = d (1 + k1 r2).
-
-    To first order in the coefficients, correct(d, k) = d + (d correct / dk) k; the first
-    coefficient alone is fitted, which for the paper's model is k1 itself.
-    """
-    k = np.array(lens.defaults)
-    if not k.size:
-        return k
-    d = d.reshape(-1, 2)
-    d = d[:: max(1, len(d) // _MAX_SLOPES)]
-    radial = np.sum(d**2, axis=1, keepdims=True) * d
-    slope = lens.correct(d, k).by_coefficients[..., 0]
-    k[0] = k1 * np.sum(slope * radial) / np.sum(slope**2)
-    return k

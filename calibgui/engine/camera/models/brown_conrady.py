@@ -37,7 +37,7 @@ class BrownConrady(SkewedLens):
     names: tuple[str, ...] = ("k1", "k2", "p1", "p2", "k3", "skew")
     powers: tuple[int, ...] = (2, 4, 1, 1, 6, 0)
     asymmetric = ("p1", "p2", "skew")
-    starts_in_closed_form = True
+    closed_form_factor = -1.0
 
     def distort_unskewed(self, n: Array, k: Array) -> Mapped:
         """Map ideal points to measured points without skew."""

@@ -45,7 +45,7 @@ class Lucchese(PlaneLens):
     names = ("k1", "k2", "k3", "p1", "p2", "p3")
     powers = (2, 4, 6, 1, 1, 2)
     asymmetric = ("p1", "p2", "p3")
-    starts_in_closed_form = True
+    closed_form_factor = 1.0
 
     def __init__(self, radius_in_pixels: bool = False) -> None:
         """Choose the unit of the radius: fx along both axes if `radius_in_pixels`, as printed."""

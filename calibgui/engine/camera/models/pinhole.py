@@ -18,7 +18,7 @@ class Pinhole(PlaneLens):
     title = "Pinhole (no distortion)"
     names = ()
     powers = ()
-    starts_in_closed_form = True
+    closed_form_factor = 0.0
 
     def correct(self, d: Array, k: Array) -> Mapped:  # noqa: ARG002 - there are no coefficients
         """Map measured to ideal points."""
