@@ -395,12 +395,12 @@ def prepare_blocks(
 
     def blocks_at(state: CameraAndPoses) -> Blocks:
         A = sum_products(pack_camera(model, state.params), state.R, state.T, views, rows)
-        # Summed over views in a fixed order, whichever thread made them.
+        total = A.sum(axis=0)  # in a fixed order, whichever thread made them
         return (
-            A[:, :P, :P].sum(axis=0),
+            total[:P, :P],
             A[:, :P, P:-1],
             A[:, P:-1, P:-1],
-            A[:, :P, -1].sum(axis=0),
+            total[:P, -1],
             A[:, P:-1, -1],
             A[:, -1, -1],
         )
