@@ -28,14 +28,14 @@ from __future__ import annotations
 import numpy as np
 
 from calibgui.engine.boards.shape import BoardShapeModel
-from calibgui.engine.calibration.refinement.residuals import compute_image_residuals
+from calibgui.engine.calibration.refinement.residuals import compute_misses
+from calibgui.engine.calibration.result import Cost
 from calibgui.engine.calibration.score_tests import (
     LENS,
     LENS_CELLS,
     LinearisedFit,
     SharedCauses,
 )
-from calibgui.engine.camera.models import find_model
 
 MAX_FALSE_ALARM_RATE = 1e-3
 """Probability under noise below which a cause explains something."""
@@ -77,10 +77,8 @@ def measure_lens_error(fit: LinearisedFit, by_board: float) -> float:
     if not causes.do_views_agree(LENS):
         return 0.0
     lens = SharedCauses(fit, [LENS], cells=count_fine_cells(fit)).explain(LENS)
-    residual = compute_image_residuals(
-        fit.state, fit.observations, find_model(fit.camera.model)
-    ).residual
-    square = np.sum(residual[fit.observations.mask > 0] ** 2)
+    missed = compute_misses(fit.state, fit.observations, fit.camera.model, Cost.IMAGE)
+    square = np.sum(missed[fit.observations.mask > 0] ** 2)
     return float(np.sqrt(lens.share * square / fit.observations.count))
 
 

@@ -288,7 +288,7 @@ def _linearise(fit: LinearisedFit, views: slice) -> tuple[Array, Array, Array, A
         (weight @ raw.residual[..., None])[..., 0],
         weight @ raw.by_params[..., fit.free],
         weight @ raw.by_pose,
-        fit.predict_corners(views),
+        fit.observations.uv[views] + raw.residual,  # as `predict_corners`
     )
 
 
