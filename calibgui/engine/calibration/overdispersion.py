@@ -71,7 +71,7 @@ import scipy
 from calibgui.engine.arrays import Array, IntArray
 from calibgui.engine.boards.shape import BoardShape
 from calibgui.engine.calibration.refinement.residuals import BoardMotion, compute_view_products
-from calibgui.engine.calibration.refinement.schur import invert_pose_roots
+from calibgui.engine.calibration.refinement.schur import invert_pose_roots, invert_roots
 from calibgui.engine.calibration.result_assembly import Estimate
 
 _SIGNIFICANCE = 0.01
@@ -149,7 +149,8 @@ def add_overdispersion(
 def _compare_with_others(R: Array) -> tuple[Array, Array]:
     """Return Rk (K, P, P) and (1 - Rk)^-1 without what view k alone determines."""
     if np.trace(R, axis1=1, axis2=2).max() < 1 - _MIN_SHARE_OF_OTHERS:  # nor is an eigenvalue more
-        return R, np.asarray(np.linalg.inv(np.eye(R.shape[1]) - R))
+        roots = invert_roots(np.eye(R.shape[1]) - R)
+        return R, np.swapaxes(roots, 1, 2) @ roots
     shares, axes = np.linalg.eigh(R)
     is_shared = shares < 1 - _MIN_SHARE_OF_OTHERS
     tested = np.where(is_shared, shares, 0.0)[:, None]

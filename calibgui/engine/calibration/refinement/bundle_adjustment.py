@@ -205,7 +205,7 @@ class _StageTwo:
             start,
             free,
             self.observations.count,
-            float(np.sum(self.observations.uv**2)),
+            float(np.vdot(self.observations.uv, self.observations.uv)),
             report,
             self.max_iterations,
             earlier,

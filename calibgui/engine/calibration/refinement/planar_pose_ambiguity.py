@@ -78,7 +78,7 @@ def correct_mirrored_poses(
 
 def _refine_poses(problem: ProblemOf, views: Observations, poses: State) -> Solution:
     """Minimise the cost from these poses, with the camera as it is."""
-    data = float(np.sum(views.uv**2))
+    data = float(np.vdot(views.uv, views.uv))
     return minimise(
         problem(views, _NONE_FREE),
         poses,
