@@ -8,6 +8,7 @@ import numpy as np
 
 from calibgui.engine.arrays import Array, IntArray
 from calibgui.engine.kernels import COMPILED_LENSES, POLYNOMIAL_LENSES
+from calibgui.engine.kernels.common import compiled_part
 
 FORWARD, BACKWARD, KANNALA_BRANDT, UNIFIED = range(4)
 """Kinds of lenses: eq. 10 distorts, eq. 10 corrects (the paper), and those of
@@ -24,9 +25,6 @@ class PackedCamera(NamedTuple):
     """Its parameters."""
     kind: int
     """The kind of its lens, which says what they mean."""
-    of_rays: bool | None
-    """True for the lenses of ``kernels.ray_lenses``, None for those of eq. 10. Numba compiles a
-    function for None by itself, without the branches that ask whether an argument is None."""
 
 
 def pack_camera(model: str, params: Array) -> PackedCamera:
@@ -41,8 +39,13 @@ def pack_camera(model: str, params: Array) -> PackedCamera:
         kind = UNIFIED
         camera[6] = 1.0  # beta of the models without one
     camera[list(COMPILED_LENSES[model])] = params
-    of_rays = True if kind in (KANNALA_BRANDT, UNIFIED) else None
-    return PackedCamera(cast(CameraTuple, tuple(camera.tolist())), kind, of_rays)
+    return PackedCamera(cast(CameraTuple, tuple(camera.tolist())), kind)
+
+
+@compiled_part
+def is_of_rays(kind: int) -> bool:
+    """Return whether lenses of a kind are those of ``kernels.ray_lenses``."""
+    return kind >= KANNALA_BRANDT
 
 
 def find_rows(model: str, free: IntArray) -> IntArray:

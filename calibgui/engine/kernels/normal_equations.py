@@ -12,7 +12,7 @@ the derivatives by the point and by the coefficients. Padded corners carry zero 
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import NamedTuple, Protocol
+from typing import NamedTuple
 
 import numpy as np
 
@@ -22,9 +22,11 @@ from calibgui.engine.kernels.cameras import (
     CameraTuple,
     PackedCamera,
     find_rows,
+    is_of_rays,
     pack_camera,
 )
 from calibgui.engine.kernels.common import (
+    VIEWS_PER_BLOCK,
     compiled,
     compiled_part,
     gram,
@@ -33,6 +35,7 @@ from calibgui.engine.kernels.common import (
 )
 from calibgui.engine.kernels.polynomial_lens import add_skew, distort, invert
 from calibgui.engine.kernels.ray_lenses import find_rays, image_points
+from calibgui.engine.kernels.views import CameraAndPoses, MeasuredViews, Views, pack_views
 
 Workspace = tuple[Array, Array, Array, Array, Array, Array, Array, Array, Array]
 Blocks = tuple[Array, Array, Array, Array, Array, Array]
@@ -125,7 +128,7 @@ def _whiten(weight: Array, J: Array) -> None:
 
 
 @compiled_part
-def make_workspace(N: int) -> Workspace:
+def _make_workspace(N: int) -> Workspace:
     """Return the arrays of one view that later calls fill: R X, 1 / depth, n, d, M, lead, F,
     X_cam and dd/dX_cam."""
     rotated, inverse_depth, n, d = np.empty((3, N)), np.empty(N), np.empty((2, N)), np.empty((2, N))
@@ -138,17 +141,16 @@ def make_workspace(N: int) -> Workspace:
 
 
 @compiled_part
-def project_view(
+def _project_view(
     camera: CameraTuple,
     kind: int,
-    of_rays: bool | None,
     R: Array,
     T: Array,
     uv: Array,
     xyz: Array,
     work: Workspace,
 ) -> bool:
-    """Fill in the images d of one view's corners, with what `fill_jacobian` needs; return whether
+    """Fill in the images d of one view's corners, with what `_fill_jacobian` needs; return whether
     all corners have an image. For a polynomial lens these are the rays n and M = dd/dn."""
     rotated, inverse_depth, n, d, M, _, F, point, G = work
     fx, fy, cx, cy = camera[:4]
@@ -158,7 +160,7 @@ def project_view(
         r0, r1, r2 = R[row, 0], R[row, 1], R[row, 2]
         for i in range(N):
             rotated[row, i] = r0 * X[i] + r1 * Y[i] + r2 * Z[i]
-    if of_rays is not None:
+    if is_of_rays(kind):
         for row in range(3):
             for i in range(N):
                 point[row, i] = rotated[row, i] + T[row]
@@ -181,10 +183,9 @@ def project_view(
 
 
 @compiled_part
-def fill_jacobian(
+def _fill_jacobian(
     camera: CameraTuple,
     kind: int,
-    of_rays: bool | None,
     uv: Array,
     weight: Array,
     whitened: bool,
@@ -196,7 +197,7 @@ def fill_jacobian(
     rotated, inverse_depth, n, d, M, lead, F, _, G = work
     fx, fy, cx, cy, _, _, _, p1, p2, p3, skew = camera
     P, N = rows.shape[0], uv.shape[1]
-    if of_rays is not None:
+    if is_of_rays(kind):
         for i in range(N):
             F[0, i], F[1, N + i] = d[0, i], d[1, i]
         _turn_ray_slopes(fx, fy, rotated, G, J[P : P + 6])
@@ -222,11 +223,43 @@ def fill_jacobian(
         _whiten(weight, J)
 
 
+@compiled_part
+def _differentiate_by_corner(R: Array, by_pose: Array, C: Array) -> None:
+    """Fill C (3, 2N) with derivatives by the corner's place on the board, from by_pose (6, 2N)."""
+    for a in range(3):
+        r0, r1, r2 = R[0, a], R[1, a], R[2, a]
+        for i in range(C.shape[1]):
+            C[a, i] = r0 * by_pose[3, i] + r1 * by_pose[4, i] + r2 * by_pose[5, i]
+
+
+@compiled_part
+def _move_corners(C: Array, index: IntArray, motion: Array, J: Array) -> None:
+    """Add to J what the P parameters do by moving the corners index (N,) by motion (n, 3, P)."""
+    N, P = index.shape[0], motion.shape[2]
+    for i in range(2 * N):
+        moved = motion[index[i % N]]
+        for m in range(P):
+            J[m, i] += C[0, i] * moved[0, m] + C[1, i] * moved[1, m] + C[2, i] * moved[2, m]
+
+
+@compiled_part
+def _add_corner_products(C: Array, row: Array, out: Array, m: int) -> None:
+    """Add to the rows m of out (3, M, n) the products of those of C (3, 2n) with a row (2n,), those
+    of u and of v together."""
+    n = out.shape[2]
+    # Slices, and not indices, so that the compiler sees what it can vectorise.
+    u, v, out0, out1, out2 = row[:n], row[n:], out[0, m], out[1, m], out[2, m]
+    u0, u1, u2, v0, v1, v2 = C[0, :n], C[1, :n], C[2, :n], C[0, n:], C[1, n:], C[2, n:]
+    for i in range(n):
+        out0[i] += u0[i] * u[i] + v0[i] * v[i]
+        out1[i] += u1[i] * u[i] + v1[i] * v[i]
+        out2[i] += u2[i] * u[i] + v2[i] * v[i]
+
+
 @compiled
 def _sum_views(
     camera: CameraTuple,
     kind: int,
-    of_rays: bool | None,
     R: Array,
     T: Array,
     uv: Array,
@@ -234,24 +267,41 @@ def _sum_views(
     weight: Array,
     whitened: bool,
     rows: IntArray,
+    index: IntArray,
+    motion: Array,
+    by_pose: Array,
+    total: Array,
     out: Array,
 ) -> None:
-    """Fill out (K, P + 7, P + 7) with the products of the rows of each view's J."""
+    """Fill out (K, P + 7, P + 7) with the products of the rows of each view's J, and do what
+    `BoardCorners` says of arrays that are not empty; total is (1, 3, P + 4, n)."""
     K, _, N = uv.shape
-    work, J = make_workspace(N), np.empty((rows.shape[0] + 7, 2 * N))
+    P = rows.shape[0]
+    work, J, C = _make_workspace(N), np.empty((P + 7, 2 * N)), np.empty((3, 2 * N))
     for view in range(K):
-        good = project_view(camera, kind, of_rays, R[view], T[view], uv[view], xyz[view], work)
-        fill_jacobian(camera, kind, of_rays, uv[view], weight[view], whitened, rows, work, J)
+        good = _project_view(camera, kind, R[view], T[view], uv[view], xyz[view], work)
+        _fill_jacobian(camera, kind, uv[view], weight[view], whitened, rows, work, J)
+        if motion.size or total.size:
+            _differentiate_by_corner(R[view], J[P : P + 6], C)
+        if motion.size:
+            _move_corners(C, index[view], motion, J)
         gram(J, out[view])
         if not good:
             out[view, -1, -1] = np.inf
+        if total.size:
+            for m in range(P + 4):
+                j = P + 6 if m == P else m
+                _add_corner_products(C, C[m - P - 1] if m > P else J[j], total[0], m)
+        if by_pose.size:
+            by_pose[view] = 0.0
+            for m in range(6):
+                _add_corner_products(C, J[P + m], by_pose[view], m)
 
 
 @compiled
 def _compute_residuals(
     camera: CameraTuple,
     kind: int,
-    of_rays: bool | None,
     R: Array,
     T: Array,
     uv: Array,
@@ -264,11 +314,11 @@ def _compute_residuals(
     K, _, N = uv.shape
     fx, fy, cx, cy = camera[:4]
     skew = camera[10]
-    work = make_workspace(N)
+    work = _make_workspace(N)
     _, _, n, d, M, _, F, point, G = work
     goal, ray = np.empty((2, N)), np.ones((3, N))
     for view in range(K):
-        good = project_view(camera, kind, of_rays, R[view], T[view], uv[view], xyz[view], work)
+        good = _project_view(camera, kind, R[view], T[view], uv[view], xyz[view], work)
         for i in range(N):
             seen[view, i, 0] = uv[view, 0, i] - cx - fx * d[0, i]
             seen[view, i, 1] = uv[view, 1, i] - cy - fy * d[1, i]
@@ -278,7 +328,7 @@ def _compute_residuals(
             if not good:
                 seen[view] = np.nan
             continue
-        if of_rays is not None:
+        if is_of_rays(kind):
             for row in range(3):
                 for i in range(N):
                     ray[row, i] = point[row, i]
@@ -306,58 +356,33 @@ def _compute_residuals(
             registered[view] = np.nan
 
 
-class Views(NamedTuple):
-    """K views as the kernels take them."""
+class BoardCorners(NamedTuple):
+    """What the kernel shall do about the n corners of the board; nothing with empty arrays."""
 
-    uv: Array
-    """(K, 2, N) measured corners, px."""
-    xyz: Array
-    """(K, 3, N) board points, mm."""
-    weight: Array
-    """(K, 4, N) whitening of the corners, 0 for padding; (K, 4, 0) if all weigh 1."""
-
-
-class CameraAndPoses(Protocol):
-    """The fields of ``calibration.refinement.residuals.State`` that kernels read."""
-
-    @property
-    def params(self) -> Array: ...
-    @property
-    def R(self) -> Array: ...  # noqa: N802 - the paper's symbol
-    @property
-    def T(self) -> Array: ...  # noqa: N802 - the paper's symbol
+    corner: IntArray = np.empty((0, 0), np.int64)
+    """(K, N) number of the board's corner that each observation shows, if corners move."""
+    motion: Array = np.empty((0, 0, 0))
+    """(n, 3, P) motion of the corners per unit of each free parameter, mm, which the derivatives by
+    these parameters are to contain."""
+    by_pose: Array = np.empty((0, 0, 0, 0))
+    """(K, 3, 6, n) receives the products of the three columns of each corner with the pose's."""
+    totals: Array = np.empty((0, 0, 0, 0))
+    """(blocks of views, 3, P + 4, n) to which the products of the corners' columns with the
+    camera's, with r and with themselves are added."""
 
 
-class MeasuredViews(Protocol):
-    """The fields of ``calibration.observations.Observations`` that kernels read."""
-
-    @property
-    def uv(self) -> Array: ...
-    @property
-    def xy(self) -> Array: ...
-    @property
-    def mask(self) -> Array: ...
-    @property
-    def whitening(self) -> Array | None: ...
-    @property
-    def is_unweighted(self) -> bool: ...
-    def select_views(self, views: slice) -> MeasuredViews: ...
+NO_CORNERS = BoardCorners()
+"""Nothing to be done about the corners."""
 
 
-def pack_views(observations: MeasuredViews) -> Views:
-    """Return the views in the kernels' layout, one coordinate a row."""
-    K, N = observations.mask.shape
-    xyz = np.zeros((K, 3, N))
-    xyz[:, : observations.xy.shape[-1]] = np.swapaxes(observations.xy, 1, 2)
-    weight = np.zeros((K, 4, 0 if observations.is_unweighted else N))
-    if observations.whitening is not None:
-        weight[:] = np.swapaxes(observations.whitening.reshape(K, N, 4), 1, 2)
-    elif weight.size:
-        weight[:, 0] = weight[:, 3] = observations.mask
-    return Views(np.array(np.swapaxes(observations.uv, 1, 2), order="C"), xyz, weight)
-
-
-def sum_products(lens: PackedCamera, R: Array, T: Array, views: Views, rows: IntArray) -> Array:
+def sum_products(
+    lens: PackedCamera,
+    R: Array,
+    T: Array,
+    views: Views,
+    rows: IntArray,
+    corners: BoardCorners = NO_CORNERS,
+) -> Array:
     """Return (K, P + 7, P + 7) products of the columns [J_free J_pose r] of each view.
 
     The squared residual, the last entry, is infinite for views with no prediction.
@@ -368,6 +393,8 @@ def sum_products(lens: PackedCamera, R: Array, T: Array, views: Views, rows: Int
         T: (K, 3) translations, mm.
         views: the measured corners.
         rows: (P,) places of the free parameters in ``lens.camera``.
+        corners: what to do about the corners of the board. With products by corner all views show
+            all corners, in the same order.
     """
     out = np.empty((len(R), len(rows) + 7, len(rows) + 7))
     R, T = make_contiguous(R), make_contiguous(T)
@@ -375,9 +402,12 @@ def sum_products(lens: PackedCamera, R: Array, T: Array, views: Views, rows: Int
     whitened = weight.shape[2] > 0
 
     def run(part: slice) -> None:
+        block = part.start // VIEWS_PER_BLOCK
         _sum_views(
-            *lens, R[part], T[part], uv[part], xyz[part], weight[part], whitened, rows, out[part]
-        )
+            *lens, R[part], T[part], uv[part], xyz[part], weight[part], whitened, rows,
+            corners.corner[part], corners.motion, corners.by_pose[part],
+            corners.totals[block : block + 1], out[part],
+        )  # fmt: skip
 
     run_in_blocks(len(R), run)
     return out

@@ -26,12 +26,8 @@ from calibgui.engine.kernels.common import (
     make_contiguous,
     run_in_blocks,
 )
-from calibgui.engine.kernels.normal_equations import (
-    Blocks,
-    CameraAndPoses,
-    MeasuredViews,
-    pack_views,
-)
+from calibgui.engine.kernels.normal_equations import Blocks
+from calibgui.engine.kernels.views import CameraAndPoses, MeasuredViews, pack_views
 
 
 class SplinedLens(Protocol):
