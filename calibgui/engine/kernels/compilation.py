@@ -4,7 +4,8 @@ Numba optimises a function by itself and once more in each function that calls i
 code of both, and keeps what later callers would need. Here only kernels are called from Python and
 only parts from kernels, so that parts are left to the kernels, and of kernels the machine code is
 all that is needed. Both are said by a class of numba's libraries, as it calls the code of one
-function with all that it calls.
+function with all that it calls. Steps of its compiler that look for what no kernel has are left
+out.
 """
 
 from __future__ import annotations
@@ -27,6 +28,19 @@ for _name in (
 ):
     # Numba promises none of these: one that lacks any is not used at all (`can_compile`).
     getattr(JITCodeLibrary, _name)
+
+_NEEDLESS_STEPS = {
+    "WithLifting",  # "with" statements
+    "InlineClosureLikes",  # functions in functions, comprehensions
+    "RewriteDynamicRaises",  # exceptions with values
+    "MakeFunctionToJitFunction",  # functions as values
+    "InlineInlinables",  # what asks to be made part of its callers' source
+    "InlineOverloads",
+    "LiteralUnroll",  # loops over unlike items
+    "LiteralPropagationSubPipelinePass",
+    "NopythonRewrites",  # arithmetic with whole arrays
+}
+"""Steps of numba's compiler, with what they look for; each has all variables analysed anew."""
 
 
 class _KernelLibrary(JITCodeLibrary):  # type: ignore[misc]  # numba is not typed
@@ -71,6 +85,14 @@ def _make_uncallable(library: _PartLibrary, function: Any, environment: Any) -> 
 
 class KernelCompiler(Compiler):  # type: ignore[misc]  # numba is not typed
     """Numba's compiler, of kernels and their parts."""
+
+    def define_pipelines(self) -> Any:
+        """Return numba's lists of steps without those that kernels do not need."""
+        pipelines = super().define_pipelines()
+        for each in pipelines:
+            each.passes = [step for step in each.passes if step[0].__name__ not in _NEEDLESS_STEPS]
+            each.finalize()
+        return pipelines
 
     def compile_extra(self, function: Any) -> Any:
         """Compile a function: a part if it is without what Python calls it by, else a kernel.

@@ -135,6 +135,25 @@ def test_no_garbage_is_looked_for_while_a_kernel_is_compiled(
     assert gc.isenabled()
 
 
+def test_numba_looks_for_nothing_that_no_kernel_has(monkeypatch: pytest.MonkeyPatch) -> None:
+    from numba.core.compiler_machinery import PassManager
+
+    from calibgui.engine.kernels import compilation
+
+    steps: list[set[str]] = []
+    usual = PassManager.run
+
+    def watch(self: PassManager, state: object) -> None:
+        steps.append({step.__name__ for step, _ in self.passes})
+        usual(self, state)
+
+    monkeypatch.setattr(PassManager, "run", watch)
+    assert numba.njit(lambda x: x + 1)(1) == 2
+    assert numba.njit(lambda x: x + 1, pipeline_class=compilation.KernelCompiler)(1) == 2
+    of_all, of_kernels = steps
+    assert of_all - of_kernels == compilation._NEEDLESS_STEPS
+
+
 def test_a_kept_kernel_is_loaded_without_what_compiling_takes(tmp_path: Path) -> None:
     (tmp_path / "asks.py").write_text(
         "from calibgui.engine.kernels.common import compiled\n"
