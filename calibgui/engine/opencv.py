@@ -297,6 +297,19 @@ def label_dark_parts(
     return np.asarray(labels, np.int32), np.asarray(stats[:, columns], np.int64)
 
 
+def label_parts(mask: BoolArray) -> tuple[npt.NDArray[np.int32], int]:
+    """Label what of a mask (h, w) is connected along rows and columns.
+
+    It is ``scipy.ndimage.label``, but that takes 0.1 s of processor time to import.
+
+    Returns:
+        The number (h, w) of each place's part, in the order of their first places row by row, 0 for
+        none; and the number of parts.
+    """
+    count, labels = cv2.connectedComponents(mask.astype(np.uint8), connectivity=4)
+    return np.asarray(labels, np.int32), count - 1
+
+
 class CalibratedCamera(NamedTuple):
     """What OpenCV returns of a calibration, less its root mean square distance."""
 

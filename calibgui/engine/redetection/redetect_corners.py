@@ -21,8 +21,8 @@ from __future__ import annotations
 
 import numpy as np
 import numpy.typing as npt
-import scipy
 
+from calibgui.engine import opencv
 from calibgui.engine.arrays import Array, BoolArray, GreyImage, GridSize
 from calibgui.engine.boards.board import Board
 from calibgui.engine.calibration.result import Calibration
@@ -169,7 +169,7 @@ def _find_seeds(grey: GreyImage, corners: Corners | None) -> list[Lattice]:
             continue
         good = verification.find_sound_corners(refined, grey)
         # Parts with nothing between them need not be as many squares apart as the search counted.
-        parts, count = scipy.ndimage.label(good)
+        parts, count = opencv.label_parts(good)
         seeds += [refined.select(parts == k + 1) for k in range(count)]
     return [seed for seed in seeds if len(seed) >= _MIN_CORNERS]
 

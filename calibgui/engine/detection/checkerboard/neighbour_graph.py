@@ -27,7 +27,7 @@ from itertools import islice
 import numpy as np
 import scipy
 
-from calibgui.engine import kernels
+from calibgui.engine import kernels, opencv
 from calibgui.engine.arrays import (
     Array,
     BoolArray,
@@ -286,7 +286,7 @@ def _arrange_lattices(uv: Array, nodes: Int32Array, placed: Int32Array) -> list[
     lattice = trim_lattice(_lay_out(uv[nodes], placed, (rows, cols)))
     if lattice is None:
         return []
-    part, count = scipy.ndimage.label(lattice.found)
+    part, count = opencv.label_parts(lattice.found)
     if count == 1:
         return [lattice]
     parts = (trim_lattice(lattice.select(part == k)) for k in range(1, count + 1))

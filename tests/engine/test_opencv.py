@@ -1,0 +1,18 @@
+"""OpenCV's functions against independent ones that take longer to import."""
+
+from __future__ import annotations
+
+import numpy as np
+import scipy
+
+from calibgui.engine.opencv import label_parts
+
+
+def test_parts_are_numbered_as_scipy_numbers_them() -> None:
+    rng = np.random.default_rng(0)
+    for _ in range(200):
+        mask = rng.random(rng.integers(1, 40, 2)) < rng.uniform(0.1, 0.9)
+        labels, count = label_parts(mask)
+        truth, true_count = scipy.ndimage.label(mask)
+        assert count == true_count
+        np.testing.assert_array_equal(labels, truth)
