@@ -30,7 +30,9 @@ from calibgui.gui.dialogs.bug_dialog import BugDialog
 from calibgui.gui.dialogs.help_dialog import HelpDialog
 from calibgui.gui.dialogs.print_dialog import PrintDialog
 from calibgui.gui.panels.compare import ComparePanel
+from calibgui.gui.panels.histograms import HistogramsPanel
 from calibgui.gui.panels.poses import PosesPanel
+from calibgui.gui.panels.residuals import ResidualsPanel
 from calibgui.gui.panels.result import ResultPanel
 from calibgui.gui.panels.split import Split
 from calibgui.gui.widgets import questions, theme
@@ -262,6 +264,58 @@ def test_a_bug_is_shown_with_its_traceback_and_the_work_is_kept(
     assert "numpy" in text
     assert full.files.saver.file.with_name(f".{full.files.saver.file.name}.autosave").exists()
     dialog.close()
+
+
+def test_a_bug_that_comes_again_is_shown_once(full: MainWindow) -> None:
+    """One in what is painted comes again as soon as its dialog is closed."""
+
+    def fail(why: str) -> None:
+        try:
+            raise ZeroDivisionError(why)
+        except ZeroDivisionError as error:
+            full.show_failure(error)
+
+    fail("first")
+    dialog = QApplication.activeModalWidget()
+    assert isinstance(dialog, BugDialog)
+    dialog.close()
+    fail("second")
+    assert QApplication.activeModalWidget() is None
+    full.show_failure(ValueError("another"))
+    dialog = QApplication.activeModalWidget()
+    assert isinstance(dialog, BugDialog)
+    dialog.close()
+
+
+def test_a_panel_that_fails_leaves_the_others(
+    full: MainWindow, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def fail(*_: object) -> None:
+        raise ZeroDivisionError("by design")
+
+    monkeypatch.setattr(ResidualsPanel, "_refresh", fail)
+    with pytest.raises(ZeroDivisionError, match="by design"):
+        full.need_analysis().show_panel(ResidualsPanel)
+    monkeypatch.undo()
+    assert full.need_analysis().show_panel(HistogramsPanel).isVisible()
+    assert full.need_analysis().show_panel(ResidualsPanel).isVisible()
+
+
+def test_a_panel_that_cannot_be_built_is_tried_once(
+    full: MainWindow, qtbot: QtBot, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    tried: list[object] = []
+
+    def fail() -> bool:
+        tried.append(None)
+        raise ZeroDivisionError("by design")
+
+    monkeypatch.setattr(full.need_analysis(), "build_next", fail)
+    with qtbot.captureExceptions() as raised:
+        full._building.start(1)
+        qtbot.waitUntil(lambda: bool(raised))
+        qtbot.wait(50)
+    assert len(tried) == 1
 
 
 def test_missing_images_are_found_again(

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import gc
 from importlib import import_module
+from traceback import extract_tb
 from typing import TYPE_CHECKING
 
 from PySide6.QtCore import QEvent, QSettings, QSize, Qt, QTimer
@@ -72,6 +73,8 @@ class MainWindow(QMainWindow):
         self.settings = SettingsPanel(self.session)
         self.analysis: Analysis | None = None
         self._empty = True
+        self._bugs: set[tuple[object, ...]] = set()
+        """Bugs that were shown: what was raised, and where."""
         self._building = QTimer(self, interval=_PAUSE)
         self._building.timeout.connect(self._build_ahead)
         self._at = (self.session.document, 0)
@@ -238,8 +241,10 @@ class MainWindow(QMainWindow):
     def _build_ahead(self) -> None:
         """Build one panel that was not shown yet, unless somebody works."""
         busy = self.session.jobs.running or QApplication.mouseButtons()
-        if self.analysis is not None and not busy and not self.analysis.build_next():
-            self._building.stop()
+        if self.analysis is not None and not busy:
+            self._building.stop()  # so that a panel that cannot be built is not tried for ever
+            if self.analysis.build_next():
+                self._building.start()
 
     def _result_changed(self, result: Result | None) -> None:
         if result is not None and self.analysis is None:
@@ -247,10 +252,17 @@ class MainWindow(QMainWindow):
             QTimer.singleShot(_FRAME, self, self.need_analysis)
 
     def show_failure(self, error: BaseException) -> None:
-        """Show what cannot be done in the banner, and a bug in a dialog."""
+        """Show what cannot be done in the banner, and a bug in a dialog, each bug once.
+
+        One in what is painted would come back as soon as its dialog is closed.
+        """
         if isinstance(error, CalibrationError):
             self.banner.show_error(error)
             return
+        place = type(error), *[frame[:2] for frame in extract_tb(error.__traceback__)[-1:]]
+        if place in self._bugs:
+            return
+        self._bugs.add(place)
         self.files.keep_work()
         from calibgui.gui.dialogs.bug_dialog import BugDialog
 
