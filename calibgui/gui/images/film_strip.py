@@ -129,8 +129,8 @@ class FilmStrip(QWidget):
         self.threshold.setMaximum(1e6)
         self.threshold.setToolTip(
             self.tr(
-                "Images whose RMS residual is larger are selected. Drag the red line across the "
-                "bars to change it."
+                "Images whose RMS residual is larger are selected. Drag the line across the bars "
+                "to change it."
             )
         )
         self.threshold.valueChanged.connect(self._threshold_typed)

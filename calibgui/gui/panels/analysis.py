@@ -11,9 +11,9 @@ from PySide6.QtWidgets import (
     QHBoxLayout,
     QLabel,
     QMenu,
+    QPushButton,
     QSizePolicy,
     QStackedWidget,
-    QToolButton,
     QVBoxLayout,
     QWidget,
 )
@@ -202,9 +202,7 @@ class Analysis(QWidget):
             lambda row: self._session.show_result(self.results.itemText(row))
         )
         self.state = QLabel()
-        self.more = QToolButton()
-        self.more.setText(self.tr("Manage"))
-        self.more.setPopupMode(QToolButton.ToolButtonPopupMode.InstantPopup)
+        self.more = QPushButton(self.tr("Manage"))
         self.more.setToolTip(self.tr("Rename, delete or compare results"))
         menu = QMenu(self.more)
         self.compare = menu.addMenu(self.tr("&Compare with"))

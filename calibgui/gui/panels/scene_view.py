@@ -155,8 +155,9 @@ class SceneView(QWidget):
 
     def paintEvent(self, event: QPaintEvent) -> None:  # noqa: N802, ARG002 - Qt's name
         painter = QPainter(self)
+        # Beyond the edge: it lies within a pixel of the screen where the scale is no whole number.
+        painter.fillRect(self.rect().adjusted(0, 0, 1, 1), QColor(theme.current().base))
         painter.setRenderHint(QPainter.RenderHint.Antialiasing)
-        painter.fillRect(self.rect(), QColor(theme.current().base))
         if not self._drawn:
             return
         self.axis_numbers = self._paint_axes(painter)

@@ -6,6 +6,7 @@ from collections.abc import Callable
 
 import pyqtgraph as pg
 from PySide6.QtCore import Qt
+from PySide6.QtGui import QTextOption
 from PySide6.QtWidgets import QGraphicsGridLayout, QGraphicsItem, QSizePolicy
 
 _MANY_DECADES = 4
@@ -80,6 +81,8 @@ class PlotArea(pg.GraphicsWidget):  # type: ignore[misc]  # pyqtgraph is not typ
         self.box = pg.ViewBox(enableMenu=False)
         self.left, self.bottom = Axis("left"), Axis("bottom")
         self.title = pg.LabelItem()
+        centred = QTextOption(Qt.AlignmentFlag.AlignHCenter)
+        self.title.item.document().setDefaultTextOption(centred)
         self.grid = QGraphicsGridLayout(self)
         self.grid.setContentsMargins(1, 1, 1, 1)
         self.grid.setSpacing(0)
@@ -102,7 +105,10 @@ class PlotArea(pg.GraphicsWidget):  # type: ignore[misc]  # pyqtgraph is not typ
 
     def set_title(self, text: str, colour: str) -> None:
         """Write a title, of two lines at most; it has no room before there is one."""
+        words = self.title.item
+        words.setTextWidth(-1)
         self.title.setText(text, color=colour, size="10pt")
+        words.setTextWidth(words.document().idealWidth())  # lines are centred in a width only
         self._give_title(_TITLE_HEIGHT)
 
     def show_grid(self, shown: bool) -> None:

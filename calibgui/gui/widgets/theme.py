@@ -47,6 +47,8 @@ class Theme:
 
     window: str
     """Behind controls."""
+    button: str
+    """Of buttons, boxes' arrows and the handles of sliders."""
     base: str
     """Behind lists, tables and plots."""
     canvas: str
@@ -70,6 +72,7 @@ class Theme:
 
 LIGHT = Theme(
     window="#f4f5f7",
+    button="#f4f5f7",
     base="#ffffff",
     canvas="#d9dce1",
     text="#1c2026",
@@ -85,6 +88,7 @@ LIGHT = Theme(
 )
 DARK = Theme(
     window="#2d323a",
+    button="#3b424d",
     base="#191c21",
     canvas="#121417",
     text="#e7eaee",
@@ -193,7 +197,7 @@ def _palette(theme: Theme) -> QPalette:
         role.ToolTipText: theme.text,
         role.PlaceholderText: theme.muted,
         role.Text: theme.text,
-        role.Button: theme.window,
+        role.Button: theme.button,
         role.ButtonText: theme.text,
         role.BrightText: theme.bad,
         role.Link: theme.accent,

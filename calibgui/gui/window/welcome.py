@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from pathlib import Path
 
-from PySide6.QtCore import QPointF, QSize, Qt, Signal, SignalInstance
+from PySide6.QtCore import QEvent, QPointF, QSize, Qt, Signal, SignalInstance
 from PySide6.QtGui import QIcon, QImage, QPainter, QPixmap
 from PySide6.QtWidgets import (
     QCommandLinkButton,
@@ -23,6 +23,7 @@ from calibgui.app.recent import Recent
 from calibgui.gui.jobs.jobs import Jobs
 from calibgui.gui.widgets import theme
 from calibgui.gui.widgets.focus_ring import FocusRing
+from calibgui.gui.widgets.icons import Icon, draw_icon
 from calibgui.gui.widgets.picture import make_qimage
 from calibgui.gui.widgets.wrapped_label import WrappedLabel
 
@@ -64,31 +65,30 @@ class Welcome(QScrollArea):
         words.setAlignment(Qt.AlignmentFlag.AlignCenter)
         words.setMargin(3 * theme.SPACING)
         words.setStyleSheet("border: 2px dashed palette(mid); border-radius: 8px;")
-        icon = QStyle.StandardPixmap
         self.buttons = [
             self._link(
                 self.tr("Open a f&older of images"),
                 self.tr("Corners are found and the camera is calibrated at once."),
                 self.folder_wanted,
-                icon.SP_DirOpenIcon,
+                Icon.FOLDER,
             ),
             self._link(
                 self.tr("&Add images"),
                 self.tr("Choose single files."),
                 self.images_wanted,
-                icon.SP_FileIcon,
+                Icon.PICTURE,
             ),
             self._link(
                 self.tr("Open the &sample"),
                 self.tr("Fourteen rendered photographs, to look around."),
                 self.sample_wanted,
-                icon.SP_FileDialogContentsView,
+                Icon.BOARD,
             ),
             self._link(
                 self.tr("&Print a board"),
                 self.tr("A checkerboard, ChArUco board or grid of circles in true size."),
                 self.board_wanted,
-                icon.SP_FileDialogDetailedView,
+                Icon.PRINTER,
             ),
         ]
         column = QWidget()
@@ -172,12 +172,16 @@ class Welcome(QScrollArea):
         pixmap.setDevicePixelRatio(ratio)
         button.setIcon(_centre(pixmap))
 
-    def _link(
-        self, text: str, tip: str, wanted: SignalInstance, icon: QStyle.StandardPixmap
-    ) -> QCommandLinkButton:
+    def changeEvent(self, event: QEvent) -> None:  # noqa: N802 - Qt's name
+        super().changeEvent(event)
+        if event.type() == QEvent.Type.PaletteChange and hasattr(self, "buttons"):
+            for button, icon in zip(self.buttons, Icon, strict=True):
+                button.setIcon(draw_icon(icon))
+
+    def _link(self, text: str, tip: str, wanted: SignalInstance, icon: Icon) -> QCommandLinkButton:
         button = QCommandLinkButton(text, tip)
         button.setMinimumHeight(button.heightForWidth(_WIDTH))
-        button.setIcon(self.style().standardIcon(icon))
+        button.setIcon(draw_icon(icon))
         button.setIconSize(QSize(24, 24))
         button.clicked.connect(lambda: wanted.emit())
         FocusRing(button)

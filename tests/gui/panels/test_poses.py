@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 from PySide6.QtCore import QPoint, QPointF, QRectF, Qt
-from PySide6.QtGui import QWheelEvent
+from PySide6.QtGui import QImage, QWheelEvent
 from PySide6.QtWidgets import QApplication
 from pytestqt.qtbot import QtBot
 
@@ -32,6 +32,20 @@ def test_a_board_picks_its_view(shown: Shown[PosesPanel], result: Result, qtbot:
     with qtbot.waitSignal(panel.picked) as signal:
         qtbot.mouseClick(panel.space, Qt.MouseButton.LeftButton, pos=at)
     assert result.views[signal.args[0]] is result.used[front.polygon.view]
+
+
+def test_the_scene_covers_its_place_at_one_and_a_half_times_the_scale(
+    shown: Shown[PosesPanel], result: Result
+) -> None:
+    space = shown(PosesPanel, result).space
+    space.resize(301, 201)
+    picture = QImage(452, 302, QImage.Format.Format_RGB32)
+    picture.setDevicePixelRatio(1.5)
+    picture.fill(Qt.GlobalColor.black)
+    space.render(picture)
+    edge = [picture.pixelColor(451, y).name() for y in range(302)]
+    edge += [picture.pixelColor(x, 301).name() for x in range(452)]
+    assert set(edge) == {theme.LIGHT.base}
 
 
 def test_the_sentence_on_lengths_has_the_room_below_to_itself(

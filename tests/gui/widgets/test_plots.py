@@ -49,6 +49,17 @@ def test_what_an_axis_shows_is_never_cut_off(qtbot: QtBot) -> None:
     assert plot.rect().top() <= shown.top() and shown.bottom() <= plot.rect().bottom()
 
 
+def test_the_lines_of_a_title_are_centred(qtbot: QtBot) -> None:
+    plot = example(qtbot)
+    for text in ("mean 0.0000, standard deviation 0.0030 px<br>σ", "σ<br>a longer line"):
+        plot.set_title(text)
+        document = plot.area.title.item.document()
+        layout = document.firstBlock().layout()
+        lines = [layout.lineAt(k).naturalTextRect() for k in range(layout.lineCount())]
+        assert len(lines) == 2
+        assert abs(lines[0].center().x() - lines[1].center().x()) < 1
+
+
 def test_numbers_of_a_logarithmic_axis_are_written_alike(qtbot: QtBot) -> None:
     axis = example(qtbot).area.left
     values = [-1, 0, np.log10(3), np.log10(5), 1]
@@ -103,7 +114,8 @@ def test_text_is_legible_on_its_background() -> None:
             for text in (colours.text, colours.muted, colours.good, colours.bad, colours.warning)
             for back in (colours.window, colours.base)
         ]
-        pairs += [(colours.on_accent, colours.accent), (colours.warning, colours.warning_base)]
+        pairs += [(colours.text, colours.button), (colours.on_accent, colours.accent)]
+        pairs += [(colours.warning, colours.warning_base)]
         pairs += [(colours.bad, colours.bad_base), (colours.text, colours.bad_base)]
         for text, back in pairs:
             bright, dark = sorted((luminance(text), luminance(back)), reverse=True)

@@ -8,11 +8,13 @@ import numpy as np
 import pytest
 from PySide6.QtCore import Qt
 from PySide6.QtGui import QColor
+from PySide6.QtWidgets import QApplication
 from pytestqt.qtbot import QtBot
 
 from calibgui.app.recent import Recent, list_recent
 from calibgui.engine.images.reading import write_image
 from calibgui.gui.jobs.jobs import Jobs
+from calibgui.gui.widgets import theme
 from calibgui.gui.window.main_window import MainWindow
 from calibgui.gui.window.welcome import Welcome
 
@@ -99,3 +101,17 @@ def test_an_opened_folder_is_remembered_and_opens_again(
     qtbot.waitUntil(lambda: bool(window.session.project.views))
     for job in window.session.jobs.running:
         job.cancel()
+
+
+def test_the_icons_follow_the_theme(welcome: Welcome, qapp: QApplication) -> None:
+    for scheme, colours in ((theme.Scheme.DARK, theme.DARK), (theme.Scheme.LIGHT, theme.LIGHT)):
+        theme.apply(qapp, scheme)
+        QApplication.processEvents()
+        for button in welcome.buttons:
+            icon = button.icon().pixmap(button.iconSize()).toImage()
+            pixels = [
+                icon.pixelColor(x, y) for x in range(icon.width()) for y in range(icon.height())
+            ]
+            drawn = max(pixels, key=QColor.alpha)
+            accent = QColor(colours.accent)
+            assert np.allclose(drawn.getRgb()[:3], accent.getRgb()[:3], atol=3), button.text()
