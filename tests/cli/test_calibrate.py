@@ -39,7 +39,7 @@ def test_photographs_give_the_camera_that_took_them(
     assert (np.abs(camera.params - CAMERA.params)[free] < 5 * sigma[free]).all()
     printed, problems = capsys.readouterr()
     assert problems == ""
-    first = "GOOD. Nothing is wrong that the photographs show.\nError of a pixel: centre 0.0"
+    first = "GOOD. The photographs show nothing wrong.\nError of a pixel: centre 0.0"
     assert printed.startswith(first) and "\nCamera, 320 x 240 px" in printed
     assert "\nRMS 0.0" in printed and f"{COUNT} of {COUNT} images" in printed
     assert "Wrote" in printed and "-v shows Stage I" in printed
@@ -152,7 +152,7 @@ def test_json_is_all_there_is_on_stdout(corners_file: Path, capsys: Capture) -> 
 def test_quiet_is_one_line(corners_file: Path, capsys: Capture) -> None:
     assert main(["calibrate", str(corners_file), "--quiet"]) == 0
     printed, problems = capsys.readouterr()
-    assert printed.startswith("GOOD. Nothing is wrong that the photographs show. Error of a ")
+    assert printed.startswith("GOOD. The photographs show nothing wrong. Error of a ")
     assert printed.endswith(f", {COUNT} of {COUNT} images.\n") and printed.count("\n") == 1
     assert problems == ""
 

@@ -167,7 +167,7 @@ def user(window: MainWindow, qtbot: QtBot, tmp_path: Path) -> User:
 def test_clean_photographs(user: User, monkeypatch: pytest.MonkeyPatch) -> None:
     copy_sample(user.folder)
     user.open_photographs(monkeypatch)
-    assert user.headline == "GOOD. Nothing is wrong that the photographs show."
+    assert user.headline == "GOOD. The photographs show nothing wrong."
     user.state_square("25")
     assert (
         user.headline.startswith("GOOD") and "if squares" not in user.window.verdict.figures.text()
@@ -224,7 +224,7 @@ def test_three_blurred_photographs(user: User, monkeypatch: pytest.MonkeyPatch) 
     blur_three(user.folder)
     user.open_photographs(monkeypatch)
     # They do no harm: what is said to be good is so.
-    assert user.headline == "GOOD. Nothing is wrong that the photographs show."
+    assert user.headline == "GOOD. The photographs show nothing wrong."
     result = user.window.session.result
     assert result is not None
     truth = list(TRUTH["camera"]["params"].values())[:4]

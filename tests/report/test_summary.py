@@ -133,7 +133,7 @@ def test_the_verdict_comes_first(good: Result) -> None:
         first = describe_calibration(result)[0]
         return first.tone, first.text
 
-    assert verdict(good) == (Tone.GOOD, "GOOD. Nothing is wrong that the photographs show.")
+    assert verdict(good) == (Tone.GOOD, "GOOD. The photographs show nothing wrong.")
     wrong = solved(everywhere(), model="pinhole")
     tone, words = verdict(wrong)
     assert tone is Tone.CAUTION and re.fullmatch(r"CAN BE \d+ TIMES BETTER\.", words)

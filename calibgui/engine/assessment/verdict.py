@@ -400,12 +400,12 @@ def _grade(
         return Grade.USABLE, few
     if not error.worst_covered <= MAX_GOOD_PX:
         return Grade.USABLE, (
-            "Nothing is wrong that the photographs show, but pixels are known to "
+            "The photographs show nothing wrong, but pixels are known to "
             f"{format_two_digits(error.worst_covered)} px where they are known worst among "
             "corners: add views."
         )
     if error.worst <= MAX_GOOD_PX:
-        return Grade.GOOD, "Nothing is wrong that the photographs show."
+        return Grade.GOOD, "The photographs show nothing wrong."
     grade = Grade.GOOD if error.median <= MAX_GOOD_PX else Grade.USABLE
     return grade, (
         "Nothing is wrong where there are corners; beyond them pixels are known to "

@@ -165,8 +165,9 @@ class VerdictBar(QFrame):
             self.figures.text()
             + "\n"
             + self.tr(
-                "One standard deviation of where a distant point is imaged, with what is wrong; "
-                "the edge is the mean along the image's border."
+                "How far off the camera puts a distant point in the image (one standard "
+                "deviation), with the harm of the findings. The covered part is where corners "
+                "were found, the edge the mean along the image's border."
             )
         )
         self._show_buttons()

@@ -57,8 +57,8 @@ def find_tagged_checkerboard(
     if tried:
         raise NoBoardError(
             "A checkerboard was found, but no tags in its dark squares that tell its corners.",
-            "State target, tag family and size as printed, or leave them out; for tags to be read,"
-            " take the picture from nearer.",
+            "State the board, tag family and size as printed, or leave them out; for tags to be"
+            " read, take the picture from nearer.",
         )
     raise NoBoardError(
         "No checkerboard with tags was found.",

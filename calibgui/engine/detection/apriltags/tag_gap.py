@@ -40,6 +40,6 @@ def measure_gap(uv: Array, gap: float) -> float:
     if measured > 1:
         raise NoBoardError(
             "Tags were read, but they stand too far apart for an AprilGrid.",
-            "For a checkerboard with tags in some of its squares state that target.",
+            "For a checkerboard with tags in some of its squares, choose that pattern.",
         )
     return measured

@@ -385,7 +385,7 @@ def _describe_refusal(refusal: Refusal) -> NoBoardError:
         f"What looks like a checkerboard of {rows} x {cols} inner corners is not trusted:"
         f" {refusal.reason}.",
         "Mark its four outermost corners, or leave this picture out. For a grid of circles,"
-        " state that target; where marks are drawn over the corners, take the original.",
+        " choose that pattern; where marks are drawn over the corners, take the original.",
     )
 
 

@@ -173,7 +173,7 @@ def _explain_missing_board(
     return NoBoardError(
         f"The dots of the {rows} x {cols} corners seen do not tell which part of a PuzzleBoard"
         " they are.",
-        "Show at least 5 x 5 corners, sharp; for a checkerboard without dots, state that target.",
+        "Show at least 5 x 5 corners, sharp; for a checkerboard without dots, choose that pattern.",
     )
 
 
