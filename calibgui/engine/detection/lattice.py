@@ -101,10 +101,14 @@ def is_large_enough(lattice: Lattice) -> bool:
     return len(lattice) >= MIN_SCATTERED_CORNERS or _has_full_block(lattice.found)
 
 
-def is_scattered(lattice: Lattice) -> bool:
+def compute_filled_share(lattice: Lattice) -> float:
+    """Return the share of the places within its rows and columns that a lattice fills."""
+    return len(lattice) / (lattice.shape[0] * lattice.shape[1])
+
+
+def is_scattered(lattice: Lattice, min_filled: float = _MIN_FILLED_SHARE) -> bool:
     """Return whether many corners fill so little of their rows and columns as those of no board."""
-    places = lattice.shape[0] * lattice.shape[1]
-    return _MIN_SCATTERED <= len(lattice) < _MIN_FILLED_SHARE * places
+    return len(lattice) >= _MIN_SCATTERED and compute_filled_share(lattice) < min_filled
 
 
 def _has_full_block(found: BoolArray) -> bool:

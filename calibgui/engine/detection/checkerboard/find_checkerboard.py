@@ -40,6 +40,7 @@ from calibgui.engine.detection.checkerboard.pyramid_search import (
     find_same,
 )
 from calibgui.engine.detection.checkerboard.saddle import refine_lattice
+from calibgui.engine.detection.checkerboard.thresholds import THRESHOLDS
 from calibgui.engine.detection.checkerboard.undisturbed_fit import fit_undisturbed
 from calibgui.engine.detection.checkerboard.x_corner_fit import XCornerFit
 from calibgui.engine.detection.corners import Corners, OtherBoard, RejectedCorner
@@ -48,6 +49,7 @@ from calibgui.engine.detection.lattice import (
     MIN_CORNERS,
     MIN_LINES,
     Lattice,
+    compute_filled_share,
     drop_isolated_and_crop,
     is_large_enough,
 )
@@ -232,6 +234,10 @@ def refine_board(
     Returns:
         The board without the corners that fail, or why the lattice is none.
     """
+    is_sparse = compute_filled_share(lattice) < THRESHOLDS.search.min_filled_in_texture
+    if is_sparse and (objection := find_objection(lattice, grey, plain=plain)):
+        # To try so many gaps again, as textures have, takes several times as long.
+        return Refusal(lattice.shape, objection)
     seen = lattice
     for _ in range(_MAX_ROUNDS):
         filled = verification.fill_gaps(seen, grey.shape)

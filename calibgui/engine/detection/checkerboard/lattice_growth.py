@@ -55,7 +55,8 @@ def grow_lattice(
                 break
             template, size = estimate_template(lattice, nearby.smooth), len(lattice)
         grown = _fill_places(lattice, 1, predict_places, nearby, MAX_DEVIATION, template)
-        if grown is None and beyond.exceeds(lattice):
+        may_have_gaps = not is_scattered(lattice, limits.min_filled_beside_gaps)
+        if grown is None and may_have_gaps and beyond.exceeds(lattice):
             deviation = limits.max_gap_deviation
             grown = _fill_places(
                 lattice, MAX_GAP, _predict_by_grid_map, beyond, deviation, template

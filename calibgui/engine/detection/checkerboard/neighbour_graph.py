@@ -38,7 +38,7 @@ from calibgui.engine.arrays import (
 )
 from calibgui.engine.detection.checkerboard.thresholds import THRESHOLDS, JunctionTolerance
 from calibgui.engine.detection.checkerboard.x_junctions import Junctions, Saddles
-from calibgui.engine.detection.lattice import DIRECTIONS, Lattice, trim_lattice
+from calibgui.engine.detection.lattice import DIRECTIONS, Lattice, crop_lattice, trim_lattice
 from calibgui.engine.images.sampling import sample_image
 
 _EDGE_SAMPLES = np.array([0.3, 0.5, 0.7])
@@ -175,7 +175,7 @@ def _choose_neighbours(
 
 
 def _split_components(ends: Int32Array) -> Iterator[tuple[Int32Array, Int32Array]]:
-    """Yield the graph's connected components, largest first, down to one cell's junctions.
+    """Yield the graph's connected components that hold a full cell, largest first.
 
     Junctions that their edges contradict more often than not are left out.
 
@@ -194,11 +194,25 @@ def _split_components(ends: Int32Array) -> Iterator[tuple[Int32Array, Int32Array
     agree = _check_agreement(ends, nodes, placed, DIRECTIONS)
     begin = np.flatnonzero(np.diff(seed, prepend=-1))
     size = np.diff(begin, append=len(seed))
-    for k in np.argsort(-size, kind="stable"):
-        if size[k] < _MIN_JUNCTIONS:
-            return
+    with_cell = _find_components_with_cell(size, placed, agree)
+    for k in with_cell[np.argsort(-size[with_cell], kind="stable")]:
         part = begin[k] + np.flatnonzero(agree[begin[k] : begin[k] + size[k]])
         yield nodes[part], placed[part]
+
+
+def _find_components_with_cell(size: IntArray, placed: Int32Array, agree: BoolArray) -> IntArray:
+    """Find the components of `size` (k,) junctions that hold a full cell of those that agree (m,);
+    placed (m, 3) are the rows, columns and turns of all, one component after the other."""
+    component = np.repeat(np.arange(len(size)), size)[agree]
+    place = placed[agree, :2] - placed[:, :2].min(axis=0)
+    rows, cols = (int(end) + 2 for end in place.max(axis=0, initial=0))
+    key = (component * rows + place[:, 0]) * cols + place[:, 1]
+    known = np.unique(key)
+    first = np.ones(len(key), dtype=np.bool_)
+    for step in (1, cols, cols + 1):
+        where = np.minimum(np.searchsorted(known, key + step), len(known) - 1)
+        first &= known[where] == key + step
+    return np.unique(component[first])
 
 
 @kernels.with_kernel("neighbour_graph", "walk_graph")
@@ -289,7 +303,9 @@ def _arrange_lattices(uv: Array, nodes: Int32Array, placed: Int32Array) -> list[
     part, count = opencv.label_parts(lattice.found)
     if count == 1:
         return [lattice]
-    parts = (trim_lattice(lattice.select(part == k)) for k in range(1, count + 1))
+    large = 1 + np.flatnonzero(np.bincount(part.ravel())[1:] >= _MIN_JUNCTIONS)
+    # Of hundreds of strays each part would take as long as the whole component.
+    parts = (trim_lattice(crop_lattice(lattice.select(part == k))) for k in large)
     return [each for each in parts if each is not None]
 
 

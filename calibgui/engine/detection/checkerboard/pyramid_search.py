@@ -19,7 +19,6 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass, replace
-from functools import partial
 
 import numpy as np
 import scipy
@@ -39,7 +38,7 @@ from calibgui.engine.detection.checkerboard.x_junctions import (
     classify_saddles,
     find_saddles,
 )
-from calibgui.engine.detection.lattice import Lattice, is_large_enough
+from calibgui.engine.detection.lattice import Lattice, compute_filled_share, is_large_enough
 from calibgui.engine.detection.region_of_interest import are_inside
 
 _RANGE_PERCENTILES = (0.5, 99.5)
@@ -51,6 +50,8 @@ _SAME_CORNER = 0.5
 full resolution, and where there is none, places that are refined from there, px."""
 
 
+IsOther = Callable[[Lattice, GreyImage], bool]
+"""Test of whether a lattice in a level of the image is none of the boards that are looked for."""
 OnRefusal = Callable[[Refusal], object]
 """What is called with every lattice that the prefilter refuses though it is large enough."""
 
@@ -86,6 +87,7 @@ def find_candidates(
     is_sufficient: Callable[[Lattice], bool] = is_large_enough,
     plain: float = 0.5,
     on_refusal: OnRefusal = lambda _: None,
+    is_other: IsOther = lambda *_: False,
 ) -> Iterator[list[Candidate]]:
     """Find all lattices that may be boards, in full resolution but not yet verified.
 
@@ -95,6 +97,7 @@ def find_candidates(
         is_sufficient: test of whether a lattice is large enough to be kept.
         plain: how far from the corners nothing is printed in the squares and on their edges.
         on_refusal: is told which lattices that are large enough were refused, and why.
+        is_other: tells of which lattices no more than what is seen of them need be known.
 
     Yields:
         The candidates, that of the most corners first: once when a finer level could hardly add to
@@ -109,29 +112,21 @@ def find_candidates(
         return
     outlines = [_scale_to_level(outline, k) for k in range(len(levels))]
     candidates: list[Candidate] = []
-    waiting: list[tuple[int, list[Lattice]]] = []
+    waiting: list[tuple[int, _LevelContent]] = []
     for depth in reversed(range(len(levels))):
-        found, too_small = _search_level(
-            levels[depth],
-            min_contrast,
-            outlines[depth],
-            is_sufficient,
-            not depth,
-            plain,
-            on_refusal,
-        )
-        if too_small:
-            waiting.append((depth, too_small))
+        content = _analyse_level(levels[depth], min_contrast, outlines[depth], plain, on_refusal)
+        if depth and content.lattices and not _is_resolved(content.lattices[0]):
+            # The finer levels may show all of its small squares: until then it is of no use.
+            waiting.append((depth, content))
             continue
+        found = _grow_lattices(content, content.lattices, is_sufficient, is_other)
+        del content  # its images, while the next level's are made
         candidates = _drop_parts([_carry_down(new, levels[:depth]) for new in found] + candidates)
         is_sure = bool(found) and all(_is_surely_complete(new.lattice) for new in found)
         if is_sure or not depth:
-            for k, lattices in waiting:
-                if missed := _select_missed(lattices, k, candidates):
-                    content = _analyse_level(
-                        levels[k], min_contrast, outlines[k], plain, on_refusal
-                    )
-                    found = _grow_lattices(content, missed, is_sufficient)
+            for k, content in waiting:
+                if missed := _select_missed(content.lattices, k, candidates):
+                    found = _grow_lattices(content, missed, is_sufficient, is_other)
                     candidates = _drop_parts(
                         candidates + [_carry_down(new, levels[:k]) for new in found]
                     )
@@ -147,7 +142,7 @@ def find_candidates(
             on_refusal,
             THRESHOLDS.junctions.parted,
         )
-        if found := _grow_lattices(content, content.lattices, is_sufficient):
+        if found := _grow_lattices(content, content.lattices, is_sufficient, is_other):
             candidates = _drop_parts(
                 [_carry_down(new, levels[:depth]) for new in found] + candidates
             )
@@ -172,28 +167,6 @@ def _measure_range(levels: list[GreyImage]) -> float:
 def _scale_to_level(uv: Array | None, depth: int) -> Array | None:
     """Return points (n, 2) px of the image in the coordinates of a level, if there are any."""
     return None if uv is None else (uv + 0.5) / 2**depth - 0.5
-
-
-def _search_level(
-    image: GreyImage,
-    min_contrast: float,
-    outline: Array | None,
-    is_sufficient: Callable[[Lattice], bool],
-    is_finest: bool,
-    plain: float,
-    on_refusal: OnRefusal,
-) -> tuple[list[Candidate], list[Lattice]]:
-    """Search one level for candidates.
-
-    Returns:
-        The candidates, largest first, and no lattices; or, where the squares are too small for
-        the level to show all and it is not the finest, no candidates and the lattices that are of
-        use only if the finer levels show less.
-    """
-    content = _analyse_level(image, min_contrast, outline, plain, on_refusal)
-    if content.lattices and not is_finest and not _is_resolved(content.lattices[0]):
-        return [], content.lattices
-    return _grow_lattices(content, content.lattices, is_sufficient), []
 
 
 def _analyse_level(
@@ -233,21 +206,37 @@ def _refuse(lattice: Lattice, content: _LevelContent) -> bool:
 
 
 def _grow_lattices(
-    content: _LevelContent, seeds: list[Lattice], is_sufficient: Callable[[Lattice], bool]
+    content: _LevelContent,
+    seeds: list[Lattice],
+    is_sufficient: Callable[[Lattice], bool],
+    is_other: IsOther,
 ) -> list[Candidate]:
-    """Grow lattices of one level; return those that are sufficient, largest first."""
-    is_hopeless = partial(prefilter.is_hopeless, image=content.image, plain=content.plain)
-    smooth = content.saddles.smooth
+    """Grow lattices of one level; return those that are sufficient, largest first.
+
+    A texture holds any number of lattices, and all turn out as the first few did: once these are
+    sparse, other sparse ones are left out.
+    """
+
+    def is_hopeless(lattice: Lattice) -> bool:
+        image = content.image
+        return prefilter.is_hopeless(lattice, image, content.plain) or is_other(lattice, image)
+
+    limits, smooth = THRESHOLDS.search, content.saddles.smooth
     nearby, beyond = (
         PointIndex(smooth, points.uv) for points in (content.saddles, content.junctions)
     )
     grown: list[Lattice] = []
     hopeful: list[Lattice] = []
+    sparse = 0
     for seed in seeds:
+        is_texture = sparse >= limits.max_sparse_lattices
+        if is_texture and compute_filled_share(seed) < limits.min_filled_in_texture:
+            continue
         if any(is_part(seed, other) for other in grown):
             continue
         lattice = grow_lattice(seed, nearby, beyond, is_hopeless)
         grown.append(lattice)
+        sparse += compute_filled_share(lattice) < limits.min_filled_in_texture
         # The seeds passed the prefilter before.
         if lattice is seed or not _refuse(lattice, content):
             hopeful.append(verification.drop_stray_lines(lattice, smooth))

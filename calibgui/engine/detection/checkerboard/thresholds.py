@@ -60,6 +60,12 @@ class SearchThresholds:
     without a saddle point within keeps its place."""
     max_grown_lattices: int = 8
     """Number of lattices, those with the most junctions, that are grown in a level."""
+    max_sparse_lattices: int = 2
+    """Number of grown lattices of a level that fill less than the share `min_filled_in_texture` of
+    their rows and columns, after which others that do are not grown. The "waves" and the "halftone"
+    of `tests.benchmarks.refusals` have 5 to 8 of a third and less, which take long."""
+    min_filled_in_texture: float = 0.5
+    """See `max_sparse_lattices`."""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -110,6 +116,10 @@ class GrowthThresholds:
     """Number of saddle points near a predicted corner, the nearest, that are compared with it."""
     min_corners_over_gaps: int = 12
     """Number of corners from which on their grid map is trusted beyond a gap."""
+    min_filled_beside_gaps: float = 0.35
+    """Share of its rows and columns that a lattice of many corners fills at least if gaps around it
+    are bridged: those of boards fill 0.39 or more, through the "waves" one winds from gap to
+    gap."""
     max_gap_deviation: float = 0.2
     """Greatest distance of a corner beyond a gap from where the grid map places it, steps."""
     min_growth_for_template: float = 1.2

@@ -32,23 +32,35 @@ from calibgui.engine.detection.checkerboard.pyramid_search import (
     is_part,
 )
 from calibgui.engine.detection.checkerboard.saddle import refine_lattice
+from calibgui.engine.detection.checkerboard.thresholds import THRESHOLDS
 from calibgui.engine.detection.corners import Corners
 from calibgui.engine.detection.detector_io import check_grey_levels
-from calibgui.engine.detection.lattice import Lattice, is_large_enough
+from calibgui.engine.detection.lattice import (
+    Lattice,
+    compute_filled_share,
+    drop_isolated_and_crop,
+    is_large_enough,
+)
 from calibgui.engine.detection.puzzleboard.dot_levels import measure_dots
 from calibgui.engine.detection.puzzleboard.dot_removal import PLAIN, remove_blurred_dots
 from calibgui.engine.detection.puzzleboard.place_decoding import (
     Place,
     StatedBoard,
+    are_there_dots,
     find_place_of_print,
     is_certain,
     may_be_dots,
 )
 from calibgui.engine.errors import NoBoardError
 
-_MAX_SHOWN_LINES = 12
+_MAX_SHOWN_LINES = 8
 """Greatest number of rows, and of columns, of a lattice without dots that are verified to say that
 it is a board: it bounds the time."""
+_MAX_COMPARED_LINES = 20
+"""Greatest number of rows, and of columns, of which the dots are looked at first: as many as
+`may_be_dots` tells chance from."""
+_MIN_SEEN_SHARE = 0.5
+"""Least share of the places in the middle that show corners, if it is to tell."""
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -108,7 +120,11 @@ def _find_boards(
     tried: dict[Candidate, _PlacedBoard | None] = {}
     placed: list[_PlacedBoard] = []
     bare: list[Candidate] = []
-    for candidates in find_candidates(grey, searched, plain=PLAIN):
+
+    def is_other(lattice: Lattice, level: GreyImage) -> bool:
+        return level is grey and _lacks_dots(lattice, grey)  # coarser ones may blur dots away
+
+    for candidates in find_candidates(grey, searched, plain=PLAIN, is_other=is_other):
         for candidate in candidates:
             if candidate in tried:
                 continue
@@ -116,8 +132,8 @@ def _find_boards(
             tried[candidate] = _find_known(candidate.lattice, placed)
             if same or tried[candidate]:
                 continue
-            lattice, _ = refine_lattice(grey, candidate.lattice, plain=PLAIN)
-            if may_be_dots(measure_dots(grey, lattice)):
+            if _may_show_dots(grey, candidate.lattice):
+                lattice, _ = refine_lattice(grey, candidate.lattice, plain=PLAIN)
                 tried[candidate] = _verify_lattice(grey, lattice, candidate.others, method, stated)
             else:
                 bare.append(candidate)
@@ -125,6 +141,25 @@ def _find_boards(
         if any(is_certain(each.place) for each in placed):
             break
     return placed, bare
+
+
+def _lacks_dots(lattice: Lattice, grey: GreyImage) -> bool:
+    """Return whether a lattice is large enough to tell that it has no dots."""
+    is_large = len(lattice) >= THRESHOLDS.prefilter.min_corners_to_tell
+    return is_large and not are_there_dots(measure_dots(grey, lattice))
+
+
+def _may_show_dots(grey: GreyImage, lattice: Lattice) -> bool:
+    """Return whether there may be dots between the corners of a lattice: first between those in its
+    middle, if they are not mostly hidden, since all may be thousands."""
+    middle = _cut_middle(lattice, _MAX_COMPARED_LINES)
+    parts = [lattice]
+    if _MIN_SEEN_SHARE * _MAX_COMPARED_LINES**2 < len(middle) < len(lattice):
+        parts.insert(0, middle)
+    return all(
+        may_be_dots(measure_dots(grey, refine_lattice(grey, part, plain=PLAIN)[0]))
+        for part in parts
+    )
 
 
 def _find_known(lattice: Lattice, placed: list[_PlacedBoard]) -> _PlacedBoard | None:
@@ -160,8 +195,9 @@ def _explain_missing_board(
     seen = [each.board.lattice for each in placed]
     if not seen and bare:
         largest = max((each.lattice for each in bare), key=_measure_edges)
-        part = _cut_middle(largest)
-        is_seen = is_large_enough(part)  # its middle may be hidden
+        part = _cut_middle(largest, _MAX_SHOWN_LINES)
+        # Its middle may be hidden; a sparse one is a texture's, and to verify it takes long.
+        is_seen = is_large_enough(part) and compute_filled_share(part) >= _MIN_SEEN_SHARE
         if is_seen and not isinstance(refine_board(grey, part, METHODS[0], PLAIN), Refusal):
             seen = [largest]
     if not seen:
@@ -182,14 +218,14 @@ def _measure_edges(lattice: Lattice) -> float:
     return float(np.nansum(lattice.spacing()[lattice.found]))
 
 
-def _cut_middle(lattice: Lattice) -> Lattice:
-    """Cut the middle rows and columns out of a lattice, `_MAX_SHOWN_LINES` at most."""
+def _cut_middle(lattice: Lattice, most: int) -> Lattice:
+    """Cut the middle out of a lattice, `most` rows and columns at most, less isolated corners."""
     (top, left), (bottom, right) = (
-        [max((lines - _MAX_SHOWN_LINES) // 2, 0) for lines in lattice.shape],
-        [min((lines + _MAX_SHOWN_LINES) // 2, lines) for lines in lattice.shape],
+        [max((lines - most) // 2, 0) for lines in lattice.shape],
+        [min((lines + most) // 2, lines) for lines in lattice.shape],
     )
     dark = lattice.dark ^ bool((top + left) % 2)
-    return Lattice(lattice.uv[top:bottom, left:right], dark)
+    return drop_isolated_and_crop(Lattice(lattice.uv[top:bottom, left:right], dark))
 
 
 def _number_corners(

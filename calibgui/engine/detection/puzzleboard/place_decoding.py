@@ -68,6 +68,9 @@ the lattice: this takes as long as to fit so many corners."""
 _MIN_EVIDENCE = 0.02
 """Least logarithm of the factor L of the best place, per dot: with 30 % of the dots wrong it is
 0.08. What is read between the dots of printed pictures has less."""
+_MIN_ALL_EVIDENCE = 16.0
+"""Least such logarithm of all dots together: chance alone reaches that of a million places, 14. So
+many dots as are compared have 24 or more."""
 _LEVEL_ROUNDS = 20
 """Number of rounds in which m and s are estimated; they change by less than 1 % after these."""
 
@@ -161,27 +164,28 @@ def _compare_turns(dots: Dots) -> tuple[list[Dots], list[tuple[Array, Array]], l
     for _ in range(3):
         turned.append(turned[-1].turn())
     log_odds = 2 * mean / sigma**2
-    logs = [
-        (
-            _compare_with_map(log_odds * each.down, "down"),
-            _compare_with_map(log_odds * each.right.T, "right"),
-        )
-        for each in turned
-    ]
+    down = _compare_with_map([log_odds * each.down for each in turned], "down")
+    right = _compare_with_map([log_odds * each.right.T for each in turned], "right")
+    logs = [*zip(down, right, strict=True)]
     return turned, logs, [float((a.max(axis=1) + b.max(axis=1)).max()) for a, b in logs]
+
+
+def are_there_dots(dots: Dots) -> bool:
+    """Return whether levels may be those of any dots: see `_MIN_DOT_LEVEL`."""
+    return measure_dot_noise(dots)[0] >= _MIN_DOT_LEVEL
 
 
 def may_be_dots(dots: Dots) -> bool:
     """Return whether levels may be those of dots of the pattern, before the corners between which
     they were measured are refined: see `_MIN_DOT_LEVEL` and `_MIN_EVIDENCE`."""
-    mean, _ = measure_dot_noise(dots)
-    if mean < _MIN_DOT_LEVEL:
+    if not are_there_dots(dots):
         return False
     count = sum(int(np.count_nonzero(np.isfinite(each))) for each in (dots.right, dots.down))
     if count < _MIN_DOTS_TO_TELL:
         return True
     prints = (dots, dots.invert(), dots.mirror())
-    return any(max(_compare_turns(each)[2]) > _MIN_EVIDENCE * count for each in prints)
+    least = max(_MIN_EVIDENCE * count, _MIN_ALL_EVIDENCE)
+    return any(max(_compare_turns(each)[2]) > least for each in prints)
 
 
 def find_place_of_print(dots: Dots, board: StatedBoard | None = None) -> tuple[Place, bool]:
@@ -221,18 +225,27 @@ def measure_dot_noise(dots: Dots) -> tuple[float, float]:
     return mean, float(np.sqrt(max(square - mean**2, _MIN_LEVEL_SIGMA**2)))
 
 
-def _compare_with_map(log_odds: Array, name: str) -> Array:
-    """Compare dots with a map at all of its offsets.
+def _compare_with_map(log_odds: list[Array], name: str) -> Array:
+    """Compare sets of dots with a map at all of its offsets.
 
     Args:
-        log_odds: (n, m) of white to dark, NaN where not seen; the first index is the one that
-            counts modulo 3.
+        log_odds: per set (n, m) of white to dark, NaN where not seen; the first index is the one
+            that counts modulo 3.
         name: of the map, "down" or "right".
 
     Returns:
-        Logarithms (k, 501) of the factors L for each share of wrong dots and each offset, 167
-        times the first offset plus the second.
+        Per set the logarithms (k, 501) of the factors L for each share of wrong dots and each
+        offset, 167 times the first offset plus the second.
     """
+    even, by_cell = zip(*map(_sum_by_cell, log_odds), strict=True)
+    odd = np.concatenate(by_cell) @ _list_offsets(name)
+    return np.array(even)[..., None] + odd.reshape(len(even), -1, CODE_LINES)
+
+
+def _sum_by_cell(log_odds: Array) -> tuple[Array, Array]:
+    """Sum what dots (n, m) say for each share of wrong ones: (k,) the part of log L that is the
+    same for white and dark cells, and (k, 501) by cell of a map what a white one adds to it, and a
+    dark one takes from it."""
     odds = np.where(np.isfinite(log_odds), log_odds, 0.0)
     white, dark = scipy.special.expit(odds), scipy.special.expit(-odds)
     wrong = _WRONG_SHARES[:, None, None]
@@ -240,11 +253,10 @@ def _compare_with_map(log_odds: Array, name: str) -> Array:
     if_dark = np.log(2 * ((1 - wrong) * dark + wrong * white))
     n, m = odds.shape
     cell = (np.arange(n)[:, None] % CODE_ROWS) * CODE_COLS + np.arange(m) % CODE_COLS
-    by_cell = np.stack(
-        [np.bincount(cell.ravel(), each.ravel(), CODE_LINES) for each in (if_white - if_dark) / 2]
-    )
-    even = (if_white + if_dark).sum(axis=(1, 2)) / 2
-    return np.asarray(even[:, None] + by_cell @ _list_offsets(name))
+    by_cell = [
+        np.bincount(cell.ravel(), each.ravel(), CODE_LINES) for each in (if_white - if_dark) / 2
+    ]
+    return (if_white + if_dark).sum(axis=(1, 2)) / 2, np.array(by_cell, np.float64)
 
 
 def _multiply_factors(down: Array, right: Array, shift: float) -> Array:
