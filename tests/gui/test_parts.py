@@ -150,13 +150,19 @@ def test_a_board_and_its_image_are_pointed_at_together(full: MainWindow, qtbot: 
     assert full.images.list.hovered == ""
 
 
-def test_a_heading_without_room_ends_in_dots(full: MainWindow) -> None:
-    heading = full.page.heading
-    heading.setText("short")
-    assert heading.shown_text() == "short"
-    heading.setText(40 * "long ")
-    assert heading.shown_text().endswith("…")
-    assert heading.fontMetrics().horizontalAdvance(heading.shown_text()) <= heading.width()
+def test_the_caption_is_cut_to_the_picture_and_gives_way_to_the_cursor(
+    full: MainWindow, qtbot: QtBot
+) -> None:
+    caption, port = full.page.caption, full.page.canvas.viewport()
+    assert caption.text() == "0.png" and caption.isVisible()
+    for at, is_left in ((QPoint(300, 200), True), (QPoint(4, 4), False), (QPoint(300, 200), True)):
+        qtbot.mouseMove(port, at)
+        qtbot.waitUntil(lambda is_left=is_left: (caption.x() == 0) is is_left)
+        assert not caption.geometry().contains(at)
+    caption.show_name(40 * "long ")
+    assert "…" in caption.text() and caption.width() <= port.width()
+    caption.show_name("")
+    assert not caption.isVisible()
 
 
 def test_dropped_and_pasted_paths_become_images(

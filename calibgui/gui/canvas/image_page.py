@@ -1,4 +1,4 @@
-"""The selected image with its marks, and the bar of the tools that work on it."""
+"""The selected image with its marks, beside the bar of the tools that work on it."""
 
 from __future__ import annotations
 
@@ -6,20 +6,15 @@ import math
 from collections.abc import Callable
 
 import numpy as np
-from PySide6.QtCore import QPointF, Qt, Signal
+from PySide6.QtCore import QEvent, QPointF, QSize, Qt, Signal
 from PySide6.QtGui import QAction, QPolygonF
-from PySide6.QtWidgets import (
-    QHBoxLayout,
-    QLabel,
-    QToolButton,
-    QVBoxLayout,
-    QWidget,
-)
+from PySide6.QtWidgets import QHBoxLayout, QLabel, QToolBar, QWidget
 
 from calibgui.app.project import Project
 from calibgui.dataset import Result, View, ViewStatus
 from calibgui.engine.images import Image
 from calibgui.gui.canvas.canvas import Canvas
+from calibgui.gui.canvas.caption import Caption
 from calibgui.gui.canvas.evidence import Evidence
 from calibgui.gui.canvas.layer_list import LayerList
 from calibgui.gui.canvas.layers import Layer, Marks, trace_hull
@@ -29,7 +24,7 @@ from calibgui.gui.jobs.job import Job
 from calibgui.gui.session.session import Session
 from calibgui.gui.widgets import theme
 from calibgui.gui.widgets.actions import enable_action, make_action
-from calibgui.gui.widgets.elided import ElidedLabel
+from calibgui.gui.widgets.icons import Icon, draw_icon
 from calibgui.gui.widgets.overlay import Overlay
 from calibgui.gui.widgets.picture import Levels, stretch_levels
 from calibgui.gui.widgets.wrapped_label import WrappedLabel
@@ -48,7 +43,7 @@ class ImagePage(QWidget):
         self._job: Job | None = None
         self._is_over_board = False
         self.canvas = Canvas()
-        self.heading = ElidedLabel()
+        self.caption = Caption(self.canvas)
         # Over the image, which must not move when the next one is chosen; and at its bottom, as
         # messages to the whole window hang from its top.
         self.reason = WrappedLabel()
@@ -65,20 +60,17 @@ class ImagePage(QWidget):
         self.layers = self.layer_list.actions_by_layer
         self.evidence = Evidence(session, self.canvas)
         self.canvas.layers_changed.connect(self.evidence.need)
-        self.bar = QHBoxLayout()
-        self.bar.setContentsMargins(theme.SPACING, 4, theme.SPACING, 4)
-        self.bar.addWidget(self.heading, 1)
-        self.under_cursor = ElidedLabel()
-        self.under_cursor.setFont(theme.fixed_font())
-        self.under_cursor.hide()
-        self.bar.addWidget(self.under_cursor, 3)
+        self.bar = QToolBar(self.tr("Tools"), orientation=Qt.Orientation.Vertical)
+        """Stands beside the page, clear of what lies over the picture."""
+        self.bar.setToolButtonStyle(Qt.ToolButtonStyle.ToolButtonTextUnderIcon)
+        self.bar.setIconSize(_ICON)
+        self.bar.setStyleSheet("QToolBar { border: none; padding: 0; spacing: 0; }")
         self._add_tools()
         self._add_zoom()
-        layout = QVBoxLayout(self)
+        self._restyle()
+        layout = QHBoxLayout(self)
         layout.setContentsMargins(0, 0, 0, 0)
-        layout.setSpacing(0)
-        layout.addLayout(self.bar)
-        layout.addWidget(self.canvas, 1)
+        layout.addWidget(self.canvas)
         self.canvas.hovered.connect(self._hovered)
         self.canvas.stepped.connect(session.select_next)
         self.canvas.picked.connect(lambda corner: session.select(session.image, corner))
@@ -108,11 +100,10 @@ class ImagePage(QWidget):
                 self._edit_or_leave,
             ),
         ]
-        for action in self.tools:
+        for action, name in zip(self.tools, (self.tr("Mark"), self.tr("Edit")), strict=True):
             action.setCheckable(True)
-            button = QToolButton()
-            button.setDefaultAction(action)
-            self.bar.addWidget(button)
+            action.setIconText(name)
+        self.bar.addActions(self.tools)
         self.marker.finished.connect(self._untoggle)
         self.marker.finished.connect(lambda: self.tool_changed.emit(False))
 
@@ -148,10 +139,20 @@ class ImagePage(QWidget):
                 self.canvas.actual_size,
             ),
         ]
-        for action in self.zoom_actions:
-            button = QToolButton()
-            button.setDefaultAction(action)
-            self.bar.addWidget(button)
+        self.bar.addSeparator()
+        self.bar.addActions(self.zoom_actions)
+
+    def _restyle(self) -> None:
+        """Draw the icons in the theme's colour."""
+        icons = Icon.MARK, Icon.EDIT, Icon.FIT, Icon.ACTUAL_SIZE
+        for action, icon in zip([*self.tools, *self.zoom_actions], icons, strict=True):
+            action.setIcon(draw_icon(icon))
+            action.setIconVisibleInMenu(False)
+
+    def changeEvent(self, event: QEvent) -> None:  # noqa: N802 - Qt's name
+        super().changeEvent(event)
+        if event.type() == QEvent.Type.PaletteChange:
+            self._restyle()
 
     def _selected(self, image: str, corner: int) -> None:
         if self.shown_path != image:
@@ -206,12 +207,11 @@ class ImagePage(QWidget):
                 self.tr("No image is shown that can be read."),
             )
         if view is None:
-            self.heading.clear()
+            self.caption.show_name("")
             self.canvas.show_marks(Marks())
             self.facts.clear()
             return
-        self.heading.setText(view.name)
-        self.heading.setToolTip(f"{view.image}\n{view.reason or status_text(view)}")
+        self.caption.show_name(view.name)
         measured, predicted = _find_residuals(session.result, view)
         region = view.roi
         if region is None and view.corners is not None:
@@ -277,19 +277,14 @@ class ImagePage(QWidget):
     def _hovered(self, u: float, v: float) -> None:
         self._point_at_board(u, v)
         image = self._image
-        if image is None or not (math.isfinite(u) and math.isfinite(v)):
-            self.under_cursor.hide()  # the heading takes its room
-            return
-        column, row = round(u), round(v)
-        width, height = image.size
-        if not (0 <= column < width and 0 <= row < height):
-            self.under_cursor.hide()
+        width, height = (0, 0) if image is None else image.size
+        is_inside = -0.5 <= u < width - 0.5 and -0.5 <= v < height - 0.5
+        if image is None or not is_inside:  # NaN is outside as well
+            self.caption.show_reading("")
             return
         text = self.tr("u {0:.2f}  v {1:.2f} px").format(u, v)
-        text += self.tr("   grey {0}").format(int(image.pixels[row, column]))
-        text += self._board_index(u, v)
-        self.under_cursor.setText(text)
-        self.under_cursor.show()
+        text += self.tr("   grey {0}").format(int(image.pixels[round(v), round(u)]))
+        self.caption.show_reading(text + self._board_index(u, v))
 
     def _board_index(self, u: float, v: float) -> str:
         corners = self.canvas.marks.corners
@@ -302,6 +297,9 @@ class ImagePage(QWidget):
             return ""
         row, col = corners.grid[k]
         return self.tr("   corner: row {0}, column {1}").format(row, col)
+
+
+_ICON = QSize(20, 20)
 
 
 def _find_residuals(

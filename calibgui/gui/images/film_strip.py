@@ -36,6 +36,8 @@ from calibgui.gui.session.session import Session
 from calibgui.gui.widgets import theme
 from calibgui.gui.widgets.actions import enable_action, make_action
 
+_ARROWS = 32
+"""Width of a number's arrows and frame, px."""
 Index = QModelIndex | QPersistentModelIndex
 
 
@@ -95,7 +97,7 @@ class FilmStrip(QWidget):
         self.list.setContextMenuPolicy(Qt.ContextMenuPolicy.ActionsContextMenu)
         self.list.setAccessibleName(self.tr("Images"))
         layout = QHBoxLayout(self)
-        layout.setContentsMargins(theme.SPACING, theme.SPACING // 2, 0, 0)
+        layout.setContentsMargins(theme.SPACING, 0, 0, 0)
         layout.addLayout(self._make_controls())
         layout.addWidget(self.list, 1)
         self.setFixedHeight(layout.sizeHint().height())
@@ -124,9 +126,14 @@ class FilmStrip(QWidget):
         self.sorting = QComboBox()
         self.sorting.addItems([self.tr("name"), self.tr("status"), self.tr("largest error")])
         self.sorting.currentIndexChanged.connect(self._sort_by)
-        self.threshold = QDoubleSpinBox(decimals=4, suffix=self.tr(" px"))
+        self.threshold = QDoubleSpinBox(
+            decimals=4, prefix=self.tr("Threshold "), suffix=self.tr(" px")
+        )
+        self.threshold.setAccessibleName(self.tr("Threshold"))
         self.threshold.setStepType(QDoubleSpinBox.StepType.AdaptiveDecimalStepType)
         self.threshold.setMaximum(1e6)
+        room = self.threshold.fontMetrics().horizontalAdvance(self.tr("Threshold 100.000 px"))
+        self.threshold.setFixedWidth(room + _ARROWS)
         self.threshold.setToolTip(
             self.tr(
                 "Images whose RMS residual is larger are selected. Drag the line across the bars "
@@ -136,19 +143,16 @@ class FilmStrip(QWidget):
         self.threshold.valueChanged.connect(self._threshold_typed)
         self.exclude_above = QPushButton()
         self.exclude_above.clicked.connect(lambda: self.exclude(self.above))
+        sort_by = QLabel(self.tr("Sort b&y"))
+        sort_by.setBuddy(self.sorting)
         grid = QGridLayout()
         grid.setVerticalSpacing(2)
         grid.addWidget(self.count, 0, 0)
         grid.addWidget(self.follows, 0, 1)
-        for row, text, widget in (
-            (1, self.tr("Sort b&y"), self.sorting),
-            (2, self.tr("Threshold"), self.threshold),
-        ):
-            label = QLabel(text)
-            label.setBuddy(widget)
-            grid.addWidget(label, row, 0)
-            grid.addWidget(widget, row, 1)
-        grid.addWidget(self.exclude_above, 3, 0, 1, 2)
+        grid.addWidget(sort_by, 1, 0)
+        grid.addWidget(self.sorting, 1, 1)
+        grid.addWidget(self.threshold, 2, 0)
+        grid.addWidget(self.exclude_above, 2, 1)
         return grid
 
     @property

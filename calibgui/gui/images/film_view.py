@@ -23,7 +23,7 @@ from calibgui.gui.widgets import theme
 
 _PAD = 4
 """Around what stands in a cell, px."""
-_CHART = 34
+_CHART = 24
 """Least height of the bars' place, px; without a scroll bar there is more."""
 _BAR = 24
 """Width of a bar, px."""

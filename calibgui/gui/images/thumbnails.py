@@ -13,7 +13,7 @@ from calibgui.gui.jobs.jobs import PICTURE
 from calibgui.gui.session.session import Session
 from calibgui.gui.widgets.picture import make_qimage
 
-THUMBNAIL = QSize(72, 48)
+THUMBNAIL = QSize(64, 44)
 """Device-independent px."""
 
 

@@ -1,4 +1,4 @@
-"""A frame that drops down from the verdict's bar over the desk: what is under it does not move."""
+"""A frame that opens at the verdict's bar over the desk: what is under it does not move."""
 
 from __future__ import annotations
 
@@ -9,9 +9,14 @@ from PySide6.QtWidgets import QFrame, QWidget
 from calibgui.gui.widgets import theme
 from calibgui.gui.widgets.overlay import Overlay
 
+_NARROWEST = 560
+"""Width that it needs, device-independent px."""
+
 
 class DropDown(QFrame):
     """Hangs from a bar until Escape closes it; `heightForWidth` is the height that it asks for.
+
+    It stands to the left of a bar that is too narrow for it.
 
     Args:
         bar: the widget that it hangs from.
@@ -32,7 +37,9 @@ class DropDown(QFrame):
     def open_up(self) -> None:
         """Lie over the desk."""
         if self._overlay is None:  # by now the bar is in its window
-            self._overlay = Overlay(self, self._bar.window(), self._bar, self._share)
+            self._overlay = Overlay(
+                self, self._bar.window(), self._bar, self._share, narrowest=_NARROWEST
+            )
         self._restyle()
         self._overlay.place()
         self.show()

@@ -3,13 +3,18 @@
 from __future__ import annotations
 
 from PySide6.QtCore import Signal
-from PySide6.QtWidgets import QDoubleSpinBox, QHBoxLayout, QLabel, QPushButton, QWidget
+from PySide6.QtWidgets import QDoubleSpinBox, QHBoxLayout, QLabel, QPushButton, QVBoxLayout, QWidget
 
 from calibgui.app.project import Project, confirm_lengths, set_square
 from calibgui.dataset import ViewStatus
 from calibgui.gui.session.session import Session
 from calibgui.gui.widgets import theme
-from calibgui.gui.widgets.elided import ElidedLabel
+from calibgui.gui.widgets.wrapped_label import WrappedLabel
+
+_LONGEST = "100000.00 mm"
+"""A length for which the box has room."""
+_ARROWS = 32
+"""Width of its arrows and frame, device-independent px."""
 
 
 class SquareRow(QWidget):
@@ -21,9 +26,10 @@ class SquareRow(QWidget):
     def __init__(self, session: Session) -> None:
         super().__init__()
         self._session = session
-        self.counted = ElidedLabel()
+        self.counted = WrappedLabel()
         self.side = QLabel(self.tr("Side of a square:"))
         self.square = QDoubleSpinBox(decimals=3, minimum=0.001, maximum=100_000.0)
+        self.square.setFixedWidth(self.square.fontMetrics().horizontalAdvance(_LONGEST) + _ARROWS)
         self.square.setAccessibleName(self.tr("Side of a square"))
         self.square.setToolTip(
             self.tr(
@@ -35,12 +41,15 @@ class SquareRow(QWidget):
         self.square.valueChanged.connect(lambda _: self._name_button(self._session.project))
         self.square.lineEdit().returnPressed.connect(self.answer)
         self.confirm.clicked.connect(self.answer)
-        row = QHBoxLayout(self)
-        row.setContentsMargins(theme.SPACING, 0, theme.SPACING, theme.SPACING)
-        row.setSpacing(theme.SPACING)
-        row.addWidget(self.counted, 1)
+        answer = QHBoxLayout()
+        answer.addStretch(1)
         for widget in (self.side, self.square, self.confirm):
-            row.addWidget(widget)
+            answer.addWidget(widget)
+        column = QVBoxLayout(self)
+        column.setContentsMargins(theme.SPACING, 0, theme.SPACING, theme.SPACING)
+        column.setSpacing(theme.SPACING // 2)
+        column.addWidget(self.counted)
+        column.addLayout(answer)
         session.changed.connect(lambda _, after: self._show(after))
         self._show(session.project)
 
@@ -58,7 +67,6 @@ class SquareRow(QWidget):
         if self.isHidden():
             return
         self.counted.setText(self._ask(project))
-        self.counted.setToolTip(self.counted.text())
         if not self.square.hasFocus():
             self.square.blockSignals(True)
             self.square.setValue(project.square / project.unit.mm)

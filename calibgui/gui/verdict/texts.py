@@ -40,23 +40,23 @@ def describe_grade(grade: Grade, times_better: float) -> str:
 def describe_pixel_error(error: PixelError) -> str:
     """Describe the error of a pixel over the image, px."""
     if not np.isfinite(error.worst):
-        return translate("VerdictTexts", "Error of a pixel: unknown")
+        return translate("VerdictTexts", "Error: unknown")
     text = translate(
         "VerdictTexts",
-        "Error of a pixel: centre {0}, covered part {1}, edge {2}, worst {3} px",
+        "Error: centre {0}, covered part {1}, edge {2}, worst {3} px",
     )
     figures = error.centre, error.covered, error.edge, error.worst
     return text.format(*map(format_two_digits, figures))
 
 
-def describe_figures(verdict: Verdict, result: Result) -> str:
+def describe_figures(verdict: Verdict, result: Result) -> list[str]:
     """Describe the error of a pixel, what it is in the scene, and how well the camera fits."""
     parts = [describe_pixel_error(verdict.error)]
     if np.isfinite(mm := verdict.error.edge * verdict.mm_per_pixel):
         text = translate("VerdictTexts", "{0} mm at the edge, {1:.0f} mm away")
         parts.append(text.format(format_two_digits(mm), verdict.distance))
         parts[-1] += describe_condition(result)
-    return "; ".join([*parts, describe_fit(result)])
+    return [*parts, describe_fit(result)]
 
 
 def describe_fit(result: Result) -> str:

@@ -1,11 +1,21 @@
-"""The verdict on the shown result, across the window: a headline, its figures and a button."""
+"""The verdict on the shown result: a headline, its figures and the button that makes it better."""
 
 from __future__ import annotations
 
 from pathlib import PurePath
 
-from PySide6.QtCore import QEvent, Signal
-from PySide6.QtWidgets import QFrame, QHBoxLayout, QLabel, QPushButton, QVBoxLayout, QWidget
+from PySide6.QtCore import QEvent, Qt, Signal
+from PySide6.QtGui import QResizeEvent
+from PySide6.QtWidgets import (
+    QBoxLayout,
+    QFrame,
+    QHBoxLayout,
+    QLabel,
+    QPushButton,
+    QSizePolicy,
+    QVBoxLayout,
+    QWidget,
+)
 
 from calibgui.dataset import Result
 from calibgui.dataset.judging import judge_result
@@ -23,8 +33,8 @@ from calibgui.gui.verdict.texts import (
     describe_grade,
 )
 from calibgui.gui.widgets import theme
-from calibgui.gui.widgets.elided import ElidedLabel
 from calibgui.gui.widgets.lengths import state_condition
+from calibgui.gui.widgets.wrapped_label import WrappedLabel
 
 _PROOFS = {
     Cause.BOARD_SHAPE: "BoardShapePanel",
@@ -39,8 +49,14 @@ _PLACES = "CoveragePanel"
 """The panel that shows where to hold the board."""
 
 
+_WIDE = 640
+"""Width from which the buttons stand beside the words, device-independent px."""
+_LINES_OF_REASON, _LINES_OF_FIGURES = 2, 3
+"""Lines that are reserved in a narrow bar, so that another verdict moves nothing below it."""
+
+
 class VerdictBar(QFrame):
-    """Always in sight; what is wrong is listed below on demand, over the desk."""
+    """Always in sight; what is wrong is listed beside or below it on demand, over the desk."""
 
     panel_wanted = Signal(str)
     """The class name of a panel that the user wants to see."""
@@ -63,7 +79,15 @@ class VerdictBar(QFrame):
         font.setBold(True)
         font.setPointSizeF(1.25 * font.pointSizeF())
         self.headline.setFont(font)
-        self.reason, self.figures = ElidedLabel(), ElidedLabel()
+        self.reason, self.figures = WrappedLabel(), WrappedLabel()
+        self.figures.setToolTip(
+            self.tr(
+                "How far off the camera puts a distant point in the image (one standard "
+                "deviation), with the harm of the findings. The covered part is where corners "
+                "were found, the edge the mean along the image's border."
+            )
+        )
+        self._figures: list[str] = []
         self.button = QPushButton(self.tr("Remedy"))
         self.button.clicked.connect(self._do_first)
         self.unfold = QPushButton()
@@ -85,26 +109,47 @@ class VerdictBar(QFrame):
         self._judge(session.result)
 
     def _lay_out(self) -> None:
+        top = QHBoxLayout()
+        top.setSpacing(theme.SPACING)
+        top.addWidget(self.mark)
+        top.addWidget(self.headline, 1)
         words = QVBoxLayout()
-        words.setSpacing(0)
-        first = QHBoxLayout()
-        first.setSpacing(theme.SPACING)
-        first.addWidget(self.headline)
-        first.addWidget(self.reason, 1)
-        words.addLayout(first)
-        words.addWidget(self.figures)
-        row = QHBoxLayout()
-        row.setContentsMargins(theme.SPACING, theme.SPACING // 2, theme.SPACING, theme.SPACING // 2)
-        row.setSpacing(theme.SPACING)
-        row.addWidget(self.mark)
-        row.addLayout(words, 1)
-        row.addWidget(self.button)
-        row.addWidget(self.unfold)
+        words.setSpacing(theme.SPACING // 2)
+        words.addLayout(top)
+        for label in (self.reason, self.figures):
+            label.setAlignment(Qt.AlignmentFlag.AlignTop)
+            words.addWidget(label)
+        buttons = QHBoxLayout()
+        buttons.setSpacing(theme.SPACING)
+        buttons.addStretch(1)
+        buttons.addWidget(self.button)
+        buttons.addWidget(self.unfold)
+        self._row = QBoxLayout(QBoxLayout.Direction.LeftToRight)
+        self._row.setContentsMargins(*[theme.SPACING] * 4)
+        self._row.setSpacing(theme.SPACING // 2)
+        self._row.addLayout(words, 1)
+        self._row.addLayout(buttons)
         column = QVBoxLayout(self)
         column.setContentsMargins(0, 0, 0, 0)
         column.setSpacing(0)
-        column.addLayout(row)
+        column.addLayout(self._row)
         column.addWidget(self.square)
+        self.setSizePolicy(QSizePolicy.Policy.Preferred, QSizePolicy.Policy.Maximum)
+
+    def resizeEvent(self, event: QResizeEvent) -> None:  # noqa: N802 - Qt's name
+        super().resizeEvent(event)
+        is_wide = event.size().width() >= _WIDE
+        direction = QBoxLayout.Direction
+        self._row.setDirection(direction.LeftToRight if is_wide else direction.TopToBottom)
+        line = self.fontMetrics().lineSpacing()
+        for label, lines in ((self.reason, _LINES_OF_REASON), (self.figures, _LINES_OF_FIGURES)):
+            label.setMinimumHeight(line * (1 if is_wide else lines))
+        self._show_figures()
+
+    def _show_figures(self) -> None:
+        """Show the figures in a line each, or one after the other where there is room."""
+        is_wide = self._row.direction() is QBoxLayout.Direction.LeftToRight
+        self.figures.setText(("; " if is_wide else "\n").join(self._figures))
 
     def _judge(self, result: Result | None) -> None:
         """Find out what the shown result is worth, beside the window."""
@@ -152,24 +197,15 @@ class VerdictBar(QFrame):
             waiting = self.tr("What makes it better is being tried.")
             self.headline.setText(nothing)
             self.reason.setText(hint if result is None else waiting)
-            self.figures.setText("" if result is None else describe_fit(result))
+            self._figures = [] if result is None else [describe_fit(result)]
         else:
             self.headline.setText(describe_grade(verdict.grade, verdict.times_better))
             old = self.tr("Out of date: calibrate again. ") if self._is_old else ""
             diagnosis = result.calibration.diagnosis
             self.reason.setText(old + (diagnosis.message if diagnosis else verdict.reason))
-            self.figures.setText(describe_figures(verdict, result))
+            self._figures = describe_figures(verdict, result)
             self.findings.show_verdict(verdict, self._list_names(), state_condition(result))
-        self.reason.setToolTip(self.reason.text())
-        self.figures.setToolTip(
-            self.figures.text()
-            + "\n"
-            + self.tr(
-                "How far off the camera puts a distant point in the image (one standard "
-                "deviation), with the harm of the findings. The covered part is where corners "
-                "were found, the edge the mean along the image's border."
-            )
-        )
+        self._show_figures()
         self._show_buttons()
         self._restyle()
 

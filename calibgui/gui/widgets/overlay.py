@@ -15,6 +15,7 @@ class Overlay(QObject):
         bar: the part of the host that it hangs from, as wide as that; None for its upper edge.
         share: share of the host's height below that it may take.
         at_bottom: whether it stands on the host's lower edge in place of hanging.
+        narrowest: width of a bar, px, below which it stands to the left of the bar instead.
     """
 
     def __init__(
@@ -24,10 +25,11 @@ class Overlay(QObject):
         bar: QWidget | None = None,
         share: float = 1.0,
         at_bottom: bool = False,
+        narrowest: int = 0,
     ) -> None:
         super().__init__(widget)
         self._widget, self._host, self._bar, self._share = widget, host, bar, share
-        self._at_bottom = at_bottom
+        self._at_bottom, self._narrowest = at_bottom, narrowest
         visible = not widget.isHidden()
         widget.setParent(host)
         widget.setVisible(visible)
@@ -38,8 +40,13 @@ class Overlay(QObject):
     def place(self) -> None:
         """Take the place that the widget needs now."""
         widget, host, bar = self._widget, self._host, self._bar
-        top = QPoint() if bar is None else bar.mapTo(host, QPoint(0, bar.height()))
-        width = host.width() if bar is None else bar.width()
+        top, width = QPoint(), host.width()
+        if bar is not None and bar.width() < self._narrowest:
+            top = bar.mapTo(host, QPoint())
+            width = top.x()
+            top.setX(0)
+        elif bar is not None:
+            top, width = bar.mapTo(host, QPoint(0, bar.height())), bar.width()
         needed = widget.heightForWidth(width)
         if needed < 0:  # it does not depend on the width
             needed = widget.minimumSizeHint().height()

@@ -84,12 +84,13 @@ class Inspector(QWidget):
         foot = QHBoxLayout()
         foot.addWidget(progress, 1)
         foot.addWidget(calibrate)
-        layout = QVBoxLayout(self)
-        layout.setContentsMargins(theme.SPACING, 0, theme.SPACING, theme.SPACING // 2)
-        layout.setSpacing(theme.SPACING // 2)
-        layout.addLayout(head)
-        layout.addWidget(self._pages, 1)
-        layout.addLayout(foot)
+        self.column = QVBoxLayout(self)
+        """From top to bottom; the verdict can stand above."""
+        self.column.setContentsMargins(theme.SPACING, 0, theme.SPACING, theme.SPACING // 2)
+        self.column.setSpacing(theme.SPACING // 2)
+        self.column.addLayout(head)
+        self.column.addWidget(self._pages, 1)
+        self.column.addLayout(foot)
         self.tabs.currentChanged.connect(self._show)
         page.tool_changed.connect(self._follow_tool)
 
@@ -159,20 +160,12 @@ def _make_heading(text: str) -> QLabel:
 
 
 def _stack(page: ImagePage) -> QWidget:
-    """Put the facts and layers of the image above its tools' bars, whose place is reserved."""
-    bars = page.marker.roi_bar, page.marker.corner_bar
-    place = QWidget()
-    column = QVBoxLayout(place)
-    column.setContentsMargins(0, 0, 0, 0)
-    for bar in bars:
-        column.addWidget(bar)
-    place.setMinimumHeight(max(bar.sizeHint().height() for bar in bars))
+    """Put the bars of the image's tools, of which one is shown at most, above facts and layers."""
     whole = QWidget()
     column = QVBoxLayout(whole)
     column.setContentsMargins(0, theme.SPACING, 0, 0)
-    column.addWidget(page.facts)
-    column.addWidget(page.layer_list)
-    column.addWidget(place)
+    for part in (page.marker.roi_bar, page.marker.corner_bar, page.facts, page.layer_list):
+        column.addWidget(part)
     column.addStretch(1)
     return whole
 

@@ -11,11 +11,11 @@ from PySide6.QtCore import QEvent, QSettings, QSize, Qt, QTimer
 from PySide6.QtGui import QCloseEvent, QDragEnterEvent, QDropEvent
 from PySide6.QtWidgets import (
     QApplication,
+    QHBoxLayout,
     QMainWindow,
     QPushButton,
-    QSizePolicy,
     QStackedWidget,
-    QToolBar,
+    QVBoxLayout,
     QWidget,
 )
 
@@ -53,9 +53,9 @@ if TYPE_CHECKING:
 
 
 class MainWindow(QMainWindow):
-    """Shows the selected image, the inspector beside it, and a film strip of all images below.
+    """Shows the selected image over a film strip of all images, and the inspector beside both.
 
-    The verdict on the calibration stands above all.
+    The verdict on the calibration stands above the inspector; above the image without one.
     """
 
     def __init__(self) -> None:
@@ -106,7 +106,16 @@ class MainWindow(QMainWindow):
         self.pages = QStackedWidget()
         self.pages.addWidget(self.welcome)
         self.pages.addWidget(self.page)
-        self.setCentralWidget(self.pages)
+        centre = QWidget()
+        self._centre = QVBoxLayout(centre)
+        self._centre.setContentsMargins(0, 0, 0, 0)
+        self._centre.setSpacing(0)
+        desk = QHBoxLayout()
+        desk.setSpacing(0)
+        desk.addWidget(self.page.bar)
+        desk.addWidget(self.pages, 1)
+        self._centre.addLayout(desk, 1)
+        self.setCentralWidget(centre)
         # Over the picture: what one points at must not move when a message comes.
         Overlay(self.banner, self.pages)
         self.inspector = Inspector(
@@ -114,24 +123,23 @@ class MainWindow(QMainWindow):
         )
         self.inspector_dock = Dock(self.tr("Inspector"), "inspector", self.inspector, self)
         self.addDockWidget(Qt.DockWidgetArea.RightDockWidgetArea, self.inspector_dock)
+        self.setCorner(Qt.Corner.BottomRightCorner, Qt.DockWidgetArea.RightDockWidgetArea)
         self.strip_dock = Dock(self.tr("Images"), "images", self.images, self)
         self._hidden_docks = [self.strip_dock, self.inspector_dock]
         """The docks that come back beside the photograph."""
         self.strip_dock.setTitleBarWidget(QWidget())  # none: the strip is as low as it can be
         self.addDockWidget(Qt.DockWidgetArea.BottomDockWidgetArea, self.strip_dock)
-        self._verdict_bar = self._put_on_top(self.verdict)
+        for changed in (self.inspector_dock.visibilityChanged, self.inspector_dock.topLevelChanged):
+            changed.connect(lambda _: self._place_verdict())
+        self._place_verdict()
 
-    def _put_on_top(self, widget: QWidget) -> QToolBar:
-        """Put a widget across the window, under the menus; return the bar that holds it."""
-        bar = QToolBar(self.tr("Verdict"), movable=False, floatable=False)
-        bar.setObjectName("verdict bar")
-        bar.toggleViewAction().setEnabled(False)
-        bar.setContextMenuPolicy(Qt.ContextMenuPolicy.PreventContextMenu)
-        bar.setStyleSheet("QToolBar { border: none; padding: 0; spacing: 0; }")
-        widget.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Fixed)
-        bar.addWidget(widget)
-        self.addToolBar(Qt.ToolBarArea.TopToolBarArea, bar)
-        return bar
+    def _place_verdict(self) -> None:
+        """Put the verdict above the inspector, or above the photograph if that stands alone."""
+        dock = self.inspector_dock
+        alone = dock.isHidden() or dock.isFloating()
+        place = self._centre if alone else self.inspector.column
+        if place.indexOf(self.verdict) < 0:
+            place.insertWidget(0, self.verdict)
 
     def _make_menus(self) -> None:
         commands = Commands(self, self.session, self.files, self.images, self.page)
@@ -288,15 +296,13 @@ class MainWindow(QMainWindow):
         if empty:
             self.welcome.show_recent(list_recent())
         self.pages.setCurrentWidget(self.welcome if empty else self.page)
-        for dock in (self.strip_dock, self.inspector_dock):
-            dock.setVisible(not empty)
-        self._verdict_bar.setVisible(not empty)
+        for part in (self.strip_dock, self.inspector_dock, self.page.bar, self.verdict):
+            part.setVisible(not empty)
         if empty:
             return
         state = QSettings().value("layout")
         if state is None or not self.restoreState(state, _LAYOUT):
             self._widen_inspector(_INSPECTOR_SHARE)
-        self._verdict_bar.show()  # it is always in sight
 
     def _keep_layout(self) -> None:
         if not self._empty:
@@ -412,5 +418,5 @@ _INSPECTOR_SHARE = 0.33
 _LARGE_SHARE = 0.72
 """The same when a plot needs the room."""
 _CALIBRATE = QSize(110, 32)
-_LAYOUT = 2
+_LAYOUT = 3
 """Version of the parts' layout: one that was kept of other parts is not restored."""

@@ -70,27 +70,24 @@ class Welcome(QScrollArea):
                 self.tr("Open a f&older of images"),
                 self.tr("Corners are found and the camera is calibrated at once."),
                 self.folder_wanted,
-                Icon.FOLDER,
             ),
             self._link(
                 self.tr("&Add images"),
                 self.tr("Choose single files."),
                 self.images_wanted,
-                Icon.PICTURE,
             ),
             self._link(
                 self.tr("Open the &sample"),
                 self.tr("Fourteen rendered photographs, to look around."),
                 self.sample_wanted,
-                Icon.BOARD,
             ),
             self._link(
                 self.tr("&Print a board"),
                 self.tr("A checkerboard, ChArUco board or grid of circles in true size."),
                 self.board_wanted,
-                Icon.PRINTER,
             ),
         ]
+        self._restyle()
         column = QWidget()
         column.setMaximumWidth(_WIDTH)
         begin = QVBoxLayout(column)
@@ -175,13 +172,17 @@ class Welcome(QScrollArea):
     def changeEvent(self, event: QEvent) -> None:  # noqa: N802 - Qt's name
         super().changeEvent(event)
         if event.type() == QEvent.Type.PaletteChange and hasattr(self, "buttons"):
-            for button, icon in zip(self.buttons, Icon, strict=True):
-                button.setIcon(draw_icon(icon))
+            self._restyle()
 
-    def _link(self, text: str, tip: str, wanted: SignalInstance, icon: Icon) -> QCommandLinkButton:
+    def _restyle(self) -> None:
+        """Draw the icons in the theme's colour."""
+        icons = Icon.FOLDER, Icon.PICTURE, Icon.BOARD, Icon.PRINTER
+        for button, icon in zip(self.buttons, icons, strict=True):
+            button.setIcon(draw_icon(icon))
+
+    def _link(self, text: str, tip: str, wanted: SignalInstance) -> QCommandLinkButton:
         button = QCommandLinkButton(text, tip)
         button.setMinimumHeight(button.heightForWidth(_WIDTH))
-        button.setIcon(draw_icon(icon))
         button.setIconSize(QSize(24, 24))
         button.clicked.connect(lambda: wanted.emit())
         FocusRing(button)

@@ -183,6 +183,6 @@ def test_places_outside_of_the_image_have_no_coordinates(window: MainWindow, qtb
     window.session.begin(Document(Project(views=(View(str(path)),), by_hand=True)))
     hand.choose_image(path.name)
     page.canvas.hovered.emit(639.4, 479.4)
-    assert page.under_cursor.text().startswith("u 639.40  v 479.40 px   grey ")
+    assert page.caption.text().startswith("view01.png   u 639.40  v 479.40 px   grey ")
     page.canvas.hovered.emit(639.6, 479.4)
-    assert page.under_cursor.isHidden()
+    assert page.caption.text() == "view01.png"

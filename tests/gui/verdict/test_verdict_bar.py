@@ -195,7 +195,7 @@ def test_views_that_do_not_determine_the_camera_say_so(
     bar = open_project(calibrated(replace(plain, views=plain.views[:1])))
     assert bar.headline.text() == "NOT USABLE"
     assert "One view does not determine a camera" in bar.reason.text()
-    assert bar.figures.text().startswith("Error of a pixel: unknown")
+    assert bar.figures.text().startswith("Error: unknown")
     assert bar.button.text() == "Show where to hold the board" and not bar.unfold.isVisible()
     qtbot.mouseClick(bar.button, LEFT)
     assert window.analysis is not None

@@ -9,7 +9,7 @@ from itertools import pairwise
 from pathlib import Path
 
 import pytest
-from PySide6.QtCore import QByteArray, QPoint, QSettings, Qt
+from PySide6.QtCore import QByteArray, QPoint, QSettings, QSize, Qt
 from PySide6.QtWidgets import (
     QAbstractButton,
     QApplication,
@@ -149,7 +149,7 @@ def test_every_panel_has_its_room_in_a_window_that_starts_with_photographs(
     window.close()
 
 
-@pytest.mark.parametrize(("width", "least"), [(1280, 800), (1366, 880), (1920, 1200), (960, 540)])
+@pytest.mark.parametrize(("width", "least"), [(1280, 800), (1366, 850), (1920, 1200), (960, 500)])
 def test_the_photograph_has_the_most_room(
     full: MainWindow, qtbot: QtBot, width: int, least: int
 ) -> None:
@@ -179,8 +179,9 @@ def test_the_photograph_alone_fills_the_window_and_all_comes_back(
     full.inspector_dock.hide()
     qtbot.keyClick(full, Qt.Key.Key_F7)
     assert not full.strip_dock.isVisible()
-    qtbot.waitUntil(lambda: full.page.canvas.height() >= 560)
-    assert full.page.canvas.width() == full.width()
+    page = full.page
+    qtbot.waitUntil(lambda: page.canvas.width() + page.bar.width() == full.width())
+    assert full.verdict.isVisible() and page.canvas.height() >= 560
     qtbot.keyClick(full, Qt.Key.Key_F7)
     assert full.strip_dock.isVisible() and not full.inspector_dock.isVisible()
     full.inspector_dock.show()
@@ -235,14 +236,38 @@ def test_a_message_lies_over_the_picture(full: MainWindow) -> None:
     assert (full.page.canvas.geometry(), full.calibrate.geometry()) == places
 
 
-def test_the_verdict_is_as_wide_as_the_window(full: MainWindow, qtbot: QtBot) -> None:
+def test_a_photograph_of_4_by_3_is_800_px_wide(window: MainWindow, qtbot: QtBot) -> None:
+    window.files.open_sample()
+    qtbot.waitUntil(lambda: window.page.shown_path != "")
+    assert window.size() == QSize(1280, 720)
+    qtbot.waitUntil(lambda: window.page.canvas.zoom * 640 >= 800)
+
+
+def test_the_verdict_is_always_in_sight(full: MainWindow, qtbot: QtBot) -> None:
+    verdict, dock = full.verdict, full.inspector_dock
+    qtbot.waitUntil(lambda: verdict.verdict is not None)
+    assert full.inspector.isAncestorOf(verdict)
+    dock.hide()
+    qtbot.waitUntil(lambda: abs(verdict.width() - full.width()) < 24)
+    assert verdict.isVisible() and verdict.mapTo(full, QPoint()).y() < 60
+    dock.show()
+    qtbot.waitUntil(lambda: verdict.width() < full.width() / 2)
+    assert verdict.isVisible() and full.inspector.isAncestorOf(verdict)
     full.session.begin(Document())
-    assert not full.verdict.isVisible(), "there is nothing to judge"
-    full.files.open_sample()
-    qtbot.waitUntil(full.verdict.isVisible)
-    assert abs(full.verdict.width() - full.width()) < 24
-    assert full.menuBar().height() <= full.verdict.mapTo(full, QPoint()).y() < 60
-    assert full.width() == 1280 and full.page.canvas.width() >= 800
+    assert not verdict.isVisible(), "there is nothing to judge"
+
+
+def test_what_opens_at_the_verdict_stands_beside_or_below_it(
+    full: MainWindow, qtbot: QtBot
+) -> None:
+    verdict, findings = full.verdict, full.verdict.findings
+    qtbot.waitUntil(lambda: verdict.verdict is not None)
+    findings.open_up()
+    place = verdict.mapTo(full, QPoint())
+    assert findings.geometry().topRight() == place - QPoint(1, 0)
+    full.inspector_dock.hide()
+    qtbot.waitUntil(lambda: findings.width() == verdict.width())
+    assert findings.y() == verdict.mapTo(full, QPoint(0, verdict.height())).y()
 
 
 def test_the_progress_of_work_moves_nothing(full: MainWindow, qtbot: QtBot) -> None:
