@@ -16,7 +16,7 @@ from PySide6.QtCore import (
     Qt,
     Signal,
 )
-from PySide6.QtGui import QAction
+from PySide6.QtGui import QAction, QResizeEvent
 from PySide6.QtWidgets import (
     QCheckBox,
     QComboBox,
@@ -98,7 +98,9 @@ class FilmStrip(QWidget):
         self.list.setAccessibleName(self.tr("Images"))
         layout = QHBoxLayout(self)
         layout.setContentsMargins(theme.SPACING, 0, 0, 0)
-        layout.addLayout(self._make_controls())
+        self.controls = QWidget()
+        self.controls.setLayout(self._make_controls())
+        layout.addWidget(self.controls)
         layout.addWidget(self.list, 1)
         self.setFixedHeight(layout.sizeHint().height())
         self.actions_for_menu = self._make_actions()
@@ -146,6 +148,7 @@ class FilmStrip(QWidget):
         sort_by = QLabel(self.tr("Sort b&y"))
         sort_by.setBuddy(self.sorting)
         grid = QGridLayout()
+        grid.setContentsMargins(0, 0, 0, 0)
         grid.setVerticalSpacing(2)
         grid.addWidget(self.count, 0, 0)
         grid.addWidget(self.follows, 0, 1)
@@ -154,6 +157,11 @@ class FilmStrip(QWidget):
         grid.addWidget(self.threshold, 2, 0)
         grid.addWidget(self.exclude_above, 2, 1)
         return grid
+
+    def resizeEvent(self, event: QResizeEvent) -> None:  # noqa: N802 - Qt's name
+        """Leave a strip that is too narrow for both to the images."""
+        super().resizeEvent(event)
+        self.controls.setVisible(event.size().width() >= 2 * self.controls.sizeHint().width())
 
     @property
     def chosen(self) -> list[str]:

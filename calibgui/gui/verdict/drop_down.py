@@ -9,14 +9,14 @@ from PySide6.QtWidgets import QFrame, QWidget
 from calibgui.gui.widgets import theme
 from calibgui.gui.widgets.overlay import Overlay
 
-_NARROWEST = 560
+_NARROWEST = 640
 """Width that it needs, device-independent px."""
 
 
 class DropDown(QFrame):
     """Hangs from a bar until Escape closes it; `heightForWidth` is the height that it asks for.
 
-    It stands to the left of a bar that is too narrow for it.
+    It stands to the left of a bar that is too narrow for it; see `Overlay`.
 
     Args:
         bar: the widget that it hangs from.

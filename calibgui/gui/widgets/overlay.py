@@ -15,7 +15,8 @@ class Overlay(QObject):
         bar: the part of the host that it hangs from, as wide as that; None for its upper edge.
         share: share of the host's height below that it may take.
         at_bottom: whether it stands on the host's lower edge in place of hanging.
-        narrowest: width of a bar, px, below which it stands to the left of the bar instead.
+        narrowest: width that it needs, px. It stands to the left of a bar that is narrower, or
+            hangs across the host where there is too little room as well.
     """
 
     def __init__(
@@ -41,12 +42,14 @@ class Overlay(QObject):
         """Take the place that the widget needs now."""
         widget, host, bar = self._widget, self._host, self._bar
         top, width = QPoint(), host.width()
-        if bar is not None and bar.width() < self._narrowest:
-            top = bar.mapTo(host, QPoint())
-            width = top.x()
-            top.setX(0)
-        elif bar is not None:
-            top, width = bar.mapTo(host, QPoint(0, bar.height())), bar.width()
+        if bar is not None:
+            corner = bar.mapTo(host, QPoint())
+            if bar.width() >= self._narrowest:
+                top, width = corner + QPoint(0, bar.height()), bar.width()
+            elif corner.x() >= self._narrowest:
+                top, width = QPoint(0, corner.y()), corner.x()
+            else:
+                top.setY(corner.y() + bar.height())
         needed = widget.heightForWidth(width)
         if needed < 0:  # it does not depend on the width
             needed = widget.minimumSizeHint().height()
@@ -55,6 +58,8 @@ class Overlay(QObject):
             top.setY(host.height() - height)
         if widget.geometry().getRect() != (top.x(), top.y(), width, height):
             widget.setGeometry(top.x(), top.y(), width, height)
+            if (layout := widget.layout()) is not None:  # it may be in the midst of an earlier size
+                layout.invalidate()
         widget.raise_()
 
     def eventFilter(self, watched: QObject, event: QEvent) -> bool:  # noqa: N802 - Qt's name

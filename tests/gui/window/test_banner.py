@@ -5,9 +5,11 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 import pytest
+from pytestqt.qtbot import QtBot
 
 from calibgui.engine.errors import CalibrationError
 from calibgui.gui.window.banner import Banner
+from calibgui.gui.window.main_window import MainWindow
 
 
 @pytest.fixture
@@ -52,3 +54,9 @@ def test_a_message_that_a_question_covers_comes_back(banner: Banner) -> None:
     assert not banner.buttons
     banner.dismiss.click()
     assert not banner.isVisible()
+
+
+def test_a_first_message_of_two_lines_is_not_cut(window: MainWindow, qtbot: QtBot) -> None:
+    window.show_failure(CalibrationError("There is no such folder.", "Check its spelling."))
+    text = window.banner.text
+    qtbot.waitUntil(lambda: text.height() >= text.heightForWidth(text.width()) > 0)

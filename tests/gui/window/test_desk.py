@@ -225,6 +225,15 @@ def test_calibrating_stays_where_one_is(
     assert panel.isVisible()
 
 
+def test_a_narrow_strip_is_left_to_the_images(full: MainWindow, qtbot: QtBot) -> None:
+    resize(full, qtbot, 1280, 720)
+    assert full.images.controls.isVisible()
+    full.change_room()
+    qtbot.waitUntil(lambda: not full.images.controls.isVisible())
+    full.change_room()
+    qtbot.waitUntil(full.images.controls.isVisible)
+
+
 def test_a_message_lies_over_the_picture(full: MainWindow) -> None:
     places = full.page.canvas.geometry(), full.calibrate.geometry()
     full.show_failure(CalibrationError("It cannot be.", "Do otherwise."))
@@ -265,6 +274,8 @@ def test_what_opens_at_the_verdict_stands_beside_or_below_it(
     findings.open_up()
     place = verdict.mapTo(full, QPoint())
     assert findings.geometry().topRight() == place - QPoint(1, 0)
+    resize(full, qtbot, 960, 1000)
+    assert findings.width() == full.width(), "there is too little room beside it"
     full.inspector_dock.hide()
     qtbot.waitUntil(lambda: findings.width() == verdict.width())
     assert findings.y() == verdict.mapTo(full, QPoint(0, verdict.height())).y()
