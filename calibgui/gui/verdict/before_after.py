@@ -112,6 +112,7 @@ class BeforeAndAfter(DropDown):
             corners = np.concatenate([view.uv for view in views])
             self.map.show_difference(difference, before.camera.size, corners)
 
+        self.map.show_reason(self.tr("The difference is being computed."))
         self._work.start(
             "",
             lambda _: compare_cameras(after.camera, before.camera, views=views),

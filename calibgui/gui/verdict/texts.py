@@ -43,7 +43,7 @@ def describe_pixel_error(error: PixelError) -> str:
         return translate("VerdictTexts", "Error: unknown")
     text = translate(
         "VerdictTexts",
-        "Error: centre {0}, covered part {1}, edge {2}, worst {3} px",
+        "Error: centre {0}, covered {1}, edge {2}, worst {3} px",
     )
     figures = error.centre, error.covered, error.edge, error.worst
     return text.format(*map(format_two_digits, figures))
