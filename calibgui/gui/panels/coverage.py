@@ -10,6 +10,7 @@ from PySide6.QtGui import QColor
 from PySide6.QtWidgets import QVBoxLayout
 
 from calibgui.dataset import Result
+from calibgui.engine.numbers import format_two_digits
 from calibgui.engine.uncertainty import NextView, propose_views
 from calibgui.gui.panels.heat import HeatMap, image_rectangle
 from calibgui.gui.panels.latest import Latest
@@ -126,8 +127,8 @@ class CoveragePanel(Panel):
         self.advice.setText(
             self.tr(
                 "The next view (red): {0} It lowers the uncertainty over the image from "
-                "{1:.3f} to {2:.3f} px."
-            ).format(view.instruction, view.before, view.after)
+                "{1} to {2} px."
+            ).format(view.instruction, *map(format_two_digits, (view.before, view.after)))
         )
 
     def _select(self, k: int, corner: int) -> None:  # noqa: ARG002 - a view has one tilt
