@@ -275,7 +275,8 @@ def _describe_scatter(study: ViewCountStudy) -> list[str]:
 def describe_next_views(proposed: Sequence[NextView]) -> str:
     """Describe where to hold the board next, and what that gains."""
     lines = [
-        f"{view.instruction} Projection: {view.before:.3f} to {view.after:.3f} px."
+        f"{view.instruction} It lowers the uncertainty over the image from "
+        f"{format_two_digits(view.before)} to {format_two_digits(view.after)} px."
         for view in proposed
     ]
     return "What to photograph next\n" + "\n".join(map(format_bullet, lines))

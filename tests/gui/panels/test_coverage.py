@@ -10,6 +10,7 @@ import pytest
 from pytestqt.qtbot import QtBot
 
 from calibgui.dataset import Result
+from calibgui.engine.numbers import format_two_digits
 from calibgui.engine.uncertainty.next_view import NextView, propose_views
 from calibgui.gui.jobs.jobs import Jobs
 from calibgui.gui.panels import coverage
@@ -80,7 +81,7 @@ def test_the_next_view_is_drawn_and_told(
     assert (line[0] == line[-1]).all()
     assert (line.min(axis=0) == best.corners.min(axis=0)).all()
     assert best.instruction in panel.advice.text()
-    assert f"{best.after:.3f} px" in panel.advice.text()
+    assert f"to {format_two_digits(best.after)} px" in panel.advice.text()
 
 
 def test_the_map_ends_with_the_image(panel: CoveragePanel, qtbot: QtBot) -> None:
