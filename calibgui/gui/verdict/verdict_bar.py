@@ -93,6 +93,9 @@ class VerdictBar(QFrame):
         self.unfold = QPushButton()
         self.unfold.setCheckable(True)
         self.unfold.toggled.connect(self._unfold)
+        policy = self.unfold.sizePolicy()
+        policy.setRetainSizeWhenHidden(True)  # nothing moves when a new result is judged
+        self.unfold.setSizePolicy(policy)
         self.square = SquareRow(session)
         self.square.changed.connect(self.calibration_wanted)
         self.findings = FindingsList(self)

@@ -266,6 +266,20 @@ def test_the_verdict_is_always_in_sight(full: MainWindow, qtbot: QtBot) -> None:
     assert not verdict.isVisible(), "there is nothing to judge"
 
 
+def test_another_verdict_moves_nothing(full: MainWindow, qtbot: QtBot) -> None:
+    verdict = full.verdict
+    qtbot.waitUntil(lambda: verdict.verdict is not None)
+    places = full.inspector.tabs.geometry(), full.calibrate.geometry()
+    assert not verdict.unfold.isVisible()
+    verdict.unfold.show()
+    verdict.button.show()
+    verdict.reason.setText("Out of date: calibrate again. The photographs show nothing wrong.")
+    verdict.figures.setText("RMS 0.1 px")
+    for _ in range(3):
+        QApplication.processEvents()
+    assert (full.inspector.tabs.geometry(), full.calibrate.geometry()) == places
+
+
 def test_what_opens_at_the_verdict_stands_beside_or_below_it(
     full: MainWindow, qtbot: QtBot
 ) -> None:
