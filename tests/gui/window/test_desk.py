@@ -181,7 +181,8 @@ def test_the_photograph_alone_fills_the_window_and_all_comes_back(
     assert not full.strip_dock.isVisible()
     page = full.page
     qtbot.waitUntil(lambda: page.canvas.width() + page.bar.width() == full.width())
-    assert full.verdict.isVisible() and page.canvas.height() >= 560
+    qtbot.waitUntil(lambda: page.canvas.height() >= 560)
+    assert full.verdict.isVisible()
     qtbot.keyClick(full, Qt.Key.Key_F7)
     assert full.strip_dock.isVisible() and not full.inspector_dock.isVisible()
     full.inspector_dock.show()
