@@ -7,12 +7,13 @@ from typing import Protocol
 import numpy as np
 import pyqtgraph as pg
 from PySide6.QtCore import QPointF, Qt
-from PySide6.QtWidgets import QLabel, QStackedWidget, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QStackedWidget, QVBoxLayout, QWidget
 
 from calibgui.engine.arrays import Array, BoolArray, Size
 from calibgui.gui.panels.contours import Contours
 from calibgui.gui.panels.heat import CORNERS, HeatMap, surround_places
 from calibgui.gui.widgets import theme
+from calibgui.gui.widgets.elided import ElidedLabel
 from calibgui.gui.widgets.levels import choose_levels
 from calibgui.gui.widgets.point_cloud import PointCloud
 from calibgui.gui.widgets.wrapped_label import WrappedLabel
@@ -61,7 +62,7 @@ class DifferenceMap(QWidget):
         self.contours = Contours(self.plot, pg.mkPen("#ffffffc8"))
         self.corners = PointCloud(size=2)
         self.plot.addItem(self.corners)
-        self.under_cursor = QLabel()
+        self.under_cursor = ElidedLabel()
         self.reason = WrappedLabel()
         self.reason.setAlignment(Qt.AlignmentFlag.AlignCenter)
         self.reason.setMargin(theme.SPACING)

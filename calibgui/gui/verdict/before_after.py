@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 from PySide6.QtCore import Signal, SignalInstance
-from PySide6.QtWidgets import QHBoxLayout, QLabel, QPushButton, QVBoxLayout, QWidget
+from PySide6.QtWidgets import QHBoxLayout, QPushButton, QVBoxLayout, QWidget
 
 from calibgui.engine.assessment import CameraDifference, Verdict, compare_cameras
 from calibgui.gui.panels.difference_map import DifferenceMap
@@ -16,6 +16,7 @@ from calibgui.gui.verdict.remedier import Remedied
 from calibgui.gui.verdict.texts import describe_grade
 from calibgui.gui.widgets import theme
 from calibgui.gui.widgets.tables import Column, Table, with_decimals, with_digits
+from calibgui.gui.widgets.wrapped_label import WrappedLabel
 from calibgui.report.comparison import compare_parameters
 from calibgui.report.verdict import format_times
 
@@ -37,7 +38,7 @@ class BeforeAndAfter(DropDown):
         super().__init__(bar, _SHARE)
         self._remedied: Remedied | None = None
         self._work = Latest(session.jobs, self)
-        self.title = QLabel()
+        self.title = WrappedLabel()
         font = self.title.font()
         font.setBold(True)
         self.title.setFont(font)
@@ -64,8 +65,8 @@ class BeforeAndAfter(DropDown):
         tables.addWidget(self.errors)
         tables.addWidget(self.parameters, 1)
         sides = QHBoxLayout()
-        sides.addLayout(tables, 1)
-        sides.addWidget(self.map, 1)
+        sides.addLayout(tables, 4)
+        sides.addWidget(self.map, 3)
         layout = QVBoxLayout(self)
         layout.setContentsMargins(*[theme.SPACING] * 4)
         layout.addLayout(head)
