@@ -145,6 +145,10 @@ def make_folder(path: Path) -> None:
     """
     try:
         path.mkdir(parents=True, exist_ok=True)
+    except FileExistsError as error:
+        raise CalibrationError(
+            f"The folder {path} cannot be made: a file has that name.", "Name another folder."
+        ) from error
     except OSError as error:
         raise CalibrationError(
             f"The folder {path} cannot be made: {error.strerror or error}.",

@@ -63,12 +63,16 @@ def resolve_model_choice(model: str) -> str:
     Raises:
         CalibrationError: if there is none, with the names to choose from.
     """
-    current = resolve_model_id(model)
+    hint = (
+        f"Choose from {AUTO_MODEL}, {', '.join(MODEL_CHOICES)}; splined-stereographic-40x30-120 "
+        "would be one with 40 x 30 control points over 120 degrees."
+    )
+    try:
+        current = resolve_model_id(model)
+    except CalibrationError as error:  # which lists the model of the cost "paper" as well
+        raise CalibrationError(error.message, hint) from error
     if current == _PAPER_MODEL:
-        raise CalibrationError(
-            f"The lens model {model!r} cannot be chosen.",
-            f"Choose from {AUTO_MODEL}, {', '.join(MODEL_CHOICES)}.",
-        )
+        raise CalibrationError(f"The lens model {model!r} cannot be chosen.", hint)
     return current
 
 

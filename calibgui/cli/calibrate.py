@@ -55,7 +55,11 @@ def configure(parser: argparse.ArgumentParser) -> None:
         help="write the estimated board shape, for later calibrations with the same board",
     )
     parser.add_argument(
-        "-o", "--output", type=Path, metavar="FILE", help="write result.json; - for standard output"
+        "-o",
+        "--output",
+        type=Path,
+        metavar="FILE",
+        help="write the result as JSON, which other commands read; - for standard output",
     )
     add_export_option(parser, "write another format as well")
     add_overwrite_option(parser)
@@ -84,15 +88,15 @@ def add_settings_options(parser: argparse.ArgumentParser) -> None:
         type=_parse_model,
         default=argparse.SUPPRESS,  # None is the automatic choice
         metavar="NAME",
-        help=f"the lens model to estimate, the method's own if left out: {_describe_models()}",
+        help=f"the lens model to estimate; if left out, the method's own. {_describe_models()}",
     )
     group.add_argument(
         "--method",
         choices=METHODS,
         default=DEFAULT_METHOD,
         metavar="NAME",
-        help=f"the method of calibration (calibgui compare shows all side by side): "
-        f"{_describe_methods()}",
+        help="the method of calibration, with the lens models that it takes in brackets; "
+        f"calibgui compare shows all side by side. {_describe_methods()}",
     )
     group.add_argument(
         "--fix",
@@ -279,12 +283,12 @@ def _parse_model(text: str) -> str | None:
 def _describe_models() -> str:
     """List the lens models to choose from with their titles, the default one marked."""
     models = (
-        f"{name}{' (default)' if name == DEFAULT_MODEL else ''}, {MODELS[name].title}"
+        f"{name}{' (default)' if name == DEFAULT_MODEL else ''}: {MODELS[name].title}"
         for name in MODEL_CHOICES
     )
     return (
-        f"{AUTO_MODEL}, the paper's unless the views demand another (calibgui models compares "
-        f"all); {'; '.join(models)}; or splined with other numbers, such as "
+        f"{AUTO_MODEL}: the paper's (lucchese) unless the views demand another; calibgui models "
+        f"compares all. {'; '.join(models)}; or with other numbers, such as "
         "splined-stereographic-40x30-120 for 40 x 30 control points over 120 degrees"
     )
 

@@ -79,7 +79,8 @@ def build_parser() -> tuple[Parser, dict[str, Parser]]:
         prog="calibgui",
         description="Geometric camera calibration from photographs of a flat board.",
         epilog="calibgui COMMAND --help describes a command. Without one, calibgui [FOLDER | "
-        "IMAGES | PROJECT] opens the window.",
+        "IMAGES | PROJECT] opens the window. To begin with squares of 25 mm: "
+        "calibgui calibrate FOLDER --square 25 -o camera.json",
     )
     parser.add_argument("--version", action="version", version=f"calibgui {__version__}")
     choices = parser.add_subparsers(title="commands", metavar="COMMAND", dest="command")

@@ -44,6 +44,7 @@ _APPLICATION = 0x43414C46
 """Mark of a ledger among SQLite's files: "CALF"."""
 _BUSY_S = 60.0
 """Time for which a program waits for another one that writes, s: a row takes milliseconds."""
+_REMEDY = "Name the file that `calibgui batch -o` wrote."
 _COLUMNS: Mapping[str, str] = MappingProxyType(
     {
         "id": "TEXT PRIMARY KEY NOT NULL",
@@ -194,9 +195,7 @@ def _check_or_create(connection: sqlite3.Connection, path: Path, create: bool) -
     (application,) = connection.execute("PRAGMA application_id").fetchone()
     (version,) = connection.execute("PRAGMA user_version").fetchone()
     if application != _APPLICATION:
-        raise CalibrationError(
-            f"{path} is an SQLite file, but not the ledger of a fleet.", "Choose another file."
-        )
+        raise CalibrationError(f"{path} is an SQLite file, but not the ledger of a fleet.", _REMEDY)
     if version != VERSION:
         raise CalibrationError(
             f"{path} is a ledger of version {version}; this program knows version {VERSION}.",
@@ -220,9 +219,7 @@ def _explain_errors(path: Path) -> Iterator[None]:
             "holds it.",
         ) from error
     except sqlite3.DatabaseError as error:
-        raise CalibrationError(
-            f"{path} is not the ledger of a fleet: {error}.", "Choose another file."
-        ) from error
+        raise CalibrationError(f"{path} is not the ledger of a fleet: {error}.", _REMEDY) from error
 
 
 def encode_row(camera: FleetCamera) -> dict[str, Any]:

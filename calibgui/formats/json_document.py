@@ -388,17 +388,15 @@ def _make_error(file: str, reason: str) -> CalibrationError:
     return CalibrationError(f"{file} is not a JSON file: {reason}.", "Choose another file.")
 
 
-def check_format(node: Node, name: str, version: int) -> None:
-    """Refuse a file of another format, or of a version that this program does not know.
+def check_format(node: Node, name: str, version: int, remedy: str = "Choose another file.") -> None:
+    """Refuse a file of another format with the `remedy`, or of a version that is not known.
 
     Raises:
         CalibrationError: with a hint.
     """
     found = node.get("format")
     if found is None or str(found.value) != name:  # an array would compare number by number
-        raise CalibrationError(
-            f"{node.file} is not a file of the format {name!r}.", "Choose another file."
-        )
+        raise CalibrationError(f"{node.file} is not a file of the format {name!r}.", remedy)
     number = node["version"].integer()
     if number < 1:
         node["version"].fail("a version of this format, which are counted from 1")

@@ -212,7 +212,7 @@ def read_result(path: str | os.PathLike[str]) -> Result:
             or something in it is wrong; the message names the place.
     """
     node = read_json(path)
-    check_format(node, FORMAT, VERSION)
+    check_format(node, FORMAT, VERSION, "Name a result: `calibgui calibrate -o` writes it.")
     return decode_result(node)
 
 

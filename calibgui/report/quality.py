@@ -162,7 +162,7 @@ def _describe_bootstrap(ratio: Array, names: Sequence[str], count: int) -> str:
 
 
 def tabulate_camera_difference(found: CameraDifference, expected: float | None) -> str:
-    """Tabulate the difference of two cameras.
+    """Tabulate the difference of two cameras, and say if nothing tells how much is expected.
 
     Args:
         found: the difference.
@@ -184,23 +184,13 @@ def tabulate_camera_difference(found: CameraDifference, expected: float | None) 
     if math.isfinite(found.distance):
         x, y, z = found.shift
         motion += f" and shifted by ({x:+z.2f}, {y:+z.2f}, {z:+z.2f}) mm"
-    remarks = [f"{motion}, which is taken out.", _describe_agreement(found.median, expected)]
-    return "\n".join([title, align_columns(rows, left=(0,)), *map(format_bullet, remarks)])
-
-
-def _describe_agreement(median: float, expected: float | None) -> str:
-    """Say whether two cameras differ by more than their uncertainties explain."""
+    remarks = [f"{motion}, which is taken out."]
     if expected is None:
-        return (
+        remarks.append(
             "Whether that is more than their uncertainties explain is not known: only a "
             "result.json of this program holds the corners that tell."
         )
-    if median <= 2 * expected:
-        return "The two agree within their uncertainties."
-    return (
-        f"The two differ by {median / expected:.1f} times what their uncertainties explain: the "
-        "camera or its focus has changed, or the residuals are not noise in one of them."
-    )
+    return "\n".join([title, align_columns(rows, left=(0,)), *map(format_bullet, remarks)])
 
 
 def tabulate_number_of_views(study: ViewCountStudy, limit: float) -> str:

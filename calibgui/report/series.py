@@ -136,8 +136,9 @@ def describe_drift(drift: Drift, limit: float | None) -> str:
         least = _MIN_TOLD_PROBABILITY
         chance = f"{drift.probability:.2g}" if drift.probability > least else f"less than {least:g}"
         text = (
-            f"The camera has changed, by {by}: calibrations of an unchanged camera differ as much "
-            f"with a probability of {chance}."
+            "The two differ by more than their uncertainties explain (the camera has changed, or a "
+            f"lens model does not follow the lens), by {by}: calibrations of an unchanged camera "
+            f"differ as much with a probability of {chance}."
         )
     else:
         text = (
