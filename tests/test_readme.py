@@ -12,9 +12,11 @@ from typing import Any
 
 import pytest
 
+from calibgui.app.settings import MODEL_CHOICES
 from calibgui.cli.main import main
 from calibgui.engine.assessment import method_comparison
 from calibgui.engine.assessment.lens_choice import choose_lens
+from calibgui.engine.boards import KINDS
 from calibgui.formats import EXPORTERS
 
 ROOT = Path(__file__).resolve().parents[1]
@@ -79,6 +81,14 @@ def test_python() -> None:
 def test_every_export_format_is_in_the_table() -> None:
     rows = "".join(re.findall(r"^\|.*--export.*$", README, re.MULTILINE))
     assert set(re.findall(r"([\w-]+)=`", rows)) == set(EXPORTERS)
+
+
+def test_every_board_and_every_lens_model_is_in_a_table() -> None:
+    rows = "".join(re.findall(r"^\|.*$\n", README, re.MULTILINE))
+    for kind in KINDS:
+        assert f"| `{kind}` |" in rows, kind
+    for model in MODEL_CHOICES:
+        assert re.search(rf"^\| `{model}(-30x20-150)?` \|", rows, re.MULTILINE), model
 
 
 def test_files_named_exist() -> None:

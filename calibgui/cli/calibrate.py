@@ -188,7 +188,7 @@ def _print_report(
     if messages:
         console.print_text("\n" + "\n".join(map(tables.format_bullet, messages)))
     if not options.verbose:
-        console.print_text("\n-v shows Stage I, every view, and all that is known of each value.")
+        console.print_text("\n-v shows each view by itself, and all that is known of each value.")
 
 
 def _show_comparison(

@@ -160,7 +160,8 @@ def _describe(answer: Mapping[str, Any]) -> str:
         rows = [[name, f"{value:.9g}"] for name, value in answer["params"].items()]
         lines.append(tables.align_columns(rows, left=(0, 1)))
     remarks = [answer["note"]] if answer["note"] else []
-    remarks += [f"Wrote {file}. {note}" for file, note in answer["files"].items()]
+    for file, note in answer["files"].items():
+        remarks.append(f"Wrote {file}." if note == answer["note"] else f"Wrote {file}. {note}")
     return "\n".join([*lines, *map(tables.format_bullet, remarks)])
 
 

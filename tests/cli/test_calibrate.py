@@ -42,7 +42,7 @@ def test_photographs_give_the_camera_that_took_them(
     first = "GOOD. The photographs show nothing wrong.\nError of a pixel: centre 0.0"
     assert printed.startswith(first) and "\nCamera, 320 x 240 px" in printed
     assert "\nRMS 0.0" in printed and f"{COUNT} of {COUNT} images" in printed
-    assert "Wrote" in printed and "-v shows Stage I" in printed
+    assert "Wrote" in printed and "-v shows each view" in printed
     assert len(printed.splitlines()) <= 25
     # Only the name of a file may be longer than a line.
     assert all(len(line) <= 80 or str(file) in line for line in printed.splitlines())
