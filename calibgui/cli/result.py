@@ -47,8 +47,7 @@ def _refuse_camera_file(path: Path, error: CalibrationError) -> None:
         return
     if title != EXPORTER.title:
         raise CalibrationError(
-            f"{path} holds a camera only ({title}): neither the corners nor a covariance from "
-            "which its errors follow.",
-            "Give the result.json that calibgui calibrate -o writes. The program that wrote this "
-            "file may tell as well, as mrcal-show-projection-uncertainty does.",
+            f"{path} holds a camera only ({title}): neither corners, nor the poses and "
+            "uncertainties that come from them.",
+            "Name a result: `calibgui calibrate -o` writes it.",
         ) from error

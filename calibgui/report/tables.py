@@ -245,7 +245,7 @@ def tabulate_intrinsics(calibration: Calibration) -> str:
     ]
     title = _make_camera_title(calibration)
     if not isinstance(find_model(camera.model), Lucchese):
-        return f"{title}\n" + align_columns([["", "array frame", ""], *left], left=(0, 1, 2))
+        return f"{title}\n" + align_columns([["", "OpenCV's frame", ""], *left], left=(0, 1, 2))
     # The paper's values beside those of the same meaning.
     order = [PAPER_NAMES.index({"cx": "xp", "cy": "yp"}.get(name, name)) for name in names]
     values, sigma, printed = make_paper_table(calibration)
@@ -257,7 +257,7 @@ def tabulate_intrinsics(calibration: Calibration) -> str:
         ]
         for row, i in enumerate(order)
     ]
-    head = ["", "array frame", "", " ", "", "paper's frame, units", ""]
+    head = ["", "OpenCV's frame", "", " ", "", "paper's frame, units", ""]
     if calibration.cost is Cost.PAPER:
         head.append("its own SD")
         for row, i in zip(right, order, strict=True):

@@ -152,7 +152,7 @@ def test_a_long_path_can_be_copied() -> None:
 def test_intrinsics_have_their_uncertainty_in_both_frames(result: Result) -> None:
     calibration = result.calibration
     _, head, *rows = lines(tables.tabulate_intrinsics(calibration))
-    assert "array frame" in head and "paper's frame" in head
+    assert "OpenCV's frame" in head and "paper's frame" in head
     fx = rows[0].split()
     assert float(fx[1]) == pytest.approx(calibration.camera.params[0], abs=0.01)
     assert fx[2] == "±" and fx[4] == "px" and fx[5] == "fx" and fx[9] == "px"
