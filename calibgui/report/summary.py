@@ -175,15 +175,24 @@ def describe_board_shape(board_shape: BoardShape) -> str:
     return text
 
 
-def describe_lens_error(calibration: Calibration, rms: float) -> str:
-    """Describe that the lens model of a calibration leaves a displacement of `rms` px."""
+def describe_lens_error(calibration: Calibration, rms: float, does_harm: bool = True) -> str:
+    """Describe that the lens model of a calibration leaves a displacement of `rms` px.
+
+    Args:
+        calibration: the calibration.
+        rms: root mean square of the displacement, px.
+        does_harm: whether that is more than the verdict passes over.
+    """
+    follows = "does not follow this lens" if does_harm else "follows this lens nearly"
     text = (
-        f"The lens model {calibration.camera.model} does not follow this lens: it leaves a "
+        f"The lens model {calibration.camera.model} {follows}: it leaves a "
         f"displacement of {rms:.2g} px (rms) that all views share and the board "
         "does not explain. No ± includes that: each is of the values that fit best."
     )
     if calibration.board_shape is not None:
         text += " The board's estimated shape stands in for the lens: do not rely on it."
+    if not does_harm:
+        return f"{text} Another lens model may be closer (--model auto)."
     return f"{text} Compare the lens models and take the one that is recommended (--model auto)."
 
 
@@ -243,8 +252,9 @@ def _describe_sources(result: Result, findings: Sequence[Finding]) -> Iterator[S
     sources = separate_error_sources(calibration, result.observations())
     yield Sentence(Tone.FACT, describe_error_sources(sources))
     if Cause.LENS in causes or (sources.is_lens_at_fault and not causes & _MISLEADING):
-        rms = calibration.lens_error or sources.lens
-        yield Sentence(Tone.CAUTION, describe_lens_error(calibration, rms), Cause.LENS)
+        rms, does_harm = calibration.lens_error or sources.lens, Cause.LENS in causes
+        tone = Tone.CAUTION if does_harm else Tone.FACT
+        yield Sentence(tone, describe_lens_error(calibration, rms, does_harm), Cause.LENS)
 
 
 def _describe_board(result: Result, findings: Sequence[Finding]) -> Iterator[Sentence]:
