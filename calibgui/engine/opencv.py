@@ -68,6 +68,11 @@ def blur_image(image: GreyImage, sigma: float) -> tuple[GreyImage, float]:
     return np.rint(blurred, out=blurred).astype(np.int16), levels
 
 
+def smooth_image(image: GreyImage, sigma: float) -> GreyImage:
+    """Blur an 8-bit image (h, w) by a Gaussian of standard deviation `sigma` px, to 8 bits."""
+    return np.asarray(cv2.GaussianBlur(image, (0, 0), sigma))
+
+
 def correlate_separable(
     image: GreyImage, along_u: npt.ArrayLike, along_v: npt.ArrayLike
 ) -> FloatImage:

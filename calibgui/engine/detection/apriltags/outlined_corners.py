@@ -15,6 +15,7 @@ from calibgui.engine.arrays import Array, BoolArray, GreyImage, IntArray, comput
 from calibgui.engine.boards.april_grid import AprilGrid, TagLayout
 from calibgui.engine.detection import grid_map
 from calibgui.engine.detection.apriltags.grid_tags import GridTags
+from calibgui.engine.detection.apriltags.tag_gap import measure_gap_of_tags
 from calibgui.engine.detection.apriltags.tag_outlines import (
     AROUND,
     TagOutlines,
@@ -132,6 +133,8 @@ def locate_outlined_corners(
         its_corners = corners.select(bad)._replace(uv=shaded.reshape(-1, 2))
         doubted.append((its_corners, grid[bad], quads[~good]))
         squares, quads = squares[good], quads[good]
+    # Where tags were read they are smaller than they are, and the gap between them wider.
+    gap = measure_gap_of_tags(squares, fit.corners, gap)
     all_corners, all_grid = corners, grid
     for its_corners, its_grid, at in doubted:
         displacement = _measure_displacements(its_corners.uv, its_grid, corners.uv, grid, gap)

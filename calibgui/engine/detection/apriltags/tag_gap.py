@@ -8,8 +8,20 @@ from __future__ import annotations
 
 import numpy as np
 
-from calibgui.engine.arrays import Array
+from calibgui.engine.arrays import Array, IntArray
 from calibgui.engine.errors import NoBoardError
+
+_CORNERS = np.array([(0, 0), (0, 1), (1, 1), (1, 0)])
+"""(4, 2) rows and columns of the corners of a tag from its upper left one."""
+
+
+def measure_gap_of_tags(squares: IntArray, corners: Array, gap: float) -> float:
+    """Measure the gap between tags at `squares` (n, 2), from 0, whose corners (n, 4, 2) px are
+    known; see `measure_gap`."""
+    grid = 2 * squares[:, None] + _CORNERS
+    uv = np.full((*(grid.max(axis=(0, 1)) + 1), 2), np.nan)
+    uv[grid[..., 0], grid[..., 1]] = corners
+    return measure_gap(uv, gap)
 
 
 def measure_gap(uv: Array, gap: float) -> float:

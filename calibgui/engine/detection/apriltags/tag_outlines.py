@@ -35,7 +35,7 @@ import numpy as np
 from calibgui.engine import kernels
 from calibgui.engine.arrays import Array, BoolArray, FloatImage, GreyImage, IntArray
 from calibgui.engine.detection import grid_map
-from calibgui.engine.detection.apriltags.tag_gap import measure_gap
+from calibgui.engine.detection.apriltags.tag_gap import measure_gap_of_tags
 from calibgui.engine.detection.detector_io import estimate_least_noise
 from calibgui.engine.detection.edge_intensity import EdgeIntensity, compute_edge
 from calibgui.engine.images.sampling import sample_image
@@ -153,10 +153,7 @@ def fit_tag_outlines(
         gap: between tags, sides, roughly.
     """
     model = _estimate_start(image, corners, _locate_corners(squares, gap), border, gap)
-    grid = 2 * squares[:, None] + AROUND[:, ::-1].astype(np.int64)
-    seen = np.full((*(grid.max(axis=(0, 1)) + 1), 2), np.nan)
-    seen[grid[..., 0], grid[..., 1]] = model.corners
-    places = _locate_corners(squares, measure_gap(seen, gap))
+    places = _locate_corners(squares, measure_gap_of_tags(squares, model.corners, gap))
     for _ in range(_GAUSS_NEWTON_STEPS):
         model = replace(model, curvature=_estimate_curvatures(model.corners, places))
         is_sharp = bool(np.median(model.blurs) < _MAX_SHARP_BLUR)

@@ -89,14 +89,14 @@ class TagReader:
             image: (h, w) grey levels, tags dark on bright.
             quads: (m, 4, 2) px, corners in the sense from u to v.
         """
-        self._image = image
+        self.image = image
         self.quads = quads
         self._cells: dict[int, BoolArray] = {}
 
     def join(self, more: TagReader) -> TagReader:
         """Return a reader of its quadrilaterals and then those of another, in the same image, which
         keeps what it has sampled."""
-        joined = TagReader(self._image, np.concatenate([self.quads, more.quads]))
+        joined = TagReader(self.image, np.concatenate([self.quads, more.quads]))
         joined._cells = {
             n: np.concatenate([cells, more._find_dark_cells(n)]) for n, cells in self._cells.items()
         }
@@ -124,7 +124,7 @@ class TagReader:
     def _find_dark_cells(self, n: int) -> BoolArray:
         """Find the dark cells (m, n, n) of the quadrilaterals, once."""
         if n not in self._cells:
-            self._cells[n] = find_dark_cells(self._image, self.quads, n)
+            self._cells[n] = find_dark_cells(self.image, self.quads, n)
         return self._cells[n]
 
 

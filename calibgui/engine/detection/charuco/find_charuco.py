@@ -152,11 +152,12 @@ def _read_board(
     layouts = _list_layouts(pattern, grid_size)
     positive = MarkerReader(image, outline)
     readers = [positive, MarkerReader(invert_levels(image), outline, positive)]
+    count = None if grid_size is None else (grid_size[0] + 1) * (grid_size[1] + 1) // 2
     for is_inverted, reader in enumerate(readers):
         found = (
-            reader.read_dictionary(pattern.dictionary, layouts)
+            reader.read_dictionary(pattern.dictionary, layouts, count)
             if pattern.dictionary
-            else reader.search_dictionaries(layouts)
+            else reader.search_dictionaries(layouts, count)
         )
         if found is not None:
             _check_board(found.readings[0], pattern, grid_size)

@@ -66,14 +66,20 @@ class MarkerCandidates:
 
 
 @lru_cache
+def draw_markers(dictionary: str) -> BoolArray:
+    """Return the cells (m, k, k) of a dictionary's markers, their border of one cell included, True
+    where dark."""
+    count = opencv.list_dictionaries()[dictionary]
+    return np.array([opencv.draw_marker_cells(dictionary, number) for number in range(count)])
+
+
+@lru_cache
 def _encode_markers(dictionary: str) -> tuple[FloatImage, int]:
     """Return the dark (+1) and bright (-1) cells (4 m, k^2), float32, of a dictionary's markers in
     all four turns, and the number of misread cells that OpenCV corrects."""
-    count, correctable = (
-        opencv.list_dictionaries()[dictionary],
-        opencv.count_correctable_cells(dictionary),
-    )
-    cells = [opencv.draw_marker_cells(dictionary, k)[1:-1, 1:-1] for k in range(count)]
+    correctable = opencv.count_correctable_cells(dictionary)
+    cells = draw_markers(dictionary)[:, 1:-1, 1:-1]
+    count = len(cells)
     turned = np.stack([np.rot90(cells, turn, axes=(1, 2)) for turn in range(4)], axis=1)
     codes = np.where(turned, 1.0, -1.0).astype(np.float32)
     return codes.reshape(4 * count, -1), correctable

@@ -13,14 +13,20 @@ all.
 from __future__ import annotations
 
 from collections.abc import Callable, Collection, Iterable
-from functools import partial
+from functools import lru_cache, partial
 from typing import NamedTuple
 
 from calibgui.engine import opencv
 from calibgui.engine.arrays import Array, GreyImage, IntArray
 from calibgui.engine.boards.charuco import MARKER_LAYOUTS, MarkerLayout, dictionary_family
 from calibgui.engine.detection import region_of_interest as region
-from calibgui.engine.detection.charuco.marker_candidates import MarkerCandidates
+from calibgui.engine.detection.charuco.marker_candidates import MarkerCandidates, draw_markers
+from calibgui.engine.detection.charuco.marker_growth import (
+    MARKER_NEIGHBOURS,
+    MarkerPrints,
+    describe_prints,
+    grow_markers,
+)
 from calibgui.engine.detection.charuco.markers import Markers, identify_board
 from calibgui.engine.detection.charuco.thresholds import CHARUCO_THRESHOLDS
 from calibgui.engine.detection.print_samples import PrintSample, detect_dark_quads
@@ -74,8 +80,15 @@ class MarkerReader:
         self._samples: dict[int, MarkerCandidates] = {}
         self._read: dict[tuple[int, str], tuple[IntArray, Array]] = {}
 
-    def read_dictionary(self, name: str, layouts: Collection[MarkerLayout]) -> ReadBoard | None:
+    def read_dictionary(
+        self, name: str, layouts: Collection[MarkerLayout], count: int | None = None
+    ) -> ReadBoard | None:
         """Read the markers of a stated dictionary on a board of one of the layouts.
+
+        Args:
+            name: of the dictionary.
+            layouts: those that the board may have.
+            count: number of markers on the board, if it is known.
 
         Returns:
             The dictionary and the markers; None if they show no such board.
@@ -85,9 +98,11 @@ class MarkerReader:
             is_coarsest = depth == len(self._levels) - 1
             return [name] if is_coarsest else self._select_likely([name], depth)
 
-        return self._read_first(list_if_likely, layouts)
+        return self._read_first(list_if_likely, layouts, count)
 
-    def search_dictionaries(self, layouts: Collection[MarkerLayout]) -> ReadBoard | None:
+    def search_dictionaries(
+        self, layouts: Collection[MarkerLayout], count: int | None = None
+    ) -> ReadBoard | None:
         """Read the markers of an unknown dictionary on a board of one of the layouts.
 
         Returns:
@@ -97,14 +112,14 @@ class MarkerReader:
         best: ReadBoard | None = None
         for rank in (0, 2):
             best = best or self._read_first(
-                partial(self._select_likely, _list_family_members(rank)), layouts
+                partial(self._select_likely, _list_family_members(rank)), layouts, count
             )
         if best is None:
             return None
         for larger in _list_larger(best.dictionary):
             if not self._may_show_more(larger, best):
                 break
-            found = self.read_dictionary(larger, layouts)
+            found = self.read_dictionary(larger, layouts, count)
             if found is None or found.count_markers() <= best.count_markers():
                 break
             best = found
@@ -116,13 +131,19 @@ class MarkerReader:
         return coarsest.count_fitting(dictionary) > board.count_markers()
 
     def _read_first(
-        self, names: Callable[[int], Iterable[str]], layouts: Collection[MarkerLayout]
+        self,
+        names: Callable[[int], Iterable[str]],
+        layouts: Collection[MarkerLayout],
+        count: int | None,
     ) -> ReadBoard | None:
         """Read the first dictionary that shows a board, of those that `names` lists for each
         depth of the pyramid."""
         for depth in reversed(range(len(self._levels))):
             for name in names(depth):
                 readings = identify_board(*self._read_markers(depth, name), layouts, MARKER_LAYOUTS)
+                if readings:
+                    prints = _describe_dictionary(name)
+                    readings = grow_markers(self._levels[0], readings, prints, count, self._outline)
                 if _differ_in_colours_only(readings):
                     return ReadBoard(name, readings)
         return None
@@ -177,6 +198,12 @@ class MarkerReader:
                 numbers, corners = numbers[inside], corners[inside]
             self._read[depth, name] = numbers, corners
         return self._read[depth, name]
+
+
+@lru_cache
+def _describe_dictionary(name: str) -> MarkerPrints:
+    """Describe the markers of a dictionary."""
+    return describe_prints(draw_markers(name), MARKER_NEIGHBOURS)
 
 
 def _differ_in_colours_only(readings: list[Markers[MarkerLayout]]) -> bool:

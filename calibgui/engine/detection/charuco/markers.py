@@ -23,7 +23,7 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Collection
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Generic, Protocol, TypeVar
 
 import numpy as np
@@ -57,6 +57,24 @@ class Markers(Generic[Layout]):
     side: float
     """rho, side of a marker over that of a square."""
 
+    def select(self, index: IntArray) -> Markers[Layout]:
+        """Select markers by their indices (m,)."""
+        return replace(
+            self,
+            squares=self.squares[index],
+            numbers=self.numbers[index],
+            corners=self.corners[index],
+        )
+
+    def join(self, other: Markers[Layout]) -> Markers[Layout]:
+        """Return these markers and then others on the same layout."""
+        return replace(
+            self,
+            squares=np.concatenate([self.squares, other.squares]),
+            numbers=np.concatenate([self.numbers, other.numbers]),
+            corners=np.concatenate([self.corners, other.corners]),
+        )
+
     @property
     def board_corners(self) -> Array:
         """(n, 4, 2) the corners on the board, squares from inner corner (0, 0)."""
@@ -88,24 +106,24 @@ def identify_board(
     candidates = [*{**dict.fromkeys(known), **dict.fromkeys(allowed)}]
     for distance in CHARUCO_THRESHOLDS.max_marker_distances:
         i, j, displacement = _measure_displacements(corners, distance)
-        sets: dict[Layout, tuple[BoolArray, float]] = {}
-        for layout in candidates:
-            squares = layout.locate_squares(numbers)
-            step = (squares[j] - squares[i])[:, ::-1]
-            sets[layout] = _find_agreeing_pairs(step, displacement, distance)
-        most = max(agree.sum() for agree, _ in sets.values())
-        if most < least - 1:
+        squares = np.stack([layout.locate_squares(numbers) for layout in candidates])
+        step = (squares[:, j] - squares[:, i])[..., ::-1]
+        agree, sides = _find_agreeing_pairs(step, displacement, distance)
+        count = agree.sum(axis=1)
+        if not count.any():
             return []
-        candidates = [layout for layout in candidates if sets[layout][0].sum() == most]
+        kept = np.flatnonzero(count == count.max())
+        candidates = [candidates[k] for k in kept]
         if len(candidates) == 1:
             break
+    sets = dict(zip(candidates, zip(agree[kept], sides[kept], strict=True), strict=True))
     boards = []
-    for layout in (layout for layout in allowed if layout in candidates):
-        agree, side = sets[layout]
-        kept = _select_largest_part(numbers, i[agree], j[agree])
-        if len(kept) >= least:
-            squares = layout.locate_squares(numbers[kept])
-            boards.append(Markers(layout, squares, numbers[kept], corners[kept], side))
+    for layout in (layout for layout in allowed if layout in sets):
+        agreeing, side = sets[layout]
+        part = _select_largest_part(numbers, i[agreeing], j[agreeing])
+        if len(part) >= least:
+            on_board = layout.locate_squares(numbers[part])
+            boards.append(Markers(layout, on_board, numbers[part], corners[part], float(side)))
     return boards
 
 
@@ -139,7 +157,7 @@ def _measure_displacements(corners: Array, max_distance: int) -> tuple[IntArray,
     apart = corners.mean(axis=1) - corners.mean(axis=1)[:, None]
     m = (_invert_frames(A)[:, None] @ apart[..., None])[..., 0]
     near = np.abs(m).max(axis=2) < max_distance / CHARUCO_THRESHOLDS.min_marker_side
-    i, j = np.nonzero(near & near.T & ~np.eye(len(m), dtype=np.bool_))
+    i, j = np.nonzero(np.triu(near & near.T, 1))
     between = _invert_frames((A[i] + A[j]) / 2)
     return i, j, (between @ apart[i, j, :, None])[..., 0]
 
@@ -152,16 +170,29 @@ def _invert_frames(A: Array) -> Array:
 
 def _find_agreeing_pairs(
     step: IntArray, displacement: Array, max_distance: int
-) -> tuple[BoolArray, float]:
-    """Find the pairs (p,) whose displacements (p, 2) are `step` (p, 2) squares, at most
-    `max_distance`, and the side rho that they agree on."""
+) -> tuple[BoolArray, Array]:
+    """Find the pairs (k, p) whose displacements (p, 2) are `step` (k, p, 2) squares, at most
+    `max_distance`, on each of k layouts, and the sides rho (k,) that they agree on."""
     limits = CHARUCO_THRESHOLDS
-    distance = np.abs(step).max(axis=1)
-    near = (distance > 0) & (distance <= max_distance)
-    sides = np.sum(step * displacement, axis=1)[near] / np.sum(displacement[near] ** 2, axis=1)
-    sides = sides[(sides > limits.min_marker_side) & (sides < 1)]
-    if not len(sides):
-        return np.zeros_like(near), 0.0
-    side = float(np.median(sides))
-    off = np.linalg.norm(side * displacement - step, axis=1)
-    return np.asarray(near & (off < limits.max_pair_disagreement * distance)), side
+    distance = np.abs(step).max(axis=2)
+    agree = np.zeros(distance.shape, dtype=np.bool_)
+    layout, pair = np.nonzero((distance > 0) & (distance <= max_distance))
+    step, seen, distance = step[layout, pair], displacement[pair], distance[layout, pair]
+    sides = np.sum(step * seen, axis=1) / np.sum(seen**2, axis=1)
+    likely = (sides > limits.min_marker_side) & (sides < 1)
+    side = _compute_medians(sides[likely], layout[likely], len(agree))
+    off = np.linalg.norm(side[layout, None] * seen - step, axis=1)
+    agree[layout, pair] = off < limits.max_pair_disagreement * distance
+    return agree, side
+
+
+def _compute_medians(values: Array, group: IntArray, count: int) -> Array:
+    """Compute the medians (count,) of the values (n,) of groups (n,); 0 for a group of none."""
+    order = np.lexsort([values, group])
+    size = np.bincount(group, minlength=count)
+    first = np.cumsum(size) - size
+    medians = np.zeros(count)
+    filled = size > 0
+    low, high = (first + (size - 1) // 2)[filled], (first + size // 2)[filled]
+    medians[filled] = (values[order[low]] + values[order[high]]) / 2
+    return medians

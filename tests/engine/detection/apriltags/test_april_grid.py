@@ -7,7 +7,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from calibgui.engine.boards.april_grid import AprilGrid
+from calibgui.engine.arrays import GreyImage
+from calibgui.engine.boards.april_grid import AprilGrid, TagLayout
 from calibgui.engine.boards.board import Board
 from calibgui.engine.boards.checkerboard import CHECKERBOARD
 from calibgui.engine.camera.camera import Camera
@@ -83,6 +84,7 @@ def test_other_families_orders_and_gaps(board: Board) -> None:
     [
         (KALIBR, 1.6, 2.0, 70),
         (KALIBR, 0.7, 15.0, 78),
+        (KALIBR, 2.0, 15.0, 76),
         (replace(KALIBR, rvec=(1.05, 0.1, 0.3)), 0.7, 2.0, 74),
         (replace(KALIBR, distance=500.0), 0.7, 2.0, 78),
         (BARE, 0.4, 2.0, 78),
@@ -95,6 +97,7 @@ def test_other_families_orders_and_gaps(board: Board) -> None:
     ids=[
         "blurred",
         "noisy",
+        "blurred and noisy",
         "tilted",
         "far",
         "bare, sharp",
@@ -125,6 +128,28 @@ def test_tags_alone_have_their_corners_where_their_edges_meet(inverted: bool) ->
     assert seen.spacing == pytest.approx(0.3, abs=0.001)
 
 
+def cover_tags(image: GreyImage, shown: tuple[int, ...]) -> GreyImage:
+    """Cover all tags of `KALIBR` but a few with paper."""
+    covered = image.copy()
+    corners = find_corners(image, pattern=AprilGrid())
+    squares = TagLayout(5, False).locate_squares(np.arange(20)) + np.array([3, 0])
+    for number in set(range(20)) - set(shown):
+        quad = corners.uv[(corners.grid // 2 == squares[number]).all(axis=1)]
+        (u0, v0), (u1, v1) = quad.min(axis=0).astype(int) + 1, quad.max(axis=0).astype(int)
+        covered[v0:v1, u0:u1] = 235
+    return covered
+
+
+def test_tags_far_apart_do_not_tell_how_long_a_row_is() -> None:
+    """Tags 3, 15 and 16 agree on rows of 7 tags with wide gaps as well as on those of 5."""
+    image = cover_tags(KALIBR.image(), (3, 15, 16))
+    with pytest.raises(NoBoardError, match="No AprilGrid"):
+        find_corners(image, pattern=AprilGrid())
+    corners = find_corners(image, (8, 10), pattern=AprilGrid())
+    assert len(corners) == 12
+    assert_at_bound(KALIBR, corners, (0.5, 2.0))
+
+
 def test_blur_does_not_move_the_corners_of_tags_alone_outwards() -> None:
     for blur in (0.4, 2.0):
         corners = find_corners(BARE.image(blur, noise=0.3), pattern=AprilGrid())
@@ -146,7 +171,7 @@ def test_a_tag_of_which_a_corner_is_covered_counts_little() -> None:
     assert corners.cov is not None
     sigma = np.sqrt(np.trace(corners.cov, axis1=1, axis2=2) / 2)
     of_tag = (corners.grid // 2 == (1, 2)).all(axis=1)
-    assert (sigma[of_tag] > 10 * np.median(sigma)).all()
+    assert (sigma[of_tag] > 8 * np.median(sigma)).all()
     assert np.abs(BARE.error(corners)[of_tag]).max() < 0.2
 
 
