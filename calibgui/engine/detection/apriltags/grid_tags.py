@@ -62,9 +62,10 @@ _MIN_READ_SHARE = 0.8
 _MAX_BRIGHT_SHARE = 0.45
 """Greatest share of the outermost places of a refined quadrilateral that may be bright: one that is
 read as a tag has at most 36 %."""
-_MAX_SAMPLED = 200
-"""Number of quadrilaterals of a sample that are read, those of the darkest borders: in brickwork
-there are thousands."""
+_MAX_READ, _MAX_SAMPLED = 150, 80
+"""Number of quadrilaterals of an image, and of a sample of it, that are read, those of the darkest
+borders: in brickwork there are thousands. Of rendered boards before textures those of all tags were
+among the first 25; of a board of more tags the others are read beside these."""
 _ALL_LAYOUTS = tuple(
     layout for cols in range(1, MAX_COLS + 1) for layout in list_layouts(cols, None)
 )
@@ -132,10 +133,8 @@ class GridTagFinder:
         if depth == len(self._levels) - 1 and not self._is_negative:
             return True
         if depth not in self._shown:
-            self._shown[depth] = any(
-                _shows_tags(TagReader(self._levels[0], self._find_quads(depth, is_smoothed, True)))
-                for is_smoothed in (True, False)
-            )
+            quads = self._find_quads(depth, is_smoothed=True, is_sample=True)
+            self._shown[depth] = _shows_tags(TagReader(self._levels[0], quads))
         return self._shown[depth]
 
     def _find_quads(self, depth: int, is_smoothed: bool, is_sample: bool = False) -> Array:
@@ -153,13 +152,10 @@ class GridTagFinder:
         else:
             found = opencv.detect_dark_quads(searched, is_quick=True)
         found = _widen(found, _OUTLINE_INSET)
-        rating = rate_borders(level, found)
-        order = (
-            np.argsort(rating, kind="stable")[:_MAX_SAMPLED] if is_sample else np.arange(len(found))
-        )
-        found = found[order[np.isfinite(rating[order])]]
+        most = _MAX_SAMPLED if is_sample else _MAX_READ
+        found = _select_dark_borders(level, found, np.inf, most)
         found = _refine_quads(image, (found + 0.5) * 2**depth - 0.5)
-        found = found[rate_borders(image, found) <= _MAX_BRIGHT_SHARE]
+        found = _select_dark_borders(image, found, _MAX_BRIGHT_SHARE, most)
         if self._outline is not None:
             found = found[are_inside(self._outline, found.mean(axis=1))]
         return found
@@ -280,6 +276,14 @@ def _is_mostly_read(tags: Markers[TagLayout]) -> bool:
     """Return whether most tags were read within the rows and columns of those that were."""
     rows, cols = np.ptp(tags.squares, axis=0) + 1
     return bool(len(tags.numbers) > _MIN_READ_SHARE * rows * cols)
+
+
+def _select_dark_borders(image: GreyImage, quads: Array, limit: float, most: int) -> Array:
+    """Select at most so many of the quadrilaterals (n, 4, 2) px, those of the darkest borders, of
+    which no more than a share is bright; see `rate_borders`."""
+    rating = rate_borders(image, quads)
+    order = np.argsort(rating, kind="stable")[:most]
+    return quads[order[np.isfinite(rating[order]) & (rating[order] <= limit)]]
 
 
 def _refine_quads(image: GreyImage, quads: Array) -> Array:
