@@ -201,6 +201,26 @@ def flicker(seed: int) -> Photograph:
     return Photograph(as_bytes(add_noise(levels, scene.conditions.noise, seed)), (scene.uv,))
 
 
+def blinds(seed: int) -> Photograph:
+    """Sun through slats: bands of light and shadow, 1.5 to 5 squares apart, hard or hardly blurred
+    at their edges, over board and background."""
+    rng = np.random.default_rng([seed, 96])
+    turn, apart, start = rng.uniform(0, np.pi), rng.uniform(1.5, 5), rng.uniform(0, 1)
+    share, depth = rng.uniform(0.3, 0.7), rng.uniform(0.3, 0.7)
+    soft = rng.uniform(0.005, 0.1)
+    conditions = vary(seed)
+
+    def shade(paper: Array, x: Array, y: Array) -> Array:
+        x, y = (np.clip(c, -99, 99) for c in (x, y))
+        across = (np.cos(turn) * x + np.sin(turn) * y) / apart + start
+        off = apart * (share / 2 - abs(across % 1 - 0.5))
+        light = 1 / (1 + np.exp(-np.clip(off / soft, -50, 50)))
+        return paper * (depth + (1 - depth) * light)
+
+    scene = draw(conditions, seed, shade)
+    return Photograph(scene.photograph(seed), (scene.uv,))
+
+
 def fringes(seed: int) -> Photograph:
     """A lens that draws red and blue 0.5 to 2.5 px aside of green at the picture's corners."""
     rng = np.random.default_rng([seed, 91])
@@ -311,6 +331,7 @@ PLACES: dict[str, Trouble] = {
     "far away": far_away,
     "twins": twins,
     "flicker": flicker,
+    "blinds": blinds,
     "fringes": fringes,
     "wires": wires,
     "overlay": overlay,

@@ -21,7 +21,7 @@ from calibgui.engine.kernels.common import (
     make_contiguous,
     make_read_only,
 )
-from calibgui.engine.kernels.x_corner_model import BLOCK, fill_edge
+from calibgui.engine.kernels.edge_intensity import BLOCK, fill_edge
 
 _Floats = npt.NDArray[np.floating[Any]]
 """Arrays of float32."""

@@ -4,11 +4,7 @@ The pixels of a corner's support are read when they are needed: kept for all the
 they would take many times the memory of the image. They are taken in blocks that the processor's
 first cache holds. What is computed from them stands in rows of one array at distances that the
 compiler knows, so that it can prove the loops over a block independent and turn them into vector
-instructions; for the same reason the exponential is arithmetic,
-
-    exp(-y) = (exp(-y / 64))^64,
-
-its argument small enough for five terms of the series. All but the sums is float32.
+instructions. All but the sums is float32.
 """
 
 from __future__ import annotations
@@ -24,6 +20,7 @@ from calibgui.engine.kernels.common import (
     compiled_part,
     make_read_only,
 )
+from calibgui.engine.kernels.edge_intensity import BLOCK, fill_edge
 
 _Floats = npt.NDArray[np.floating[Any]]
 """Arrays of float32."""
@@ -32,8 +29,6 @@ _Ints = npt.NDArray[np.signedinteger[Any]]
 _Single = np.floating[Any]
 """A float32."""
 _F = np.float32
-BLOCK = 256
-"""Number of pixels taken at once."""
 _S1, _S2, _D1, _D2, _B1, _B2, _W1, _W2, _E1, _E2, _F1, _F2, _G, _J = (
     BLOCK * row for row in (0, 1, 2, 3, 4, 5, 6, 7, 8, 11, 14, 17, 20, 26)
 )
@@ -42,20 +37,12 @@ derivative by the blur, shrunk by w and grown; G and its derivatives by d_1, d_2
 rho; the columns of the normal equations."""
 _COLUMNS = 10
 """Number of columns: nine unknowns and the residual."""
-_ROWS = 26 + _COLUMNS
+_LIT_COLUMNS = 14
+"""Number of columns with those of the light's gradients, gm and ga, after them."""
+_ROWS = 26 + _LIT_COLUMNS
 """Number of rows."""
 _ZERO, _HALF, _ONE = _F(0), _F(0.5), _F(1)
-_ROOT_HALF = _F(np.sqrt(0.5))
-_ROOT_PI = _F(np.sqrt(np.pi))
-_ROOT2_PI = _F(np.sqrt(2 / np.pi))
-_THIRD = _F(1 / 3)
 _MIN_BLUR = _F(0.3)
-_MIN_GAUSSIAN2 = _F(0.01)
-_FAR, _PART = _F(32), _F(1 / 64)
-_C2, _C3, _C4, _C5 = _F(1 / 2), _F(1 / 6), _F(1 / 24), _F(1 / 120)
-_P, _A1, _A2, _A3, _A4, _A5 = (
-    _F(c) for c in (0.3275911, 0.254829592, -0.284496736, 1.421413741, -1.453152027, 1.061405429)
-)
 
 
 class _Support(Protocol):
@@ -190,27 +177,6 @@ def _read(image: GreyImage, uv: Array, bands: Array, offset: _Ints, grey: _Float
 
 
 @compiled_part
-def _bell(x: _Single) -> _Single:
-    """Compute exp(-x^2)."""
-    e = min(x * x, _FAR) * _PART
-    b = _ONE - e * (_ONE - e * (_C2 - e * (_C3 - e * (_C4 - e * _C5))))
-    b *= b
-    b *= b
-    b *= b
-    b *= b
-    b *= b
-    return b * b
-
-
-@compiled_part
-def _erf(x: _Single, bell: _Single) -> _Single:
-    """Compute erf(x), given exp(-x^2), as ``edge_intensity``."""
-    t = _ONE / (_ONE + _P * abs(x))
-    value = _ONE - t * (_A1 + t * (_A2 + t * (_A3 + t * (_A4 + t * _A5)))) * bell
-    return value if x >= _ZERO else -value
-
-
-@compiled_part
 def _fill_geometry(
     w: _Floats,
     u: _Floats,
@@ -236,44 +202,6 @@ def _fill_geometry(
         w[_B2 + p] = max(blur[1] + blur[4] * u[p] + blur[5] * v[p], _MIN_BLUR)
         w[_W1 + p] = growth * (size[0] + size[2] * u[p] + size[3] * v[p])
         w[_W2 + p] = growth * (size[1] + size[4] * u[p] + size[5] * v[p])
-
-
-@compiled_part
-def fill_edge(
-    distance: _Floats,
-    turn: _Single,
-    spread: _Floats,
-    side: _Single,
-    blur: _Floats,
-    box: _Single,
-    to: _Floats,
-    m: int,
-) -> None:
-    """Fill in ``compute_edge`` at turn * d + side * w: value, slope and derivative by the blur."""
-    if box == _ZERO:
-        for p in range(m):
-            s = _ONE / blur[p]
-            y = (turn * distance[p] + side * spread[p]) * s
-            x = y * _ROOT_HALF
-            bell = _bell(x)
-            slope = bell * _ROOT2_PI * s
-            to[p] = _erf(x, bell)
-            to[BLOCK + p] = slope
-            to[2 * BLOCK + p] = -y * slope
-        return
-    over = _HALF / box
-    for p in range(m):
-        s = blur[p]
-        d = turn * distance[p] + side * spread[p]
-        g = np.sqrt(max(s * s - box * box * _THIRD, _MIN_GAUSSIAN2))
-        narrow = _ROOT_HALF / g
-        a, b = (d + box) * narrow, (d - box) * narrow
-        bell_a, bell_b = _bell(a), _bell(b)
-        erf_a, erf_b = _erf(a, bell_a), _erf(b, bell_b)
-        fall = bell_a - bell_b
-        to[p] = (a * erf_a - b * erf_b + fall / _ROOT_PI) * (over / narrow)
-        to[BLOCK + p] = (erf_a - erf_b) * over
-        to[2 * BLOCK + p] = fall * (_ROOT2_PI * over * s / g)
 
 
 @compiled_part
@@ -353,9 +281,18 @@ def _fill_columns(
 
 
 @compiled_part
+def _fill_light_columns(w: _Floats, u: _Floats, v: _Floats, m: int) -> None:
+    """Fill the last rows J: derivatives by gm and ga."""
+    for p in range(m):
+        g = w[_J + 7 * BLOCK + p]
+        w[_J + 10 * BLOCK + p], w[_J + 11 * BLOCK + p] = u[p], v[p]
+        w[_J + 12 * BLOCK + p], w[_J + 13 * BLOCK + p] = u[p] * g, v[p] * g
+
+
+@compiled_part
 def _add_products(w: _Floats, m: int, out: Array) -> None:
-    """Add the products of the rows J to the lower triangle of out (10, 10)."""
-    for a in range(_COLUMNS):
+    """Add the products of the first rows J to the lower triangle of out (columns, columns)."""
+    for a in range(out.shape[0]):
         one = w[_J + a * BLOCK : _J + (a + 1) * BLOCK]
         for b in range(a + 1):
             other = w[_J + b * BLOCK : _J + (b + 1) * BLOCK]
@@ -377,8 +314,8 @@ def _add_corner(
     v: _Floats,
     out: Array,
 ) -> None:
-    """Add to out (10, 10) the products of one corner's pixels, and leave in grey the residuals;
-    near (33,) is laid out as `_pack_model` says."""
+    """Add to out (columns, columns) the products of one corner's pixels, and leave in grey the
+    residuals; near (33,) is laid out as `_pack_model` says."""
     t, n, kappa = near[0:4], near[4:8], near[8:10]
     blur, size, level, swing = near[10:16], near[16:22], near[22:25], near[25:28]
     rho, sign, growth, box = near[28], near[29], near[30], near[31:33]
@@ -392,10 +329,12 @@ def _add_corner(
         else:
             _fill_spread_crossing(w, rho, box, _ONE if growth > _ZERO else -_ONE, m)
         _fill_columns(w, u, v, grey[begin:], n, level, swing, sign, m)
+        if out.shape[0] > _COLUMNS:
+            _fill_light_columns(w, u, v, m)
         _add_products(w, m, out)
         for p in range(m):
             grey[begin + p] = w[_J + 9 * BLOCK + p]
-    for a in range(_COLUMNS):
+    for a in range(out.shape[0]):
         for b in range(a):
             out[b, a] = out[a, b]
 
@@ -434,7 +373,7 @@ def _accumulate(
     out: Array,
     odd: Array,
 ) -> None:
-    """Fill out (n, 10, 10) and, unless it is empty, odd (n, 2)."""
+    """Fill out (n, columns, columns) and, unless it is empty, odd (n, 2)."""
     offset, grey = np.empty((2, room), dtype=np.int32), np.empty(room, dtype=_F)
     w = np.empty(_ROWS * BLOCK, dtype=_F)
     u, v = np.empty(BLOCK, dtype=_F), np.empty(BLOCK, dtype=_F)
@@ -455,7 +394,8 @@ def accumulate_normal_equations(
     uv, centre = (np.ascontiguousarray(x.unknowns[:, 0:2]) for x in (read, model))
     bands, near = pack_support(read.find_support()), _pack_model(model)
     side = 2 * _bound_offsets(bands) + 1 if odd else 0
-    out, odd_part = np.zeros((n, _COLUMNS, _COLUMNS)), np.zeros((n if odd else 0, 2))
+    columns = _LIT_COLUMNS if odd else _COLUMNS
+    out, odd_part = np.zeros((n, columns, columns)), np.zeros((n if odd else 0, 2))
     square = np.full((side, side), np.nan, dtype=_F)
     room = _bound_pixels(bands)
     image = make_read_only(image)

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from calibgui.engine import kernels
-from calibgui.engine.detection.checkerboard import x_corner_fit
+from calibgui.engine.detection.checkerboard import x_corner_step
 from calibgui.engine.detection.checkerboard.x_corner_model import EdgeSupport
 from calibgui.engine.detection.find_corners import find_corners
 from tests.engine.kernels.conftest import make_callable
@@ -64,8 +64,8 @@ def test_the_same_step_of_the_unknowns() -> None:
     upright = [0.0, np.pi / 2]  # one difference of the blurs cannot be seen then
     for directions in (rng.uniform(-np.pi, np.pi, (n, 2)), np.tile(upright, (n, 1))):
         x[:, 2:4] = directions
-        arguments = x, products, 1e-9, 0.3, 0.03, 0.95, 0.3
-        step = x_corner_fit._step_unknowns
+        arguments = x, products, np.arange(10), 1e-9, 0.3, 0.03, 0.95, 0.3
+        step = x_corner_step._step_unknowns
         mine, its = step.kernel(*arguments), step.reference(*arguments)
         assert np.isfinite(mine[0]).all()
         for one, other in zip(mine, its, strict=True):

@@ -164,25 +164,29 @@ def test_a_lens_in_doubt_costs_no_corner() -> None:
         for k in np.flatnonzero((before.grid == place).all(axis=1))
     ]
     assert max(shift) < 0.02
-    # Believed in, that camera removes several of them.
+    # Believed in, that camera removes a corner.
     believed = replace(wrong, lens_error=0.0, board_shape_error=0.0)
     kept = redetect_corners(image, believed, SHAPE, before)
-    assert len(list_places(before) - list_places(kept)) >= 2
+    assert list_places(before) - list_places(kept)
 
 
-def test_what_the_fit_rejects_goes_although_the_lens_is_in_doubt() -> None:
+@pytest.mark.parametrize("seed", [1, 2])
+def test_a_hidden_corner_goes_or_is_unsure_although_the_lens_is_in_doubt(seed: int) -> None:
     wrong, pose = calibrate_wide_lens("brown-conrady-4")
-    image = render_view(WIDE, pose, BOARD, blur=0.7, noise=2.0, seed=1)
+    image = render_view(WIDE, pose, BOARD, blur=0.7, noise=2.0, seed=seed)
     before = find_corners(image, SHAPE)
     hidden = len(before) // 2
     v, u = np.indices(image.shape)
     off = np.hypot(u - before.uv[hidden, 0], v - before.uv[hidden, 1])
     image[off < 8] = 120
     after = redetect_corners(image, wrong, SHAPE, before)
-    lost = np.array(sorted(list_places(before) - list_places(after)))
+    lost = np.array(sorted(list_places(before) - list_places(after))).reshape(-1, 2)
     away = np.abs(lost - before.grid[hidden]).max(axis=1)
-    assert min(away) == 0
-    assert max(away) <= 1  # the disc hides ends of the neighbours' edges
+    assert max(away, default=0) <= 1  # the disc hides ends of the neighbours' edges
+    # The far ends of its edges may still place it, roughly.
+    kept = (after.grid == before.grid[hidden]).all(axis=1)
+    assert kept.any() or 0 in away
+    assert (np.sqrt(np.trace(after.cov[kept], axis1=1, axis2=2)) > 0.5).all()
 
 
 def test_the_camera_places_few_corners_of_bent_edges_better(calibration: Calibration) -> None:

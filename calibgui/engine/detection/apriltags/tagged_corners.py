@@ -76,7 +76,7 @@ def fit_tagged_corners(
         outermost = np.ones(lattice.shape, dtype=np.bool_)
         outermost[1:-1, 1:-1] = False
         fit = x_corner_fit.fit_x_corners(image, lattice, plain)
-        suspect = outermost[found] | verification.find_suspect_corners(fit)
+        suspect = outermost[found] | verification.find_suspect_corners(fit.residual)
         fit = fit_near(image, lattice, plain, fit, suspect)
         good = verification.find_described_corners(fit, lattice)
         if good.all():

@@ -131,6 +131,27 @@ class EdgeFitThresholds:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
+class LightThresholds:
+    """Thresholds of corners whose light is their own (`local_light`). The troubles "blinds",
+    "flicker" and "shadow" of `tests.benchmarks.corner_troubles` fixed them, and "video" and
+    "mosaic", whose corners gain nothing."""
+
+    min_gain: float = 8.0
+    """Least F of the light's gradients with which a corner has its own. Sums of many pixels make it
+    6 by chance at one of 20 corners of "video"; with 4 its errors grew by a fifth."""
+    min_relative_residual: float = 1.5
+    """Least residual of such a corner, over the board's median ..."""
+    min_median_share: float = 0.3
+    """... unless that share of the squares of the residuals, or more, is explained by gradients at
+    half of the corners."""
+    max_distance: float = 2.0
+    """Greatest square of the distance between a corner fitted to its whole edges and to their
+    nearer half, over the sum of the latter's variances."""
+    min_arm: float = 2.0
+    """Least length of a half, px; see `near_fit`."""
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
 class FitThresholds:
     """Every threshold from a lattice of corners to their fit, by its stage."""
 
@@ -139,6 +160,7 @@ class FitThresholds:
     profiles: ProfileThresholds = field(default_factory=ProfileThresholds)
     priors: PriorThresholds = field(default_factory=PriorThresholds)
     edges: EdgeFitThresholds = field(default_factory=EdgeFitThresholds)
+    light: LightThresholds = field(default_factory=LightThresholds)
 
 
 FIT_THRESHOLDS = FitThresholds()

@@ -55,7 +55,7 @@ def fit_undisturbed(grey: GreyImage, lattice: Lattice, plain: float) -> tuple[XC
     fit = replace_fits(fit, part, rest.found[lattice.found], np.ones(len(rest), np.bool_))
     off = verification.measure_displacements(fit.uv, lattice, undisturbed)
     # What the model describes near a corner is the corner, however paper or shutter bend the lines.
-    poor = verification.find_suspect_corners(fit)
+    poor = verification.find_suspect_corners(fit.residual)
     farthest = verification.limit_fit_shift(lattice.spacing()[lattice.found])
     off = np.where(poor, off, np.minimum(off, farthest))
     return fit, np.where(kept & ~poor, 0.0, off)
@@ -68,7 +68,8 @@ def _fit_corners(grey: GreyImage, lattice: Lattice, plain: float) -> tuple[XCorn
         The fit, and which corners (n,) left more unexplained than most at first.
     """
     fit = fit_x_corners(grey, lattice, bare_edge=plain)
-    suspect = verification.find_suspect_corners(fit)
+    # What covers a part of the squares would pass for light of a corner's own.
+    suspect = verification.find_suspect_corners(fit.board_residual)
     if plain > _NEAR and suspect.any():
         near = fit_near(grey, lattice, _NEAR, fit, suspect)
         better = near.residual < fit.residual

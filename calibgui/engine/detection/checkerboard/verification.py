@@ -278,10 +278,11 @@ def find_described_corners(
     )
 
 
-def find_suspect_corners(fit: XCornerFit) -> BoolArray:
-    """Find the corners (n,) that the edge model describes worse than most."""
+def find_suspect_corners(residual: Array) -> BoolArray:
+    """Find the corners (n,) that the edge model describes worse than most, by its `residual` (n,)
+    there."""
     limit = THRESHOLDS.verification.suspect_relative_residual
-    return np.asarray(fit.residual > limit * compute_median(fit.residual))
+    return np.asarray(residual > limit * compute_median(residual))
 
 
 def find_displaced_corners(fit: XCornerFit, lattice: Lattice, suspect: BoolArray) -> BoolArray:

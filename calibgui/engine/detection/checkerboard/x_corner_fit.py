@@ -31,17 +31,6 @@ that rises by l = grad L / L,
 for a blur h of variance s^2: its far side sends in more light, and the pattern seems to stand
 s^2 l farther into the dark. The corner is moved back, with l = ga / a, the relative gradient of
 contrast.
-
-**Blur.** What tells the blurs of a corner's two edges apart is mostly the camera's, and one corner
-would otherwise take up what the model leaves out. A camera's blur, and that of a motion, is one for
-the neighbourhood of every corner: with the covariance Sigma = s^2 I + D of its spread, D symmetric
-and free of trace, the edge with normal n_i is blurred by s_i^2 = s^2 + n_i^T D n_i. The size s
-varies with the focus over the board; the anisotropy D is taken to be one, and is the least-squares
-solution of
-
-    s_1^2 - s_2^2 = n_1^T D n_1 - n_2^T D n_2
-
-over all corners. The difference of a corner's blurs is held near it.
 """
 
 from __future__ import annotations
@@ -50,7 +39,6 @@ from dataclasses import dataclass, fields, replace
 
 import numpy as np
 
-from calibgui.engine import kernels
 from calibgui.engine.arrays import (
     Array,
     BoolArray,
@@ -65,6 +53,7 @@ from calibgui.engine.detection.checkerboard.edge_bend import ReadEdges, clip_arm
 from calibgui.engine.detection.checkerboard.edge_map import EdgeGeometry
 from calibgui.engine.detection.checkerboard.edge_profiles import EdgeProfiles
 from calibgui.engine.detection.checkerboard.fit_thresholds import FIT_THRESHOLDS
+from calibgui.engine.detection.checkerboard.local_light import find_uneven_light, fit_local_light
 from calibgui.engine.detection.checkerboard.x_corner_model import (
     BLUR,
     MIN_BLUR,
@@ -76,14 +65,12 @@ from calibgui.engine.detection.checkerboard.x_corner_model import (
     M,
     XCornerModel,
     accumulate_normal_equations,
-    compute_normals,
 )
+from calibgui.engine.detection.checkerboard.x_corner_step import take_step
 from calibgui.engine.detection.detector_io import estimate_least_noise
 from calibgui.engine.detection.lattice import Lattice
 
 _THRESHOLDS = FIT_THRESHOLDS.edges
-_DAMPING = 1e-9
-"""What is added to the diagonal of the normal equations, over its largest entry."""
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -95,6 +82,8 @@ class XCornerFit:
     """(n, 2, 2) of c, px^2."""
     residual: Array
     """(n,) standard deviation of what the model leaves unexplained, grey levels."""
+    board_residual: Array
+    """(n,) what it leaves with the light of the whole board at all corners."""
 
     @property
     def uv(self) -> Array:
@@ -140,7 +129,10 @@ def replace_fits(
         **{name: choose(getattr(fit.model, name), getattr(other.model, name)) for name in names}
     )
     return XCornerFit(
-        model, choose(fit.covariance, other.covariance), choose(fit.residual, other.residual)
+        model,
+        choose(fit.covariance, other.covariance),
+        choose(fit.residual, other.residual),
+        choose(fit.board_residual, other.board_residual),
     )
 
 
@@ -171,26 +163,51 @@ def fit_x_corners(
     arm = model.arm
     is_large = bool((arm > _THRESHOLDS.max_near_arm).any())
     for is_next_large in (False, is_large):
-        near = replace(model, arm=np.minimum(arm, _THRESHOLDS.max_near_arm))
-        products, _ = accumulate_normal_equations(image, near, near, odd=False)
-        near = _take_step(near, products)[0]
+        near = _approach(image, model)
         followed = board.follow_edges(_list_edges(near)) if is_next_large else None
         model = _update_priors(near, board, arm, followed)
     products, odd_part = accumulate_normal_equations(image, model, model, odd=True)
-    model, inverse, square = _take_step(model, products)
-    noise = np.maximum(_estimate_noise(square, odd_part), estimate_least_noise(image))
+    before = model
+    model, inverse, square = take_step(before, products)
+    least_noise = estimate_least_noise(image)
+    uneven = np.zeros(len(square), np.bool_)
+    if (
+        priors is None and min(plain, bare_edge) == 0.5
+    ):  # what is printed looks like light where it is blurred
+        uneven = find_uneven_light(before, products, square, least_noise)
+    noise = np.maximum(_estimate_noise(square, odd_part), least_noise)
     covariance = noise[:, None, None] * inverse
+    by_bend = np.zeros_like(covariance)
     if is_large:
         edges = _list_edges(model, image.shape[::-1])
         followed = board.follow_edges(edges)
         better = _update_priors(model, board, arm, followed)
         bend = followed.bend - edges.measure_bend(edges.curvature)
         model = _correct_for_priors(model, inverse, better, edges, bend)
-        covariance = covariance + _compute_bend_covariance(model, followed.variance)
+        by_bend = _compute_bend_covariance(model, followed.variance)
         light = board.estimate_gradient_covariance(followed.steps, model.unknowns[M])
-        covariance += _compute_light_covariance(model, inverse, edges, light)
-    model = _correct_for_light(model)
-    return XCornerFit(model, covariance, np.sqrt(square))
+        covariance = covariance + _compute_light_covariance(model, inverse, edges, light)
+    residual = np.sqrt(square)
+    fit = XCornerFit(_correct_for_light(model), covariance + by_bend, residual, residual)
+    if not uneven.any():
+        return fit
+    lit, covariance, lit_square = fit_local_light(
+        image, fit.model.select(np.flatnonzero(uneven)), float(square.min())
+    )
+    other = XCornerFit(
+        _correct_for_light(lit),
+        covariance + by_bend[uneven],
+        np.sqrt(lit_square),
+        residual[uneven],
+    )
+    return replace_fits(fit, other, uneven, np.ones(len(lit_square), np.bool_))
+
+
+def _approach(image: GreyImage, model: XCornerModel) -> XCornerModel:
+    """Return the model after a step from what is near the corners."""
+    near = replace(model, arm=np.minimum(model.arm, _THRESHOLDS.max_near_arm))
+    products, _ = accumulate_normal_equations(image, near, near, odd=False)
+    return take_step(near, products)[0]
 
 
 def _estimate_start(
@@ -330,72 +347,6 @@ def _compute_heights(steps: Array) -> Array:
     return np.asarray(abs(a * d - b * c)[:, None] / compute_lengths(steps))
 
 
-def _take_step(model: XCornerModel, products: Array) -> tuple[XCornerModel, Array, Array]:
-    """Take one Gauss-Newton step.
-
-    Returns:
-        The model after it, the part (n, 2, 2) of the equations' inverse for c, and the mean square
-        (n,) of what is left unexplained.
-    """
-    unknowns, inverse, square = _step_unknowns(
-        model.unknowns,
-        products,
-        _DAMPING,
-        _THRESHOLDS.rho_sigma,
-        _THRESHOLDS.blur_difference_sigma,
-        _THRESHOLDS.max_rho,
-        MIN_BLUR,
-    )
-    return replace(model, unknowns=unknowns), inverse, square
-
-
-@kernels.with_kernel("x_corner_fit", "step_unknowns")
-def _step_unknowns(
-    unknowns: Array,
-    products: Array,
-    damping: float,
-    rho_sigma: float,
-    blur_difference_sigma: float,
-    max_rho: float,
-    min_blur: float,
-) -> tuple[Array, Array, Array]:
-    """Take one Gauss-Newton step from the `unknowns` (n, 9).
-
-    Args:
-        unknowns: of every corner.
-        products: (n, 10, 10) of the columns [J r].
-        damping: what is added to the diagonal of the equations, over its largest entry.
-        rho_sigma: standard deviation of rho around that of an isotropic blur.
-        blur_difference_sigma: standard deviation of the blurs' difference around what the board
-            shows, blurs.
-        max_rho: largest rho.
-        min_blur: least blur, px.
-
-    Returns:
-        The unknowns (n, 9) after it, the part (n, 2, 2) of the equations' inverse for c, and the
-        mean square (n,) of what is left unexplained.
-    """
-    N, g = products[:, :UNKNOWNS, :UNKNOWNS].copy(), products[:, :UNKNOWNS, UNKNOWNS].copy()
-    squares, count = products[:, UNKNOWNS, UNKNOWNS], N[:, 6, 6]  # the derivative by m is 1
-    normals, blurs = compute_normals(unknowns[THETA]), unknowns[BLUR]
-    # In a sharp image few pixels depend on rho: it stays near that of an isotropic blur.
-    weight = squares / count / rho_sigma**2
-    N[:, 8, 8] += weight
-    g[:, 8] += weight * (np.sum(normals[:, 0] * normals[:, 1], axis=1) - unknowns[RHO])
-    difference = np.array([1.0, -1.0])  # by the blurs
-    variance = blur_difference_sigma**2 * np.mean(blurs**2, axis=1)
-    weight = compute_median(squares / count) / variance
-    N[:, 4:6, 4:6] += weight[:, None, None] * np.outer(difference, difference)
-    lack = estimate_blur_difference(normals, blurs) - blurs @ difference
-    g[BLUR] += (weight * lack)[:, None] * difference
-
-    largest = np.einsum("nkk->nk", N).max(axis=1) + 1e-300
-    inverse = np.linalg.inv(N + damping * largest[:, None, None] * np.eye(UNKNOWNS))
-    step = np.einsum("nij,nj->ni", inverse, g)
-    square = np.maximum(squares - np.sum(step * g, axis=1), 0.0) / np.maximum(count - UNKNOWNS, 1)
-    return unknowns + _limit_step(step, unknowns, max_rho, min_blur), inverse[:, :2, :2], square
-
-
 def _correct_for_priors(
     model: XCornerModel, inverse: Array, better: XCornerModel, edges: ReadEdges, bend: Array
 ) -> XCornerModel:
@@ -439,30 +390,3 @@ def _estimate_noise(square: Array, odd_part: Array) -> Array:
     enough = pairs > _THRESHOLDS.min_opposite_pixels
     noise = np.where(enough, total / np.maximum(pairs - 2, 1), square)
     return square if compute_median(noise) > compute_median(square) else noise
-
-
-def _limit_step(step: Array, x: Array, max_rho: float, min_blur: float) -> Array:
-    """Limit a Gauss-Newton step (n, 9) from `x` (n, 9) to where the linear model may hold."""
-    limited = np.array(step)
-    limited[C] = np.clip(step[C], -1.0, 1.0)
-    limited[THETA] = np.clip(step[THETA], -0.1, 0.1)
-    s, rho = x[BLUR], x[RHO]
-    limited[BLUR] = np.clip(step[BLUR], np.maximum(-s / 3, min_blur - s), s / 2)
-    limited[RHO] = np.clip(step[RHO], -max_rho - rho, max_rho - rho)
-    return limited
-
-
-def estimate_blur_difference(normals: Array, blurs: Array) -> Array:
-    """Estimate the difference s_1 - s_2 (n,) px that one anisotropy gives the corners of a board.
-
-    Args:
-        normals: (n, 2, 2) unit normals n_1, n_2 of the edges.
-        blurs: (n, 2) s_1, s_2 as they were measured, px.
-    """
-    x, y = np.moveaxis(normals, -1, 0)
-    # n^T D n = D_uu (x^2 - y^2) + 2 D_uv x y
-    by_edge = np.stack([x**2 - y**2, 2 * x * y], axis=-1)
-    by_corner = by_edge[:, 0] - by_edge[:, 1]
-    squares = blurs[:, 0] ** 2 - blurs[:, 1] ** 2
-    D = np.linalg.lstsq(by_corner, squares)[0]
-    return np.asarray(by_corner @ D / blurs.sum(axis=1))

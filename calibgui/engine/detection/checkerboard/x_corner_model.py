@@ -239,21 +239,23 @@ def accumulate_normal_equations(
         image: (h, w) grey levels.
         read: the model whose support is read, near `model`.
         model: the model.
-        odd: whether the odd part of r is wanted too.
+        odd: whether the odd part of r is wanted too, and the columns of the derivatives by gm and
+            ga, which follow r.
 
     Returns:
-        (n, 10, 10) the products of each corner, and (n, 2) the sum of (r(q) - r(-q))^2 / 2 over
-        pairs of pixels and their number, or (0, 2).
+        (n, 10, 10), or (n, 14, 14), the products of each corner, and (n, 2) the sum of
+        (r(q) - r(-q))^2 / 2 over pairs of pixels and their number, or (0, 2).
     """
-    n = len(model.unknowns)
-    N, differences = np.empty((n, UNKNOWNS + 1, UNKNOWNS + 1)), np.empty((n if odd else 0, 2))
+    n, columns = len(model.unknowns), UNKNOWNS + (5 if odd else 1)
+    N, differences = np.empty((n, columns, columns)), np.empty((n if odd else 0, 2))
     for index in _divide_corners(read):
         portion = model.select(index)
         window = _Window(*read.select(index).find_support().read(image))
         J = _compute_columns(portion, window)
-        N[index] = J @ J.transpose(0, 2, 1)
         if odd:
             differences[index] = _measure_odd_part(portion.unknowns[C], window, J[:, UNKNOWNS])
+            J = np.concatenate([J, _compute_light_columns(portion, window, J)], axis=1)
+        N[index] = J @ J.transpose(0, 2, 1)
     return N, differences
 
 
@@ -295,6 +297,12 @@ def _compute_columns(model: XCornerModel, window: _Window) -> Floats:
     J[:, 8] = swing * G.by_correlation
     J[:, 9] = residual
     return J
+
+
+def _compute_light_columns(model: XCornerModel, window: _Window, columns: Floats) -> Floats:
+    """Compute the derivatives (k, 4, P) of the model by gm and ga, from the other `columns`."""
+    q = (window.pixels - model.unknowns[C][:, None]).astype(np.float32).transpose(0, 2, 1)
+    return np.concatenate([q * columns[:, 6:7], q * columns[:, 7:8]], axis=1)
 
 
 def _measure_odd_part(centre: Array, window: _Window, residual: Floats) -> Array:

@@ -8,7 +8,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from calibgui.engine.arrays import Array
-from calibgui.engine.detection.checkerboard.x_corner_fit import estimate_blur_difference
+from calibgui.engine.detection.checkerboard.x_corner_step import estimate_blur_difference
 
 angles = st.floats(-np.pi, np.pi)
 

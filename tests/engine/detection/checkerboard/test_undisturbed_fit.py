@@ -48,7 +48,7 @@ def test_what_covers_a_part_of_the_squares_costs_no_corner(name: str, seed: int)
 
 def test_the_edge_of_a_shadow_widens_the_covariance() -> None:
     """A corner that it draws aside is kept, and says so."""
-    photograph = TROUBLES["shadow"](2000)
+    photograph = TROUBLES["shadow"](2005)
     corners = find_corners(photograph.image)
     assert corners.complete
     assert corners.cov is not None

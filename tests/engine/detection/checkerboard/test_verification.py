@@ -420,7 +420,7 @@ class TestDisplacedCorners:
         uv[K] += (shift, 0.0)
         residuals[[0, K]] = 2.6, residual
         fit = pretend_fit(lattice, uv=uv, residual=residuals)
-        suspect = verification.find_suspect_corners(fit)
+        suspect = verification.find_suspect_corners(fit.residual)
         found = verification.find_displaced_corners(fit, lattice, suspect)
         np.testing.assert_array_equal(np.flatnonzero(found), [K] * displaced)
 
@@ -434,7 +434,7 @@ class TestDisplacedCorners:
         uv[:, 0] += 0.05 * np.where((row // 2 + col) % 2, 1, -1)
         uv[k] = lattice.uv[5, 7] + (0.0, 0.05 * shift)
         fit = pretend_fit(lattice, uv=uv, residual=(k, 2.6))
-        suspect = verification.find_suspect_corners(fit)
+        suspect = verification.find_suspect_corners(fit.residual)
         found = verification.find_displaced_corners(fit, lattice, suspect)
         np.testing.assert_array_equal(np.flatnonzero(found), [k] * displaced)
 

@@ -1,10 +1,10 @@
-"""The step of a fit of crossing edges, compiled: see ``detection.checkerboard.x_corner_fit``."""
+"""The step of a fit of crossing edges, compiled: see ``detection.checkerboard.x_corner_step``."""
 
 from __future__ import annotations
 
 import numpy as np
 
-from calibgui.engine.arrays import Array, compute_median
+from calibgui.engine.arrays import Array, IntArray, compute_median
 from calibgui.engine.kernels.common import (
     compiled,
     compiled_part,
@@ -65,6 +65,7 @@ def _limit(step: float, least: float, most: float) -> float:
 def _step(
     x: Array,
     products: Array,
+    order: IntArray,
     typical: float,
     damping: float,
     rho_sigma: float,
@@ -75,7 +76,7 @@ def _step(
     inverse: Array,
     square: Array,
 ) -> None:
-    """Fill stepped (n, 9), inverse (n, 2, 2) and square (n,); typical is the median of the mean
+    """Fill stepped (n, m), inverse (n, 2, 2) and square (n,); typical is the median of the mean
     squares of the residuals."""
     m = x.shape[1]
     L, g, step, unit = np.empty((m, m)), np.empty(m), np.empty(m), np.empty(m)
@@ -83,10 +84,10 @@ def _step(
     _fill_blur_difference(x, expected)
     for i in range(x.shape[0]):
         for j in range(m):
-            g[j] = products[i, j, m]
+            g[j] = products[i, order[j], order[m]]
             for k in range(m):
-                L[j, k] = products[i, j, k]
-        total, count = products[i, m, m], products[i, 6, 6]
+                L[j, k] = products[i, order[j], order[k]]
+        total, count = products[i, order[m], order[m]], products[i, 6, 6]
         s1, s2, rho = x[i, 4], x[i, 5], x[i, 8]
         weight = total / count / rho_sigma**2
         L[8, 8] += weight
@@ -125,6 +126,7 @@ def _step(
 def step_unknowns(
     unknowns: Array,
     products: Array,
+    order: IntArray,
     damping: float,
     rho_sigma: float,
     blur_difference_sigma: float,
@@ -133,12 +135,13 @@ def step_unknowns(
 ) -> tuple[Array, Array, Array]:
     """Compute ``_step_unknowns`` of the reference."""
     n, m = unknowns.shape
-    typical = float(compute_median(products[:, m, m] / products[:, 6, 6]))
+    typical = float(compute_median(products[:, order[m], order[m]] / products[:, 6, 6]))
     limits = damping, rho_sigma, blur_difference_sigma, max_rho, min_blur
     stepped, inverse, square = np.empty((n, m)), np.empty((n, 2, 2)), np.empty(n)
     _step(
         make_contiguous(unknowns),
         make_contiguous(products),
+        order,
         typical,
         *limits,
         stepped,
