@@ -35,9 +35,8 @@ from calibgui.gui.images.image_model import Criterion, ImageModel, Role
 from calibgui.gui.session.session import Session
 from calibgui.gui.widgets import theme
 from calibgui.gui.widgets.actions import enable_action, make_action
+from calibgui.gui.widgets.number_box import fit_width
 
-_ARROWS = 32
-"""Width of a number's arrows and frame, px."""
 Index = QModelIndex | QPersistentModelIndex
 
 
@@ -134,8 +133,7 @@ class FilmStrip(QWidget):
         self.threshold.setAccessibleName(self.tr("Threshold"))
         self.threshold.setStepType(QDoubleSpinBox.StepType.AdaptiveDecimalStepType)
         self.threshold.setMaximum(1e6)
-        room = self.threshold.fontMetrics().horizontalAdvance(self.tr("Threshold 100.000 px"))
-        self.threshold.setFixedWidth(room + _ARROWS)
+        fit_width(self.threshold, self.tr("Threshold 100.000 px"))
         self.threshold.setToolTip(
             self.tr(
                 "Images whose RMS residual is larger are selected. Drag the line across the bars "

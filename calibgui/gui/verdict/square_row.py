@@ -9,12 +9,8 @@ from calibgui.app.project import Project, confirm_lengths, set_square
 from calibgui.dataset import ViewStatus
 from calibgui.gui.session.session import Session
 from calibgui.gui.widgets import theme
+from calibgui.gui.widgets.number_box import fit_width
 from calibgui.gui.widgets.wrapped_label import WrappedLabel
-
-_LONGEST = "100000.00 mm"
-"""A length for which the box has room."""
-_ARROWS = 32
-"""Width of its arrows and frame, device-independent px."""
 
 
 class SquareRow(QWidget):
@@ -29,7 +25,7 @@ class SquareRow(QWidget):
         self.counted = WrappedLabel()
         self.side = QLabel(self.tr("Side of a square:"))
         self.square = QDoubleSpinBox(decimals=3, minimum=0.001, maximum=100_000.0)
-        self.square.setFixedWidth(self.square.fontMetrics().horizontalAdvance(_LONGEST) + _ARROWS)
+        fit_width(self.square, "100000.00 mm")
         self.square.setAccessibleName(self.tr("Side of a square"))
         self.square.setToolTip(
             self.tr(

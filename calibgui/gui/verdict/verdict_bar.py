@@ -47,8 +47,6 @@ _PROOFS = {
 _OTHER_PROOF = "ResidualsPanel"
 _PLACES = "CoveragePanel"
 """The panel that shows where to hold the board."""
-
-
 _WIDE = 640
 """Width from which the buttons stand beside the words, device-independent px."""
 _LINES_OF_REASON, _LINES_OF_FIGURES = 2, 3
