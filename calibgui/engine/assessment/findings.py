@@ -177,9 +177,9 @@ def _find(
         return
     if calibration.diagnosis is not None:  # it names its cause itself
         return
-    wrong = list(find_wrong_values(calibration, views))
-    yield from wrong
-    if wrong:
+    wrong = find_wrong_values(calibration, views)
+    if wrong is not None:
+        yield wrong
         return
     case = prepare_case(calibration, views, names)
     open_coefficients = _find_open_coefficients(case)

@@ -10,7 +10,7 @@ is sqrt(d^2 + s'^2), of which d^2 is what they add.
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
@@ -113,43 +113,54 @@ def _measure_excess(uv: Array, camera: Camera) -> float:
     return float(np.max(np.maximum(-0.5 - uv, uv - np.array(camera.size) + 0.5)))
 
 
-def find_wrong_values(calibration: Calibration, views: Sequence[Observation]) -> Iterator[Finding]:
-    """Find parameters that the user holds at values that the views contradict.
+def find_wrong_values(calibration: Calibration, views: Sequence[Observation]) -> Finding | None:
+    """Find the parameters that the user holds at values that the views contradict.
 
-    All such parameters are freed; one is at fault if it moves by many of its standard deviations,
-    which include what board and views may do, and if that moves the camera's pixels.
+    All that are held by choice are freed; those are at fault that move by many of their standard
+    deviations, which include what board and views may do, if that moves the camera's pixels. One
+    finding frees them all: each alone may bring little as long as the others are held.
     """
     camera = calibration.camera
     usual = find_model(camera.model).held
     by_choice = [name for name in calibration.fixed if name not in usual]
     if not by_choice or calibration.settings.get("method"):
-        return
+        return None
     settings = _recover_plain_settings(calibration)
     settings["fix"] = {n: v for n, v in settings["fix"].items() if n not in by_choice}
     settings["free"] = [*settings["free"], *by_choice]
     try:
         free = calibrate(views, camera.size, **settings)
     except CalibrationError:  # that is why it is held
-        return
+        return None
     harm = _measure_harm(camera, free.camera, views)
     if harm < MIN_HARM_PX:
-        return
-    before, after = (summarise_residuals(c.residuals).rms for c in (calibration, free))
+        return None
+    wrong, values = [], []
     for name in by_choice:
         i = camera.names.index(name)
-        moved = free.camera.params[i] - camera.params[i]
-        sigmas = abs(moved) / free.sigma[i] if free.sigma[i] > 0 else 0.0
+        held, found = camera.params[i], free.camera.params[i]
+        sigmas = abs(found - held) / free.sigma[i] if free.sigma[i] > 0 else 0.0
         if sigmas > _MIN_SIGMAS_MOVED:
-            yield Finding(
-                Cause.HELD_VALUE,
-                f"The views contradict the value at which {name} is held.",
-                f"Held at {camera.params[i]:.6g}, it leaves {before:.3g} px RMS; free it is "
-                f"{free.camera.params[i]:.6g}, {sigmas:.0f} of its standard deviations from there, "
-                f"{after:.3g} px are left; {describe_harm(harm)}.",
-                f"Free {name}, or check where its value comes from.",
-                harm,
-                action=Action(ActionKind.FREE_HELD_VALUE, parameters=(name,)),
+            wrong.append(name)
+            values.append(
+                f"{name} is held at {held:.6g}; free it is {found:.6g}, {sigmas:.0f} of its "
+                "standard deviations from there."
             )
+    if not wrong:
+        return None
+    before, after = (summarise_residuals(c.residuals).rms for c in (calibration, free))
+    listed = ", ".join(wrong)
+    one = len(wrong) == 1
+    return Finding(
+        Cause.HELD_VALUE,
+        f"The views contradict the {'value' if one else 'values'} at which {listed} "
+        f"{'is' if one else 'are'} held.",
+        f"{' '.join(values)} That leaves residuals of {before:.3g} px instead of {after:.3g}; "
+        f"{describe_harm(harm)}.",
+        f"Free {listed}, or check where {'its value comes' if one else 'their values come'} from.",
+        harm,
+        action=Action(ActionKind.FREE_HELD_VALUE, parameters=tuple(wrong)),
+    )
 
 
 def _recover_plain_settings(calibration: Calibration) -> dict[str, Any]:

@@ -11,6 +11,7 @@ from calibgui.engine.assessment.comparison import compare_cameras
 from calibgui.engine.assessment.finding import Cause, Finding
 from calibgui.engine.assessment.findings import list_findings
 from calibgui.engine.assessment.input_errors import find_wrong_frame, screen_misplaced_corners
+from calibgui.engine.assessment.verdict import try_action
 from calibgui.engine.boards.board import Board
 from calibgui.engine.calibration.calibrate import calibrate
 from calibgui.engine.calibration.observations import Observation
@@ -125,6 +126,18 @@ def test_a_held_value_is_named_and_freed() -> None:
     assert "fx" in finding.message
     assert "650" in finding.evidence
     assert found(CLEAN, fix={"fx": 650.0}) == ()
+
+
+def test_values_that_are_held_wrongly_together_are_freed_together() -> None:
+    fixed = {"cx": 330.0, "cy": 220.0, "k3": -0.04}
+    calibration = calibrate(CLEAN, VGA, fix=fixed)
+    (finding,) = list_findings(calibration, CLEAN)
+    assert finding.cause is Cause.HELD_VALUE
+    assert finding.message == "The views contradict the values at which cx, cy are held."
+    assert finding.action is not None and finding.action.parameters == ("cx", "cy")
+    trial = try_action(finding.action, calibration, CLEAN)
+    assert trial is not None and "k3" in trial.calibration.fixed
+    assert list_findings(trial.calibration, CLEAN) == ()
 
 
 def test_harm_of_a_held_value_is_the_error_where_there_are_corners() -> None:
