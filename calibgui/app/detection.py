@@ -2,8 +2,9 @@
 
 A failure with one image is recorded in its view and does not stop the search. One camera has one
 image size, and its photographs are all turned alike (``sensor_frame.py``). If the grid size of
-the board is not given, the most frequent one among completely seen boards is taken, and images in
-which another size was found are searched again. Unknown properties of a pattern, such as the
+the board is not given, the most frequent one among completely seen boards is taken, or that of a
+part which several photographs share, and images in which another size was found are searched again.
+Unknown properties of a pattern, such as the
 dictionary of its markers, are inferred in the same way.
 """
 
@@ -27,6 +28,10 @@ from calibgui.engine.detection import METHODS, Corners, find_corners
 from calibgui.engine.errors import CalibrationError, NoBoardError
 from calibgui.engine.images import Image, read_image
 
+_MIN_PARTS = 3
+"""Number of photographs in which the largest part of a board has one size, from which it counts as
+the board: something covers some corners in each of them. Parts that the image cuts, or that end
+where something begins, are of many sizes."""
 Progress = Callable[[int, int, View], None]
 """Function that is called with the number of finished images, of all images, and the last view."""
 
@@ -48,9 +53,11 @@ class Detection:
     size: Size | None
     """Width and height of the images, px; None if none could be read."""
     grid_size: GridSize | None
-    """Rows and columns, given or most frequent; None if no board was seen completely."""
+    """Rows and columns, given or inferred; None if the photographs do not tell them."""
     pattern: Pattern = CHECKERBOARD
     """The given pattern, completed from the images."""
+    remark: str = ""
+    """What the user should know of how the size was inferred, a sentence; mostly empty."""
 
     def corner_set(self, square: float) -> CornerSet:
         """Return the views for a calibration, on a board of squares of side `square` mm.
@@ -128,13 +135,16 @@ def find_views(
 
     readable = [k for k, view in enumerate(views) if view.status is ViewStatus.WAITING]
     search(readable, grid_size)
-    if grid_size is None and (grid_size := infer_grid_size(views)) is not None:
-        pattern = infer_pattern(views, pattern)
+    seen = None if grid_size else infer_grid_size(views)
+    shared = None if grid_size or seen else _find_shared_part(views)
+    if (inferred := seen or shared) is not None:
+        grid_size, pattern = inferred, infer_pattern(views, pattern)
         again = [
-            k for k, view in enumerate(views) if _is_worth_searching_again(view, grid_size, pattern)
+            k for k, view in enumerate(views) if _is_worth_searching_again(view, inferred, pattern)
         ]
-        search(again, grid_size, before=len(readable))
-    return Detection(tuple(views), size, grid_size, infer_pattern(views, pattern))
+        search(again, inferred, before=len(readable))
+    remark = "" if shared is None else _describe_shared_part(shared)
+    return Detection(tuple(views), size, grid_size, infer_pattern(views, pattern), remark)
 
 
 def search_view(
@@ -190,6 +200,22 @@ def measure_largest_part(found: Sequence[Corners]) -> GridSize | None:
     """Return the most rows and columns seen in parts of a board; None if there are no parts."""
     rows, cols = (max((corners.shape[i] for corners in found), default=0) for i in (0, 1))
     return (rows, cols) if rows and cols else None
+
+
+def _find_shared_part(views: Iterable[View]) -> GridSize | None:
+    """Return the size of the largest part of a board, if many photographs show just that much."""
+    parts = [view.corners for view in views if view.corners is not None]
+    largest = measure_largest_part(parts)
+    shared = sum(corners.shape == largest for corners in parts)
+    return largest if shared >= _MIN_PARTS else None
+
+
+def _describe_shared_part(size: GridSize) -> str:
+    counted = f"{size[0]} x {size[1]}"
+    return (
+        f"No picture shows every corner of the board. It counts as {counted}, the largest part "
+        "seen, which several pictures share; state its size if it has more."
+    )
 
 
 def infer_pattern(views: Iterable[View], stated: Pattern) -> Pattern:

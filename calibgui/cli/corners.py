@@ -90,6 +90,8 @@ def read_or_search(
     corner_set = detection.corner_set(side)
     if words := describe_recognised_board(pattern, corner_set.board):
         console.print_text(words + "\n")
+    if detection.remark:
+        console.print_text(detection.remark + "\n")
     return _exclude_images(corner_set, options.exclude)
 
 

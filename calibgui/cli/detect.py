@@ -67,6 +67,8 @@ def run(options: argparse.Namespace, console: Console) -> None:
     )
     if words := describe_recognised_board(pattern, corner_set.board):
         console.print_text(tables.format_bullet(words))
+    if detection.remark:
+        console.print_text(tables.format_bullet(detection.remark))
     if options.output:
         write_corners(corner_set, options.output)
         console.print_text(f"\nWrote {options.output}.")

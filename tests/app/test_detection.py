@@ -153,6 +153,30 @@ def test_a_partly_seen_board_is_counted_on_the_usual_one(photographs: Path, tmp_
     assert view.corners.shape == (6, 7) and not view.corners.complete
 
 
+@pytest.mark.parametrize(("count", "grid_size"), [(3, (6, 7)), (2, None)])
+def test_a_part_that_many_pictures_share_counts_as_the_board(
+    count: int, grid_size: tuple[int, int] | None, photographs: Path, tmp_path: Path
+) -> None:
+    """A grey patch covers a corner in the middle of each."""
+    middle = BOARD.points().reshape(BOARD.rows, BOARD.cols, -1)[2, 3]
+    for k, pose in enumerate(draw_poses()[:count]):
+        pixels = read_image(photographs / f"view{k + 1}.png").pixels.copy()
+        u, v = np.rint(project_points(middle[None], CAMERA, pose)[0]).astype(int)
+        pixels[v - 9 : v + 10, u - 9 : u + 10] = 120
+        write_image(tmp_path / f"view{k}.png", pixels)
+    with workers.do_tasks_here():
+        found = find_views(find_images([str(tmp_path)]))
+    parts = [view.corners for view in found.views if view.corners is not None]
+    assert len(parts) == count and not any(corners.complete for corners in parts)
+    assert found.grid_size == grid_size
+    assert found.remark == (
+        "No picture shows every corner of the board. It counts as 6 x 7, the largest part seen, "
+        "which several pictures share; state its size if it has more."
+        if grid_size
+        else ""
+    )
+
+
 def test_a_crash_is_the_images_own(photographs: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     def spread(_: object, items: list[View], *__: object) -> list[tuple[int, object]]:
         return [(k, workers.Crashed()) for k in range(len(items))]

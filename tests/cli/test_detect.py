@@ -4,11 +4,16 @@ from __future__ import annotations
 
 import json
 import shutil
+from dataclasses import replace
 from pathlib import Path
+from types import ModuleType
 
 import numpy as np
 import pytest
 
+from calibgui.app.detection import Detection
+from calibgui.cli import corners, detect
+from calibgui.cli.arguments import search_images
 from calibgui.cli.main import main
 from calibgui.engine.boards.board import Board
 from calibgui.engine.boards.charuco import Charuco
@@ -39,6 +44,19 @@ def test_without_a_square_it_says_what_to_do(
     file = tmp_path / "corners.json"
     assert main(["detect", str(photographs), "-o", str(file)]) == 0
     assert "give --square when calibrating" in capsys.readouterr().out
+
+
+@pytest.mark.parametrize("module", [corners, detect])
+def test_how_the_size_was_counted_is_said(
+    module: ModuleType, photographs: Path, monkeypatch: pytest.MonkeyPatch, capsys: Capture
+) -> None:
+    def search(*args: object) -> Detection:
+        return replace(search_images(*args), remark="Counted so.")  # type: ignore[arg-type]
+
+    monkeypatch.setattr(module, "search_images", search)
+    command = "detect" if module is detect else "calibrate"
+    assert main([command, str(photographs), "--square", "30"]) == 0
+    assert "Counted so." in capsys.readouterr().out
 
 
 def test_of_a_folder_of_folders_those_with_images_are_named(

@@ -174,6 +174,8 @@ class Detector(QObject):
 
     def _done(self, detection: Detection) -> None:
         self._learn(detection.views)
+        if detection.remark:
+            self._session.notified.emit(detection.remark)
         if detection.size is not None:
             self._session.document.learn(
                 lambda p: replace(p, size=detection.size) if p.views and p.size is None else p
