@@ -73,7 +73,10 @@ MIN_TIMES_BETTER = 1.5
 """Ratio by which a remedy must make the error smaller to be worth the headline. A choice, which no
 benchmark fixed."""
 _MIN_GAIN = 1.1
-"""Ratio by which an estimated shape or another lens must make the error smaller to be offered."""
+"""Ratio by which an estimated shape, another lens or weights must make the error smaller to be
+offered."""
+_REMEDY_OF_BLUR = "Take these again, sharp and in good light: to weigh them less brings little."
+"""What helps against unequal noise where the camera does not gain by weights."""
 _MIN_VIEWS_TO_USE, _MIN_VIEWS_TO_BE_GOOD = 3, 5
 """Number of views below which a calibration is not usable, and not good, however small its error is
 said to be: too few are left to find out that it is wrong."""
@@ -189,6 +192,9 @@ def judge_calibration(
                 continue
             if times < _MIN_GAIN:
                 continue
+        is_weighed = trial.action.kind is ActionKind.WEIGH_VIEWS
+        if is_weighed and times < _MIN_GAIN and _is_small(finding.harm, before[covered]):
+            continue
         errors.append(before)
         tried.append(_state_gain(finding, trial, times))
     error = np.fmax.reduce(errors) if errors else _map_uncertainty(calibration, views)
@@ -311,13 +317,22 @@ def _ask_for_photographs(finding: Finding) -> Finding:
 def _state_gain(finding: Finding, trial: Trial, times: float) -> Finding:
     """Return the finding with what its action brings.
 
-    A lens that no other model follows better has no remedy. What is left out, or weighed less,
-    remains wrong even where the camera does not gain by it.
+    A lens that no other model follows better has no remedy; photographs whose weights change
+    nothing can be taken again. What is left out remains wrong even where the camera does not gain
+    by it.
     """
-    action: Action | None = trial.action
+    found = replace(finding, action=trial.action, times_better=times)
     if times < _MIN_GAIN and trial.action.kind is ActionKind.CHOOSE_LENS_MODEL:
-        action = None
-    return replace(finding, action=action, times_better=times)
+        return replace(found, action=None)
+    if times < _MIN_GAIN and trial.action.kind is ActionKind.WEIGH_VIEWS:
+        return replace(found, action=None, remedy=_REMEDY_OF_BLUR)
+    return found
+
+
+def _is_small(harm: float, error: Array) -> bool:
+    """Return whether errors, px, would hardly be smaller without a harm, px rms."""
+    rms = _compute_rms(error)
+    return float(np.hypot(harm, rms / _MIN_GAIN)) < rms
 
 
 def _compare_with_trial(

@@ -59,6 +59,22 @@ def test_a_clean_set_is_good_and_its_error_is_that_of_the_truth() -> None:
     assert apart == pytest.approx(30.0, rel=0.4)
 
 
+@pytest.mark.parametrize(
+    ("sigma", "grade", "causes"), [(0.1, Grade.GOOD, []), (0.2, Grade.USABLE, [Cause.BLUR])]
+)
+def test_unequal_noise_is_told_where_sharper_photographs_would_help(
+    sigma: float, grade: Grade, causes: list[Cause]
+) -> None:
+    """Every other view has 2.5 times the noise, so that weights bring little."""
+    rng = np.random.default_rng(1)
+    drawn = scene(barrel(), 12, seed=3)
+    sharp, blurred = drawn.noisy(sigma, rng), drawn.noisy(2.5 * sigma, rng)
+    _, verdict = judge([(blurred if k % 2 else sharp)[k] for k in range(12)])
+    assert (verdict.grade, [finding.cause for finding in verdict.findings]) == (grade, causes)
+    for finding in verdict.findings:
+        assert finding.action is None and finding.remedy.startswith("Take these again, sharp")
+
+
 @pytest.mark.parametrize(("count", "grade"), [(2, Grade.NOT_USABLE), (4, Grade.USABLE)])
 def test_few_views_are_never_good_however_small_their_noise(count: int, grade: Grade) -> None:
     views = scene(barrel(), 10, seed=3).noisy(0.001, np.random.default_rng(1))[:count]
