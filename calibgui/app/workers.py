@@ -37,6 +37,8 @@ R = TypeVar("R")
 
 _POLL_SECONDS = 0.05
 """Time between two checks of `stop`, s."""
+_NICENESS = 5
+"""Niceness of a window's workers: what it paints and reads comes first where processors are few."""
 _prepared: set[Callable[[], None]] = set()
 """The preparations that this process has made, and need not make again."""
 _serial = threading.local()
@@ -157,8 +159,11 @@ def _do_here(
 
 def _can_fork() -> bool:
     """Return whether this process can be copied: it has one thread, and no window library's."""
-    has_window = any(name.startswith("PySide6") for name in sys.modules)
-    return sys.platform == "linux" and threading.active_count() == 1 and not has_window
+    return sys.platform == "linux" and threading.active_count() == 1 and not _has_window()
+
+
+def _has_window() -> bool:
+    return any(name.startswith("PySide6") for name in sys.modules)
 
 
 def _prepare_here(prepare: Callable[[], None], preparing: Callable[[], None] | None) -> None:
@@ -177,7 +182,10 @@ def _start_worker(
     forks = _can_fork()
     context: Any = multiprocessing.get_context("fork" if forks else "spawn")
     ours, theirs = context.Pipe()
-    process = context.Process(target=_run_worker, args=(task, theirs, prepare), daemon=True)
+    niceness = _NICENESS if _has_window() else 0
+    process = context.Process(
+        target=_run_worker, args=(task, theirs, prepare, niceness), daemon=True
+    )
     if forks:
         with opencv.single_thread(), _block_interrupts(), warnings.catch_warnings():
             # Python counts the threads of BLAS, which stops them itself before a fork.
@@ -203,11 +211,16 @@ def _receive_result(connection: Connection) -> tuple[Any, bool]:
 
 
 def _run_worker(
-    task: Callable[[Any], Any], connection: Connection, prepare: Callable[[], None] | None
+    task: Callable[[Any], Any],
+    connection: Connection,
+    prepare: Callable[[], None] | None,
+    niceness: int,
 ) -> None:
     """Prepare and report that the worker has started, then do `task` until the connection is
     closed."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)
+    if hasattr(os, "nice"):  # not on Windows
+        os.nice(niceness)
     opencv.use_threads(1)
     warnings.simplefilter("ignore", NumbaWarning)  # the parent process says so, once
     with (

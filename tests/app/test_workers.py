@@ -160,6 +160,16 @@ def test_no_more_processes_than_asked_for() -> None:
     assert len(set(dict(map_in_processes(eval, asked, count=1)).values())) == 1
 
 
+@pytest.mark.skipif(sys.platform == "win32", reason="processes have no niceness there")
+def test_the_workers_of_a_window_come_after_it(monkeypatch: pytest.MonkeyPatch) -> None:
+    asked = ["__import__('os').getpriority(0, 0)"]
+    own = os.getpriority(os.PRIO_PROCESS, 0)
+    monkeypatch.setattr(workers, "_has_window", lambda: False)
+    assert dict(map_in_processes(eval, asked)) == {0: own}
+    monkeypatch.setattr(workers, "_has_window", lambda: True)
+    assert dict(map_in_processes(eval, asked)) == {0: min(19, own + 5)}
+
+
 @pytest.mark.skipif(sys.platform != "linux", reason="reads /proc")
 def test_workers_end_with_a_parent_that_is_killed(tmp_path: Path) -> None:
     """They wait for the next item, and hear of no more: forked ones hold each other's pipes."""
