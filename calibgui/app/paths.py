@@ -9,7 +9,7 @@ import unicodedata
 from collections import Counter
 from collections.abc import Iterable, Mapping, Sequence
 from functools import cache, lru_cache
-from pathlib import Path, PurePath
+from pathlib import Path
 from types import MappingProxyType
 
 from calibgui.engine.errors import CalibrationError
@@ -109,13 +109,15 @@ def is_remote(path: str) -> bool:
     return "://" in path
 
 
-@lru_cache(maxsize=10_000)
-def make_natural_key(path: Path) -> tuple[tuple[str, int], ...]:
-    """Return a sorting key that compares runs of digits as numbers and ignores case.
+def make_natural_key(path: str | Path) -> tuple[tuple[str, int], ...]:
+    """Return a sorting key that compares runs of digits as numbers and ignores case."""
+    return _split_at_digits(str(path))
 
-    Keys are kept: every image is sorted again when others are added.
-    """
-    text = unicodedata.normalize("NFC", str(path)).casefold()
+
+@lru_cache(maxsize=10_000)
+def _split_at_digits(path: str) -> tuple[tuple[str, int], ...]:
+    """Return words and the numbers behind them; kept, as images are sorted whenever some come."""
+    text = unicodedata.normalize("NFC", path).casefold()
     words = re.findall(r"([^0-9]*)([0-9]*)", text)
     return tuple((word, int(digits or -1)) for word, digits in words)
 
@@ -202,7 +204,9 @@ def _is_image(entry: os.DirEntry[str]) -> bool:
     A broken link counts as an image, so that the user is told that it cannot be read.
     """
     hidden = entry.name.startswith(".")
-    if hidden or PurePath(entry.name).suffix.lower() not in FORMATS:
+    if hidden or not entry.name.lower().endswith(FORMATS):
         return False
+    if entry.is_file(follow_symlinks=False):
+        return True
     path = Path(entry)
-    return entry.is_file(follow_symlinks=False) or path.is_file() or not path.exists()
+    return path.is_file() or not path.exists()

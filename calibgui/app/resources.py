@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Sequence
 from pathlib import Path
 
 import calibgui
@@ -35,9 +35,9 @@ def read_sample_truth() -> Node:
     return read_json(find_resource("sample") / "truth.json")
 
 
-def find_sample_square(images: Iterable[Path]) -> float | None:
+def find_sample_square(images: Sequence[Path]) -> float | None:
     """Return the side of the squares, mm, if `images` are the sample set; None for others."""
-    folders = {path.absolute().parent for path in images}
-    if folders != {find_resource("sample")}:
+    sample = find_resource("sample")
+    if not images or any(path.absolute().parent != sample for path in images):
         return None
     return read_sample_truth()["target"]["square_mm"].number()

@@ -62,7 +62,7 @@ def list_photographs(paths: Iterable[str]) -> tuple[Photograph, ...]:
         found |= {
             str(path): Photograph(str(path), _read_state(path)) for path in find_images(local)
         }
-    return tuple(sorted(found.values(), key=lambda one: make_natural_key(Path(one.name))))
+    return tuple(sorted(found.values(), key=lambda one: make_natural_key(one.name)))
 
 
 def compute_digest(path: Path) -> str:

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from enum import IntEnum
-from pathlib import Path
 from typing import Any
 
 from PySide6.QtCore import (
@@ -219,7 +218,7 @@ class ImageModel(QAbstractListModel):
 
 def _rank_by_name(views: Sequence[View]) -> list[int]:
     """Return the place of each image in the order of their names."""
-    order = sorted(range(len(views)), key=lambda row: make_natural_key(Path(views[row].image)))
+    order = sorted(range(len(views)), key=lambda row: make_natural_key(views[row].image))
     places = [0] * len(views)
     for place, row in enumerate(order):
         places[row] = place
