@@ -30,6 +30,8 @@ _GOLDEN_ANGLE = 0.381966
 """Share of a turn: hues that are this far apart never come close to those shortly before."""
 _DISTINCT = 64
 """Number of views after which colours come again: more cannot be told apart."""
+_DARKENED = 140
+"""What Fusion divides the lightness of the window by for borders, %."""
 _SYMBOLS = ("o", "s", "t1", "d", "+", "x", "star")
 
 
@@ -58,6 +60,8 @@ class Theme:
     """Text of secondary importance."""
     line: str
     """Borders, axes and grids."""
+    border: str
+    """Of boxes that are checked, and of menus: it alone shows an empty box."""
     accent: str
     """Selection and the main action."""
     on_accent: str
@@ -78,6 +82,7 @@ LIGHT = Theme(
     text="#1c2026",
     muted="#5b6470",
     line="#c3c9d1",
+    border="#6f7884",
     accent="#0067b0",
     on_accent="#ffffff",
     good="#007a58",
@@ -94,6 +99,7 @@ DARK = Theme(
     text="#e7eaee",
     muted="#a2abb7",
     line="#525a66",
+    border="#8a94a2",
     accent="#4aa3df",
     on_accent="#0b1117",
     good="#35c79a",
@@ -150,7 +156,12 @@ def apply(app: QApplication, scheme: Scheme) -> None:
     theme = DARK if dark else LIGHT
     if app.style().objectName() != "fusion":
         app.setStyle("Fusion")
-    app.setPalette(_palette(theme))
+    palette = _palette(theme)
+    app.setPalette(palette)
+    # Fusion makes their borders by darkening what it takes for the window's colour.
+    palette.setColor(QPalette.ColorRole.Window, QColor(theme.border).lighter(_DARKENED))
+    for kind in ("QCheckBox", "QRadioButton", "QMenu"):
+        app.setPalette(palette, kind)
 
 
 def follow_system(app: QApplication) -> None:

@@ -6,6 +6,10 @@ from itertools import combinations
 
 import cv2
 import numpy as np
+import pytest
+from PySide6.QtGui import QColor, QImage
+from PySide6.QtWidgets import QApplication, QCheckBox, QMenu, QRadioButton, QWidget
+from pytestqt.qtbot import QtBot
 
 from calibgui.engine.arrays import Array
 from calibgui.gui.widgets import theme
@@ -34,3 +38,37 @@ def test_a_colour_that_is_changed_changes_no_other() -> None:
 def test_every_colour_shows_on_light_and_on_dark() -> None:
     lightness = to_lab(64)[:, 0]
     assert lightness.min() > 25 and lightness.max() < 86
+
+
+@pytest.mark.parametrize("scheme", [theme.Scheme.LIGHT, theme.Scheme.DARK])
+@pytest.mark.parametrize("kind", [QCheckBox, QRadioButton, QMenu])
+def test_the_borders_of_boxes_and_menus_are_seen(
+    qtbot: QtBot, qapp: QApplication, kind: type[QWidget], scheme: theme.Scheme
+) -> None:
+    """An empty box is a border only: WCAG asks for a contrast of 3."""
+    try:
+        theme.apply(qapp, scheme)
+        widget = kind()
+        qtbot.addWidget(widget)
+        if isinstance(widget, QMenu):
+            widget.addAction("").setCheckable(True)
+        widget.resize(widget.sizeHint())
+        around = luminance(QColor(theme.current().window))
+        contrasts = [
+            (max(around, seen) + 0.05) / (min(around, seen) + 0.05)
+            for seen in map(luminance, list_colours(widget.grab().toImage()))
+        ]
+        assert max(contrasts) >= 3
+    finally:
+        theme.apply(qapp, theme.Scheme.LIGHT)
+
+
+def list_colours(image: QImage) -> list[QColor]:
+    return [image.pixelColor(x, image.height() // 2) for x in range(image.width() // 2)]
+
+
+def luminance(colour: QColor) -> float:
+    """Relative luminance of WCAG 2."""
+    parts = np.array([colour.redF(), colour.greenF(), colour.blueF()])
+    linear = np.where(parts <= 0.03928, parts / 12.92, ((parts + 0.055) / 1.055) ** 2.4)
+    return float(linear @ (0.2126, 0.7152, 0.0722))
