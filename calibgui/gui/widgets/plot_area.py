@@ -17,6 +17,8 @@ _GRID = 38
 """Opacity of the grid, of 255."""
 _TITLE_HEIGHT = 30.0
 """Room of a title, two lines at most, px."""
+MARGIN = 5.0
+"""Around a plot, px: by so much the axes' names stand out of their axes."""
 _ABOVE_IMAGES = 0.5
 """Height of the axes in the pile: an image, which lies at 0, would hide the grid."""
 
@@ -84,7 +86,7 @@ class PlotArea(pg.GraphicsWidget):  # type: ignore[misc]  # pyqtgraph is not typ
         centred = QTextOption(Qt.AlignmentFlag.AlignHCenter)
         self.title.item.document().setDefaultTextOption(centred)
         self.grid = QGraphicsGridLayout(self)
-        self.grid.setContentsMargins(1, 1, 1, 1)
+        self.grid.setContentsMargins(MARGIN, MARGIN, MARGIN, MARGIN)
         self.grid.setSpacing(0)
         self.grid.addItem(self.title, 0, 1)
         self.grid.addItem(self.box, self.VIEW_ROW, 1)

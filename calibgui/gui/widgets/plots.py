@@ -29,7 +29,7 @@ from calibgui.engine.arrays import Array
 from calibgui.gui.widgets import theme
 from calibgui.gui.widgets.actions import COPY_PICTURE
 from calibgui.gui.widgets.glossary import explain
-from calibgui.gui.widgets.plot_area import Axis, PlotArea
+from calibgui.gui.widgets.plot_area import MARGIN, Axis, PlotArea
 from calibgui.gui.widgets.save_names import ask_for_name
 
 pg.setConfigOptions(antialias=True)
@@ -124,7 +124,7 @@ class Plot(pg.GraphicsView):  # type: ignore[misc]  # pyqtgraph is not typed
     def minimumSizeHint(self) -> QSize:  # noqa: N802 - Qt's name
         """Leave room for the text along the left axis, which would be cut off."""
         text = math.ceil(self.area.left.label.boundingRect().width())
-        needed = text + math.ceil(self.area.bottom.minimumHeight())
+        needed = text + math.ceil(self.area.bottom.minimumHeight() + 2 * MARGIN)
         return QSize(super().minimumSizeHint().width(), max(_LEAST_HEIGHT, needed))
 
     def set_labels(self, x: str, y: str, x_unit: str = "", y_unit: str = "") -> None:
@@ -167,10 +167,11 @@ class Plot(pg.GraphicsView):  # type: ignore[misc]  # pyqtgraph is not typed
         box, grid = self.box, self.area.grid
         margins = cast(tuple[float, float, float, float], grid.getContentsMargins())
         left, top, right, bottom = margins
-        width, height = box.width() + left + right, box.height() + top + bottom - _RIM
+        width = box.width() + left + right - 2 * MARGIN
+        height = box.height() + top + bottom - _RIM - MARGIN
         scale = min(width / self._enclosed.width(), height / self._enclosed.height())
-        across = max(width - scale * self._enclosed.width(), 0.0) / 2
-        below = max(height - scale * self._enclosed.height(), 0.0)
+        across = MARGIN + max(width - scale * self._enclosed.width(), 0.0) / 2
+        below = MARGIN + max(height - scale * self._enclosed.height(), 0.0)
         if abs(across - left) > 1 or abs(below - bottom) > 1:
             grid.setContentsMargins(across, _RIM, across, below)
 

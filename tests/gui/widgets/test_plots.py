@@ -3,7 +3,8 @@ from __future__ import annotations
 from pathlib import Path
 
 import numpy as np
-from PySide6.QtCore import Qt
+import pytest
+from PySide6.QtCore import QRectF, Qt
 from PySide6.QtGui import QImage
 from PySide6.QtWidgets import QApplication, QVBoxLayout, QWidget
 from pytestqt.qtbot import QtBot
@@ -47,6 +48,23 @@ def test_what_an_axis_shows_is_never_cut_off(qtbot: QtBot) -> None:
     label = plot.area.left.label
     shown = plot.mapFromScene(label.mapToScene(label.boundingRect())).boundingRect()
     assert plot.rect().top() <= shown.top() and shown.bottom() <= plot.rect().bottom()
+
+
+@pytest.mark.parametrize("enclosed", [False, True])
+def test_what_axes_show_does_not_touch_the_border(qtbot: QtBot, enclosed: bool) -> None:
+    plot = example(qtbot)
+    if enclosed:
+        plot.box.setAspectLocked(True)
+        plot.enclose(QRectF(0, 0, 640, 480))
+    for size in ((300, 200), (200, 300)):
+        plot.resize(*size)
+        plot.show()
+        QApplication.processEvents()
+        for axis in plot.area.axes.values():
+            rim = axis.label.document().documentMargin()
+            text = axis.label.boundingRect().adjusted(rim, rim, -rim, -rim)
+            shown = plot.mapFromScene(axis.label.mapToScene(text)).boundingRect()
+            assert plot.rect().adjusted(4, 4, -4, -4).contains(shown)
 
 
 def test_the_lines_of_a_title_are_centred(qtbot: QtBot) -> None:
