@@ -160,8 +160,8 @@ def apply(app: QApplication, scheme: Scheme) -> None:
     app.setPalette(palette)
     # Fusion makes their borders by darkening what it takes for the window's colour.
     palette.setColor(QPalette.ColorRole.Window, QColor(theme.border).lighter(_DARKENED))
-    for kind in ("QCheckBox", "QRadioButton", "QMenu"):
-        app.setPalette(palette, kind)
+    for kind in ("QCheckBox", "QRadioButton", "QMenu", "QTreeView"):
+        app.setPalette(palette, kind)  # type: ignore[arg-type]  # stated as bytes, taken as a name
 
 
 def follow_system(app: QApplication) -> None:
