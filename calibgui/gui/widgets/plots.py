@@ -122,9 +122,10 @@ class Plot(pg.GraphicsView):  # type: ignore[misc]  # pyqtgraph is not typed
         self.box.clear()
 
     def minimumSizeHint(self) -> QSize:  # noqa: N802 - Qt's name
-        """Leave room for the text along the left axis, which would be cut off."""
-        text = math.ceil(self.area.left.label.boundingRect().width())
-        needed = text + math.ceil(self.area.bottom.minimumHeight() + 2 * MARGIN)
+        """Leave room for the text along the upright axes, which would be cut off."""
+        upright = [self.area.left] + ([self.colour_bar.axis] if self.colour_bar else [])
+        text = max(axis.label.boundingRect().width() for axis in upright)
+        needed = math.ceil(text) + math.ceil(self.area.bottom.minimumHeight() + 2 * MARGIN)
         return QSize(super().minimumSizeHint().width(), max(_LEAST_HEIGHT, needed))
 
     def set_labels(self, x: str, y: str, x_unit: str = "", y_unit: str = "") -> None:
@@ -231,6 +232,7 @@ class ColourBar(pg.GraphicsWidget):  # type: ignore[misc]  # pyqtgraph is not ty
         self, plot: Plot, quantity: str, colours: pg.ColorMap, image: pg.ImageItem | None = None
     ) -> None:
         super().__init__()
+        self._plot = plot
         self._quantity = quantity
         self._image = image
         self.levels = (0.0, 1.0)
@@ -271,6 +273,7 @@ class ColourBar(pg.GraphicsWidget):  # type: ignore[misc]  # pyqtgraph is not ty
         self.axis.setLabel(self._quantity, color=colours.text)
         self.axis.setToolTip(explain(self._quantity))
         self.setToolTip(explain(self._quantity))
+        self._plot.updateGeometry()
         self.update()
 
     def paint(self, painter: QPainter, *_: object) -> None:

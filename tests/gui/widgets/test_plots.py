@@ -3,6 +3,7 @@ from __future__ import annotations
 from pathlib import Path
 
 import numpy as np
+import pyqtgraph as pg
 import pytest
 from PySide6.QtCore import QRectF, Qt
 from PySide6.QtGui import QImage
@@ -10,7 +11,7 @@ from PySide6.QtWidgets import QApplication, QVBoxLayout, QWidget
 from pytestqt.qtbot import QtBot
 
 from calibgui.gui.widgets import theme
-from calibgui.gui.widgets.plots import Plot
+from calibgui.gui.widgets.plots import ColourBar, Plot
 
 
 def example(qtbot: QtBot) -> Plot:
@@ -42,12 +43,15 @@ def test_what_an_axis_shows_is_never_cut_off(qtbot: QtBot) -> None:
     layout = QVBoxLayout(box)
     layout.addWidget(plot)
     plot.set_labels("view", "distance", "", "mm if squares are 30 mm, which nobody has confirmed")
+    bar = ColourBar(plot, "", pg.colormap.get("viridis"))
+    bar.set_quantity("out of the plane [mm if squares are 30 mm, which nobody has confirmed yet]")
     box.resize(300, 60)
     box.show()
     QApplication.processEvents()
-    label = plot.area.left.label
-    shown = plot.mapFromScene(label.mapToScene(label.boundingRect())).boundingRect()
-    assert plot.rect().top() <= shown.top() and shown.bottom() <= plot.rect().bottom()
+    for axis in (plot.area.left, bar.axis):
+        label = axis.label
+        shown = plot.mapFromScene(label.mapToScene(label.boundingRect())).boundingRect()
+        assert plot.rect().top() <= shown.top() and shown.bottom() <= plot.rect().bottom()
 
 
 @pytest.mark.parametrize("enclosed", [False, True])
