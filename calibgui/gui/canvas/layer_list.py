@@ -94,6 +94,7 @@ class LayerList(QWidget):
         self.scale.setToolTip(self.tr("How many times as long as they are residuals are drawn"))
         self.scale.setAccessibleName(self.tr("Magnification of residuals"))
         self.scale.valueChanged.connect(canvas.set_residual_scale)
+        self._grid.addWidget(QLabel(self.tr("Opacity")), 0, 4, Qt.AlignmentFlag.AlignHCenter)
         for row in (*self._describe_image_layers(), *self._describe_camera_layers()):
             self._add(row)
 
