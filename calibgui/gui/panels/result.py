@@ -60,6 +60,8 @@ class ResultPanel(Panel):
     def _refresh(self, result: Result) -> None:
         calibration = result.calibration
         names = calibration.camera.names
+        # Those of another result would be read as this one's.
+        self.words.setPlainText(self.tr("What is this result worth? Working…"))
         self._work.start(
             "",
             lambda job: describe_calibration(result, job.check),

@@ -34,7 +34,7 @@ def told(shown: Shown[ResultPanel], qtbot: QtBot) -> Told:
 
     def show(result: Result) -> ResultPanel:
         panel = shown(ResultPanel, result)
-        qtbot.waitUntil(lambda: bool(panel.words.toPlainText()))
+        qtbot.waitUntil(lambda: "Working…" not in panel.words.toPlainText())
         return panel
 
     return show
@@ -92,6 +92,12 @@ def test_words_are_the_summary(told: Told, result: Result) -> None:
     text = panel.words.toPlainText().replace("\xa0", " ")
     for sentence in describe_calibration(result):
         assert sentence.text in text
+
+
+def test_the_words_of_another_result_do_not_stay(told: Told, result: Result) -> None:
+    panel = told(result)
+    panel.show_result(made(seed=5))
+    assert panel.words.toPlainText() == "What is this result worth? Working…"
 
 
 def test_what_is_not_determined_is_marked(told: Told, result: Result) -> None:
