@@ -123,10 +123,13 @@ class Plot(pg.GraphicsView):  # type: ignore[misc]  # pyqtgraph is not typed
 
     def minimumSizeHint(self) -> QSize:  # noqa: N802 - Qt's name
         """Leave room for the text along the upright axes, which would be cut off."""
+        needed = self._find_upright_length() + self.area.bottom.minimumHeight() + 2 * MARGIN
+        return QSize(super().minimumSizeHint().width(), max(_LEAST_HEIGHT, math.ceil(needed)))
+
+    def _find_upright_length(self) -> float:
+        """Return the length of the longest text along an upright axis, px."""
         upright = [self.area.left] + ([self.colour_bar.axis] if self.colour_bar else [])
-        text = max(axis.label.boundingRect().width() for axis in upright)
-        needed = math.ceil(text) + math.ceil(self.area.bottom.minimumHeight() + 2 * MARGIN)
-        return QSize(super().minimumSizeHint().width(), max(_LEAST_HEIGHT, needed))
+        return max(axis.label.boundingRect().width() for axis in upright)
 
     def set_labels(self, x: str, y: str, x_unit: str = "", y_unit: str = "") -> None:
         """Say anew what the axes show."""
@@ -172,9 +175,11 @@ class Plot(pg.GraphicsView):  # type: ignore[misc]  # pyqtgraph is not typed
         height = box.height() + top + bottom - _RIM - MARGIN
         scale = min(width / self._enclosed.width(), height / self._enclosed.height())
         across = MARGIN + max(width - scale * self._enclosed.width(), 0.0) / 2
-        below = MARGIN + max(height - scale * self._enclosed.height(), 0.0)
-        if abs(across - left) > 1 or abs(below - bottom) > 1:
-            grid.setContentsMargins(across, _RIM, across, below)
+        shown = scale * self._enclosed.height()
+        above = max(_RIM, (self._find_upright_length() - shown) / 2)  # texts are longer than axes
+        below = MARGIN + max(height + _RIM - above - shown, 0.0)
+        if max(abs(across - left), abs(above - top), abs(below - bottom)) > 1:
+            grid.setContentsMargins(across, above, across, below)
 
     def set_title(self, text: str) -> None:
         """Say above the plot what it shows at present."""

@@ -5,12 +5,13 @@ from pathlib import Path
 import numpy as np
 import pyqtgraph as pg
 import pytest
-from PySide6.QtCore import QRectF, Qt
+from PySide6.QtCore import QRect, QRectF, Qt
 from PySide6.QtGui import QImage
 from PySide6.QtWidgets import QApplication, QVBoxLayout, QWidget
 from pytestqt.qtbot import QtBot
 
 from calibgui.gui.widgets import theme
+from calibgui.gui.widgets.plot_area import Axis
 from calibgui.gui.widgets.plots import ColourBar, Plot
 
 
@@ -20,6 +21,13 @@ def example(qtbot: QtBot) -> Plot:
     plot.plot([0, 1, 2], [9.0, 4.0, 1.0])
     plot.resize(300, 200)
     return plot
+
+
+def find_text(plot: Plot, axis: Axis) -> QRect:
+    """Where the name of an axis is, without the blank around it."""
+    blank = axis.label.document().documentMargin()
+    text = axis.label.boundingRect().adjusted(blank, blank, -blank, -blank)
+    return plot.mapFromScene(axis.label.mapToScene(text)).boundingRect()
 
 
 def test_a_plot_has_no_hidden_controls(qtbot: QtBot) -> None:
@@ -35,7 +43,8 @@ def test_axes_name_their_units(qtbot: QtBot) -> None:
     assert area.bottom.labelText == "iteration"
 
 
-def test_what_an_axis_shows_is_never_cut_off(qtbot: QtBot) -> None:
+@pytest.mark.parametrize("enclosed", [False, True])
+def test_what_an_axis_shows_is_never_cut_off(qtbot: QtBot, enclosed: bool) -> None:
     """A condition, as "mm if squares are 30 mm", makes the text longer than a plot is high."""
     plot = example(qtbot)
     box = QWidget()
@@ -45,12 +54,14 @@ def test_what_an_axis_shows_is_never_cut_off(qtbot: QtBot) -> None:
     plot.set_labels("view", "distance", "", "mm if squares are 30 mm, which nobody has confirmed")
     bar = ColourBar(plot, "", pg.colormap.get("viridis"))
     bar.set_quantity("out of the plane [mm if squares are 30 mm, which nobody has confirmed yet]")
+    if enclosed:  # far narrower than high: the axes are shorter than the plot
+        plot.box.setAspectLocked(True)
+        plot.enclose(QRectF(0, 0, 400, 300))
     box.resize(300, 60)
     box.show()
     QApplication.processEvents()
     for axis in (plot.area.left, bar.axis):
-        label = axis.label
-        shown = plot.mapFromScene(label.mapToScene(label.boundingRect())).boundingRect()
+        shown = find_text(plot, axis)
         assert plot.rect().top() <= shown.top() and shown.bottom() <= plot.rect().bottom()
 
 
@@ -65,10 +76,7 @@ def test_what_axes_show_does_not_touch_the_border(qtbot: QtBot, enclosed: bool) 
         plot.show()
         QApplication.processEvents()
         for axis in plot.area.axes.values():
-            rim = axis.label.document().documentMargin()
-            text = axis.label.boundingRect().adjusted(rim, rim, -rim, -rim)
-            shown = plot.mapFromScene(axis.label.mapToScene(text)).boundingRect()
-            assert plot.rect().adjusted(4, 4, -4, -4).contains(shown)
+            assert plot.rect().adjusted(4, 4, -4, -4).contains(find_text(plot, axis))
 
 
 def test_the_lines_of_a_title_are_centred(qtbot: QtBot) -> None:
