@@ -30,6 +30,7 @@ from calibgui.engine.detection.charuco.marker_growth import (
     MarkerPrints,
     describe_prints,
     grow_markers,
+    tell_rows_apart,
 )
 from calibgui.engine.detection.charuco.markers import Markers, drop_repeated, identify_board
 from calibgui.engine.detection.checkerboard import saddle
@@ -227,7 +228,7 @@ def _identify_tags(
     )
     if len(readings) != 1 or readings[0].side <= _MIN_SIDE:
         return None
-    is_placed = grid_size is not None or _tell_rows_apart(readings[0].squares)
+    is_placed = grid_size is not None or tell_rows_apart(readings[0].squares, TAG_NEIGHBOURS)
     return readings[0] if is_placed else None
 
 
@@ -263,13 +264,6 @@ def _list_likely_layouts(numbers: IntArray, corners: Array) -> list[TagLayout]:
         if 0 < cols <= MAX_COLS
         for layout in list_layouts(cols, None)
     ]
-
-
-def _tell_rows_apart(squares: IntArray) -> bool:
-    """Return whether tags at `squares` (n, 2) are neighbours in different rows: their numbers tell
-    the length of a row. Tags farther apart may agree on a wrong one by chance."""
-    away = np.abs(squares - squares[:, None])
-    return bool(((away[..., 0] == 1) & (away[..., 1] <= 1)).any())
 
 
 def _is_mostly_read(tags: Markers[TagLayout]) -> bool:

@@ -14,7 +14,7 @@ from typing import NamedTuple
 import numpy as np
 import numpy.typing as npt
 
-from calibgui.engine.arrays import Array, GreyImage, GridSize
+from calibgui.engine.arrays import Array, BoolArray, GreyImage, GridSize
 from calibgui.engine.boards.charuco import (
     MARKER_LAYOUTS,
     Charuco,
@@ -32,6 +32,7 @@ from calibgui.engine.detection.charuco.corners_between_markers import (
 from calibgui.engine.detection.charuco.marker_reader import MarkerReader, ReadBoard
 from calibgui.engine.detection.charuco.markers import Markers
 from calibgui.engine.detection.charuco.thresholds import CHARUCO_THRESHOLDS
+from calibgui.engine.detection.checkerboard import verification
 from calibgui.engine.detection.corners import Corners, RejectedCorner
 from calibgui.engine.detection.detector_io import (
     check_grey_levels,
@@ -47,11 +48,17 @@ class _LocatedBoard(NamedTuple):
 
     markers: Markers[MarkerLayout]
     lattice: Lattice
+    missing: BoolArray
+    """(rows, cols) True where a corner is predicted and none is seen, but all around it is."""
     rejected: list[RejectedCorner]
 
-    def rate(self) -> int:
-        """Return how many more of the predicted corners are there than are not."""
-        return len(self.lattice) - len(self.rejected)
+    def rate(self, rows: int) -> int:
+        """Return how many more of the predicted corners are there than are not, in the first
+        `rows`."""
+        there, missing = (
+            np.count_nonzero(mask[:rows]) for mask in (self.lattice.found, self.missing)
+        )
+        return int(there) - int(missing)
 
 
 def find_charuco(
@@ -96,7 +103,15 @@ def _locate_corners(
     predicted = predict_corners(markers, size, grey, is_inverted=is_inverted)
     plain = _measure_plain_part(markers)
     lattice, rejected = refine_corners(grey, predicted, plain, by_markers=True)
-    return _LocatedBoard(markers, lattice, rejected)
+    missing = predicted.found & ~lattice.found & _are_whole_in_image(predicted, grey)
+    return _LocatedBoard(markers, lattice, missing, rejected)
+
+
+def _are_whole_in_image(lattice: Lattice, image: GreyImage) -> BoolArray:
+    """Return a mask (rows, cols) of the corners around which half a square is in the image."""
+    right, down = lattice.steps()
+    around = lattice.uv[..., None, :] + np.stack([right, -right, down, -down], axis=2) / 2
+    return np.asarray(verification.are_in_image(around, image.shape).all(axis=2))
 
 
 def _measure_plain_part(markers: Markers[MarkerLayout]) -> float:
@@ -116,7 +131,8 @@ def _choose_reading(
     Raises:
         NoBoardError: if there are too few, or they do not tell the readings apart.
     """
-    boards, failure = [], None
+    boards: list[_LocatedBoard] = []
+    failure = None
     for markers in readings:
         try:
             boards.append(_locate_corners(grey, markers, grid_size, is_inverted=is_inverted))
@@ -124,9 +140,12 @@ def _choose_reading(
             failure = error
     if failure is not None and not boards:
         raise failure
-    boards.sort(key=_LocatedBoard.rate, reverse=True)
-    if len(boards) > 1:
-        ahead = boards[0].rate() - boards[1].rate()
+    # One colour may need a row more, which says nothing.
+    rows = min(board.lattice.shape[0] for board in boards)
+    boards.sort(key=lambda board: board.rate(rows), reverse=True)
+    if len(readings) > 1:
+        second = boards[1].rate(rows) if len(boards) > 1 else CHARUCO_THRESHOLDS.min_corners - 1
+        ahead = boards[0].rate(rows) - second
         if ahead < CHARUCO_THRESHOLDS.min_deciding_corners:
             raise NoBoardError(
                 "The markers seen do not tell which part of the board this is.",
@@ -208,6 +227,11 @@ def _explain_missing_board(
         if pattern.dictionary:
             found = found or reader.read_dictionary(pattern.dictionary, MARKER_LAYOUTS)
         found = found or reader.search_dictionaries(MARKER_LAYOUTS)
+    if found is None and any(reader.is_undecided for reader in readers):
+        return NoBoardError(
+            "The markers seen do not tell how many squares the board has in a row.",
+            "State its rows and columns, or show more of it.",
+        )
     if found is None:
         return NoBoardError(
             "No ChArUco board was found.",

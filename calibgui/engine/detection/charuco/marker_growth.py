@@ -95,9 +95,50 @@ def grow_markers(
     Returns:
         The markers on each of the layouts that most of them agree with.
     """
+    grown = [
+        each
+        for alike in _group_alike(readings)
+        for each in _grow_alike(image, alike, prints, count, outline, refine)
+    ]
+    most = max(len(each.numbers) for each in grown)
+    return [each for each in grown if len(each.numbers) == most]
+
+
+def tell_rows_apart(squares: IntArray, neighbours: IntArray) -> bool:
+    """Return whether markers at `squares` (n, 2) are neighbours in different rows: their numbers
+    tell the length of a row. Markers farther apart may agree on a wrong one by chance.
+
+    Args:
+        squares: row and column of each.
+        neighbours: (k, 2) rows and columns from a marker to those around it.
+    """
+    away = squares - squares[:, None]
+    across = neighbours[neighbours[:, 0] != 0]
+    return bool((away[:, :, None] == across).all(axis=3).any())
+
+
+def _group_alike(readings: list[Markers[Layout]]) -> list[list[Markers[Layout]]]:
+    """Group the readings that place the same markers alike, but for where on the board."""
+    groups: dict[tuple[bytes, bytes], list[Markers[Layout]]] = {}
+    for reading in readings:
+        relative = reading.squares - reading.squares[0]
+        groups.setdefault((reading.numbers.tobytes(), relative.tobytes()), []).append(reading)
+    return list(groups.values())
+
+
+def _grow_alike(
+    image: GreyImage,
+    readings: list[Markers[Layout]],
+    prints: MarkerPrints,
+    count: int | None,
+    outline: Array | None,
+    refine: Callable[[Array], Array] | None,
+) -> list[Markers[Layout]]:
+    """Read the markers beside those of readings that place them alike; see `grow_markers`."""
     read = readings[0]
     layouts = [reading.layout for reading in readings]
-    places = np.stack([_locate_all(read, layout, count or len(prints.steps)) for layout in layouts])
+    known = len(prints.steps) if count is None else min(count, len(prints.steps))
+    places = np.stack([_locate_all(read, layout, known) for layout in layouts])
     seen = _list_differences(measure_cells(image, read.corners, prints.side))
     least = _MIN_RELATIVE_SWING * float(np.median(prints.rate(seen, read.numbers)[1]))
     tried = newest = read.squares
@@ -113,9 +154,7 @@ def grow_markers(
         if not len(newest):
             break
         read = read.join(more)
-    placed = [_place(read, layout) for layout in layouts]
-    most = max(len(each.numbers) for each in placed)
-    return [each for each in placed if len(each.numbers) == most]
+    return [_place(read, layout) for layout in layouts]
 
 
 def _predict_markers(

@@ -26,6 +26,7 @@ from calibgui.engine.detection.charuco.marker_growth import (
     MarkerPrints,
     describe_prints,
     grow_markers,
+    tell_rows_apart,
 )
 from calibgui.engine.detection.charuco.markers import Markers, identify_board
 from calibgui.engine.detection.charuco.thresholds import CHARUCO_THRESHOLDS
@@ -79,6 +80,8 @@ class MarkerReader:
         self._candidates: dict[int, MarkerCandidates] = {}
         self._samples: dict[int, MarkerCandidates] = {}
         self._read: dict[tuple[int, str], tuple[IntArray, Array]] = {}
+        self.is_undecided = False
+        """True once markers of a board were read that do not tell the length of its rows."""
 
     def read_dictionary(
         self, name: str, layouts: Collection[MarkerLayout], count: int | None = None
@@ -137,15 +140,21 @@ class MarkerReader:
         count: int | None,
     ) -> ReadBoard | None:
         """Read the first dictionary that shows a board, of those that `names` lists for each
-        depth of the pyramid."""
+        depth of the pyramid; without neighbours in different rows, markers that seem to agree on
+        the length of a row may do so by chance."""
+        is_stated = len({layout.cols for layout in layouts}) == 1
         for depth in reversed(range(len(self._levels))):
             for name in names(depth):
                 readings = identify_board(*self._read_markers(depth, name), layouts, MARKER_LAYOUTS)
-                if readings:
-                    prints = _describe_dictionary(name)
-                    readings = grow_markers(self._levels[0], readings, prints, count, self._outline)
-                if _differ_in_colours_only(readings):
+                if not readings:
+                    continue
+                prints = _describe_dictionary(name)
+                readings = grow_markers(self._levels[0], readings, prints, count, self._outline)
+                if not (is_stated or tell_rows_apart(readings[0].squares, MARKER_NEIGHBOURS)):
+                    continue
+                if len({reading.layout.cols for reading in readings}) == 1:
                     return ReadBoard(name, readings)
+                self.is_undecided = True
         return None
 
     def _select_likely(self, names: list[str], depth: int) -> list[str]:
@@ -204,11 +213,6 @@ class MarkerReader:
 def _describe_dictionary(name: str) -> MarkerPrints:
     """Describe the markers of a dictionary."""
     return describe_prints(draw_markers(name), MARKER_NEIGHBOURS)
-
-
-def _differ_in_colours_only(readings: list[Markers[MarkerLayout]]) -> bool:
-    """Return whether there are readings, all with the same number of squares in a row."""
-    return len({reading.layout.cols for reading in readings}) == 1
 
 
 def _list_family(family: str) -> list[str]:

@@ -22,6 +22,7 @@ from calibgui.engine.detection.find_corners import find_corners
 from calibgui.engine.errors import CalibrationError, NoBoardError
 from calibgui.engine.images.reading import read_image
 from tests.engine.detection.conftest import Scene
+from tests.scenes.perspective import photograph_pattern
 
 BOARDS = [
     (Charuco("DICT_4X4_50", 0.75, False), (5, 8)),
@@ -103,17 +104,40 @@ def test_cut_by_the_image_with_a_white_square_first(aside: tuple[float, float]) 
     _assert_right(scene, corners)
 
 
+@pytest.mark.parametrize("rows", [5, 6])
 @pytest.mark.parametrize("first_dark", [True, False])
-def test_without_its_sides_a_board_is_not_numbered_by_guess(first_dark: bool) -> None:
-    """With an odd number of squares a row nothing but its ends tells the colours apart."""
+def test_without_its_sides_a_board_is_not_numbered_by_guess(first_dark: bool, rows: int) -> None:
+    """With an odd number of squares a row nothing but its ends tells the colours apart. An
+    even number of rows, which a board with a white square first has, says nothing."""
     pattern = replace(BOARDS[0][0], legacy=not first_dark)
     scene = replace(_WHITE_FIRST, board=Board(5, 8, 30.0, pattern))
     u = (scene.board.points([(0, 1), (0, 6)])[:, 0] - scene.board.points()[:, 0].mean()) * 1.72
     image = scene.image()
     image[:, : round(322 + u[0])] = image[:, round(322 + u[1]) :] = 128
+    if rows < 6:
+        image[352:] = 128
     with pytest.raises(NoBoardError, match="do not tell which part"):
         find_corners(image, pattern=Charuco("DICT_4X4_100"))
     _assert_right(scene, find_corners(image, (5, 8), pattern=pattern))
+
+
+def test_two_rows_of_squares_do_not_tell_how_long_they_are() -> None:
+    scene = replace(_WHITE_FIRST, board=Board(5, 8, 30.0, BOARDS[0][0]))
+    image = scene.image()
+    image[:180] = image[300:] = 128
+    image[:, :185] = image[:, 405:] = 128
+    with pytest.raises(NoBoardError, match="how many squares"):
+        find_corners(image, pattern=Charuco())
+    _assert_right(scene, find_corners(image, (5, 8), pattern=BOARDS[0][0]))
+
+
+def test_a_size_stated_without_the_dictionary_may_hold_more_markers_than_its_smallest() -> None:
+    board = Board(8, 11, 1.0, Charuco("DICT_4X4_100", 0.7, False))
+    image = photograph_pattern((1000, 750), board, 0.9, 0.8)
+    corners = find_corners(image, (8, 11), pattern=Charuco())
+    assert corners.complete
+    assert isinstance(corners.pattern, Charuco)
+    assert corners.pattern.dictionary == "DICT_4X4_100"
 
 
 @pytest.mark.parametrize(("blur", "distance"), [(0.7, 760.0), (0.7, 400.0), (2.0, 400.0)])

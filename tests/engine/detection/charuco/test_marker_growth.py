@@ -66,6 +66,19 @@ def test_all_are_read_from_three_and_tell_the_layout(
     assert (grown.squares == LAYOUT.locate_squares(grown.numbers)).all()
 
 
+def test_a_layout_by_chance_grows_no_markers(
+    image: GreyImage, tags: Markers[TagLayout], prints: MarkerPrints
+) -> None:
+    """That markers of different layouts agree on as many pairs does not make them one board's."""
+    chance = TagLayout(7, False)
+    some = tags.select(np.array([0, 3, 11]))
+    false = replace(some, layout=chance, squares=chance.locate_squares(some.numbers))
+    for readings in ([false, select_few(tags)], [select_few(tags), false]):
+        (grown,) = grow_markers(image, readings, prints, None, None)
+        assert grown.layout == LAYOUT
+        assert sorted(grown.numbers.tolist()) == ALL
+
+
 def test_plain_paper_is_not_read_whatever_its_noise_says(
     image: GreyImage, tags: Markers[TagLayout], prints: MarkerPrints
 ) -> None:
