@@ -184,16 +184,29 @@ def _shows_tags(reader: TagReader) -> bool:
 def _read_board(
     reader: TagReader, pattern: AprilGrid, grid_size: GridSize | None, outline: Array | None
 ) -> GridTags | None:
-    """Read the tags of a board: the first of a family whose tags are hardly mistaken, else that of
-    most tags; None if there is none."""
+    """Read the tags of a board; None if there is none.
+
+    That of most tags is taken, and of no other family once tags were read that are hardly mistaken.
+    With a border of the wrong width some of the tags are read all the same, with cells misread.
+    """
     boards: list[GridTags] = []
+    sure_family = None
     for tag_print in list_prints(pattern.family, pattern.border):
+        if sure_family not in (None, tag_print.family):
+            continue
         tags = _identify_tags(reader, tag_print, pattern.from_top, grid_size, outline)
         if tags is not None:
             boards.append((tag_print, tags))
             if _is_sure(tag_print):
-                break
-    return max(boards, key=_count_tags, default=None)
+                sure_family = tag_print.family
+    return max(boards, key=lambda board: _rate_tags(reader.image, board), default=None)
+
+
+def _rate_tags(image: GreyImage, board: GridTags) -> float:
+    """Return how many tags of a board were read, each counting by the share of the steps between
+    its cells that have the sign that its number says."""
+    tag_print, tags = board
+    return float(_describe_tags(tag_print).rate_markers(image, tags)[0].sum())
 
 
 def _identify_tags(

@@ -48,6 +48,11 @@ class MarkerPrints:
     side: int
     """n, number of cells along a side."""
 
+    def rate_markers(self, image: GreyImage, read: Markers[Layout]) -> tuple[Array, Array]:
+        """Rate the n markers `read` in an image (h, w), dark on bright; see `rate`."""
+        seen = _list_differences(measure_cells(image, read.corners, self.side))
+        return self.rate(seen, read.numbers)
+
     def rate(self, seen: Array, numbers: IntArray) -> tuple[Array, Array]:
         """Rate differences of cells (n, s) as those of given numbers (n,).
 
@@ -139,8 +144,7 @@ def _grow_alike(
     layouts = [reading.layout for reading in readings]
     known = len(prints.steps) if count is None else min(count, len(prints.steps))
     places = np.stack([_locate_all(read, layout, known) for layout in layouts])
-    seen = _list_differences(measure_cells(image, read.corners, prints.side))
-    least = _MIN_RELATIVE_SWING * float(np.median(prints.rate(seen, read.numbers)[1]))
+    least = _MIN_RELATIVE_SWING * float(np.median(prints.rate_markers(image, read)[1]))
     tried = newest = read.squares
     for _ in range(_MAX_ROUNDS):
         beside = (newest[:, None] + prints.neighbours).reshape(-1, 2)

@@ -18,6 +18,7 @@ from calibgui.engine.detection.find_corners import find_corners
 from calibgui.engine.errors import NoBoardError
 from calibgui.engine.geometry.rotations import rotation_from_vector
 from tests.engine.detection.conftest import Scene
+from tests.scenes.perspective import photograph_pattern
 
 CAMERA = Camera((640, 480), [560.0, 562.0, 322.0, 238.0, 0.1, 0.02, 0.0, 1e-4, 0.0, 0.0])
 WIDE = Camera((640, 480), [300.0, 300.0, 320.0, 240.0, 0.35, 0.1, 0.0, 0.0, 0.0, 0.0])
@@ -58,6 +59,19 @@ def test_all_is_inferred(inverted: bool) -> None:
     seen = corners.pattern
     assert isinstance(seen, AprilGrid)
     assert (seen.family, seen.border, seen.from_top) == ("t36h11", 2, False)
+    assert seen.spacing == pytest.approx(0.3, abs=0.001)
+
+
+@pytest.mark.parametrize("corner_squares", [True, False])
+def test_a_narrow_border_is_not_read_as_a_wide_one(corner_squares: bool) -> None:
+    """With cells of another size some of its tags can be read as well."""
+    pattern = AprilGrid("t36h11", 0.3, 1, False, corner_squares)
+    image = photograph_pattern((640, 480), Board(8, 10, 1.0, pattern), 0.8, 0.8)
+    corners = find_corners(image, pattern=AprilGrid())
+    assert corners.complete
+    seen = corners.pattern
+    assert isinstance(seen, AprilGrid)
+    assert (seen.family, seen.border) == ("t36h11", 1)
     assert seen.spacing == pytest.approx(0.3, abs=0.001)
 
 
