@@ -20,7 +20,11 @@ from calibgui.engine.arrays import Array, BoolArray, GreyImage, GridSize, IntArr
 from calibgui.engine.boards.april_grid import AprilGrid
 from calibgui.engine.detection import grid_map
 from calibgui.engine.detection import region_of_interest as region
-from calibgui.engine.detection.apriltags.grid_tags import GridTagFinder, GridTags
+from calibgui.engine.detection.apriltags.grid_tags import (
+    GridTagFinder,
+    GridTags,
+    find_grid_tags,
+)
 from calibgui.engine.detection.apriltags.outlined_corners import (
     has_corner_squares,
     locate_outlined_corners,
@@ -72,26 +76,25 @@ def find_april_grid(
     searched = None if outline is None else region.enlarge_outline(outline)
     levels = convert_for_reading(grey)
     finder = GridTagFinder(levels, searched)
-    read = finder.find(pattern, grid_size)
-    is_inverted = read is None
-    if read is None:
-        read = GridTagFinder(invert_levels(levels), searched, finder).find(pattern, grid_size)
-    if read is None:
+    negative = GridTagFinder(invert_levels(levels), searched, finder)
+    found = find_grid_tags([finder, negative], pattern, grid_size)
+    if found is None:
         raise _explain_missing_board(levels, grid_size, finder)
-    return _locate_corners(grey, levels, read, is_inverted, pattern, grid_size, outline, method)
+    read, which = found
+    return _locate_corners(grey, levels, read, which == 1, pattern, grid_size, outline, method)
 
 
 def _explain_missing_board(
     levels: GreyImage, grid_size: GridSize | None, finder: GridTagFinder
 ) -> NoBoardError:
     """Return the error that says what an image, in 8 bits, shows instead of the stated board."""
-    read = finder.find(AprilGrid(), None)
-    if read is None:
+    found = find_grid_tags([finder], AprilGrid(), None)
+    if found is None:
         return NoBoardError(
             "No AprilGrid was found.",
             "Take the picture again: sharp, evenly lit and near enough for its tags to be read.",
         )
-    tag_print, tags = read
+    tag_print, tags = found[0]
     cols, rows = tags.layout.cols, _count_rows(tags.squares)
     order = "top row down" if tags.layout.from_top else "bottom row up"
     has_squares = has_corner_squares(levels, tags, tag_print.border / tag_print.side)

@@ -10,6 +10,7 @@ so are read where these predict them (`marker_growth`).
 
 from __future__ import annotations
 
+from collections.abc import Iterator, Sequence
 from functools import lru_cache
 
 import numpy as np
@@ -99,44 +100,51 @@ class GridTagFinder:
         self._is_negative = positive is not None
         # A negative has the same contrasts.
         self._samples: dict[int, PrintSample] = {} if positive is None else positive._samples
-        self._shown: dict[int, bool] = {}
+        self._looks: dict[int, TagReader] = {}
 
-    def find(self, pattern: AprilGrid, grid_size: GridSize | None) -> GridTags | None:
-        """Find the tags of a board.
+    @property
+    def depth(self) -> int:
+        """Number of sizes of the image."""
+        return len(self._levels)
 
-        Args:
-            pattern: what is stated of the board.
-            grid_size: rows and columns of corners, if stated.
+    def search(
+        self, depth: int, pattern: AprilGrid, grid_size: GridSize | None
+    ) -> Iterator[GridTags | None]:
+        """Search one size of the image, again and again with more effort, until most tags of a
+        board are read; see `find_grid_tags`.
 
-        Returns:
-            None if there is no such board.
+        Yields:
+            The board of most tags until then, None if there is none.
         """
-        for depth in reversed(range(len(self._levels))):
-            if not self._may_show_tags(depth):
-                continue
-            boards: list[GridTags] = []
-            for is_smoothed in (True, False):
-                board = _read_board(
-                    self._make_reader(depth, is_smoothed), pattern, grid_size, self._outline
-                )
-                if board is not None:
-                    boards.append(board)
-                    if _is_mostly_read(board[1]):
-                        break
-            if boards:
-                return max(boards, key=_count_tags)
-        return None
+        best: GridTags | None = None
+        for reader in self._list_readers(depth):
+            board = _read_board(reader, pattern, grid_size, self._outline)
+            best = max(filter(None, (best, board)), key=_count_tags, default=None)
+            yield best
+            if best is not None and _is_mostly_read(best[1]):
+                return
 
-    def _may_show_tags(self, depth: int) -> bool:
-        """Return whether a sample of one size of the image shows tags, once. The coarsest is quick:
-        it is searched anyway, but the negative, of which few boards are printed, only if a look at
-        it shows tags."""
-        if depth == len(self._levels) - 1 and not self._is_negative:
-            return True
-        if depth not in self._shown:
+    def _list_readers(self, depth: int) -> Iterator[TagReader]:
+        """List the readers of one size of the image, the quickest made first; none if a look shows
+        no tags. The coarsest is searched anyway, but the negative, of which few boards are printed,
+        only if a quick look at it shows tags."""
+        is_coarsest = depth == len(self._levels) - 1
+        if self._is_negative or not is_coarsest:
+            look = self._make_look(depth)
+            if not _shows_tags(look):
+                return
+            if is_coarsest:
+                yield look
+        for is_smoothed in (True, False):
+            yield self._make_reader(depth, is_smoothed)
+
+    def _make_look(self, depth: int) -> TagReader:
+        """Make the reader of a sample of one size of the image, or of all of the coarsest, quickly,
+        once."""
+        if depth not in self._looks:
             quads = self._find_quads(depth, is_smoothed=True, is_sample=True)
-            self._shown[depth] = _shows_tags(TagReader(self._levels[0], quads))
-        return self._shown[depth]
+            self._looks[depth] = TagReader(self._levels[0], quads)
+        return self._looks[depth]
 
     def _find_quads(self, depth: int, is_smoothed: bool, is_sample: bool = False) -> Array:
         """Find the quadrilaterals (n, 4, 2) px of one size of the image, or of a sample of it, that
@@ -170,6 +178,33 @@ class GridTagFinder:
                 reader = reader.join(self._make_reader(depth, is_smoothed=True))
             self._readers[depth, is_smoothed] = reader
         return self._readers[depth, is_smoothed]
+
+
+def find_grid_tags(
+    finders: Sequence[GridTagFinder], pattern: AprilGrid, grid_size: GridSize | None
+) -> tuple[GridTags, int] | None:
+    """Find the tags of a board in an image, or its negative, the coarsest size first.
+
+    Where a first search of the image shows no board the negative is searched before it is searched
+    again: that takes longer.
+
+    Args:
+        finders: of the image, and of its negative if that is searched.
+        pattern: what is stated of the board.
+        grid_size: rows and columns of corners, if stated.
+
+    Returns:
+        The tags and the index of the finder that shows them; None if there is no such board.
+    """
+    for depth in reversed(range(finders[0].depth)):
+        searches = [finder.search(depth, pattern, grid_size) for finder in finders]
+        first = next(searches[0], None)
+        order = range(len(finders)) if first is not None else (*range(1, len(finders)), 0)
+        for which in order:
+            *_, best = (first, *searches[which]) if which == 0 else (None, *searches[which])
+            if best is not None:
+                return best, which
+    return None
 
 
 def _shows_tags(reader: TagReader) -> bool:

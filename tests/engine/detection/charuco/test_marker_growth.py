@@ -11,7 +11,7 @@ from calibgui.engine.arrays import GreyImage
 from calibgui.engine.boards.april_grid import AprilGrid, TagLayout
 from calibgui.engine.boards.apriltags import draw_tag
 from calibgui.engine.boards.board import Board
-from calibgui.engine.detection.apriltags.grid_tags import GridTagFinder
+from calibgui.engine.detection.apriltags.grid_tags import GridTagFinder, find_grid_tags
 from calibgui.engine.detection.apriltags.tag_reader import TagPrint
 from calibgui.engine.detection.charuco.marker_growth import (
     TAG_NEIGHBOURS,
@@ -35,10 +35,11 @@ def image() -> GreyImage:
 @pytest.fixture(scope="module")
 def tags(image: GreyImage) -> Markers[TagLayout]:
     """All tags of the image, read as quadrilaterals."""
-    found = GridTagFinder(image, None).find(BOARD.pattern, BOARD.grid_size)
+    found = find_grid_tags([GridTagFinder(image, None)], BOARD.pattern, BOARD.grid_size)
     assert found is not None
-    assert found[0] == TagPrint("t36h11", 2)
-    return found[1].select(np.argsort(found[1].numbers))
+    tag_print, tags = found[0]
+    assert tag_print == TagPrint("t36h11", 2)
+    return tags.select(np.argsort(tags.numbers))
 
 
 @pytest.fixture(scope="module")
