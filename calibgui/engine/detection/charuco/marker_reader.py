@@ -5,7 +5,8 @@ size first, and only those dictionaries are read of which the image's dark quadr
 (`MarkerCandidates`) may be markers; at the coarsest size, which is quick, a stated one always is.
 At the other sizes to look for quadrilaterals takes long as well, above all where the image is full
 of texture: it is done quickly, once for dark and for bright markers, and only if a sample of the
-image (`PrintSample`) shows some that fit; and they are read only if those found lie as on a board.
+image (`PrintSample`) shows two that fit near to each other; and they are read only if those found
+lie as on a board.
 The dictionaries of a family of OpenCV's begin alike: the markers of the smallest are the first of
 all.
 """
@@ -15,6 +16,8 @@ from __future__ import annotations
 from collections.abc import Callable, Collection, Iterable
 from functools import lru_cache, partial
 from typing import NamedTuple
+
+import numpy as np
 
 from calibgui.engine import opencv
 from calibgui.engine.arrays import Array, GreyImage, IntArray
@@ -28,15 +31,13 @@ from calibgui.engine.detection.charuco.marker_growth import (
     grow_markers,
     tell_rows_apart,
 )
-from calibgui.engine.detection.charuco.markers import Markers, identify_board
+from calibgui.engine.detection.charuco.markers import Markers, are_some_near, identify_board
 from calibgui.engine.detection.charuco.thresholds import CHARUCO_THRESHOLDS
 from calibgui.engine.detection.print_samples import PrintSample, detect_dark_quads
 from calibgui.engine.detection.region_of_interest import are_inside
 
 _MAX_COARSE_SIDE = 1600
 """Longer side of the image in which markers are looked for first, px."""
-_MIN_SAMPLED_MARKERS = 2
-"""Number of quadrilaterals of a sample of a finer size that have to fit a dictionary."""
 _COMMON_FAMILIES = (
     *(f"DICT_{k}X{k}" for k in (4, 5, 6, 7)),
     "DICT_ARUCO_ORIGINAL",
@@ -44,6 +45,9 @@ _COMMON_FAMILIES = (
     "DICT_ARUCO_MIP_36H12",
 )
 """Families of dictionaries that are tried where none is stated; others would take longer."""
+
+Box = tuple[int, int, int, int]
+"""First column and row of a part of an image, and those behind the last, px."""
 
 
 class ReadBoard(NamedTuple):
@@ -79,6 +83,7 @@ class MarkerReader:
         self._positive = positive
         self._candidates: dict[int, MarkerCandidates] = {}
         self._samples: dict[int, MarkerCandidates] = {}
+        self._boxes: dict[tuple[int, str], Box] = {}
         self._read: dict[tuple[int, str], tuple[IntArray, Array]] = {}
         self.is_undecided = False
         """True once markers of a board were read that do not tell the length of its rows."""
@@ -168,14 +173,17 @@ class MarkerReader:
 
     def _agree_on_board(self, dictionary: str, depth: int) -> bool:
         """Return whether quadrilaterals of one of the finer levels may be markers of a dictionary
-        that lie as on a board; only if some in a sample may be markers all are looked for."""
+        that lie as on a board; only if a sample shows two near to each other all are looked for."""
         is_inverted = self._positive is not None
         positive = self._positive or self
-        sampled = positive._sample_candidates(depth).count_fitting(dictionary, is_inverted)
-        if sampled < _MIN_SAMPLED_MARKERS:
+        _, sampled = positive._sample_candidates(depth).read_fitting(dictionary, is_inverted)
+        if not are_some_near(sampled):
             return False
         read = positive._find_candidates(depth).read_fitting(dictionary, is_inverted)
-        return bool(identify_board(*read, MARKER_LAYOUTS, MARKER_LAYOUTS))
+        boards = identify_board(*read, MARKER_LAYOUTS, MARKER_LAYOUTS)
+        if boards:
+            self._boxes[depth, dictionary] = _find_box(boards[0].corners, self._levels[depth].shape)
+        return bool(boards)
 
     def _sample_candidates(self, depth: int) -> MarkerCandidates:
         """Find the quadrilaterals of a sample of one level of the pyramid, once."""
@@ -189,24 +197,35 @@ class MarkerReader:
         """Find the quadrilaterals of one level of the pyramid, once."""
         if depth not in self._candidates:
             level, is_coarsest = self._levels[depth], depth == len(self._levels) - 1
-            quads = (
-                detect_dark_quads(level)
-                if is_coarsest
-                else opencv.detect_dark_quads(level, is_quick=True)
-            )
+            quads = detect_dark_quads(level, is_quick=not is_coarsest)
             self._candidates[depth] = MarkerCandidates(level, quads)
         return self._candidates[depth]
 
     def _read_markers(self, depth: int, name: str) -> tuple[IntArray, Array]:
-        """Read numbers (n,) and corners (n, 4, 2) px of markers in the region of interest, once."""
+        """Read numbers (n,) and corners (n, 4, 2) px of markers in the region of interest, once; of
+        a finer size only where some agree on a board: in texture OpenCV may take minutes."""
         if (depth, name) not in self._read:
-            numbers, corners = opencv.detect_markers(self._levels[depth], name)
-            corners = (corners + 0.5) * 2**depth - 0.5
+            level = self._levels[depth]
+            left, top, right, bottom = self._boxes.get((depth, name), (0, 0, *level.shape[::-1]))
+            part = np.ascontiguousarray(level[top:bottom, left:right])
+            numbers, corners = opencv.detect_markers(part, name)
+            corners = (corners + np.array([left, top]) + 0.5) * 2**depth - 0.5
             if self._outline is not None and len(numbers):
                 inside = are_inside(self._outline, corners.mean(axis=1))
                 numbers, corners = numbers[inside], corners[inside]
             self._read[depth, name] = numbers, corners
         return self._read[depth, name]
+
+
+def _find_box(corners: Array, shape: tuple[int, ...]) -> Box:
+    """Find the box twice as wide and high as the one around markers (n, 4, 2) px, within an image
+    of `shape` (h, w)."""
+    low, high = corners.min(axis=(0, 1)), corners.max(axis=(0, 1))
+    margin = (high - low) / 2
+    left, top = np.maximum(np.floor(low - margin), 0).astype(np.int64).tolist()
+    limit = np.array(shape[::-1])
+    right, bottom = np.minimum(np.ceil(high + margin), limit).astype(np.int64).tolist()
+    return left, top, right, bottom
 
 
 @lru_cache

@@ -127,6 +127,12 @@ def identify_board(
     return boards
 
 
+def are_some_near(corners: Array) -> bool:
+    """Return whether two of the markers (n, 4, 2) px are alike in size and so near to each other
+    that they may be compared on a board."""
+    return len(_measure_displacements(corners, CHARUCO_THRESHOLDS.max_marker_distances[-1])[0]) > 0
+
+
 def drop_repeated(numbers: IntArray, corners: Array) -> tuple[IntArray, Array]:
     """Drop all but the first of the markers of one number at one place; numbers (n,), corners
     (n, 4, 2) px."""
