@@ -96,7 +96,7 @@ def average_detail(image: GreyImage, around: int, block: int) -> Array:
     them, over blocks of `block` x `block` px; those at the right and lower border may be cut."""
     detail = cv2.absdiff(image, cv2.blur(image, (around, around)))
     down, right = (-length % block for length in image.shape)
-    detail = cv2.copyMakeBorder(detail, 0, down, 0, right, cv2.BORDER_REPLICATE)
+    detail = cv2.copyMakeBorder(detail, 0, down, 0, right, cv2.BORDER_REFLECT)
     size = (detail.shape[1] // block, detail.shape[0] // block)
     return np.asarray(cv2.resize(detail, size, interpolation=cv2.INTER_AREA), np.float64)
 

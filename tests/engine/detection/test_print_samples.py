@@ -95,3 +95,12 @@ def test_a_board_before_a_wall_is_found(size: tuple[int, int], at: tuple[int, in
     top, left = at
     image[top : top + board.shape[0], left : left + board.shape[1]] = board
     assert len(find_corners(image, pattern=_ASKED["aprilgrid"])) > 70
+
+
+def test_a_block_that_the_border_cuts_counts_as_others() -> None:
+    """Else the tiles at the border of an image of fine texture would be the first."""
+    noise = np.random.default_rng(0).integers(0, 256, (330, 690)).astype(np.uint8)
+    detail = opencv.average_detail(noise, 5, 32)
+    assert detail.shape == (11, 22)
+    inside = detail[:-1, :-1]
+    assert np.abs(detail - inside.mean()).max() < 5 * inside.std()

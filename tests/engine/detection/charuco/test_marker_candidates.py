@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import cv2
 import numpy as np
 import pytest
@@ -85,12 +87,24 @@ def test_large_images_without_markers_are_read_at_their_coarsest_size_only(
 
 
 @pytest.mark.parametrize("is_inverted", [False, True])
-def test_markers_that_show_at_full_size_only_are_read(is_inverted: bool) -> None:
+def test_markers_that_show_at_full_size_only_are_read(
+    is_inverted: bool, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """The full size is read only about them, as textures beside them may take minutes."""
+    read = []
+    markers = opencv.detect_markers
+
+    def detect(image: arrays.GreyImage, name: str) -> tuple[arrays.IntArray, arrays.Array]:
+        read.append(image.size)
+        return markers(image, name)
+
+    monkeypatch.setattr(opencv, "detect_markers", detect)
     small = Scene(Board(5, 8, 20.0, Charuco(NAMES[0], 0.7, False)), distance=900.0).image()
     image = np.full((1300, 1700), small[0, 0], np.uint8)
     image[200:950, 300:1300] = small
     corners = find_corners(255 - image if is_inverted else image, pattern=Charuco(NAMES[0]))
     assert len(corners) > 30
+    assert max(read) < small.size
 
 
 @pytest.mark.parametrize("name", NAMES)
@@ -105,9 +119,19 @@ def test_numbers_and_corners_are_those_that_opencv_reads(name: str) -> None:
 
 
 def test_markers_that_fit_by_chance_are_not_read(monkeypatch: pytest.MonkeyPatch) -> None:
-    """A halftone has thousands of dark parts; of 4 x 4 cells some are always like a marker's."""
+    """A halftone has thousands of dark parts; of 4 x 4 cells some are always like a marker's. Those
+    of a sample that lie far apart do not make all of the image be searched either."""
     read: list[str] = []
+    searched: list[int] = []
+    search = opencv.detect_dark_quads
+
+    def detect(image: arrays.GreyImage, *how: Any, **more: Any) -> arrays.Array:
+        searched.append(image.size)
+        return search(image, *how, **more)
+
+    monkeypatch.setattr(opencv, "detect_dark_quads", detect)
     monkeypatch.setattr(opencv, "detect_markers", lambda _, name: read.append(name))
     with pytest.raises(NoBoardError):
         find_corners(draw_without_board(17, (3000, 4000), 2.5), None, pattern=Charuco())
     assert not read
+    assert max(searched) <= 750 * 1000
