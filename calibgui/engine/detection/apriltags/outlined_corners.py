@@ -2,7 +2,8 @@
 
 Every tag of the board in view is fitted by its outline (`tag_outlines`): those that were read, and
 those that show their number's cells where the others predict them. A tag counts if the fit stays
-near, finds a contrast like the others' and leaves no more unexplained than they do. Of one that a
+near, finds a contrast like the others' and leaves no more unexplained than they do, or lies where
+they expect it. Of one that a
 shadow or a reflection crosses, those corners count that lie near where all that do count expect
 them; how far they lie from there is put into their covariances.
 """
@@ -27,6 +28,7 @@ from calibgui.engine.detection.charuco.assembly import FittedCorners
 from calibgui.engine.detection.charuco.corners_between_markers import predict_places
 from calibgui.engine.detection.charuco.markers import Markers
 from calibgui.engine.detection.checkerboard import verification
+from calibgui.engine.detection.checkerboard.thresholds import THRESHOLDS
 from calibgui.engine.detection.corners import RejectedCorner, find_usable_covariances
 from calibgui.engine.detection.detector_io import list_rejected_corners
 from calibgui.engine.errors import NoBoardError
@@ -47,6 +49,9 @@ _MAX_RELATIVE_RESIDUAL = 0.05
 """Greatest residual of a tag over its contrast ..."""
 _MAX_RESIDUAL_OVER_MEDIAN = 3.0
 """... or over the median residual, whichever is more."""
+_SUSPECT_RELATIVE_RESIDUAL = 1.5
+"""Residual of a tag over the median, and in contrasts as well, beyond which its corners have to lie
+where the others expect them. Of rendered tags in noise it is at most 1.1, under a fisheye 1.5."""
 
 
 def has_corner_squares(image: GreyImage, tags: Markers[TagLayout], border: float) -> bool:
@@ -127,6 +132,10 @@ def locate_outlined_corners(
         good = _find_good_outlines(fit, quads, border)
         corners, grid = _list_corners(fit), _list_grid(squares)
         if good.all():
+            good = ~_find_displaced_tags(
+                corners, grid, measure_gap_of_tags(squares, fit.corners, gap)
+            )
+        if good.all():
             break
         bad = np.repeat(~good, 4)
         shaded = follow_shaded_outlines(image, quads[~good], squares[~good], border, gap)
@@ -162,6 +171,28 @@ def _measure_displacements(
     )
     expected = grid_map.fit_cells(np.ascontiguousarray(place), others).locate(its_place)
     return np.asarray(compute_lengths(expected - uv))
+
+
+def _find_displaced_tags(corners: FittedCorners, grid: IntArray, gap: float) -> BoolArray:
+    """Find the tags (n,) of worse fits than most of which a corner lies where the others do not
+    expect it: something as bright as the paper may cover a part of their border.
+
+    Args:
+        corners: the 4 n corners.
+        grid: (4 n, 2) their rows and columns.
+        gap: between tags, sides of a tag.
+    """
+    residuals = np.stack([corners.residual, corners.residual / corners.contrast])
+    limit = _SUSPECT_RELATIVE_RESIDUAL * np.median(residuals, axis=1, keepdims=True)
+    suspect = np.asarray((residuals > limit).all(axis=0))
+    if not suspect.any():
+        return np.zeros(len(grid) // 4, dtype=np.bool_)
+    sound = corners.select(~suspect)
+    off = _measure_displacements(corners.uv, grid, sound.uv, grid[~suspect], gap)
+    limits = THRESHOLDS.verification
+    usual = np.sqrt(np.mean(off[~suspect] ** 2))
+    farthest = max(limits.max_relative_displacement * usual, limits.max_displacement)
+    return np.asarray((suspect & (off > farthest)).reshape(-1, 4).any(axis=1))
 
 
 def _are_tolerable(corners: FittedCorners, displacement: Array, border: Array) -> BoolArray:

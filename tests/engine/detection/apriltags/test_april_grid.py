@@ -201,6 +201,23 @@ def test_a_tag_that_is_covered_is_left_out() -> None:
     assert_at_bound(BARE, corners, (0.7, 1.4))
 
 
+@pytest.mark.parametrize("level", [170, 220])
+def test_what_covers_a_border_is_not_its_edge(level: int) -> None:
+    """The outline of the tag below fits with it nearly as well, but a corner lay 1 px aside."""
+    image = BARE.image(noise=5.0)
+    whole = find_corners(image, pattern=AprilGrid())
+    upper, lower = (
+        whole.uv[(whole.grid == corner).all(axis=1)][0].astype(int) for corner in ((2, 9), (3, 9))
+    )
+    part = image[upper[1] - 12 : lower[1] - 1, min(upper[0], lower[0]) - 3 : upper[0] + 14]
+    part[...] = np.clip(np.random.default_rng(1).normal(level, 5, part.shape), 0, 255)
+    corners = find_corners(image, pattern=AprilGrid())
+    assert len(corners) >= 76
+    assert corners.cov is not None
+    sigma = np.sqrt(np.trace(corners.cov, axis1=1, axis2=2) / 2)
+    assert (np.linalg.norm(BARE.error(corners), axis=1) < 5 * sigma).all()
+
+
 @pytest.mark.parametrize("soft", [0.5, 3.0])
 def test_a_hard_shadow_leaves_tags_alone_their_corners(soft: float) -> None:
     """Those within it have a quarter of the contrast; those that its edge crosses are read by the
