@@ -3,9 +3,8 @@
 Every tag of the board in view is fitted by its outline (`tag_outlines`): those that were read, and
 those that show their number's cells where the others predict them. A tag counts if the fit stays
 near, finds a contrast like the others' and leaves no more unexplained than they do, or lies where
-they expect it. Of one that a
-shadow or a reflection crosses, those corners count that lie near where all that do count expect
-them; how far they lie from there is put into their covariances.
+they expect it. Of one that a shadow or a reflection crosses, those corners count that lie near
+where all that do count expect them; how far they lie from there is put into their covariances.
 """
 
 from __future__ import annotations
