@@ -1,7 +1,8 @@
 """X-junctions, compiled: the loops of ``detection.checkerboard.x_junctions``.
 
 The peaks are searched row by row in a window of five rows of R, so that nothing of the image's
-size is allocated, and only the strongest are kept on the way.
+size is allocated, and only the strongest are kept on the way. Hence most blocks of a row hold no
+value that could be one of these, which is quickly seen.
 """
 
 from __future__ import annotations
@@ -13,6 +14,8 @@ from calibgui.engine.kernels.common import bilinear, compiled, compiled_part
 
 _F = np.float32
 _QUARTER, _TWO = _F(0.25), _F(2)
+_BLOCK = 128
+"""Number of pixels of a block of a row."""
 
 
 @compiled_part
@@ -29,13 +32,38 @@ def _compute_determinants(g: GreyImage, v: int, row: FloatImage) -> None:
 
 
 @compiled_part
-def _is_first(R: FloatImage, v: int, u: int) -> bool:
-    """Return whether a peak equals none of the values before it in its surroundings."""
-    here = R[v % 5, u]
-    for du in range(-2, 3):
-        if R[(v - 2) % 5, u + du] == here or R[(v - 1) % 5, u + du] == here:
-            return False
-    return R[v % 5, u - 2] != here and R[v % 5, u - 1] != here
+def _compute_blocks(
+    g: GreyImage, v: int, least: np.float32, row: FloatImage, exceeds: BoolArray
+) -> None:
+    """Fill `row` with R of row v of the image g, and `exceeds` with whether any of that is more
+    than `least`, block by block."""
+    _compute_determinants(g, v, row)
+    for k in range(exceeds.shape[0]):
+        block = row[k * _BLOCK : (k + 1) * _BLOCK]
+        count = np.int32(0)  # in place of a flag, which the compiler does not vectorise
+        for u in range(block.shape[0]):
+            count += np.int32(block[u] > least)
+        exceeds[k] = count > 0
+
+
+@compiled_part
+def _is_peak(R: FloatImage, v: int, u: int) -> bool:
+    """Return whether none of the 24 values around the one at (u, v) is more, and none before it as
+    much."""
+    here, row = R[v % 5, u], R[v % 5]
+    # The next values first: they rule out most.
+    if not (row[u - 1] < here and row[u + 1] <= here):
+        return False
+    if not (R[(v - 1) % 5, u] < here and R[(v + 1) % 5, u] <= here):
+        return False
+    if not (row[u - 2] < here and row[u + 2] <= here):
+        return False
+    for dv in range(1, 3):
+        before, after = R[(v - dv) % 5], R[(v + dv) % 5]
+        for du in range(-2, 3):
+            if not (before[u + du] < here and after[u + du] <= here):
+                return False
+    return True
 
 
 @compiled
@@ -50,29 +78,22 @@ def _scan_rows(
     height, width = g.shape
     R = np.empty((5, width), dtype=_F)
     R[:] = -np.inf
-    column = np.empty(width, dtype=_F)
-    is_peak = np.empty(width, dtype=np.bool_)
+    exceeds = np.zeros((5, -(-width // _BLOCK)), dtype=np.bool_)
     count = 0
     for row in range(max(v - 2, 1), v + 2):
-        _compute_determinants(g, row, R[row % 5])
+        _compute_blocks(g, row, least, R[row % 5], exceeds[row % 5])
     while v < height - 2 and count + width <= where.shape[0]:
         if v + 2 < height - 1:
-            _compute_determinants(g, v + 2, R[(v + 2) % 5])
+            _compute_blocks(g, v + 2, least, R[(v + 2) % 5], exceeds[(v + 2) % 5])
         else:
             R[(v + 2) % 5] = -np.inf
-        r0, r1, r2, r3, r4 = R[0], R[1], R[2], R[3], R[4]
-        for u in range(width):
-            column[u] = max(max(max(r0[u], r1[u]), max(r2[u], r3[u])), r4[u])
-        here, any_peak = R[v % 5], False
-        for u in range(2, width - 2):
-            around = max(max(column[u - 2], column[u - 1]), max(column[u + 1], column[u + 2]))
-            is_peak[u] = here[u] > least and here[u] >= max(around, column[u])
-            any_peak |= is_peak[u]
-        if any_peak:
-            for u in range(2, width - 2):
-                if is_peak[u] and _is_first(R, v, u):
-                    where[count], value[count] = v * width + u, here[u]
-                    count += 1
+        here = R[v % 5]
+        for k in range(exceeds.shape[1]):
+            if exceeds[v % 5, k]:
+                for u in range(max(k * _BLOCK, 2), min((k + 1) * _BLOCK, width - 2)):
+                    if here[u] > least and _is_peak(R, v, u):
+                        where[count], value[count] = v * width + u, here[u]
+                        count += 1
         v += 1
     return count, v
 
