@@ -121,14 +121,14 @@ def find_candidates(
             continue
         found = _grow_lattices(content, content.lattices, is_sufficient, is_other)
         del content  # its images, while the next level's are made
-        candidates = _drop_parts([_carry_down(new, levels[:depth]) for new in found] + candidates)
+        candidates = _drop_parts(_carry_down(found, candidates, levels[:depth]) + candidates)
         is_sure = bool(found) and all(_is_surely_complete(new.lattice) for new in found)
         if is_sure or not depth:
             for k, content in waiting:
                 if missed := _select_missed(content.lattices, k, candidates):
                     found = _grow_lattices(content, missed, is_sufficient, is_other)
                     candidates = _drop_parts(
-                        candidates + [_carry_down(new, levels[:k]) for new in found]
+                        candidates + _carry_down(found, candidates, levels[:k])
                     )
             waiting = []
             yield candidates
@@ -143,9 +143,7 @@ def find_candidates(
             THRESHOLDS.junctions.parted,
         )
         if found := _grow_lattices(content, content.lattices, is_sufficient, is_other):
-            candidates = _drop_parts(
-                [_carry_down(new, levels[:depth]) for new in found] + candidates
-            )
+            candidates = _drop_parts(_carry_down(found, candidates, levels[:depth]) + candidates)
             yield candidates
         levels.append(opencv.halve_image(levels[depth]))
         depth += 1
@@ -321,10 +319,23 @@ def _is_resolved(lattice: Lattice, min_square: float = THRESHOLDS.search.min_squ
     return bool(known[int(_SMALL_SQUARES * (len(known) - 1))] > min_square)
 
 
-def _carry_down(candidate: Candidate, finer: list[GreyImage]) -> Candidate:
-    """Carry a candidate to the first of the `finer` levels, refining it at each."""
-    lattice = candidate.lattice
-    for image in reversed(finer):
-        doubled = Lattice(2 * lattice.uv + 0.5, lattice.dark)
-        lattice, _ = refine_lattice(image, doubled, THRESHOLDS.search.max_level_shift)
-    return Candidate(lattice, candidate.others)
+def _carry_down(
+    found: list[Candidate], known: list[Candidate], finer: list[GreyImage]
+) -> list[Candidate]:
+    """Carry the candidates found in a level to the first of the `finer` ones, refining them at
+    each, but for parts of larger ones that are known: of as many corners as textures have, that
+    would take longer than all else."""
+    limits, carried = THRESHOLDS.search, []
+    for candidate in found:
+        lattice, scale = candidate.lattice, 2 ** len(finer)
+        placed = Lattice(scale * (lattice.uv + 0.5) - 0.5, lattice.dark)
+        larger = (each.lattice for each in known if len(each.lattice) > len(lattice))
+        if any(is_part(placed, each) for each in larger):
+            continue
+        for image in reversed(finer):
+            doubled = Lattice(2 * lattice.uv + 0.5, lattice.dark)
+            lattice, _ = refine_lattice(
+                image, doubled, limits.max_level_shift, min_step=limits.min_level_step
+            )
+        carried.append(Candidate(lattice, candidate.others))
+    return carried

@@ -52,7 +52,11 @@ def choose_weight_sigma(spacing: Array) -> Array:
 
 
 def refine_saddles(
-    image: GreyImage, uv: Array, sigma: Array, limit: Array
+    image: GreyImage,
+    uv: Array,
+    sigma: Array,
+    limit: Array,
+    min_step: float = _THRESHOLDS.min_step,
 ) -> tuple[Array, BoolArray]:
     """Find the saddle points nearest to the estimates `uv` (n, 2) px.
 
@@ -61,6 +65,7 @@ def refine_saddles(
         uv: first estimates.
         sigma: (n,) standard deviation of the weights, px; halved where that finds no saddle.
         limit: (n,) farthest acceptable distance from the estimate, px.
+        min_step: length of a step at which an estimate has converged, px.
 
     Returns:
         Positions (n, 2), and whether (n,) each converged to a saddle within its limit; the
@@ -76,7 +81,7 @@ def refine_saddles(
                 uv[rest],
                 factor * sigma[rest],
                 limit[rest],
-                _THRESHOLDS.min_step,
+                min_step,
                 _THRESHOLDS.max_iterations,
             )
     return uv, good
@@ -142,7 +147,11 @@ def _compute_step(image: GreyImage, uv: Array, sigma: Array) -> tuple[Array, Boo
 
 
 def refine_lattice(
-    image: GreyImage, lattice: Lattice, farthest: float = np.inf, plain: float = 0.5
+    image: GreyImage,
+    lattice: Lattice,
+    farthest: float = np.inf,
+    plain: float = 0.5,
+    min_step: float = _THRESHOLDS.min_step,
 ) -> tuple[Lattice, BoolArray]:
     """Move the corners of a lattice to their saddle points.
 
@@ -151,6 +160,7 @@ def refine_lattice(
         lattice: the corners.
         farthest: longest way that one may move, px; never more than a quarter of a step.
         plain: how far from the corners nothing is printed in the squares and on their edges.
+        min_step: length of a step at which a saddle point has converged, px.
 
     Returns:
         The lattice, and a mask (rows, cols) of the corners that have a saddle point; the others
@@ -160,7 +170,7 @@ def refine_lattice(
     spacing = np.fmin(compute_lengths(corners.right), compute_lengths(corners.down))
     limit = np.minimum(spacing / 4, farthest)
     sigma = choose_weight_sigma(2 * plain * spacing)
-    moved, good = refine_saddles(image, corners.uv, sigma, limit)
+    moved, good = refine_saddles(image, corners.uv, sigma, limit, min_step)
     good &= not _do_squares_overlap_or_part(image, corners)
     at_saddle = lattice.found
     at_saddle[at_saddle] = good

@@ -58,6 +58,9 @@ class SearchThresholds:
     max_level_shift: float = 2.0
     """Greatest distance of a corner from where the next coarser level shows it, px; a corner
     without a saddle point within keeps its place."""
+    min_level_step: float = 0.02
+    """Length of a step at which a corner has converged in a level, px: what is left is made up for
+    in the next, and in full resolution when the board is refined."""
     max_grown_lattices: int = 8
     """Number of lattices, those with the most junctions, that are grown in a level."""
     max_sparse_lattices: int = 2

@@ -4,10 +4,12 @@ from __future__ import annotations
 
 from typing import Any
 
+import numpy as np
 import pytest
 
 from calibgui.engine.detection.checkerboard import neighbour_graph, pyramid_search
 from calibgui.engine.detection.checkerboard.lattice_growth import grow_lattice
+from calibgui.engine.detection.checkerboard.pyramid_search import Candidate
 from calibgui.engine.detection.lattice import Lattice, compute_filled_share
 from tests.scenes.without_board import draw_without_board
 
@@ -36,3 +38,14 @@ def test_components_without_a_cell_are_not_arranged(monkeypatch: pytest.MonkeyPa
     )
     list(pyramid_search.find_candidates(draw_without_board(47), plain=0.26))
     assert 0 < len(arranged) <= 20
+
+
+def test_parts_of_what_is_known_are_not_carried_down() -> None:
+    """A lattice seen again in a coarser level is refined only where it has corners of its own."""
+    uv = 40.0 * np.stack(np.meshgrid(np.arange(6), np.arange(5)), axis=-1) + 60.0
+    known = Candidate(Lattice(uv, dark=True), others=0)
+    part = Candidate(Lattice((uv[:4, :4] + 0.5) / 2 - 0.5, dark=True), others=0)
+    beside = Candidate(Lattice((uv[:4, :4] + 300.5) / 2 - 0.5, dark=True), others=0)
+    image = np.full((600, 600), 127, np.uint8)
+    (carried,) = pyramid_search._carry_down([part, beside], [known], [image])
+    np.testing.assert_allclose(carried.lattice.uv, uv[:4, :4] + 300.0)
