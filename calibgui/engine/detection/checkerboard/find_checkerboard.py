@@ -235,11 +235,11 @@ def refine_board(
         The board without the corners that fail, or why the lattice is none.
     """
     is_sparse = compute_filled_share(lattice) < THRESHOLDS.search.min_filled_in_texture
-    if is_sparse and (objection := find_objection(lattice, grey, plain=plain)):
-        # To try so many gaps again, as textures have, takes several times as long.
-        return Refusal(lattice.shape, objection)
     seen = lattice
     for _ in range(_MAX_ROUNDS):
+        if is_sparse and (objection := find_objection(seen, grey, plain=plain)):
+            # To try so many gaps again, as textures have, takes several times as long.
+            return Refusal(lattice.shape, objection)
         filled = verification.fill_gaps(seen, grey.shape)
         refined, at_saddle = refine_lattice(grey, filled, plain=plain)
         if method == "saddle":

@@ -53,7 +53,7 @@ from calibgui.engine.detection.puzzleboard.place_decoding import (
 )
 from calibgui.engine.errors import NoBoardError
 
-_MAX_SHOWN_LINES = 8
+_MAX_SHOWN_LINES = 6
 """Greatest number of rows, and of columns, of a lattice without dots that are verified to say that
 it is a board: it bounds the time."""
 _MAX_COMPARED_LINES = 20
