@@ -42,6 +42,8 @@ _MIN_DEGREE, _MAX_DEGREE = 3, 5
 """Degrees of the residual's polynomial: below 3 a lens has no effect."""
 _POWERS = np.array([(k - j, j) for k in range(_MAX_DEGREE + 1) for j in range(k + 1)])
 """(21, 2) powers of X and Y in the polynomial's terms, by degree."""
+_PARAMETERS = 10
+"""Number of parameters of a homography and a radial lens."""
 _MIN_POINTS_PER_TERM = 1.5
 """Least number of points over that of terms at which a degree is used."""
 _RANK_TOLERANCE = 1e-6
@@ -59,6 +61,12 @@ class CircleMap:
     """Length in which the polynomial counts, pitches."""
     coefficients: Array
     """(21, 2) of the polynomial, px; 0 for the degrees that the points do not determine."""
+
+    @property
+    def parameters(self) -> int:
+        """Number of parameters that were fitted: those of the polynomial, whose terms up to degree
+        2 say as much as the homography and the lens, or else those of these."""
+        return max(2 * int(np.count_nonzero(self.coefficients.any(axis=1))), _PARAMETERS)
 
     def locate(self, xy: Array) -> Array:
         """Compute positions (n, 2) px of points (n, 2) of the board, pitches."""

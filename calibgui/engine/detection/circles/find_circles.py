@@ -54,6 +54,11 @@ _OPEN = (
     " rows and columns if the grid has more."
 )
 """What is said of a grid whose end is not seen."""
+_MAX_SCATTER_SIGMAS = 3.0
+"""Greatest excess of the variance about the map over the stated one that counts as chance, standard
+deviations of the former."""
+_NO_ELLIPSES = "ellipses do not describe the edges of its circles"
+_TOO_MANY_FAIL = "too many of its circles fail"
 _CENTRE_ITERATIONS = 3
 """Number of times that the map and the centres are computed from each other."""
 
@@ -85,7 +90,7 @@ def find_circles(
             grey, first[some], steps[some], pattern.half_distance, paper
         )
         if _measure_misfit(tried) > _MAX_SAMPLE_EXCESS * CIRCLE_THRESHOLDS.max_relative_residual:
-            raise _distrust()
+            raise _distrust(_NO_ELLIPSES)
     fit = ellipse_fit.fit_ellipses(grey, first, steps, pattern.half_distance, paper)
     verified = _verify_circles(fit, xy, grey)
     radius = verified.radius
@@ -106,7 +111,7 @@ def find_circles(
         grid=grid[verified.good[order]],
         uv=verified.uv[good],
         estimate=first[good],
-        cov=fit.covariance[good],
+        cov=fit.covariance[good] + verified.scatter * np.eye(2),
         ambiguity=ambiguity,
         roi=whole[[0, 0, -1, -1], [0, -1, -1, 0]] if outline is None else outline,
         method="ellipses",
@@ -139,7 +144,8 @@ def _find_grid(
     )
     largest, part = np.zeros((0, 0, 2)), np.zeros((0, 0), np.int64)
     for depth, seen, divisor, is_shaded in _list_searches(levels):
-        if is_shaded and grid_size is None and largest.size:
+        is_rare = is_shaded or depth == len(levels)
+        if is_rare and grid_size is None and largest.size:
             break
         window = max(int(min(seen.shape) / divisor), 9)
         points = find_blobs(seen, window, most, is_shaded=is_shaded)
@@ -170,7 +176,8 @@ def _find_grid(
 def _list_searches(levels: list[GreyImage]) -> Iterator[tuple[int, GreyImage, int, bool]]:
     """List the searches for circles in an image and its halved copies, the coarsest first: depth,
     image or negative, what its shorter side is divided by for the window, and whether shadows are
-    evened out, which is needed rarely and so comes last."""
+    evened out. That is needed rarely and so comes last, with a copy that is coarser still, in which
+    the pixels of a screen do not tear the circles apart."""
     coarsest = len(levels) - 1
     for depth in reversed(range(len(levels))):
         # What the coarsest level does not show is small, and lies in a small window.
@@ -178,6 +185,9 @@ def _list_searches(levels: list[GreyImage]) -> Iterator[tuple[int, GreyImage, in
         for seen in (levels[depth], 255 - levels[depth]):
             for divisor in divisors:
                 yield depth, seen, divisor, False
+    smoothed = opencv.halve_image(levels[coarsest])
+    for seen in (smoothed, 255 - smoothed):
+        yield coarsest + 1, seen, _WINDOW_DIVISORS[0], False
     yield coarsest, levels[coarsest], _SHADED_DIVISOR, True
 
 
@@ -202,7 +212,7 @@ def _number_circles(pattern: Circles, centres: Array, xy: Array, outline: Array 
         start = 0.0 if outline is None else float(np.linalg.norm(order[0, 0] - outline[0]))
         rated.append((misfit, start, -right[0] / np.linalg.norm(right), uv))
     if not rated:
-        raise _distrust()
+        raise _distrust("its circles do not lie on a smooth grid")
     least = min(rate[0] for rate in rated)
     same = [rate for rate in rated if rate[0] < 2 * least + 0.1]
     return min(same, key=lambda rate: (rate[1], round(rate[2], 6)))[3]
@@ -220,6 +230,8 @@ class _VerifiedCircles:
     """Radius of all but the marks, pitches."""
     are_marks: BoolArray
     """(n,) True for those that pass and are of another size."""
+    scatter: float
+    """Variance along u and v that `uv` has beyond the covariances of the ellipses, px^2."""
 
 
 def _number_by_marks(
@@ -254,7 +266,7 @@ def _verify_circles(fit: EllipseFit, xy: Array, image: GreyImage) -> _VerifiedCi
     """
     limits = CIRCLE_THRESHOLDS
     if not (np.isfinite(fit.unknowns).all() and find_usable_covariances(fit.covariance).all()):
-        raise _distrust()
+        raise _distrust(_NO_ELLIPSES)
     half = np.sqrt(np.einsum("nii->ni", fit.spread)) + fit.blur[:, None]
     good = ((fit.uv > half) & (fit.uv + half < np.array(image.shape[::-1]) - 1)).all(axis=1)
     contrast, residual = fit.contrast, fit.residual
@@ -269,7 +281,7 @@ def _verify_circles(fit: EllipseFit, xy: Array, image: GreyImage) -> _VerifiedCi
     for _ in range(_CENTRE_ITERATIONS):
         # A circle that fails must not bend the map for the others.
         if np.count_nonzero(~good) > limits.max_rejected_share * len(good):
-            raise _distrust()
+            raise _distrust(_TOO_MANY_FAIL)
         circle_map = fit_circle_map(xy[good], uv[good])
         J = circle_map.differentiate(xy)
         spread = np.linalg.solve(J, np.linalg.solve(J, fit.spread).transpose(0, 2, 1))
@@ -282,12 +294,37 @@ def _verify_circles(fit: EllipseFit, xy: Array, image: GreyImage) -> _VerifiedCi
         shape = np.abs(spread / radii[:, None, None] ** 2 - np.eye(2)).max(axis=(1, 2))
         good = good & (np.linalg.norm(off, axis=1) < limits.max_misplacement)
         good = good & (shape < limits.max_shape_difference)
-    enough = np.count_nonzero(~good) <= limits.max_rejected_share * len(good)
-    if not enough or _measure_misfit(fit) > limits.max_relative_residual:
-        raise _distrust()
+    if np.count_nonzero(~good) > limits.max_rejected_share * len(good):
+        raise _distrust(_TOO_MANY_FAIL)
+    if _measure_misfit(fit) > limits.max_relative_residual:
+        raise _distrust(_NO_ELLIPSES)
     if np.count_nonzero(are_marks & good) > limits.max_marked_share * len(good):
-        raise _distrust()
-    return _VerifiedCircles(good, uv, radius, are_marks & good)
+        raise _distrust("too many of its circles are of another size")
+    scatter = _estimate_scatter(xy[good], uv[good], fit.covariance[good])
+    return _VerifiedCircles(good, uv, radius, are_marks & good, scatter)
+
+
+def _estimate_scatter(xy: Array, uv: Array, covariance: Array) -> float:
+    """Estimate the variance px^2 along u and v by which centres scatter about the smooth map beyond
+    what their covariances explain: 0 unless it is more than noise would.
+
+    The covariances take what an ellipse leaves unexplained for noise of single pixels. Beats of a
+    screen's pixels with the camera's, shadows and stains draw whole edges aside, by several times
+    as much, and each circle its own way.
+
+    Args:
+        xy: (n, 2) the circles' centres, pitches.
+        uv: (n, 2) their images, px.
+        covariance: (n, 2, 2) px^2.
+    """
+    circle_map = fit_circle_map(xy, uv)
+    freedom = uv.size - circle_map.parameters
+    if freedom <= 0:
+        return 0.0
+    variance = float(np.sum((uv - circle_map.locate(xy)) ** 2)) / freedom
+    stated = float(np.mean(np.einsum("nii->n", covariance))) / 2
+    most = 1 + _MAX_SCATTER_SIGMAS * np.sqrt(2 / freedom)
+    return variance - stated if variance > most * stated else 0.0
 
 
 def _measure_misfit(fit: EllipseFit) -> float:
@@ -295,9 +332,9 @@ def _measure_misfit(fit: EllipseFit) -> float:
     return float(np.median(fit.residual / fit.contrast))
 
 
-def _distrust() -> NoBoardError:
-    """Return the error for a grid that is not regular enough."""
+def _distrust(reason: str) -> NoBoardError:
+    """Return the error for a grid that fails a test, `reason` being the end of a sentence."""
     return NoBoardError(
-        "What looks like a grid of circles is not regular enough to be trusted.",
+        f"What looks like a grid of circles is not trusted: {reason}.",
         "Take the picture again, sharp and evenly lit, or leave it out.",
     )
