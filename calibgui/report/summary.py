@@ -30,7 +30,7 @@ from calibgui.engine.calibration import Calibration, Status, compute_correlation
 from calibgui.report import advice, partial
 from calibgui.report.names import shorten_name
 from calibgui.report.numbers import format_count, format_with_sigma
-from calibgui.report.verdict import format_headline
+from calibgui.report.verdict import describe_reason, format_headline
 
 _MAX_GOOD_RELATIVE_SIGMA = 1e-3
 """Relative standard deviation of a length below which it counts as well determined."""
@@ -84,7 +84,7 @@ def describe_calibration(
     tone = Tone.GOOD if verdict.grade is Grade.GOOD else Tone.CAUTION
     headline = f"{format_headline(verdict)}."
     if not verdict.findings:  # they say why themselves
-        headline += f" {verdict.reason}"
+        headline += f" {describe_reason(verdict, result)}"
     first = Sentence(tone, headline)
     return first, *_describe_in_detail(result, verdict.findings)
 

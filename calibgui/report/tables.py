@@ -29,6 +29,7 @@ from calibgui.report.verdict import (
     describe_error_in_scene,
     describe_fit,
     describe_options,
+    describe_reason,
     format_headline,
     format_times,
 )
@@ -106,7 +107,7 @@ def _format_verdict(result: Result, verdict: Verdict) -> Iterator[str]:
     yield (
         f"{headline}."
         if verdict.findings
-        else _fill_lines(f"{headline}. {verdict.reason}", "", "  ")
+        else _fill_lines(f"{headline}. {describe_reason(verdict, result)}", "", "  ")
     )
     in_scene = describe_error_in_scene(verdict, result.condition)
     yield _fill_lines("; ".join(filter(None, [describe_error(verdict), in_scene])) + ".", "", "  ")
@@ -127,7 +128,7 @@ def summarise_in_a_line(result: Result) -> str:
     """Summarise the calibration in a line: the verdict, the error of a pixel, and its remedy."""
     verdict = judge_result(result)
     words = [
-        f"{format_headline(verdict)}. {verdict.reason}",
+        f"{format_headline(verdict)}. {describe_reason(verdict, result)}",
         f"{describe_error(verdict)}; {describe_fit(result)}, {_count_used(result)}.",
     ]
     if verdict.findings and (action := verdict.findings[0].action) is not None:

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from calibgui.dataset import Result
+from calibgui.dataset import Result, View
 from calibgui.engine.assessment import (
     Action,
     ActionKind,
@@ -26,6 +26,11 @@ _HEADLINES = {
 }
 
 
+_MIN_BLUR, _MIN_RELATIVE_BLUR = 1.5, 2.0
+"""Blur of a photograph's edges, px, and over that of the median one, from which it is called
+blurred. Of photographs that people took for sharp the worst has 1.8 times the median, 0.9 px."""
+
+
 def format_headline(verdict: Verdict) -> str:
     """Format the grade in capitals, with the ratio by which the camera can be better."""
     return _HEADLINES[verdict.grade].format(times=format_times(verdict.times_better))
@@ -34,6 +39,31 @@ def format_headline(verdict: Verdict) -> str:
 def format_times(times: float) -> str:
     """Format a ratio of errors with two digits, which is more than it is known to."""
     return f"{times:.1f}" if times < 9.95 else format_two_digits(times)
+
+
+def describe_reason(verdict: Verdict, result: Result) -> str:
+    """Say why a calibration has its grade, and which photographs are blurred if that is no cause.
+
+    Their corners are as right as others, but scatter more.
+    """
+    blurred = [] if verdict.findings else _find_blurred(result.used)
+    if not blurred or verdict.grade is Grade.NOT_USABLE:
+        return verdict.reason
+    are = "is" if len(blurred) == 1 else "are"
+    return f"{verdict.reason} {join_names(blurred)} {are} blurred, which does no harm here."
+
+
+def _find_blurred(views: Sequence[View]) -> list[str]:
+    """Return the names of the views that are much less sharp than the median one."""
+    blurs = {
+        view.name: float(np.nanmedian(view.corners.blur))
+        for view in views
+        if view.corners is not None and view.corners.blur is not None
+    }
+    if not blurs:
+        return []
+    least = max(_MIN_BLUR, _MIN_RELATIVE_BLUR * float(np.median(list(blurs.values()))))
+    return [name for name, blur in blurs.items() if blur > least]
 
 
 def describe_error(verdict: Verdict) -> str:

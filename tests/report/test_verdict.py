@@ -2,15 +2,17 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from types import SimpleNamespace
 from typing import cast
 
+import numpy as np
 import pytest
 
 from calibgui.dataset import Result
-from calibgui.engine.assessment import Action, ActionKind
+from calibgui.engine.assessment import Action, ActionKind, Grade, PixelError, Verdict
 from calibgui.engine.calibration import Cost
-from calibgui.report.verdict import describe_options
+from calibgui.report.verdict import describe_options, describe_reason
 
 
 @pytest.mark.parametrize(
@@ -31,3 +33,19 @@ def test_a_remedy_is_told_as_a_change_of_the_command(action: Action, words: str)
         calibration=SimpleNamespace(cost=Cost.PAPER, settings={"method": "bouguet"}),
     )
     assert describe_options(action, cast(Result, result)) == words
+
+
+@pytest.mark.parametrize(("blur", "named"), [(3.0, True), (1.3, False)])
+def test_a_blurred_photograph_that_does_no_harm_is_named(blur: float, named: bool) -> None:
+    """The other photographs have a blur of 0.6 px."""
+    views = [
+        SimpleNamespace(name=name, corners=SimpleNamespace(blur=np.full(54, px)))
+        for name, px in (("a.png", 0.6), ("b.png", blur), ("c.png", 0.6))
+    ]
+    result = cast(Result, SimpleNamespace(used=views))
+    reason = "The photographs show nothing wrong."
+    verdict = Verdict(Grade.GOOD, reason, PixelError(*[0.1] * 6), 1.0, 500.0)
+    words = " b.png is blurred, which does no harm here." if named else ""
+    assert describe_reason(verdict, result) == reason + words
+    unusable = replace(verdict, grade=Grade.NOT_USABLE)
+    assert describe_reason(unusable, result) == reason

@@ -35,6 +35,7 @@ from calibgui.gui.verdict.texts import (
 from calibgui.gui.widgets import theme
 from calibgui.gui.widgets.lengths import state_condition
 from calibgui.gui.widgets.wrapped_label import WrappedLabel
+from calibgui.report.verdict import describe_reason
 
 _PROOFS = {
     Cause.BOARD_SHAPE: "BoardShapePanel",
@@ -203,7 +204,8 @@ class VerdictBar(QFrame):
             self.headline.setText(describe_grade(verdict.grade, verdict.times_better))
             old = self.tr("Out of date: calibrate again. ") if self._is_old else ""
             diagnosis = result.calibration.diagnosis
-            self.reason.setText(old + (diagnosis.message if diagnosis else verdict.reason))
+            reason = diagnosis.message if diagnosis else describe_reason(verdict, result)
+            self.reason.setText(old + reason)
             self._figures = describe_figures(verdict, result)
             self.findings.show_verdict(verdict, self._list_names(), state_condition(result))
         self._show_figures()
