@@ -92,7 +92,8 @@ def _explain_missing_board(
     if found is None:
         return NoBoardError(
             "No AprilGrid was found.",
-            "Take the picture again: sharp, evenly lit and near enough for its tags to be read.",
+            "Take the picture again: two rows of tags or more in view, sharp, evenly lit and near"
+            " enough to be read.",
         )
     tag_print, tags = found[0]
     cols, rows = tags.layout.cols, _count_rows(tags.squares)
