@@ -57,7 +57,7 @@ class Detection:
     pattern: Pattern = CHECKERBOARD
     """The given pattern, completed from the images."""
     remark: str = ""
-    """What the user should know of how the size was inferred, a sentence; mostly empty."""
+    """A sentence on how the size was inferred, where the user should check it; mostly empty."""
 
     def corner_set(self, square: float) -> CornerSet:
         """Return the views for a calibration, on a board of squares of side `square` mm.

@@ -31,7 +31,7 @@ _GOLDEN_ANGLE = 0.381966
 _DISTINCT = 64
 """Number of views after which colours come again: more cannot be told apart."""
 _DARKENED = 140
-"""What Fusion divides the lightness of the window by for borders, %."""
+"""The percentage by which Fusion divides the lightness of the window for borders."""
 _SYMBOLS = ("o", "s", "t1", "d", "+", "x", "star")
 
 
@@ -61,7 +61,7 @@ class Theme:
     line: str
     """Borders, axes and grids."""
     border: str
-    """Of boxes that are checked, and of menus: it alone shows an empty box."""
+    """Borders of check boxes and of menus: they alone show an empty box."""
     accent: str
     """Selection and the main action."""
     on_accent: str

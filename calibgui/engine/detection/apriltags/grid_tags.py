@@ -201,7 +201,7 @@ def find_grid_tags(
         first = next(searches[0], None)
         order = range(len(finders)) if first is not None else (*range(1, len(finders)), 0)
         for which in order:
-            *_, best = (first, *searches[which]) if which == 0 else (None, *searches[which])
+            *_, best = (first if which == 0 else None, *searches[which])
             if best is not None:
                 return best, which
     return None

@@ -69,17 +69,23 @@ def test_most_are_found_quickly_dark_and_bright(is_inverted: bool) -> None:
     assert candidates.count_fitting(NAMES[0], not is_inverted) <= 2
 
 
-def test_large_images_without_markers_are_read_at_their_coarsest_size_only(
-    monkeypatch: pytest.MonkeyPatch,
-) -> None:
-    read = []
+@pytest.fixture
+def read(monkeypatch: pytest.MonkeyPatch) -> list[tuple[int, ...]]:
+    """Shapes of the images in which OpenCV reads markers."""
+    shapes = []
     markers = opencv.detect_markers
 
     def detect(image: arrays.GreyImage, name: str) -> tuple[arrays.IntArray, arrays.Array]:
-        read.append(image.shape)
+        shapes.append(image.shape)
         return markers(image, name)
 
     monkeypatch.setattr(opencv, "detect_markers", detect)
+    return shapes
+
+
+def test_large_images_without_markers_are_read_at_their_coarsest_size_only(
+    read: list[tuple[int, ...]],
+) -> None:
     image = np.random.default_rng(0).integers(0, 256, (1200, 1800)).astype(np.uint8)
     with pytest.raises(NoBoardError):
         find_corners(image, pattern=Charuco(NAMES[0]))
@@ -88,23 +94,15 @@ def test_large_images_without_markers_are_read_at_their_coarsest_size_only(
 
 @pytest.mark.parametrize("is_inverted", [False, True])
 def test_markers_that_show_at_full_size_only_are_read(
-    is_inverted: bool, monkeypatch: pytest.MonkeyPatch
+    is_inverted: bool, read: list[tuple[int, ...]]
 ) -> None:
     """The full size is read only about them, as textures beside them may take minutes."""
-    read = []
-    markers = opencv.detect_markers
-
-    def detect(image: arrays.GreyImage, name: str) -> tuple[arrays.IntArray, arrays.Array]:
-        read.append(image.size)
-        return markers(image, name)
-
-    monkeypatch.setattr(opencv, "detect_markers", detect)
     small = Scene(Board(5, 8, 20.0, Charuco(NAMES[0], 0.7, False)), distance=900.0).image()
     image = np.full((1300, 1700), small[0, 0], np.uint8)
     image[200:950, 300:1300] = small
     corners = find_corners(255 - image if is_inverted else image, pattern=Charuco(NAMES[0]))
     assert len(corners) > 30
-    assert max(read) < small.size
+    assert max(height * width for height, width in read) < small.size
 
 
 @pytest.mark.parametrize("name", NAMES)
