@@ -26,6 +26,7 @@ from calibgui.gui.canvas.layers import (
     Marks,
     draw_outline,
     paint_drawing,
+    paint_labels,
     paint_marks,
     trace_hull,
 )
@@ -246,10 +247,15 @@ class Canvas(QGraphicsView):
             return  # marks mean nothing without what they mark
         painter.save()
         painter.resetTransform()
+        painter.setClipRect(self.viewport().rect())
         if self.tool is None or self.tool.with_marks:
-            for layer, drawing in self._drawings.items():
-                if layer in self.shown and drawing.size == self._size:
-                    paint_drawing(painter, drawing, self.to_screen, self.opacity.get(layer, 1.0))
+            drawings = [
+                (drawing, self.opacity.get(layer, 1.0))
+                for layer, drawing in self._drawings.items()
+                if layer in self.shown and drawing.size == self._size
+            ]
+            for drawing, opacity in drawings:
+                paint_drawing(painter, drawing, self.to_screen, opacity)
             paint_marks(
                 painter,
                 self.marks,
@@ -258,6 +264,8 @@ class Canvas(QGraphicsView):
                 self.residual_scale,
                 self.opacity,
             )
+            for drawing, opacity in drawings:
+                paint_labels(painter, drawing, self.to_screen, opacity)
             corners = self.marks.corners
             if self._highlight is not None and corners is not None:
                 at = self.to_screen(trace_hull(corners.uv))

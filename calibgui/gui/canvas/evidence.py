@@ -101,7 +101,7 @@ class Evidence(QObject):
         longest = float(np.nanmax(length, initial=1e-12))
         scale = _FULL * max(camera.size) / _ARROWS / longest
         lines = tuple(_trace_arrow(a, scale * d) for a, d in zip(at, vector, strict=True))
-        corner = np.array([0.0, 0.0])
+        corner = np.array([0.0, camera.size[1] - 1.0])  # the image's name stands at the upper left
         text = self.tr("displacement × {0:.2g}, at most {1:.2f} px").format(scale, longest)
         return Drawing(camera.size, theme.DISPLACED, lines, ((corner, text),))
 

@@ -132,13 +132,18 @@ def paint_marks(
 
 
 def paint_drawing(painter: QPainter, drawing: Drawing, to_screen: ToScreen, opacity: float) -> None:
-    """Draw what lies over the images of a camera, on a painter in the widget's coordinates."""
+    """Draw the dots and lines of what lies over the images, in the widget's coordinates."""
     painter.setRenderHint(QPainter.RenderHint.Antialiasing)
     with fade(painter, opacity):
         for dots, colour in drawing.dots:
             draw_dots(painter, to_screen(dots), colour)
         for line in drawing.lines:
             draw_polyline(painter, to_screen(line), drawing.colour)
+
+
+def paint_labels(painter: QPainter, drawing: Drawing, to_screen: ToScreen, opacity: float) -> None:
+    """Write the texts of what lies over the images, on a painter in the widget's coordinates."""
+    with fade(painter, opacity):
         for at, text in drawing.labels:
             draw_label(painter, to_screen(at[None])[0], text, drawing.colour)
 
@@ -255,10 +260,13 @@ def draw_polyline(painter: QPainter, at: Array, colour: QColor) -> None:
 
 
 def draw_label(painter: QPainter, at: Array, text: str, colour: QColor) -> None:
-    """Text beside a screen position (2,), on a dark patch: whole, if the position is in sight."""
+    """Text beside a screen position (2,), on a dark patch: whole, if the position is in sight.
+
+    In sight is what the painter's clip leaves: its viewport may be that of the whole window.
+    """
     box = QRectF(painter.fontMetrics().boundingRect(text)).adjusted(-3, -1, 3, 1)
     box.moveTopLeft(QPointF(at[0] + 8, at[1] + 4))
-    room = QRectF(painter.viewport())
+    room = painter.clipBoundingRect()
     if room.contains(QPointF(*at)):
         box.moveRight(min(box.right(), room.right()))
         box.moveBottom(min(box.bottom(), room.bottom()))

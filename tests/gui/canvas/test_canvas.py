@@ -203,12 +203,13 @@ def test_a_residual_is_drawn_as_many_times_as_long_as_asked(canvas: Canvas) -> N
 )
 def test_a_label_is_whole_where_its_place_is_in_sight(u: float, v: float, is_whole: bool) -> None:
     def count_painted(u: float, v: float) -> int:
-        picture = QImage(200, 100, QImage.Format.Format_Grayscale8)
+        picture = QImage(300, 200, QImage.Format.Format_Grayscale8)
         picture.fill(255)
         painter = QPainter(picture)
+        painter.setClipRect(0, 0, 200, 100)
         layers.draw_label(painter, np.array([u, v]), "20 px", theme.MAGNITUDE)
         painter.end()
-        grey = np.frombuffer(picture.constBits(), np.uint8).reshape(100, -1)[:, :200]
+        grey = np.frombuffer(picture.constBits(), np.uint8).reshape(200, -1)[:100, :200]
         return int((grey < 255).sum())
 
     whole = count_painted(20.0, 20.0)

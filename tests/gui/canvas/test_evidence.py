@@ -66,7 +66,9 @@ def test_displacement_arrows_are_magnified_as_they_say(full: MainWindow, qtbot: 
     at = np.array([line[0] for line in drawing.lines])
     vector = np.array([line[1] - line[0] for line in drawing.lines])
     displacement = compute_displacement(at, camera)
-    (_, text), *_ = drawing.labels
+    ((place, text),) = drawing.labels
+    caption = full.page.caption.geometry()
+    assert caption.bottom() < full.page.canvas.to_screen(place[None])[0, 1], "its name hides it"
     scale = float(text.split("×")[1].split(",")[0])
     np.testing.assert_allclose(vector, scale * displacement.vector, rtol=0.06, atol=1e-6)
     assert f"at most {displacement.length.max():.2f} px" in text
