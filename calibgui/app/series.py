@@ -43,6 +43,11 @@ class Scalar(StrEnum):
     TEMPERATURE = "temperature"
     DATE = "date"
 
+    @property
+    def unit(self) -> str:
+        """The unit of values, empty for a date and where the user alone knows it."""
+        return {Scalar.ZOOM: "mm", Scalar.TEMPERATURE: "°C"}.get(self, "")
+
 
 @dataclass(frozen=True, eq=False, slots=True)
 class SeriesResult:
@@ -207,7 +212,7 @@ def format_value(value: float, scalar: Scalar) -> str:
         return "–"
     if scalar is Scalar.DATE:
         return datetime.fromtimestamp(value * _SECONDS_OF_DAY).isoformat(" ", "minutes")
-    return f"{value:g}{' mm' if scalar is Scalar.ZOOM else ''}"
+    return f"{value:g} {scalar.unit}".rstrip()
 
 
 def choose_axis_text(analysed: AnalysedSeries) -> Callable[[float], str] | None:

@@ -53,7 +53,8 @@ def configure(parser: argparse.ArgumentParser) -> None:
         "--values",
         type=Path,
         metavar="FILE.csv",
-        help="table of file,value: the quantity of each result, as a number or an ISO date",
+        help="table of file,value: the quantity of each result, as a number (temperatures in °C) "
+        "or an ISO date",
     )
     parser.add_argument("--at", metavar="VALUE", help="print the camera at this value")
     add_export_option(
@@ -152,7 +153,7 @@ def _write_files(options: argparse.Namespace, analysed: AnalysedSeries) -> list[
     if options.output:
         from calibgui.report import series_figures  # matplotlib takes a while to import
 
-        unit = ", mm" if options.by is Scalar.ZOOM else ""
+        unit = options.by.unit and f", {options.by.unit}"
         write = choose_axis_text(analysed)
         figure = series_figures.draw_series(series, options.by + unit, write)
         save_figure(figure, options.output)

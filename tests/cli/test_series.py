@@ -167,7 +167,9 @@ def test_a_result_that_is_not_determined_is_left_out_by_name(
     assert (
         f"{partial} is left out, as its photographs do not determine the camera. One view" in said
     )
-    assert [line.split() for line in printed.splitlines()].count(["25", *["left", "out"] * 3]) == 3
+    assert [line.split() for line in printed.splitlines()].count(
+        ["25", "°C", *["left", "out"] * 3]
+    ) == 3
     with table.open() as file:
         *used, last = csv.DictReader(file)
     assert [row["left_out"] for row in used] == [""] * 4

@@ -87,8 +87,8 @@ class SeriesDialog(QDialog):
         self.table_of_values = QPushButton(self.tr("&Table of values…"), autoDefault=False)
         self.table_of_values.setToolTip(
             self.tr(
-                "A CSV file with the columns file,value. Without one focal lengths and dates are "
-                "read from the photographs."
+                "A CSV file with the columns file,value; temperatures in °C. Without one focal "
+                "lengths and dates are read from the photographs."
             )
         )
         self.table_of_values.clicked.connect(self._ask_for_values)
@@ -294,7 +294,7 @@ class SeriesDialog(QDialog):
         self.plot.set_labels(
             self.scalar.currentText(),
             self.parameter.currentText(),
-            _find_unit(self.analysed.scalar),
+            self.analysed.scalar.unit,
             self.tr("px") if k < 4 else "",
         )
         self.plot.write_numbers(choose_axis_text(self.analysed))
@@ -401,11 +401,6 @@ def _name_files(analysed: AnalysedSeries) -> list[str]:
     """Return names of the results of a series, and of those that are left out."""
     files = [str(one.path) for one in analysed.results]
     return tell_apart([*files, *(one.file for one in analysed.left_out)])
-
-
-def _find_unit(scalar: Scalar) -> str:
-    """Return the unit of a quantity on an axis, empty where the user knows it."""
-    return "mm" if scalar is Scalar.ZOOM else ""
 
 
 def _evaluate(series: Series, values: Sequence[float], k: int) -> tuple[np.ndarray, np.ndarray]:

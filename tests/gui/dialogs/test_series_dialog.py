@@ -86,6 +86,7 @@ def test_each_parameter_is_drawn_with_its_band(dialog: SeriesDialog) -> None:
         assert (drawn.top(), drawn.bottom()) == pytest.approx((lower.min(), upper.max()))
         unit = " [px]" if k < 4 else ""
         assert dialog.plot.area.left.labelText.endswith(unit)
+        assert dialog.plot.area.bottom.labelText == "temperature [°C]"
 
 
 def test_the_camera_at_a_value_is_shown_and_written(
