@@ -57,9 +57,9 @@ class Welcome(QScrollArea):
         title.setFont(font)
         words = WrappedLabel(
             self.tr(
-                "Drop photographs of a flat checkerboard here: 10 to 30 of them, all of the "
-                "board in view, tilted in different directions, and reaching into the "
-                "image's corners. A saved project can be dropped as well."
+                "Drop photographs of a flat board here: 10 to 30 of them, the board tilted in "
+                "different directions and reaching into the image's corners. Its kind and size are "
+                "found. A saved project can be dropped as well."
             )
         )
         words.setAlignment(Qt.AlignmentFlag.AlignCenter)
@@ -83,7 +83,7 @@ class Welcome(QScrollArea):
             ),
             self._link(
                 self.tr("&Print a board"),
-                self.tr("A checkerboard, ChArUco board or grid of circles in true size."),
+                self.tr("A checkerboard, or one of the other kinds, in true size."),
                 self.board_wanted,
             ),
         ]
