@@ -193,7 +193,10 @@ def describe_lens_error(calibration: Calibration, rms: float, does_harm: bool = 
         text += " The board's estimated shape stands in for the lens: do not rely on it."
     if not does_harm:
         return f"{text} Another lens model may be closer (--model auto)."
-    return f"{text} Compare the lens models and take the one that is recommended (--model auto)."
+    return (
+        f"{text} Compare the lens models and take the one that is recommended (--model auto); if "
+        "it is this one, add views up to the image's edges, which determine more of the lens."
+    )
 
 
 def describe_error_sources(sources: ErrorSources) -> str:

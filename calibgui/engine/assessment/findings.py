@@ -395,7 +395,8 @@ def _describe_lens(case: Case, error: float, harm: float) -> Finding:
         f"The lens model {case.calibration.camera.model} does not follow this lens.",
         f"Of {case.rms:.3g} px RMS it leaves {error:.2g} px that all views share and the board "
         "does not explain.",
-        "Compare the lens models and take the one that is recommended (--model auto).",
+        "Compare the lens models and take the one that is recommended (--model auto); if it is "
+        "this one, add views up to the image's edges, which determine more of the lens.",
         max(error, harm),
         action=Action(ActionKind.CHOOSE_LENS_MODEL),
     )
