@@ -159,15 +159,16 @@ class _Dask:
 
     def _take_result(self, future: Any) -> Any:
         """Return the result of a task that has ended. Raises what it raised."""
-        from distributed import KilledWorker
+        from distributed import CancelledError, KilledWorker
 
-        if future.status == "finished":
+        try:
+            # A result whose worker has died since is computed again: `future.status`, which says
+            # "lost" meanwhile, is no answer.
             return future.result()
-        if future.status == "error" and isinstance(future.exception(), KilledWorker):
+        except KilledWorker:
             return Crashed()
-        if future.status == "error":
-            raise future.exception()
-        raise CalibrationError(
-            f"Dask's scheduler {self._address or 'on this machine'} is gone.",
-            "Start it again and repeat the command: what is done is kept.",
-        )
+        except CancelledError as error:
+            raise CalibrationError(
+                f"Dask's scheduler {self._address or 'on this machine'} is gone.",
+                "Start it again and repeat the command: what is done is kept.",
+            ) from error

@@ -160,6 +160,18 @@ def test_daskss_own_workers_may_be_killed(
 
 @needs_dask
 @pytest.mark.slow
+def test_a_result_that_is_lost_with_daskss_worker_is_computed_again() -> None:
+    with open_scheduler(1) as scheduler:
+        results = scheduler.run(eval, ["__import__('os').getpid()"] * 3)
+        worker = int(str(next(results)[1]))
+        time.sleep(1)  # the others are done and wait in the worker's memory
+        os.kill(worker, signal.SIGKILL)
+        time.sleep(0.1)  # the scheduler knows; a new worker takes longer
+        assert all(isinstance(number, int) and number != worker for _, number in results)
+
+
+@needs_dask
+@pytest.mark.slow
 def test_a_scheduler_that_is_killed_is_named_and_the_rerun_does_the_rest(
     tasks: Sequence[CameraTask], calibrated: Path, tmp_path: Path
 ) -> None:
