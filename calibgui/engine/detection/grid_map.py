@@ -59,7 +59,7 @@ fitted."""
 _MAX_MISFIT_RATIO = 0.5
 """Greatest ratio of the rms distance that a lens leaves to that without one at which it is kept."""
 _MIN_LENS_POINTS = 16
-"""Least number of points that a lens is fitted to."""
+"""Least number of points that a lens of three coefficients is fitted to."""
 _MIN_EXACT_POINTS = 9
 """The same of exact points: the corners of the smallest board."""
 _MIN_EXACT_MISFIT = 0.0007
@@ -215,20 +215,24 @@ def _compute_scale(r: Array, coefficients: Array) -> tuple[Array, Array, Array]:
     return k, -by_r * k**2, (2 * by_r**2 * k - by_r2) * k**2
 
 
-def fit_radial_homography(cells: Array, uv: Array, are_exact: bool = False) -> RadialHomography:
+def fit_radial_homography(
+    cells: Array, uv: Array, are_exact: bool = False, is_start: bool = False
+) -> RadialHomography:
     """Fit a homography, with a radial lens if that leaves much less.
 
     Args:
         cells: (n, 2) = (col, row).
         uv: (n, 2) px, where they are seen.
         are_exact: whether they are known to a fraction of a pixel, so that a lens is worth its time
-            for less misfit and with fewer points; it then has one coefficient, for a start.
+            for less misfit and with fewer points. Of fewer than 16 it has one coefficient.
+        is_start: whether one coefficient is enough of any points, as the map will be refined.
     """
-    least, relative, steps = (
-        (_MIN_EXACT_POINTS, _MIN_EXACT_MISFIT, 0)
+    least, relative = (
+        (_MIN_EXACT_POINTS, _MIN_EXACT_MISFIT)
         if are_exact
-        else (_MIN_LENS_POINTS, _MIN_RELATIVE_MISFIT, _GAUSS_NEWTON_STEPS)
+        else (_MIN_LENS_POINTS, _MIN_RELATIVE_MISFIT)
     )
+    steps = 0 if is_start or len(uv) < _MIN_LENS_POINTS else _GAUSS_NEWTON_STEPS
     return RadialHomography(
         *_fit_map(
             cells,

@@ -27,8 +27,8 @@ _Floats = npt.NDArray[np.floating[Any]]
 """Arrays of float32."""
 _Ints = npt.NDArray[np.signedinteger[Any]]
 """Arrays of int64."""
-_COLUMNS = 17
-"""Number of columns: sixteen unknowns and the residual."""
+_COLUMNS = 21
+"""Number of columns: twenty unknowns and the residual."""
 _D, _DO, _S, _SO, _X, _Y, _GREY, _B, _BO, _ZERO, _E, _EO, _J = (
     BLOCK * row for row in (0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 13, 16)
 )
@@ -54,7 +54,7 @@ class _Model(Protocol):
     @property
     def levels(self) -> Array: ...
     @property
-    def curvature(self) -> Array: ...
+    def bows(self) -> Array: ...
     @property
     def half(self) -> Array: ...
     def measure_edges(self) -> tuple[Array, Array, Array]: ...
@@ -63,15 +63,14 @@ class _Model(Protocol):
 
 @compiled_part
 def _measure(
-    p: float, q: float, k: int, corners: Array, edges: Array, curvature: Array
+    p: float, q: float, k: int, corners: Array, edges: Array, bows: Array
 ) -> tuple[float, float]:
     """Compute s over the length, and d px, of (p, q) along and within edge k, whose length, tangent
     and inward normal are edges (4, 5)."""
     length = edges[k, 0]
     x, y = p - corners[k, 0], q - corners[k, 1]
     s = (edges[k, 1] * x + edges[k, 2] * y) / length
-    bow = curvature[k] * length * length / 2
-    return s, edges[k, 3] * x + edges[k, 4] * y + bow * s * (1 - s)
+    return s, edges[k, 3] * x + edges[k, 4] * y + 4 * bows[k] * s * (1 - s)
 
 
 @compiled_part
@@ -82,11 +81,11 @@ def _is_within(s: float, d: float, length: float, band: Array) -> bool:
 
 @compiled_part
 def _is_earlier(
-    p: float, q: float, edge: int, corners: Array, edges: Array, curvature: Array, bands: Array
+    p: float, q: float, edge: int, corners: Array, edges: Array, bows: Array, bands: Array
 ) -> bool:
     """Return whether a pixel lies in the band of an edge before this one."""
     for k in range(edge):
-        s, d = _measure(p, q, k, corners, edges, curvature)
+        s, d = _measure(p, q, k, corners, edges, bows)
         if _is_within(s, d, edges[k, 0], bands[k]):
             return True
     return False
@@ -106,6 +105,7 @@ def _fill_columns(w: _Floats, edge: int, other: int, edges: Array, levels: Array
     i0, i1, i2 = _F(levels[1, 0]), _F(levels[1, 1]), _F(levels[1, 2])
     begin, end = _J + 2 * edge * BLOCK, _J + 2 * ((edge + 1) % 4) * BLOCK
     mine, its = _J + (8 + edge % 2) * BLOCK, _J + (9 - edge % 2) * BLOCK
+    bow, residual = _J + (16 + edge) * BLOCK, _J + 20 * BLOCK
     for p in range(m):
         x, y = w[_X + p], w[_Y + p]
         paper, ink = p0 + p1 * x + p2 * y, i0 + i1 * x + i2 * y
@@ -118,9 +118,10 @@ def _fill_columns(w: _Floats, edge: int, other: int, edges: Array, levels: Array
         first, last = pull * (_ONE - w[_S + p]), pull * w[_S + p]
         w[begin + p], w[begin + BLOCK + p] = first * n0, first * n1
         w[end + p], w[end + BLOCK + p] = last * n0, last * n1
+        w[bow + p] = _F(-4) * first * w[_S + p]
         w[mine + p] = swing * beside * w[_E + 2 * BLOCK + p]
         w[its + p] = swing * here * w[_EO + 2 * BLOCK + p]
-        w[_J + 16 * BLOCK + p] = w[_GREY + p] - (paper + (ink - paper) * Q)
+        w[residual + p] = w[_GREY + p] - (paper + (ink - paper) * Q)
         w[_J + 13 * BLOCK + p] = Q
     for p in range(m):
         x, y, Q = w[_X + p], w[_Y + p], w[_J + 13 * BLOCK + p]
@@ -133,12 +134,14 @@ def _fill_columns(w: _Floats, edge: int, other: int, edges: Array, levels: Array
     begin, end = _J + 2 * other * BLOCK, _J + 2 * ((other + 1) % 4) * BLOCK
     shared = end if end == _J + 2 * edge * BLOCK else begin
     alone = begin if shared == end else end
+    bow = _J + (16 + other) * BLOCK
     for p in range(m):
         x, y = w[_X + p], w[_Y + p]
         swing = (i0 - p0 + (i1 - p1) * x + (i2 - p2) * y) * _HALF
         here = (w[_E + p] + _ONE) * _HALF
         pull = -swing * here * w[_EO + BLOCK + p]
         first, last = pull * (_ONE - w[_SO + p]), pull * w[_SO + p]
+        w[bow + p] = _F(-4) * first * w[_SO + p]
         near, away = (last, first) if shared == end else (first, last)
         w[alone + p], w[alone + BLOCK + p] = away * o0, away * o1
         w[shared + p] += near * o0
@@ -155,10 +158,16 @@ def _list_columns(edge: int, other: int, columns: _Ints) -> int:
         if is_seen or (other >= 0 and (k == other or k == (other + 1) % 4)):
             columns[count], columns[count + 1] = 2 * k, 2 * k + 1
             count += 2
-    for k in range(8, _COLUMNS):
+    for k in range(8, 16):
         if other >= 0 or k != 9 - edge % 2:
             columns[count] = k
             count += 1
+    for k in range(4):
+        if k in (edge, other):
+            columns[count] = 16 + k
+            count += 1
+    columns[count] = _COLUMNS - 1
+    count += 1
     return count
 
 
@@ -175,7 +184,7 @@ def _add_block(
     m: int,
     out: Array,
 ) -> None:
-    """Add the products of m pixels of an edge to the lower triangle of out (17, 17); near its
+    """Add the products of m pixels of an edge to the lower triangle of out (21, 21); near its
     beginning (0), near its end (1), or far from both (2)."""
     last = (edge + 3) % 4
     other = last if end == 0 else (edge + 1) % 4 if end == 1 else -1
@@ -207,14 +216,14 @@ def _accumulate(
     corners: Array,
     edges: Array,
     bands: Array,
-    curvature: Array,
+    bows: Array,
     blurs: Array,
     box: Array,
     levels: Array,
     half: Array,
     out: Array,
 ) -> None:
-    """Add to out (n, 17, 17)."""
+    """Add to out (n, 21, 21)."""
     height, width = image.shape
     w, counts = np.zeros((3, _ROWS * BLOCK), dtype=_F), np.zeros(3, dtype=np.int64)
     columns = np.empty(_COLUMNS, dtype=np.int64)
@@ -235,21 +244,22 @@ def _accumulate(
             far = _FAR * blurs[i, (edge + 1) % 2] + box[i, (edge + 1) % 4]
             for x in range(int(np.floor(min(x0, x1) - wide)), int(np.ceil(max(x0, x1) + wide)) + 1):
                 way = (x - x0) / along
-                bow = -curvature[i, edge] * way * (length - way) / 2
+                share = way / length
+                bow = -4 * bows[i, edge] * share * (1 - share)
                 # Of a normal (-t_v, t_u) the part across is t_u, or -t_v for an edge along v.
                 row = int(np.rint(y0 + way * across + bow / (along if flat else -along)))
                 for y in range(row - reach, row + reach + 1):
                     u, v = (x, y) if flat else (y, x)
                     if u < 1 or v < 1 or u > width - 2 or v > height - 2:
                         continue
-                    s, d = _measure(u, v, edge, corners[i], edges[i], curvature[i])
+                    s, d = _measure(u, v, edge, corners[i], edges[i], bows[i])
                     if not _is_within(s, d, length, bands[i, edge]) or _is_earlier(
-                        u, v, edge, corners[i], edges[i], curvature[i], bands[i]
+                        u, v, edge, corners[i], edges[i], bows[i], bands[i]
                     ):
                         continue
                     which = 0 if s < 0.5 else 1
                     other = (edge + 3 + 2 * which) % 4
-                    s2, d2 = _measure(u, v, other, corners[i], edges[i], curvature[i])
+                    s2, d2 = _measure(u, v, other, corners[i], edges[i], bows[i])
                     if d2 > far:
                         which = 2
                     m, block = counts[which], w[which]
@@ -283,11 +293,11 @@ def accumulate_normal_equations(image: GreyImage, model: _Model, is_sharp: bool)
     edges = np.concatenate([length[..., None], tangent, normal], axis=2)
     box = abs(normal).max(axis=2) / 2 if is_sharp else np.zeros((n, 4))
     out = np.zeros((n, _COLUMNS, _COLUMNS))
-    corners, curvature, blurs, levels, half = map(
-        make_contiguous, (model.corners, model.curvature, model.blurs, model.levels, model.half)
+    corners, bows, blurs, levels, half = map(
+        make_contiguous, (model.corners, model.bows, model.blurs, model.levels, model.half)
     )
     _accumulate(
-        make_read_only(image), corners, edges, make_contiguous(model.measure_bands()), curvature,
+        make_read_only(image), corners, edges, make_contiguous(model.measure_bands()), bows,
         blurs, box, levels, half, out,
     )  # fmt: skip
     return out
@@ -298,12 +308,12 @@ def _average_profiles(
     image: GreyImage,
     corners: Array,
     edges: Array,
-    curvature: Array,
+    bows: Array,
     reach: Array,
     share: Array,
     out: Array,
 ) -> None:
-    """Add to out (n, 4, 2, samples)."""
+    """Add to out (n, 4, 3, samples)."""
     m, samples = len(share), out.shape[3]
     for i in range(len(corners)):
         for edge in range(4):
@@ -311,22 +321,22 @@ def _average_profiles(
             nu, nv = edges[i, edge, 3], edges[i, edge, 4]
             for k in range(m):
                 s = share[k] * length
-                bow = -curvature[i, edge] * s * (length - s) / 2
+                bow = -4 * bows[i, edge] * share[k] * (1 - share[k])
                 u, v = corners[i, edge, 0] + s * tu, corners[i, edge, 1] + s * tv
                 for j in range(samples):
                     d = bow + reach[i] * (2 * j / (samples - 1) - 1)
                     grey = bilinear(image, u + d * nu, v + d * nv)
-                    out[i, edge, 2 * k // m, j] += 2 * grey / m
+                    out[i, edge, 3 * k // m, j] += 3 * grey / m
 
 
 def average_profiles(
     image: GreyImage, model: _Model, reach: Array, share: Array, samples: int
 ) -> Array:
     """Compute ``_average_profiles`` of the reference."""
-    corners, curvature, reach = map(make_contiguous, (model.corners, model.curvature, reach))
-    out = np.zeros((len(corners), 4, 2, samples))
+    corners, bows, reach = map(make_contiguous, (model.corners, model.bows, reach))
+    out = np.zeros((len(corners), 4, 3, samples))
     edges = np.concatenate(
         [part.reshape(len(out), 4, -1) for part in model.measure_edges()], axis=2
     )
-    _average_profiles(make_read_only(image), corners, edges, curvature, reach, share, out)
+    _average_profiles(make_read_only(image), corners, edges, bows, reach, share, out)
     return out

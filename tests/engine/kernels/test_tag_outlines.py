@@ -14,14 +14,15 @@ SQUARES = np.argwhere(np.ones((3, 4)))
 SIDE, GAP, BORDER = 40.0, 0.3, 0.2
 """Of the tags, px and sides."""
 LEFT_OUT = 30.0
-"""What the left border of the image leaves out of the board, px."""
+"""What the left border of the image leaves out of the board, px; its lower one cuts
+the paper beside a tag."""
 
 
 def draw(blur: float, swing: float = -140.0) -> tuple[np.ndarray, np.ndarray]:
     """Tags of a turned board that leaves the image, their borders of even ink, and their corners
     half a pixel off."""
     turn = np.array([[0.97, -0.24], [0.24, 0.97]]) * SIDE
-    v, u = np.indices((200, 230)).astype(np.float64)
+    v, u = np.indices((216, 230)).astype(np.float64)
     at = (np.stack([u + LEFT_OUT - 70, v - 20], axis=-1)) @ np.linalg.inv(turn).T
     soft = blur / SIDE
     image = np.full(u.shape, 180.0)
@@ -57,7 +58,7 @@ def test_the_same_outlines(
     moved = np.linalg.norm(readable.corners - corners, axis=2)
     assert 0.2 < np.median(moved) < 0.8, "there is something to fit"
     # The readable sums are of single precision: what lies on the border of a band may not count.
-    np.testing.assert_allclose(compiled.corners, readable.corners, atol=2e-3)
+    np.testing.assert_allclose(compiled.corners, readable.corners, atol=5e-3)
     np.testing.assert_allclose(compiled.blur, readable.blur, rtol=2e-3)
     np.testing.assert_allclose(compiled.contrast, readable.contrast, rtol=1e-3)
     off = np.abs(compiled.covariance - readable.covariance).max(axis=(2, 3))

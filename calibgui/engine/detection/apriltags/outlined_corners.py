@@ -137,7 +137,7 @@ def locate_outlined_corners(
         if good.all():
             break
         bad = np.repeat(~good, 4)
-        shaded = follow_shaded_outlines(image, quads[~good], squares[~good], border, gap)
+        shaded = follow_shaded_outlines(image, quads[~good], fit.lens_bows[~good], border, gap)
         its_corners = corners.select(bad)._replace(uv=shaded.reshape(-1, 2))
         doubted.append((its_corners, grid[bad], quads[~good]))
         squares, quads = squares[good], quads[good]

@@ -1,15 +1,15 @@
 """The corners of tags from the outlines of their borders, at the Cramer-Rao bound.
 
 A tag whose corners nothing dark touches has no edges that cross there, and no saddle points. The
-whole outline then tells where its corners are: four edges from corner to corner, bent as the
-map of all tags says (`grid_map`). With p_i the corners, clockwise from the upper left one, edge i
-runs from p_i to p_i+1 in the direction t_i over a length L_i, with its normal n_i inwards. A point
-q lies at s_i = t_i.(q - p_i) along it and within it by
+whole outline then tells where its corners are: four edges from corner to corner, bent by the
+lens. With p_i the corners, clockwise from the upper left one, edge i runs from p_i to p_i+1 in the
+direction t_i over a length L_i, with its normal n_i inwards. A point q lies at the share
+s_i = t_i.(q - p_i) / L_i of it and within it by
 
-    d_i = n_i.(q - p_i) + kappa_i s_i (L_i - s_i) / 2,
+    d_i = n_i.(q - p_i) + 4 b_i s_i (1 - s_i),
 
-kappa_i being the curvature towards n_i. Blurred, the share of ink near the corner of edges i and j
-is that of a quarter of the plane,
+its bow b_i being how far outwards of the chord its middle lies. Blurred, the share of ink near the
+corner of edges i and j is that of a quarter of the plane,
 
     Q = (1 + E_i + E_j + G(d_i, d_j)) / 4,
 
@@ -19,8 +19,11 @@ is (1 + E_i) / 2. Paper and border each have a level that varies linearly over t
     I(q) = paper(q) (1 - Q) + ink(q) Q.
 
 The unknowns of a tag, its corners (8), the blurs of its first and third and of its second and
-fourth edge, and the two levels with their gradients (6), are found by Gauss-Newton steps, all tags
-at once. By the inverse of the normal equations follow the covariances of the corners. The corners
+fourth edge, the two levels with their gradients (6), and the bows (4), are found by Gauss-Newton
+steps, all tags at once. By itself a tag tells its bows poorly, and half as much again is its
+corners' error. The corners of all tags tell the lens (`grid_map`), and this the bows: with how well
+it agrees with those that were found, they enter the last steps. By the inverse of the normal
+equations follow the covariances of the corners. The corners
 at both ends of an edge share it, so that they correlate, by about -1/2 across it; the covariance of
 each by itself is right. As at a crossing of edges (``x_corner_fit``) light moves the pattern, and
 it is moved back. The ink's spread cannot be told from larger tags with a smaller gap, and is not.
@@ -29,6 +32,7 @@ it is moved back. The ink's spread cannot be told from larger tags with a smalle
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
+from typing import NamedTuple
 
 import numpy as np
 
@@ -40,12 +44,16 @@ from calibgui.engine.detection.detector_io import estimate_least_noise
 from calibgui.engine.detection.edge_intensity import EdgeIntensity, compute_edge
 from calibgui.engine.images.sampling import sample_image
 
-_GAUSS_NEWTON_STEPS = 3
-"""Number of steps. A fourth changes the errors of no condition of the benchmark by 0.1 %."""
+_MAX_FREE_STEPS, _LAST_STEPS = 8, 2
+"""Numbers of steps, each tag by itself, and with the bows that the lens of all tags gives them."""
+_CONVERGED_STEP = 0.05
+"""Step of no corner beyond which the next, of second order, is nothing, px."""
 _START_ROUNDS = 2
 """Number of times that edges are moved to where their profiles rise before the first step."""
 _SAMPLES_ALONG, _SAMPLES_ACROSS = 24, 33
 """Numbers of samples of a profile, along its edge and across it."""
+_PARTS = 3
+"""Number of parts of an edge whose profiles are averaged: as many as the ways in which it moves."""
 _ALONG_MARGIN = 0.15
 """Part of an edge at both ends that its profile leaves out, lengths: the corners are blurred."""
 _PROFILE_REACH = 0.75
@@ -64,8 +72,15 @@ _MAX_SHARP_BLUR = 0.6
 """Median blur below which the pixel's own shape matters, px."""
 _MAX_PIXELS_AT_ONCE = 40_000
 """Number of pixels fitted at once."""
-_UNKNOWNS = 16
-"""Number of unknowns of a tag: corners 0 to 7, blurs 8 and 9, paper 10 to 12, ink 13 to 15."""
+_UNKNOWNS = 20
+"""Number of unknowns of a tag: corners 0 to 7, blurs 8 and 9, paper 10 to 12, ink 13 to 15, bows 16
+to 19."""
+_USUAL_BOW = 0.05
+"""Standard deviation of bows before anything is known of the lens, lengths of the edge."""
+_MEDIAN_CHI_SQUARE = 0.455
+"""Median of the square of a normal variable of variance 1."""
+_LENS_UNKNOWNS = 4
+"""Number of unknowns of a lens: bows that are as many show nothing of its misfit."""
 _DAMPING = 1e-9
 """Number that is added to the diagonal of the normal equations, over its largest entry."""
 AROUND = np.array([(0.0, 0.0), (1.0, 0.0), (1.0, 1.0), (0.0, 1.0)])
@@ -88,6 +103,8 @@ class TagOutlines:
     """(n,) paper minus ink, grey levels; negative for bright tags on dark."""
     residual: Array
     """(n,) standard deviation of what the model leaves unexplained, grey levels."""
+    lens_bows: Array
+    """(n, 4) px, the bows that the lens of all tags gives the edges."""
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -101,8 +118,8 @@ class _Model:
     levels: Array
     """(k, 2, 3) of paper and ink: the level in the tag's middle and its rise over `half` px to the
     right and down."""
-    curvature: Array
-    """(k, 4) 1/px."""
+    bows: Array
+    """(k, 4) px."""
     inwards: Array
     """(k,) how far the border is read inwards, px."""
     outwards: Array
@@ -119,7 +136,7 @@ class _Model:
                     self.corners,
                     self.blurs,
                     self.levels,
-                    self.curvature,
+                    self.bows,
                     self.inwards,
                     self.outwards,
                     self.half,
@@ -152,14 +169,16 @@ def fit_tag_outlines(
         border: width of the tags' border, sides.
         gap: between tags, sides, roughly.
     """
-    model = _estimate_start(image, corners, _locate_corners(squares, gap), border, gap)
+    model = _estimate_start(image, corners, border, gap)
+    usual = _BowPrior(np.zeros((len(corners), 4)), _USUAL_BOW * model.measure_edges()[0])
+    least = estimate_least_noise(image)
+    noise = np.full(len(corners), least)
+    model, inverse, square = _take_steps(image, model, usual, noise, _MAX_FREE_STEPS)
+    noise = np.maximum(square, least)
     places = _locate_corners(squares, measure_gap_of_tags(squares, model.corners, gap))
-    for _ in range(_GAUSS_NEWTON_STEPS):
-        model = replace(model, curvature=_estimate_curvatures(model.corners, places))
-        is_sharp = bool(np.median(model.blurs) < _MAX_SHARP_BLUR)
-        products = _accumulate_normal_equations(image, model, is_sharp)
-        model, inverse, square = _take_step(model, products)
-    noise = np.maximum(square, estimate_least_noise(image))
+    prior = _estimate_bows(model, noise[:, None] * _get_bow_variances(inverse), places)
+    model, inverse, square = _take_steps(image, model, prior, noise, _LAST_STEPS)
+    noise = np.maximum(square, least)
     pairs = inverse[:, :8, :8].reshape(-1, 4, 2, 4, 2)
     covariance = np.stack([pairs[:, i, :, i] for i in range(4)], axis=1)
     contrast = model.levels[:, 0] - model.levels[:, 1]
@@ -167,30 +186,35 @@ def fit_tag_outlines(
     variance = np.mean(model.blurs**2, axis=1)
     return TagOutlines(
         corners=model.corners + (variance[:, None] * rise)[:, None],
-        covariance=noise[:, None, None, None] * covariance,
+        covariance=noise[:, None, None, None] * covariance + _compute_bend_covariances(model),
         blur=np.sqrt(variance),
         contrast=contrast[:, 0],
         residual=np.sqrt(square),
+        lens_bows=prior.bows,
     )
 
 
 def follow_shaded_outlines(
-    image: GreyImage, corners: Array, squares: IntArray, border: float, gap: float
+    image: GreyImage, corners: Array, bows: Array, border: float, gap: float
 ) -> Array:
-    """Move the edges of tags to where their profiles rise, each half of an edge by its own levels
+    """Move the edges of tags to where their profiles rise, each third of an edge by its own levels
     of paper and ink: the edge of a shadow or a reflection across a tag misleads a fit of all of it.
 
-    The arguments are those of `fit_tag_outlines`; the corners (n, 4, 2) px are returned.
+    Args:
+        image: (h, w) grey levels.
+        corners: (n, 4, 2) px, as of `fit_tag_outlines`.
+        bows: (n, 4) px, of the edges.
+        border: width of the tags' border, sides.
+        gap: between tags, sides, roughly.
+
+    Returns:
+        The corners (n, 4, 2) px.
     """
-    n, unknown = len(corners), np.ones(len(corners))
-    curvature = _estimate_curvatures(corners, _locate_corners(squares, gap))
-    model = _Model(
-        corners, np.ones((n, 2)), np.zeros((n, 2, 3)), curvature, unknown, unknown, unknown
-    )
+    model = replace(_start_from(corners), bows=bows)
     reach = _PROFILE_REACH * min(border, gap) * _measure_heights(model)
     for _ in range(_START_ROUNDS):
         _, offset, _ = _measure_profiles(image, model, reach, is_shaded=True)
-        model = replace(model, corners=_move_edges(model, offset))
+        model = _move_edges(model, offset)
     return model.corners
 
 
@@ -207,45 +231,32 @@ def _locate_corners(squares: IntArray, gap: float) -> Array:
     return (1 + gap) * squares[:, None, ::-1] + AROUND
 
 
-def _estimate_curvatures(corners: Array, places: Array) -> Array:
-    """Estimate the curvatures (n, 4) 1/px of the edges, towards their inward normals, from how far
-    the lens that all corners show bends them in their middles.
-
-    A lens alone: a curvature moves the corners that it is estimated from, and a freer map, with a
-    polynomial, would follow them from step to step.
-    """
-    board = grid_map.fit_radial_homography(
-        places.reshape(-1, 2), corners.reshape(-1, 2), are_exact=True
-    )
-    seen, middle = (
-        board.locate(at.reshape(-1, 2)).reshape(-1, 4, 2)
-        for at in (places, (places + places[:, _NEXT]) / 2)
-    )
-    along = seen[:, _NEXT] - seen
-    normal = np.stack([-along[..., 1], along[..., 0]], axis=2)
-    square = np.sum(along**2, axis=2)
-    bow = np.sum((middle - (seen + seen[:, _NEXT]) / 2) * normal, axis=2)
-    return np.asarray(-8 * bow / square**1.5)
-
-
-def _estimate_start(
-    image: GreyImage, corners: Array, places: Array, border: float, gap: float
-) -> _Model:
-    """Estimate the model from profiles across the edges, to whose rise these are moved."""
+def _start_from(corners: Array) -> _Model:
+    """Return the model of tags with straight edges between `corners` (n, 4, 2)."""
     n = len(corners)
-    curvature = _estimate_curvatures(corners, places)
     unknown = np.ones(n)
-    model = _Model(
-        corners, np.ones((n, 2)), np.zeros((n, 2, 3)), curvature, unknown, unknown, unknown
+    return _Model(
+        corners,
+        np.ones((n, 2)),
+        np.zeros((n, 2, 3)),
+        np.zeros((n, 4)),
+        unknown,
+        unknown,
+        unknown,
     )
+
+
+def _estimate_start(image: GreyImage, corners: Array, border: float, gap: float) -> _Model:
+    """Estimate the model from profiles across the edges, to whose rise these are moved."""
+    model = _start_from(corners)
     side = _measure_heights(model)
     reach = _PROFILE_REACH * min(border, gap) * side
     for _ in range(_START_ROUNDS):
         ends, offset, variance = _measure_profiles(image, model, reach)
-        model = replace(model, corners=_move_edges(model, offset))
+        model = _move_edges(model, offset)
     variance = (variance[:, :2] + variance[:, 2:]) / 2
     blurs = np.clip(np.sqrt(np.maximum(variance, 0)), _MIN_BLUR, reach[:, None] / 2)
-    levels = np.zeros((n, 2, 3))
+    levels = np.zeros((len(corners), 2, 3))
     levels[..., 0] = ends
     felt, least = (share * blurs.mean(axis=1) for share in (_BLUR_REACH, _MIN_BAND_BLURS))
     return replace(
@@ -258,17 +269,60 @@ def _estimate_start(
     )
 
 
+class _BowPrior(NamedTuple):
+    """What is known of the bows of k tags before they are measured."""
+
+    bows: Array
+    """(k, 4) px."""
+    sd: Array
+    """(k, 4) px."""
+
+
+def _estimate_bows(model: _Model, variance: Array, places: Array) -> _BowPrior:
+    """Estimate bows from the lens that the corners of all tags show.
+
+    How far it is to be trusted, the bows that were found for each tag by itself tell.
+
+    Args:
+        model: of n tags.
+        variance: (n, 4) of its bows, px^2.
+        places: (n, 4, 2) of the corners on the board, sides of a tag.
+    """
+    board = grid_map.fit_radial_homography(
+        places.reshape(-1, 2), model.corners.reshape(-1, 2), are_exact=True
+    )
+    seen, middle = (
+        board.locate(at.reshape(-1, 2)).reshape(-1, 4, 2)
+        for at in (places, (places + places[:, _NEXT]) / 2)
+    )
+    along = seen[:, _NEXT] - seen
+    normal = np.stack([-along[..., 1], along[..., 0]], axis=2)
+    normal /= np.linalg.norm(along, axis=2, keepdims=True)
+    bows = np.sum(((seen + seen[:, _NEXT]) / 2 - middle) * normal, axis=2)
+    length = model.measure_edges()[0]
+    square = (model.bows - bows) ** 2
+    misfit, noise = (np.median(each / length**2) for each in (square, variance))
+    usual = max(misfit / _MEDIAN_CHI_SQUARE - noise, noise * _LENS_UNKNOWNS / square.size)
+    return _BowPrior(bows, np.sqrt(usual) * length)
+
+
+def _get_bow_variances(inverse: Array) -> Array:
+    """Return the variances (n, 4) of bows in the inverse of normal equations (n, 20, 20)."""
+    return np.asarray(np.einsum("nkk->nk", inverse)[:, 16:])
+
+
 def _measure_profiles(
     image: GreyImage, model: _Model, reach: Array, *, is_shaded: bool = False
 ) -> tuple[Array, Array, Array]:
     """Measure the profiles across edges, `reach` (n,) px to both sides.
 
     A profile that rises from 0 to 1 is the distribution of the edge's blur; its moments follow by
-    integration by parts. Where the image `is_shaded`, each profile has levels of its own.
+    integration by parts. Where the image `is_shaded`, each profile has levels of its own, and bows
+    stay as they are.
 
     Returns:
-        Levels (n, 2) of paper and ink, offsets (n, 4, 2) px inwards of the edges at their beginning
-        and end, and variances (n, 4) px^2 of their blur.
+        Levels (n, 2) of paper and ink, offsets (n, 4, 3) px inwards of the edges at their beginning
+        and end, and of their middle from the chord, and variances (n, 4) px^2 of their blur.
     """
     share = np.linspace(_ALONG_MARGIN, 1 - _ALONG_MARGIN, _SAMPLES_ALONG)
     seen = _average_profiles(image, model, reach, share, _SAMPLES_ACROSS)
@@ -282,18 +336,21 @@ def _measure_profiles(
     mean = 1 - np.trapezoid(rise, across, axis=3)
     square = 1 - 2 * np.trapezoid(across * rise, across, axis=3)
     variance = reach[:, None] ** 2 * (square - mean**2).mean(axis=2)
-    middle, slope = reach[:, None] * mean.mean(axis=2), reach[:, None] * np.diff(mean)[..., 0]
-    lever = slope / (1 - 2 * _ALONG_MARGIN)
-    ends = np.stack([middle - lever, middle + lever], axis=2)
+    # An edge moves by the ends of its chord and by its bow, each felt by the thirds.
+    moves = np.stack([1 - share, share, 4 * share * (1 - share)], axis=1)
+    felt = moves.reshape(_PARTS, -1, 3).mean(axis=1)
+    offset = np.zeros((*mean.shape[:2], 3))
+    count = 2 if is_shaded else 3
+    offset[..., :count] = reach[:, None, None] * mean @ np.linalg.pinv(felt[:, :count]).T
     levels = [np.median(each, axis=(1, 2, 3)) for each in (paper, ink)]
-    return np.column_stack(levels), ends, variance
+    return np.column_stack(levels), offset, variance
 
 
 @kernels.with_kernel("tag_outlines", "average_profiles")
 def _average_profiles(
     image: GreyImage, model: _Model, reach: Array, share: Array, samples: int
 ) -> Array:
-    """Average the grey levels of profiles across the edges over either half of these.
+    """Average the grey levels of profiles across the edges over each third of these.
 
     Args:
         image: (h, w) grey levels.
@@ -303,30 +360,31 @@ def _average_profiles(
         samples: number of samples of each.
 
     Returns:
-        (n, 4, 2, samples)
+        (n, 4, 3, samples)
     """
     length, t, normal = model.measure_edges()
     s = length[..., None] * share
-    bow = -model.curvature[..., None] * s * (length[..., None] - s) / 2
+    bow = -4 * model.bows[..., None] * share * (1 - share)
     d = reach[:, None, None, None] * np.linspace(-1, 1, samples)
     at = model.corners[:, :, None] + s[..., None] * t[:, :, None]
     at = at[..., None, :] + (bow[..., None] + d)[..., None] * normal[:, :, None, None]
-    halves = (*at.shape[:2], 2, len(share) // 2, samples)
-    return np.asarray(sample_image(image, at).reshape(halves).mean(axis=3))
+    thirds = (*at.shape[:2], _PARTS, len(share) // _PARTS, samples)
+    return np.asarray(sample_image(image, at).reshape(thirds).mean(axis=3))
 
 
-def _move_edges(model: _Model, offset: Array) -> Array:
-    """Return the corners (n, 4, 2) after edges were moved inwards by `offset` (n, 4, 2) px at their
-    beginning and end."""
+def _move_edges(model: _Model, offset: Array) -> _Model:
+    """Return the model after edges were moved inwards by `offset` (n, 4, 3) px at their beginning
+    and end, and their middle from the chord."""
     _, _, normal = model.measure_edges()
     both = np.stack([normal[:, _LAST], normal], axis=2)
     moved = np.stack([offset[:, _LAST, 1], offset[..., 0]], axis=2)
-    return np.asarray(model.corners + np.linalg.solve(both, moved[..., None])[..., 0])
+    corners = model.corners + np.linalg.solve(both, moved[..., None])[..., 0]
+    return replace(model, corners=corners, bows=model.bows - offset[..., 2])
 
 
 @kernels.with_kernel("tag_outlines", "accumulate_normal_equations")
 def _accumulate_normal_equations(image: GreyImage, model: _Model, is_sharp: bool) -> Array:
-    """Accumulate the products (n, 17, 17) of the columns [J r]: derivatives of the model by the
+    """Accumulate the products (n, 21, 21) of the columns [J r]: derivatives of the model by the
     unknowns, and what it leaves unexplained; the products of paper's and ink's levels (10 and 13)
     sum up to the number of pixels.
 
@@ -365,7 +423,7 @@ def _list_pixels(model: _Model, edge: int) -> IntArray:
     x = np.floor(low)[:, None] + np.arange(int(np.max(high - low)) + 2)
     breadth = 2 * int(np.ceil(np.max(width[:, None] / abs(along)) + 0.5)) + 1
     s = (x - begin[tag, main, None]) / along
-    bow = -model.curvature[:, edge, None] * s * (length - s) / 2
+    bow = -4 * model.bows[:, edge, None] * (s / length) * (1 - s / length)
     # Of a normal (-t_v, t_u) the part across is t_u for an edge along u, and -t_v for one along v.
     normal = np.where(main[:, None] == 0, along, -along)
     y = begin[tag, 1 - main, None] + s * across + bow / normal
@@ -388,7 +446,7 @@ def _measure_distances(model: _Model, uv: IntArray) -> tuple[FloatImage, FloatIm
         for direction in (t, normal)
     )
     share = s / length.astype(np.float32)[..., None]
-    bow = (model.curvature * length**2 / 2).astype(np.float32)[..., None]
+    bow = 4 * model.bows.astype(np.float32)[..., None]
     return share, d + bow * share * (1 - share)
 
 
@@ -406,7 +464,7 @@ def _find_own_pixels(model: _Model, share: FloatImage, d: FloatImage, edge: int)
 
 
 def _compute_columns(image: GreyImage, model: _Model, edge: int, is_sharp: bool) -> FloatImage:
-    """Compute the derivatives of the model by the unknowns, and the residual, (k, 17, P) at the
+    """Compute the derivatives of the model by the unknowns, and the residual, (k, 21, P) at the
     pixels of one edge; 0 for those that do not count."""
     uv = _list_pixels(model, edge)
     share, d = _measure_distances(model, uv)
@@ -441,7 +499,8 @@ def _compute_columns(image: GreyImage, model: _Model, edge: int, is_sharp: bool)
         (last, np.where(is_first, by_its, 0)),
         (following, np.where(is_first, 0, by_its)),
     ):
-        # An edge follows its corners: where s is a share of its length, by 1 - s and by s.
+        # An edge follows its corners by 1 - s and by s.
+        J[:, 16 + which] += 4 * by_distance * share[:, which] * (1 - share[:, which])
         for axis in (0, 1):
             pull = -by_distance * normal[:, which, axis, None]
             J[:, 2 * which + axis] += pull * (1 - share[:, which])
@@ -450,7 +509,7 @@ def _compute_columns(image: GreyImage, model: _Model, edge: int, is_sharp: bool)
     J[:, 8 + last % 2] = swing * ink_here * its.by_blur / 2
     J[:, 10:13] = (weight * (1 - Q))[:, None] * at
     J[:, 13:16] = (weight * Q)[:, None] * at
-    J[:, 16] = weight * (grey - (paper[:, 0] * (1 - Q) + ink[:, 0] * Q))
+    J[:, _UNKNOWNS] = weight * (grey - (paper[:, 0] * (1 - Q) + ink[:, 0] * Q))
     return J
 
 
@@ -472,18 +531,67 @@ def _normalise(model: _Model, uv: IntArray) -> FloatImage:
     )
 
 
-def _take_step(model: _Model, products: Array) -> tuple[_Model, Array, Array]:
-    """Take one Gauss-Newton step.
+def _compute_bend_covariances(model: _Model) -> Array:
+    """Compute the covariances (n, 4, 2, 2) px^2 of corners whose edges are no parabolas: the next
+    terms are of the size of the bow's square over the length."""
+    length, _, normal = model.measure_edges()
+    aside = (model.bows**2 / length)[..., None] * normal
+    of_edge = aside[..., :, None] * aside[..., None, :]
+    return np.asarray(of_edge + of_edge[:, _LAST])
+
+
+def _take_steps(
+    image: GreyImage, model: _Model, prior: _BowPrior, noise: Array, steps: int
+) -> tuple[_Model, Array, Array]:
+    """Take Gauss-Newton steps until they are small.
+
+    Args:
+        image: (h, w) grey levels.
+        model: of n tags.
+        prior: what is known of the bows.
+        noise: (n,) variance of the grey levels, by which that counts.
+        steps: their number, at most.
 
     Returns:
-        The model after it, the inverse (n, 16, 16) of its equations, and the mean square (n,) of
+        The model after them, the inverse (n, 20, 20) of the last equations, and the mean square
+        (n,) of what is left unexplained.
+    """
+    for _ in range(steps):
+        is_sharp = bool(np.median(model.blurs) < _MAX_SHARP_BLUR)
+        products = _accumulate_normal_equations(image, model, is_sharp)
+        before = model.corners
+        model, inverse, square = _take_step(model, products, prior, noise)
+        if abs(model.corners - before).max() < _CONVERGED_STEP:
+            break
+    return model, inverse, square
+
+
+def _take_step(
+    model: _Model, products: Array, prior: _BowPrior, noise: Array
+) -> tuple[_Model, Array, Array]:
+    """Take one Gauss-Newton step.
+
+    Args:
+        model: of n tags.
+        products: (n, 21, 21) of its columns.
+        prior: what is known of the bows.
+        noise: (n,) variance of the grey levels, by which that counts.
+
+    Returns:
+        The model after it, the inverse (n, 20, 20) of its equations, and the mean square (n,) of
         what is left unexplained.
     """
     N, g = products[:, :_UNKNOWNS, :_UNKNOWNS], products[:, :_UNKNOWNS, _UNKNOWNS]
+    weight = np.zeros(g.shape)
+    weight[:, 16:] = noise[:, None] / prior.sd**2
+    pull = np.zeros(g.shape)
+    pull[:, 16:] = weight[:, 16:] * (prior.bows - model.bows)
     largest = np.einsum("nkk->nk", N).max(axis=1) + 1e-300
-    inverse = np.linalg.inv(N + _DAMPING * largest[:, None, None] * np.eye(_UNKNOWNS))
-    step = np.einsum("nij,nj->ni", inverse, g)
-    square = products[:, _UNKNOWNS, _UNKNOWNS] - np.sum(step * g, axis=1)
+    diagonal = weight + _DAMPING * largest[:, None]
+    inverse = np.linalg.inv(N + diagonal[:, None] * np.eye(_UNKNOWNS))
+    step = np.einsum("nij,nj->ni", inverse, g + pull)
+    explained = np.sum(step * (2 * g - np.einsum("nij,nj->ni", N, step)), axis=1)
+    square = products[:, _UNKNOWNS, _UNKNOWNS] - explained
     count = N[:, 10, 10] + N[:, 13, 13] + 2 * N[:, 10, 13]
     square = np.maximum(square, 0.0) / np.maximum(count - _UNKNOWNS, 1)
     blurs = model.blurs
@@ -492,6 +600,7 @@ def _take_step(model: _Model, products: Array) -> tuple[_Model, Array, Array]:
         model,
         corners=model.corners + np.clip(step[:, :8], -1.0, 1.0).reshape(-1, 4, 2),
         blurs=blurs + changed,
-        levels=model.levels + step[:, 10:].reshape(-1, 2, 3),
+        levels=model.levels + step[:, 10:16].reshape(-1, 2, 3),
+        bows=model.bows + np.clip(step[:, 16:], -1.0, 1.0),
     )
     return stepped, inverse, square

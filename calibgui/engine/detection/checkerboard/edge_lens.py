@@ -90,7 +90,7 @@ def fit_edge_lenses(cells: Array, edges: ReadEdges) -> list[EdgeLens]:
     points = _sample_edges(u, edges, unit)
     corners = np.broadcast_to(u, (1, 2, *u.shape))
     to_corner = 3**0.5 * (edges.middle / edges.half).T
-    starts = [grid_map.fit_radial_homography(x, u, are_exact=True)]
+    starts = [grid_map.fit_radial_homography(x, u, are_exact=True, is_start=True)]
     if starts[0].coefficients.any():
         starts.append(grid_map.fit_plain_homography(x, u))
     taken = edges.measure_bend(edges.curvature).T
