@@ -52,6 +52,14 @@ _SAMPLES = 49
 """Number of samples along each of them."""
 _MIN_RHO = 0.3
 """Least rho of a pixel that is read: nearer the centre d approximates the distance badly."""
+_LIGHT_STEPS = 10
+"""Number of fits of the light by which the sum of absolute deviations is made small."""
+_MIN_LIGHT_DEVIATION = 0.01
+"""Deviation of a disc's light from the quadratic below which all count alike, grey levels."""
+_MAX_LIGHT_DEVIATION = 6.0
+"""Deviation over the median one beyond which a disc does not count: 4 standard deviations."""
+_MIN_LIGHT_PIVOT = 1e-9
+"""Singular values of the quadratic's terms, over the largest, below which they count as 0."""
 _INK_REACH = 0.2
 """Distance from the centre within which samples are ink, half distances of neighbours."""
 
@@ -243,14 +251,36 @@ def _limit_step(step: Array, x: Array) -> Array:
 
 def _estimate_light_gradient(x: Array) -> Array:
     """Estimate the gradient (n, 2) of the light m over the image, grey levels per px, from a
-    quadratic fitted to all discs."""
+    quadratic fitted to the discs.
+
+    Discs that the image's border cuts, or that something covers, have an m of their own, and lie at
+    the grid's edge mostly, where they would bend the quadratic for all: sums of absolute deviations
+    find those that are far off, and least squares of the others follow.
+    """
     centre, unit = x[_C].mean(axis=0), np.ptp(x[_C], axis=0).max()
     u, v = ((x[_C] - centre) / unit).T
     one, zero = np.ones_like(u), np.zeros_like(u)
-    terms = np.linalg.lstsq(np.column_stack([one, u, v, u * u, u * v, v * v]), x[_M], rcond=1e-9)[0]
-    by_u = np.column_stack([zero, one, zero, 2 * u, v, zero]) @ terms
-    by_v = np.column_stack([zero, zero, one, zero, u, 2 * v]) @ terms
+    terms = np.column_stack([one, u, v, u * u, u * v, v * v])
+    weight, deviation = one, zero
+    for _ in range(_LIGHT_STEPS):
+        coefficients = _fit_weighted(terms, x[_M], weight)
+        deviation = abs(x[_M] - terms @ coefficients)
+        weight = 1 / np.maximum(deviation, _MIN_LIGHT_DEVIATION)
+    fitted = min(terms.shape[1], len(x) - 1)  # as many deviations are 0
+    usual = max(float(np.median(np.sort(deviation)[fitted:])), _MIN_LIGHT_DEVIATION)
+    weight = (deviation <= _MAX_LIGHT_DEVIATION * usual).astype(np.float64)
+    coefficients = _fit_weighted(terms, x[_M], weight)
+    by_u = np.column_stack([zero, one, zero, 2 * u, v, zero]) @ coefficients
+    by_v = np.column_stack([zero, zero, one, zero, u, 2 * v]) @ coefficients
     return np.column_stack([by_u, by_v]) / unit
+
+
+def _fit_weighted(terms: Array, values: Array, weight: Array) -> Array:
+    """Fit coefficients (k,) of terms (n, k) to values (n,) by weighted least squares."""
+    root = np.sqrt(weight)
+    return np.asarray(
+        np.linalg.lstsq(terms * root[:, None], values * root, rcond=_MIN_LIGHT_PIVOT)[0]
+    )
 
 
 def _assemble_matrix(S: Array) -> Array:

@@ -84,6 +84,23 @@ def test_covariances_are_honest() -> None:
     assert 0.8 < np.mean(chi2) < 1.25
 
 
+@pytest.mark.parametrize(
+    ("pattern", "grid_size", "aside"),
+    [(Circles(True, 0.8), (11, 4), (0.0, -40.0)), (Circles(False, 0.5), (7, 9), (-90.0, -70.0))],
+)
+def test_circles_that_the_border_cuts_do_not_move_the_others(
+    pattern: Circles, grid_size: GridSize, aside: tuple[float, float]
+) -> None:
+    scene = Scene(Board(*grid_size, 16.0, pattern), rvec=(0.5, 0.3, 0.4), aside=aside)
+    corners = find_corners(scene.image(), grid_size, pattern=Circles(pattern.asymmetric))
+    assert 0 < len(corners.rejected) < 5
+    assert corners.cov is not None
+    error = scene.error(corners)
+    chi2 = np.einsum("ni,nij,nj->n", error, np.linalg.inv(corners.cov), error) / 2
+    assert np.mean(chi2) < 1.4
+    assert chi2.max() < 12
+
+
 @pytest.mark.parametrize("turn", [0.0, 1.7, 3.1])
 def test_an_unique_origin_is_found(turn: float) -> None:
     pattern = Circles(True, 0.8)
