@@ -17,6 +17,7 @@ import numpy as np
 from calibgui.dataset import Result
 from calibgui.dataset.judging import judge_result
 from calibgui.engine.assessment import (
+    REMEDY_OF_LENS,
     ActionKind,
     Cause,
     ErrorSources,
@@ -193,10 +194,7 @@ def describe_lens_error(calibration: Calibration, rms: float, does_harm: bool = 
         text += " The board's estimated shape stands in for the lens: do not rely on it."
     if not does_harm:
         return f"{text} Another lens model may be closer (--model auto)."
-    return (
-        f"{text} Compare the lens models and take the one that is recommended (--model auto); if "
-        "it is this one, add views up to the image's edges, which determine more of the lens."
-    )
+    return f"{text} {REMEDY_OF_LENS}"
 
 
 def describe_error_sources(sources: ErrorSources) -> str:

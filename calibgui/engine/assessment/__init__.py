@@ -44,6 +44,7 @@ from calibgui.engine.assessment.drift import (
 )
 from calibgui.engine.assessment.error_sources import ErrorSources, separate_error_sources
 from calibgui.engine.assessment.finding import (
+    REMEDY_OF_LENS,
     Action,
     ActionKind,
     Cause,
@@ -94,6 +95,7 @@ __all__ = [
     "MIN_FLEET",
     "MIN_SETTINGS",
     "OUTLIER_Z",
+    "REMEDY_OF_LENS",
     "SIGNIFICANCE",
     "SIMPLEST_MODEL",
     "SPLINE",

@@ -13,6 +13,12 @@ MIN_HARM_PX = 0.05
 (``verdict.py``). A choice, which no benchmark fixed; on clean sets the tests' own rate of false
 alarms counts, whatever it is."""
 
+REMEDY_OF_LENS = (
+    "Compare the lens models and take the one that is recommended (--model auto); if it is this "
+    "one, add views up to the image's edges, which determine more of the lens."
+)
+"""Sentence on what to do about a lens that its model does not follow."""
+
 
 class Cause(StrEnum):
     """The causes that a finding can name."""

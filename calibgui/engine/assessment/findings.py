@@ -7,7 +7,8 @@ without those behind it, and what one explains is taken out before the next is a
 1. **What is given** (``input_errors.py``): corners of another frame or image size, values that are
    held and wrong, corners that are not where the others say. The latter are left out, and all that
    follows is asked of what is left.
-2. **Number of views.** Two or three views show nothing but that they are too few.
+2. **Number of views.** Two or three views show nothing but that they are too few, if pixels are
+   poorly known or if lens and board would explain the same residuals.
 3. **Lens or board**, which all views share: the lens if ``calibration/lens_error.py`` says so, or
    whichever explains most of what any cause does (``residual_checks.py``). What a board or a lens
    explains, causes that differ from view to view explain as well, since they have unknowns of
@@ -26,13 +27,14 @@ pixels (``harm.py``).
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
 
 import numpy as np
 
 from calibgui.engine.assessment.finding import (
     MIN_HARM_PX,
+    REMEDY_OF_LENS,
     Action,
     ActionKind,
     Cause,
@@ -97,6 +99,11 @@ _MIN_SHARE_OF_RIVAL, _MIN_SHARE_IN_DOUBT = 1 / 3, 0.1
 cause, and from which corners may not fit because of it. Of real photographs that a model followed
 one of another kind explained at most a sixth; where corners were misplaced (150 faults of
 ``tests/faults``), at most 4 %."""
+_ADD_VIEWS = (
+    "Add views with the board tilted by 20 to 45 degrees in different directions and all over the "
+    "image; six good ones are enough."
+)
+"""The remedy of too few views."""
 _MAX_NAMES = 6
 """Number of views that a sentence names."""
 _MIN_PART_OF_BOARDS = 0.5
@@ -263,6 +270,8 @@ def _find_systematic_cause(case: Case) -> Finding | None:
     """Find the one cause of residuals that are not noise; None if none matters."""
     report = check_residuals(case.calibration, case.views, case.names)
     failed = {check.name: check for check in report.checks if not check.passed}
+    if report.are_lens_and_board_alike and len(case.views) < _MIN_VIEWS_TO_JUDGE:
+        return _describe_lens_or_board(case, failed)
     check = _choose_shared_cause(case.calibration, failed)
     if check is not None:
         beside = _find_cause_beside_board(case) if check.name in _CHECKS_OF_BOARD else None
@@ -281,6 +290,26 @@ def _find_systematic_cause(case: Case) -> Finding | None:
         return _describe_check(case, check)
     disagreement = None if split is None else _describe_disagreement(case)
     return _find_blur(case, failed) or disagreement
+
+
+def _describe_lens_or_board(case: Case, failed: Mapping[str, NoiseCheck]) -> Finding | None:
+    """Describe residuals that lens and board explain alike, of views too few to tell which it is;
+    None if they do no harm."""
+    lens = failed["lens"].share
+    board = _find_largest_share(failed[name] for name in _CHECKS_OF_BOARD if name in failed)
+    harm = case.measure_harm(max(lens, board))
+    if harm < MIN_HARM_PX:
+        return None
+    return Finding(
+        Cause.FEW_VIEWS,
+        f"{len(case.views)} views are too few to tell whether the lens model does not follow the "
+        "lens or the board is not as it was drawn.",
+        f"A lens explains {100 * lens:.0f} %, a board {100 * board:.0f} % of the squared residuals "
+        f"of {case.rms:.3g} px RMS, and neither anything beyond the other; {describe_harm(harm)}.",
+        _ADD_VIEWS,
+        harm,
+        action=Action(ActionKind.PHOTOGRAPH_MORE),
+    )
 
 
 def _find_cause_beside_board(case: Case) -> Finding | None:
@@ -395,8 +424,7 @@ def _describe_lens(case: Case, error: float, harm: float) -> Finding:
         f"The lens model {case.calibration.camera.model} does not follow this lens.",
         f"Of {case.rms:.3g} px RMS it leaves {error:.2g} px that all views share and the board "
         "does not explain.",
-        "Compare the lens models and take the one that is recommended (--model auto); if it is "
-        "this one, add views up to the image's edges, which determine more of the lens.",
+        REMEDY_OF_LENS,
         max(error, harm),
         action=Action(ActionKind.CHOOSE_LENS_MODEL),
     )
@@ -466,8 +494,7 @@ def _find_lack_of_views(case: Case) -> Finding | None:
         f"{count} views are too few." if few else "The views are too few, or too much alike.",
         f"A pixel is known to {format_two_digits(case.sigma)} px in the median over the image, and "
         f"to {format_two_digits(case.worst)} px where it is known worst.",
-        "Add views with the board tilted by 20 to 45 degrees in different directions and all over "
-        "the image; six good ones are enough.",
+        _ADD_VIEWS,
         case.measure_harm(share=1.0),
         action=Action(ActionKind.PHOTOGRAPH_MORE),
     )

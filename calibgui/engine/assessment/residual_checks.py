@@ -149,6 +149,8 @@ class NoiseCheck:
     """Meaning of a failure, and its remedy."""
     share: float = 0.0
     """Share of the squared residuals that the cause explains, where the test is of one."""
+    probability: float = 1.0
+    """Probability that noise explains as much, where the test is of a cause."""
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -160,6 +162,9 @@ class NoiseReport:
     view_sigma: Array
     """(K,) standard deviation of a residual coordinate in each view, px; of a median corner
     where corners are weighted."""
+    are_lens_and_board_alike: bool = False
+    """True if lens and board both explain the residuals, and neither explains anything beyond the
+    other: the views do not tell which of them it is."""
 
     def __post_init__(self) -> None:
         freeze(self, "view_sigma")
@@ -203,15 +208,19 @@ def check_residuals(
     sigma = estimate_view_sigma(r, fit)
     relative = r / sigma[:, None, None]
     seen = fit.observations.mask > 0
+    weighed = systematic_errors.weigh_views(fit, sigma)
+    shared = SharedCauses(weighed, list(_SHARED_CAUSES.values()))
+    causes = tuple(_check_causes(calibration, weighed, shared, progress))
     return NoiseReport(
         (
-            *_check_causes(calibration, systematic_errors.weigh_views(fit, sigma), progress),
+            *causes,
             _check_shape(r, sigma, seen),
             _check_views(sigma, _count_degrees_of_freedom(fit), names),
             _check_neighbours(relative, fit.observations),
             _check_directions(r[seen]),
         ),
         sigma,
+        _are_lens_and_board_alike(causes, shared),
     )
 
 
@@ -227,11 +236,13 @@ def estimate_view_sigma(residual: Array, fit: LinearisedFit) -> Array:
 
 
 def _check_causes(
-    calibration: Calibration, fit: LinearisedFit, progress: Progress | None
+    calibration: Calibration,
+    fit: LinearisedFit,
+    shared: SharedCauses,
+    progress: Progress | None,
 ) -> Iterator[NoiseCheck]:
     """Test what each cause explains of the residuals, of equally noisy views, against noise."""
     rms = summarise_residuals(calibration.residuals).rms
-    shared = SharedCauses(fit, list(_SHARED_CAUSES.values()))
     names, after, left = list(_ADVICE_ON_CAUSES), [], 1.0
     if calibration.lens_error > 0 or outdoes_board(shared):
         names.sort(key=lambda name: name != "lens")
@@ -252,7 +263,25 @@ def _check_causes(
             before = () if name == "lens" else after
             passed = not shared.do_views_agree(_SHARED_CAUSES[name], *before)
         finding = "nothing" if passed else f"{np.sqrt(share) * rms:.2g} px rms"
-        yield NoiseCheck(name, passed, finding, _ADVICE_ON_CAUSES[name], 0.0 if passed else share)
+        yield NoiseCheck(
+            name,
+            passed,
+            finding,
+            _ADVICE_ON_CAUSES[name],
+            0.0 if passed else share,
+            found.probability,
+        )
+
+
+def _are_lens_and_board_alike(causes: Sequence[NoiseCheck], shared: SharedCauses) -> bool:
+    """Return whether both lens and board are causes that failed, and neither explains anything of
+    what the other leaves, beyond noise."""
+    failed = [c.name for c in causes if not c.passed and c.name in _SHARED_CAUSES]
+    boards = [_SHARED_CAUSES[name] for name in failed if name != "lens"]
+    if not boards or "lens" not in failed:
+        return False
+    beyond = [(board, LENS) for board in boards] + [(LENS, BoardShapeModel.FREE)]
+    return all(shared.explain(*pair).probability >= _MAX_FALSE_ALARM_RATE for pair in beyond)
 
 
 def _check_shape(residual: Array, sigma: Array, seen: BoolArray) -> NoiseCheck:

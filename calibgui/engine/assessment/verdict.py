@@ -80,6 +80,11 @@ _REMEDY_OF_BLUR = "Take these again, sharp and in good light: to weigh them less
 _MIN_VIEWS_TO_USE, _MIN_VIEWS_TO_BE_GOOD = 3, 5
 """Number of views below which a calibration is not usable, and not good, however small its error is
 said to be: too few are left to find out that it is wrong."""
+_REMEDY_OF_BEST_LENS = (
+    "No lens model that these views determine follows it better: add views up to the image's "
+    "edges, which determine more of the lens."
+)
+"""The remedy of a lens that the recommended model does not follow."""
 _REMEDY_OF_BOARD = (
     "These photographs do not tell board and camera apart: put the board on glass or another stiff "
     "plate, and take 10 to 20 of it, tilted by 20 to 45 degrees in different directions."
@@ -317,13 +322,17 @@ def _ask_for_photographs(finding: Finding) -> Finding:
 def _state_gain(finding: Finding, trial: Trial, times: float) -> Finding:
     """Return the finding with what its action brings.
 
-    A lens that no other model follows better has no remedy; photographs whose weights change
-    nothing can be taken again. What is left out remains wrong even where the camera does not gain
-    by it.
+    A lens that no other model follows better takes other photographs, and more of them where they
+    are few; photographs whose weights change nothing can be taken again. What is left out remains
+    wrong even where the camera does not gain by it.
     """
     found = replace(finding, action=trial.action, times_better=times)
     if times < _MIN_GAIN and trial.action.kind is ActionKind.CHOOSE_LENS_MODEL:
-        return replace(found, action=None)
+        message, count = found.message, len(trial.calibration.poses)
+        if count < _MIN_VIEWS_TO_BE_GOOD:
+            message = f"{count} views are too few: {message[:1].lower()}{message[1:]}"
+        photograph = Action(ActionKind.PHOTOGRAPH_MORE)
+        return replace(found, message=message, remedy=_REMEDY_OF_BEST_LENS, action=photograph)
     if times < _MIN_GAIN and trial.action.kind is ActionKind.WEIGH_VIEWS:
         return replace(found, action=None, remedy=_REMEDY_OF_BLUR)
     return found

@@ -244,6 +244,15 @@ def test_few_views_of_a_stretched_board_agree_enough() -> None:
     assert [finding.cause for finding in named] == [Cause.BOARD_SHAPE]
 
 
+def test_three_views_that_do_not_tell_board_and_lens_apart_are_too_few() -> None:
+    drawn = scene(barrel(), 3, seed=1).noisy(0.005, np.random.default_rng(1))
+    views = [Observation(view.uv, view.xy / [1.0003, 1.0]) for view in drawn]
+    (finding,) = found(views, fix=["p3"])
+    assert finding.cause is Cause.FEW_VIEWS
+    assert finding.message.startswith("3 views are too few to tell whether the lens model")
+    assert found(drawn, fix=["p3"]) == ()
+
+
 def test_a_bent_board_is_named_if_it_matters() -> None:
     def bent(height: float) -> list[Observation]:
         made = scene(barrel(), 10, seed=3)

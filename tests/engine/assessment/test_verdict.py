@@ -84,6 +84,28 @@ def test_few_views_are_never_good_however_small_their_noise(count: int, grade: G
     assert f"{count} views are too few" in verdict.reason
 
 
+@pytest.mark.parametrize(
+    ("count", "message"),
+    [
+        (10, "The lens model pinhole does not follow this lens."),
+        (4, "4 views are too few: the lens model pinhole does not follow this lens."),
+    ],
+)
+def test_a_recommended_lens_that_is_not_followed_takes_photographs(
+    count: int, message: str
+) -> None:
+    lens = replace(barrel(), params=[*barrel().params[:4], 0.002, *[0.0] * 5])
+    views = scene(lens, count, seed=3).noisy(0.02, np.random.default_rng(1))
+    found = calibrate(views, VGA, model="pinhole")
+    (offered,) = judge_calibration(found, views).findings
+    assert offered.action is not None and offered.action.kind is ActionKind.CHOOSE_LENS_MODEL
+    recommended = replace(found, settings={**found.settings, "model_reason": "It is the best."})
+    (finding,) = judge_calibration(recommended, views).findings
+    assert finding.message == message
+    assert finding.remedy.startswith("No lens model that these views determine")
+    assert finding.action == Action(ActionKind.PHOTOGRAPH_MORE)
+
+
 def test_views_that_do_not_determine_the_camera_have_no_error() -> None:
     fault = inject("one-orientation", 0)
     with pytest.raises(DegenerateError) as caught:
