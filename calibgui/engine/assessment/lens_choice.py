@@ -59,7 +59,7 @@ from calibgui.engine.calibration.calibrate import calibrate
 from calibgui.engine.calibration.methods import DEFAULT_METHOD, find_method
 from calibgui.engine.calibration.methods.method import Method, begin_beside
 from calibgui.engine.calibration.observations import Observation
-from calibgui.engine.calibration.result import Calibration
+from calibgui.engine.calibration.result import Calibration, Iteration, Report
 from calibgui.engine.camera.models import find_model
 from calibgui.engine.errors import CalibrationError, Progress
 from calibgui.engine.images.sampling import make_mesh
@@ -96,6 +96,10 @@ were off by 0.18 px on average before and 0.20 px then; of 300 subsets of 3 to 1
 were partial before, and none then."""
 _MAX_RESIDUAL_RATIO = 1.5
 """Residuals over those of the best candidate, above which unseen views need not be asked."""
+_MAX_ITERATIONS, _LAST_ITERATIONS, _MIN_DESCENT = 25, 10, 2e-3
+"""Number of iterations from which a solve crawls if in the last ones its cost fell by less than
+this part of it. Of 24 random lenses (``tests/benchmarks/lens_choice.py``, seeds from 5000) none got
+another model, nor other coefficients, than with solves to their end."""
 _MIN_TOLD = 2.0
 """Ratio of a coefficient to its sigma from which on it is told from 0."""
 _MAX_FILLING_DIAGONAL = np.deg2rad(160.0)
@@ -232,10 +236,15 @@ class _Attempt:
     def _calibrate(self, model: str) -> None:
         """Calibrate a candidate, with the coefficients that the views leave open held at 0."""
         fixed: dict[str, float] = {}
+        has_powers = _find_highest(model, find_model(model).names) is not None
         try:
             while True:
-                trial = self._try(model, fixed)
+                watch = _CrawlWatch(self.settings.get("report"))
+                trial = self._try(model, fixed, **({"report": watch} if has_powers else {}))
                 name = _find_open_coefficient(trial.calibration)
+                if name is None and watch.is_crawling:
+                    trial = self._try(model, fixed)
+                    name = _find_open_coefficient(trial.calibration)
                 if name is None:
                     break
                 fixed = {**fixed, name: 0.0}
@@ -252,9 +261,9 @@ class _Attempt:
             self.refused[model] = error.message
             del self.trials[model]
 
-    def _try(self, model: str, fixed: dict[str, float]) -> LensTrial:
-        """Calibrate a lens model with some of its coefficients held."""
-        how = {"fix": self.held | fixed, "method": self._begin_beside_best()}
+    def _try(self, model: str, fixed: dict[str, float], **other: Any) -> LensTrial:
+        """Calibrate a lens model with some of its coefficients held, and `other` settings."""
+        how = {"fix": self.held | fixed, "method": self._begin_beside_best(), **other}
         calibration = calibrate(self.views, self.size, model=model, **(self.settings | how))
         return assess_trial(calibration, fixed, self.views)
 
@@ -321,6 +330,31 @@ class _Attempt:
             return self._predict(self._try(trial.model, trial.fixed | dict.fromkeys(names, 0.0)))
         except CalibrationError:
             return None
+
+
+class _CrawlWatch:
+    """A report of a solve that ends it once its cost has nearly stopped to fall.
+
+    Coefficients that the views leave open make a valley along which a solve creeps through hundreds
+    of iterations and several detours, only for them to be held at 0 afterwards.
+    """
+
+    def __init__(self, report: Report | None) -> None:
+        """Take the report that is told of every iteration."""
+        self._report = report
+        self._costs: list[float] = []
+        self.is_crawling = False
+        """True if the solve was ended."""
+
+    def __call__(self, iteration: Iteration) -> bool:
+        """Hand an iteration on, and return whether to go on."""
+        if self._report is not None and not self._report(iteration):
+            return False
+        self._costs.append(iteration.cost)
+        if iteration.index >= _MAX_ITERATIONS:
+            before, now = self._costs[-_LAST_ITERATIONS], self._costs[-1]
+            self.is_crawling = 0 <= before - now < _MIN_DESCENT * now
+        return not self.is_crawling
 
 
 def _find_open_coefficient(calibration: Calibration) -> str | None:

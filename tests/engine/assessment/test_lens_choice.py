@@ -18,10 +18,11 @@ from calibgui.engine.assessment.lens_choice import (
     choose_lens_stepwise,
 )
 from calibgui.engine.assessment.lens_trial import LensTrial
+from calibgui.engine.calibration.result import Iteration
 from calibgui.engine.camera.camera import Camera
 from calibgui.engine.errors import CalibrationError, Cancelled
 from tests.engine.random_lenses import problem
-from tests.engine.scenes import VGA, barrel, scene
+from tests.engine.scenes import VGA, barrel, brown, scene
 
 FISHEYE = Camera(VGA, [190, 191, 322, 236, -0.03, 0.004, -0.001, 0], "kannala-brandt")
 FEW = ("lucchese", "brown-conrady-4", "ucm", "kannala-brandt", "kannala-brandt-decentering")
@@ -31,6 +32,22 @@ FEW = ("lucchese", "brown-conrady-4", "ucm", "kannala-brandt", "kannala-brandt-d
 def fisheye() -> LensChoice:
     views = scene(FISHEYE, 10).noisy(0.1, np.random.default_rng(1))
     return choose_lens(views, VGA, FEW, folds=3)
+
+
+def test_a_model_that_the_views_leave_open_is_not_solved_to_its_end() -> None:
+    """Boards that face the camera leave numerator and denominator a valley to creep along."""
+    views = scene(brown(), 8, seed=2, tilt=(0.0, 1.5)).noisy(0.005, np.random.default_rng(0))
+    iterations = 0
+
+    def count(_: Iteration) -> bool:
+        nonlocal iterations
+        iterations += 1
+        return True
+
+    choice = choose_lens(views, VGA, ("brown-conrady", "rational"), report=count)
+    assert choice.model == "brown-conrady"
+    assert choice.trials["rational"].fixed.keys() == {"k4", "k6"}
+    assert iterations < 300
 
 
 def test_a_fisheye_gets_its_model(fisheye: LensChoice) -> None:
