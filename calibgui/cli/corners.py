@@ -88,7 +88,7 @@ def read_or_search(
     side = square if options.square is None else options.square
     assert side is not None, "a command that has no side of its own checks that one is given"
     corner_set = detection.corner_set(side)
-    if words := describe_recognised_board(pattern, corner_set.board):
+    if words := describe_recognised_board(pattern, corner_set):
         console.print_text(words + "\n")
     if detection.remark:
         console.print_text(detection.remark + "\n")

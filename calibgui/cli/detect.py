@@ -65,7 +65,7 @@ def run(options: argparse.Namespace, console: Console) -> None:
         tables.tabulate_detection(corner_set.views),
         otherwise=tables.list_unused_views(corner_set.views),
     )
-    if words := describe_recognised_board(pattern, corner_set.board):
+    if words := describe_recognised_board(pattern, corner_set):
         console.print_text(tables.format_bullet(words))
     if detection.remark:
         console.print_text(tables.format_bullet(detection.remark))

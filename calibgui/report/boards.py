@@ -2,6 +2,10 @@
 
 from __future__ import annotations
 
+import numpy as np
+
+from calibgui.dataset import CornerSet
+from calibgui.engine.arrays import IntArray
 from calibgui.engine.boards import (
     AprilGrid,
     Board,
@@ -70,8 +74,26 @@ def name_kind(pattern: Pattern) -> str:
     return _KINDS.get(pattern.kind, f"a board of the kind {pattern.kind}")
 
 
-def describe_recognised_board(stated: Pattern, board: Board | None) -> str:
-    """Describe a board of which only `stated` was given before; empty if that was all of it."""
+def describe_recognised_board(stated: Pattern, corner_set: CornerSet) -> str:
+    """Describe the board of photographs, of which only `stated` was given before; empty if that was
+    all of it."""
+    board = corner_set.board
     if board is None or board.pattern == stated:
         return ""
-    return f"The photographs show: {describe_board(board)}."
+    seen = [view.corners.grid for view in corner_set.views if view.corners is not None]
+    text = describe_board(board)
+    if isinstance(board.pattern, PuzzleBoard) and seen:
+        text = _describe_seen_part(np.concatenate(seen) + board.pattern.origin)
+    return f"The photographs show: {text}."
+
+
+def _describe_seen_part(grid: IntArray) -> str:
+    """Describe the part of the PuzzleBoard pattern in which corners (n, 2) were seen.
+
+    Its board is inferred from the pattern's first corner on, and may be hundreds of corners away.
+    """
+    (top, left), (bottom, right) = grid.min(axis=0).tolist(), grid.max(axis=0).tolist()
+    return (
+        f"PuzzleBoard, {bottom - top + 1} x {right - left + 1} inner corners of it: rows {top} to "
+        f"{bottom}, columns {left} to {right} of the whole pattern"
+    )
