@@ -33,7 +33,11 @@ from calibgui.engine.detection.checkerboard.numbering import (
     list_numberings,
     place_corners,
 )
-from calibgui.engine.detection.checkerboard.prefilter import Refusal, find_objection
+from calibgui.engine.detection.checkerboard.prefilter import (
+    OBJECTIONS_TO_CIRCLES,
+    Refusal,
+    find_objection,
+)
 from calibgui.engine.detection.checkerboard.pyramid_search import (
     Candidate,
     find_candidates,
@@ -387,11 +391,19 @@ def _describe_other_sizes(
 def _describe_refusal(refusal: Refusal) -> NoBoardError:
     """Return an error that says which test refused what looked like a board."""
     rows, cols = sorted(refusal.shape)
+    hint = (
+        "Mark its four outermost corners, or leave this picture out; where marks are drawn over the"
+        " corners, take the original."
+    )
+    if refusal.reason in OBJECTIONS_TO_CIRCLES:
+        hint = (
+            "For a grid of circles, choose that pattern, and take pictures of all of it. For a"
+            f" checkerboard, {hint[:1].lower()}{hint[1:]}"
+        )
     return NoBoardError(
         f"What looks like a checkerboard of {rows} x {cols} inner corners is not trusted:"
         f" {refusal.reason}.",
-        "Mark its four outermost corners, or leave this picture out. For a grid of circles,"
-        " choose that pattern; where marks are drawn over the corners, take the original.",
+        hint,
     )
 
 

@@ -51,6 +51,13 @@ from calibgui.engine.detection.checkerboard.verification import (
 )
 from calibgui.engine.detection.lattice import Lattice, is_scattered
 
+_NO_CROSSING = "its corners do not look like two crossing edges"
+_LIKE_DISCS = "its edges are not straight, like those of discs"
+_DOTS_AROUND = "its pattern goes on around it in dots of other sizes"
+_LIKE_DOTS = "its squares differ in size like printed dots"
+OBJECTIONS_TO_CIRCLES = (_NO_CROSSING, _LIKE_DISCS, _DOTS_AROUND, _LIKE_DOTS)
+"""What speaks against a grid of circles that looks like a board, ends of sentences."""
+
 
 @dataclass(frozen=True, slots=True)
 class Refusal:
@@ -119,21 +126,21 @@ def _judge_edges(
     limits = THRESHOLDS.prefilter
     is_crossing, is_bare = check_crossing(corners, image)
     if not is_crossing:
-        return "its corners do not look like two crossing edges"
+        return _NO_CROSSING
     edges = _measure_edges(corners, image, plain)
     if _measure_width(edges, corners) > THRESHOLDS.verification.max_edge_blur:
         return TOO_BLURRED
     if not is_bare or plain < 0.5:
         return ""
     if _do_edges_bulge(edges):
-        return "its edges are not straight, like those of discs"
+        return _LIKE_DISCS
     spreads = np.column_stack([edge.spread for edge in edges])
     is_uneven = not have_same_spread(spreads, limits.max_spread_inside)
     if is_grown and is_uneven and does_pattern_continue(lattice, image):
-        return "its pattern goes on around it in dots of other sizes"
+        return _DOTS_AROUND
     if have_same_spread(spreads, limits.max_spread) or rise_steadily(spreads, corners.uv):
         return ""
-    return "its squares differ in size like printed dots"
+    return _LIKE_DOTS
 
 
 def _is_beyond_doubt(

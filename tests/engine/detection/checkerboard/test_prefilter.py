@@ -9,11 +9,14 @@ import pytest
 from numpy.typing import NDArray
 from scipy.ndimage import gaussian_filter
 
+from calibgui.engine.boards.board import Board
+from calibgui.engine.boards.circle_grid import Circles
 from calibgui.engine.detection.checkerboard import find_checkerboard, prefilter, verification
 from calibgui.engine.detection.checkerboard.thresholds import THRESHOLDS
 from calibgui.engine.detection.find_corners import find_corners
 from calibgui.engine.detection.lattice import Lattice
 from calibgui.engine.errors import NoBoardError
+from tests.engine.detection.conftest import Scene
 from tests.scenes.checkerboards import draw
 from tests.scenes.conditions import Conditions
 from tests.scenes.without_board import draw_without_board
@@ -166,8 +169,17 @@ def test_a_grid_of_circles_that_stands_alone_does_not(
 
 @pytest.mark.parametrize(("seed", "says"), [(2, "waves"), (8, "printed dots")])
 def test_the_message_names_the_rule_by_which_the_search_refused(seed: int, says: str) -> None:
-    with pytest.raises(NoBoardError, match=says):
+    with pytest.raises(NoBoardError, match=says) as caught:
         find_corners(draw_without_board(seed))
+    assert caught.value.hint.startswith("For a grid of circles") == (says == "printed dots")
+
+
+def test_who_photographs_a_part_of_a_grid_of_circles_is_told_of_circles_first() -> None:
+    board = Board(9, 12, 26.0, Circles(diameter=0.6))
+    image = Scene(board, rvec=(0.3, 0.2, 0.1), distance=160.0).image()
+    with pytest.raises(NoBoardError) as caught:
+        find_corners(image)
+    assert caught.value.hint.startswith("For a grid of circles, choose that pattern")
 
 
 def test_the_message_names_the_test_that_refused(monkeypatch: pytest.MonkeyPatch) -> None:
