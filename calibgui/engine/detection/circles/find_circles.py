@@ -258,8 +258,9 @@ def _number_by_marks(
 def _verify_circles(fit: EllipseFit, xy: Array, image: GreyImage) -> _VerifiedCircles:
     """Verify the circles and compute the images of their centres.
 
-    Every ellipse must lie inside the image, be what a circle of the common radius or a mark looks
-    like there, where the others predict it, with a contrast like theirs and no more unexplained.
+    Every ellipse must lie inside the image, be larger than its blur, be what a circle of the common
+    radius or a mark looks like there, where the others predict it, with a contrast like theirs and
+    no more unexplained.
 
     Raises:
         NoBoardError: if too many fail.
@@ -269,6 +270,11 @@ def _verify_circles(fit: EllipseFit, xy: Array, image: GreyImage) -> _VerifiedCi
         raise _distrust(_NO_ELLIPSES)
     half = np.sqrt(np.einsum("nii->ni", fit.spread)) + fit.blur[:, None]
     good = ((fit.uv > half) & (fit.uv + half < np.array(image.shape[::-1]) - 1)).all(axis=1)
+    shorter = np.sqrt(np.maximum(np.linalg.eigvalsh(fit.spread)[:, 0], 0.0))
+    is_sharp = fit.blur < limits.max_blur_over_axis * shorter
+    if np.count_nonzero(~is_sharp) > limits.max_rejected_share * len(good):
+        raise _distrust("its circles are too small for how blurred they are")
+    good &= is_sharp
     contrast, residual = fit.contrast, fit.residual
     sign = np.sign(np.median(fit.unknowns[:, 7]))
     good &= sign * fit.unknowns[:, 7] > 0

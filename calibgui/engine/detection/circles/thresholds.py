@@ -56,6 +56,10 @@ class CircleThresholds:
     """Greatest residual of a fitted ellipse over its contrast ..."""
     max_residual_over_median: float = 4.0
     """... or over the median residual, whichever is more."""
+    max_blur_over_axis: float = 0.6
+    """Greatest blur of a circle over the shorter semi-axis of its ellipse. Beyond it blur, contrast
+    and size are not told apart, and fits run away: they had ratios of 5, centres off by 1 to 2 px.
+    Sound ones had 0.5 at most where circles of 3 px were blurred by 1.2 to 1.7 px."""
     max_misplacement: float = 0.1
     """Greatest distance of a circle from where the others predict it, pitches."""
     max_shape_difference: float = 0.2

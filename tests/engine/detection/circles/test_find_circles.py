@@ -101,6 +101,26 @@ def test_circles_that_the_border_cuts_do_not_move_the_others(
     assert chi2.max() < 12
 
 
+@pytest.mark.parametrize("blur", [1.2, 1.7, 2.5])
+@pytest.mark.parametrize(
+    ("pattern", "grid_size", "distance"),
+    [(Circles(True, 0.45), (7, 4), 330.0), (Circles(False, 0.35), (5, 7), 250.0)],
+)
+def test_circles_smaller_than_their_blur_are_refused_rather_than_misplaced(
+    pattern: Circles, grid_size: GridSize, distance: float, blur: float
+) -> None:
+    camera = Camera((480, 360), [430.0, 431.0, 240.0, 180.0, 0.1, 0.02, 0.0, 1e-4, 0.0, 0.0])
+    scene = Scene(Board(*grid_size, 16.0, pattern), camera, (0.8, 0.1, 0.2), distance)
+    image = scene.image(blur=blur)
+    if blur > 1.5:
+        with pytest.raises(NoBoardError, match="too small for how blurred"):
+            find_corners(image, grid_size, pattern=Circles(pattern.asymmetric))
+        return
+    corners = find_corners(image, grid_size, pattern=Circles(pattern.asymmetric))
+    assert corners.complete
+    assert np.abs(scene.error(corners)).max() < 0.03
+
+
 @pytest.mark.parametrize("turn", [0.0, 1.7, 3.1])
 def test_an_unique_origin_is_found(turn: float) -> None:
     pattern = Circles(True, 0.8)
