@@ -27,6 +27,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from calibgui.engine.arrays import Array, GreyImage
+from calibgui.engine.detection.circles.thresholds import CIRCLE_THRESHOLDS
 from calibgui.engine.detection.detector_io import estimate_least_noise
 from calibgui.engine.detection.edge_intensity import compute_edge
 from calibgui.engine.images.sampling import sample_image
@@ -255,21 +256,27 @@ def _estimate_light_gradient(x: Array) -> Array:
 
     Discs that the image's border cuts, or that something covers, have an m of their own, and lie at
     the grid's edge mostly, where they would bend the quadratic for all: sums of absolute deviations
-    find those that are far off, and least squares of the others follow.
+    find those that are far off, and least squares of the others follow. Discs whose light is not
+    told from their blur, which tilt makes so on one side of the grid, count only if most are such.
     """
     centre, unit = x[_C].mean(axis=0), np.ptp(x[_C], axis=0).max()
     u, v = ((x[_C] - centre) / unit).T
     one, zero = np.ones_like(u), np.zeros_like(u)
-    terms = np.column_stack([one, u, v, u * u, u * v, v * v])
-    weight, deviation = one, zero
+    steepest = np.linalg.eigvalsh(_assemble_matrix(x[_S]))[:, -1]
+    is_told = x[_BLUR] ** 2 * steepest < CIRCLE_THRESHOLDS.max_blur_over_axis**2
+    if 2 * np.count_nonzero(is_told) < len(x):
+        is_told[:] = True
+    terms = np.column_stack([one, u, v, u * u, u * v, v * v])[is_told]
+    light = x[_M][is_told]
+    weight, deviation = np.ones_like(light), np.zeros_like(light)
     for _ in range(_LIGHT_STEPS):
-        coefficients = _fit_weighted(terms, x[_M], weight)
-        deviation = abs(x[_M] - terms @ coefficients)
+        coefficients = _fit_weighted(terms, light, weight)
+        deviation = abs(light - terms @ coefficients)
         weight = 1 / np.maximum(deviation, _MIN_LIGHT_DEVIATION)
-    fitted = min(terms.shape[1], len(x) - 1)  # as many deviations are 0
+    fitted = min(terms.shape[1], len(light) - 1)  # as many deviations are 0
     usual = max(float(np.median(np.sort(deviation)[fitted:])), _MIN_LIGHT_DEVIATION)
     weight = (deviation <= _MAX_LIGHT_DEVIATION * usual).astype(np.float64)
-    coefficients = _fit_weighted(terms, x[_M], weight)
+    coefficients = _fit_weighted(terms, light, weight)
     by_u = np.column_stack([zero, one, zero, 2 * u, v, zero]) @ coefficients
     by_v = np.column_stack([zero, zero, one, zero, u, 2 * v]) @ coefficients
     return np.column_stack([by_u, by_v]) / unit

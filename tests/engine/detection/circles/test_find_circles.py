@@ -101,6 +101,19 @@ def test_circles_that_the_border_cuts_do_not_move_the_others(
     assert chi2.max() < 12
 
 
+def test_discs_whose_blur_ran_away_do_not_tilt_the_light() -> None:
+    """Tilt blurs one side of the grid more than its discs are large."""
+    u, v = np.meshgrid(np.arange(7) * 40.0, np.arange(5) * 40.0)
+    unknowns = np.zeros((35, 8))
+    unknowns[:, 0], unknowns[:, 1], unknowns[:, 7] = u.ravel(), v.ravel(), -90.0
+    unknowns[:, [2, 4]], unknowns[:, 5] = 1 / 5.0**2, 2.0
+    unknowns[:, 6] = 120.0 + 0.05 * unknowns[:, 0]
+    lost = unknowns[:, 0] > 180.0
+    unknowns[lost, 5], unknowns[lost, 6] = 9.0, 40.0
+    gradient = ellipse_fit._estimate_light_gradient(unknowns)
+    np.testing.assert_allclose(gradient, np.tile([0.05, 0.0], (35, 1)), atol=1e-6)
+
+
 @pytest.mark.parametrize("blur", [1.2, 1.7, 2.5])
 @pytest.mark.parametrize(
     ("pattern", "grid_size", "distance"),
