@@ -228,14 +228,15 @@ def choose_axis_text(analysed: AnalysedSeries) -> Callable[[float], str] | None:
 
 
 def parse_value(text: str, scalar: Scalar) -> float:
-    """Read a value of the scalar: a number, or an ISO date.
+    """Read a value of the scalar: a number, with or without its unit, or an ISO date.
 
     Raises:
         ValueError: if it is neither, or not finite.
     """
+    text = text.strip()
     if scalar is Scalar.DATE:
-        return datetime.fromisoformat(text.strip()).timestamp() / _SECONDS_OF_DAY
-    value = float(text)
+        return datetime.fromisoformat(text).timestamp() / _SECONDS_OF_DAY
+    value = float(text.removesuffix(scalar.unit))
     if not np.isfinite(value):
         raise ValueError(f"{text!r} is not a finite number")
     return value

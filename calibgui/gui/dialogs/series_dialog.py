@@ -215,7 +215,7 @@ class SeriesDialog(QDialog):
         self._show_whether_found(True)
         settings = analysed.series.settings
         middle = (settings[0].value + settings[-1].value) / 2
-        self.at.setText(format_value(middle, analysed.scalar).partition(" mm")[0])
+        self.at.setText(format_value(middle, analysed.scalar))
         self.at.setToolTip(
             self.tr("From {0} to {1}; empty to write a profile of all focal lengths").format(
                 format_value(settings[0].value, analysed.scalar),
@@ -332,13 +332,17 @@ class SeriesDialog(QDialog):
         if self.analysed is None:
             return
         known: UncertainCamera | None = None
-        said = ""
+        said, is_profile = "", False
         try:
             value = self.value
             known = None if value is None else self.analysed.series.predict(value)
             is_profile = value is None and self.analysed.scalar is Scalar.ZOOM
-        except (ValueError, CalibrationError) as error:
-            said, is_profile = str(error), False
+        except ValueError:
+            said = self.tr("{0} is no value of {1}.").format(
+                self.at.text().strip(), self.scalar.currentText()
+            )
+        except CalibrationError as error:
+            said = str(error)
         self.said.setText(said)
         self._tabulate_camera(known)
         exporters = [

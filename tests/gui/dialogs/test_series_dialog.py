@@ -89,6 +89,24 @@ def test_each_parameter_is_drawn_with_its_band(dialog: SeriesDialog) -> None:
         assert dialog.plot.area.bottom.labelText == "temperature [°C]"
 
 
+@pytest.mark.parametrize(
+    ("scalar", "middle"),
+    [(Scalar.TEMPERATURE, "25 °C"), (Scalar.ZOOM, "25 mm"), (Scalar.FOCUS, "25")],
+)
+def test_the_camera_in_the_middle_is_shown_at_first(
+    dialog: SeriesDialog, qtbot: QtBot, scalar: Scalar, middle: str
+) -> None:
+    dialog.scalar.setCurrentIndex(dialog.scalar.findData(scalar))
+    qtbot.waitUntil(lambda: dialog.analysed is not None, timeout=30_000)
+    assert dialog.analysed is not None
+    assert (dialog.at.text(), dialog.said.text()) == (middle, "")
+    assert dialog.export.isEnabled()
+    known = dialog.analysed.series.predict(25.0)
+    assert repr(float(known.camera.params[0]))[:8] in dialog.camera.as_csv()
+    dialog.at.setText("warm")
+    assert dialog.said.text() == f"warm is no value of {scalar}." and not dialog.export.isEnabled()
+
+
 def test_the_camera_at_a_value_is_shown_and_written(
     dialog: SeriesDialog, tmp_path: Path, qtbot: QtBot, monkeypatch: pytest.MonkeyPatch
 ) -> None:
