@@ -32,6 +32,15 @@ _DISTINCT = 64
 """Number of views after which colours come again: more cannot be told apart."""
 _DARKENED = 140
 """The percentage by which Fusion divides the lightness of the window for borders."""
+_BORDERED = (
+    "QCheckBox",
+    "QRadioButton",
+    "QMenu",
+    "QTreeView",
+    "QLineEdit",
+    "QAbstractSpinBox",
+)
+"""Kinds of widgets whose border alone shows where they are."""
 _SYMBOLS = ("o", "s", "t1", "d", "+", "x", "star")
 
 
@@ -61,7 +70,7 @@ class Theme:
     line: str
     """Borders, axes and grids."""
     border: str
-    """Borders of check boxes and of menus: they alone show an empty box."""
+    """Borders of check boxes, fields and menus: they alone show an empty one."""
     accent: str
     """Selection and the main action."""
     on_accent: str
@@ -160,7 +169,7 @@ def apply(app: QApplication, scheme: Scheme) -> None:
     app.setPalette(palette)
     # Fusion makes their borders by darkening what it takes for the window's colour.
     palette.setColor(QPalette.ColorRole.Window, QColor(theme.border).lighter(_DARKENED))
-    for kind in ("QCheckBox", "QRadioButton", "QMenu", "QTreeView"):
+    for kind in _BORDERED:
         app.setPalette(palette, kind)  # type: ignore[arg-type]  # stated as bytes, taken as a name
 
 

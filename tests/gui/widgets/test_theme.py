@@ -8,7 +8,15 @@ import cv2
 import numpy as np
 import pytest
 from PySide6.QtGui import QColor, QImage
-from PySide6.QtWidgets import QApplication, QCheckBox, QMenu, QRadioButton, QWidget
+from PySide6.QtWidgets import (
+    QApplication,
+    QCheckBox,
+    QLineEdit,
+    QMenu,
+    QRadioButton,
+    QSpinBox,
+    QWidget,
+)
 from pytestqt.qtbot import QtBot
 
 from calibgui.engine.arrays import Array
@@ -41,8 +49,8 @@ def test_every_colour_shows_on_light_and_on_dark() -> None:
 
 
 @pytest.mark.parametrize("scheme", [theme.Scheme.LIGHT, theme.Scheme.DARK])
-@pytest.mark.parametrize("kind", [QCheckBox, QRadioButton, QMenu])
-def test_the_borders_of_boxes_and_menus_are_seen(
+@pytest.mark.parametrize("kind", [QCheckBox, QRadioButton, QMenu, QLineEdit, QSpinBox])
+def test_the_borders_of_boxes_fields_and_menus_are_seen(
     qtbot: QtBot, qapp: QApplication, kind: type[QWidget], scheme: theme.Scheme
 ) -> None:
     """An empty box is a border only: WCAG asks for a contrast of 3."""
