@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Any, cast
 
-from PySide6.QtCore import Qt
+from PySide6.QtCore import QSize, Qt
 from PySide6.QtGui import QAction, QIcon, QKeySequence
 from PySide6.QtWidgets import QDialog, QDialogButtonBox, QWidget
 
@@ -92,6 +92,15 @@ def add_close_button(dialog: QDialog) -> QDialogButtonBox:
 
 
 def show_dialog(dialog: QDialog) -> None:
-    """Open a dialog over its window; it ceases to exist when it is closed."""
+    """Open a dialog over its window, no larger than the screen.
+
+    It ceases to exist when it is closed.
+    """
     dialog.setAttribute(Qt.WidgetAttribute.WA_DeleteOnClose)
+    screen = dialog.screen().availableSize() - QSize(*[_FRAME] * 2)
+    dialog.resize(dialog.size().boundedTo(screen))
     dialog.open()
+
+
+_FRAME = 40
+"""Room for what the system draws around a window, device-independent px."""
