@@ -20,8 +20,8 @@ from calibgui.gui.widgets.wrapped_label import WrappedLabel
 from calibgui.report.comparison import compare_parameters
 from calibgui.report.verdict import format_times
 
-_SHARE = 0.8
-"""Share of the room below the bar that the comparison may take."""
+_SHARE = 1.0
+"""Share of the room below the bar that the comparison may take: all, where the window is small."""
 _HEIGHT = 560
 """Its height where there is more room, device-independent px."""
 
