@@ -160,8 +160,9 @@ def _make_table(head: Sequence[str], rows: Iterable[Sequence[str]]) -> str:
         return f"<tr>{''.join(made)}</tr>"
 
     body = "".join(make_row(row, "td") for row in rows)
-    ruled = 'border="1" cellspacing="0" cellpadding="3" style="border-collapse: collapse"'
-    return f"<table {ruled}><thead>{make_row(head, 'th')}</thead>{body}</table>"
+    ruled = 'border="1" cellspacing="0" cellpadding="3"'
+    style = 'style="border-collapse: collapse; margin-bottom: 12px"'
+    return f"<table {ruled} {style}><thead>{make_row(head, 'th')}</thead>{body}</table>"
 
 
 def _encode_png(figure: Figure) -> bytes:

@@ -40,6 +40,15 @@ def test_the_page_says_what_the_window_says(document: QTextDocument, result: Res
         assert heading in text
 
 
+def test_headings_keep_their_distance_from_tables(document: QTextDocument) -> None:
+    layout = document.documentLayout()
+    heading = document.firstBlock()
+    while heading.text() != "Views":
+        heading = heading.next()
+    above = layout.blockBoundingRect(heading.previous()).bottom()  # the table's last cell
+    assert layout.blockBoundingRect(heading).top() - above > 10
+
+
 def test_every_plot_is_there(document: QTextDocument) -> None:
     names = ("residuals", "histograms", "distortion")
     for name in names:
