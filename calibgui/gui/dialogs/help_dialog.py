@@ -29,7 +29,7 @@ class HelpDialog(QDialog):
     def _page(self) -> str:
         steps = (
             self.tr(
-                "<b>Photograph</b> a flat checkerboard 10 to 30 times with focus and zoom fixed: "
+                "<b>Photograph</b> a flat board 10 to 30 times with focus and zoom fixed: "
                 "tilted by 20 to 50 degrees in different directions, near and far, and with "
                 "corners close to every corner of the image. <i>Print a board</i> makes one; "
                 "glue it to something flat and measure the bar below it."

@@ -110,7 +110,7 @@ class DifferenceMap(QWidget):
         uv = self.plot.pixel_at(position, self._size)
         if uv is None:
             self.under_cursor.setText(
-                self.tr("At most {0:.3f} px where corners were seen: point to read it").format(
+                self.tr("At most {0:.3f} px near corners: point to read it").format(
                     float(np.nanmax(found.length[found.region], initial=0.0))
                 )
             )
