@@ -123,7 +123,7 @@ class Calibrator(QObject):
         if project.size is None:
             return CalibrationError(
                 self.tr("There is no image to calibrate from."),
-                self.tr("Add photographs of a checkerboard."),
+                self.tr("Add photographs of a board."),
             )
         return None
 

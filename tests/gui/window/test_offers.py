@@ -24,10 +24,13 @@ from calibgui.engine.boards.checkerboard import CHECKERBOARD
 from calibgui.engine.boards.circle_grid import Circles
 from calibgui.engine.boards.kinds import KINDS
 from calibgui.engine.boards.pattern import Pattern
+from calibgui.engine.camera.distortion import project_points
 from calibgui.engine.errors import CalibrationError, Cancelled
 from calibgui.engine.images.reading import read_image, write_image
+from calibgui.engine.images.rendering import render_view
 from calibgui.gui.window import offers
 from calibgui.gui.window.main_window import MainWindow
+from tests import photographs as tests_photographs
 from tests.app import examples
 from tests.engine.detection.conftest import Scene
 
@@ -218,3 +221,31 @@ def test_the_look_for_another_board_ends_with_its_question(
     qtbot.waitUntil(ended.is_set, timeout=2_000)
     qtbot.waitUntil(lambda: not window.session.jobs.running)
     assert not window.banner.isVisible()
+
+
+def test_a_size_that_is_counted_from_parts_is_told(
+    window: MainWindow, qtbot: QtBot, tmp_path: Path
+) -> None:
+    """Something grey covers a corner in the middle of every board."""
+    board = tests_photographs.BOARD
+    middle = board.points().reshape(board.rows, board.cols, -1)[2, 3]
+    for k, pose in enumerate(tests_photographs.draw_poses()):
+        camera = tests_photographs.CAMERA
+        pixels = render_view(camera, pose, board, blur=0.7, noise=1.0, seed=k).copy()
+        u, v = np.rint(project_points(middle[None], camera, pose)[0]).astype(int)
+        pixels[v - 9 : v + 10, u - 9 : u + 10] = 120
+        write_image(tmp_path / f"{k}.png", pixels)
+    window.session.begin(Document(Project(settings=DEFAULT_SETTINGS)))
+    window.files.open_paths([str(tmp_path)])
+    qtbot.waitUntil(
+        lambda: window.verdict.verdict is not None and not window.session.jobs.running,
+        timeout=60_000,
+    )
+    assert window.banner.isVisible()
+    assert window.banner.text.text() == (
+        "No picture shows every corner of the board. It counts as 6 x 7, the largest part seen, "
+        "which several pictures share; state its size if it has more."
+    )
+    assert "6 × 7 inner corners" in window.verdict.square.counted.text()
+    for view in window.session.project.views:
+        assert view.corners is not None and len(view.corners.uv) < 42
