@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import hashlib
+import json
 import os
+import random
 import shutil
 import signal
 import subprocess
@@ -18,12 +20,13 @@ from PySide6.QtWidgets import QComboBox, QInputDialog
 from pytestqt.qtbot import QtBot
 
 from calibgui.app.autosave import find_unsaved_work, get_autosave_path, read_unsaved_work
-from calibgui.app.project import Project, add_images
+from calibgui.app.project import Project, add_images, set_grid_size
 from calibgui.app.project_file import encode_project, read_project, write_project
 from calibgui.app.resources import find_resource
 from calibgui.dataset import ViewStatus
 from calibgui.engine.calibration.result import Cost
 from calibgui.formats.json_document import dumps
+from calibgui.gui.panels.analysis import PANELS
 from calibgui.gui.window.main_window import MainWindow
 from tests.gui.hand import Hand
 
@@ -66,6 +69,7 @@ from PySide6.QtCore import QEventLoop, QTimer
 from PySide6.QtWidgets import QApplication
 from calibgui.app.project_file import encode_project
 from calibgui.formats.json_document import dumps
+from calibgui.gui.panels.analysis import PANELS
 from calibgui.gui.window.main_window import MainWindow
 
 signal.alarm(300)  # a step that never ends
@@ -214,3 +218,52 @@ def test_every_edit_is_undone_to_the_empty_window_and_done_again(
             assert describe(window) == states[session.document.edits]
     assert session.document.edits == last
     hand.wait(lambda: not session.jobs.running)
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_after_a_storm_of_cancelling_everything_still_works(
+    window: MainWindow, qtbot: QtBot, folder: Path, seed: int
+) -> None:
+    """Work is started, stopped and cancelled, and what it is about changes, faster than it ends."""
+    session, chance = window.session, random.Random(seed)
+    images = sorted(map(str, folder.iterdir()))
+
+    def cancel() -> None:
+        for job in session.jobs.running:
+            job.cancel()
+
+    def change() -> None:
+        row, col = chance.choice([(7, 10), (6, 9)])
+        session.edit("Size", lambda p: set_grid_size(p, (row, col)))
+
+    deeds = [
+        window.calibrate.click,
+        window.calibrate.click,
+        cancel,
+        change,
+        lambda: window.files.open_paths(chance.sample(images, 3)),
+        lambda: window.images.remove(images[:2]),
+        lambda: window.detector.search_again([view.image for view in session.project.views[:2]]),
+        lambda: session.document.undo(),
+        lambda: session.document.redo(),
+        lambda: window.need_analysis().show_panel(chance.choice(PANELS)),
+    ]
+    for _ in range(60):
+        chance.choice(deeds)()
+        qtbot.wait(chance.choice([0, 0, 5, 50, 200]))
+    qtbot.waitUntil(lambda: not session.jobs.running, timeout=120_000)
+    assert not window.calibrator.running and not window.detector.running
+    assert window.calibrate.text() == "C&alibrate"
+
+    # From there on it is as if nothing had been.
+    while session.document.undo_label:
+        session.document.undo()
+    window.files.open_paths([str(folder)])
+    qtbot.waitUntil(lambda: session.result is not None and not session.jobs.running, timeout=60_000)
+    views = session.project.views
+    assert [view.image for view in views] == images
+    assert [view.status for view in views] == [ViewStatus.FOUND] * 5
+    assert session.result is not None
+    params = session.result.calibration.camera.params
+    truth = json.loads((find_resource("sample") / "truth.json").read_text())["camera"]["params"]
+    assert params[0] == pytest.approx(truth["fx"], abs=1.0)

@@ -156,6 +156,32 @@ def test_unsaved_work_is_offered_and_recovered(
     assert window.isWindowModified(), "recovered work still has to be saved"
 
 
+def test_work_on_a_project_in_a_read_only_folder_is_kept_elsewhere(
+    window: MainWindow, qtbot: QtBot, tmp_path: Path
+) -> None:
+    folder = tmp_path / "photographs"
+    folder.mkdir()
+    path = folder / "project.json"
+    write_project(examples.calibrated(folder), path)
+    get_autosave_path(path).mkdir()  # as a folder that is read-only, for any user
+    window.files.open_project(path)
+    qtbot.waitUntil(lambda: window.session.document.path == path)
+    window.session.edit("Add", lambda p: add_images(p, [str(folder / "new.png")]))
+    window.files.keep_work()
+    kept = find_unsaved_work(path)
+    assert kept is not None and folder not in kept.parents
+    left = kept.read_bytes()
+    window.session.begin(Document())  # as if the program had been killed
+    kept.write_bytes(left)
+    window.files.open_project(path)
+    qtbot.waitUntil(lambda: len(window.banner.buttons) == 2)
+    window.banner.buttons[0].click()
+    qtbot.waitUntil(lambda: len(window.session.project.views) == 8)
+    views = window.session.project.views
+    assert [Path(view.image).parent for view in views] == [folder] * 8
+    assert window.session.document.path == path and window.isWindowModified()
+
+
 def test_work_on_a_file_stays_until_it_is_decided_about(
     window: MainWindow, qtbot: QtBot, tmp_path: Path
 ) -> None:
