@@ -263,6 +263,7 @@ class SeriesDialog(QDialog):
                     [math.nan if d is None else d.probability for d in drifts],
                     with_digits(2),
                     self.tr("Of a difference as large as this one if the camera has not changed"),
+                    expendable=True,
                 ),
                 Column(
                     self.tr("Changed"),

@@ -382,6 +382,8 @@ class Table(QTableView):
             self.setColumnHidden(place, column.hidden)
         if not columns or not self.isVisible():
             return
+        heading = self._model.horizontalHeaderItem(0)
+        heading.setText(_join_heading(columns[0]))
         header.resizeSections(QHeaderView.ResizeMode.ResizeToContents)
         room = self.viewport().width()
         for place, column in enumerate(columns):
@@ -398,6 +400,14 @@ class Table(QTableView):
                     self.setColumnHidden(place, True)
             left = room - header.length()
             header.resizeSection(0, max(least, min(whole, header.sectionSize(0) + left)))
+            heading.setText(self._elide_lines(heading.text(), header.sectionSize(0)))
+
+    def _elide_lines(self, text: str, width: int) -> str:
+        """Put "…" for what has no room in a heading; Qt would take its lines for one."""
+        metrics, mode = self.horizontalHeader().fontMetrics(), Qt.TextElideMode.ElideRight
+        margin = self.style().pixelMetric(QStyle.PixelMetric.PM_HeaderMargin, None, self)
+        lines = text.split("\n")
+        return "\n".join(metrics.elidedText(line, mode, width - 2 * margin) for line in lines)
 
     def _current_changed(self, current: QModelIndex) -> None:
         if current.isValid():

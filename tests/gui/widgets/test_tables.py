@@ -128,3 +128,24 @@ def test_an_expendable_column_goes_where_names_cannot_be_narrower(qtbot: QtBot) 
     table.resize(header.length() - header.sectionSize(0) + 40, 200)
     assert table.isColumnHidden(1) and not table.isColumnHidden(2)
     assert header.length() <= table.viewport().width()
+
+
+def test_the_heading_of_a_narrowed_column_shows_that_it_goes_on(qtbot: QtBot) -> None:
+    table = Table()
+    qtbot.addWidget(table)
+    table.show_columns(
+        [
+            Column("Parameter of the camera", ["fx"], unit="px"),
+            Column("RMS", [0.25], with_decimals(2), unit="px"),
+        ]
+    )
+    table.show()
+    header = table.horizontalHeader()
+    heads = {}
+    for width in (600, 150, 600):
+        table.resize(width, 200)
+        heads[width] = str(table.model().headerData(0, Qt.Orientation.Horizontal))
+        wide = max(map(header.fontMetrics().horizontalAdvance, heads[width].split("\n")))
+        assert wide < header.sectionSize(0)
+    assert heads[600] == "Parameter of the camera\n[px]"
+    assert heads[150].startswith("Para") and heads[150].endswith("…\n[px]")
