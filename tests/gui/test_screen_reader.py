@@ -6,10 +6,11 @@ from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
-from PySide6.QtGui import QAccessible, QAccessibleInterface
-from PySide6.QtWidgets import QWidget
+from PySide6.QtGui import QAccessible, QAccessibleInterface, QAction
+from PySide6.QtWidgets import QApplication, QWidget
 from pytestqt.qtbot import QtBot
 
+from calibgui.gui.dialogs.bug_dialog import BugDialog
 from calibgui.gui.dialogs.export_dialog import ExportDialog
 from calibgui.gui.dialogs.fleet_dialog import FleetDialog
 from calibgui.gui.dialogs.help_dialog import HelpDialog
@@ -18,7 +19,9 @@ from calibgui.gui.dialogs.series_dialog import SeriesDialog
 from calibgui.gui.panels.analysis import PANELS
 from calibgui.gui.panels.panel import Panel
 from calibgui.gui.window.main_window import MainWindow
+from calibgui.gui.window.palette import Palette
 from calibgui.report.fleet_overview import make_overview
+from tests.gui.verdict.test_actions import CASES, begin
 
 _Role = QAccessible.Role
 _CONTROLS = {
@@ -90,9 +93,33 @@ def test_the_dialogs(full: MainWindow, qtbot: QtBot) -> None:
         ExportDialog(full.session.jobs, result, full),
         SeriesDialog(full.session.jobs, full),
         FleetDialog(Path("fleet.db"), make_overview([]), lambda *_: False, full),
+        BugDialog(ValueError("by design"), full),
     )
     for dialog in dialogs:
         qtbot.addWidget(dialog)
         dialog.show()
         qtbot.waitUntil(lambda: not full.session.jobs.running, timeout=60_000)
         assert list_nameless(dialog) == [], type(dialog).__name__
+
+
+def test_the_palette(full: MainWindow) -> None:
+    find = next(a for a in full.findChildren(QAction) if a.shortcut().toString() == "Ctrl+Shift+P")
+    find.trigger()
+    palette = QApplication.activeModalWidget()
+    assert isinstance(palette, Palette)
+    assert list_nameless(palette) == []
+    palette.close()
+
+
+def test_the_findings_and_what_an_action_has_done(window: MainWindow, qtbot: QtBot) -> None:
+    begin(window, qtbot, CASES["lens"].make())
+    bar = window.verdict
+    bar.unfold.click()
+    bar.findings.rows[0].unfold.click()
+    assert list_nameless(bar.findings) == []
+    bar.button.click()
+    qtbot.waitUntil(
+        lambda: bar.comparison is not None and not window.session.jobs.running, timeout=60_000
+    )
+    assert bar.comparison is not None
+    assert list_nameless(bar.comparison) == []

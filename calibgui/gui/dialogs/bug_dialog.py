@@ -40,6 +40,7 @@ class BugDialog(QDialog):
         )
         self.details = QPlainTextEdit(describe(error))
         self.details.setReadOnly(True)
+        self.details.setAccessibleName(self.tr("What to report"))
         self.details.setFont(theme.fixed_font())
         self.details.setLineWrapMode(QPlainTextEdit.LineWrapMode.NoWrap)
         buttons = add_close_button(self)

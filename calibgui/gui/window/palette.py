@@ -9,6 +9,7 @@ from PySide6.QtWidgets import (
     QDialog,
     QHeaderView,
     QLineEdit,
+    QToolButton,
     QTreeWidget,
     QTreeWidgetItem,
     QVBoxLayout,
@@ -44,6 +45,8 @@ class Palette(QDialog):
         self.search.setPlaceholderText(self.tr("Type a part of what you want to do"))
         self.search.setAccessibleName(self.tr("Part of an action's name"))
         self.search.setClearButtonEnabled(True)
+        for clear in self.search.findChildren(QToolButton):  # Qt leaves it without a name
+            clear.setAccessibleName(self.tr("Clear"))
         self.search.installEventFilter(self)
         self.list = QTreeWidget()
         self.list.setAccessibleName(self.tr("Actions"))
