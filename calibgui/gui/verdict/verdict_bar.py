@@ -184,33 +184,42 @@ class VerdictBar(QFrame):
         A result that is about to take its place is shown then.
         """
         if self._session.result is self._result and self._is_old is not self._is_out_of_date():
-            self._show()
+            self._show_reason()
 
     def _is_out_of_date(self) -> bool:
         return self._result is not None and not self._session.project.is_current(self._result)
 
     def _show(self) -> None:
         verdict, result = self.verdict, self._result
-        self._is_old = self._is_out_of_date()
+        self._show_reason()
         self.mark.show_grade(None if verdict is None else verdict.grade)
         if verdict is None or result is None:
             nothing = self.tr("NOT CALIBRATED") if result is None else self.tr("JUDGING…")
-            hint = self.tr("How far the camera can be trusted is said here once it is calibrated.")
-            waiting = self.tr("What makes it better is being tried.")
             self.headline.setText(nothing)
-            self.reason.setText(hint if result is None else waiting)
             self._figures = [] if result is None else [describe_fit(result)]
         else:
             self.headline.setText(describe_grade(verdict.grade, verdict.times_better))
-            old = self.tr("Out of date: calibrate again. ") if self._is_old else ""
-            diagnosis = result.calibration.diagnosis
-            reason = diagnosis.message if diagnosis else describe_reason(verdict, result)
-            self.reason.setText(old + reason)
             self._figures = describe_figures(verdict, result)
             self.findings.show_verdict(verdict, self._list_names(), state_condition(result))
         self._show_figures()
         self._show_buttons()
         self._restyle()
+
+    def _show_reason(self) -> None:
+        """Show why the verdict is as it is, and whether it is out of date."""
+        verdict, result = self.verdict, self._result
+        self._is_old = self._is_out_of_date()
+        if result is None:
+            hint = self.tr("How far the camera can be trusted is said here once it is calibrated.")
+            self.reason.setText(hint)
+        elif verdict is None:
+            self.reason.setText(self.tr("What makes it better is being tried."))
+        else:
+            old = self.tr("Out of date: calibrate again. ") if self._is_old else ""
+            diagnosis = result.calibration.diagnosis
+            self.reason.setText(
+                old + (diagnosis.message if diagnosis else describe_reason(verdict, result))
+            )
 
     def _show_buttons(self) -> None:
         busy = self.remedier.running
