@@ -5,10 +5,16 @@ from __future__ import annotations
 from pathlib import Path
 
 from PySide6.QtCore import Qt
-from PySide6.QtWidgets import QApplication, QPushButton
+from PySide6.QtWidgets import QApplication, QPushButton, QWidget
 from pytestqt.qtbot import QtBot
 
 from calibgui.app.recent import Recent
+from calibgui.gui.panels.distortion import DistortionPanel
+from calibgui.gui.panels.lens_models import LensModelsPanel
+from calibgui.gui.panels.poses import PosesPanel
+from calibgui.gui.panels.stage_one import StageOnePanel
+from calibgui.gui.panels.uncertainty import UncertaintyPanel
+from calibgui.gui.widgets.focus_ring import FocusRing
 from calibgui.gui.window.main_window import MainWindow
 
 
@@ -28,3 +34,36 @@ def test_the_welcome_page_shows_which_of_its_entries_has_the_focus(
         assert button.grab().toImage() != before, button.text()
         button.clearFocus()
         assert button.grab().toImage() == before, button.text()
+
+
+def test_wherever_tab_goes_the_focus_is_seen(full: MainWindow, qtbot: QtBot) -> None:
+    full.activateWindow()
+    qtbot.waitUntil(lambda: QApplication.activeWindow() is full)
+    seen: dict[QWidget, bool] = {}
+    for kind in (UncertaintyPanel, PosesPanel, StageOnePanel, LensModelsPanel, DistortionPanel):
+        full.need_analysis().show_panel(kind)
+        qtbot.waitUntil(lambda: not full.session.jobs.running, timeout=60_000)
+        QApplication.processEvents()
+        full.images.list.setFocus(Qt.FocusReason.TabFocusReason)
+        for _ in range(40):
+            widget = QApplication.focusWidget()
+            around = widget.parentWidget()
+            focused = around.grab().toImage()
+            qtbot.keyClick(widget, Qt.Key.Key_Tab)
+            seen[widget] = around.grab().toImage() != focused
+    assert len(seen) > 25
+    assert [type(widget).__name__ for widget, is_seen in seen.items() if not is_seen] == []
+
+
+def test_the_mouse_brings_no_ring(full: MainWindow, qtbot: QtBot) -> None:
+    full.activateWindow()
+    qtbot.waitUntil(lambda: QApplication.activeWindow() is full)
+    canvas = full.page.canvas
+    (ring,) = canvas.findChildren(FocusRing)
+    qtbot.mouseClick(canvas.viewport(), Qt.MouseButton.LeftButton)
+    assert canvas.hasFocus() and not ring.is_seen
+    full.images.list.setFocus()
+    canvas.setFocus(Qt.FocusReason.TabFocusReason)
+    assert ring.is_seen
+    canvas.clearFocus()
+    assert not ring.is_seen

@@ -31,6 +31,7 @@ from calibgui.gui.canvas.layers import (
     trace_hull,
 )
 from calibgui.gui.widgets import theme
+from calibgui.gui.widgets.focus_ring import FocusRing
 from calibgui.gui.widgets.picture import Picture
 
 _STEP = 1.25
@@ -102,6 +103,7 @@ class Canvas(QGraphicsView):
         self.setViewportUpdateMode(QGraphicsView.ViewportUpdateMode.FullViewportUpdate)
         self.setMouseTracking(True)
         self.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
+        FocusRing(self)
         self.setMinimumSize(240, 180)
         self._restyle()
 

@@ -20,6 +20,7 @@ from PySide6.QtWidgets import QListView, QStyle, QStyledItemDelegate, QStyleOpti
 from calibgui.gui.images.image_model import ImageModel, Role
 from calibgui.gui.images.thumbnails import THUMBNAIL
 from calibgui.gui.widgets import theme
+from calibgui.gui.widgets.focus_ring import FocusRing
 
 _PAD = 4
 """Around what stands in a cell, px."""
@@ -78,6 +79,7 @@ class FilmView(QListView):
         self.setHorizontalScrollMode(QListView.ScrollMode.ScrollPerPixel)
         self.setVerticalScrollBarPolicy(Qt.ScrollBarPolicy.ScrollBarAlwaysOff)
         self.setMouseTracking(True)
+        FocusRing(self)
         bar = self.style().pixelMetric(QStyle.PixelMetric.PM_ScrollBarExtent)
         self.setFixedHeight(Cell.SIZE.height() + bar + 2 * self.frameWidth())
 

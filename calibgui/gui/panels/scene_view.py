@@ -22,6 +22,7 @@ from PySide6.QtWidgets import QWidget
 
 from calibgui.engine.arrays import Array
 from calibgui.gui.widgets import theme
+from calibgui.gui.widgets.focus_ring import FocusRing
 from calibgui.gui.widgets.plots import offer_picture
 from calibgui.report.scene3d import (
     DrawnPolygon,
@@ -81,6 +82,7 @@ class SceneView(QWidget):
     def __init__(self) -> None:
         super().__init__()
         self.setFocusPolicy(Qt.FocusPolicy.StrongFocus)
+        FocusRing(self)
         self.setMouseTracking(True)
         self.setMinimumSize(160, 120)
         # It fills all of itself: unless Qt knows, it is painted once more with what is behind it.

@@ -1,9 +1,9 @@
-"""A ring around what has the focus, for buttons that the style draws without one."""
+"""A ring around what has the focus by the keyboard, where the style draws none."""
 
 from __future__ import annotations
 
 from PySide6.QtCore import QEvent, QObject, QRectF, Qt
-from PySide6.QtGui import QPainter, QPaintEvent, QPalette, QPen
+from PySide6.QtGui import QFocusEvent, QPainter, QPaintEvent, QPalette, QPen
 from PySide6.QtWidgets import QWidget
 
 _WIDTH = 2.0
@@ -12,22 +12,47 @@ _RADIUS = 6.0
 """Radius of its corners, px."""
 
 
-class FocusRing(QWidget):
-    """Lies over a widget, and is seen while that has the focus."""
+class FocusRing(QObject):
+    """Draws a ring over a widget while that has the focus, unless the mouse gave it."""
+
+    def __init__(self, widget: QWidget) -> None:
+        super().__init__(widget)
+        self._by_keys = False
+        self._ring: _Ring | None = None
+        """Made when it is first seen."""
+        widget.installEventFilter(self)
+
+    @property
+    def is_seen(self) -> bool:
+        """Return whether the ring is there now."""
+        return self._ring is not None and self._ring.isVisible()
+
+    def eventFilter(self, widget: QObject, event: QEvent) -> bool:  # noqa: N802 - Qt's name
+        if isinstance(widget, QWidget) and event.type() in _CHANGES:
+            # Coming back from another window or a menu, it is as it was.
+            if isinstance(event, QFocusEvent) and event.gotFocus() and event.reason() in _HOW:
+                self._by_keys = event.reason() is not Qt.FocusReason.MouseFocusReason
+            self._place(widget)
+        return False
+
+    def _place(self, widget: QWidget) -> None:
+        is_seen = self._by_keys and widget.hasFocus()
+        if self._ring is None:
+            if not is_seen:
+                return
+            self._ring = _Ring(widget)
+        self._ring.setGeometry(widget.rect())
+        self._ring.setVisible(is_seen)
+        self._ring.raise_()
+
+
+class _Ring(QWidget):
+    """The line itself, over a widget."""
 
     def __init__(self, widget: QWidget) -> None:
         super().__init__(widget)
         self.setAttribute(Qt.WidgetAttribute.WA_TransparentForMouseEvents)
         self.setFocusPolicy(Qt.FocusPolicy.NoFocus)
-        self.hide()
-        widget.installEventFilter(self)
-
-    def eventFilter(self, widget: QObject, event: QEvent) -> bool:  # noqa: N802 - Qt's name
-        if isinstance(widget, QWidget) and event.type() in _CHANGES:
-            self.setGeometry(widget.rect())
-            self.setVisible(widget.hasFocus())
-            self.raise_()
-        return False
 
     def paintEvent(self, event: QPaintEvent) -> None:  # noqa: ARG002, N802 - Qt's name
         painter = QPainter(self)
@@ -41,3 +66,10 @@ class FocusRing(QWidget):
 
 _CHANGES = (QEvent.Type.FocusIn, QEvent.Type.FocusOut, QEvent.Type.Resize)
 """Events after which the ring may have to be elsewhere, or nowhere."""
+_HOW = (
+    Qt.FocusReason.TabFocusReason,
+    Qt.FocusReason.BacktabFocusReason,
+    Qt.FocusReason.ShortcutFocusReason,
+    Qt.FocusReason.MouseFocusReason,
+)
+"""Ways in which the user gives the focus."""

@@ -28,6 +28,7 @@ from PySide6.QtWidgets import QMenu, QSizePolicy, QWidget
 from calibgui.engine.arrays import Array
 from calibgui.gui.widgets import theme
 from calibgui.gui.widgets.actions import COPY_PICTURE
+from calibgui.gui.widgets.focus_ring import FocusRing
 from calibgui.gui.widgets.glossary import explain
 from calibgui.gui.widgets.plot_area import MARGIN, Axis, PlotArea
 from calibgui.gui.widgets.save_names import ask_for_name
@@ -69,6 +70,7 @@ class Plot(pg.GraphicsView):  # type: ignore[misc]  # pyqtgraph is not typed
     ) -> None:
         super().__init__(parent)
         self.setSizePolicy(QSizePolicy.Policy.Expanding, QSizePolicy.Policy.Expanding)
+        FocusRing(self)
         self.area = PlotArea()
         self.setCentralItem(self.area)
         self._labels = _labels(x, y, x_unit, y_unit)

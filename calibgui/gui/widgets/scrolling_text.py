@@ -8,6 +8,7 @@ from PySide6.QtCore import Qt
 from PySide6.QtGui import QResizeEvent
 from PySide6.QtWidgets import QFrame, QSizePolicy, QTextBrowser
 
+from calibgui.gui.widgets.focus_ring import FocusRing
 from calibgui.gui.widgets.wrapped_label import join_values
 
 
@@ -26,6 +27,7 @@ class ScrollingText(QTextBrowser):
         self.setSizePolicy(QSizePolicy.Policy.Ignored, QSizePolicy.Policy.Fixed)
         self.viewport().setAutoFillBackground(False)
         self.document().setDocumentMargin(0)
+        FocusRing(self)
 
     def show_text(self, text: str) -> None:
         """Show a text, from its beginning."""

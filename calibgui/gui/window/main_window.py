@@ -37,6 +37,7 @@ from calibgui.gui.settings.board_panel import BoardPanel
 from calibgui.gui.settings.settings_panel import SettingsPanel
 from calibgui.gui.verdict.verdict_bar import VerdictBar
 from calibgui.gui.widgets.actions import show_dialog
+from calibgui.gui.widgets.focus_ring import FocusRing
 from calibgui.gui.widgets.overlay import Overlay
 from calibgui.gui.window.banner import Banner
 from calibgui.gui.window.commands import Commands
@@ -84,6 +85,7 @@ class MainWindow(QMainWindow):
         self.calibrate = QPushButton()
         self.calibrate.setMinimumSize(_CALIBRATE)
         self.calibrate.setDefault(True)
+        FocusRing(self.calibrate)  # the style marks it as default, focused or not
         self._lay_out()
         self._connect()
         self._make_menus()
