@@ -20,6 +20,7 @@ from functools import partial
 from pathlib import Path
 
 from PySide6.QtCore import QEventLoop, QPoint, QSettings, Qt, QTimer
+from PySide6.QtGui import QAction
 from PySide6.QtTest import QTest
 from PySide6.QtWidgets import QApplication, QTabWidget
 
@@ -36,6 +37,8 @@ from calibgui.gui.panels.methods import MethodsPanel
 from calibgui.gui.panels.on_demand import OnDemandPanel
 from calibgui.gui.panels.poses import PosesPanel
 from calibgui.gui.panels.uncertainty import UncertaintyPanel
+from calibgui.gui.panels.undistort import RECTIFIED, UndistortPanel
+from calibgui.gui.verdict.before_after import BeforeAndAfter
 from calibgui.gui.widgets import theme
 from calibgui.gui.widgets.actions import show_dialog
 from calibgui.gui.window.main_window import MainWindow
@@ -114,7 +117,10 @@ class Photographer:
             if isinstance(panel, MethodsPanel):
                 panel.tables.errors.selectRow(2)  # the first differs from none: it has no map
             self.take(kind.__name__.removesuffix("Panel").lower())
+        self.rectified()
         self.marking()
+        self.verdict()
+        self.dialogs()
         with tempfile.TemporaryDirectory() as folder:
             self.fleet(Path(folder))
             self.series(Path(folder))
@@ -176,6 +182,46 @@ class Photographer:
         wait(window.page.marker.roi_bar.accept.isEnabled)
         self.take("marked")
         window.page.marker.leave()
+
+    def rectified(self) -> None:
+        """Take the photograph as seen from straight above the board."""
+        panel = self.window.need_analysis().show_panel(UndistortPanel)
+        panel.way.setCurrentIndex(panel.way.findData(RECTIFIED))
+        self.take("rectified")
+        panel.way.setCurrentIndex(0)
+
+    def verdict(self) -> None:
+        """Take what is found wrong with a lens model, and what its remedy has done."""
+        window, session, bar = self.window, self.window.session, self.window.verdict
+        session.edit(
+            "Settings", lambda p: replace(p, settings=replace(p.settings, model="pinhole"))
+        )
+        window.calibrate.click()
+        wait(lambda: session.project.is_current(session.result) and not session.jobs.running)
+        bar.unfold.click()
+        for row in bar.findings.rows:
+            row.unfold.click()
+        self.take("findings")
+        bar.button.click()
+        wait(lambda: isinstance(bar.comparison, BeforeAndAfter) and bar.comparison.isVisible())
+        self.take("before-after")
+        assert isinstance(bar.comparison, BeforeAndAfter)
+        bar.comparison.back.click()
+
+    def dialogs(self) -> None:
+        """Take what opens over the window."""
+        actions = {action.text(): action for action in self.window.findChildren(QAction)}
+        for name, text in (
+            ("export", "&Export…"),
+            ("print-board", "&Print a board…"),
+            ("print", "&Print results…"),
+            ("palette", "&Find an action…"),
+            ("help", "&How it works"),
+        ):
+            actions[text].trigger()
+            wait(QApplication.activeModalWidget)
+            self.take(name)
+            self._close_dialog()
 
     def fleet(self, folder: Path) -> None:
         """Calibrate a fleet from sets of the sample's photographs, and show its table."""
