@@ -444,3 +444,35 @@ def test_saving_twice_at_once_keeps_the_later_state(
     qtbot.waitUntil(lambda: not window.session.jobs.running)
     assert window.session.document.saved
     assert len(read_project(path).views) == 8
+
+
+def spoil(text: str) -> dict[str, bytes]:
+    """Return contents that are no project, by what is wrong with them."""
+    content = json.loads(text)
+    return {
+        "nothing": b"",
+        "cut short": text[: len(text) // 2].encode(),
+        "no text": bytes(range(256)),
+        "nested": b'{"format": "calibgui-project", "version": 4, "views": ' + b"[" * 100_000,
+        "a list": b"[1, 2]",
+        "results": json.dumps(content | {"results": []}).encode(),
+        "later": json.dumps(content | {"version": 99}).encode(),
+        "huge": json.dumps(content | {"size": [10**400, 1]}).encode(),
+    }
+
+
+def test_a_spoilt_file_is_refused_in_the_banner_and_the_work_stays(
+    full: MainWindow, qtbot: QtBot, tmp_path: Path
+) -> None:
+    project = full.session.project
+    write_project(project, tmp_path / "whole.json")
+    text = (tmp_path / "whole.json").read_text(encoding="utf-8")
+    full.session.document.mark_saved(project, full.files.saver.file)
+    for what, content in spoil(text).items():
+        (tmp_path / "spoilt.json").write_bytes(content)
+        full.files.open_project(tmp_path / "spoilt.json")
+        qtbot.waitUntil(lambda: not full.session.jobs.running, timeout=20_000)
+        assert QApplication.activeModalWidget() is None, what
+        assert full.banner.isVisible() and "spoilt.json" in full.banner.text.text(), what
+        assert full.session.project is project, what
+        full.banner.dismiss.click()
