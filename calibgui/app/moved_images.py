@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
+from itertools import takewhile
 from pathlib import Path, PurePath
 
 from calibgui.app.image_store import compute_file_digest
@@ -20,7 +21,8 @@ def find_moved_images(
     """Return the new paths, in `folder` at any depth, of the `missing` images that are found.
 
     A file of the same name is taken if its SHA-256 is the known one, or if none is known. A renamed
-    file is found by its SHA-256 alone.
+    file is found by its SHA-256 alone. Of several files the one whose folders have the same names
+    is taken: cameras begin to count anew in every folder.
     """
     files = sorted(path for path in folder.rglob("*") if path.is_file())
     by_name: dict[str, list[Path]] = {}
@@ -39,5 +41,12 @@ def find_moved_images(
                 p for p in files if p.suffix == suffix and compute_file_digest(p) == known
             ]
         if candidates:
-            moved[image] = str(candidates[0].absolute())
+            found = max(candidates, key=lambda p: _count_common_parts(p, PurePath(image)))
+            moved[image] = str(found.absolute())
     return moved
+
+
+def _count_common_parts(path: PurePath, other: PurePath) -> int:
+    """Return how many names at the end of two paths are the same."""
+    pairs = zip(reversed(path.parts), reversed(other.parts), strict=False)
+    return sum(1 for _ in takewhile(lambda pair: pair[0] == pair[1], pairs))

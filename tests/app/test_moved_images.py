@@ -31,3 +31,14 @@ def test_moved_images_are_known_by_name_and_content(tmp_path: Path) -> None:
     assert find_moved_images([old["c.png"]], tmp_path / "new", {}) == {
         old["c.png"]: str(new / "c.png")
     }
+
+
+def test_of_files_of_the_same_name_that_of_the_same_folder_is_taken(tmp_path: Path) -> None:
+    for name in ("left/1.png", "right/1.png"):
+        (tmp_path / "new" / name).parent.mkdir(parents=True)
+        (tmp_path / "new" / name).write_text(name)
+    missing = [str(tmp_path / "old" / name) for name in ("right/1.png", "left/1.png")]
+    assert find_moved_images(missing, tmp_path / "new", {}) == {
+        missing[0]: str(tmp_path / "new" / "right" / "1.png"),
+        missing[1]: str(tmp_path / "new" / "left" / "1.png"),
+    }
